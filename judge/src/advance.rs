@@ -5,12 +5,12 @@ use crate::vector::{compose, scale};
 
 /// Parts of the step in each row of the table.
 const PARTS: [usize; 4] = [2, 4, 6, 8];
-/// A step sees nothing of its last eighth: one that is longer by this sees a kink there.
+/// Ratio of a longer step to one [-]: no row evaluates the last eighth of a step, and the longer one meets a kink there.
 const BEYOND: f64 = 8.0 / 7.0;
-/// Steps of controlled length that may be tried in one call.
+/// Most steps of controlled length in one call. Chosen, not tuned.
 const MOST_TRIALS: usize = 1_000;
 
-/// A run that does not go on.
+/// A run that stops.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Stop {
     /// Steps became too small at this time.
@@ -119,7 +119,7 @@ impl Mechanism {
         next
     }
 
-    /// Goes on to a time by steps of controlled length, from `h` that is changed for the next call.
+    /// Continues to a time by steps of controlled length, from `h` that is changed for the next call.
     ///
     /// # Errors
     /// [`Stop`] where steps become too small.

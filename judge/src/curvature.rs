@@ -4,7 +4,7 @@ use crate::dense::Square;
 use crate::motion::Mechanism;
 use crate::rows::Row;
 
-/// Sweeps of Jacobi's rotations; they converge quadratically.
+/// Most sweeps of Jacobi's rotations; they converge quadratically.
 const SWEEPS: usize = 30;
 
 /// The least curvature along motions that rows allow, with its motion of unit length; all as scaled.

@@ -1,6 +1,6 @@
 //! Dense systems of any rank, by elimination with full pivoting. Entries are to be of about one.
 
-/// A pivot below this is none.
+/// Largest pivot that is zero [-]. Chosen, not tuned.
 const NO_PIVOT: f64 = 1e-11;
 
 /// A square matrix, by rows.

@@ -9,7 +9,7 @@ use crate::vector::{
 };
 use crate::wheel;
 
-/// Depth over which the damper of a bumper fades in [m or rad].
+/// Depth over which the damper of a bumper fades in [m or rad]: the law's own number.
 const FADE: f64 = 1e-3;
 
 /// Forces on all bodies.

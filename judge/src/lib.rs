@@ -1,7 +1,7 @@
 //! A second derivation of what a scene means: it judges the crates, and shares no code with them.
 //!
 //! Written from the contract of scene files alone: an own reader, own laws and an own start. Bodies have absolute coordinates, the place of
-//! the centre of mass and a quaternion; the equations are those of Newton and Euler with constraints at the level of accelerations, solved
+//! the centre of mass and a quaternion. The equations are those of Newton and Euler with constraints at the level of accelerations, solved
 //! as one dense saddle system with full pivoting. Steps are of order 8, and each is brought back onto the constraints by the least
 //! mass-weighted change. It is made to be right and plain, not fast. `trial` alone knows the crates: it runs what is judged.
 

@@ -1,4 +1,4 @@
-//! `judge --seeds A..B [--formulation F]`: random scenes by seed through the crates, held against the judge; `--cases [STRIDE]`: the
+//! `judge --seeds A..B [--formulation F]`: random scenes by seed through the crates, compared with the judge; `--cases [STRIDE]`: the
 //! enumerated ones. `--scene` prints the scene of a seed or a case, `--look` what is off in it.
 
 use judge::random;
@@ -61,7 +61,7 @@ fn main() -> ExitCode {
     ExitCode::from(u8::from(tally.differences > 0))
 }
 
-/// Every so many of the cases, in every method.
+/// One of this many cases, in every method.
 fn cases(stride: usize) -> ExitCode {
     let mut tally = trial::oracle::Tally::default();
     let cases: Vec<_> = random::cases().into_iter().step_by(stride.max(1)).collect();

@@ -4,7 +4,7 @@
 //! M a - Jᵀ λ = Q - ω × I ω,    J a = given - bias
 //! ```
 //!
-//! Unknowns are scaled by the roots of masses and inertias, and rows to length one, so that pivots tell of dependence.
+//! Unknowns are scaled by the roots of masses and inertias, and rows to length one, so that pivots show dependence.
 
 use crate::dense::{Factors, Square};
 use crate::laws::{Loads, Now};

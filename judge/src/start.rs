@@ -17,18 +17,19 @@ use crate::vector::{
     scale, sub,
 };
 
-/// Held values grow by at most this in a stage, in radians or in lengths of the mechanism.
+/// Largest growth of held values in a stage, in radians or in lengths of the mechanism. Chosen, not tuned.
 const STAGE: f64 = 0.15;
-/// Share of a stage below which it is given up.
+/// Least fraction of a stage before the start fails [-]. Chosen, not tuned.
 const LEAST_STAGE: f64 = 1e-3;
+/// Most iterations of a stage. Chosen, not tuned: Newton's method takes few.
 const MOST_ITERATIONS: usize = 40;
-/// Curvature that is added at least where the least one is negative.
+/// Least curvature that is added where the least one is negative [-]. Chosen, not tuned.
 const CURVED: f64 = 0.1;
-/// How far a saddle is left in the direction of its fall, in radians or lengths.
+/// Displacement from a saddle point in the direction of its fall, in radians or lengths. Chosen, not tuned.
 const ASIDE: f64 = 0.03;
-/// Curvature below which nothing is known of a sign.
+/// Largest curvature whose sign is not known [-]: second differences are rounded. Chosen, not tuned.
 const FLAT: f64 = 1e-6;
-/// Differences for second derivatives, in radians or lengths.
+/// Differences for second derivatives, in radians or lengths. Chosen, not tuned.
 const DIFFERENCE: f64 = 1e-5;
 
 /// Why there is no start.

@@ -6,10 +6,10 @@ use crate::rows::six;
 use crate::scene::{Calspan, Feature, Tire};
 use crate::vector::{Vector, add, cross, dot, scale, sub, unit};
 
-/// Speed below which slip is regularised [m/s].
+/// Speed below which slip is regularised [m/s]: the law's own number.
 const STANDING: f64 = 0.1;
 
-/// Cosine of the camber that counts at least.
+/// Least cosine of the camber [-]: the law's own number.
 const LEAST_COSINE: f64 = 0.1;
 
 /// The point of a road nearest to a place: its x.

@@ -232,6 +232,9 @@ fn told(channel: &Channel, values: &[f64]) -> String {
     parts.collect::<Vec<_>>().join("  ")
 }
 
+/// Largest accelerations of a state about which eigenvalues need no note [m sqrt(kg)/s^2, m/s^2]. Chosen, not tuned.
+const AT_REST: f64 = 1e-6;
+
 /// Eigenvalues as a table.
 fn spectrum(m: &mbs::Modes) -> String {
     let stable = if m.is_stable() { "stable" } else { "unstable" };
@@ -263,7 +266,7 @@ fn spectrum(m: &mbs::Modes) -> String {
         );
     }
     leave_out(&m.left_out, &mut text);
-    if m.place != Place::Equilibrium && (m.acceleration > 1e-6 || m.turning > 1e-6) {
+    if m.place != Place::Equilibrium && (m.acceleration > AT_REST || m.turning > AT_REST) {
         let _ = writeln!(
             text,
             "note: this state accelerates or turns: the eigenvalues hold for an instant and for one choice of coordinates"

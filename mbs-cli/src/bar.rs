@@ -3,7 +3,7 @@
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use std::io::{IsTerminal, stderr};
 
-/// A bar of so many ticks, on a terminal; elsewhere, or where nothing is to be told, it is not seen.
+/// A bar of `ticks`, on a terminal; elsewhere, or where nothing is to be shown, it is not seen.
 pub(crate) fn bar(ticks: u64, is_quiet: bool, template: &str) -> ProgressBar {
     let target = if is_quiet || !stderr().is_terminal() {
         ProgressDrawTarget::hidden()

@@ -225,7 +225,7 @@ fn refusal(error: &CompareError, has_journal: bool) -> Refusal {
     }
 }
 
-/// The commit, as the one who builds or who starts the command tells it.
+/// The commit, as the build or the environment of the command has it.
 fn commit() -> String {
     let told = option_env!("MBS_COMMIT").map(str::to_owned);
     told.or_else(|| std::env::var("MBS_COMMIT").ok()).unwrap_or_default()
@@ -284,7 +284,7 @@ struct Bar {
     is_quiet: bool,
 }
 
-/// Ticks of the whole.
+/// Ticks of the whole progress bar.
 const TICKS: u64 = 1000;
 
 impl Bar {

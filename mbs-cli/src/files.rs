@@ -13,9 +13,9 @@ use std::io::{self, Read};
 use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-/// Bytes of a file that is read at most, unless larger ones are asked for, and values of a tree: each takes 150 bytes, however short its
-/// text is.
+/// Most bytes of a file that is read, unless larger ones are asked for. Chosen, not tuned.
 const MOST_BYTES: u64 = 64 << 20;
+/// Most values of a file that is read: each takes 150 bytes, however short its text is.
 const MOST_VALUES: usize = 8_000_000;
 /// Whether files of any size are read, as the command line says once.
 static IS_BIG: AtomicBool = AtomicBool::new(false);
@@ -177,7 +177,7 @@ pub(crate) fn provenance(
     }
 }
 
-/// The processor's name, where the system tells it.
+/// The processor's name, where the system reports it.
 pub(crate) fn processor() -> String {
     let info = std::fs::read_to_string("/proc/cpuinfo").unwrap_or_default();
     let line = info.lines().find(|l| l.starts_with("model name"));

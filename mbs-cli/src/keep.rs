@@ -1,4 +1,4 @@
-//! How `mbs run` keeps a run, and goes on with one.
+//! How `mbs run` keeps a run, and resumes one.
 
 use crate::refusal::Refusal;
 use crate::say::warn;
@@ -29,7 +29,7 @@ pub(crate) struct Arguments {
     restart: bool,
 }
 
-/// What a run goes on from, and how it is kept.
+/// What a run resumes from, and how it is kept.
 #[derive(Debug, Default)]
 pub(crate) struct Kept {
     pub(crate) from: Option<Checkpoint>,
@@ -39,7 +39,7 @@ pub(crate) struct Kept {
 }
 
 impl Arguments {
-    /// Reads the checkpoint to go on from, where there is one; else the refusal.
+    /// Reads the checkpoint to resume from, where there is one; else the refusal.
     pub(crate) fn begin(&self, out: Option<&Path>) -> Result<Kept, Refusal> {
         if let Some(every) = self.checkpoint
             && !(every > 0.0 && every.is_finite())
@@ -58,7 +58,7 @@ impl Arguments {
         Ok(Kept { from: Some(from), keeping: None, checkpoint })
     }
 
-    /// The file to go on from.
+    /// The file to resume from.
     fn resumed(&self, out: Option<&Path>) -> Result<Option<PathBuf>, Refusal> {
         match (&self.resume, out) {
             (None, _) => Ok(None),
@@ -72,7 +72,7 @@ impl Arguments {
         }
     }
 
-    /// Keeps the run in its directory, which nobody else writes, unless an earlier start left something there; else the refusal.
+    /// Keeps the run in its directory, which no other writes, unless an earlier start left something there; else the refusal.
     pub(crate) fn keep(&self, out: Option<&Path>, kept: &mut Kept) -> Result<(), Refusal> {
         let Some(out) = out else { return Ok(()) };
         let there = out.join(CHECKPOINT);
@@ -124,7 +124,7 @@ impl Kept {
         from.settle(settings).map_err(|error| Refusal::checkpoint(&error))
     }
 
-    /// The run has ended and its results are written: there is nothing to go on with, unless it was interrupted. Tells what could not be
+    /// The run has ended and its results are written: there is nothing to resume, unless it was interrupted. Reports what could not be
     /// written on the way.
     pub(crate) fn end(&self, is_interrupted: bool) {
         if let Some(keeping) = &self.keeping

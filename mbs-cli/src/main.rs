@@ -1,5 +1,6 @@
-//! The `mbs` command: arguments, refusals, and the commands. Exit status: 0 done, 1 refused (scene or usage), 2 the run could not
-//! go on or its results not be written, 3 the build lacks the precision. What is computed is computed by the library: nothing here is compiled for a scalar or a dimension.
+//! The `mbs` command: arguments, refusals, and the commands. Exit status: 0 done, 1 refused (scene or usage), 2 the run
+//! stopped or its results could not be written, 3 the build lacks the precision. The library computes: nothing here is compiled for a
+//! scalar or a dimension.
 
 #![deny(clippy::print_stderr, reason = "it panics where standard error is full")]
 
@@ -105,7 +106,7 @@ fn main() -> ExitCode {
 }
 
 impl Command {
-    /// Precisions that it will need, as far as the arguments say; none where it will be refused for its names or its scene. Or the refusal
+    /// Precisions that it will need, by its arguments; none where it will be refused for its names or its scene. Or the refusal
     /// of one that it never has.
     fn precisions(&self) -> Result<Vec<Precision>, [&'static str; 2]> {
         let (name, scene) = match self {
@@ -131,7 +132,7 @@ fn unparsed(error: &clap::Error) -> ExitCode {
     if !error.use_stderr() {
         return say::say(&text.to_string(), ExitCode::SUCCESS);
     }
-    // with colours on a terminal; where it is closed there is nobody to tell
+    // with colours on a terminal; where it is closed nothing can be reported
     let _ = error.print();
     let hint = hint(error).unwrap_or_default();
     if !hint.is_empty() {

@@ -202,7 +202,7 @@ pub(crate) fn main(arguments: &Arguments) -> ExitCode {
 /// Why a run does not begin.
 enum Stop {
     Refused(Box<Refusal>),
-    /// What it would go on from has a precision that this build lacks.
+    /// What it would resume from has a precision that this build lacks.
     Unbuilt(Precision),
 }
 
@@ -233,7 +233,7 @@ const FILES: [&str; 8] = [
     CHECKPOINT,
 ];
 
-/// Reads what is run, and what it goes on from, and chooses where something is wanted; else the refusal.
+/// Reads what is run, and what it resumes from, and chooses where a target is given; else the refusal.
 fn begin(arguments: &Arguments) -> Result<Run, Stop> {
     let out = arguments.out.as_deref();
     let pacing = arguments.realtime.pacing()?;
@@ -276,7 +276,7 @@ fn go(arguments: &Arguments, mut run: Run, clock: &mut dyn Clock) -> ExitCode {
     }
 }
 
-/// Runs it, at the pace of a clock or as fast as it can, and tells with what settings; else the refusal.
+/// Runs it, at the pace of a clock or as fast as it can, and reports with what settings; else the refusal.
 fn outcome(
     arguments: &Arguments,
     run: &mut Run,
@@ -389,7 +389,7 @@ struct Bar {
     duration: f64,
 }
 
-/// Ticks of a whole run.
+/// Ticks of the whole progress bar.
 const TICKS: u64 = 1000;
 
 impl Bar {

@@ -106,7 +106,7 @@ pub(crate) fn fixed(x: f64) -> String {
     text
 }
 
-/// So many of something.
+/// This many of something.
 pub(crate) fn counted(n: u64, what: &str) -> String {
     match (n, what) {
         (1, _) => format!("1 {what}"),

@@ -20,8 +20,8 @@ macro_rules! forward_cliques {
     };
 }
 
-/// The methods of [`Model`](crate::model::Model) over numbers `$T` by those of the field `$model`: all but `team` and those that
-/// work on the whole model in every step, which are evaluations, products and energies.
+/// The methods of [`Model`](crate::model::Model) over numbers `$T` by those of the field `$model`. `team` is not among them, nor are
+/// evaluations, products and energies, which work on the whole model in every step.
 #[macro_export]
 macro_rules! forward_model {
     ($T:ty, $model:ident) => {

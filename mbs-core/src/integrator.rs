@@ -131,10 +131,13 @@ impl<T: Real> Rule<T> {
     }
 }
 
-/// Accelerations carry a step far that move a direction by half a radian, or a place by half a metre and by some hundredths of the scene's
-/// length: `moved`, their part of the displacement, is judged so.
+/// Least displacement by accelerations in a step that is far, relative to the scene's length [-]. Chosen, not tuned.
+const FAR_SHARE: f64 = 1.0 / 64.0;
+
+/// Do accelerations carry a step far? `moved`, their part of the displacement, is then above half a radian, or half a metre and
+/// `FAR_SHARE` of the scene's length.
 pub fn is_far<T: Real>(moved: T, length: T) -> bool {
-    moved > (length * T::from_f64(1.0 / 64.0)).max(T::HALF)
+    moved > (length * T::from_f64(FAR_SHARE)).max(T::HALF)
 }
 
 #[cfg(test)]

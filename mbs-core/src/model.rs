@@ -103,8 +103,8 @@ pub trait Model<T: Real>: Cliques + Sync {
     /// Writes the size of each unknown in the scene: the scene's length for a point's [m], one for a direction's. Measured in these,
     /// nothing depends on the unit of length.
     fn write_sizes(&self, sizes: &mut [T]);
-    /// Hands out the ratios of the straight way from `q` to `to` at which two points that a law may push apart come close, where they
-    /// pass each other: just before they are closest, and before that, where the force is not across the way.
+    /// Gives the fractions of the straight path from `q` to `to` at which two points that a law may push apart come close, where they
+    /// pass each other. One is just before they are closest; the others are before that, where the force is not across the path.
     fn approaches(&self, q: &[T], to: &[T], take: impl FnMut(T));
     /// Writes the scene's guides and courses at time `t`, and the inputs and remembered angles of `state`, into `terms`: once a step.
     fn set_inputs(&self, t: T, state: &State<T>, terms: &mut Terms<T>);

@@ -7,7 +7,7 @@
 //! z = L^T Q2^T (q - q0),   z' = L^T Q2^T q',   z'' = L^T Q2^T q'',      B^T M B = 1
 //! ```
 //!
-//! Coordinates count in their sizes, q = S x with S the scene's length for points and one for directions: the formulas are in x, with
+//! Coordinates count in their sizes, q = S x with S the scene's length for points and one for directions. The formulas are in x, with
 //! J S and S M S, and the split does not depend on the unit of length.
 //!
 //! With the inertia a unit matrix the stiffness of conservative forces is symmetric and eigenvalues are well conditioned.
@@ -35,7 +35,7 @@ pub(crate) struct Chart<T> {
     pub(crate) basis: Vec<T>,
 }
 
-/// A column whose inertia is below this share of the largest has none.
+/// Inertia of a column that has none, relative to the largest [-]: what rounding leaves of it. Chosen, not tuned.
 const NO_INERTIA: f64 = 1e-13;
 
 impl<T: Real> Chart<T> {

@@ -12,13 +12,17 @@
 use alloc::vec::Vec;
 use mbs_core::Real;
 
-/// Sweeps allowed for each row of a matrix, of ten rows at least; two or three are usual. They are counted for all eigenvalues together: where
+/// Most sweeps for each row of a matrix, of ten rows at least [-]; two or three are usual. They are counted for all eigenvalues together: where
 /// stiff and soft springs act on the same coordinates, the first eigenvalue may take a hundred, and the others then take few.
 const MAX_SWEEPS: usize = 30;
-/// Every so many sweeps without success a shift from elsewhere breaks a cycle.
+/// Sweeps without success after which an exceptional shift breaks a cycle [-]: as in EISPACK's `hqr`.
 const STUCK: usize = 10;
-/// Passes of balancing; three are usual.
+/// Most passes of balancing [-]; three are usual.
 const MAX_PASSES: usize = 100;
+/// Ratio of the sums of a row and a column after and before scaling, below which it is done [-]: as published (Parlett and Reinsch 1969).
+const WORTH_SCALING: f64 = 0.95;
+/// Half of the sum of exceptional shifts and minus their product, in sizes of the subdiagonal [-]: as in EISPACK's `hqr`.
+const EXCEPTIONAL: [f64; 2] = [0.75, 0.4375];
 
 /// All eigenvalues [real, imaginary] of an n x n matrix, column by column; conjugate ones stand side by side. Nothing where an entry or an
 /// eigenvalue is not finite, or the iteration does not converge.
@@ -73,7 +77,7 @@ impl<T: Real> Square<T> {
 
     /// Scales rows and columns, by sums of sizes without the diagonal: squares of small entries would vanish.
     fn balance(&mut self) {
-        let enough = T::from_f64(0.95);
+        let enough = T::from_f64(WORTH_SCALING);
         for _ in 0..MAX_PASSES {
             let mut is_balanced = true;
             for i in 0..self.n {
@@ -236,8 +240,9 @@ impl<T: Real> Square<T> {
         let (a, d) = (self.at(last - 1, last - 1), self.at(last, last));
         if is_stuck {
             let size = self.at(last, last - 1).abs() + self.at(last - 1, last - 2).abs();
-            let both = d + T::from_f64(0.75) * size;
-            return [both, both, -T::from_f64(0.4375) * size * size];
+            let [shift, product] = EXCEPTIONAL.map(T::from_f64);
+            let both = d + shift * size;
+            return [both, both, -product * size * size];
         }
         [a, d, self.at(last, last - 1) * self.at(last - 1, last)]
     }

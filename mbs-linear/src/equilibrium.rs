@@ -6,8 +6,8 @@
 //! [ J                           0  ] ( s d_lambda )  =  ( -phi               ),     q += d, closed again; lambda += d_lambda
 //! ```
 //!
-//! The matrix is that of a step of implicit Euler with h^2 = s from rest (dynamic relaxation with the velocity reset to zero
-//! after every step), and for s -> infinity that of Newton's method (C. T. Kelley, D. E. Keyes, SIAM J. Numer. Anal. 35, 1998).
+//! The matrix is that of a step of implicit Euler with h^2 = s from rest: dynamic relaxation with the velocity reset to zero
+//! after every step. For s -> infinity it is that of Newton's method (C. T. Kelley, D. E. Keyes, SIAM J. Numer. Anal. 35, 1998).
 //! s grows tenfold with every accepted step and shrinks after a refused one. A step is refused when
 //!
 //! - the matrix is not positive where J d = 0 (inertia not (n, m, 0), N. Gould 1985): towards no minimum of energy;
@@ -15,14 +15,14 @@
 //! - the forces at its end work against it by more than half of what they did for it at its start: it went too far;
 //! - they do so where two points that a law may push apart pass each other on the way: it would go through a stop.
 //!
-//! Work along the step takes the place of the residual's norm in the line search, because on the way down from a steep or
-//! unstable place forces must be allowed to grow. So the search leaves unstable places unless it starts exactly on one.
+//! Work along the step takes the place of the residual's norm in the line search: on the path down from a steep or unstable place
+//! forces must be allowed to grow. So the search leaves unstable places unless it starts exactly on one.
 //!
 //! Neutral directions, in which no force acts and K is singular, have the step s (force) / M: rounding alone. s is bounded so
 //! that this moves them by at most sqrt(eps)/10 of the scene's length in each step, and they stay where they started.
 //!
 //! Forces are small beside the largest met on a coordinate, and beside what its stiffness makes of a displacement of the scene's
-//! size: where a spring alone holds a slide both forces vanish together.
+//! size. Where a spring alone holds a slide both forces vanish together.
 
 use crate::error::EquilibriumError;
 use crate::options::Options;
@@ -43,8 +43,8 @@ pub struct Equilibrium<T> {
     pub factorizations: u32,
     /// Largest force left on a coordinate [N, N m for directions].
     pub residual: T,
-    /// The same, by the work along the scene's length, relative to the largest sum of absolute forces that a coordinate met, or to
-    /// what its stiffness makes of a displacement of that size [-]; 0 without forces.
+    /// The same, by the work along the scene's length [-]. It is relative to the largest sum of absolute forces that a coordinate met,
+    /// or to what its stiffness makes of a displacement of that size; 0 without forces.
     pub relative: T,
     /// Largest constraint violation [m or rad].
     pub violation: T,
@@ -66,20 +66,32 @@ impl<T> Equilibrium<T> {
     }
 }
 
-/// A shrunk step is this much of the refused one, in s.
+/// Factor on s after a refused step [-]. Chosen, not tuned.
 const SHRINK: f64 = 0.125;
-/// An accepted step lets s grow by this.
+/// Factor on s after an accepted step [-]. Chosen, not tuned.
 const GROW: f64 = 10.0;
-/// Steps balanced within the tolerance without progress after which the search ends.
-const PATIENCE: u32 = 40;
-/// Sweeps that close the constraints after a step.
+/// Ratio of s to its first value at which the search ends [-]: 22 refusals in a row. Chosen, not tuned.
+const SMALLEST: f64 = 1e-20;
+/// Balanced steps without progress after which the search ends [-]. Chosen, not tuned.
+const MAX_IDLE_STEPS: u32 = 40;
+/// Most sweeps that close the constraints after a step [-]. Chosen, not tuned.
 const SWEEPS: u32 = 20;
-/// A step shorter than this many roundings of the scene's size goes nowhere.
+/// Longest step that is rounding, in units of rounding of the scene's size [-]. Chosen, not tuned.
 const NOWHERE: f64 = 8.0;
-/// Constraint violation of a step relative to its size that is still closed.
+/// Largest force that is rounding, in units of rounding of its terms [-]. Chosen, not tuned.
+const FORCE_ROUNDINGS: f64 = 4.0;
+/// Largest constraint violation of a step, relative to its size [-]: a larger one is refused. Chosen, not tuned.
 const BROKEN: f64 = 0.25;
-/// Times the scene's length: farther than this nothing is sought.
-const FAR: f64 = 1e6;
+/// Openness of the constraints at which a search may begin [-]. Chosen, not tuned.
+const CLOSED: f64 = 1e-6;
+/// Violation that is rounding of a row, in units of rounding [-]. Chosen, not tuned.
+const FLOOR_ROUNDINGS: f64 = 8.0;
+/// Violation at which stalled sweeps may end, relative to rounding of a row [-]. Chosen, not tuned.
+const STALLED: f64 = 64.0;
+/// Inverse of the largest move of neutral directions in a step, in roots of rounding of the scene's length [-]. Chosen, not tuned.
+const NEUTRAL: f64 = 10.0;
+/// Largest distance at which an equilibrium is searched, relative to the scene's length [-]. Chosen, not tuned.
+const MAX_EXTENT: f64 = 1e6;
 
 /// Moves `s` to a static equilibrium near it.
 ///
@@ -169,7 +181,7 @@ impl<'a, T: Real, M: Model<T>, S: SymmetricSolver<T>> Search<'a, T, M, S> {
         if has_mass {
             self.close();
         }
-        if !(self.w.openness(&self.w.terms.phi) <= T::from_f64(1e-6)) {
+        if !(self.w.openness(&self.w.terms.phi) <= T::from_f64(CLOSED)) {
             let violation = norm_inf(&self.w.terms.phi);
             let row = largest_or_nan(&self.w.terms.phi);
             return Err(EquilibriumError::NotClosed { violation: violation.to_f64(), row });
@@ -196,7 +208,7 @@ impl<'a, T: Real, M: Model<T>, S: SymmetricSolver<T>> Search<'a, T, M, S> {
     /// Steps until the forces are balanced.
     fn descend(&mut self, options: &Options<T>) -> Result<(), EquilibriumError> {
         let (mut idle, mut was_refused) = (0, false);
-        let smallest = self.s * T::from_f64(1e-20);
+        let smallest = self.s * T::from_f64(SMALLEST);
         while self.factorizations < options.max_factorizations {
             if self.scale == T::ZERO {
                 return Ok(());
@@ -216,13 +228,13 @@ impl<'a, T: Real, M: Model<T>, S: SymmetricSolver<T>> Search<'a, T, M, S> {
             let left = self.w.work(&self.residual);
             let is_progress = left < before * T::HALF;
             if left <= options.tolerance * (self.scale + self.stiff) {
-                // A small s tells of an unstable place: what looks still there only begins to move.
+                // A small s is a sign of an unstable place: what seems at rest there only begins to move.
                 let is_newton = self.s >= self.bound * T::from_f64(SHRINK);
-                let is_still = size <= T::EPSILON.sqrt() && is_newton;
-                let is_rounding = left <= self.scale * T::EPSILON * T::from_f64(4.0)
+                let is_at_rest = size <= T::EPSILON.sqrt() && is_newton;
+                let is_rounding = left <= self.scale * T::EPSILON * T::from_f64(FORCE_ROUNDINGS)
                     || (is_newton && size <= T::EPSILON * T::from_f64(NOWHERE));
                 idle = if is_progress { 0 } else { idle + 1 };
-                if is_rounding || (is_still && !is_progress) || idle > PATIENCE {
+                if is_rounding || (is_at_rest && !is_progress) || idle > MAX_IDLE_STEPS {
                     return Ok(());
                 }
             } else {
@@ -336,17 +348,17 @@ impl<'a, T: Real, M: Model<T>, S: SymmetricSolver<T>> Search<'a, T, M, S> {
             }
             self.model.evaluate(&self.next, &mut self.w.terms);
             let left = self.w.openness(&self.w.terms.phi);
-            if !(left <= violation * T::HALF) && left <= self.floor() * T::from_f64(64.0) {
+            if !(left <= violation * T::HALF) && left <= self.floor() * T::from_f64(STALLED) {
                 return true;
             }
             violation = left;
         }
-        violation <= self.floor() * T::from_f64(64.0)
+        violation <= self.floor() * T::from_f64(STALLED)
     }
 
     /// Rounding of a constraint row, as a coordinate of its size moves it [-].
     fn floor(&self) -> T {
-        (self.w.extent(&self.next[..self.w.n]) + T::ONE) * T::EPSILON * T::from_f64(8.0)
+        (self.w.extent(&self.next[..self.w.n]) + T::ONE) * T::EPSILON * T::from_f64(FLOOR_ROUNDINGS)
     }
 
     /// Forces at `next`.
@@ -368,7 +380,7 @@ impl<'a, T: Real, M: Model<T>, S: SymmetricSolver<T>> Search<'a, T, M, S> {
         // Where all forces vanish together their rounding does so with those that were met.
         let lively = lively.max(self.lively * T::EPSILON.sqrt());
         if lively > T::ZERO {
-            self.bound = T::ONE / (T::from_f64(10.0) * T::EPSILON.sqrt() * lively);
+            self.bound = T::ONE / (T::from_f64(NEUTRAL) * T::EPSILON.sqrt() * lively);
         }
         self.met = self.met.max(self.scale);
         let mut angles = core::mem::take(&mut self.w.terms.angles);
@@ -400,7 +412,7 @@ impl<'a, T: Real, M: Model<T>, S: SymmetricSolver<T>> Search<'a, T, M, S> {
     fn check_far(&self) -> Result<(), EquilibriumError> {
         let gone = self.q[..self.w.n].iter().zip(&self.from).map(|(&q, &from)| q - from);
         let gone: Vec<T> = gone.collect();
-        if self.w.extent(&gone) <= T::from_f64(FAR) {
+        if self.w.extent(&gone) <= T::from_f64(MAX_EXTENT) {
             return Ok(());
         }
         Err(EquilibriumError::Escapes { unknown: largest(&gone) })

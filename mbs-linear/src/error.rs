@@ -91,7 +91,7 @@ pub enum LinearError {
         /// Largest violation [m or rad].
         violation: f64,
     },
-    /// Closing the constraints next to the state moves as far as the difference itself: a singular position is near.
+    /// Closing the constraints next to the state moves by the difference itself: a singular position is near.
     Singular {
         /// The independent coordinate that was changed.
         freedom: usize,

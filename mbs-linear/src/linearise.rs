@@ -7,12 +7,12 @@
 //! ```
 //!
 //! Derivatives are central differences of fourth order of the equations of motion themselves, not of the tangent that the
-//! effects offer to implicit steps: those may be symmetrised or clipped, and a stiffness through multipliers alone, as a
-//! pendulum's, comes by itself.
+//! effects offer to implicit steps. Those may be symmetrised or clipped, and a stiffness through multipliers alone, as a
+//! pendulum's, is included.
 //!
 //! About a state at rest in equilibrium, and about a uniform translation (a vehicle that drives straight), A is constant and
 //! its eigenvalues belong to the mechanism. Where bodies turn, A changes along the motion and depends on the choice of z:
-//! [`Linear::turning`] tells.
+//! see [`Linear::turning`].
 
 use crate::chart::Chart;
 use crate::error::LinearError;
@@ -71,12 +71,16 @@ impl<T: Real> Linear<T> {
     }
 }
 
-/// Sweeps that close constraints next to the state.
+/// Most sweeps that close the constraints next to the state [-]. Chosen, not tuned.
 const SWEEPS: u32 = 60;
-/// Closing the constraints moves by this share of a difference at most: the curvature of the constraints takes some 1e-4.
+/// Largest move that closes the constraints, relative to a difference [-]: their curvature takes some 1e-4.
 const CURVED: f64 = 0.1;
+/// Rounding of accelerations, in units of rounding of their terms [-]. Chosen, not tuned.
+const NOISE: f64 = 16.0;
+/// Violation at which stalled sweeps may end, relative to rounding of a row [-]. Chosen, not tuned.
+const STALLED: f64 = 1e3;
 
-/// Linearises about the consistent state `s`. Time and measured angles stand still.
+/// Linearises about the consistent state `s`. Time and measured angles are constant.
 ///
 /// At a kink of a force (a contact that begins, a damper with two branches at rest) the mean of both sides is given.
 ///
@@ -204,7 +208,7 @@ impl<'a, T: Real, M: Model<T>, S: SymmetricSolver<T>> Field<'a, T, M, S> {
 
     /// Rounding to be expected in a stiffness that was found so [1/s^2].
     pub(crate) fn noise(&self, stiffness: &[T], reach: T) -> T {
-        T::EPSILON * T::from_f64(16.0) * (norm_inf(stiffness) + self.lively / reach)
+        T::EPSILON * T::from_f64(NOISE) * (norm_inf(stiffness) + self.lively / reach)
     }
 
     /// z'' at the state itself, with the velocity `v`.
@@ -278,7 +282,7 @@ impl<'a, T: Real, M: Model<T>, S: SymmetricSolver<T>> Field<'a, T, M, S> {
             self.chart.correct(&self.w.terms.phi, &mut self.q[..n]);
         }
         self.model.evaluate(&self.q, &mut self.w.terms);
-        if self.w.openness(&self.w.terms.phi) <= floor * T::from_f64(1e3) {
+        if self.w.openness(&self.w.terms.phi) <= floor * T::from_f64(STALLED) {
             return Ok(());
         }
         let violation = norm_inf(&self.w.terms.phi);

@@ -5,8 +5,8 @@
 //! ```
 //!
 //! K_r are differences of the equations of motion, as in [`linearise`](crate::linearise): the tangents of effects leave out what
-//! would make the matrix of a step indefinite, and unstable equilibria stand by just that. The test of a step by its own matrix (P.
-//! Deuflhard, Numer. Math. 22, 1974) depends on no unit. Directions without stiffness keep their place where no force acts; where one
+//! would make the matrix of a step indefinite, and unstable equilibria depend on just that. The test of a step by its own matrix (P.
+//! Deuflhard, Numer. Math. 22, 1974) depends on no unit. Directions without stiffness keep their place where no force acts. Where one
 //! does, it moves them by a fifth of the scene's size at most, to where it finds a stop.
 
 use crate::equilibrium::{Equilibrium, Search};
@@ -19,15 +19,17 @@ use alloc::vec::Vec;
 use mbs_core::model::{Model, State};
 use mbs_core::{Real, SymmetricSolver};
 
-/// The longest step, in sizes of coordinates: farther on the matrix says nothing.
+/// Longest step, in sizes of coordinates [-]: the stiffness changes with turns. Chosen, not tuned.
 const LONGEST: f64 = 0.2;
-/// Stiffness of a direction that has none, in roundings of the stiffness: a force that is no rounding makes a long step there, and
+/// Stiffness of a direction that has none, in units of its rounding [-]. A force that is no rounding makes a long step there, and
 /// rounding one of 1e-9 of the scene's size.
 const NOISE: f64 = 1e4;
-/// Halvings of a step before the search ends.
+/// Most halvings of a step before the search ends [-]. Chosen, not tuned.
 const HALVINGS: u32 = 40;
-/// A step shorter than this many roundings of the scene's size goes nowhere.
+/// Longest step that is rounding, in units of rounding of the scene's size [-]. Chosen, not tuned.
 const NOWHERE: f64 = 64.0;
+/// Least fraction of a step by which the next one must be shorter [-], for a step to be taken. Chosen, not tuned.
+const PROGRESS: f64 = 0.25;
 
 /// Moves `s` to the static equilibrium that Newton's method finds from it, stable or not.
 ///
@@ -87,7 +89,7 @@ fn newton<T: Real, M: Model<T>, S: SymmetricSolver<T>>(
         let part: Vec<T> = way.iter().map(|&z| z * ratio).collect();
         if let Ok(left) = field.displaced(&part) {
             let next = field.extent(&matrix.solve(&left));
-            if next <= size * (T::ONE - ratio * T::from_f64(0.25)) {
+            if next <= size * (T::ONE - ratio * T::from_f64(PROGRESS)) {
                 way = part;
                 model.remember(&field.w.terms, &mut memory);
                 let size = field.extent(&way);

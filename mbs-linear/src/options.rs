@@ -16,8 +16,12 @@ pub struct Options<T> {
 impl<T: Real> Default for Options<T> {
     /// Tolerance 1e-9 (f32: 1e-4), at most 2000 factorisations: a fall over many times the scene's length ends before.
     fn default() -> Self {
+        /// Tolerance of forces [-]. Chosen, not tuned.
+        const TOLERANCE: f64 = 1e-9;
+        /// Least tolerance, in units of rounding [-]: it counts in single precision alone. Chosen, not tuned.
+        const ROUNDINGS: f64 = 1e3;
         Self {
-            tolerance: T::from_f64(1e-9).max(T::EPSILON * T::from_f64(1e3)),
+            tolerance: T::from_f64(TOLERANCE).max(T::EPSILON * T::from_f64(ROUNDINGS)),
             max_factorizations: 2000,
         }
     }
@@ -49,7 +53,9 @@ pub struct LinearOptions<T> {
 impl<T: Real> Default for LinearOptions<T> {
     /// 1e-4 (f32: 1e-2): the fourth power of it, the error of the differences, is below rounding in smooth forces.
     fn default() -> Self {
-        Self { step: T::from_f64(1e-4).max(T::from_f64(0.5) * T::EPSILON.sqrt().sqrt()) }
+        /// Difference of coordinates in double precision [-]: its fourth power is rounding.
+        const STEP: f64 = 1e-4;
+        Self { step: T::from_f64(STEP).max(T::from_f64(0.5) * T::EPSILON.sqrt().sqrt()) }
     }
 }
 

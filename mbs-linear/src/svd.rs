@@ -25,10 +25,10 @@ pub struct Svd {
     pub v: Matrix,
 }
 
-/// Sweeps allowed per singular value; two are usual.
+/// Most sweeps for each singular value; two are usual.
 const MAX_SWEEPS: usize = 60;
 
-/// A sum of squares that is zero beside a matrix of order one; far from where numbers lose digits.
+/// Sum of squares that is zero beside a matrix of order one [-]: above 1e-308, where numbers lose digits.
 const TINY: f64 = 1e-280;
 
 /// Which vectors are wanted.

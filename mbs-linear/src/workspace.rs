@@ -10,7 +10,7 @@
 //!
 //! delta lets rows repeat each other; what it leaves open is removed by iteration of the multipliers, so that no result
 //! depends on it. W_k is the heaviest coordinate of the row, so that delta is small beside the compliance of the row in
-//! every mechanism: one taken from massless coordinates would leave their rows open by more than an iteration removes.
+//! every mechanism. One taken from massless coordinates would leave their rows open by more than an iteration removes.
 
 use alloc::vec;
 use alloc::vec::Vec;
@@ -19,9 +19,9 @@ use mbs_core::model::{Load, Model, Tangent, Terms};
 use mbs_core::saddle::{Saddle, SaddleSystem};
 use mbs_core::{FactorError, Real, SymmetricSolver};
 
-/// delta relative to the compliance of its row.
+/// Compliance δ of a constraint, relative to the compliance of its row [-]. Chosen, not tuned.
 const DELTA: f64 = 1e-9;
-/// Rows of coordinates lighter than this share of the heaviest are scaled as if they had it.
+/// Least mass of a coordinate that counts, relative to the largest [-]: an inverse mass stays finite. Chosen, not tuned.
 const LIGHT: f64 = 1e-6;
 
 /// Scratch over a solver `S` that was analysed for the [`Saddle`] of the model.
@@ -182,7 +182,7 @@ impl<T: Real, S: SymmetricSolver<T>> Workspace<T, S> {
             Tangent { stiffness: T::ZERO, damping: T::ZERO, penalty: &[], geometric: None };
         sum_diagonal(model, &self.terms, &tangent, &mut self.local, &mut self.diagonal);
         weigh(&self.sizes, &self.sizes, &mut self.diagonal);
-        let floor = norm_inf(&self.diagonal) * T::from_f64(1e-6);
+        let floor = norm_inf(&self.diagonal) * T::from_f64(LIGHT);
         let work = forces.iter().zip(&self.sizes).map(|(&f, &size)| f * size);
         work.zip(&self.diagonal)
             .fold(T::ZERO, |most, (f, &m)| if m > floor { most.max(f / m) } else { most })

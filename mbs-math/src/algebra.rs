@@ -156,12 +156,15 @@ pub fn norm<T: Real, const D: usize>(x: &Vector<T, D>) -> T {
     x.dot(x).sqrt()
 }
 
-/// The unit vector along a vector that is not zero, however long: where its square leaves the range of the scalar, it is first taken
-/// in shares of its largest component.
+/// The unit vector along a vector that is not zero, however long: where its square leaves the range of the scalar, it is first divided
+/// by its largest component.
 #[cfg(feature = "alloc")]
 pub fn along<T: Real>(x: &Vector<T, 3>) -> Vector<T, 3> {
+    /// Bounds of sizes whose squares stay within the range of `f32` (1e-38 to 3e38) [-].
+    const USUAL: [f64; 2] = [1e-15, 1e15];
     let size = norm_inf(x.as_slice());
-    let is_usual = size > T::from_f64(1e-15) && size < T::from_f64(1e15);
+    let [least, most] = USUAL.map(T::from_f64);
+    let is_usual = size > least && size < most;
     // not a product with 1/size, which overflows for the smallest
     let x = if is_usual { *x } else { x.map(|x| x / size) };
     x * (T::ONE / norm(&x))

@@ -38,8 +38,8 @@ pub trait BlockSource<T: Real>: Sync {
     fn has_block(&self, _element: usize) -> bool {
         true
     }
-    /// Sums the residuals of all elements into `f` (overwritten), in the order of the elements, where the source has a way of its
-    /// own that gives the same bits; else `false`, and `f` is anything.
+    /// Sums the residuals of all elements into `f` (overwritten), in the order of the elements, where the source has its own method with
+    /// the same bits. Else `false`, and `f` is anything.
     #[inline]
     fn sum_residuals(&self, _f: &mut [T]) -> bool {
         false
@@ -105,7 +105,7 @@ pub trait SymmetricSolver<T: Real> {
     /// # Errors
     /// [`FactorError`] when T is singular to rounding: names an unknown that the rest does not determine, with the largest
     /// pivot left there relative to what it was the sum of. `solve` is then unusable until the next success;
-    /// [`inertia`](Self::inertia), [`weakest`](Self::weakest) and [`null_vector`](Self::null_vector) tell of the failure.
+    /// [`inertia`](Self::inertia), [`weakest`](Self::weakest) and [`null_vector`](Self::null_vector) describe the failure.
     fn factor<S: BlockSource<T>>(&mut self, source: &S) -> Result<(), FactorError>;
 
     /// Replaces `x` (n places) by the solution of T x = b, given b in `x`.

@@ -1,7 +1,7 @@
 //! The one scalar trait: [`Real`] is what every formula of the workspace is generic over.
 //!
 //! It asks of nalgebra only `Scalar` and the closed operations, so only matrix *arithmetic* of nalgebra is
-//! used; roots and trigonometry come from `libm` or from here on every target, so no feature and no host changes a number.
+//! used. Roots and trigonometry come from `libm` or from here on every target, so no feature and no host changes a number.
 
 mod root;
 mod turn;
@@ -50,7 +50,7 @@ pub trait Real:
     const HALF: Self;
     /// Two.
     const TWO: Self;
-    /// Distance from one to the next larger number; of pairs of numbers, what their arithmetic tells from one.
+    /// Distance from one to the next larger number; of pairs of numbers, the unit of their arithmetic.
     const EPSILON: Self;
     /// Half a turn [rad].
     const PI: Self;

@@ -5,8 +5,8 @@
 //! d = (L D L^T)^-1 r,   x += d,   r = b - sum_e P_e^T T_e P_e x in the finer scalar        until d is rounding
 //! ```
 //!
-//! Each correction leaves about cond(T) times the epsilon of `f64` of the error before it, so that the digits of a
-//! double-double solution are there after 32 / (16 - log10 cond) corrections, as long as cond(T) stays below 1e15. Residuals
+//! Each correction leaves about cond(T) times the epsilon of `f64` of the error before it, so that a
+//! double-double solution has its digits after 32 / (16 - log10 cond) corrections. cond(T) must stay below 1e15. Residuals
 //! are sums over the blocks of the elements, which keep what an assembled matrix in `f64` has lost: the mass beside a penalty.
 //!
 //! A formulation that solves for corrections of a residual of its own needs none of this: its next residual refines
@@ -24,7 +24,7 @@ use core::cell::{Cell, RefCell};
 
 /// A solver in `T` over a solver in `f64`.
 ///
-/// Cost beside that of the inner solver: a factorisation keeps the blocks of all elements, in the finer scalar; each correction
+/// Cost beside that of the inner solver: a factorisation keeps the blocks of all elements, in the finer scalar. Each correction
 /// after the first takes a product with them, two operations for each entry, and one solution in `f64`.
 #[derive(Debug, Clone)]
 pub struct Refined<T, S> {
@@ -107,11 +107,11 @@ impl core::fmt::Display for RefinementError {
 
 impl core::error::Error for RefinementError {}
 
-/// Corrections that give all digits of a double-double as long as each leaves less than half of the error before it.
+/// Corrections that give all digits of a double-double [-] where each leaves less than half of the error before it.
 pub const ALL: u32 = 100;
 
 impl<T: Real, S: SpdSolver<f64>> Refined<T, S> {
-    /// Over a `solver` that was analysed for the same `cliques`; at most `most` corrections make a solution: one takes what
+    /// Over a `solver` that was analysed for the same `cliques`. At most `most` corrections make a solution: one takes what
     /// the factor gives, [`ALL`] continue to the machine precision of `T`. The only place that allocates.
     pub fn new(cliques: &impl Cliques, solver: S, most: u32) -> Self {
         let n = cliques.n_unknowns();

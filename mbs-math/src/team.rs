@@ -4,8 +4,8 @@
 //! work on 0..n  =  work on 0..n/2  and  work on n/2..n,  down to stretches of a fixed length
 //! ```
 //!
-//! How work is cut never depends on the team, and sums meet in the order of the cut: a result has the same bits whoever
-//! computes it. [`Alone`] needs no operating system; teams of threads are in mbs-parallel.
+//! How work is cut never depends on the team, and sums meet in the order of the cut: a result has the same bits for
+//! every team. [`Alone`] needs no operating system; teams of threads are in mbs-parallel.
 
 use crate::Real;
 
@@ -56,7 +56,7 @@ impl<W: Team> Team for &W {
     }
 }
 
-/// Numbers in one stretch of a vector that is worked on at a time: some microseconds of additions.
+/// Most numbers in one stretch of a vector that is worked on at a time [-]: some microseconds of additions.
 pub const STRETCH: usize = 4096;
 
 /// Calls `work` with the first place and the stretch of each of `N` vectors of equal length, stretch by stretch.
@@ -99,7 +99,7 @@ fn cut<W: Team, T: Send, const N: usize>(
     team.join(|| cut(team, first, left, work), || cut(team, first + half, right, work));
 }
 
-/// Elements whose numbers one thread writes at a time.
+/// Most elements whose numbers one thread writes at a time [-]. Chosen, not tuned: no bit depends on it.
 const ELEMENTS: usize = 128;
 
 /// Calls `write` with each element and its stretch of `out`: element e has places `starts[e]..starts[e + 1]`.

@@ -38,7 +38,7 @@ pub enum LoadError {
         /// Where in the text.
         byte: usize,
     },
-    /// The text ends before the model does, or goes on after it.
+    /// The text ends before the model does, or continues after it.
     Length,
 }
 

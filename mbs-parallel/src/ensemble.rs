@@ -23,7 +23,7 @@ pub struct Ensemble {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum EnsembleError {
-    /// So many threads could not be started.
+    /// This many threads could not be started.
     Threads(NonZeroUsize),
 }
 

@@ -5,10 +5,10 @@ pub mod team;
 
 pub use team::{Pool, ThreadTeam, Threads};
 
-/// Threads that are of use at most: those beyond the processors wait for each other. A few more are let be, so that a small machine can
-/// show what a larger one does.
+/// Most threads of a team: those beyond the processors wait for each other.
 #[must_use]
 pub fn most_threads() -> usize {
-    const FEW: usize = 8;
-    ensemble::available().get().max(FEW)
+    /// Threads that are allowed on any machine, so that a small one shows what a larger one does. Chosen, not tuned.
+    const ALWAYS: usize = 8;
+    ensemble::available().get().max(ALWAYS)
 }

@@ -11,7 +11,7 @@
 use crate::log::Action;
 use std::time::Duration;
 
-/// The quiet time is never longer than so many times what is asked for.
+/// Largest ratio of the quiet time to the requested one [-]: six doublings. Chosen, not tuned.
 const MOST_TIMES: u32 = 64;
 
 /// When a loop that was degraded comes back up.

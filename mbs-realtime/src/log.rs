@@ -7,7 +7,7 @@ use std::time::Duration;
 pub enum Action {
     /// Late; it was finished, and the next began at once.
     Finished,
-    /// Late; its result was held back for so many periods.
+    /// Late; its result was held back for this many periods.
     Held {
         /// Periods in which the last result stood on.
         periods: u64,

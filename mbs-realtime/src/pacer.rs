@@ -92,13 +92,13 @@ pub struct Task {
 
 /// What is paced.
 pub trait Work {
-    /// What keeps it from going on.
+    /// What keeps it from continuing.
     type Error;
 
     /// The work of one period: read inputs, step. `Break` ends the loop after this task.
     ///
     /// # Errors
-    /// What keeps it from going on; the loop ends then.
+    /// What keeps it from continuing; the loop ends then.
     fn step(&mut self, task: Task) -> Result<ControlFlow<()>, Self::Error>;
 
     /// Its result becomes valid now: write outputs. Called once for each task, at the end of its period, or as the policy says.

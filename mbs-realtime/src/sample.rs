@@ -6,7 +6,7 @@
 
 use std::time::Duration;
 
-/// Values kept: half a megabyte. Percentiles of runs that are not longer are exact.
+/// Most values that are kept: half a megabyte. Percentiles of runs that are not longer are exact.
 const CAPACITY: usize = 1 << 16;
 
 /// The value of ascending ones that `percent` of them, rounded down, do not exceed: always one of them. `None` without any.
@@ -19,7 +19,7 @@ pub fn nearest_rank<T>(sorted: &[T], percent: usize) -> Option<&T> {
 #[derive(Debug, Clone)]
 pub(crate) struct Sample {
     kept: Vec<i64>,
-    /// One value is kept of so many.
+    /// Values of which one is kept.
     every: u64,
     seen: u64,
     range: Option<[i64; 2]>,

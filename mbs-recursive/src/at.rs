@@ -1,6 +1,6 @@
 //! Entries of tables by number, without a panic: a number that its table does not have is a typed error.
 //!
-//! A model's numbers are checked when it is built or loaded, so that the error is not met; a compiler cannot know that, and would
+//! A model's numbers are checked when it is built or loaded, so that the error is not met. A compiler cannot know that, and would
 //! leave a path to a panic at every index.
 
 /// A number in a mechanism's tables, or the length of a scratch, that does not fit the rest.

@@ -6,9 +6,9 @@
 //! p times:   z ← z ⊕ −M⁻¹ Jᵀ (J M⁻¹ Jᵀ + ε)⁻¹ Φ,   v ← v − M⁻¹ Jᵀ (J M⁻¹ Jᵀ + ε)⁻¹ Φ̇      both at the same places
 //! ```
 //!
-//! Nothing is tested to decide how long to go on, so that the work of a step depends on the mechanism alone; what is left over is
+//! Nothing is tested to decide how long to iterate, so that the work of a step depends on the mechanism alone. What is left over is
 //! reported. It is what `trapezoidal` does with its iteration cut off, without the mixing of iterates, without the evaluation at
-//! the projected end, and with one outward pass for both projections: the accelerations that a step starts from are those
+//! the projected end, and with one outward pass for both projections. The accelerations that a step starts from are those
 //! of the last evaluation, which differ from the converged ones by O(h²).
 
 use crate::at::{Outside, at_mut, copy};
@@ -113,8 +113,8 @@ pub fn step<T: Real, S: Space<T>>(
     }
 }
 
-/// Accelerations and multipliers at (`z`, `v`) with guides and courses as they stand in `s`, in `s.zdd` and `s.lambda`: where inputs were set
-/// since the last step, the next one begins with these.
+/// Accelerations and multipliers at (`z`, `v`) with the guides and courses of `s`, in `s.zdd` and `s.lambda`. Where inputs were set since
+/// the last step, the next one begins with these.
 ///
 /// Cost: one evaluation; no allocation.
 ///

@@ -97,8 +97,8 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         Ok(())
     }
 
-    /// The link that turns about the axis of each joint of the tree, where one alone does: the part of the joint that is revolute, wherever it
-    /// stands among the others.
+    /// The link that turns about the axis of each joint of the tree, where one alone does. It is the part of the joint that is revolute, wherever
+    /// it is among the others.
     fn turning_links(&self) -> BTreeMap<usize, u32> {
         let mut turning = BTreeMap::new();
         for seat in &self.seats {

@@ -7,7 +7,7 @@
 //! One sweep of the regularised system leaves the share ε of the residual; further sweeps, which repeat the affine parts alone, take
 //! it to rounding. Rows that repeat others cost nothing but their own arithmetic, and share their force (least norm).
 //!
-//! The report's own closure is an option: λ = α (Φ̈ + 2 μ Ω Φ̇ + Ω² Φ)   [P3 (39)–(41)], which is the same elimination with
+//! The report's own closure is an option: λ = α (Φ̈ + 2 μ Ω Φ̇ + Ω² Φ)   [P3 (39)–(41)]. It is the same elimination with
 //! ε = 1/α, bias + 2 μ Ω Φ̇ + Ω² Φ in place of the bias, and one sweep.
 
 use crate::at::{Outside, at, at_mut, copy};
@@ -22,21 +22,33 @@ use crate::passes;
 use crate::space::{Numbers, Space};
 use mbs_core::Real;
 
-/// Sweeps after which the residual must be at its level.
+/// Most sweeps [-], after which the residual must be at its level. Chosen, not tuned.
 const MAX_SWEEPS: u32 = 30;
+/// Largest pivot of a row without effect, in roots of rounding [-]: above what a repeated row leaves. Chosen, not tuned.
+const NO_EFFECT: f64 = 64.0;
+/// Pivot below which rows are close to repeating each other [-]: a projection's moves then change accelerations 10,000 times as much.
+const TIGHT: f64 = 1e-4;
+/// Residual of an evaluation within an iteration, in roots of rounding [-]: later iterations reduce it. Chosen, not tuned.
+const COARSE: f64 = 0.01;
+/// Residual of an evaluation for rates, relative to the error of the method [-]: a hundredth does not add to it. Chosen, not tuned.
+const RATES_FRACTION: f64 = 0.01;
+/// Residual that is rounding, in units of rounding of a row's terms [-]. Chosen, not tuned.
+const FINE_ROUNDINGS: f64 = 256.0;
+/// Residual that may remain where sweeps stall near a singular position [-]. Chosen, not tuned.
+const SINGULAR_RESIDUAL: f64 = 1e-3;
 
-/// How far sweeps go.
+/// The residual at which sweeps end.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Level {
     /// One sweep, whatever is left.
     Once,
-    /// To the tolerance of an iteration that goes on.
+    /// To the tolerance of an iteration that continues.
     Coarse,
     /// To a hundredth of the error that steps may make.
     Rates,
     /// To rounding.
     Fine,
-    /// So many sweeps after the first one, whatever is left.
+    /// This many sweeps after the first one, whatever is left.
     Fixed(u32),
 }
 
@@ -56,7 +68,7 @@ pub(crate) fn accelerations<T: Real, S: Space<T>>(
 }
 
 /// The same where the effects answer to the accelerations that are found: on entry `s.zdd` has those that (`s.z`, `s.v`) were
-/// made of, and what differs from them meets the effects' stiffness and damping, as far as `reach` tells (see [`Reach`]).
+/// made of. What differs from them meets the effects' stiffness and damping, in the ratio of `reach` (see [`Reach`]).
 /// Accelerations that do not differ are those of [`accelerations`].
 ///
 /// Cost: that of [`accelerations`], an outward pass without products, and a square of six numbers for each effect.
@@ -188,15 +200,15 @@ fn residual<T: Real, S: Space<T>>(
     Ok((worst, row, scale))
 }
 
-/// Does the last factorisation stand near a singular position: have fewer rows an effect than at other times?
+/// Is the last factorisation near a singular position: have fewer rows an effect than at other times?
 pub(crate) fn note_rank<T: Real, S: Space<T>>(s: &mut Store<'_, T, S>) -> bool {
-    let least = T::EPSILON.sqrt() * T::from_f64(64.0);
+    let least = T::EPSILON.sqrt() * T::from_f64(NO_EFFECT);
     let rank = s.loops.pivots.iter().filter(|&&pivot| pivot > least).count();
     *s.rank = rank.max(*s.rank);
     rank < *s.rank
 }
 
-/// Do rows repeat each other, or stand near a singular position? Away from Φ = 0 such rows contradict each other, so that
+/// Do rows repeat each other, or is a singular position near? Away from Φ = 0 such rows contradict each other, so that
 /// positions and velocities are projected before accelerations are evaluated.
 pub(crate) fn is_redundant<T: Real, S: Space<T>>(s: &Store<'_, T, S>) -> bool {
     has_pivot_below(T::EPSILON.sqrt(), s)
@@ -204,7 +216,7 @@ pub(crate) fn is_redundant<T: Real, S: Space<T>>(s: &Store<'_, T, S>) -> bool {
 
 /// Do rows come near to repeating each other? What a projection moves by little may then turn accelerations by much.
 pub(crate) fn is_tight<T: Real, S: Space<T>>(s: &Store<'_, T, S>) -> bool {
-    has_pivot_below(T::from_f64(1e-4).max(T::EPSILON.sqrt()), s)
+    has_pivot_below(T::from_f64(TIGHT).max(T::EPSILON.sqrt()), s)
 }
 
 /// Is a pivot of the last factorisation no more than `least`, or no number?
@@ -219,6 +231,7 @@ fn sweep<T: Real, S: Space<T>>(
     level: Level,
     s: &mut Store<'_, T, S>,
 ) -> Result<T, Fault<T>> {
+    let rounding = T::EPSILON * T::from_f64(FINE_ROUNDINGS);
     let share = match level {
         Level::Once => return Ok(residual(m, s)?.0),
         Level::Fixed(sweeps) => {
@@ -228,12 +241,12 @@ fn sweep<T: Real, S: Space<T>>(
             }
             return Ok(residual(m, s)?.0);
         }
-        Level::Coarse => T::EPSILON.sqrt() * T::from_f64(0.01),
-        Level::Rates => (options.error * T::from_f64(0.01)).max(T::EPSILON * T::from_f64(256.0)),
-        Level::Fine => T::EPSILON * T::from_f64(256.0),
+        Level::Coarse => T::EPSILON.sqrt() * T::from_f64(COARSE),
+        Level::Rates => (options.error * T::from_f64(RATES_FRACTION)).max(rounding),
+        Level::Fine => rounding,
     };
-    // Near a singular position a combination of rows hardly feels its force: a part of its residual may stay.
-    let enough = if note_rank(s) { T::from_f64(1e-3) } else { T::EPSILON.sqrt() };
+    // Near a singular position a combination of rows is weakly determined: a part of its residual may stay.
+    let enough = if note_rank(s) { T::from_f64(SINGULAR_RESIDUAL) } else { T::EPSILON.sqrt() };
     let mut last: Option<T> = None;
     for _ in 0..MAX_SWEEPS {
         let (worst, row, scale) = residual(m, s)?;
@@ -255,7 +268,7 @@ fn sweep<T: Real, S: Space<T>>(
     }
 }
 
-/// The acceleration that gravity, the rows' speeds, or their forces alone would make along a row: what rounding is small against where
+/// The acceleration that gravity, the rows' speeds, or their forces alone would make along a row. Rounding is small beside it even where
 /// all accelerations cancel, as in a structure or in free fall. Rates of a rounding each second are rest.
 fn acting<T: Real, S: Space<T>>(
     m: &Mechanism<'_, T, S>,
@@ -297,7 +310,7 @@ fn improve<T: Real, S: Space<T>>(
     Ok(())
 }
 
-/// The smallest mass-weighted change of motion x with J x = −l, as far as one sweep gives it: `s.v_response`, `s.a_response`.
+/// The smallest mass-weighted change of motion x with J x = −l, by one sweep: `s.v_response`, `s.a_response`.
 pub(crate) fn respond<T: Real, S: Space<T>>(
     m: &Mechanism<'_, T, S>,
     s: &mut Store<'_, T, S>,

@@ -1,5 +1,5 @@
-//! Steps of a first-order system: explicit Runge-Kutta of order 4 with a fixed step; the pair 5(4), the method 8(5,3), extrapolation
-//! and the implicit collocation at Radau points with error control.
+//! Steps of a first-order system. Explicit Runge-Kutta of order 4 has a fixed step; the pair 5(4), the method 8(5,3), extrapolation
+//! and the implicit collocation at Radau points have error control.
 //!
 //! ```text
 //! y = (z, ż, W),   y' = (ż or ½ q ω for rotations, z̈, power)

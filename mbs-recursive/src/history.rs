@@ -1,4 +1,4 @@
-//! What one step leaves for the next beside the state, to look at and to go on from.
+//! What one step leaves for the next beside the state, to read and to restore.
 
 use crate::options::Options;
 use crate::space::Space;
@@ -74,7 +74,7 @@ impl<T: Real, S: Space<T>> Workspace<T, S> {
     }
 }
 
-/// A driver that goes on from its history, if there is one; nothing where the history is none of its kind.
+/// A driver that is restored from its history, if there is one; nothing where the history is none of its kind.
 fn driver<T: Real, M: Method<T>>(
     history: Option<AdaptiveHistory<T>>,
     method: impl FnOnce() -> M,

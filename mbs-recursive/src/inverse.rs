@@ -63,7 +63,7 @@ pub(crate) fn spread_each<T: Real, S: Space<T>>(
 }
 
 /// The force through every joint, on the link about its origin, for the accelerations and multipliers of the store: into the
-/// links' `force`. Effects along the joint are part of it, and are told in `effort`; what links were factored to stays.
+/// links' `force`. Effects along the joint are part of it, and are in `effort`; the factors of the links stay.
 pub(crate) fn forces<T: Real, S: Space<T>>(
     m: &Mechanism<'_, T, S>,
     s: &mut Store<'_, T, S>,

@@ -117,14 +117,16 @@ pub(crate) fn write<T: Real, X: Numbers<T>>(
     Ok(())
 }
 
-/// Eliminates the joint: its inertia is factored, and what the parent feels is returned: (I^a, p^a).
+/// Eliminates the joint: its inertia is factored, and what acts on the parent is returned: (I^a, p^a).
 #[inline(always)]
 pub(crate) fn eliminate<T: Real, S: Space<T>>(
     kind: Kind,
     p: &Placed<T, S>,
     c: &mut Condensed<T, S>,
 ) -> Result<(S::Inertia, S::Motion), T> {
-    let rounding = T::EPSILON * T::from_f64(64.0);
+    /// Pivot that is no inertia, in units of rounding of the inertia's size [-]. Chosen, not tuned.
+    const ROUNDINGS: f64 = 64.0;
+    let rounding = T::EPSILON * T::from_f64(ROUNDINGS);
     match kind {
         Kind::Revolute | Kind::Prismatic => {
             let (turning, moving) = S::size(&c.inertia);
@@ -167,7 +169,7 @@ pub(crate) fn eliminate<T: Real, S: Space<T>>(
     }
 }
 
-/// u = τ − bᵀ p, and the part of p that the parent feels without the bias: p + U D⁻¹ u.
+/// u = τ − bᵀ p, and the part of p that acts on the parent without the bias: p + U D⁻¹ u.
 #[inline(always)]
 pub(crate) fn impulse<T: Real, S: Space<T>>(
     kind: Kind,

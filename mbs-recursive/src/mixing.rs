@@ -6,13 +6,13 @@
 //! ```
 //!
 //! In n steps of a linear iteration n slow directions are found and left out; an iteration that contracts fast is hardly changed.
-//! The newest pair takes the place of the oldest. How far the next x goes tells what is missing, where r is a small part of it.
+//! The newest pair takes the place of the oldest. Where r is a small part of what is missing, the length of the next move is its estimate.
 //! Source: Anderson (1965), in the form of Fang and Saad (2009), type II.
 
 use mbs_core::Real;
 use mbs_core::algebra::norm_inf;
 
-/// Pairs that are kept.
+/// Pairs that are kept [-]: as many slow directions are found in as many steps. Chosen, not tuned.
 pub const DEPTH: usize = 4;
 
 /// Numbers that the history of an iteration in `n` unknowns takes.
@@ -33,7 +33,7 @@ pub(crate) struct Mixing {
 }
 
 impl Mixing {
-    /// Takes an iterate in: how far the next x would go, which is what is missing as far as the pairs know it. `r` is x − g, `history`
+    /// Takes an iterate in; returns how far the next x would go, which estimates what is missing. `r` is x − g, `history`
     /// has [`history`] numbers: last r and x, the pairs, the move; too short, nothing is mixed.
     ///
     /// Cost: at most `5 DEPTH` products of n numbers.
@@ -54,7 +54,7 @@ impl Mixing {
                 self.n_pairs = self.n_pairs.max(self.place + 1);
                 self.place = (self.place + 1) % DEPTH;
             } else {
-                // nothing new is seen, but the iteration goes on: the pairs are no longer its own
+                // nothing new is seen, but the iteration continues: the pairs are no longer its own
                 (self.n_pairs, self.place) = (0, 0);
             }
         }

@@ -46,10 +46,12 @@ pub enum Closure<T> {
 }
 
 impl<T: Real> Closure<T> {
-    /// The report's closure with α = 1e7, Ω = 10, μ = 1.
+    /// The report's closure with its α = 1e7, Ω = 10, μ = 1.
     #[must_use]
     pub fn report() -> Self {
-        Self::Report { alpha: T::from_f64(1e7), omega: T::from_f64(10.0), mu: T::ONE }
+        // [P3 (39)-(41)]
+        let [alpha, omega] = [1e7, 10.0].map(T::from_f64);
+        Self::Report { alpha, omega, mu: T::ONE }
     }
 }
 
@@ -57,16 +59,25 @@ impl<T: Real> Default for Options<T> {
     /// Trapezoidal rule; tolerance 1e-10 (64 roundings in single precision); 50 iterations, 30 sweeps; error 1e-8, a million
     /// steps; ε = √rounding / 256.
     fn default() -> Self {
+        /// Tolerance of corrections, relative to the displacement by accelerations in a step [-].
+        const TOLERANCE: f64 = 1e-10;
+        /// Error of a step of an explicit method, relative to the size of a component [-].
+        const ERROR: f64 = 1e-8;
+        /// Least tolerance and error, in units of rounding [-]: it counts in single precision alone. Chosen, not tuned.
+        const ROUNDINGS: f64 = 64.0;
+        /// Regularisation of the rows of loops, in roots of rounding [-]. Chosen, not tuned.
+        const REGULARISATION: f64 = 1.0 / 256.0;
+        let least = T::EPSILON * T::from_f64(ROUNDINGS);
         Self {
             integrator: Integrator::trapezoidal(),
-            tolerance: T::tolerance(1e-10).max(T::EPSILON * T::from_f64(64.0)),
+            tolerance: T::tolerance(TOLERANCE).max(least),
             max_iterations: 50,
             max_sweeps: 30,
             closure: Closure::Constraints,
-            error: T::from_f64(1e-8).max(T::EPSILON * T::from_f64(64.0)),
+            error: T::from_f64(ERROR).max(least),
             first_step: None,
             max_steps: 1_000_000,
-            regularisation: T::EPSILON.sqrt() * T::from_f64(1.0 / 256.0),
+            regularisation: T::EPSILON.sqrt() * T::from_f64(REGULARISATION),
         }
     }
 }

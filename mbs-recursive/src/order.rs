@@ -1,6 +1,6 @@
 //! Builds the lists of [`Plan`](crate::plan::Plan): who meets whom on the way inward, and in which order loops are eliminated.
 //!
-//! Ancestors are taken from the outside in; at the same ancestor the loop with the fewest couplings left comes first
+//! Ancestors are taken from the outside in. At the same ancestor the loop with the fewest couplings left comes first
 //! (minimum degree), so that many loops through the ground stay sparse.
 
 use crate::link::Link;

@@ -6,8 +6,8 @@
 //! 3  outward   z̈ = (bᵀ M̂ b)⁻¹ [bᵀ (Q̂ − M̂ d) − bᵀ M̂ Żₚ],   Ż = Żₚ + b z̈ + d                  [P3 (27), (35)]
 //! ```
 //!
-//! Differs from the source: every link's quantities are about its own origin, a point of the body near its joint, in world axes;
-//! inertias and forces are shifted to the parent's origin on the way in. p = −Q̂. Loops join in at their common ancestors
+//! Differs from the source: every link's quantities are about its own origin, a point of the body near its joint, in world axes.
+//! Inertias and forces are shifted to the parent's origin on the way in. p = −Q̂. Loops join in at their common ancestors
 //! (`loops`), where the source has one derivation by hand for each mechanism.
 
 pub use crate::fault::Fault;

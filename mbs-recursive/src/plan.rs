@@ -1,6 +1,6 @@
 //! The order in which loops are carried inward and eliminated: fixed when the tree is built, read by the passes.
 //!
-//! A loop's rows travel from its two bodies to the link nearest to both from which both hang; Λ has a block for each two
+//! A loop's rows travel from its two bodies to the link nearest to both from which both hang. Λ has a block for each two
 //! loops that meet on the way or through an eliminated third one. The lists below say who meets whom, so that the passes
 //! run along flat arrays.
 

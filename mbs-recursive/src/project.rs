@@ -5,8 +5,8 @@
 //! v ← v − M⁻¹ Jᵀ (J M⁻¹ Jᵀ + ε)⁻¹ Φ̇                 until Φ̇ is
 //! ```
 //!
-//! The level is rounding at the end of a step or of a call, and a hundredth of the error between the steps of a call with error
-//! control, rounding again near singular positions.
+//! The level is rounding at the end of a step or of a call. Between the steps of a call with error control it is a hundredth of the
+//! error, and rounding near singular positions.
 //!
 //! Both are responses of the tree as it was factored last, which is near enough after a step: the residuals are always those of the
 //! new state. Inertias are then those of the last iteration: with effects their resistance to accelerations within the step is part of
@@ -54,14 +54,23 @@ pub(crate) fn advance<T: Real, S: Space<T>>(
     Ok(())
 }
 
+/// Violation that is rounding, in units of rounding of its scale [-]. Chosen, not tuned.
+const ROUNDINGS: f64 = 16.0;
+/// Violation within a call of a method, relative to its error [-]: a hundredth does not add to it. Chosen, not tuned.
+const ERROR_FRACTION: f64 = 0.01;
+/// Violation that may remain where sweeps stall, in roots of rounding of its scale [-]. Chosen, not tuned.
+const STALLED: f64 = 0.1;
+/// The same near a singular position, where a combination of rows moves nothing [-]. Chosen, not tuned.
+const STALLED_SINGULAR: f64 = 1e2;
+
 /// What may be left of Φ and Φ̇ beside their scales: rounding.
 pub(crate) fn rounding<T: Real>() -> T {
-    T::EPSILON * T::from_f64(16.0)
+    T::EPSILON * T::from_f64(ROUNDINGS)
 }
 
-/// What may be left within a call of a method with this error: a hundredth of it.
+/// What may be left within a call of a method with this error: a fraction of it.
 pub(crate) fn share_of<T: Real>(error: T) -> T {
-    (error * T::from_f64(0.01)).min(T::EPSILON.sqrt()).max(rounding())
+    (error * T::from_f64(ERROR_FRACTION)).min(T::EPSILON.sqrt()).max(rounding())
 }
 
 /// Projects the positions and velocities of the store until no more than this share of their scales is left; returns the largest
@@ -88,8 +97,8 @@ fn settle<T: Real, S: Space<T>>(
     s: &mut Store<'_, T, S>,
 ) -> Result<T, Fault<T>> {
     // Near a singular position a combination of rows hardly moves anything: a part of it may stay.
-    let leave = if note_rank(s) { T::from_f64(1e2) } else { T::from_f64(0.1) };
-    let enough = T::EPSILON.sqrt() * leave;
+    let leave = if note_rank(s) { STALLED_SINGULAR } else { STALLED };
+    let enough = T::EPSILON.sqrt() * T::from_f64(leave);
     let mut last: Option<T> = None;
     for _ in 0..=options.max_sweeps {
         let Violation { worst, row, scale, is_within } = violation(m, (level, share), s)?;
@@ -121,8 +130,8 @@ fn settle<T: Real, S: Space<T>>(
 }
 
 /// Takes from an error of velocities, or of freedoms, what a projection takes: δ − M⁻¹ Jᵀ (J M⁻¹ Jᵀ + ε)⁻¹ J δ, with the rows and the
-/// inertias as they were evaluated last, at `s.z` and `s.v`. Beside a singular position constraints leave rounding a large part in
-/// directions that they soon forbid: shorter steps would only go there more often.
+/// inertias as they were evaluated last, at `s.z` and `s.v`. Near a singular position a large part of the rounding
+/// is in directions that constraints soon forbid: shorter steps would only go there more often.
 pub(crate) fn keep<T: Real, S: Space<T>>(
     m: &Mechanism<'_, T, S>,
     delta: &mut [T],

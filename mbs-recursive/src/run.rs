@@ -346,8 +346,8 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         own(inverse::forces(&m, s));
     }
 
-    /// What the first body of each joint does to the second at the joint's place on the second, global axes: force and moment
-    /// [N, N m]; guides included, effects along the joint not; zero for welds and free joints. Where rows of loops repeat each other
+    /// The force and moment [N, N m] of the first body of each joint on the second, at the joint's place on the second, global axes.
+    /// Guides are included, effects along the joint are not; zero for welds and free joints. Where rows of loops repeat each other
     /// the multipliers are those of least norm.
     ///
     /// Cost: an outward and an inward pass; no allocation.

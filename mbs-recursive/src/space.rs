@@ -85,7 +85,7 @@ pub trait Space<T: Real>: Copy + Debug + Send + Sync + 'static {
     /// Inertia tensor of a body, reference axes.
     type Tensor: Copy + Debug + PartialEq + Send + Sync + 'static;
 
-    /// 2 or 3.
+    /// Dimension of the space: 2 or 3.
     const DIMENSION: usize;
     /// Numbers that hold the coordinates of a free body: an angle or a quaternion, then the position.
     const FREE: usize;

@@ -328,10 +328,12 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         state: &TreeState<T>,
         workspace: &mut Workspace<T, S>,
     ) -> Result<usize, StepError> {
+        /// Regularisation of the rows for a rank, in units of rounding [-]. Chosen, not tuned.
+        const SHARP: f64 = 256.0;
         let m = self.mechanism();
         let options = Options { closure: Closure::Constraints, ..Options::default() };
         // A repeated row keeps ε times the squares of the weights by which others make it up, which may be thousands.
-        let regularisation = T::EPSILON * T::from_f64(256.0);
+        let regularisation = T::EPSILON * T::from_f64(SHARP);
         let sharp = Options { regularisation, ..options };
         let mut s = workspace.store();
         s.z.copy_from_slice(&state.z);

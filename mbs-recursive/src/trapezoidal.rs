@@ -10,9 +10,9 @@
 //! ([`Integrator::auxiliary`]).
 //!
 //! Effects answer to Δz̈ within the passes, so that stiff ones let the iteration contract (`loads::Reach`), and iterates of models with
-//! effects are mixed (`mixing`); without effects the iteration is the source's.
+//! effects are mixed (`mixing`). Without effects the iteration is the source's.
 //!
-//! Differs from the source: increments in place of hats, which round less; rotations are quaternions, q exp(δ); positions and
+//! Differs from the source: increments in place of hats, which round less; rotations are quaternions, q exp(δ). Positions and
 //! velocities are projected on the loops afterwards, and the accelerations are those of the projected state.
 
 pub use crate::mechanism::Start;
@@ -31,10 +31,20 @@ use mbs_core::algebra::norm_inf;
 use mbs_core::integrator::Integrator;
 use mbs_core::step::{StepError, StepReport, Stop, largest, largest_or_nan};
 
-/// So many iterates in a row that do not halve the least correction, and it falls no more.
+/// Iterates in a row that do not halve the least correction, after which it has stopped falling [-]. Chosen, not tuned.
 const STALLED: u32 = 4;
-/// Mixed iterates that leave over so many times what the last did begin anew, without mixing.
+/// Ratio of what an iterate leaves to what the last left, from which mixing begins anew [-]. Chosen, not tuned.
 const LOST: f64 = 4.0;
+/// Correction that is rounding, in units of rounding of the displacement by accelerations [-]. Chosen, not tuned.
+const ROUNDINGS: f64 = 64.0;
+/// Correction that is rounding of the coordinates that forces depend on, in units of rounding of the scene's length [-]. Chosen, not tuned.
+const PLACE_ROUNDINGS: f64 = 8.0;
+/// Correction with which a stalled iteration may end without effects, relative to the displacement by accelerations [-]. Chosen, not tuned.
+const ENOUGH: f64 = 1e-2;
+/// The same with effects [-]: a stiff effect makes much of what is left in its place. Chosen, not tuned.
+const ENOUGH_WITH_EFFECTS: f64 = 1e-6;
+/// The same near a singular position [-], where rounding is amplified. Chosen, not tuned.
+const PASSAGE: f64 = 0.1;
 
 /// Makes one step of length `dt` [s] from a start with its auxiliary accelerations: the end is in `s.z`, `s.v`, `s.zdd`, `s.lambda`.
 ///
@@ -113,7 +123,7 @@ fn iterate<T: Real, S: Space<T>>(
         for i in 0..start.v.len() {
             s.scratch[i] -= s.zdd[i];
         }
-        // Where directions contract slowly a correction is a small part of what is missing: the mixed move tells that.
+        // Where directions contract slowly a correction is a small part of what is missing: the mixed move estimates that.
         let rest = norm_inf(s.scratch) * share;
         let mut correction = rest;
         if !m.loads.is_empty() {
@@ -137,7 +147,7 @@ fn iterate<T: Real, S: Space<T>>(
         {
             return Ok((iterations, correction, stop));
         }
-        // Near a singular position accelerations feel what z and v violate: then each iteration projects them.
+        // Near a singular position accelerations depend on what z and v violate: then each iteration projects them.
         let was_slow = is_slow;
         is_slow |= iterations > 2 && rate >= T::HALF && options.closure == Closure::Constraints;
         let is_lost = iterations > 1 && rest > last_rest * T::from_f64(LOST);
@@ -170,22 +180,20 @@ fn given_up<T: Real, S: Space<T>>(
     ([rest, correction], scale, stalled): ([T; 2], T, u32),
     s: &mut Store<'_, T, S>,
 ) -> Option<Stop> {
-    let rounding = T::EPSILON * T::from_f64(64.0);
-    // Coordinates that go into forces are rounded: what they leave over below that says nothing more.
-    let rounded = m.length * T::EPSILON * T::from_f64(8.0);
-    // A stiff effect makes much of what is left in its place.
-    let enough = if m.loads.is_empty() { T::from_f64(1e-2) } else { T::tolerance(1e-6) };
-    let passage = T::from_f64(0.1);
+    let rounding = T::EPSILON * T::from_f64(ROUNDINGS);
+    let rounded = m.length * T::EPSILON * T::from_f64(PLACE_ROUNDINGS);
+    let has_effects = !m.loads.is_empty();
+    let enough = if has_effects { T::tolerance(ENOUGH_WITH_EFFECTS) } else { T::from_f64(ENOUGH) };
+    let passage = T::from_f64(PASSAGE);
     if correction <= scale * rounding || rest <= rounded {
         return Some(Stop::Rounding);
     }
-    // Near a singular position rounding is amplified: what is left is small against the step.
     if correction <= scale * passage && note_rank(s) {
         return Some(Stop::Passage);
     }
     // What is left is small against scene and step, and mixed iterates, which do not fall at each turn, have stopped falling.
     let is_small = correction <= m.length * options.tolerance && correction <= scale * enough;
-    (is_small && (m.loads.is_empty() || stalled >= STALLED)).then_some(Stop::Tolerance)
+    (is_small && (!has_effects || stalled >= STALLED)).then_some(Stop::Tolerance)
 }
 
 /// zₙ₊₁ and żₙ₊₁ from z̈ₙ₊₁, with the auxiliary accelerations at the start and, by `next`, at the end; increments are left in the scratch.

@@ -77,8 +77,8 @@ pub struct TreeModel<T: Real, S: Space<T>> {
 impl<T: Real, S: Space<T>> TreeModel<T, S> {
     /// Makes the tree of a scene that passed its check.
     ///
-    /// A thin rod in space that is held at points of its line by balls and distances alone, or is free, gets a sphere's inertia: starting
-    /// without spin about itself, as it does, it keeps none, and moves as the rod would.
+    /// A thin rod in space that is held at points of its line by balls and distances alone, or is free, gets a sphere's inertia. It
+    /// starts without spin about itself, keeps none, and moves as the rod would.
     ///
     /// Cost: n log n in bodies and joints, and the elimination order of the loops.
     ///

@@ -1,7 +1,7 @@
 //! Whole turns at the start: the angles that effects measure begin with the turns that the assembly counted on its way there.
 //!
-//! A coordinate of a joint begins nearest to its given value. A free link has the turns of the matrix alone, within half a turn: all that
-//! is between a free link and others may lack whole turns, which the natural state remembers.
+//! A coordinate of a joint begins nearest to its given value. A free link has the turns of the matrix alone, within half a turn.
+//! What is between a free link and others may lack whole turns, which the natural state remembers.
 
 use crate::at::own;
 use crate::link::{Kind, Link};

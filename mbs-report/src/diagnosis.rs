@@ -9,7 +9,7 @@ use mbs_scene::format::{counted, few, size};
 use mbs_study::doctor::{Checkup, Finding, labels};
 use mbs_study::redundancy::UNCERTAIN;
 
-/// Ways and turns below this are rounding [m or rad].
+/// Largest displacement or turn that is rounding [m or rad]. Chosen, not tuned.
 const ROUNDING: f64 = 1e-12;
 
 /// Where an entry's key stands in the scene file.
@@ -68,6 +68,7 @@ fn told(c: &Checkup, line: Line<'_>) -> String {
 }
 
 fn wrap(out: &mut String, text: &str, indent: &str) {
+    /// Most letters of a line of the report.
     const WIDTH: usize = 110;
     let mut line = String::new();
     for word in text.split_whitespace() {
@@ -206,7 +207,8 @@ fn directions(c: &Checkup, joint: usize) -> String {
 }
 
 fn loops(c: &Checkup) -> Option<Section> {
-    const MOST: usize = 40;
+    /// Most closed loops in the table [-]: a page.
+    const MAX_ROWS: usize = 40;
     let row = |lap: &mbs_study::redundancy::Loop| {
         let joints: Vec<&str> = lap.joints.iter().map(|&j| c.joints[j].as_str()).collect();
         let sign =
@@ -224,13 +226,13 @@ fn loops(c: &Checkup) -> Option<Section> {
             }),
         ]
     };
-    let more = c.loops.len().saturating_sub(MOST);
+    let more = c.loops.len().saturating_sub(MAX_ROWS);
     let more =
         if more > 0 { format!(" {more} more loops are in the JSON.") } else { String::new() };
     (!c.loops.is_empty()).then(|| Section {
         title: "Loops".to_owned(),
         head: ["joints", "branch", "nearest to a straight line"].map(str::to_owned).to_vec(),
-        rows: c.loops.iter().take(MOST).map(row).collect(),
+        rows: c.loops.iter().take(MAX_ROWS).map(row).collect(),
         caption: format!(
             "A sign for each corner of three places: the side to which the loop turns there about the joint's axis (o: no axis). \
              Two branches meet where a corner is straight.{more}"

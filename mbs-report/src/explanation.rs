@@ -303,11 +303,11 @@ fn percent(x: f64) -> String {
 }
 
 fn counted(names: &[String]) -> String {
-    /// Longer lists are a number only.
-    const MOST: usize = 12;
+    /// Most names of a list: of more, only their number is shown.
+    const MAX_NAMES: usize = 12;
     match names.len() {
         0 => "none".to_owned(),
-        n if n > MOST => n.to_string(),
+        n if n > MAX_NAMES => n.to_string(),
         n => format!("{n}: {}", names.join(", ")),
     }
 }

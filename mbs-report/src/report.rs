@@ -137,6 +137,7 @@ impl Section {
 
 /// A text in lines of at most 100 characters, where its words allow.
 fn wrapped(text: &str) -> Vec<String> {
+    /// Most letters of a line.
     const WIDTH: usize = 100;
     let mut lines: Vec<String> = Vec::new();
     for word in text.split_whitespace() {

@@ -3,7 +3,7 @@
 use rand_pcg::Pcg64;
 use rand_pcg::rand_core::Rng;
 
-/// 2^128 over the golden ratio, odd: seeds, and the parts of one, begin far from each other in the generator's sequence.
+/// Increment: 2^128 over the golden ratio, odd. Seeds, and the parts of one, begin far from each other in the generator's sequence.
 const GOLDEN: u128 = 0x9E37_79B9_7F4A_7C15_F39C_C060_5CED_C835;
 
 /// Random numbers, the same for a seed on every machine.

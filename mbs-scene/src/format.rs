@@ -2,8 +2,12 @@
 
 use mbs_core::real::DoubleDouble;
 
-/// Significant digits that a message or a table shows.
+/// Significant digits that a message or a table shows. Chosen, not tuned.
 const DIGITS: usize = 9;
+/// Sizes of numbers that are shown without an exponent: from the first, below the second.
+const PLAIN: core::ops::Range<f64> = 1e-4..1e9;
+/// Sizes of numbers that are written without an exponent: below the second every double has a digit after the point.
+const PLAIN_IN_FULL: core::ops::Range<f64> = 1e-4..1e15;
 
 /// A number with at most nine significant digits and no zeros at its end; powers of ten where it is very large or small.
 ///
@@ -20,14 +24,14 @@ pub fn significant(x: f64) -> String {
     if size == 0.0 {
         return "0".to_owned();
     }
-    if (1e-4..1e9).contains(&size) { format!("{rounded}") } else { format!("{rounded:e}") }
+    if PLAIN.contains(&size) { format!("{rounded}") } else { format!("{rounded:e}") }
 }
 
 /// At most 32 digits; exponents where [`shortest()`] has them.
 #[must_use]
 pub fn full(x: DoubleDouble) -> String {
     let size = x.hi().abs();
-    let is_plain = x.hi() == 0.0 || !size.is_finite() || (1.0e-4..1.0e15).contains(&size);
+    let is_plain = x.hi() == 0.0 || !size.is_finite() || PLAIN_IN_FULL.contains(&size);
     if is_plain { format!("{x}") } else { format!("{x:e}") }
 }
 
@@ -35,7 +39,7 @@ pub fn full(x: DoubleDouble) -> String {
 #[must_use]
 pub fn shortest(x: f64) -> String {
     let size = x.abs();
-    if x == 0.0 || !x.is_finite() || (1.0e-4..1.0e15).contains(&size) {
+    if x == 0.0 || !x.is_finite() || PLAIN_IN_FULL.contains(&size) {
         format!("{x}")
     } else {
         format!("{x:e}")

@@ -5,7 +5,7 @@
 //! ```
 //!
 //! A task owns its numbers, which grow by what is delayed; those of the tasks below are read when they have ended. An unknown is
-//! known by its place in the storage of a vector: that of a delayed one lies in the storage of a task below, which belongs to
+//! known by its place in the storage of a vector. That of a delayed one is in the storage of a task below, which belongs to
 //! every task that it can come to.
 
 use crate::front::{Front, column};
@@ -323,7 +323,7 @@ impl<T: Real> Share<T> {
         }
     }
 
-    /// Makes room for so many numbers and names. Allocates only where more is wanted than ever before.
+    /// Makes room for this many numbers and names. Allocates only where more is required than ever before.
     fn reserve(&mut self, (numbers, names): (usize, usize)) {
         if self.numbers.len() < numbers {
             self.numbers.resize(numbers, T::ZERO);
@@ -346,7 +346,7 @@ impl Layout {
 }
 
 impl<T: Real> Done<'_, T> {
-    /// Adds the update of child `c` of the plan, the front `local` of its task, into the front (a, order, size) above it; its
+    /// Adds the update of child `c` of the plan, the front `local` of its task, into the front (a, order, size) above it. Its
     /// delayed unknowns come to the places from `place` on, of the `delayed` ones. Returns the place after them.
     fn add(
         &self,

@@ -9,7 +9,7 @@
 
 use crate::graph::{Lists, index, minimum_degree, neighbours};
 
-/// A half has at least this share of the weight of its part, where there is such a cut.
+/// Least weight of a half, relative to its part [-], where there is such a cut. Chosen, not tuned.
 const LEAST_HALF: f64 = 0.3;
 
 /// Place of each node after `depth` levels of cuts.
@@ -158,7 +158,8 @@ impl Cutter<'_> {
     }
 }
 
-/// Nodes that stand for all that is eliminated later: enough that minimum degree leaves what meets them to the end.
+/// Nodes that represent all that is eliminated later [-]: with enough of them minimum degree leaves their neighbours to the end. Chosen, not
+/// tuned.
 const LATER: u32 = 8;
 
 /// Orders stretches of the order among themselves by minimum degree; what meets a later stretch comes late.

@@ -111,7 +111,7 @@ pub(crate) fn nodes(cliques: &Lists, n: usize, n_primal: usize) -> (Vec<u32>, us
             class[u as usize] = split_into[c];
         }
     }
-    // Unknowns of no element are still in class 0 and are no neighbours of each other: a node each.
+    // Unknowns of no element are in class 0 and are no neighbours of each other: a node each.
     let mut node_of_class = vec![u32::MAX; n_classes];
     let mut n_nodes = 0;
     for c in &mut class {
@@ -169,7 +169,7 @@ pub(crate) fn neighbours(elements: &Lists, n_nodes: usize) -> Lists {
     neighbours
 }
 
-/// Place of each node when nodes of multipliers follow right after the last of the other nodes that they meet; those are placed
+/// Place of each node when nodes of multipliers follow right after the last of the other nodes that they meet. Those are placed
 /// by `order`, which is given their elements and weights. A pivot that multipliers before them leave is then never lost for
 /// want of a coordinate.
 pub(crate) fn multipliers_after(

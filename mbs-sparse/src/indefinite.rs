@@ -6,12 +6,12 @@
 //!           [ L_21  I ] [     U  ] [         I      ]          U: update for the parent, what was delayed comes first
 //! ```
 //!
-//! The method of Duff and Reid (ACM TOMS 9, 1983). Delayed unknowns stand in front of the planned ones of a front, so that the
-//! maps of the analysis hold for its tail: a factorisation without delays runs through frozen maps only. A root takes every
+//! The method of Duff and Reid (ACM TOMS 9, 1983). Delayed unknowns come before the planned ones of a front, so that the
+//! maps of the analysis hold for its tail. A factorisation without delays runs through frozen maps only. A root takes every
 //! pivot that is more than rounding; what it must leave over is singular and named.
 //!
-//! Subtrees are tasks for a [`Team`], as those of [`Multifrontal`](crate::Multifrontal); what a task delays comes to the task
-//! above it in the order of the plan, so that pivots and bits are the same whoever works.
+//! Subtrees are tasks for a [`Team`], as those of [`Multifrontal`](crate::Multifrontal). What a task delays comes to the task
+//! above it in the order of the plan, so that pivots and bits are the same for every team.
 //!
 //! Multipliers ([`Cliques::n_primal`]) are placed right after the last coordinate of their elements. Then no pivot is delayed
 //! as long as the coordinates have mass, apart from threshold tests that fail by the numbers.
@@ -30,7 +30,7 @@ use std::convert::Infallible;
 
 /// Multifrontal L D L^T with pivoting: analysed once, factored many times, by one thread or by a team.
 ///
-/// Storage for the planned fronts, and as much again as their pivots may be delayed once, is reserved by the analysis; a
+/// Storage for the planned fronts, and as much again as their pivots may be delayed once, is reserved by the analysis. A
 /// factorisation that delays more than any before lets it grow, and the next one of the same kind allocates nothing.
 #[derive(Debug, Clone)]
 pub struct Indefinite<T: Real, W: Team = Alone> {

@@ -6,7 +6,7 @@
 //!                                                                   U    = A_22 - L_21 D L_21^T
 //! ```
 //!
-//! No closures over arrays here: whether they are inlined is up to the number of codegen units of whoever builds.
+//! No closures over arrays here: whether they are inlined depends on the number of codegen units of the build.
 //! The triangle that remains is a packed front itself, so the next block starts from there. Block sizes are known to
 //! the compiler; the diagonal of L_11 holds 1 / d.
 
@@ -14,7 +14,7 @@ use crate::front::column;
 use mbs_math::Real;
 use mbs_math::dense::panel::subtract_products;
 
-/// Pivots eliminated together.
+/// Most pivots eliminated together [-]: each column is read and written once for all of them. Chosen, not tuned.
 pub(crate) const BLOCK: usize = 6;
 
 /// A pivot that is not positive: its column in the front and its value.
@@ -55,8 +55,8 @@ pub(crate) fn eliminate<T: Real>(
     }
 }
 
-/// Eliminates the first `P` unknowns of a packed front: with as many further rows as bodies of two or three coordinates a
-/// point leave most often, the compiler knows all sizes.
+/// Eliminates the first `P` unknowns of a packed front. The compiler knows all sizes for the numbers of further rows that bodies
+/// of two or three coordinates a point leave most often.
 #[inline(always)]
 fn block<T: Real, const P: usize>(a: &mut [T], d: &mut [T], f: usize) -> Result<(), BadPivot<T>> {
     match f - P {

@@ -1,6 +1,6 @@
 //! Parts of a front, elements and updates of children: where each lands, and how it is added.
 //!
-//! Most parts have one of a few sizes, multiples of the two or three coordinates of a point: with these the compiler knows
+//! Most parts have one of a few sizes, multiples of the two or three coordinates of a point. With these the compiler knows
 //! the lengths of all loops, which are too short to pay for anything else.
 
 use crate::front::column;
@@ -52,7 +52,7 @@ pub(crate) fn triangle(size: usize) -> usize {
     size * (size + 1) / 2
 }
 
-/// Parts of at most so many unknowns are added number by number: as soon done as told.
+/// Most unknowns of a part that is added number by number [-]: a test of its structure costs as much. Chosen, not tuned.
 pub(crate) const SMALL: usize = 4;
 
 /// Finds the cheapest description of the map `map` into a front of `f` unknowns.

@@ -61,11 +61,11 @@ pub(crate) fn plan(cliques: &impl Cliques, options: Options) -> Plan {
     Planner::new(cliques, &node, &fronts, options.grain as f64).finish(&fronts)
 }
 
-/// A chosen dissection may take this much more work than minimum degree.
+/// Largest work of a dissection that is taken, relative to minimum degree [-]: what one thread loses. Chosen, not tuned.
 const MORE_WORK: f64 = 1.1;
-/// A tree with this much work beside its longest way has room for most machines: it is not cut.
+/// Ratio of a tree's work to its longest path from which it is not cut [-]: as many threads have work. Chosen, not tuned.
 const ROOM: f64 = 32.0;
-/// Levels of cuts that are tried.
+/// Most levels of cuts that are tried [-]: 64 parts. Chosen, not tuned.
 const MOST_LEVELS: u32 = 6;
 
 /// Fronts in the order that the options ask for. What is chosen follows from the structure alone.

@@ -12,7 +12,7 @@ use crate::plan::Plan;
 use mbs_math::blocks::combine;
 use mbs_math::{BlockSource, Real, Team};
 
-/// Elements of a stretch: some microseconds of work.
+/// Elements of a stretch [-]: some microseconds of work.
 const ELEMENTS: usize = 128;
 
 /// Room for the values, and where the elements are cut.

@@ -30,7 +30,7 @@ pub(crate) struct Numbers<'a, T> {
 }
 
 impl<'a, T: Real> Numbers<'a, T> {
-    /// Cuts after the first so many numbers and places.
+    /// Cuts after this many numbers and places.
     fn split_at(self, numbers: usize, places: usize) -> (Self, Self) {
         let (fronts, fronts_right) = self.fronts.split_at_mut(numbers);
         let (pivots, pivots_right) = self.pivots.split_at_mut(places);

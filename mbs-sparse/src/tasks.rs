@@ -15,7 +15,7 @@ use crate::tree::NONE;
 use mbs_math::Team;
 use std::ops::Range;
 
-/// No task has more tasks above it than this: the stack of a thread is not infinite.
+/// Most tasks above a task [-], as each takes room on the stack of a thread. Chosen, not tuned.
 const DEEPEST: usize = 100;
 
 /// A part of the tree of fronts.

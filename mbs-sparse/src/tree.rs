@@ -10,8 +10,8 @@
 
 use crate::graph::Lists;
 
-// Only ratios matter. Tried on chains of 4, 6, 12 and 13 unknowns an element: (0.25, 1.5, 20) changes nothing,
-// (0.15, 1, 40) makes the chain of 4 one fifth slower, (0.12, 1, 80) every chain by a sixth or more.
+// Only ratios matter. Tried on chains of 4, 6, 12 and 13 unknowns an element: (0.25, 1.5, 20) changes nothing, (0.15, 1, 40) makes the
+// chain of 4 one fifth slower. (0.12, 1, 80) makes every chain slower by a sixth or more.
 
 /// Time of one multiply-subtract in a front [ns].
 const MULTIPLY_SUBTRACT: f64 = 0.25;

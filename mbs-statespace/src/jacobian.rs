@@ -114,8 +114,10 @@ impl<T: Real> Jacobian<T> {
     }
 }
 
-/// 1 / sqrt(diagonal of M): light unknowns come first when dependent ones are chosen. Where there is (nearly) no mass, a
-/// millionth of the largest entry stands in.
+/// Least mass of an unknown that counts, relative to the largest [-]: an inverse mass stays finite. Chosen, not tuned.
+const LIGHT: f64 = 1e-6;
+
+/// 1 / sqrt(diagonal of M): light unknowns come first when dependent ones are selected.
 pub(crate) fn column_scales<T: Real>(model: &impl Model<T>) -> Vec<T> {
     let mut diagonal = vec![T::ZERO; model.n_unknowns()];
     let (terms, mut block) = (model.terms(), vec![T::ZERO; largest_block(model)]);
@@ -130,7 +132,7 @@ pub(crate) fn column_scales<T: Real>(model: &impl Model<T>) -> Vec<T> {
         }
     }
     let largest = diagonal.iter().fold(T::ZERO, |a, &b| a.max(b));
-    let floor = if largest > T::ZERO { largest * T::from_f64(1e-6) } else { T::ONE };
+    let floor = if largest > T::ZERO { largest * T::from_f64(LIGHT) } else { T::ONE };
     diagonal.iter().map(|&d| T::ONE / d.max(floor).sqrt()).collect()
 }
 

@@ -43,10 +43,14 @@ pub enum PivotChange {
 impl<T: Real> Default for Options<T> {
     /// The trapezoidal rule, tolerance 1e-10, at most 20 iterations.
     fn default() -> Self {
+        /// Tolerance of corrections [-].
+        const TOLERANCE: f64 = 1e-10;
+        /// Least tolerance, in units of rounding [-]: it counts in single precision alone. Chosen, not tuned.
+        const ROUNDINGS: f64 = 64.0;
         Self {
             integrator: Integrator::trapezoidal(),
             coordinates: Coordinates::Tangent,
-            tolerance: T::tolerance(1e-10).max(T::EPSILON * T::from_f64(64.0)),
+            tolerance: T::tolerance(TOLERANCE).max(T::EPSILON * T::from_f64(ROUNDINGS)),
             max_iterations: 20,
             pivot_change: PivotChange::WhenNeeded,
             geometric_stiffness: true,

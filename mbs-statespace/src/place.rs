@@ -18,17 +18,23 @@ use mbs_core::integrator::Rule;
 use mbs_core::model::{Model, State};
 use mbs_core::step::{StepError, largest, largest_or_nan};
 
-/// Iterations of the position problem.
+/// Most iterations of the position problem [-]: with a contraction of 1/4 eight leave 1e-5 of the first correction. Chosen, not tuned.
 const MAX_POSITIONS: u32 = 8;
-/// More iterations than this ask for other independent coordinates.
+/// Iterations beyond which other independent coordinates are selected [-]. Chosen, not tuned.
 const MANY_POSITIONS: u32 = 4;
-/// A Newton correction is at most this share of the one before: then the solution is the one that belongs to the prediction
-/// (Newton and Kantorovich: the branch is certain up to 1/2).
+/// Largest ratio of two Newton corrections [-], at which the solution is the one that belongs to the prediction (Newton and Kantorovich: the
+/// branch is certain up to 1/2).
 const CONTRACTION: f64 = 0.25;
-/// Pivots below a hundredth of themselves ask for other independent coordinates.
+/// Ratio of a pivot to itself at the selection, below which other independent coordinates are selected [-]. Chosen, not tuned.
 const DECAY: f64 = 1e-2;
-/// R above this, and above twice what it was at the choice, asks for other independent coordinates.
+/// Largest entry of R, above which, and above twice that at the selection, other independent coordinates are selected [-]. Chosen, not tuned.
 const LARGE_BASIS: f64 = 10.0;
+/// Correction that is rounding, in units of rounding of the displacement over the smallest pivot [-]. Chosen, not tuned.
+const LOST: f64 = 16.0;
+/// Correction that is rounding, in units of rounding of the scene's length [-]. Chosen, not tuned.
+const PLACE_ROUNDINGS: f64 = 4.0;
+/// Ratio of the smallest pivot to its usual size, below which a singular position is near [-]. Chosen, not tuned.
+const NEAR_SINGULAR: f64 = 0.1;
 
 impl<T: Real> Workspace<T> {
     /// Positions, velocities and accelerations on their constraints that have the wanted z, z', z''; J is left factored and
@@ -97,7 +103,7 @@ impl<T: Real> Workspace<T> {
 
     /// Looks at the pivots: decayed ones ask for another choice, lost ones stop the step.
     ///
-    /// On the branch, rounding of v is eps / sigma and that of a is eps / sigma^2 where sigma is the smallest pivot: below
+    /// On the branch, rounding of v is eps / sigma and that of a is eps / sigma^2 where sigma is the smallest pivot. Below
     /// eps^(1/4) accelerations would keep less than half of their digits.
     pub(crate) fn check_pivots(&mut self) -> Result<(), StepError> {
         self.pivots = self.elimination.pivots();
@@ -146,8 +152,10 @@ impl<T: Real> Workspace<T> {
             if !size.is_finite() {
                 return Err(StepError::NotFinite { unknown: largest_or_nan(&self.change) });
             }
-            let lost = T::EPSILON * T::from_f64(16.0) * norm_inf(&self.dq[..n]);
-            if size <= T::EPSILON * T::from_f64(4.0) * length + lost / self.pivots.smallest {
+            let lost = T::EPSILON * T::from_f64(LOST) * norm_inf(&self.dq[..n]);
+            if size
+                <= T::EPSILON * T::from_f64(PLACE_ROUNDINGS) * length + lost / self.pivots.smallest
+            {
                 return Ok(());
             }
             self.is_stale |= iterations >= MANY_POSITIONS;
@@ -162,7 +170,7 @@ impl<T: Real> Workspace<T> {
 
     /// Positions that are not certain: near a singular position for its sake, elsewhere for the length of the step.
     fn lost_branch(&self, iterations: u32, correction: T) -> StepError {
-        if self.pivots.smallest < self.usual * T::from_f64(0.1) {
+        if self.pivots.smallest < self.usual * T::from_f64(NEAR_SINGULAR) {
             return self.rank_lost();
         }
         let (correction, unknown) = (correction.to_f64(), largest(&self.change));

@@ -8,9 +8,9 @@
 //! J_d^T lambda = (Q - M a)_d                                                                   [P1 (3)]
 //! ```
 //!
-//! Differs from the source: unknowns are increments; a replaces R z'' + R' z', so R' is never formed; the tangent has the
-//! geometric stiffness, the curvature of the surface on which R lives, which makes Newton quadratic but for velocity terms;
-//! without it (an option) it is the printed one. f is evaluated as (M a - Q)_i + J_i^T lambda, the same without R.
+//! Differs from the source: unknowns are increments; a replaces R z'' + R' z', so R' is never formed. The tangent has the
+//! geometric stiffness, the curvature of the surface on which R lives, which makes Newton quadratic but for velocity terms.
+//! Without it (an option) it is the published one. f is evaluated as (M a - Q)_i + J_i^T lambda, the same without R.
 
 use crate::inputs::take_inputs;
 use crate::options::{Coordinates, Options, PivotChange};
@@ -25,15 +25,21 @@ use mbs_core::step::{
 };
 use mbs_core::{FactorError, Real, SpdSolver};
 
-/// Velocities and accelerations off their constraints by more than this, relative to their size, are violations.
+/// Largest constraint residual of velocities and accelerations, relative to their size [-]: more is a violation. Chosen, not tuned.
 const VIOLATION: f64 = 5e-10;
+/// Least residual that is a violation, in units of rounding [-]: it counts in single precision alone. Chosen, not tuned.
+const VIOLATION_ROUNDINGS: f64 = 1024.0;
+/// Correction that is rounding, in units of rounding of the displacement and of the scene's length [-]. Chosen, not tuned.
+const NOISE: [f64; 2] = [64.0, 4.0];
+/// Correction with which a step may end after all iterations, relative to the displacement by accelerations [-]. Chosen, not tuned.
+const ENOUGH: f64 = 1e-6;
 
 /// Advances `s` by one [`Step`].
 ///
 /// Fails at singular positions with [`StepError::RankLost`], which names a row that takes part.
 ///
 /// Cost: for each iteration one or two evaluations and sparse factorisations of J, three sparse solves, n f entries of R and
-/// a dense factorisation of size f, the number of freedoms; no allocation.
+/// a dense factorisation of size f, the number of freedoms. No allocation.
 ///
 /// # Errors
 /// [`StepError`]; the state is then unchanged.
@@ -155,14 +161,15 @@ fn iterate<T: Real, M: Model<T>>(
         w.place(model, (rule, length), options, s)?;
         residual(model, w);
 
-        let digits = T::from_f64(64.0) * norm_inf(&w.dq[..n]) + T::from_f64(4.0) * length;
+        let [moved, place] = NOISE.map(T::from_f64);
+        let digits = moved * norm_inf(&w.dq[..n]) + place * length;
         let noise = T::EPSILON * digits;
         if let Some(stop) = stopping((correction, last), (scale * options.tolerance, noise)) {
             return Ok((iterations, correction, stop));
         }
         last = correction;
     }
-    if last <= scale * T::from_f64(1e-6) {
+    if last <= scale * T::from_f64(ENOUGH) {
         let iterations = if w.d.is_empty() { 0 } else { options.max_iterations };
         let stop = if w.d.is_empty() { Stop::Converged } else { Stop::Tolerance };
         return Ok((iterations, last, stop));
@@ -248,7 +255,7 @@ fn check_violation<T: Real, M: Model<T>>(
     length: T,
     w: &mut Workspace<T>,
 ) -> Result<[T; 3], StepError> {
-    let share = T::from_f64(VIOLATION).max(T::EPSILON * T::from_f64(1024.0));
+    let share = T::from_f64(VIOLATION).max(T::EPSILON * T::from_f64(VIOLATION_ROUNDINGS));
     let mut violation = [norm_inf(&w.terms.phi), T::ZERO, T::ZERO];
     let mut limit = share * length;
     for level in 0..3 {

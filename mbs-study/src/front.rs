@@ -115,7 +115,7 @@ impl Sweep {
         Self { method, ..self }
     }
 
-    /// On so many threads, at least one; left out, on all processors.
+    /// On this many threads, at least one. Default: all processors.
     #[must_use]
     pub fn threads(self, n: usize) -> Self {
         Self { threads: NonZeroUsize::new(n.max(1)), ..self }

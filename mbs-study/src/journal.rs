@@ -140,7 +140,7 @@ fn read_lines(text: &str) -> Vec<Vec<String>> {
     lines.collect()
 }
 
-/// A short text that tells a changed text.
+/// A short text by which a changed text is known.
 pub(crate) fn hash(text: &str) -> String {
     format!("{:016x}", fingerprint(text.as_bytes()))
 }

@@ -20,7 +20,7 @@ pub fn count() -> u64 {
 struct Counting;
 
 fn bump() {
-    // While a thread ends its counter is gone; nobody reads it then.
+    // While a thread ends its counter is gone; nothing reads it then.
     let _ = COUNT.try_with(|c| c.set(c.get() + 1));
 }
 

@@ -112,8 +112,8 @@ pub fn tree(seed: u64, dimension: Dimension, n: usize) -> Scene<f64> {
     Scene { duration: 0.2, bodies, joints, initials, ..scene }
 }
 
-/// A mechanism whose joints of one coordinate are guided, each with so many chances in four; four leave none free. A guided joint
-/// is told nothing at the start.
+/// A mechanism whose joints of one coordinate are guided, each with `chances` in four; four leave none free. A guided joint
+/// has no initial value.
 #[must_use]
 pub fn guided(mut scene: Scene<f64>, seed: u64, chances: usize) -> Scene<f64> {
     let mut random = Random::new(seed ^ 0x7777);
@@ -265,7 +265,7 @@ pub fn split(scene: &Scene<f64>) -> Scene<f64> {
 }
 
 /// A tree with `n_loops` more joints between bodies that are no neighbours: links, and balls (pins in the plane). What they
-/// hold is not told at the start: only one joint of the tree moves, the rest follows.
+/// hold is not given at the start: only one joint of the tree moves, the rest follows.
 #[must_use]
 pub fn loops(seed: u64, dimension: Dimension, n: usize, n_loops: usize) -> Scene<f64> {
     let mut scene = tree(seed, dimension, n);

@@ -1,4 +1,4 @@
-//! The same mechanism told in another way: turned as a whole, its bodies in another order.
+//! The same mechanism written in another way: turned as a whole, its bodies in another order.
 
 use mbs_core::effects::{Field, Form, SignalForm, Value};
 use mbs_core::scene::{Axis, BodyId, Dimension, Freedom, Inertia, InitialTarget, Joint, Scene};
@@ -95,7 +95,7 @@ fn turn_initial(
 ) {
     match target {
         InitialTarget::Joint { joint, value, rate } => {
-            // Rotation vectors and angular velocities are told in global axes.
+            // Rotation vectors and angular velocities are in global axes.
             for (number, freedom) in joints[joint.index()].kind.numbered(dimension) {
                 // slides along the global axes, or a rotation vector
                 if [Freedom::Slide(Axis::X), Freedom::Ball].contains(&freedom) {

@@ -5,9 +5,9 @@ use crate::simulation::Simulation;
 use crate::stop::StopError;
 use mbs_core::Real;
 
-/// Steps in a row, or less at the end of a run, that it may be off by more: the first steps from rest turn little over, and
-/// their error may be large beside that and small beside what follows.
-const PATIENCE: u32 = 10;
+/// Steps in a row, or less at the end of a run, with a larger error before the run stops [-]. The first steps from rest exchange little
+/// energy: their error may be large beside it and small beside what follows. Chosen, not tuned.
+const STEPS_IN_A_ROW: u32 = 10;
 
 /// Steps in a row after which the invariant was off.
 #[derive(Debug, Clone, Copy)]
@@ -48,10 +48,10 @@ impl Alarm {
         let is_off = invariant.is_off(self.share);
         let (error, turned_over) = (invariant.error().abs(), invariant.turned_over());
         self.off = if is_off || reason.is_some() { self.off + 1 } else { 0 };
-        if self.off >= PATIENCE && reason.is_some() {
+        if self.off >= STEPS_IN_A_ROW && reason.is_some() {
             return reason;
         }
-        let is_stop = self.off >= PATIENCE || (is_off && is_last) || !error.is_finite();
+        let is_stop = self.off >= STEPS_IN_A_ROW || (is_off && is_last) || !error.is_finite();
         is_stop.then(|| StopError::Energy {
             error,
             turned_over,

@@ -6,7 +6,7 @@ use mbs_core::Real;
 use mbs_core::cluster::scene_length;
 use mbs_core::scene::Scene;
 
-/// What is smaller than this share of the size of its unit is rounding, or the tolerance of the iteration.
+/// Change of an output that is rounding or tolerance of the iteration, relative to the size of its unit [-]. Chosen, not tuned.
 const ROUNDING: f64 = 1e-9;
 
 /// The outputs of the run with all effects.

@@ -65,7 +65,7 @@ impl<T: Real, const D: usize> Control<T, D> {
         ControlKept { driver: self.driver.history(), events }
     }
 
-    /// Goes on from what was kept; says whether it is of the same rules and effects.
+    /// Restores what was kept; says whether it is of the same rules and effects.
     pub(crate) fn go_on(&mut self, kept: &ControlKept<T>) -> bool {
         let is_ours = match (&mut self.events, &kept.events) {
             (Some(events), Some(history)) => events.set_history(history),

@@ -13,7 +13,7 @@ use mbs_core::control::Accepted;
 use mbs_core::scene::Scene;
 use mbs_scene::SceneFile;
 
-/// Who is told where a run is [s].
+/// Receives the time that a run has reached [s].
 struct Listener<'a>(&'a mut dyn FnMut(f64));
 
 impl<T: Real, const D: usize> StepObserver<T, D> for Listener<'_> {
@@ -39,7 +39,7 @@ impl SceneWork for Plain<'_> {
     }
 }
 
-/// A run that is kept, or goes on.
+/// A run with checkpoints, or one that is resumed.
 struct InParts<'a>(Listener<'a>, &'a Settings, Option<&'a Checkpoint>, Option<&'a mut Keeping>);
 
 impl SceneWork for InParts<'_> {
@@ -51,7 +51,7 @@ impl SceneWork for InParts<'_> {
 }
 
 /// Runs a scene with the digits of the settings' precision: as it was read in `f64`, from which the settings are, or read anew from
-/// its document in another; `reached` is called with the time of each step [s].
+/// its document in another. `reached` is called with the time of each step [s].
 ///
 /// The same as [`run`]; programs that take what precision comes compile it only once.
 ///

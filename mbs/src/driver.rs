@@ -9,10 +9,10 @@ use mbs_core::Real;
 use mbs_core::control::Accepted;
 use mbs_core::step::{InputError, Step, StepError, StepReport};
 
-/// Roundings of the time at the end of a stretch that are nothing, where they are less than the share of its length: times of `f32`
-/// round by more than short steps last.
+/// Time that is no step at the end of a stretch, in units of rounding of the time [-]. Chosen, not tuned.
 const ROUNDINGS: f64 = 32.0;
-const SHARE: f64 = 1e-5;
+/// Most time that is no step, relative to the stretch [-]: times of `f32` round by more than short steps last.
+const MAX_SLIVER: f64 = 1e-5;
 
 /// Sees a run go, sets inputs on the way, and may end it. Does nothing by default.
 ///
@@ -265,12 +265,12 @@ pub fn drive<T: Real, const D: usize>(
     Ok(())
 }
 
-/// What is left of a stretch of this length up to `to` [s] that is no step: the clock can hardly tell it from nothing.
+/// What is left of a stretch of this length up to `to` [s] that is no step: it is near the rounding of the time.
 fn remainder<T: Real>(to: T, length: T) -> T {
-    (to * T::EPSILON * T::from_f64(ROUNDINGS)).min(length * T::from_f64(SHARE))
+    (to * T::EPSILON * T::from_f64(ROUNDINGS)).min(length * T::from_f64(MAX_SLIVER))
 }
 
-/// Steps over one stretch; says whether to go on.
+/// Steps over one stretch; says whether to continue.
 fn along<T: Real, const D: usize>(
     plant: &mut impl Plant<T, D>,
     stretch: &Stretch<T>,

@@ -6,9 +6,13 @@ use mbs_core::Real;
 use mbs_core::natural::{Affine, NaturalModel};
 use mbs_core::scene::{BodyId, Dimension, Inertia, Joint, Quantity, Scene, Translation};
 
-/// Pictures kept of a run at most.
+/// Most pictures kept of a run. Chosen, not tuned.
 const MOST_FRAMES: f64 = 600.0;
-/// Numbers in all pictures at most, about: eighty megabytes. Scenes of some thousand bodies get fewer pictures.
+/// Time by which a picture may be early, relative to the interval of two [-]: times are rounded. Chosen, not tuned.
+const EARLY: f64 = 1e-6;
+/// Half length of the strokes of a body without inertia, relative to the scene's length [-].
+const POINT_SIZE: f64 = 0.05;
+/// Most numbers in all pictures: eighty megabytes. Scenes of some thousand bodies get fewer pictures.
 const MOST_NUMBERS: f64 = 1e7;
 
 /// Points of the figure, and the animation they fill.
@@ -86,8 +90,7 @@ impl<T: Real, const D: usize> Figure<T, D> {
             frame.extend(numbers);
             self.animation.frames.push(frame);
             self.animation.times.push(t);
-            // Half a hair early: times are rounded.
-            self.next = ((t / self.every + 1e-6).floor() + 1.0 - 1e-6) * self.every;
+            self.next = ((t / self.every + EARLY).floor() + 1.0 - EARLY) * self.every;
         }
     }
 }
@@ -191,7 +194,8 @@ impl<T: Real, const D: usize> Layout<'_, T, D> {
             Inertia::Rod { .. } => T::ZERO,
         };
         let reach = if data.mass > T::ZERO { (moment / data.mass).sqrt() } else { T::ZERO };
-        let reach = if reach > T::ZERO { reach } else { self.model.length() * T::from_f64(0.05) };
+        let reach =
+            if reach > T::ZERO { reach } else { self.model.length() * T::from_f64(POINT_SIZE) };
         (0..D)
             .map(|i| {
                 let (mut a, mut b) = (at, at);

@@ -1,8 +1,10 @@
-//! Numbers that tell changed data: FNV-1a of 64 bits, the same on every machine.
+//! Numbers by which changed data are known: FNV-1a of 64 bits, the same on every machine.
 
 use core::fmt;
 
+/// The hash of nothing: FNV-1a's offset basis of 64 bits.
 const BASIS: u64 = 0xcbf2_9ce4_8422_2325;
+/// The factor of a byte: FNV-1a's prime of 64 bits.
 const PRIME: u64 = 0x0100_0000_01b3;
 
 /// What was written so far, as a number.

@@ -5,7 +5,7 @@
 //! ```
 //!
 //! The acceleration would then carry the rate through rest within a step, and far beyond the rates at which friction rises. A rate that changes
-//! its sign does so for a step or two; one that friction throws back does so step after step, and what holds by friction creeps at a
+//! its sign does so for a step or two. One that friction throws back does so step after step, and what holds by friction creeps at a
 //! rate that is none of the law's. Implicit methods, and those that control their error, follow the rise.
 
 use crate::choice::IntegratorKind;
@@ -17,8 +17,9 @@ use mbs_core::natural::NaturalModel;
 use mbs_core::outputs::CoordinateMotion;
 use mbs_core::scene::{self, Effect, EffectKind, Scene};
 
-/// Regularisations that a step may change the rate by: where friction holds, Runge and Kutta's method of order four is stable up to 2.8.
-const FAR: f64 = 3.0;
+/// Largest change of the rate in a step, in units of the regularisation [-]: where friction holds, the explicit method of order four is stable
+/// up to 2.8.
+const MAX_CHANGE: f64 = 3.0;
 
 /// Friction of a joint.
 #[derive(Debug, Clone)]
@@ -61,7 +62,7 @@ impl<T: Real, const D: usize> Frictions<T, D> {
         let is_passed = |friction: &&Friction<T, D>| {
             let [rate, acceleration] = friction.motion.at(simulation.state()).map(Real::to_f64);
             let change = acceleration.abs() * self.step;
-            change > FAR * friction.regularisation && rate.abs() <= change
+            change > MAX_CHANGE * friction.regularisation && rate.abs() <= change
         };
         let Friction { effect, regularisation, .. } = self.all.iter().find(is_passed)?;
         let (effect, regularisation) = (*effect, *regularisation);

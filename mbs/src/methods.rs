@@ -284,7 +284,7 @@ fn tree<T: Real, S: Space<T>, const D: usize>(request: Request<'_, T, D>) -> Bui
     boxed(Tree::new(scene, (model, start), method, (natural, state)))
 }
 
-/// Error of a step by extrapolation where none is given: 2e-10 in double precision, 5e-26 in pairs.
+/// Error of a step by extrapolation where none is given, in units of rounding [-]: 2e-10 in double precision, 5e-26 in pairs.
 pub(crate) const ROUNDINGS: f64 = 1e6;
 
 fn tree_options<T: Real>(demands: &Demands<T>) -> mbs_recursive::Options<T> {

@@ -179,9 +179,9 @@ impl Modes {
     }
 }
 
-/// A real part below this share of the eigenvalue is rounding of an undamped one: differences give ten digits.
+/// Ratio of real part and eigenvalue below which it is rounding of an undamped one [-]: differences give ten digits.
 const AXIS: f64 = 1e-8;
-/// An eigenvalue whose square is below this many times the rounding of the stiffness is zero.
+/// Square of an eigenvalue that is zero, in units of rounding of the stiffness [-]. Chosen, not tuned.
 const NOISE: f64 = 1e3;
 
 /// The eigenvalues of a linearised motion, conjugate ones once, from the slowest to the fastest.

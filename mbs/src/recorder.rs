@@ -12,7 +12,7 @@ use mbs_core::control::Limit;
 use mbs_core::real::DoubleDouble;
 use mbs_scene::format::full;
 
-/// Rows kept at most (and one more for the end); twice as many where the number of steps is not known before.
+/// Most rows that are kept, and one more for the end; twice as many where the number of steps is not known before. Chosen, not tuned.
 pub(crate) const MOST_ROWS: u64 = 10_000;
 
 /// What one step left behind; of several, the largest.
@@ -43,7 +43,7 @@ pub(crate) struct Recorder {
     /// What the numbers of the rows leave of the values, where these have more digits; else nothing.
     rests: Vec<f64>,
     n_columns: usize,
-    /// A row is kept of so many steps.
+    /// Steps of which one row is kept.
     every: u64,
     initial: f64,
     max_violation: [f64; 3],
@@ -81,7 +81,7 @@ impl StepMark {
         tape.word_of(&mut step.limit, &Limit::ALL.map(Limit::name))
     }
 
-    /// Bytes that one takes at least.
+    /// Least bytes of a mark in a file: a list that states more marks than the file has bytes for is refused.
     const SIZE: usize = 80;
 }
 
@@ -111,7 +111,7 @@ impl Recorder {
         self.marks.len()
     }
 
-    /// For a run of `n_steps`, as far as that is known, from the invariant at the start.
+    /// For a run of `n_steps`, where that is known, from the invariant at the start.
     pub(crate) fn new(channels: Vec<Channel>, n_steps: u64, initial: f64, keep: Keep) -> Self {
         let n_columns: usize = channels.iter().map(|c| c.components.len()).sum();
         Self {

@@ -14,6 +14,7 @@ use crate::driver::{StepObserver, Stretch, drive, multiple};
 use crate::names::Names;
 use crate::record::{Channel, ControlSummary, Outputs, RunRecord, RunSummary};
 use crate::recorder::Keep;
+use crate::settings::way::SAME_LENGTH;
 use crate::settings::{Lengths, Settings};
 use crate::simulation::Simulation;
 use crate::stop::StopError;
@@ -94,7 +95,7 @@ pub fn step<T: Real>(settings: &Settings, lengths: &Lengths<T>, k: u64) -> Stret
     let is_last = k == settings.n_steps();
     #[allow(clippy::cast_precision_loss, reason = "step counts stay far below 2^53")]
     let (before, count) = ((k - 1) as f64 * h, k as f64);
-    let is_full = !is_last || (end - before - h).abs() <= 1e-9 * h * count;
+    let is_full = !is_last || (end - before - h).abs() <= SAME_LENGTH * h * count;
     let dt = if is_full { step_max } else { duration - at(k - 1) };
     let to = if is_last { duration } else { at(k) };
     Stretch { is_last, ..Stretch::to(to).in_one(Some(dt)) }
@@ -120,7 +121,7 @@ impl<'a, T: Real, const D: usize> Run<'a, T, D> {
         run.started()
     }
 
-    /// Everything that a run needs, for rows after so many steps or intervals; else how it did not start.
+    /// Everything that a run needs, for rows after steps or intervals; else how it did not start.
     fn new(
         scene: &'a Scene<T>,
         settings: &'a Settings,

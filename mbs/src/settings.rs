@@ -14,14 +14,14 @@ use mbs_core::control::EnergyRule;
 use mbs_core::scene::{Scene, SceneError, SolverTable};
 use mbs_scene::format::significant;
 
-/// Steps of a run at most: at a microsecond each they take eleven days.
+/// Most steps of a run [-]: at a microsecond each they take eleven days.
 const MOST_STEPS: f64 = 1e12;
 /// Step when neither scene nor command line gives one [s].
 pub const DEFAULT_STEP: f64 = 1e-3;
 
-/// Error of a step by its estimate when neither gives one, relative to the scene's length.
+/// Error of a step by its estimate when neither gives one, relative to the scene's length [-]. Chosen, not tuned.
 const DEFAULT_ERROR: f64 = 1e-6;
-/// Share of the energy turned over that the invariant may be off by.
+/// Largest error of the invariant before a run stops, relative to the exchanged energy [-]. Chosen, not tuned.
 const DEFAULT_ALARM: f64 = 0.1;
 
 /// What the command line (or a caller) says; `None` leaves it to the scene.
@@ -315,7 +315,7 @@ impl Settings {
     pub fn n_steps(&self) -> u64 {
         let steps = self.duration / self.step_max;
         let whole = steps.round();
-        if (steps - whole).abs() <= 1e-9 * whole.max(1.0) {
+        if (steps - whole).abs() <= way::SAME_LENGTH * whole.max(1.0) {
             whole.max(1.0) as u64
         } else {
             steps.ceil() as u64
@@ -323,8 +323,8 @@ impl Settings {
     }
 }
 
-/// A length of time [s] in the precision of a run: what the scene says with all its digits, else the decimal number that was meant, which is
-/// the shortest one that `f64` reads as this.
+/// A length of time [s] in the precision of a run: what the scene says with all its digits. Else it is the intended decimal
+/// number: the shortest one that `f64` reads as this.
 pub(crate) fn exact<T: Real>(scene: &Scene<T>, x: f64) -> T {
     if !is_finer::<T>() {
         return T::from_f64(x);

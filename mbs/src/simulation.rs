@@ -157,8 +157,8 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         self.model.prescribed().set_guide(&mut self.state.inputs, guide, motion)
     }
 
-    /// An angle or slide of a joint with its turns, by joint and number, where the formulation's own coordinates have it: in a tree, but for
-    /// joints that it cuts and rotations in space.
+    /// An angle or slide of a joint with its turns, by joint and number, where the formulation's own coordinates have it. A tree has all
+    /// but the joints that it cuts and rotations in space.
     pub fn coordinate(&self, joint: usize, number: usize) -> Option<T> {
         self.formulation.coordinate(joint, number)
     }
@@ -183,7 +183,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         &mut *self.formulation
     }
 
-    /// All that the next step goes on from.
+    /// All that the next step continues from.
     pub(crate) fn kept(&self) -> Kept<T> {
         Kept {
             state: self.state.clone(),
@@ -194,7 +194,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         }
     }
 
-    /// Goes on from what was kept; says whether it is of this simulation.
+    /// Restores what was kept; says whether it is of this simulation.
     pub(crate) fn go_on(&mut self, kept: &Kept<T>) -> bool {
         let Kept { state, formulation, control, invariant, inputs: [courses, guides] } = kept;
         let mut is_ours = match (&mut self.control, control) {
@@ -282,11 +282,11 @@ fn energies_at<T: Real, const D: usize>(
     }
 }
 
-/// Roundings of places in a step that make a velocity.
+/// Velocity that is rounding, in units of rounding of places in a step [-]. Chosen, not tuned.
 const ROUNDINGS: f64 = 64.0;
 
-/// The energy that the scene has anyway, of which a root of the precision is nothing [J]: weight and given forces over its length, and
-/// a motion of all masses that the run would not show, or that is rounding of places in a step.
+/// The energy that the scene has anyway [J], of which a root of the precision is nothing. It is that of weight and given forces over its
+/// length, and of a motion of all masses that the run would not show, or that is rounding of places in a step.
 fn ground<T: Real, const D: usize>(
     scene: &Scene<T>,
     settings: &Settings,

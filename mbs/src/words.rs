@@ -53,8 +53,8 @@ pub fn estimate(e: &ErrorEstimate) -> Vec<(&'static str, String)> {
     let one = |(name, errors): &(String, Vec<f64>)| {
         format!("{name} {}", small(errors.iter().copied().fold(0.0, f64::max)))
     };
-    let first = outputs.0.iter().take(FIRST).map(one).collect::<Vec<_>>().join(", ");
-    let more = outputs.0.len().saturating_sub(FIRST);
+    let first = outputs.0.iter().take(MAX_LISTED).map(one).collect::<Vec<_>>().join(", ");
+    let more = outputs.0.len().saturating_sub(MAX_LISTED);
     let more = if more > 0 { format!(", and {more} more in the JSON") } else { String::new() };
     let mut rows = vec![(LABEL, first + &more)];
     if let (Some(largest), Some(output)) = (e.largest, &e.worst_output) {
@@ -94,8 +94,8 @@ pub fn control(c: &ControlSummary) -> String {
     text
 }
 
-/// Contacts and outputs that a line has at most.
-const FIRST: usize = 8;
+/// Most contacts and outputs of a line of text.
+const MAX_LISTED: usize = 8;
 
 /// The first contacts of a run, and how many there were.
 fn contacts(s: &RunSummary) -> Option<String> {
@@ -106,8 +106,8 @@ fn contacts(s: &RunSummary) -> Option<String> {
         let end = c.end.map_or_else(String::new, |end| format!(" ({end})"));
         format!("`{}`{end} {} at {} s", c.effect, c.event, significant(rounded(c.time, 6)))
     };
-    let mut text = s.contacts.iter().take(FIRST).map(one).collect::<Vec<_>>().join(", ");
-    let more = s.contacts.len().saturating_sub(FIRST) as u64 + s.contacts_left_out;
+    let mut text = s.contacts.iter().take(MAX_LISTED).map(one).collect::<Vec<_>>().join(", ");
+    let more = s.contacts.len().saturating_sub(MAX_LISTED) as u64 + s.contacts_left_out;
     if more > 0 {
         text += &format!(", and {more} more");
     }
@@ -184,7 +184,7 @@ pub(crate) fn notes<T: Real>(
         }
     }
     notes.extend(crate::tilt::notes(scene).into_iter().map(|(_, note)| note));
-    if change > 1e-6 {
+    if change > REPORTED_CHANGE {
         notes.push(format!(
             "the start differs from the reference configuration by up to {} m (or rad)",
             few(change)
@@ -221,7 +221,9 @@ fn summed<T: Real>(settings: &Settings, s: &RunSummary) -> Option<String> {
     ))
 }
 
-/// Rounding of places that is reported, relative to the size of a body: a tenth of the 1e-4 that single precision promises.
+/// Least change of a coordinate at the start that is reported [m or rad]: numbers of files have six digits or more.
+const REPORTED_CHANGE: f64 = 1e-6;
+/// Rounding of places that is reported, relative to the size of a body [-]: a tenth of the 1e-4 that single precision promises.
 const SPOILT: f64 = 1e-5;
 
 /// The body whose places lose most to rounding, with that rounding relative to its size, where it is too much.
@@ -248,7 +250,7 @@ fn spoilt<T: Real>(scene: &Scene<T>) -> Option<(&str, f64)> {
         let spread = places
             .iter()
             .fold(0.0, |a: f64, p| a.max(size(std::array::from_fn(|i| p[i] - first[i]))));
-        // Points that coincide in this precision may have been apart: the mass still knows how far.
+        // Points that coincide in this precision may have been apart: the mass shows how far.
         let inertia = match body.inertia {
             Inertia::Planar(polar) => polar.to_f64(),
             Inertia::Spatial(six) => six[..3].iter().map(|x| x.to_f64()).fold(0.0, f64::max),

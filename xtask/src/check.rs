@@ -90,7 +90,7 @@ enum IfQuick {
 type Listed = (&'static str, Check, IfQuick);
 
 /// What is built and run first, in order.
-const FIRST: [Listed; 4] = [
+const BUILT_FIRST: [Listed; 4] = [
     ("format", format, IfQuick::Runs),
     ("lints", lints, IfQuick::Skipped),
     // Before the tests: it leaves a lean `mbs` where later jobs look for the whole one, which the tests build.
@@ -111,7 +111,7 @@ const THEN: [&[Listed]; 2] = [
 ];
 
 fn checks(is_quick: bool, summary: &mut Summary) -> Result<(), String> {
-    listed(&FIRST, is_quick, summary)?;
+    listed(&BUILT_FIRST, is_quick, summary)?;
     summary.beside(THEN.map(|list| move |part: &mut Summary| listed(list, is_quick, part)))
 }
 

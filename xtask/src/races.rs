@@ -6,7 +6,7 @@ use std::process::{Command, ExitCode};
 /// Stack of a thread: instrumented frames are large. In bytes.
 const STACK: &str = "67108864";
 
-/// Runs the tests of the crew, which has the lock-free part, with every access watched.
+/// Runs the tests of the thread team, which has the lock-free part, with every access watched.
 pub fn races() -> ExitCode {
     match watched() {
         Ok(()) => {

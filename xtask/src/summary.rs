@@ -106,7 +106,7 @@ impl Summary {
         Err(format!("This machine cannot run: {}", names.join(", ")))
     }
 
-    /// Runs lists of checks beside each other; their lines follow list by list. Processor seconds are told for all of them together.
+    /// Runs lists of checks beside each other; their lines follow list by list. Processor seconds are reported for all of them together.
     ///
     /// # Errors
     ///

@@ -22,9 +22,10 @@ pub struct Case {
 
 /// Steps of a case.
 pub const STEPS: u32 = 10;
-/// The longest of them [s]; shorter is this share of the time in which a body turns a radian, or its motion changes by the mechanism's size.
+/// Longest step [s]. Chosen, not tuned.
 const LONGEST: f64 = 5e-4;
-const SHARE: f64 = 0.01;
+/// Longest step, relative to the time in which a body turns a radian or its motion changes by the mechanism's size [-]. Chosen, not tuned.
+const TIME_FRACTION: f64 = 0.01;
 
 /// What acts beside the effects: nothing, and three laws of guides.
 const OTHERS: [&str; 5] = ["nothing", "sine", "ramp", "table", "level-table"];
@@ -152,7 +153,7 @@ fn case(
     if contacts.contains(&what) {
         touch(&mut draft);
     }
-    let step = LONGEST.min(SHARE * time_scale(&draft));
+    let step = LONGEST.min(TIME_FRACTION * time_scale(&draft));
     draft.duration = step * f64::from(STEPS);
     Some((draft.text(), step))
 }

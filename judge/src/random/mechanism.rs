@@ -8,7 +8,7 @@ use crate::vector::{
     transpose, unit,
 };
 
-/// A pivot of the scaled saddle below this is too near to a locked mechanism to begin there.
+/// Least pivot of the scaled saddle matrix with which a mechanism begins [-]: with a smaller one it is nearly locked. Chosen, not tuned.
 const NEAR_LOCKED: f64 = 3e-3;
 
 /// A scene in the making.

@@ -16,7 +16,7 @@ use mechanism::Draft;
 
 pub use cases::{Case, STEPS, cases};
 
-/// Standard gravity, which makes times of lengths [m/s²].
+/// Acceleration of gravity, which makes times of lengths [m/s²].
 pub(crate) const GRAVITY: f64 = 9.81;
 
 /// A scene with how it is to be run.

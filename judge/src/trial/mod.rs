@@ -10,20 +10,20 @@ use mbs::scene_file::SceneFile;
 use mbs::{FormulationKind, Method, Settings};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
-/// Times its own error, by steps of h and h/2, that a rule may be off.
-pub const SHARE: f64 = 10.0;
-/// Share of a channel's size below which a difference is rounding.
+/// Largest error of a rule, relative to its own error by steps of h and h/2 [-]. Chosen, not tuned.
+pub const ERROR_FACTOR: f64 = 10.0;
+/// Difference that is rounding, relative to a channel's size [-]. Chosen, not tuned.
 pub const ROUNDING: f64 = 1e-7;
-/// Share of the largest channel of its kind that every channel has as size at least.
+/// Least size of a channel, relative to the largest of its kind [-]. Chosen, not tuned.
 const SMALLEST: f64 = 1e-2;
-/// Tolerance of the judge's steps.
+/// Tolerance of the judge's steps [-]. Chosen, not tuned.
 const TOLERANCE: f64 = 1e-11;
 
-/// A run that stops is tried by steps over this.
+/// Divisor of the step with which a run that stops is tried again. Chosen, not tuned.
 const QUARTER: u32 = 4;
-/// Short steps are the given ones over this.
+/// Divisor of the given step for short ones. Chosen, not tuned.
 const SHORT: u32 = 16;
-/// What is off goes to this share at least by short steps, where it is the rule's: a sixteenth, by order 1; a quarter after a stop.
+/// Ratio of an error with short steps to that with the given ones, up to which it is the rule's [-]: 1/16 by order 1, 1/4 after a stop.
 const GONE: f64 = 0.4;
 
 /// Are its steps steered by the energy?
@@ -192,7 +192,7 @@ pub fn rows(
 }
 
 /// Holds a method against the judge. A run that stops on its way is tried by quarter steps. What is off is looked at once more with short
-/// steps: the error of a rule across a kink of a law, which two steps may hide, goes with the step; what is wrong stays.
+/// steps: the error of a rule across a kink of a law, which two steps may hide, goes with the step. What is wrong stays.
 #[must_use]
 pub fn trial(judged: &Judged, scene: &Scene<f64>, method: Way, step: f64, steps: u32) -> Verdict {
     let by = |share| by_two(judged, scene, method, (step, steps), share);
@@ -351,7 +351,7 @@ fn compare(judged: &Judged, right: &Rows, coarse: &Rows, fine: &Rows) -> Verdict
             } else {
                 difference(fine, right, &part.components)
             };
-            let allowed = (SHARE * own).max(ROUNDING * size);
+            let allowed = (ERROR_FACTOR * own).max(ROUNDING * size);
             if off.is_nan() || off > allowed * worst.0 {
                 let channel = judged.mechanism.scene.outputs[part.output].name.clone();
                 worst = (off / allowed, Verdict::Differs { channel, off, allowed, size, start });

@@ -12,11 +12,13 @@ use mbs_core::scene::{
     UserLaw,
 };
 
-/// The coupler, its centre, and a pair of points on the ground and on the rocker.
+/// The coupler.
 const COUPLER: BodyId = BodyId::Body(1);
 const CRANK: JointId = JointId::new(0);
+/// Centre of the coupler [m].
 const CENTER: [f64; 3] = [1.0, 1.5, 0.25];
 const BODIES: [BodyId; 2] = [BodyId::Ground, BodyId::Body(2)];
+/// Attachment points on [`BODIES`], the ground and the rocker [m].
 const POINTS: [[f64; 3]; 2] = [[0.5, 0.0, 0.0], [2.0, 1.0, 0.5]];
 
 /// Name and data of one effect of each kind.

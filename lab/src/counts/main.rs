@@ -15,8 +15,9 @@ use mbs_recursive::{Planar, Spatial, TreeModel, space::Space};
 use std::error::Error;
 use std::process::ExitCode;
 
-/// Steps made before counting [-], and their length [s].
+/// Steps made before counting [-].
 const WARM_UP: usize = 3;
+/// Length of a step [s].
 const STEP: f64 = 1e-3;
 
 fn main() -> ExitCode {

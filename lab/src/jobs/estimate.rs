@@ -11,8 +11,8 @@ use xtask::process;
 
 /// An error is stated if it is no more than so many times the estimate.
 const STATED: f64 = 3.0;
-/// Share of the components that have to be.
-const SHARE: f64 = 0.95;
+/// Least fraction of the components that are good [-]: what is promised.
+const GOOD_SHARE: f64 = 0.95;
 /// The median of the quotients lies between its inverse and this.
 const MEDIAN: f64 = 10.0;
 /// Share of the scenes that may have no estimate.
@@ -186,7 +186,7 @@ fn table(rows: &[Row]) -> (String, bool) {
     );
     #[allow(clippy::cast_precision_loss, reason = "small counts")]
     let share = |part: usize, whole: usize| part as f64 / whole.max(1) as f64;
-    let is_good = share(stated, all.len()) >= SHARE
+    let is_good = share(stated, all.len()) >= GOOD_SHARE
         && (1.0 / MEDIAN..=MEDIAN).contains(&median)
         && share(none, rows.len()) <= NONE;
     (text, is_good)

@@ -1,4 +1,4 @@
-//! `cargo xtask fuzz`: scenes that nobody meant, tried in a process of their own; what breaks it, or takes too long, is kept.
+//! `cargo xtask fuzz`: malformed scenes, tried in a process of their own; what breaks it, or takes too long, is kept.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -7,11 +7,11 @@ use std::thread::sleep;
 use std::time::{Duration, Instant, SystemTime};
 use xtask::process;
 
-/// A text that takes longer hangs.
-const LIMIT: Duration = Duration::from_secs(60);
-/// And one that takes more memory is mended: what is read is smaller by far [KiB].
+/// Longest time of a text: one that takes longer hangs. Chosen, not tuned.
+const TEXT_TIME: Duration = Duration::from_secs(60);
+/// Most memory of a text [KiB]: what is read is smaller. Chosen, not tuned.
 const MEMORY: u64 = 1 << 20;
-/// How often it is looked at.
+/// Time between two looks at the run.
 const PAUSE: Duration = Duration::from_millis(100);
 
 /// Tries texts for so long [s], so many from a seed on.
@@ -31,7 +31,7 @@ pub(crate) fn fuzz(seconds: u64, seed: u64, count: u64) -> Result<(), String> {
     command.arg(&current).stdin(Stdio::null()).stdout(Stdio::piped());
     let line = process::line(&command);
     let mut child = command.spawn().map_err(|e| format!("cannot start `{line}`: {e}"))?;
-    let hung = watch(&mut child, &current, LIMIT)?;
+    let hung = watch(&mut child, &current, TEXT_TIME)?;
     let out = child.wait_with_output().map_err(|e| e.to_string())?;
     if !hung && out.status.success() {
         println!("{}", String::from_utf8_lossy(&out.stdout).trim());

@@ -1,4 +1,4 @@
-//! Effects told in laws, once for all models: what acts, between which places of which bodies, by which law.
+//! Effects written as laws, once for all models: what acts, between which places of which bodies, by which law.
 //!
 //! A scene has many kinds of effect; models, outputs and other formulations know only the few kinds of [`Action`]. Effects that
 //! are switched off are not among them, and effects whose Cargo feature is off are an error.
@@ -59,8 +59,8 @@ pub enum Action<T> {
         /// The law.
         law: Law<T>,
     },
-    /// A law of a component of the rotation vector of the second body against the first in space, along what was a global axis, in
-    /// the first; below a whole turn. An effect has three of them, one after the other, or none.
+    /// A law of a component of the rotation vector of the second body against the first in space, below a whole turn. It is along a
+    /// global axis of the reference configuration, fixed in the first body. An effect has three of them, one after the other, or none.
     Rotation {
         /// The bodies.
         bodies: [BodyId; 2],

@@ -6,17 +6,17 @@ use crate::Real;
 use crate::ode::StepControl;
 use crate::step::{StepError, StepReport};
 
-/// A step that failed is tried again at this share of its length.
+/// Factor on the length of a step that failed, for its next trial [-]. Chosen, not tuned.
 const AFTER_FAILURE: f64 = 0.25;
-/// A step is never shorter than this share of the largest.
+/// Shortest step, relative to the largest [-]. Chosen, not tuned: [`MOST_TRIALS`] ends a run whose average step is a hundred-thousandth.
 const SMALLEST: f64 = 1e-10;
-/// And not shorter than so many roundings of the time.
+/// Shortest step, in units of rounding of the time [-]: the clock then measures it to a sixteenth.
 const TIME_ROUNDINGS: f64 = 16.0;
-/// Trials within a stretch of the largest step, at most: a run whose steps are shorter than this on average would not end.
+/// Most trials within a length of time equal to the largest step [-]. A run with shorter steps on average would not end. Chosen, not tuned.
 const MOST_TRIALS: u32 = 100_000;
-/// Re-solves of a step that shall end at an event.
+/// Most repetitions of a step that shall end at an event [-]: two or three are usual, the rest is reserve.
 const MOST_LANDINGS: u32 = 12;
-/// Growth of the step where no rule says anything.
+/// Growth of the step where no rule limits it [-]. Chosen, not tuned: the largest step limits what follows.
 const FREE: f64 = 2.0;
 
 /// What a driver steps: a mechanism with a formulation and a state that can be put back.
@@ -60,8 +60,8 @@ pub struct TrialStep<T> {
     pub energies: [f64; 3],
     /// Its local error relative to the scene's length; zero where none is asked for [-].
     pub error: f64,
-    /// 1/2 a^T M a at its beginning and at its end [J/s^2]: from rest nothing has moved yet, and what the accelerations give in a
-    /// first step stands for the energy that moves. Once energy moves ([`Invariant::is_moving`]) the smaller of the two counts,
+    /// 1/2 a^T M a at its beginning and at its end [J/s^2]. From rest nothing has moved yet: the energy that the accelerations give in a
+    /// first step takes the place of the energy that moves. Once energy moves ([`Invariant::is_moving`]) the smaller of the two counts,
     /// before that the one at the end. Zero where they are not known.
     pub acceleration_energy: [f64; 2],
 }
@@ -69,7 +69,7 @@ pub struct TrialStep<T> {
 /// An event within a trial, or at its end.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Event {
-    /// Share of the trial after which it comes, aimed a hair past it: from 0.001 to 1; up to 1.05 where the trial ends just
+    /// Fraction of the trial after which it comes, aimed a little past it: from 0.001 to 1. Up to 1.05 where the trial ends just
     /// short of it, so that no tiny step need follow.
     pub share: f64,
     /// The trial's end lies so near that it may serve; the share is one.
@@ -157,8 +157,8 @@ pub struct Driver<T> {
     stretch: Option<(T, u32)>,
 }
 
-/// Counts a trial from time `t` [s] in the stretch of a largest step, or a little more; how far a trial comes on average [s], where that is
-/// too little.
+/// Counts a trial from time `t` [s] in the stretch of a largest step, or a little more. The error has the average length of a trial [s],
+/// where that is too short.
 fn count<T: Real>(stretch: &mut Option<(T, u32)>, t: T, length: T) -> Result<(), StepError> {
     let (from, trials) = stretch.get_or_insert((t, 0));
     if t - *from >= length {
@@ -369,8 +369,8 @@ impl<T: Real> Driver<T> {
         }
     }
 
-    /// The first trial of a step: the planned one, or all that is left, or half of it where that is less than two planned ones,
-    /// so that no sliver remains. Says whether it is cut short by what is left.
+    /// The first trial of a step: the planned one, or all that is left, or half of it where that is less than two planned ones. So no
+    /// tiny step remains. Says whether it is cut short by what is left.
     fn planned(&self, t: T, rest: T) -> (T, bool) {
         if rest <= self.next {
             (rest, rest < self.next)

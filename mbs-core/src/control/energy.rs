@@ -6,11 +6,12 @@
 //!               eta = (sqrt(U L) / e)^(1/r)        where it is kept: the change stays between L and U
 //! ```
 //!
-//! Differs from the source: e is a share of the energy that moves, not of the total with its arbitrary zero; the h of (33) is
-//! left out, since U and L are compared with the change in one step; a step that is kept follows the rule too, where the source
+//! Differs from the source: e is relative to the energy that moves, not to the total with its arbitrary zero. The h of (33) is
+//! left out, since U and L are compared with the change in one step. A step that is kept follows the rule too, where the source
 //! changes the step only at the limits. A step that changes at the limits only is shortened late and enlarged late, and the errors
-//! of a swing forth and back no longer cancel: at the same cost the invariant errs twice (a suspension) to eight times (a double
-//! pendulum) as far. The printed form is an option. Since e passes through zero between gain and loss, larger changes are remembered for a few steps.
+//! of a swing forth and back do not cancel. At the same cost the error of the invariant is then twice (a suspension) to eight times
+//! (a double pendulum) as large. The published form is an option. Since e passes through zero between gain and loss, larger changes
+//! are remembered for a few steps.
 
 /// The rule with its limits.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -27,14 +28,16 @@ pub struct EnergyRule {
     pub is_printed: bool,
 }
 
-/// Bounds of the factor after a rejected step, in the printed form after a small change, and else.
+/// Bounds of the factor on a rejected step [-]: its repetition is shorter by a fifth at least, to a fifth at most. Chosen, not tuned.
 const REJECTED: [f64; 2] = [0.2, 0.8];
+/// Bounds of the factor after small changes in the published form [-]: the step at most doubles. Chosen, not tuned.
 const ENLARGED: [f64; 2] = [1.0, 2.0];
+/// Bounds of the factor on a step that is kept [-]: narrow, since one small change may be a passage through zero. Chosen, not tuned.
 const STEERED: [f64; 2] = [0.5, 1.2];
-/// What is remembered of a change in the next step.
+/// Factor by which a remembered change fades in a step [-]: half of it is left after four steps, in which e may pass through zero.
 const MEMORY: f64 = 0.85;
-/// In the printed form, small changes in a row after which the step grows: one may be a passage through zero.
-const CALM: u32 = 2;
+/// Small changes in a row after which the step grows in the published form [-]: one alone may be a passage through zero.
+const SMALL_CHANGES: u32 = 2;
 
 impl Default for EnergyRule {
     /// U = 1e-5, L = 1e-7, safety 0.8, exponent 1/3: the change in a step goes with its cube.
@@ -86,7 +89,7 @@ impl Steering {
         if is_printed {
             self.small = if e < lower { self.small + 1 } else { 0 };
             let wish = libm::pow(safety * upper / e, exponent);
-            return Ok(if self.small >= CALM { within(ENLARGED, wish) } else { 1.0 });
+            return Ok(if self.small >= SMALL_CHANGES { within(ENLARGED, wish) } else { 1.0 });
         }
         let remembered = e.max(MEMORY * self.memory).max(f64::MIN_POSITIVE);
         let factor = within(STEERED, libm::pow(libm::sqrt(upper * lower) / remembered, exponent));
@@ -100,7 +103,7 @@ impl Steering {
         (self.memory, self.small)
     }
 
-    /// Goes on from a [`history`](Self::history).
+    /// Restores a [`history`](Self::history).
     pub(super) fn set_history(&mut self, (memory, small): (f64, u32)) {
         (self.memory, self.small) = (memory, small);
     }

@@ -32,7 +32,9 @@ impl<T: Real> LocalError<T> {
     /// The power of h that the estimate goes with.
     #[must_use]
     pub fn power(&self) -> u32 {
-        if self.velocity > T::EPSILON * T::from_f64(16.0) { 2 } else { 3 }
+        /// Error coefficient of a velocity that is rounding of zero, in units of rounding [-]. Chosen, not tuned.
+        const ROUNDINGS: f64 = 16.0;
+        if self.velocity > T::EPSILON * T::from_f64(ROUNDINGS) { 2 } else { 3 }
     }
 
     /// Largest error of a coordinate [m or -] in a step `h` [s] from accelerations `from` to accelerations `to`.

@@ -6,10 +6,10 @@
 //! G <- max(0, G + d(T + V) - max(0, dW))  where dampers act
 //! ```
 //!
-//! W sums powers at the ends of steps. A damper that brings a motion to rest within a step is booked far too high so, while the motion
-//! creeps on as it should: Pi rises, and no energy does. G is the energy that nobody gave.
+//! W sums powers at the ends of steps. That overestimates the work of a damper that brings a motion to rest within a step: Pi rises, and
+//! no energy does. G is the energy that came from nowhere.
 
-/// Rounding of a sum of energies, in units of the largest of its parts and of the precision.
+/// Rounding of the energy balance, in units of the precision times the sum of its parts [-]. Chosen, not tuned.
 const ROUNDINGS: f64 = 64.0;
 
 /// What the invariant did so far. Energies in joules.
@@ -24,7 +24,7 @@ pub struct Invariant {
     max_kinetic: f64,
     potential: [f64; 2],
     gross_work: f64,
-    /// Energy below which nothing is told from rounding, for one epsilon.
+    /// Energy that is rounding, for one epsilon.
     ground: f64,
     epsilon: f64,
     /// Energy may be taken by dampers.
@@ -46,8 +46,8 @@ struct Line {
 }
 
 impl Invariant {
-    /// Starts from kinetic energy, potential energy and work [J]; `ground` is the energy that the scene's loads have anyway
-    /// [J], such as its weight times its length, of which a root of the precision is nothing; `epsilon` is that of the scalar; energies
+    /// Starts from kinetic energy, potential energy and work [J]. `ground` is the energy that the scene's loads have anyway [J], such as
+    /// its weight times its length: a root of the precision of it is nothing. `epsilon` is that of the scalar; energies
     /// are no finer than `f64`.
     #[must_use]
     pub fn new(energies: [f64; 3], ground: f64, epsilon: f64) -> Self {
@@ -180,7 +180,7 @@ impl Invariant {
 }
 
 impl Invariant {
-    /// Numbers of a [`history`](Self::history).
+    /// Count of the numbers of a [`history`](Self::history): its fields in order.
     pub const N_HISTORY: usize = 17;
 
     /// The measurements so far, as numbers, from which a run resumes.

@@ -5,6 +5,7 @@ use super::*;
 use crate::integrator::Integrator;
 use crate::step::{StepError, StepReport};
 
+/// Acceleration of gravity [m/s²].
 const G: f64 = 9.81;
 
 /// Angle and rate, stepped by the trapezoidal rule; fails above `fails_from` if that is set, and has an event at `event`.
@@ -150,7 +151,7 @@ fn every_kept_step_changes_the_invariant_by_less_than_its_limit_and_none_is_long
     // The energy that moves is at most twice the height of 2 m.
     let scale = 4.0 * G;
     assert!(steps.iter().all(|s| s.change.abs() <= limits[0] * scale + invariant.rounding()));
-    // The clock of 20 s tells a step to a few of its last digits.
+    // At 20 s the clock measures a step to a few of its last digits.
     assert!(steps.iter().all(|s| s.step <= 0.1 + 1e-14));
     // It nearly stands at the top and falls through the bottom: steps differ by more than three.
     let lengths = steps[1..steps.len() - 1].iter().map(|s| s.step);
@@ -262,7 +263,7 @@ fn a_run_whose_steps_would_never_end_says_so() {
         assert!(pendulum.trials.len() <= 100_000 && pendulum.t < 0.1);
         if !is_resumed && pendulum.trials.len() > 50_000 {
             is_resumed = true;
-            // One that goes on from its history counts on.
+            // One that is restored from its history continues the count.
             let history = driver.history();
             driver = Driver::new(energy([1e-2, 1e-4]), 0.1);
             assert!(driver.set_history(history));

@@ -46,8 +46,8 @@ impl<T: Real> FrictionLaw<T> {
     /// g / sqrt(r^2 + e^2) (1 - w r / sqrt(r^2 + e^2)) + g' r / sqrt(r^2 + e^2) + v
     /// ```
     ///
-    /// With the share that the last iterate's slope foresees Newton's method converges from anywhere, and as fast near the solution,
-    /// where w is that of the rate (Chan, Golub and Mulet 1999).
+    /// With the w that the slope of the last iterate predicts, Newton's method converges from anywhere. Near the solution, where w is
+    /// that of the rate, it converges as fast (Chan, Golub and Mulet 1999).
     #[inline]
     pub fn slope(&self, rate: T, w: T) -> T {
         let (share, root, level) = self.parts(rate);

@@ -42,7 +42,7 @@ mod law {
 
     /// Ratio of a value by which it is changed to find a slope, and the least change [m, rad]: the third root of rounding.
     const CHANGE: [f64; 2] = [6e-6, 6e-9];
-    /// The change of time for the same [s].
+    /// Change of time by which a rate is found [s]: near the third root of rounding for times of order one.
     const INSTANT: f64 = 1e-6;
 
     impl<T: Real> CodeLaw<T> {

@@ -9,7 +9,7 @@
 //! ```
 //!
 //! x1, x2 stand across the axis in the first body, y in the second. phi = sin(angle - f): regular for every angle; the
-//! false root half a turn away has B.y < 0, which [`Guided::is_opposite`] tells.
+//! false root half a turn away has B.y < 0, see [`Guided::is_opposite`].
 
 use super::combination::{Span, Term, add_gradient, combine};
 use crate::Real;

@@ -48,7 +48,7 @@ pub(crate) fn put<T>(out: &mut [Action<T>], place: usize, action: Action<T>) {
     }
 }
 
-/// Largest number of actions of a law on a body: a tire has four.
+/// Most unit wrenches of a law on a body [-]: a tire has four.
 pub const MAX_ACTIONS: usize = 4;
 
 /// A law on one body. [`BodyLaw`] is one of all that there are.

@@ -12,7 +12,7 @@
 use super::operations::Operations;
 use crate::Real;
 
-/// Depth over which the damper fades in [m or rad].
+/// Depth over which the damper fades in [m or rad], so that contact begins without a jump of the force. Chosen, not tuned.
 pub const FADE: f64 = 1e-3;
 
 /// Operations of [`contact`], with the fade.
@@ -66,6 +66,7 @@ pub fn energy<T: Real>(stiffness: T, x: T) -> T {
 mod tests {
     use super::*;
 
+    /// Stiffness [N/m] and damping [N s/m] of a stiff stop.
     const LAW: [f64; 2] = [1e5, 2e3];
 
     #[test]

@@ -16,7 +16,7 @@
 use super::entry::entry;
 use crate::Real;
 
-/// Friction below which the polynomial, which falls to zero and below at loads it was never fitted for, is not followed [-].
+/// Least friction coefficient [-]: the polynomial falls below zero at loads that it was never fitted for. Chosen, not tuned.
 pub const LEAST_FRICTION: f64 = 0.2;
 
 /// Coefficients of the model.

@@ -176,6 +176,7 @@ pub fn spline<T: Real>(table: &[[T; 2]], curvature: &[T], t: T) -> GuideMotion<T
 mod tests {
     use super::*;
 
+    /// Times [s] and values of knots that are unequally far apart.
     const TABLE: [[f64; 2]; 5] = [[-1.0, 0.3], [0.0, 0.0], [0.5, -0.2], [1.7, 1.1], [2.0, 1.0]];
 
     fn prepared() -> [f64; 5] {

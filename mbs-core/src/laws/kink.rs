@@ -1,4 +1,4 @@
-//! Kinks: places at which a law passes from one smooth piece to the next, told by a coordinate that is zero there.
+//! Kinks: places at which a law passes from one smooth piece to the next, each with a coordinate that is zero there.
 //!
 //! ```text
 //! road         g = (x - x_k) + (z - h_k) h'_k        x, z the wheel's centre over the road: the foot is at x_k where g = 0
@@ -6,13 +6,13 @@
 //! ```
 //!
 //! g is -D' of the foot at x_k: where D has one minimum within a wheel's reach, the foot lies right of x_k where g > 0.
-//! The foot's way itself would tell the same, but its speed jumps where the road's curvature does; g is linear in the centre, so
+//! The foot's coordinate would do as well, but its rate jumps where the road's curvature does. g is linear in the centre, so
 //! that it is as smooth as the motion and can be interpolated through the kink. Where D has more than one, in hollows about as
-//! tight as the wheel, a kink beside the foot may be told, and a step end there in vain.
+//! tight as the wheel, a kink beside the foot may be found, and a step end there in vain.
 //!
 //! A table may end in a slope, and the road has a corner there. On a crest the foot rests at the corner while the centre
-//! passes between the two normals: two kinks. In a hollow it jumps from one side to the other where both are equally near: one
-//! kink, on the line that halves the angle (the road beside it taken as straight, which an end of a spline is but for h''').
+//! passes between the two normals: two kinks. In a hollow it jumps from one side to the other where both are equally near. That
+//! is one kink, on the line that halves the angle. The road beside it is taken as straight, which an end of a spline is but for h'''.
 
 use super::{Part, Supplies, road};
 use crate::Real;
@@ -42,8 +42,8 @@ impl<T: Real> Kink<T> {
     }
 }
 
-/// Jumps below this are none: of the slope [-] and the curvature [1/m].
-const LEVEL: f64 = 1e-6;
+/// Largest jump that counts as none, of the slope [-] and the curvature [1/m]. Chosen, not tuned.
+const MAX_JUMP: f64 = 1e-6;
 
 /// Hands out the places where slope or curvature of a road jump, feature by feature.
 ///
@@ -65,7 +65,7 @@ fn of_place<T: Real>(
     // Both sides, a little more than rounding away.
     let aside = T::EPSILON * T::from_f64(8.0) * (T::ONE + place.abs());
     let [left, right] = [place - aside, place + aside].map(|x| road::height(road, supplies, x));
-    let level = T::from_f64(LEVEL);
+    let level = T::from_f64(MAX_JUMP);
     let bent = (right.curvature - left.curvature).abs() > level;
     let smooth = (left.curvature.abs() + right.curvature.abs()) * aside;
     let turn = right.slope - left.slope;

@@ -47,8 +47,8 @@ impl Operations {
         self.products + self.sums + self.quotients + self.roots + self.turns
     }
 
-    /// The bound of instructions of a Cortex-M whose arithmetic unit has the precision: 7 for two products or sums with their loads,
-    /// stores and part of the loops, 16 for a quotient, 40 to find an entry. In single precision a root is an instruction between moves, and turns
+    /// The bound of instructions of a Cortex-M whose arithmetic unit has the precision. It counts 7 for two products or sums with their
+    /// loads, stores and part of the loops, 16 for a quotient, 40 to find an entry. In single precision a root is an instruction between moves, and turns
     /// need no doubles; in double precision both are functions of libm. Angles beyond 6400 rad, in double precision 1e6 rad, cost more.
     #[must_use]
     pub const fn instructions(&self, is_double: bool) -> u64 {

@@ -5,16 +5,15 @@
 //! on a body                        (motion, u) -> unit wrenches with tensions
 //! ```
 //!
-//! u are the three numbers of the effect's course: constant, a table, or set between steps, which is how the output of a
-//! controller, a driver or a machine gets in.
+//! u are the three numbers of the effect's course: constant, a table, or set between steps. The output of a
+//! controller, a driver or a machine is set so.
 
 use super::body::{Action, BodyMotion};
 use super::scalar::Measure;
 
 /// A law along a length or about an angle.
 pub trait ScalarLaw<T> {
-    /// Tension with its derivatives by value and rate, as far as they stiffen; derivatives that are left at zero only cost
-    /// iterations.
+    /// Tension with those derivatives by value and rate that stiffen. Derivatives that are left at zero only cost iterations.
     fn evaluate(value: T, rate: T, input: [T; 3]) -> Measure<T>;
 
     /// Stored energy [J]; what is not stored counts as power given or taken.

@@ -11,17 +11,17 @@
 //!
 //! **What is found.** Newton's method on D', kept within a bracket that holds a minimum of D, starts from the point below the
 //! centre and ends in a stationary point, always one at least as near as that start. Where h'' d < 1 holds over the reach of
-//! the centre, h'' bounded by the sum over the road's parts, that point is the nearest: the circle of radius d about the
+//! the centre, h'' bounded by the sum over the road's parts, that point is the nearest. The circle of radius d about the
 //! centre, which touches the road there, is rounder than the road everywhere, so that the road stays below it. Scenes are
 //! refused whose features break h'' R < 1, so this covers every wheel that is pressed in, one feature at a time.
 //!
 //! Elsewhere, which is in hollows as tight as the wheel and where a centre is far above a road, the road within the distance
-//! already found is looked at in [`CELLS`] equal cells, every cell at whose ends the distance shows a minimum within is
-//! searched, and the nearest of all is taken. A second minimum inside one cell (an eighth of the distance) may be missed; so may
+//! already found is divided into [`CELLS`] equal cells. Every cell at whose ends the distance shows a minimum within is
+//! searched, and the nearest of all is taken. A second minimum inside one cell (an eighth of the distance) may be missed. So may
 //! what the last cells show where the first took all of the steps that they share ([`most_heights`]).
 //!
 //! **Two points equally near.** The nearest point, and with it the direction of the force, jumps where the centre crosses the
-//! middle between two points that are equally near; distance and force stay continuous in size. Equally near ones are
+//! middle between two points that are equally near. Distance and force stay continuous in size. Equally near ones are
 //! decided for the one found first. A wheel that rests in a hollow tighter than itself sits on such a jump: one force stands
 //! for two, and alternates.
 //!
@@ -45,7 +45,7 @@ pub struct RoadContact<T> {
 
 /// Newton steps and bisections of one search at most: as many as the number has bits, and some.
 const fn steps<T: Real>() -> usize {
-    // Sizes tell precisions apart where a number is not compared yet.
+    // Sizes distinguish precisions where a number is not compared yet.
     if size_of::<T>() == 4 { 32 } else { 64 }
 }
 
@@ -56,7 +56,8 @@ pub const fn most_heights<T: Real>() -> usize {
     1 + steps::<T>() + 1 + CELLS as usize + 2 * steps::<T>()
 }
 
-/// Cells into which the reach of a centre is divided where one search does not suffice.
+/// Cells that the reach of a centre is divided into where one search does not suffice [-]. A second minimum inside one, an eighth of
+/// the distance wide, may be missed; each costs a height. Chosen, not tuned.
 pub const CELLS: u32 = 16;
 
 /// The nearest point to (x, z) [m]. Cost: one height where the road is level within the centre's height above it, a few on
@@ -88,9 +89,11 @@ impl<T: Real> RoadContact<T> {
     /// How the normal turns as the centre moves along the road by its tangent (normal_up, -normal_x) [1/m]. In a hollow it
     /// grows without bound where the centre comes to the centre of curvature; it is cut off at a hundred times h''.
     pub fn turn(&self) -> T {
+        /// Least distance to the centre of curvature, relative to its radius [-]. Chosen, not tuned.
+        const LEAST_DISTANCE: f64 = 0.01;
         let up = self.normal[1];
         let kappa = self.bend * up * up * up;
-        -kappa / (T::ONE - kappa * self.distance).max(T::from_f64(0.01))
+        -kappa / (T::ONE - kappa * self.distance).max(T::from_f64(LEAST_DISTANCE))
     }
 }
 
@@ -160,9 +163,11 @@ impl<T: Real> Search<'_, T> {
 
     /// D'', or that of a straight road where D'' may vanish.
     fn pivot(&self, height: &Height<T>) -> T {
+        /// Least D'', relative to that of a straight road [-]: steps are at most ten times as long. Chosen, not tuned.
+        const LEAST_PIVOT: f64 = 0.1;
         let steep = T::ONE + height.slope * height.slope;
         let full = steep - (self.center[1] - height.value) * height.curvature;
-        if full > steep * T::from_f64(0.1) { full } else { steep }
+        if full > steep * T::from_f64(LEAST_PIVOT) { full } else { steep }
     }
 
     /// The nearest of all minima that cells within `distance` show, `best` among them.
@@ -368,7 +373,7 @@ mod tests {
         assert!((at.distance - d).abs() < 1e-12, "{at:?}");
         assert!((at.normal[0] + 0.1 / d).abs() < 1e-12 && (at.normal[1] - 0.4 / d).abs() < 1e-12);
         assert!((at.turn() - 1.0 / d).abs() < 1e-6 / d);
-        // In the hollow at the other end the wheel rests on both sides, and one is told.
+        // In the hollow at the other end the wheel rests on both sides, and one is found.
         let at = road_contact(road, &s, [-0.05, 0.3]);
         let slope = (0.3 + 0.05 * 0.5) / 1.25_f64.sqrt();
         assert!((at.distance - slope).abs() < 1e-14, "{at:?} {slope}");

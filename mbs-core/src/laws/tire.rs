@@ -16,15 +16,15 @@
 //! by the square of the camber. A wheel without an axis, and every wheel in the plane, has no camber: cos g = 1.
 //!
 //! v_x is the centre's speed along the wheel's plane and the road, v_y that of the contact point, fixed in the carrier, across
-//! the plane: where the carrier rolls, its tire slides sideways on the ground, and the side force does the work that is booked.
+//! the plane. Where the carrier rolls, its tire slides sideways on the ground, and the side force does that work.
 //! The regularisation v_s = 0.1 m/s makes all forces continuous through standstill, where the side force is a damper; at 5 m/s
-//! it changes the slip angle by 2e-4 of itself. The wheel rolls freely, without slip along its plane; the angular momentum of
+//! it changes the slip angle by 2e-4 of itself. The wheel rolls freely, without slip along its plane. The angular momentum of
 //! its spin is that of a body of its own on the carrier, where a scene has one. The side force acts at the contact point,
 //! rolling resistance at the hub.
 //!
 //! Range: camber counts up to 84 degrees, where cos g is held at 0.1; a wheel whose centre is below the road is pushed out along
 //! n. Both keep the deflection continuous. Source: the open Iltis model of UCLouvain has the same contact point. It leaves the
-//! camber out of the deflection, so that its radial force has no potential, and takes v_y at the centre; with either, its ramp
+//! camber out of the deflection, so that its radial force has no potential, and takes v_y at the centre. With either, its ramp
 //! steers at 10, 20 and 30 m/s end within 0.04 % of the way across.
 
 use super::body::{Action, BodyMotion, WrenchesLaw, put};
@@ -41,7 +41,7 @@ use super::{Part, Supplies};
 use crate::Real;
 use crate::algebra::{Vector, cross, norm};
 
-/// v_s: speed below which slip is regularised [m/s].
+/// Speed v_s below which slip is regularised [m/s]. Chosen, not tuned.
 pub const STANDSTILL: f64 = 0.1;
 
 /// A wheel.
@@ -101,17 +101,23 @@ struct Stance<T> {
     row: [Vector<T, 3>; 2],
 }
 
-/// Least cosine of the camber that counts.
+/// Least cosine of the camber [-]: beyond 84° the stretch 1 / cos g would grow without bound. Chosen, not tuned.
 const LEAST_COSINE: f64 = 0.1;
 
-/// Places of a tire's actions.
+/// Least sine of the angle between axis and normal [-], below which the wheel has no direction. Chosen, not tuned.
+const LEAST_WIDTH: f64 = 1e-6;
+
+/// Place of the radial force among a tire's unit wrenches.
 pub const RADIAL: usize = 0;
+/// Place of the rolling resistance.
 const ROLLING: usize = 1;
+/// Place of the side force.
 const SIDE: usize = 2;
+/// Place of the aligning torque.
 const ALIGNING: usize = 3;
 
-/// What slides has at least the slope of the secant where an iteration went across rest: by the tangents alone, which fall to nothing where
-/// the slide is fast, it would go to and fro.
+/// Sliding has at least the slope of the secant where an iteration went across rest. The tangents alone vanish where sliding is fast: the
+/// iteration would oscillate.
 #[inline]
 fn look_back<T: Real>(action: usize, measure: &mut Measure<T>, before: &Measure<T>) {
     if (action == ROLLING || action == SIDE) && measure.rate * before.rate < T::ZERO {
@@ -193,7 +199,7 @@ impl<T: Real> TireLaw<T> {
         let flat = axis - normal * lean;
         let width = norm(&flat);
         // A wheel that lies on its side has no direction: nothing but the radial force acts.
-        if !(width > T::from_f64(1e-6)) {
+        if !(width > T::from_f64(LEAST_WIDTH)) {
             return;
         }
         let across = flat * (T::ONE / width);
@@ -374,7 +380,7 @@ fn nearest<T: Real>(features: &[Feature<T>]) -> Operations {
             // In the rounded corner at the end.
             Feature::Rise { .. } => (ops(4, 5).and(4, 0, 0), ops(1, 3).and(1, 0, 0)),
             Feature::Bump { .. } => (ops(8, 2).and(1, 0, 1), ops(3, 2).and(1, 0, 0)),
-            // The slopes at both ends of a table tell whether it rises from them.
+            // The slopes at both ends of a table show whether it rises from them.
             Feature::Spline(_) => (ops(21, 14).and(4, 0, 0), ops(42, 30).and(9, 0, 0)),
         };
         height += value + ops(0, 3);

@@ -16,8 +16,14 @@ use crate::algebra::{Coef, Matrix, Vector, across, cross, inverse, norm};
 use crate::cluster::Cluster;
 use alloc::vec::Vec;
 
-/// Smallest share of a candidate direction that must be new for it to enter a basis.
+/// Least part of a unit vector across the directions before it for which it enters a basis [-]: sin 11.5°. Chosen, not tuned.
 pub const INDEPENDENCE: f64 = 0.2;
+/// Least distance of two points that are a basis, relative to the body's size [-]: rounding grows by its inverse. Chosen, not tuned.
+const LEAST_ARM: f64 = 0.05;
+/// Coefficients that count as rounding, in units of rounding of the numbers that they are summed from [-]. Chosen, not tuned.
+const SNAP_ROUNDINGS: f64 = 32.0;
+/// Factor by which a later candidate must be better, so that rounding does not choose [-]. Chosen, not tuned.
+const BETTER: f64 = 1.01;
 
 /// A combination of entities (by number), before coordinates are numbered.
 pub(crate) type Combination<T> = Vec<(usize, Coef<T>)>;
@@ -53,9 +59,10 @@ impl<T: Real> Basis<T> {
         let far = farthest(&points, &at, entities);
         let direction = shared.iter().copied().find(|&e| entities[e].kind == EntityKind::Direction);
         let size = far.map_or(T::ZERO, |(_, d)| d);
+        let least = T::from_f64(LEAST_ARM);
         let (second, is_point) = match (far, direction) {
             (_, Some(d)) if entities[d].is_constant => (d, false),
-            (Some((p, _)), _) if size > cluster_size(cluster, &at) * T::from_f64(0.05) => (p, true),
+            (Some((p, _)), _) if size > cluster_size(cluster, &at) * least => (p, true),
             (_, Some(d)) => (d, false),
             _ => (own_direction(Vector::<T, 3>::new(T::ONE, T::ZERO, T::ZERO), entities), false),
         };
@@ -76,7 +83,7 @@ impl<T: Real> Basis<T> {
         let at = entities[origin].at;
         let length = norm(&(ends[1] - ends[0]));
         let second = match farthest(&points, &at, entities) {
-            Some((p, d)) if d > length * T::from_f64(0.05) => p,
+            Some((p, d)) if d > length * T::from_f64(LEAST_ARM) => p,
             _ => {
                 let far =
                     if norm(&(ends[0] - at)) > norm(&(ends[1] - at)) { ends[0] } else { ends[1] };
@@ -245,9 +252,9 @@ fn two_by_two<T: Real>(m: T, moment: Coef<T>, g22: Coef<T>, two_points: bool) ->
 }
 
 /// Coefficients that are rounding of zero beside `size`, that of the numbers they were summed from, are zero, so that no element touches
-/// coordinates for nothing; those that are rounding of one are one.
+/// coordinates for nothing. Those that are rounding of one are one.
 fn snap<T: Real>(c: Coef<T>, size: T) -> Coef<T> {
-    let tiny = T::EPSILON * T::from_f64(32.0);
+    let tiny = T::EPSILON * T::from_f64(SNAP_ROUNDINGS);
     let clean = |x: T| {
         if x.abs() <= tiny * size {
             T::ZERO
@@ -345,8 +352,7 @@ fn most_independent<T: Real>(
             w -= u * u.dot(&w);
         }
         let new = norm(&w);
-        // A later candidate must be clearly better, so that rounding does not choose.
-        let is_better = best.as_ref().is_none_or(|(_, _, b)| new > *b * T::from_f64(1.01));
+        let is_better = best.as_ref().is_none_or(|(_, _, b)| new > *b * T::from_f64(BETTER));
         if new > T::from_f64(INDEPENDENCE) && is_better {
             best = Some((e, w * (T::ONE / new), new));
         }

@@ -14,7 +14,8 @@ use crate::model::Owner;
 use crate::scene::{BodyId, Dimension, Scene};
 use alloc::vec::Vec;
 
-/// Dependent entities that share an element with their body; each further one is an element of its own.
+/// Dependent entities that share an element with their body [-]. Each further one is an element of its own, as the block of a hub with
+/// many joints would grow like the square of their number. Chosen, not tuned.
 const TOGETHER: usize = 2;
 
 /// Everything known while a model is built.
@@ -109,7 +110,6 @@ impl<'a, T: Real> Builder<'a, T> {
                 };
                 let x =
                     super::draft::difference(&x, &alloc::vec![(e, crate::algebra::Coef::one())]);
-                // The block of a hub with many joints would grow like the square of their number.
                 if i >= TOGETHER {
                     self.groups.push(GroupDraft::new(owner));
                 }

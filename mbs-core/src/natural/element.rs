@@ -13,16 +13,16 @@ use crate::elements::{GuidedMotion, combine};
 use crate::model::{Load, Measure, Tangent, Terms};
 use alloc::vec;
 
-/// Unknowns of a group whose rows are taken as dense, and of a mechanism whose bodies and joints are one element. The work of a dense
-/// row grows like the square of their number: at eight it is that of telling parts of two and four apart.
+/// Most unknowns of a group whose rows are taken as dense, and of a mechanism whose bodies and joints are one element [-]. The work of a
+/// dense row grows like the square of their number: at eight it is that of distinguishing parts of two and four.
 pub(super) const DENSE: usize = 8;
 
-/// Unknowns of a group whose residual stands on the stack: an effect between two bodies has at most so many.
+/// Most unknowns of a group whose residual is on the stack [-]: those of an effect between two bodies.
 pub(super) const ROOM: usize = 24;
 
 impl<T: Real, const D: usize> NaturalModel<T, D> {
-    /// Diagonal of M, lifted where it is (nearly) zero so that it can scale: by `floor` of the largest entry, where entries of points
-    /// and of directions are compared at the scene's length.
+    /// Diagonal of M, lifted where it is (nearly) zero so that it can scale: to `floor` of the largest entry. Entries of points and of
+    /// directions are compared at the scene's length.
     pub(crate) fn mass_diagonal(&self, floor: T) -> alloc::vec::Vec<T> {
         let mut diagonal = vec![T::ZERO; self.n_unknowns];
         for group in self.groups.iter().filter(|g| !g.mass.is_empty()) {

@@ -11,8 +11,8 @@ use crate::team::Alone;
 use alloc::vec;
 use core::ops::Range;
 
-/// Calls a kernel with the number of unknowns of a group known to the compiler, where it is one that bodies, joints and effects
-/// between two bodies have most often; else with zero.
+/// Calls a kernel with the number of unknowns of a group known to the compiler, where bodies, joints and effects between two bodies
+/// often have it. Else with zero.
 macro_rules! sized {
     ($k:expr, $self:ident.$kernel:ident($($argument:expr),*)) => {
         match $k {
@@ -31,7 +31,7 @@ macro_rules! sized {
     };
 }
 
-/// Masses below this ratio of the largest are lifted to it where rows are scaled.
+/// Least mass where rows are scaled, relative to the largest [-]: an inverse mass stays finite. Chosen, not tuned.
 const LIFTED: f64 = 1e-6;
 
 impl<T: Real, const D: usize> NaturalModel<T, D> {
@@ -67,7 +67,8 @@ impl<T: Real, const D: usize> NaturalModel<T, D> {
     }
 }
 
-/// Cotangents of the angles to the way under which the line of two points that pass each other is looked at.
+/// Cotangents of the angles between path and line at which two points that pass each other are evaluated [-]. Chosen, not tuned:
+/// powers of four from 86° to 14°.
 const OBLIQUE: [f64; 4] = [0.0625, 0.25, 1.0, 4.0];
 
 impl<T: Real, const D: usize> Model<T> for NaturalModel<T, D> {
@@ -130,7 +131,7 @@ impl<T: Real, const D: usize> Model<T> for NaturalModel<T, D> {
                 continue;
             }
             let passed = norm(&(from + way * closest)) / speed;
-            // A hair before, as at no distance a force has no direction; and where the line stands oblique to the way.
+            // A little before, as at no distance a force has no direction; and where the line is oblique to the path.
             let hair = length / speed * T::EPSILON.sqrt();
             for share in OBLIQUE {
                 let before = closest - passed * T::from_f64(share) - hair;

@@ -55,7 +55,7 @@ struct Layout<T: Real, const D: usize> {
     masses: Vec<(Span, Span)>,
 }
 
-/// Bodies alike share their mass with one of so many different ones before: what a chain reads stays in the cache.
+/// Different masses among which an equal one is searched [-]: what a chain reads stays in the cache. Chosen, not tuned.
 const RECENT: usize = 16;
 
 /// Where a combination's columns are in the group at hand.
@@ -138,8 +138,8 @@ impl<T: Real, const D: usize> Layout<T, D> {
         Self { model, entities, masses: Vec::new() }
     }
 
-    /// The groups in the order in which the last of their unknowns comes: joints and effects stand with the bodies that they act
-    /// on, so that a step which goes through all groups stays within a few thousand numbers for a while.
+    /// The groups in the order in which the last of their unknowns comes: joints and effects are next to the bodies that they act
+    /// on. A step that goes through all groups then stays within a few thousand numbers for a while.
     fn near_their_bodies<'a>(&self, groups: &'a [GroupDraft<T>]) -> Vec<&'a GroupDraft<T>> {
         let last = |group: &GroupDraft<T>| {
             let unknown = |&e: &usize| !self.entities[e].is_constant;

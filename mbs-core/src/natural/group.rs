@@ -83,7 +83,7 @@ pub(crate) fn add_squares<T: Real, const R: usize>(
     g: [&[T]; R],
     w: [T; R],
 ) {
-    // No closures over arrays: whether they are inlined is up to the number of codegen units of whoever builds.
+    // No closures over arrays: whether they are inlined depends on the number of codegen units of the build.
     let mut g = g;
     for g in &mut g {
         *g = &g[..k];

@@ -1,5 +1,5 @@
-//! Bodies and joints of a small mechanism as one element: a dense block that the compiler knows the size of is done sooner than the
-//! blocks of its parts are told apart.
+//! Bodies and joints of a small mechanism as one element. A dense block whose size the compiler knows takes less time than distinguishing
+//! the blocks of its parts.
 
 use super::draft::GroupDraft;
 use super::element::DENSE;

@@ -5,13 +5,13 @@ use crate::algebra::Vector;
 use alloc::collections::BTreeMap;
 use alloc::vec::Vec;
 
-/// Places that are looked at one by one; beyond, they are sorted into cells.
-const FEW: usize = 16;
+/// Most places that are compared one by one [-]; more are sorted into cells. Chosen, not tuned: the result is the same.
+const MAX_UNSORTED: usize = 16;
 
 /// Numbers of places that the caller knows, by where they are.
 #[derive(Debug, Clone)]
 pub(super) struct Near {
-    /// The first [`FEW`], in order.
+    /// The first [`MAX_UNSORTED`], in order.
     few: Vec<usize>,
     /// All of them by cell, each in order, once there are more.
     cells: BTreeMap<[i64; 3], Vec<usize>>,
@@ -25,14 +25,14 @@ impl Near {
         Self { few: Vec::new(), cells: BTreeMap::new(), edge: tolerance.to_f64() * 4.0 }
     }
 
-    /// The smallest number that is `same`, of those near one of `around`. `place` tells where a number is.
+    /// The smallest number that is `same`, of those near one of `around`. `place` is the place of a number.
     pub(super) fn first<T: Real>(
         &mut self,
         around: &[Vector<T, 3>],
         same: impl Fn(usize) -> bool,
         place: impl Fn(usize) -> Vector<T, 3>,
     ) -> Option<usize> {
-        if self.few.len() < FEW {
+        if self.few.len() < MAX_UNSORTED {
             return self.few.iter().copied().find(|&i| same(i));
         }
         if self.cells.is_empty() {
@@ -59,7 +59,7 @@ impl Near {
 
     /// Adds a number, larger than those before, and its place.
     pub(super) fn push<T: Real>(&mut self, i: usize, at: &Vector<T, 3>) {
-        if self.few.len() < FEW {
+        if self.few.len() < MAX_UNSORTED {
             self.few.push(i);
         } else {
             self.sort_in(i, at);
@@ -70,7 +70,7 @@ impl Near {
         self.cells.entry(self.cell(at, 0.0)).or_default().push(i);
     }
 
-    /// The cell of a place moved by so many edges along each axis. What is too far for whole numbers shares the last cell.
+    /// The cell of a place moved by `side` edges along each axis. Places too far for whole numbers share the last cell.
     #[allow(clippy::cast_possible_truncation, reason = "floats saturate when they are cast")]
     fn cell<T: Real>(&self, at: &Vector<T, 3>, side: f64) -> [i64; 3] {
         core::array::from_fn(|i| libm::floor(at[i].to_f64() / self.edge + side) as i64)
@@ -81,6 +81,7 @@ impl Near {
 mod tests {
     use super::*;
 
+    /// Distance that counts as near [m].
     const TOLERANCE: f64 = 1e-9;
 
     #[test]

@@ -16,7 +16,7 @@ use crate::team::Team;
 use alloc::vec::Vec;
 use core::ops::Range;
 
-/// Groups of a part: some ten microseconds of evaluation.
+/// Groups of a part [-], which one thread evaluates: some ten microseconds of work.
 const GROUPS: usize = 64;
 
 /// Neighbouring groups: from one mark to another.

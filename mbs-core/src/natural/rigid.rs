@@ -1,10 +1,10 @@
-//! The rigid-body rows of all bodies, each told once.
+//! The rigid-body rows of all bodies, each written once.
 //!
-//! A body tells the constant lengths and angles of its basis, at most ½ nb (nb - 1) rows. What another body tells of the same
-//! shared entities is left out: the unit length of a common axis, say, or a length that follows for a body because one of
-//! the entities depends on its basis. Bodies tell in file order, but after those that imply a row of theirs. Where a direction
-//! depends on the bases of two bodies, its unit length follows from both: the second leaves out the row of its basis that
-//! weighs most in that length.
+//! A body has rows for the constant lengths and angles of its basis, at most ½ nb (nb - 1). Rows of another body on the same shared
+//! entities are left out, such as the unit length of a common axis. So is a length that follows for a body because one of the
+//! entities depends on its basis. Bodies come in file order, but after those that imply a row of theirs. Where a direction depends
+//! on the bases of two bodies, its unit length follows from both. The second leaves out the row of its basis that weighs most in
+//! that length.
 
 use super::basis::Basis;
 use super::draft::RowDraft;
@@ -15,7 +15,7 @@ use alloc::collections::{BTreeMap, BTreeSet};
 use alloc::vec;
 use alloc::vec::Vec;
 
-/// Least weight of a row in the unit length of a direction for which it may be left out.
+/// Least weight of a row in the unit length of a direction for which it may be left out [-]: rounding grows tenfold. Chosen, not tuned.
 const WEIGHT: f64 = 0.1;
 
 /// Two vectors, each from an entity to an entity (`zero` for directions); a length has `zero` twice in the second place.

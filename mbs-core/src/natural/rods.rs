@@ -24,7 +24,7 @@ impl<T: Real> Rods<T> {
         clusters: &Clusters<T>,
         length: T,
     ) -> Self {
-        let relative = T::from_f64(super::sharing::TOLERANCE).max(T::EPSILON * T::from_f64(64.0));
+        let relative = super::sharing::tolerance::<T>();
         let mut ends = vec![None; scene.bodies.len()];
         for cluster in &clusters.clusters {
             if let (Some(rod), Some(&body)) = (cluster.rod, cluster.bodies.first()) {

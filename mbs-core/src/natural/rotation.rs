@@ -5,7 +5,7 @@
 //! u_k' = omega x u_k:   dw_i/du_k = g x u_k / 2 in the second body, less in the first
 //! ```
 //!
-//! Within half a turn w is that of the matrix; beyond, it goes on from the last one.
+//! Within half a turn w is that of the matrix; beyond, it continues from the last one.
 
 use crate::Real;
 use crate::algebra::{

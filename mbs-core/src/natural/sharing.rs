@@ -12,7 +12,7 @@ use crate::scene::{Dimension, Joint, Scene, Translation};
 use alloc::collections::BTreeSet;
 use alloc::vec::Vec;
 
-/// Features closer than this, relative to the scene's length (points) or as an angle (directions), are one.
+/// Distance below which features are one, relative to the scene's length (points) or as an angle (directions) [-]. Chosen, not tuned.
 pub const TOLERANCE: f64 = 1e-9;
 
 /// Point or direction.
@@ -72,8 +72,12 @@ impl<T: Real> Sharing<T> {
     }
 }
 
-fn tolerance<T: Real>() -> T {
-    T::from_f64(TOLERANCE).max(T::EPSILON * T::from_f64(64.0))
+/// Least tolerance, in units of rounding [-]: it counts in `f32` alone. Chosen, not tuned.
+const ROUNDINGS: f64 = 64.0;
+
+/// [`TOLERANCE`], or [`ROUNDINGS`] where the scalar has fewer digits.
+pub(super) fn tolerance<T: Real>() -> T {
+    T::from_f64(TOLERANCE).max(T::EPSILON * T::from_f64(ROUNDINGS))
 }
 
 /// What a joint keeps common.

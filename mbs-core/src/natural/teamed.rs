@@ -204,7 +204,7 @@ impl<T: Real, const D: usize> NaturalModel<T, D> {
     }
 }
 
-/// rates = J x of a group of all `K` unknowns in their order, summed one by one: with two sums side by side the energy of
+/// rates = J x of a group of all `K` unknowns in their order, summed one by one. With two sums side by side the energy of
 /// `two-four-bars` drifts by half more in ten million steps of 1e-6 s.
 #[inline(always)]
 fn multiply_dense<T: Real, const K: usize>(

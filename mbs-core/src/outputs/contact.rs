@@ -14,7 +14,7 @@ use crate::scene::Scene;
 use alloc::vec;
 use alloc::vec::Vec;
 
-/// Instants kept of a run at most.
+/// Most instants kept of a run [-]: their memory, 32 kB, is taken at its start. Chosen, not tuned.
 pub const MOST_INSTANTS: usize = 1000;
 
 /// A contact that is made or broken.

@@ -9,10 +9,10 @@ use crate::scene::{BodyId, Freedom, Joint, Scene};
 use alloc::boxed::Box;
 use alloc::vec::Vec;
 
-/// A turn in one step that positions and rates must tell alike [rad]: the trapezoidal rule in natural coordinates turns by 2 atan(x/2) for x,
+/// Turn in one step from which positions and rates are compared [rad]. The trapezoidal rule in natural coordinates turns by 2 atan(x/2) for x,
 /// 0.7 % less at this.
-const LARGE: f64 = 0.3;
-/// The part of such a turn that they may differ by.
+const LARGE_TURN: f64 = 0.3;
+/// Largest relative difference of such a turn by positions and by rates [-]: above the 0.7 % of the rule.
 const MISFIT: f64 = 1e-2;
 
 /// One coordinate of a joint, or the three of a turn.
@@ -99,7 +99,7 @@ impl<T: Real, const D: usize> Coordinate<T, D> {
         last + (before + now) * dt * T::HALF
     }
 
-    /// Between two states: the turn that an angle's rates tell, if it is a large one that its positions do not tell too.
+    /// Between two states: the turn of an angle by its rates, if it is a large one and its positions differ.
     pub(super) fn lost_turn(&self, [from, to]: [&State<T>; 2]) -> Option<T> {
         if !self.is_angle() {
             return None;
@@ -108,7 +108,7 @@ impl<T: Real, const D: usize> Coordinate<T, D> {
         self.rates(&from.q, &from.v, &mut before);
         self.rates(&to.q, &to.v, &mut now);
         let expected = Self::expected(T::ZERO, [before[0], now[0]], to.t - from.t);
-        if !(expected.abs() > T::from_f64(LARGE)) {
+        if !(expected.abs() > T::from_f64(LARGE_TURN)) {
             return None;
         }
         let turned = unwrap(self.angle_at(&to.q) - self.angle_at(&from.q), expected);

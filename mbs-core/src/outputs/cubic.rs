@@ -6,7 +6,7 @@
 //! ```
 //!
 //! Where it changes sides is asked with a band about zero, in which it is on neither. So a step that starts in the band, where
-//! the last one has landed, leaves it to either side without a change; and a touch that stays in the band is none.
+//! the last one has landed, leaves it to either side without a change. A touch that stays in the band is none.
 
 use super::load::Gap;
 use crate::Real;
@@ -20,14 +20,14 @@ pub(super) struct Cubic {
     slopes: [f64; 2],
 }
 
-/// Bisections of a root: to 1e-16 of the step.
+/// Bisections of a root [-]: to 1e-16 of the step.
 const HALVINGS: u32 = 53;
 
-/// How far beyond the step's end a change is looked for [-].
+/// Fraction of a step beyond its end in which a change is found [-]: a longer trial ends there, and no tiny step follows. Chosen, not tuned.
 const BEYOND: f64 = 0.05;
 
-/// A change before this share of the step is one of its start [-]. A kink of a force at a share r of a step leaves r (1 - r)
-/// times four of the largest error: here less than half a percent.
+/// Fraction of a step before which a change is one of its start [-]. A kink of a force at r leaves 4 r (1 - r) of the largest error:
+/// here less than half a percent.
 const AT_START: f64 = 1e-3;
 
 impl Cubic {

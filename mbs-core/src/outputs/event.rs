@@ -5,23 +5,23 @@
 //! kink     of a road under a wheel that is pressed in, and between the pieces of a polynomial spring
 //! ```
 //!
-//! Values and rates at both ends of the step give a cubic for each, and its first change of sign is told as a share of the step.
+//! Values and rates at both ends of the step give a cubic for each. Its first change of sign is an event, at a fraction of the step.
 //! A trial that ends within a band about zero has landed: there the value is on neither side, and the next step leaves to either
-//! without a second event. Whoever steps makes a trial, asks [`Events::first_event`], tries again from the same beginning with that
-//! share of the step while it has not landed, and ends with [`Events::accept`]. It is the method of the secant with a cubic in
+//! without a second event. A driver makes a trial, asks [`Events::first_event`], tries again from the same beginning with that
+//! fraction of the step while it has not landed, and ends with [`Events::accept`]. It is the method of the secant with a cubic in
 //! place of a line, and two or three trials are usual.
 //!
 //! A contact that begins with the step has a stiffness of its own, which the step may be too long for. The trapezoidal rule then
-//! throws it back within the step, with all its energy, as if no time had passed. Of the way p = -g0' h that the speed alone would
-//! give, it goes p / (1 + (w h / 2)^2) where w^2 is stiffness over mass: less than four fifths are told as a trial too long, with
-//! the share that makes w h nearly one. A damper fades in over a millimetre, which a step at speed passes unseen: a step, or a few
-//! equal ones, end there. What the means of their ends are off by in one half of the fade they make good in the other.
+//! throws it back within the step, with all its energy, as if no time had passed. Of the free path p = -g0' h, which the speed alone
+//! would give, it goes p / (1 + (w h / 2)^2) where w^2 is stiffness over mass. Below four fifths the trial is too long, and the
+//! fraction that makes w h nearly one is reported. A damper fades in over a millimetre, which a step at speed passes unseen: a step,
+//! or a few equal ones, end there. The errors of the means of their ends in both halves of the fade cancel.
 //!
 //! The band is 1e-9 of the scene's length (of a radian for angles), ten times what steps are solved to; in `f32` 128 roundings.
 //! To it comes what the rounding of the time leaves at the rate of the gap.
 //!
-//! Not told: kinks of dampers, friction and a user's own laws; courses' tables, whose times are known beforehand; a road's
-//! kinks that come under a wheel in the air; two places of a road that become equally near to a wheel in a hollow as tight as it.
+//! Not found: kinks of dampers, friction and user-defined laws, and those of signals' tables, whose times are known beforehand. Nor
+//! are a road's kinks under a wheel in the air, or two places of a road that become equally near in a hollow as tight as the wheel.
 
 use super::cubic::Cubic;
 use super::load::{Gap, Load, Loads, N_READING, Reading};
@@ -72,25 +72,27 @@ struct Watched<T> {
     end: Reading<T>,
 }
 
-/// Shares of the scene's length, or of a radian, that are nothing: at least, and in roundings.
+/// Half width of the band about zero, relative to the scene's length or to a radian [-]: ten times what steps are solved to.
 const BAND: f64 = 1e-9;
+/// Least half width of the band, in units of rounding [-]: it counts in `f32` alone. Chosen, not tuned.
 const BAND_ROUNDINGS: f64 = 128.0;
-/// Part of its way that a contact goes in the step that begins it, at least; 4/5 where w h is one.
+/// Least ratio of a contact's depth to its free path in the step that begins it [-]: it is 4/5 where w h is one.
 const RESOLVED: f64 = 0.8;
-/// Trials of a step after which the cubic is no longer trusted where a contact holds.
-const SLOW: u32 = 3;
-/// Part of what its rate would press a gap in by, below which the contact holds it.
-const HELD: f64 = 0.8;
-/// Half of w h that the share aims at, a little below that where a contact is resolved.
-const AIM: f64 = 0.45;
-/// Ways of a contact that need no resolution, in bands.
-const WAY: f64 = 100.0;
-/// A damper has faded in at its depth, give or take this share; more steps than these resolve it however they fall.
-const FADED: f64 = 0.1;
-const FEW: f64 = 4.0;
-/// Bounds of the share in which a stiff contact is tried again.
-const SHARES: [f64; 2] = [0.02, 0.5];
-/// Roundings of the time that a gap may be off by.
+/// Most trials of a step in which the cubic alone gives the instant where a contact holds [-]: two or three are usual.
+const MAX_CUBIC_TRIALS: u32 = 3;
+/// Ratio of a gap's depth to its free path below which the contact holds it [-], as for [`RESOLVED`].
+const HELD_RATIO: f64 = 0.8;
+/// Half of w h after which a stiff contact is tried again [-]: a little below 1/2, where a contact is resolved.
+const TARGET_HALF_WH: f64 = 0.45;
+/// Longest path of a contact that needs no resolution, in bands [-]. Chosen, not tuned.
+const SHORT_PATH: f64 = 100.0;
+/// Tolerance of the depth at which a damper has faded in, relative to that depth [-]. Chosen, not tuned.
+const FADE_TOLERANCE: f64 = 0.1;
+/// Most equal steps that are cut to end where a damper has faded in [-]: more resolve the fade wherever they end.
+const MAX_FADE_STEPS: f64 = 4.0;
+/// Bounds of the fraction of a step after which a stiff contact is tried again [-]: it halves the step at least. Chosen, not tuned.
+const STIFF_FRACTIONS: [f64; 2] = [0.02, 0.5];
+/// Error of the time, in units of its rounding, that widens the band at a gap's rate [-]. Chosen, not tuned.
 const TIME_ROUNDINGS: f64 = 4.0;
 
 impl<T: Real, const D: usize> Events<T, D> {
@@ -131,7 +133,7 @@ impl<T: Real, const D: usize> Events<T, D> {
     /// The first event within the trial step that ends in a state. Does not move the beginning of the step.
     ///
     /// Cost: as [`start`](Self::start), and some eighty operations for each gap and each kink near the way of a wheel that is
-    /// pressed in; a bisection of fifty cubics for each that changes. No allocation.
+    /// pressed in. A bisection of fifty cubics for each that changes. No allocation.
     pub fn first_event(&mut self, state: &State<T>) -> Option<Event> {
         self.read(state);
         let (from, to) = (self.t.to_f64(), state.t.to_f64());
@@ -140,7 +142,7 @@ impl<T: Real, const D: usize> Events<T, D> {
         }
         let mut first: Option<Event> = None;
         self.trials += 1;
-        let is_slow = self.trials > SLOW;
+        let is_slow = self.trials > MAX_CUBIC_TRIALS;
         for watched in &self.watched {
             watched.crossings(([from, to], is_slow), |crossing| {
                 if first.is_none_or(|first| crossing.share < first.share) {
@@ -243,12 +245,12 @@ impl<T: Real> Watched<T> {
         }
     }
 
-    /// The share of a step of length `h` [s] after which a gap closes at the rate of its beginning, where a stiff contact has kept
-    /// it from going on: the cubic then follows the contact, and not the way to it. Else infinite.
+    /// The fraction of a step of length `h` [s] after which a gap closes at the rate of its beginning, where a stiff contact holds it
+    /// at the end. The cubic then follows the contact, and not the path to it. Else infinite.
     fn free(&self, [begin, end]: [Gap<T>; 2], h: f64) -> f64 {
         let [begin, rate, end] = [begin.value, begin.rate, end.value].map(T::to_f64);
         let on = begin + rate * h;
-        let is_held = begin > self.band && on < 0.0 && end > HELD * on;
+        let is_held = begin > self.band && on < 0.0 && end > HELD_RATIO * on;
         if is_held { (begin + 0.5 * self.band) / (begin - on) } else { f64::INFINITY }
     }
 
@@ -257,18 +259,19 @@ impl<T: Real> Watched<T> {
     fn entry(&self, [begin, end]: [Gap<T>; 2], (h, band): (f64, f64)) -> Option<f64> {
         let [begin, rate, end] = [begin.value, begin.rate, end.value].map(T::to_f64);
         let way = -rate * h;
-        if begin > band || way <= WAY * band {
+        if begin > band || way <= SHORT_PATH * band {
             return None;
         }
         let fading = self.fade.and_then(|fade| fading(begin + fade, (fade, way)));
-        let has_faded_in = self.fade.is_some_and(|fade| (begin + fade).abs() <= FADED * fade);
+        let has_faded_in =
+            self.fade.is_some_and(|fade| (begin + fade).abs() <= FADE_TOLERANCE * fade);
         let part = (begin - end) / way;
         if part >= RESOLVED || !(begin.abs() <= band || has_faded_in) {
             return fading;
         }
         // part = 1 / (1 + x^2) with x = w h / 2; nothing is known of x where the contact has opened again.
-        let share = AIM / libm::sqrt(1.0 / part.max(f64::MIN_POSITIVE) - 1.0);
-        let share = share.clamp(SHARES[0], SHARES[1]);
+        let share = TARGET_HALF_WH / libm::sqrt(1.0 / part.max(f64::MIN_POSITIVE) - 1.0);
+        let share = share.clamp(STIFF_FRACTIONS[0], STIFF_FRACTIONS[1]);
         Some(fading.map_or(share, |fading| fading.min(share)))
     }
 
@@ -284,15 +287,16 @@ impl<T: Real> Watched<T> {
 
 /// The share of a step of so long a way in which equal steps of a few end where a damper has faded in, which is `left` away.
 fn fading(left: f64, (fade, way): (f64, f64)) -> Option<f64> {
-    if left <= FADED * fade {
+    if left <= FADE_TOLERANCE * fade {
         return None;
     }
-    let steps = libm::ceil(left / (way * (1.0 + FADED)));
+    let steps = libm::ceil(left / (way * (1.0 + FADE_TOLERANCE)));
     let share = left / (steps * way);
-    (steps <= FEW && share < 1.0 - FADED).then_some(share.max(SHARES[0]))
+    (steps <= MAX_FADE_STEPS && share < 1.0 - FADE_TOLERANCE)
+        .then_some(share.max(STIFF_FRACTIONS[0]))
 }
 
-/// What tells a kink, and its rate.
+/// The value that changes sign at a kink, and its rate.
 fn passage<T: Real>(kink: &Kink<T>, place: &[Gap<T>; 2]) -> Gap<T> {
     let [value, rate] = [place.map(|x| x.value), place.map(|x| x.rate)];
     Gap { value: kink.value(value), rate: kink.rate(rate) }

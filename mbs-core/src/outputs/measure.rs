@@ -12,7 +12,7 @@ use crate::step::StepError;
 use alloc::vec;
 use alloc::vec::Vec;
 
-/// The part of all turns that positions and rates may differ by before an angle is no longer known: that of the trapezoidal rule at half a
+/// Largest relative difference of all turns by positions and by rates for which an angle is known [-]: that of the trapezoidal rule at half a
 /// radian a step.
 const MISFIT: f64 = 2e-2;
 
@@ -24,8 +24,8 @@ const MISFIT: f64 = 2e-2;
 pub struct Measures<T: Real, const D: usize> {
     /// What each channel reads, and its number of components.
     channels: Vec<(Channel<T, D>, usize)>,
-    /// Last values of all tracked joint coordinates, then their rates, then what the rates tell of their turns since the start, then what the
-    /// positions do less, then the time.
+    /// Last values of all tracked joint coordinates, then their rates, then their turns since the start by the rates, then what the
+    /// positions have less, then the time.
     memory: Vec<T>,
     n_values: usize,
     n_components: usize,

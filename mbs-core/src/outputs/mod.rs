@@ -1,9 +1,9 @@
 //! What is recorded of a motion: points, joint coordinates and reactions, measured from a state of the model.
 //!
-//! Nothing here knows a formulation or an integrator: [`Measures`] reads positions, velocities and accelerations,
-//! [`Reactions`] closes the balance of every body of the scene from them, [`EffectWrenches`] says what effects exert, [`Contacts`] lists when one-sided effects touch,
-//! [`Turns`] whether positions tell how far joints have turned in a step,
-//! [`Events`] says where within a step a law's kink is passed, for steps that are to end there.
+//! Nothing here depends on a formulation or an integrator. [`Measures`] reads positions, velocities and accelerations.
+//! [`Reactions`] closes the balance of every body of the scene from them. [`EffectWrenches`] has the wrenches of effects, [`Contacts`]
+//! the instants at which one-sided effects touch. [`Turns`] checks whether positions determine how far joints have turned in a step.
+//! [`Events`] finds where within a step a law's kink is passed, for steps that are to end there.
 
 mod contact;
 mod coordinate;

@@ -1,5 +1,5 @@
-//! The order in which joints are solved: a body held by one unsolved joint gives that joint's wrench; what cannot be
-//! peeled so is loops, solved group by group.
+//! The order in which joints are solved: a body held by one unsolved joint gives that joint's wrench; the rest
+//! is loops, solved group by group.
 
 use crate::scene::BodyId;
 use alloc::vec;

@@ -1,4 +1,4 @@
-//! Whether the joints' positions at the end of a step tell how far they have turned in it.
+//! Whether the joints' positions at the end of a step determine how far they have turned in it.
 //!
 //! ```text
 //! expected   h (rate_n + rate_(n+1)) / 2

@@ -10,11 +10,11 @@ use alloc::borrow::Cow;
 use alloc::vec;
 use alloc::vec::Vec;
 
-/// Tilts up to this are taken as none [rad].
+/// Largest tilt that is taken as none [rad]: numbers of files have six digits or more.
 pub const MEANT: f64 = 1e-6;
-/// Tilts up to this, where they alone hold a mechanism, are taken as an error of the file [rad].
+/// Largest tilt that is taken as an error of the file where tilts alone hold a mechanism [rad]: 0.06°. Chosen, not tuned.
 pub const DOUBTFUL: f64 = 1e-3;
-/// Tilts below this, in units of rounding, are those of a direction that was normalised.
+/// Largest tilt of a direction that was normalised, in units of rounding [-]. Chosen, not tuned.
 const ROUNDINGS: f64 = 1e3;
 
 /// An axis that is off from that of another joint, or from a direction across it.

@@ -81,8 +81,8 @@ impl<T: Real> Joint<T> {
         }
     }
 
-    /// Directions [x1, x2, y] whose angle atan2(x2.y, x1.y) is the turn about `axis`: x1, x2 in the first body and y in the second; about
-    /// the second of two axes x1, x2 in the second body and y in the first, and minus the turn.
+    /// Directions [x1, x2, y] whose angle atan2(x2.y, x1.y) is the turn about `axis`: x1, x2 in the first body and y in the second. About
+    /// the second of two axes x1, x2 are in the second body and y in the first, and the angle is minus the turn.
     #[must_use]
     pub fn turn_directions(&self, dimension: Dimension, axis: Axis) -> [Vector<T, 3>; 3] {
         let n = self.direction(axis);

@@ -294,12 +294,14 @@ impl Effect<Number> {
         coulomb: impl Into<Number>,
         regularisation: impl Into<Number>,
     ) -> Self {
+        /// Stribeck rate, relative to the rate of regularisation [-]: without static friction it has no effect. Chosen, not tuned.
+        const STRIBECK_RATIO: f64 = 10.0;
         let (coulomb, regularisation) = (coulomb.into(), regularisation.into());
         Self::of(Friction {
             joint,
             r#static: coulomb.clone(),
             coulomb,
-            stribeck: regularisation.clone() * Number::from(10.0),
+            stribeck: regularisation.clone() * Number::from(STRIBECK_RATIO),
             viscous: Number::ZERO,
             regularisation,
         })

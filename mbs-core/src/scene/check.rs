@@ -90,8 +90,8 @@ impl<T: Real> Scene<T> {
         motion::check_ends(self, duration)
     }
 
-    /// Bodies with an inertia that none can have, or with inertia and no mass: [`Self::check`] takes them where the sum of what is
-    /// welded together is one that a body can have, and where it is welded to the ground.
+    /// Bodies with an inertia that none can have, or with inertia and no mass. [`Self::check`] accepts them where the bodies welded
+    /// together have an inertia that a body can have, and where they are welded to the ground.
     #[must_use]
     pub fn odd_parts(&self) -> Vec<(usize, SceneFault)> {
         body::odd_parts(self)

@@ -57,7 +57,7 @@ pub struct Joint<T> {
     /// Place [m], one per body: equal for all kinds but links.
     pub points: [[T; 3]; 2],
     /// Axes, any length, that the kind's [freedoms](crate::scene::Freedom) name: a universal joint's first is fixed in the first
-    /// body, its second in the second; a planar joint has its normal, then its first translation; a link has `axes[0]` when it
+    /// body, its second in the second. A planar joint has its normal, then its first translation; a link has `axes[0]` when it
     /// is hinged. Unused ones are `None`. A planar revolute has none (its axis is +z).
     pub axes: [Option<[T; 3]>; 2],
 }

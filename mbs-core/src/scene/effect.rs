@@ -68,7 +68,7 @@ pub struct PolynomialPiece<T> {
 }
 
 impl<T> PolynomialPiece<T> {
-    /// Largest number of coefficients of a piece: degree 7.
+    /// Most coefficients of a piece: degree 7.
     pub const MAX_COEFFICIENTS: usize = 8;
 }
 

@@ -14,7 +14,7 @@ impl Scene<Number> {
     /// Cost: a copy of the scene; beyond `f64` and below it that of reading each number.
     ///
     /// # Errors
-    /// What [`Scene::check`] refuses; [`SceneFault::InCode`] for an effect that is a law in code, which has a precision of its own; in
+    /// What [`Scene::check`] refuses; [`SceneFault::InCode`] for an effect that is a law in code, which has a precision of its own. In
     /// space [`SceneFault::WrongCount`] for a vector that was given by two numbers.
     pub fn resolve<T: Real>(&self) -> Result<Scene<T>, SceneError> {
         let is_spatial = self.dimension == Dimension::Spatial;

@@ -57,7 +57,7 @@ pub fn accelerations<T: Real, M: Model<T>>(
         // What is left, not the correction: the second one takes back what the first one sagged.
         let left = norm_inf(&rates);
         let slower = |share: f64| last.is_some_and(|last| !(left < last * T::from_f64(share)));
-        let (is_slow, stalls) = (slower(0.5), slower(0.9));
+        let (is_slow, stalls) = (slower(0.5), slower(STALLED));
         last = Some(left);
         let is_met = left <= limit(model, terms, &s.a);
         if is_slow && raises > 0 && !is_met {
@@ -139,7 +139,16 @@ impl<T: Real> Met<'_, T> {
     }
 }
 
-/// Acceleration residual that is accepted: relative to the accelerations, and to what the largest row is the sum of.
+/// Acceleration residual that is accepted, relative to accelerations and to the largest sum of a row's terms [-]. Chosen, not tuned.
+const ACCEPTED: f64 = 1e-9;
+/// Least residual that is accepted, in units of rounding [-]: it counts in single precision alone. Chosen, not tuned.
+const ACCEPTED_ROUNDINGS: f64 = 1e4;
+/// Pivot that is rounding, in units of rounding of the diagonal that it comes from [-]. Chosen, not tuned.
+const PIVOT_ROUNDINGS: f64 = 32.0;
+/// Ratio of residuals after and before a sweep from which it stalls [-]. Chosen, not tuned.
+const STALLED: f64 = 0.9;
+
+/// Acceleration residual that is accepted: relative to the accelerations, and to the largest sum of a row's terms.
 fn limit<T: Real, M: Model<T>>(model: &M, terms: &Terms<T>, a: &[T]) -> T {
     let mut size = T::ONE + norm_inf(a);
     let mut jacobian = Vec::new();
@@ -154,7 +163,7 @@ fn limit<T: Real, M: Model<T>>(model: &M, terms: &Terms<T>, a: &[T]) -> T {
             size = size.max(sum + terms.phi_bias[k].abs());
         }
     }
-    size * T::from_f64(1e-9).max(T::EPSILON * T::from_f64(1e4))
+    size * T::from_f64(ACCEPTED).max(T::EPSILON * T::from_f64(ACCEPTED_ROUNDINGS))
 }
 
 fn tangent<T: Real>(penalty: &[T]) -> Tangent<'_, T> {
@@ -198,7 +207,7 @@ fn check_pivots<T: Real, M: Model<T>>(
         }
     }
     for (&u, &pivot) in solver.elimination_order().iter().zip(solver.pivots()) {
-        if pivot <= diagonal[u as usize] * T::EPSILON * T::from_f64(32.0) {
+        if pivot <= diagonal[u as usize] * T::EPSILON * T::from_f64(PIVOT_ROUNDINGS) {
             return Err(no_inertia(model, u));
         }
     }

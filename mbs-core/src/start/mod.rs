@@ -7,7 +7,7 @@
 //! ```
 //!
 //! Large held values are reached by continuation from the reference configuration, so that the assembly branch is the one
-//! that leads there continuously; the change is measured from the reference, whatever the stages were. Open trees need no
+//! that leads there continuously. The change is measured from the reference, whatever the stages were. Open trees need no
 //! continuation: they are placed joint by joint.
 
 mod accelerations;

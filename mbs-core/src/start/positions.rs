@@ -10,7 +10,7 @@
 use super::error::AssemblyError;
 use super::hold::StartRow;
 use super::place::Placement;
-use super::problem::{Level, MAX_SWEEPS, SLOW, raises};
+use super::problem::{Level, MAX_SWEEPS, SLOW_RATIO, raises};
 use super::sweeps::Assembly;
 use crate::Real;
 use crate::actions::{Action, Actions};
@@ -20,23 +20,33 @@ use crate::outputs::start_values;
 use crate::scene::Scene;
 use alloc::vec::Vec;
 
-/// Sweeps without halving the smallest residual after which positions are given up: what contradicts itself drifts away.
-const PATIENCE: u32 = 10;
-/// Largest held angle of one continuation stage [rad], or slide in scene lengths.
-const STAGE: f64 = 0.25;
-/// A stage that moves a coordinate by more than this, relative to its size, has lost its branch.
-const JUMP: f64 = 1.0;
-/// Halvings of a stage before the path ends.
+/// Sweeps without halving the smallest residual after which the search ends [-]: entries that contradict each other drift. Chosen, not tuned.
+const MAX_IDLE_SWEEPS: u32 = 10;
+/// Largest held angle of one continuation stage [rad], or slide in scene lengths. Chosen, not tuned: stages that jump are halved.
+const MAX_STAGE: f64 = 0.25;
+/// Largest correction of a coordinate in a stage, relative to its size [-]: beyond, another branch may be reached. Chosen, not tuned.
+const MAX_STAGE_CORRECTION: f64 = 1.0;
+/// Most halvings of a stage before the path ends [-]. Chosen, not tuned.
 const HALVINGS: i32 = 10;
-/// Gap that a stage before the last may leave, relative to the rows' spreads.
-const LEFT: f64 = 1e-6;
-/// Corrections below this, relative to the coordinates' sizes, are no longer bent by the rows' curvature: a slow sweep then has a penalty
-/// that is too small.
-const SMALL: f64 = 1e-3;
-/// Largest correction of a sweep towards the least change, relative to the coordinates' sizes.
-const STEP: f64 = 0.25;
-/// Sweeps towards the least change: flat valleys take some dozens.
+/// Largest gap that a stage before the last may leave, relative to the rows' spreads [-]. Chosen, not tuned: the last stage closes it.
+const MAX_STAGE_GAP: f64 = 1e-6;
+/// Gap or correction, relative to sizes, in which the rows are straight [-]: their curvature is a millionth. A slow sweep then has too small
+/// a penalty.
+const STRAIGHT: f64 = 1e-3;
+/// Largest correction of a sweep towards the least change, relative to the coordinates' sizes [-]. Chosen, not tuned.
+const MAX_CORRECTION: f64 = 0.25;
+/// Most sweeps towards the least change [-]: flat minima take some dozens.
 const MAX_STEPS: u32 = 400;
+/// Correction at which Newton's method is at rounding, in roots of rounding [-]: the next one is its square.
+const CLOSE: f64 = 1e-2;
+/// Ratio of two corrections from which damping grows [-]. Chosen, not tuned.
+const GROWING: f64 = 0.9;
+/// Damping, relative to the masses, at which the search ends without success [-]. Chosen, not tuned.
+const MAX_DAMPING: f64 = 1e6;
+/// Damping, relative to the masses, below which none is left [-]. Chosen, not tuned.
+const LEAST_DAMPING: f64 = 0.1;
+/// Factor on the damping after a correction that shrinks [-]. Chosen, not tuned.
+const DAMPING_FADE: f64 = 0.25;
 
 impl<T: Real, S: SpdSolver<T>, const D: usize> Assembly<'_, T, S, D> {
     /// Puts the mechanism together; returns the largest residual before, and the stages taken.
@@ -70,7 +80,7 @@ impl<T: Real, S: SpdSolver<T>, const D: usize> Assembly<'_, T, S, D> {
     fn stages(&self) -> u32 {
         let holds = self.problem.holds.iter().map(|h| h.distance(self.length));
         let guides = self.guides.iter().map(|g| g[0].abs());
-        let far = holds.chain(guides).fold(T::ZERO, T::max).to_f64() / STAGE;
+        let far = holds.chain(guides).fold(T::ZERO, T::max).to_f64() / MAX_STAGE;
         let mut stages = 1;
         while f64::from(stages) < far && stages < 1000 {
             stages += 1;
@@ -151,7 +161,7 @@ impl<T: Real, S: SpdSolver<T>, const D: usize> Assembly<'_, T, S, D> {
                 Ok(()) => closed = next,
                 Err(Stop::Gap(error)) if is_last => {
                     // A small gap at the end is no way that stopped.
-                    let is_small = self.worst(&self.rows) <= T::from_f64(SMALL);
+                    let is_small = self.worst(&self.rows) <= T::from_f64(STRAIGHT);
                     let closed = if is_small { T::ONE } else { closed };
                     return Err(self.stopped((error, scene), closed));
                 }
@@ -177,14 +187,14 @@ impl<T: Real, S: SpdSolver<T>, const D: usize> Assembly<'_, T, S, D> {
         let mut correction = T::ZERO;
         for _ in 0..MAX_SWEEPS {
             let floor = self.rounding(&s.q) * T::from_f64(8.0);
-            if residual <= floor || idle > PATIENCE {
+            if residual <= floor || idle > MAX_IDLE_SWEEPS {
                 break;
             }
             self.load();
             self.factor(Level::Position, None, T::ZERO).map_err(Stop::Jump)?;
             self.solve(Level::Position);
             correction = self.largest(&self.f);
-            if !(correction <= T::from_f64(JUMP)) {
+            if !(correction <= T::from_f64(MAX_STAGE_CORRECTION)) {
                 return Err(Stop::Jump(self.gap()));
             }
             self.grow(Level::Position);
@@ -192,12 +202,12 @@ impl<T: Real, S: SpdSolver<T>, const D: usize> Assembly<'_, T, S, D> {
             self.drive(&s.q, tau);
             let left = self.worst(&self.rows);
             let (stalls, is_slow) =
-                (left > residual * T::HALF, left > residual * T::from_f64(SLOW));
+                (left > residual * T::HALF, left > residual * T::from_f64(SLOW_RATIO));
             residual = left;
             if stalls && residual <= self.accepted(&s.q) {
                 break;
             }
-            if is_slow && correction <= T::from_f64(SMALL) && raises > 0 {
+            if is_slow && correction <= T::from_f64(STRAIGHT) && raises > 0 {
                 self.problem.raise_penalties();
                 raises -= 1;
             }
@@ -207,7 +217,7 @@ impl<T: Real, S: SpdSolver<T>, const D: usize> Assembly<'_, T, S, D> {
                 idle += 1;
             }
         }
-        if !is_last && residual <= self.accepted(&s.q).max(T::from_f64(LEFT)) {
+        if !is_last && residual <= self.accepted(&s.q).max(T::from_f64(MAX_STAGE_GAP)) {
             return Ok(());
         }
         let moved: Vec<T> = (0..n).map(|i| s.q[i] - self.reference[i]).collect();
@@ -215,7 +225,7 @@ impl<T: Real, S: SpdSolver<T>, const D: usize> Assembly<'_, T, S, D> {
             return Ok(());
         }
         // Near a singular position corrections are larger than the gap that they close; at a compromise there are none.
-        let is_compromise = correction <= residual * T::from_f64(SMALL);
+        let is_compromise = correction <= residual * T::from_f64(STRAIGHT);
         Err(if is_compromise { Stop::Gap(self.gap()) } else { Stop::Jump(self.gap()) })
     }
 
@@ -235,7 +245,7 @@ impl<T: Real, S: SpdSolver<T>, const D: usize> Assembly<'_, T, S, D> {
         self.problem.scale_rows();
         self.sigma.fill(T::ZERO);
         let (mut damping, mut last, mut waits) = (T::ZERO, None, 0);
-        let close = T::EPSILON.sqrt() * T::from_f64(1e-2);
+        let close = T::EPSILON.sqrt() * T::from_f64(CLOSE);
         let mut correction = T::ZERO;
         for _ in 0..MAX_STEPS {
             for i in 0..n {
@@ -245,7 +255,7 @@ impl<T: Real, S: SpdSolver<T>, const D: usize> Assembly<'_, T, S, D> {
             let q = s.q.clone();
             if self.factor(Level::Position, Some(&q), damping).is_err() {
                 damping = (damping + damping).max(T::HALF);
-                if damping > T::from_f64(1e6) {
+                if damping > T::from_f64(MAX_DAMPING) {
                     self.factor(Level::Position, None, T::ZERO)?;
                     return Err(self.gap());
                 }
@@ -257,13 +267,13 @@ impl<T: Real, S: SpdSolver<T>, const D: usize> Assembly<'_, T, S, D> {
             if !correction.is_finite() {
                 return Err(self.gap());
             }
-            self.correct(s, (T::from_f64(STEP) / correction).min(T::ONE));
+            self.correct(s, (T::from_f64(MAX_CORRECTION) / correction).min(T::ONE));
             self.drive(&s.q, T::ONE);
             self.remember(s);
             if correction <= T::EPSILON * T::from_f64(4.0) {
                 break;
             }
-            let grows = last.is_some_and(|last| correction > last * T::from_f64(0.9));
+            let grows = last.is_some_and(|last| correction > last * T::from_f64(GROWING));
             let stalls = last.is_some_and(|last| correction > last * T::HALF);
             last = Some(correction);
             if stalls && correction <= close && damping == T::ZERO {
@@ -275,8 +285,8 @@ impl<T: Real, S: SpdSolver<T>, const D: usize> Assembly<'_, T, S, D> {
             if grows && correction > close {
                 damping = (damping + damping).max(T::HALF);
             } else {
-                damping =
-                    if damping > T::from_f64(0.1) { damping * T::from_f64(0.25) } else { T::ZERO };
+                let is_left = damping > T::from_f64(LEAST_DAMPING);
+                damping = if is_left { damping * T::from_f64(DAMPING_FADE) } else { T::ZERO };
             }
         }
         // Weakly determined combinations keep a rounding times their condition.
@@ -321,7 +331,7 @@ impl<T: Real, S: SpdSolver<T>, const D: usize> Assembly<'_, T, S, D> {
         let guided = guided.map(|(_, value)| value[0]);
         let targets = held.map(StartRow::target).chain(guided);
         let largest = targets.fold(T::ZERO, |a: T, b| if b.abs() > a.abs() { b } else { a });
-        let reached = (largest != T::ZERO && tau < T::ONE - T::from_f64(SMALL))
+        let reached = (largest != T::ZERO && tau < T::ONE - T::from_f64(STRAIGHT))
             .then(|| [(largest * tau).to_f64(), largest.to_f64()]);
         let missing = reached.map_or(0.0, |[reached, value]| (value - reached).abs());
         let residual = residual.max(missing);

@@ -21,26 +21,28 @@ pub(super) const MAX_SWEEPS: u32 = 60;
 /// Factor on all penalties after a slow sweep: long chains of light links hardly feel some combinations of rows.
 pub(super) const RAISE: f64 = 30.0;
 /// A sweep that leaves more than this share of a residual is slow.
-pub(super) const SLOW: f64 = 0.3;
+pub(super) const SLOW_RATIO: f64 = 0.3;
 
 /// Is it at least double precision?
-fn is_fine<T: Real>() -> bool {
-    T::EPSILON < T::from_f64(1e-12)
+pub(super) fn is_fine<T: Real>() -> bool {
+    /// Unit of rounding [-] between those of single precision (1e-7) and double precision (2e-16).
+    const FINE: f64 = 1e-12;
+    T::EPSILON < T::from_f64(FINE)
 }
 
-/// Penalty of a start row in effective masses: the middle of the range that the precision allows, between what a sweep leaves of a
-/// violation, 1 / penalty, and what it adds of rounding, penalty times epsilon.
+/// Penalty of a start row in effective masses [-]: the middle of the range that the precision allows. A sweep leaves 1 / penalty of a
+/// violation, and adds rounding of penalty times epsilon.
 pub(super) fn penalty<T: Real>() -> T {
     T::from_f64(if is_fine::<T>() { 1e6 } else { 500.0 })
 }
 
-/// Masses below this ratio of the largest are lifted to it where rows are scaled, so that rows through a light piece between heavy
-/// ones are as stiff as those of its neighbours.
+/// Least mass where rows are scaled, relative to the largest [-]: rows through a light body between heavy ones are as stiff as those of
+/// its neighbours.
 fn lifted<T: Real>() -> T {
     T::from_f64(if is_fine::<T>() { 1e-4 } else { 1e-2 })
 }
 
-/// Mass in the matrix alone, relative to the largest: a hundred roundings of the stiffest rows.
+/// Mass in the matrix alone, relative to the largest [-]: a hundred roundings of the stiffest rows.
 fn lent<T: Real>() -> T {
     lifted::<T>() * penalty::<T>() * T::EPSILON * T::from_f64(100.0)
 }

@@ -1,5 +1,5 @@
-//! Rank of the constraint Jacobian at a state: of a small one by Householder QR of J^T with column pivoting on rows of unit
-//! length, of a large one by sparse elimination.
+//! Rank of the constraint Jacobian at a state. That of a small one is by Householder QR of J^T with column pivoting on rows of unit
+//! length, that of a large one by sparse elimination.
 
 use super::sparse_rank::sparse_rank;
 use crate::Real;
@@ -8,17 +8,17 @@ use crate::model::{Model, Terms};
 use alloc::vec;
 use alloc::vec::Vec;
 
-/// Entries of a Jacobian that is small: some hundred bodies, a few hundredths of a second.
-const SMALL: usize = 250_000;
+/// Most entries of a Jacobian that is dense here [-]: some hundred bodies, a few hundredths of a second.
+const MAX_DENSE: usize = 250_000;
 
 /// The rank of J as last evaluated in `terms`.
 ///
 /// Counts pivots above max(n, m) eps^(2/3) of the largest where n m is at most 250,000: about 2 n m^2 operations, dense. Beyond,
-/// products of rows are eliminated sparsely, and distances below 30 eps^(1/2) count as none: in proportion to the rows of chains
-/// and trees, somewhat faster growing in nets, with the square of the rows at one body. Meant for reports.
+/// products of rows are eliminated sparsely, and distances below 30 eps^(1/2) count as none. The cost is in proportion to the rows of chains
+/// and trees, somewhat faster growing in nets, with the square of the rows at one body. For reports.
 pub fn constraint_rank<T: Real, M: Model<T> + Cliques>(model: &M, terms: &Terms<T>) -> usize {
     let (n, m) = (model.n_unknowns(), model.n_constraints());
-    if n.saturating_mul(m) > SMALL {
+    if n.saturating_mul(m) > MAX_DENSE {
         return sparse_rank(sparse_rows(model, terms), n);
     }
     // Column k of A is row k of J, by multiplying unit vectors.

@@ -14,11 +14,11 @@ use alloc::vec;
 use alloc::vec::Vec;
 use core::cmp::Reverse;
 
-/// Pivots at most this many roundings large are nothing: far above what some dozen updates of a diagonal leave, and far below
-/// the squared distances in chains of a million rows.
+/// Largest pivot that counts as zero, in units of rounding [-]: above what some dozen updates of a diagonal leave, and below the squared
+/// distances in chains of a million rows.
 const ROUNDINGS: f64 = 1000.0;
 
-/// Rows whose diagonals lie within so many powers of ten are equally good: a small pivot magnifies the rounding of what follows.
+/// Powers of ten within which diagonals are equally good [-]: a small pivot magnifies the rounding of what follows. Chosen, not tuned.
 const DECADES: f64 = 2.0;
 
 /// Entries of a row by ascending column.

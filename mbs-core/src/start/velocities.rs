@@ -1,7 +1,7 @@
 //! The smallest velocities that meet all rates: a linear problem, whose matrix is factored once.
 
 use super::error::AssemblyError;
-use super::problem::{Level, MAX_SWEEPS, SLOW, raises};
+use super::problem::{Level, MAX_SWEEPS, SLOW_RATIO, raises};
 use super::sweeps::Assembly;
 use crate::Real;
 use crate::blocks::{Cliques, SpdSolver};
@@ -37,7 +37,7 @@ impl<T: Real, S: SpdSolver<T>, const D: usize> Assembly<'_, T, S, D> {
             let (correction, left) = (self.largest(&self.f), self.worst(&self.rows));
             let scale = self.largest(&s.v).max(asked);
             let is_met = left <= scale * self.accepted(&s.q);
-            let is_slow = left > residual * T::from_f64(SLOW) && !is_met;
+            let is_slow = left > residual * T::from_f64(SLOW_RATIO) && !is_met;
             let stalls = last.is_some_and(|last| correction > last * T::HALF);
             if correction <= scale * T::EPSILON || (is_met && stalls) {
                 break;

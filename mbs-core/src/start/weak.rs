@@ -1,7 +1,7 @@
 //! Whether rows that no sweep brings nearer are met as well as the scene's own numbers let them be.
 //!
-//! Axes that are meant to be parallel and are given with six digits make rows that are nearly combinations of others, y^T J = sigma u^T
-//! with a sigma of some 1e-6: as the scene means them they are redundant, as it writes them they forbid the motion u. Such a combination
+//! Axes that are intended to be parallel and are given with six digits make rows that are nearly combinations of others:
+//! y^T J = sigma u^T with a sigma of some 1e-6. As they are intended they are redundant, as they are written they forbid the motion u. Such a combination
 //! of residuals is accepted up to what the motion since it was closed makes of its tilt:
 //!
 //! ```text
@@ -16,9 +16,9 @@ use crate::Real;
 use crate::algebra::norm_inf;
 use crate::blocks::SpdSolver;
 
-/// Tilt of a row from others that is taken for rounding of the scene's numbers: a unit in the sixth digit.
+/// Largest tilt of a row from others that is rounding of the scene's numbers [-]: a unit in the sixth digit.
 pub(super) const TILT: f64 = 1e-6;
-/// Sweeps that take all but the weakly determined combinations out of a residual: each leaves 1 / penalty of the others.
+/// Sweeps that take all but the weakly determined combinations out of a residual [-]: each leaves 1 / penalty of the others.
 pub(super) const SIEVES: u32 = 3;
 
 impl<T: Real, S: SpdSolver<T>, const D: usize> Assembly<'_, T, S, D> {

@@ -182,7 +182,7 @@ fn matrices_of_special_kinds_agree_with_faer() {
         #[allow(clippy::cast_precision_loss, reason = "a small count")]
         let hilbert = |i: usize, j: usize| 1.0 / (i + j + 1) as f64;
         checked("Hilbert", &Matrix::from_fn(n, n, hilbert));
-        // rows told twice
+        // rows written twice
         let once = random.sparse(n, n + 4);
         checked("twice", &Matrix::from_fn(2 * n, n + 4, |i, j| once[(i % n, j)]));
         for scale in [1e-300, 1e-160, 1e160, 1e300] {

@@ -7,7 +7,7 @@
 //! l = a B^-1,   a_ij <- a_ij - l_i B l_j^T
 //! ```
 //!
-//! Pivots of one unknown that pass the test where they stand are applied to the columns after them some at a time; a column
+//! Pivots of one unknown that pass the test where they stand are applied to the columns after them some at a time. A column
 //! is brought up to date before it is tested.
 //!
 //! Only the first `p` unknowns may become pivots. Those for which no test holds stay, for a front where more is known of
@@ -33,7 +33,11 @@ pub struct Thresholds<T> {
 impl<T: Real> Default for Thresholds<T> {
     /// u = 0.01; zero is 256 units of rounding.
     fn default() -> Self {
-        Self { growth: T::from_f64(0.01), zero: T::EPSILON * T::from_f64(256.0) }
+        /// Default of u [-]: multipliers stay below 100. Chosen, not tuned.
+        const GROWTH: f64 = 0.01;
+        /// Pivots that count as zero, in units of rounding of their sums [-]. Chosen, not tuned.
+        const ZERO_ROUNDINGS: f64 = 256.0;
+        Self { growth: T::from_f64(GROWTH), zero: T::EPSILON * T::from_f64(ZERO_ROUNDINGS) }
     }
 }
 
@@ -202,7 +206,7 @@ fn largest<T: Real>(a: &[T], f: usize, k: usize, (c, not): (usize, usize)) -> (T
 /// What is left of the diagonal of a column beside what it was the sum of, if it is a pivot of one unknown.
 #[inline(always)]
 fn test_single<T: Real>(column: &[T], size: T, thresholds: &Thresholds<T>) -> Option<T> {
-    /// Comparisons side by side.
+    /// Comparisons made side by side [-]: four doubles fill a register of 256 bits.
     const LANES: usize = 4;
     let d = column[0].abs();
     let mut most = [T::ZERO; LANES];

@@ -1,5 +1,5 @@
 //! One dense matrix for all unknowns: [`Dense`], a solver for tiny systems, for tests, and for users who want no other
-//! crate; and the [`front`] and [`scaling`] that sparse solvers are made of.
+//! crate. Sparse solvers are made of its [`front`] and [`scaling`].
 //!
 //! ```text
 //! as SpdSolver:         T = L D L^T, pivots in the given order

@@ -1,4 +1,4 @@
-//! Pivots that some columns of a front do not know of yet, and the products that tell them.
+//! Pivots that are not yet applied to some columns of a front, and the products that apply them.
 //!
 //! ```text
 //! a_j <- a_j - sum_m  d_m l_jm l_m          pivots m of the panel, together: each column is read and written once
@@ -7,15 +7,15 @@
 use crate::Real;
 use core::ops::Range;
 
-/// Most pivots in a panel.
-const MOST: usize = 6;
+/// Most pivots in a panel [-]: the columns after it are read and written once for all of them. Chosen, not tuned.
+const MAX_PIVOTS: usize = 6;
 
 /// Neighbouring pivots of one unknown each.
 #[derive(Debug)]
 pub(super) struct Panel<T> {
     /// Place of the first.
     start: usize,
-    pivots: [T; MOST],
+    pivots: [T; MAX_PIVOTS],
     len: usize,
 }
 
@@ -28,7 +28,7 @@ impl<T: Real> Default for Panel<T> {
 impl<T: Real> Panel<T> {
     /// No pivots; the first will be at place `start`.
     pub(super) fn starting_at(start: usize) -> Self {
-        Self { start, pivots: [T::ZERO; MOST], len: 0 }
+        Self { start, pivots: [T::ZERO; MAX_PIVOTS], len: 0 }
     }
 
     /// The pivot at the next place.
@@ -38,10 +38,10 @@ impl<T: Real> Panel<T> {
     }
 
     pub(super) fn is_full(&self) -> bool {
-        self.len == MOST
+        self.len == MAX_PIVOTS
     }
 
-    /// Tells `columns`, all after the panel, of its pivots.
+    /// Applies the pivots to `columns`, all after the panel.
     #[inline(always)]
     pub(super) fn apply(&self, a: &mut [T], f: usize, columns: Range<usize>) {
         match self.len {
@@ -51,7 +51,7 @@ impl<T: Real> Panel<T> {
             3 => self.apply_sized::<3>(a, f, columns),
             4 => self.apply_sized::<4>(a, f, columns),
             5 => self.apply_sized::<5>(a, f, columns),
-            _ => self.apply_sized::<MOST>(a, f, columns),
+            _ => self.apply_sized::<MAX_PIVOTS>(a, f, columns),
         }
     }
 
@@ -92,8 +92,8 @@ pub fn subtract_products<T: Real, const P: usize>(
 
 /// target_i <- target_i - sum_m w_m column_m,i
 ///
-/// Four rows at a time, then two, then one, each a block of numbers that the compiler knows the size of: a loop over rows is
-/// left scalar in some of the functions this is inlined into.
+/// Four rows at a time, then two, then one, each a block of numbers whose size the compiler knows. A loop over rows
+/// would stay scalar in some of the functions this is inlined into.
 #[inline(always)]
 pub fn subtract<T: Real, const M: usize>(target: &mut [T], mut columns: [&[T]; M], w: [T; M]) {
     let len = target.len();

@@ -5,13 +5,13 @@
 //! else:       r_i = max_j |s_i a_ij s_j|,   s_i <- s_i / sqrt(r_i)  (Ruiz, 2001): tends to a largest entry of 1
 //! ```
 //!
-//! In a saddle system a row and its multiplier can be scaled at will, so the diagonal sets the scale: pivots of one unknown then
-//! hold for coordinates that are light beside the entries of their rows, which would else be taken in pairs or delayed.
+//! In a saddle system a row and its multiplier can be scaled at will, so the diagonal sets the scale. Pivots of one unknown then
+//! hold for coordinates that are light beside the entries of their rows; else they would be taken in pairs or delayed.
 
 use crate::Real;
 use crate::team::{Team, on_stretches};
 
-/// Rounds of the scaling; each takes the square root of what is left of the spread.
+/// Rounds of the scaling [-]; each takes the square root of the remaining spread, so that three bring 1e8 to 10.
 const ROUNDS: u32 = 3;
 
 /// Finds `scale` (n places) for a matrix with this `diagonal`; `rows` (n places) is scratch. `measure` is given a scale, and writes

@@ -3,24 +3,25 @@
 use super::{Method, OdeError, Options, Rates, StepControl, method};
 use crate::Real;
 
-/// A step below this many roundings of the time is refused.
+/// Shortest step, in units of rounding of the time [-]: the clock then measures it to a sixteenth.
 const SMALLEST_STEP: f64 = 16.0;
-/// Rates that were found before the state was projected hold where the projection moved it by less than this share of the
-/// tolerance: what they are off by enters the state times the step.
-const STILL: f64 = 0.1;
-/// After a tenth of the steps that a call may try, but not before this many, it ends if with steps as long as the next one the rest
-/// would take ten times as many as it may try: an explicit method on a system whose stiffness is out of all proportion is told so
-/// early. Fewer are soon used up, and beside a change point some ten thousand are as short.
-const FORETOLD: u32 = 10_000;
-/// The last step to the end may be this much longer than planned, so that no sliver remains.
+/// Largest move of a projection, in tolerances, after which the rates found before it hold [-]: their error enters the state times the
+/// step. Chosen, not tuned.
+const HOLDING_MOVE: f64 = 0.1;
+/// Least steps before a call ends since too many more are expected [-]. Beside a change point ten thousand may be as short.
+const LEAST_TRIED: u32 = 10_000;
+/// Largest ratio of the last step to the planned one [-], so that no tiny step remains. Chosen, not tuned.
 const LAST_STEP: f64 = 1.01;
+/// Expected steps at which a call ends, relative to those that it may try [-]: an explicit method on a stiff system stops early. Chosen, not
+/// tuned.
+const TOO_MANY: f64 = 10.0;
 
 /// What the hook did to the state at the end of an accepted step.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum EndState {
     /// It left the state, and whatever else its rates depend on, as they were: the rates found there hold.
     Kept,
-    /// It moved the state back to where it belongs, as a projection does, and nothing else: the rates found before are taken where
+    /// It moved the state back to where it belongs, as a projection does, and nothing else. The rates found before are taken where
     /// it was moved by less than a tenth of the tolerance.
     Projected,
     /// It changed the state, or what rates depend on beside it: the rates are evaluated anew.
@@ -126,15 +127,15 @@ impl<T: Real, M: Method<T>> Adaptive<T, M> {
     /// did, see [`EndState`]. The last step is shortened to end at `t + dt`; what the step would have been is remembered for the
     /// next call. `scratch` is [`Method::n_scratch`] numbers or more.
     ///
-    /// Cost, beside the hook: one evaluation, and [`Method::evaluations`] less one for each step tried; where the hook changed
+    /// Cost, beside the hook: one evaluation, and [`Method::evaluations`] less one for each step tried. Where the hook changed
     /// the state by more than a little, or the method does not end with the rates there, one more for each accepted step but the
     /// last. No allocation.
     ///
     /// # Errors
     ///
-    /// [`OdeError::Rates`] with what the rates or the hook say, [`OdeError::StepTooSmall`] where the error stays too large
-    /// or is no number at the smallest step, [`OdeError::TooManySteps`] where the steps are used up, or a tenth
-    /// of a large number and the rest would take more than ten times as many as may be tried. `y` is then the last accepted state
+    /// [`OdeError::Rates`] with what the rates or the hook say. [`OdeError::StepTooSmall`] where the error stays too large
+    /// or is no number at the smallest step. [`OdeError::TooManySteps`] where the steps are used up, or a tenth of a large number and
+    /// the rest would take more than ten times as many as may be tried. `y` is then the last accepted state
     /// (if the hook failed, as the hook left it).
     ///
     /// # Panics
@@ -201,7 +202,7 @@ impl<T: Real, M: Method<T>> Adaptive<T, M> {
                 EndState::Kept => true,
                 EndState::Projected => {
                     let found = self.method.new_state(n, scratch);
-                    method::distance(found, y, options) <= T::from_f64(STILL)
+                    method::distance(found, y, options) <= T::from_f64(HOLDING_MOVE)
                 }
                 EndState::Changed => false,
             };
@@ -211,7 +212,8 @@ impl<T: Real, M: Method<T>> Adaptive<T, M> {
     }
 }
 
-/// Will the steps that are left not do by far, with so many tried and so many more of the next one's length wanted?
+/// After a tenth of the steps, would the rest with steps of the next one's length take far more than may be tried?
 fn is_hopeless<T: Real>(tried: u32, wanted: T, max_steps: u32) -> bool {
-    tried > (max_steps / 10).max(FORETOLD) && wanted > T::from_f64(10.0 * f64::from(max_steps))
+    let limit = TOO_MANY * f64::from(max_steps);
+    tried > (max_steps / 10).max(LEAST_TRIED) && wanted > T::from_f64(limit)
 }

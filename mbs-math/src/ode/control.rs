@@ -2,15 +2,15 @@
 
 use crate::Real;
 
-/// Share of the step that the estimate allows.
+/// Safety factor on the step that the estimate allows [-], from the usual range of 0.8 to 0.9 (Hairer, Norsett and Wanner II.4).
 const SAFETY: f64 = 0.9;
-/// Exponent of the last error, times the power of h in the estimate.
+/// Exponent of the last error, times the power of h in the estimate [-]: as published (Gustafsson).
 const INTEGRAL: f64 = 0.7;
-/// Exponent of the error before it, times the power of h in the estimate.
+/// Exponent of the error before it, times the power of h in the estimate [-]: as published (Gustafsson).
 const PROPORTIONAL: f64 = 0.4;
-/// A step is at most so much smaller or larger than the one before.
+/// Bounds of the ratio of a step to the one before [-]: an estimate far from its tolerance is not in the asymptotic range. Chosen, not tuned.
 const FACTORS: (f64, f64) = (0.2, 5.0);
-/// Smaller errors are remembered as this one: a lucky step says little about the next.
+/// Least error that is remembered, in tolerances [-]: a smaller one may be chance, and would shorten the next step. Chosen, not tuned.
 const SMALLEST_MEMORY: f64 = 1e-4;
 
 /// A proportional-integral controller of the step (Gustafsson, ACM Trans. Math. Softw. 17 (1991) 533-554).

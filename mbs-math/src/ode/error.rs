@@ -11,14 +11,14 @@ pub enum OdeError<E> {
         /// What they say.
         error: E,
     },
-    /// No step that the numbers can still tell from zero meets the tolerance.
+    /// No step above rounding of the time meets the tolerance.
     StepTooSmall {
         /// Time of the last accepted state [s].
         time: f64,
         /// Step that would have been tried next [s].
         step: f64,
     },
-    /// The steps that one call may try are used up, or it can be told that they will not do by far.
+    /// The steps that one call may try are used up, or the rest is predicted to take more than ten times as many.
     TooManySteps {
         /// Time of the last accepted state [s].
         time: f64,

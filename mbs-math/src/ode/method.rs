@@ -50,7 +50,7 @@ pub trait Method<T: Real> {
     }
 }
 
-/// One over the tolerance of each component, as far as it is known at the beginning of a step; zero where there is none yet.
+/// One over the tolerance of each component by its value at the beginning of a step; zero where there is none yet.
 #[cfg(feature = "alloc")]
 pub(super) fn weights<T: Real>(y: &[T], options: &Options<'_, T>, weights: &mut [T]) {
     for (k, weight) in weights.iter_mut().enumerate() {

@@ -5,8 +5,8 @@
 //! ```
 //!
 //! [`rk4_step`] is the classical method of order 4 with a fixed step. [`Tableau`] holds an embedded pair, or the
-//! method 8(5,3) with two estimates, and [`Adaptive`] drives it or an [`Extrapolation`] of any even order with error control: [`StepControl`] chooses the steps, and a hook after
-//! each accepted step may project the state onto its constraints.
+//! method 8(5,3) with two estimates, and [`Adaptive`] drives it or an [`Extrapolation`] of any even order with error control.
+//! [`StepControl`] chooses the steps, and a hook after each accepted step may project the state onto its constraints.
 //!
 //! All storage is in slices of the caller; the explicit methods are built without `alloc`, so nothing in them can allocate.
 //! [`Radau`] is implicit, for stiff systems, and makes its matrices with the feature `alloc`, when it is made.
@@ -60,8 +60,8 @@ pub trait Rates<T> {
         self.rates(t, y, dy)
     }
 
-    /// Takes from the error of a trial step what the end of a step takes from the state, such as what a projection removes:
-    /// only what is left says something about the step. Called after the rates of all stages, once for each estimate; by default all
+    /// Takes from the error of a trial step what the end of a step takes from the state, such as what a projection removes.
+    /// Only what is left says something about the step. Called after the rates of all stages, once for each estimate; by default all
     /// is left.
     ///
     /// # Errors

@@ -124,7 +124,7 @@ impl<T: Real, const S: usize> Tableau<T, S> {
     }
 
     /// Size of the error of the trial step in `scratch`, h Σᵢ eᵢ kᵢ, of the components that `system` keeps, with a second estimate
-    /// as described at [`Self::coarse`]: at most one is within the tolerance.
+    /// as described at [`Self::coarse`]. At most one is within the tolerance.
     ///
     /// A number that is not finite anywhere in it or in the new state gives NaN or infinity.
     ///
@@ -140,6 +140,8 @@ impl<T: Real, const S: usize> Tableau<T, S> {
         y: &[T],
         (options, scratch): (&Options<'_, T>, &mut [T]),
     ) -> Result<T, R::Error> {
+        /// Weight of the square of the second estimate [-]: as published (Hairer, Norsett and Wanner, II.10).
+        const COARSE_WEIGHT: f64 = 0.01;
         let n = y.len();
         let (rates, rest) = scratch.split_at_mut(S * n);
         let (end, error) = rest.split_at_mut(n);
@@ -152,7 +154,7 @@ impl<T: Real, const S: usize> Tableau<T, S> {
         let fine = size(&self.e)?;
         let Some(coarse) = &self.coarse else { return Ok(fine) };
         let coarse = size(coarse)?;
-        let both = fine * fine + T::from_f64(0.01) * coarse * coarse;
+        let both = fine * fine + T::from_f64(COARSE_WEIGHT) * coarse * coarse;
         Ok(if both > T::ZERO { fine * fine / both.sqrt() } else { both })
     }
 }

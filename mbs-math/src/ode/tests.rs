@@ -46,8 +46,9 @@ fn witch_error(t: f64, y: &[f64; 2]) -> f64 {
     (y[0] - 1.0 / (1.0 + t * t)).abs()
 }
 
-/// Starts of the two problems.
+/// Start of the oscillator: cosine and its rate.
 const OSCILLATOR: [f64; 2] = [1.0, 0.0];
+/// Start of the curve 1 / (1 + t²): its value, and the time.
 const WITCH: [f64; 2] = [1.0, 0.0];
 
 /// At these steps the terms of the next order change the ratio of errors by less than this share.
@@ -181,7 +182,7 @@ fn counts_are_those_of_the_rates() {
     assert_eq!(changed.evaluations, evaluations + accepted - 1);
 }
 
-/// A hook that moves the second component by so many tolerances and calls that a projection; evaluations per accepted step.
+/// A hook that moves the second component by this many tolerances and calls that a projection; evaluations per accepted step.
 fn projected_by(tolerances: f64) -> u64 {
     let (mut problem, mut y, mut scratch) = (oscillator(), OSCILLATOR, [0.0; 18]);
     let mut driver = Adaptive::new(Tableau::dormand_prince(), 0.1);

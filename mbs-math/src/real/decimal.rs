@@ -3,12 +3,12 @@
 use super::double_double::DoubleDouble;
 use super::wide::Wide;
 
-/// Digits that are read; the others move the number by less than 10⁻⁵⁹ of it.
+/// Most digits that are read; the others move the number by less than 10⁻⁵⁹ of it.
 const MOST_DIGITS: u32 = 60;
 /// Bits of the quotient: two more than are kept are enough, and these fit the type.
 const BITS: usize = 120;
 
-/// 2⁻⁹⁶⁹: numbers below have no room for all bits of a second part.
+/// Least number with room for all bits of a second part: 2⁻⁹⁶⁹.
 const WHOLE: f64 = f64::from_bits((1023 - 969) << 52);
 
 /// The number that `text` says, within 2⁻¹⁰⁶ of its size (above 2⁻⁹⁶⁹); what `f64` reads as a number is one.
@@ -59,7 +59,7 @@ fn digits(text: &str) -> Option<(Wide, i32)> {
                 n += u32::from(!number.is_zero());
                 shift -= i32::from(is_fraction);
             }
-            // A digit that is left out still counts for the place of the point.
+            // A digit that is left out counts for the place of the point.
             b'0'..=b'9' => shift += i32::from(!is_fraction),
             _ => {}
         }

@@ -17,7 +17,7 @@
 //! Functions, reading and writing have their bounds where they stand (`functions.rs`, `decimal.rs`, `show.rs`).
 //!
 //! The crate `twofloat` 0.8 has the same arithmetic, but calls its elementary functions preliminary, leaves infinities and
-//! NaN out, and reads no decimal text; what is left of it is these few lines.
+//! NaN out, and reads no decimal text. What is left of it is these few lines.
 
 use super::transforms::{fast_two_sum, two_product, two_sum};
 use core::cmp::Ordering;

@@ -5,7 +5,7 @@ use super::transforms::{fast_two_sum, two_product};
 
 type Pair = DoubleDouble;
 
-/// π/2 as a sum of numbers, to 2⁻²⁶⁸: the last ones are what cancellation near multiples of π/2 leaves.
+/// Terms whose sum is π/2 to 2⁻²⁶⁸: the last ones are what cancellation near multiples of π/2 leaves.
 const QUARTER: [f64; 5] = [
     core::f64::consts::FRAC_PI_2,
     6.123233995736766e-17,
@@ -13,13 +13,13 @@ const QUARTER: [f64; 5] = [
     5.562271104316826e-50,
     2.836115989820158e-66,
 ];
-/// 2/π.
+/// Quarter turns of a radian: 2/π.
 const QUARTERS: f64 = core::f64::consts::FRAC_2_PI;
-/// More quarter turns than these are not told apart.
+/// Most quarter turns of an angle that is reduced [-]: 2⁵⁰, as an `f64` counts exactly up to 2⁵³.
 const MOST_QUARTERS: f64 = 1_125_899_906_842_624.0;
 /// The largest n in xⁿ/n!: for x = π/4 the first term left out is 2⁻¹¹³ of the first for the sine, 2⁻¹¹⁹ for the cosine.
 const TERMS: usize = 28;
-/// 1/n!, rounded as products and quotients of pairs are.
+/// Coefficients 1/n! of the series, rounded as products and quotients of pairs are.
 const SHARES: [Pair; TERMS + 1] = shares();
 
 const fn shares() -> [Pair; TERMS + 1] {

@@ -1,5 +1,5 @@
 //! The square root in single precision, by the instruction of an ARM with hardware floating point, for which libm has one in
-//! software alone; elsewhere libm's, which takes the instruction where there is one. Both round correctly: the bits are the same.
+//! software alone. Elsewhere it is libm's, which takes the instruction where there is one. Both round correctly: the bits are the same.
 //!
 //! **Proof.** Targets whose ABI passes numbers in registers of the floating-point unit (`eabihf`) have that unit, and every such
 //! unit has `vsqrt.f32`. The three instructions write `s0` and one other register, both named to the compiler; they touch no

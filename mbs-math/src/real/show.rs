@@ -4,12 +4,14 @@ use super::double_double::DoubleDouble;
 use super::wide::Wide;
 use core::fmt::{self, Alignment, Display, Formatter, LowerExp, Write};
 
-/// Digits where no precision is asked for.
+/// Digits where no precision is asked for: all that a pair of doubles has.
 const DIGITS: usize = 32;
 /// Digits that are computed at most; zeros follow.
 const MOST_DIGITS: usize = 64;
-/// The smallest `f64` is 2^-this.
+/// Exponent of the smallest `f64`, which is 2^-1074.
 const SMALLEST: i32 = 1074;
+/// Bound of the rounding of a logarithm of a size [-]: below 400, it is off by 1e-13 at most.
+const LOG_ROUNDING: f64 = 1e-9;
 
 /// Decimal digits of a size: d₀ d₁ ... times 10^exponent, d₀ before the point. Zero has no digits.
 struct Decimal {
@@ -27,9 +29,9 @@ impl Decimal {
         }
         let (mut over, mut under) = (exact(x), Wide::from_u64(1));
         under.shift_up(SMALLEST.unsigned_abs() as usize);
-        // One too small is put right below.
+        // One too small is put right below, and rounding of the logarithm makes none too large.
         #[allow(clippy::cast_possible_truncation, reason = "an exponent is below 400")]
-        let mut exponent = libm::floor(libm::log10(x.hi().abs()) - 1e-9) as i32;
+        let mut exponent = libm::floor(libm::log10(x.hi().abs()) - LOG_ROUNDING) as i32;
         let scaled = if exponent >= 0 { &mut under } else { &mut over };
         scaled.multiply_by_ten_to(exponent.unsigned_abs());
         let mut tenfold = under;
@@ -93,7 +95,7 @@ impl Decimal {
         (down..=from).rev().try_for_each(|place| to.write_char(self.at(place)))
     }
 
-    /// The whole part, and so many decimals.
+    /// The whole part, and decimals of this number.
     fn plain(&self, to: &mut dyn Write, decimals: usize) -> fmt::Result {
         self.write(to, (self.exponent.max(0), 0))?;
         if decimals == 0 {
@@ -103,7 +105,7 @@ impl Decimal {
         self.write(to, (-1, -i32::try_from(decimals).unwrap_or(i32::MAX)))
     }
 
-    /// One digit, so many decimals, and the exponent.
+    /// One digit, decimals of this number, and the exponent.
     fn scientific(&self, to: &mut dyn Write, decimals: usize) -> fmt::Result {
         to.write_char(self.at(self.exponent))?;
         if decimals > 0 {

@@ -4,7 +4,7 @@
 //! without it. The results are the same bits on every target whose `f64` is IEEE 754 binary64 in every operation; the x87
 //! registers of 32-bit x86 without SSE2 are not.
 
-/// 2²⁷ + 1: times a number, it parts the upper 26 bits from the rest.
+/// Factor 2²⁷ + 1: times a number, it parts the upper 26 bits from the rest.
 const SPLITTER: f64 = 134_217_729.0;
 
 /// s + e = a + b exactly, s the rounded sum (Knuth). 6 flops; exact for all finite numbers whose sum is finite.

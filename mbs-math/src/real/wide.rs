@@ -1,7 +1,7 @@
 //! Whole numbers of 2304 bits, for exact work with decimal text: 2²¹⁰⁰ is the largest that a pair of `f64` times a power of
 //! ten needs.
 
-/// Limbs of 32 bits.
+/// Limbs of 32 bits: 2304 bits in all, above the 2101 that are needed.
 const LIMBS: usize = 72;
 
 /// A whole number, lowest limb first.

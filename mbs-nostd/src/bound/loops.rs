@@ -30,7 +30,7 @@ const fn solve(rows: u64) -> Operations {
     ops(below(rows) + rows, below(rows))
 }
 
-/// J a + bias of so many rows, with the scale of its parts.
+/// J a + bias of this many rows, with the scale of its parts.
 pub(super) fn residual<T: Real, S: Space<T>>(rows: u64) -> Operations {
     let n = motion::<T, S>();
     ops(4 * n, 2 * (n - 1) + 2 + 2 * n + 2) * rows

@@ -12,7 +12,7 @@
 //! Counts are exact for mechanisms without effects, and with springs and dampers: no branch of the kernels depends on numbers. Of other effects the branch that costs most is counted, and on roads
 //! that are not level the longest search for the nearest point: there the count is a bound.
 //!
-//! Products, sums and differences, quotients, roots, and calls of sine with cosine or of the arc tangent are counted; changes of
+//! Products, sums and differences, quotients, roots, and calls of sine with cosine or of the arc tangent are counted. Changes of
 //! sign, comparisons and copies are not: they are in the instructions of the others.
 
 mod effects;

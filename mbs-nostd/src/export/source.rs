@@ -39,7 +39,7 @@ pub(crate) fn close(to: &mut String) {
         to.pop();
         return;
     }
-    // The innermost expression that is still open says how it ends.
+    // The innermost expression that is open says how it ends.
     let tuple = to.rfind('\u{2}');
     let named = to.rfind('\u{3}');
     let (at, end) = if tuple > named { (tuple, ")") } else { (named, " }") };

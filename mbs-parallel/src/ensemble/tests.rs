@@ -4,7 +4,7 @@ use super::*;
 use std::collections::BTreeMap;
 use std::thread::{ThreadId, current};
 
-/// The numbers of threads that are tried.
+/// Numbers of threads that are tried.
 const THREADS: [usize; 4] = [1, 2, 3, 8];
 
 fn ensemble(threads: usize) -> Ensemble {

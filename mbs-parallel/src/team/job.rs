@@ -10,20 +10,20 @@
 //! 1. *A handle never outlives its job.* [`Job::with_handle`] is the only way to make one. It gives the handle to `lend`, and
 //!    does not return (nor unwind) before `is_done` is true. A handle is consumed by [`Handle::run`], which is the last to touch
 //!    the job: its last access is the store to `done`. A handle that is dropped instead of run would make the owner wait for
-//!    ever, which is no memory fault; `lend` gets handles back that nobody took ([`ThreadTeam`](super::ThreadTeam) pops until all are run).
-//! 2. *Nobody touches closure or panic at the same time.* Before the handle is made only the owner can name the job. Then the
+//!    ever, which is no memory fault. `lend` gets handles back that no thread took ([`ThreadTeam`](super::ThreadTeam) pops until all are run).
+//! 2. *No two threads touch closure or panic at the same time.* Before the handle is made only the owner can name the job. Then the
 //!    owner reads nothing but `done` until it is true; the handle is neither `Clone` nor `Copy`, so there is one runner. The
 //!    runner's writes happen before its `Release` store of `done`; the owner's `Acquire` load that sees it happens before its
 //!    read of the panic. The queue's own synchronisation orders the making of the job before the run.
-//! 3. *Sending is sound.* The closure is `Send` (bound of [`Job::with_handle`]) and so is a panic's payload; a handle, which is
+//! 3. *Sending is sound.* The closure is `Send` (bound of [`Job::with_handle`]) and so is a panic's payload. A handle, which is
 //!    no more than the right to run the one and leave the other, may go to another thread.
 //! 4. *No unwinding through foreign frames.* The closure runs under `catch_unwind`; a panic is kept, and is resumed by the
 //!    owner.
-//! 5. *Lifetimes.* A handle forgets how long the closure may be borrowed; by point 1 it is run while the owner still waits, and
+//! 5. *Lifetimes.* A handle forgets how long the closure may be borrowed; by point 1 it is run while the owner waits, and
 //!    so within that time.
 //!
-//! The closure is dynamic, so that a fork is one function for all the work there is: it is called where another thread waits,
-//! beside which a virtual call is nothing.
+//! The closure is dynamic, so that a fork is one function for all the work there is. It is called where another thread waits,
+//! which takes longer than a virtual call.
 
 #![allow(unsafe_code, reason = "the proof is above")]
 
@@ -61,7 +61,7 @@ impl Handle {
     }
 }
 
-/// Tells whether a job is done.
+/// Shows whether a job is done.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Done<'a>(&'a AtomicBool);
 
@@ -73,7 +73,7 @@ impl Done<'_> {
 
 impl<'a> Job<'a> {
     /// Makes a job of `work`, hands it to `lend`, and returns when it is done. `lend` must see to it that the handle is run by
-    /// somebody, and should return when it is; what it returns is passed on, and so is a panic of either.
+    /// somebody, and should return when it is. What it returns is passed on, and so is a panic of either.
     pub(super) fn with_handle<R>(work: Work<'a>, lend: impl FnOnce(Handle, Done<'_>) -> R) -> R {
         let job = Self {
             work: UnsafeCell::new(work),

@@ -5,7 +5,7 @@
 //! ```
 //!
 //! Two pieces of work are done one after the other by the thread that has them, unless another one waits. So a thread goes
-//! on in the numbers that it has in its cache, and a fork that nobody takes costs a nanosecond.
+//! on in the numbers that it has in its cache, and a fork that no thread takes costs a nanosecond.
 
 use super::job::{Handle, Job};
 use crossbeam_queue::ArrayQueue;
@@ -17,11 +17,11 @@ use std::sync::atomic::{AtomicBool, AtomicIsize, AtomicUsize, Ordering};
 use std::thread::JoinHandle;
 use std::time::{Duration, Instant};
 
-/// Forks that may wait at the same time; a fork that finds no place is run by the one that made it.
+/// Most forks that wait at the same time; a fork that finds no place is run by the one that made it. Chosen, not tuned.
 const PLACES: usize = 1024;
-/// How long a thread without work stays awake: longer than what lies between two steps.
+/// Time for which a thread without work stays awake: longer than the time between two steps.
 const AWAKE: Duration = Duration::from_micros(200);
-/// How long it sleeps at most. Nobody depends on its waking up: who forks works too.
+/// Longest sleep of a thread. No result depends on its waking up: a thread that forks works too.
 const ASLEEP: Duration = Duration::from_millis(20);
 
 /// The caller's thread and others that help it, until the last clone is dropped.
@@ -83,7 +83,7 @@ impl Drop for Hands {
         self.shared.is_over.store(true, Ordering::Release);
         self.wakers.iter().for_each(Unparker::unpark);
         for thread in self.threads.drain(..) {
-            // Jobs catch their panics, so a thread has none of its own to tell.
+            // Jobs catch their panics, so a thread has none of its own to report.
             let _ = thread.join();
         }
     }

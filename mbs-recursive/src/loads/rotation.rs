@@ -1,6 +1,6 @@
 //! Rotations in space, which bushings act on: the rotation vector of two links, and where its laws end, at a whole turn.
 //!
-//! Beyond it the half angles of a tree tell of the turn the other way round: the rotation vector has turned over.
+//! Beyond it the half angles of a tree give the turn the other way round: the rotation vector has changed its sign.
 
 use super::{Gauge, Instant, Load};
 use crate::at::{Outside, at};
@@ -15,8 +15,8 @@ use mbs_core::laws::Supplies;
 use mbs_core::step::StepError;
 
 impl<T: Real, S: Space<T>> Instant<'_, T, S> {
-    /// The rotation vector of the second link against the first, in space and the first's axes: twice the half angles of the joints on
-    /// the way make it known below a whole turn.
+    /// The rotation vector of the second link against the first, in space and the first's axes. It is known
+    /// below a whole turn, by twice the half angles of the joints between them.
     pub(crate) fn rotation(&self, links: [u32; 2]) -> Result<Vector<T, 3>, Outside> {
         let [[s, x, y, z], second] = [self.quaternion(links[0])?, self.quaternion(links[1])?];
         let [s, x, y, z] = product([s, -x, -y, -z], second);

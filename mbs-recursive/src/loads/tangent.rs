@@ -10,8 +10,8 @@
 //! ```
 //!
 //! The first two are the linear part exactly. In the third the other link's acceleration counts as known, so that an iteration is
-//! left: it contracts, for M + 2 κ diag(w wᵀ) − κ (w₁ − w₂)(w₁ − w₂)ᵀ is positive definite.
-//! Accelerations that no longer change feel none of this: only the way there depends on κ.
+//! left. It contracts, for M + 2 κ diag(w wᵀ) − κ (w₁ − w₂)(w₁ − w₂)ᵀ is positive definite.
+//! Accelerations that no longer change do not depend on κ: only the iterates do.
 
 use super::{Instant, Load, Reach};
 use crate::at::{Outside, at, at_mut};

@@ -421,13 +421,16 @@ impl<T: Real> Space<T> for Spatial {
     }
 }
 
+/// Leading minor that is zero, in units of rounding of its factors [-]. Chosen, not tuned.
+const MINOR_ROUNDINGS: f64 = 64.0;
+
 /// Inverse of a symmetric positive definite 3×3; `None` if a leading minor is not safely positive.
 fn inverse<T: Real>(s: &[T; 6]) -> Option<[T; 6]> {
     let [xx, xy, xz, yy, yz, zz] = *s;
     let two = xx * yy - xy * xy;
     let (a, b, c) = (yy * zz - yz * yz, xz * yz - xy * zz, xy * yz - xz * yy);
     let determinant = xx * a + xy * b + xz * c;
-    let rounding = T::EPSILON * T::from_f64(64.0);
+    let rounding = T::EPSILON * T::from_f64(MINOR_ROUNDINGS);
     let size = xx.max(yy).max(zz);
     // A block that is singular to rounding has no inverse.
     if !(xx > rounding * size && two > rounding * size * xx && determinant > rounding * size * two)

@@ -6,12 +6,12 @@ use mbs_scene::format::rounded;
 use mbs_study::compare::results::{Comparison, MethodRuns, RunEntry, Status};
 use serde::Serialize;
 
-/// Digits of what is drawn.
+/// Significant digits of what is drawn: a screen resolves four.
 const DIGITS: usize = 5;
-/// Colours and marks of the page.
+/// Colours and marks of the page: those of its style.
 const KINDS: usize = 6;
 
-/// How the lines of a method look: told apart by mark and dash as well as by colour.
+/// How the lines of a method look: distinguished by mark and dash as well as by colour.
 #[derive(Debug, Serialize)]
 pub(super) struct Look {
     name: String,

@@ -5,7 +5,7 @@ use mbs::record::Provenance;
 use mbs_scene::format::{rounded, significant};
 use mbs_study::compare::results::{Comparison, MethodRuns, RankLevel, RunEntry, Status};
 
-/// Failures of a method that are listed in the terminal.
+/// Most failures of a method that are listed in the terminal. Chosen, not tuned.
 const MOST_SETTINGS: usize = 4;
 
 /// As tables.

@@ -10,7 +10,7 @@ use serde::Serialize;
 const DIGITS: usize = 6;
 /// Significant digits of times: steps of long runs stay apart.
 const TIME_DIGITS: usize = 9;
-/// Most lines of one panel.
+/// Most lines of one panel: more have no colours of their own.
 const MOST_LINES: usize = 6;
 
 #[derive(Serialize)]

@@ -1,18 +1,18 @@
 //! Thinning of series so that peaks survive.
 
-/// Most points of a line.
-pub(super) const MOST: usize = 1500;
+/// Most points of a line: more than a screen has columns for it.
+pub(super) const MAX_POINTS: usize = 1500;
 
-/// Indices to keep: the first, the last, and the smallest and largest value of each of `MOST/2 - 1` stretches.
+/// Indices to keep: the first, the last, and the smallest and largest value of each of `MAX_POINTS/2 - 1` stretches.
 ///
 /// Values that are not finite are kept once per stretch, so that gaps survive too. Cost: one pass.
 pub(super) fn kept(values: &[f64]) -> Vec<usize> {
-    if values.len() <= MOST {
+    if values.len() <= MAX_POINTS {
         return (0..values.len()).collect();
     }
     // three indices at most per stretch: smallest, largest, first gap; and the two ends
     let has_gaps = values.iter().any(|x| !x.is_finite());
-    let n_stretches = (MOST - 2) / if has_gaps { 3 } else { 2 };
+    let n_stretches = (MAX_POINTS - 2) / if has_gaps { 3 } else { 2 };
     let mut indices = vec![0];
     for stretch in 0..n_stretches {
         let start = stretch * values.len() / n_stretches;
@@ -28,7 +28,7 @@ pub(super) fn kept(values: &[f64]) -> Vec<usize> {
     indices
 }
 
-/// Stretches of an upper edge.
+/// Stretches of an upper edge. Chosen, not tuned.
 const EDGE: usize = 240;
 
 /// Indices of the first value, of the largest of each of 240 stretches, and of the last.
@@ -48,10 +48,10 @@ pub(super) fn envelope(values: &[f64]) -> Vec<usize> {
 
 /// Evenly spread indices, the first and the last among them.
 pub(super) fn spread(n: usize) -> Vec<usize> {
-    if n <= MOST {
+    if n <= MAX_POINTS {
         return (0..n).collect();
     }
-    (0..MOST).map(|i| i * (n - 1) / (MOST - 1)).collect()
+    (0..MAX_POINTS).map(|i| i * (n - 1) / (MAX_POINTS - 1)).collect()
 }
 
 #[cfg(test)]
@@ -64,12 +64,12 @@ mod tests {
         values[31_415] = 7.0;
         values[27_182] = -3.0;
         let indices = kept(&values);
-        assert!(indices.len() <= MOST);
+        assert!(indices.len() <= MAX_POINTS);
         assert!(indices.contains(&31_415) && indices.contains(&27_182));
         assert!(indices.starts_with(&[0]) && indices.ends_with(&[99_999]));
         values[5] = f64::NAN;
         let indices = kept(&values);
-        assert!(indices.len() <= MOST && indices.contains(&5) && indices.contains(&31_415));
+        assert!(indices.len() <= MAX_POINTS && indices.contains(&5) && indices.contains(&31_415));
     }
 
     #[test]
@@ -87,6 +87,6 @@ mod tests {
         assert_eq!(kept(&[1.0, 2.0, 3.0]), [0, 1, 2]);
         assert_eq!(spread(3), [0, 1, 2]);
         let indices = spread(10_000);
-        assert_eq!((indices.len(), indices[0], indices[MOST - 1]), (MOST, 0, 9_999));
+        assert_eq!((indices.len(), indices[0], indices[MAX_POINTS - 1]), (MAX_POINTS, 0, 9_999));
     }
 }

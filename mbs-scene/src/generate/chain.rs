@@ -5,12 +5,13 @@ use mbs_core::scene::{Body, BodyId, Dimension, GROUND, InitialCondition, Joint, 
 
 /// Mass of a link [kg].
 const MASS: f64 = 1.0;
-/// Links by turns, from joint to joint [m]: four make a turn of the coil.
+/// Links in their order, from joint to joint [m]: four make a turn of the coil.
 const LINKS: [[f64; 3]; 4] =
     [[0.12, 0.0, 0.16], [0.12, 0.16, 0.0], [0.12, 0.0, -0.16], [0.12, -0.16, 0.0]];
 
-/// Axes of the joints.
+/// First axis of the joints.
 const Y: [f64; 3] = [0.0, 1.0, 0.0];
+/// Second axis of the joints.
 const Z: [f64; 3] = [0.0, 0.0, 1.0];
 
 const COMMENT: &str = "\

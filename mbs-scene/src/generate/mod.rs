@@ -15,13 +15,13 @@ pub use error::GenerateError;
 
 use crate::read::SceneFile;
 
-/// Bodies of a generated scene at most.
+/// Most bodies of a generated scene. Chosen, not tuned: a slip of a count ends in a message.
 pub const MOST_BODIES: usize = 10_000_000;
 
 /// A family of scenes, with its size.
 #[derive(Debug, Clone, Copy)]
 pub enum Family<'a> {
-    /// A spatial chain of links hung at one end and let go from the horizontal: revolute, universal and spherical joints by turns.
+    /// A spatial chain of links hung at one end and let go from the horizontal: revolute, universal and spherical joints in this order.
     Chain {
         /// Links; at least 1.
         bodies: usize,

@@ -9,8 +9,9 @@
 use super::text::{self, vector};
 use mbs_core::scene::{Body, BodyId, Dimension, GROUND, Joint, Number, Scene};
 
-/// Length of a rod [m], and its mass [kg].
+/// Length of a rod [m].
 const ROD: f64 = 0.2;
+/// Mass of a rod [kg].
 const MASS: f64 = 0.02;
 /// Slope of the arc at its ends [rad].
 const SLOPE: f64 = 0.5;

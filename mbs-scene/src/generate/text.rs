@@ -53,7 +53,7 @@ pub(super) fn vector<const N: usize>(x: [f64; N]) -> [Number; N] {
     x.map(number)
 }
 
-/// Width of a bar over its length.
+/// Width of a bar, relative to its length [-].
 const SLENDER: f64 = 0.2;
 
 /// Inertia of a uniform square bar of mass m [kg] from end to end [m], about its centre, as scene files have it:

@@ -3,10 +3,11 @@
 use super::text::{self, bar, number, vector};
 use mbs_core::scene::{Body, BodyId, Dimension, GROUND, InitialCondition, Joint, JointId};
 
-/// Mass and length of the trunk [kg, m], and by what factor each generation is lighter and shorter.
+/// Mass of the trunk [kg], and the factor of each generation's [-].
 const MASS: [f64; 2] = [2.0, 0.7];
+/// Length of the trunk [m], and the factor of each generation's [-].
 const LENGTH: [f64; 2] = [0.6, 0.8];
-/// Sideways and downward share of a branch's length.
+/// Sideways and downward parts of a branch's unit length [-].
 const SLOPE: [f64; 2] = [0.6, 0.8];
 
 const COMMENT: &str = "\

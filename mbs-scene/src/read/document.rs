@@ -3,7 +3,7 @@
 use crate::read::tree::{self, Item, Member, Node, Span};
 use crate::read::{Place, ReadError, ReadFault};
 
-/// A scene file: syntax tree, text and name. Numbers are still decimal text.
+/// A scene file: syntax tree, text and name. Numbers are decimal text.
 #[derive(Debug, Clone, Default)]
 pub struct SceneFile {
     pub(super) file: String,

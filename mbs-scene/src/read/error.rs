@@ -34,7 +34,7 @@ pub enum ReadFault {
         /// The line it speaks about.
         line: String,
     },
-    /// A key or table that nobody knows.
+    /// A key or table that the format does not have.
     UnknownKey {
         /// The key as written.
         key: String,

@@ -176,7 +176,7 @@ impl<'a> Fields<'a> {
         }
     }
 
-    /// Refuses keys outside `known`; those in `elsewhere` are told apart as known but not used here.
+    /// Refuses keys outside `known`; those in `elsewhere` are reported as known but not used here.
     pub(crate) fn allow(&self, known: &[&'static str], elsewhere: &[&'static str]) -> Read<()> {
         let Some(stranger) = self.members.iter().find(|m| !known.contains(&m.key.as_str())) else {
             return Ok(());

@@ -5,6 +5,7 @@ use std::fmt::Write;
 
 /// The name at the smallest edit distance, when it is near enough to be meant.
 pub(crate) fn nearest<'a, S: AsRef<str>>(found: &str, known: &'a [S]) -> Option<&'a str> {
+    /// Most letters of a name that is compared: the work grows like their square.
     const LONGEST: usize = 64;
     let found: Vec<char> = found.to_lowercase().chars().take(LONGEST + 1).collect();
     let allowed = 1 + found.len() / 4;
@@ -58,15 +59,16 @@ pub fn nearest_name<S: AsRef<str>>(found: &str, known: &[S], what: &str) -> Stri
 
 /// All names when they are few, else the first of them.
 pub(super) fn listing<S: AsRef<str>>(known: &[S], what: &str) -> String {
-    const MOST: usize = 16;
+    /// Most names that are listed [-]: some lines of a terminal.
+    const MAX_NAMES: usize = 16;
     if known.is_empty() {
         return format!("there are no {what} yet");
     }
-    let names: Vec<&str> = known.iter().take(MOST).map(AsRef::as_ref).collect();
+    let names: Vec<&str> = known.iter().take(MAX_NAMES).map(AsRef::as_ref).collect();
     let mut out = format!("{what}: {}", names.join(", "));
-    if known.len() > MOST {
+    if known.len() > MAX_NAMES {
         // writing into a String does not fail
-        let _ = write!(out, " and {} more", known.len() - MOST);
+        let _ = write!(out, " and {} more", known.len() - MAX_NAMES);
     }
     out
 }

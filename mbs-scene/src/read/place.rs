@@ -51,19 +51,21 @@ impl Place {
 
     /// The same for a screen: without control characters, and long lines cut to what surrounds the offending text.
     fn shortened(&self) -> Self {
-        const MOST: usize = 120;
+        /// Most letters of a line that is shown: the width of a terminal.
+        const MAX_WIDTH: usize = 120;
+        /// Letters that are shown before the offending text, of a line that is cut.
         const BEFORE: usize = 40;
         let plain = |c: char| if c.is_control() && c != '\t' { '\u{fffd}' } else { c };
         let n = self.text.chars().count();
-        if n <= MOST {
+        if n <= MAX_WIDTH {
             return Self { text: self.text.chars().map(plain).collect(), ..self.clone() };
         }
         let first = (self.column - 1).saturating_sub(BEFORE);
         let (head, tail) =
-            (if first > 0 { "..." } else { "" }, if first + MOST < n { "..." } else { "" });
-        let cut: String = self.text.chars().skip(first).take(MOST).map(plain).collect();
+            (if first > 0 { "..." } else { "" }, if first + MAX_WIDTH < n { "..." } else { "" });
+        let cut: String = self.text.chars().skip(first).take(MAX_WIDTH).map(plain).collect();
         let column = self.column - first + head.len();
-        let width = self.width.min(MOST + head.len() + 1 - column.min(MOST)).max(1);
+        let width = self.width.min(MAX_WIDTH + head.len() + 1 - column.min(MAX_WIDTH)).max(1);
         Self { line: self.line, column, width, text: format!("{head}{cut}{tail}") }
     }
 }

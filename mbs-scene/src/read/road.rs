@@ -13,7 +13,7 @@ const KINDS: [(&str, &[&str]); 5] = [
     ("table", &["points"]),
 ];
 const TRACKS: [&str; 4] = ["features", "left", "right", "speed"];
-/// Steps of one staircase at most.
+/// Most steps of one staircase. Chosen, not tuned: a slip of a count ends in a message.
 const MOST_STEPS: u32 = 10_000;
 /// Rounded corners of a ramp as a share of its length, where none is written.
 const ROUNDING: &str = "0.1";

@@ -77,7 +77,7 @@ impl SceneFile {
     }
 
     /// The file of a scene that was read from this one and changed: values that changed and parts that are new are written, all else
-    /// keeps its text, comments too; a file without comments where the change is of another kind.
+    /// keeps its text, comments too. Where the change is of another kind, it is a file without comments.
     ///
     /// # Errors
     /// As [`to_toml`].

@@ -3,7 +3,7 @@
 use crate::read::tree::{Item, Member, Node};
 use core::fmt::Write;
 
-/// Rows of a list of lists that stand on one line; longer ones get a line for each row.
+/// Most rows of a list of lists on one line; longer ones get a line for each row.
 const ROWS_ON_A_LINE: usize = 3;
 
 /// The text of a whole file: each table and each entry of a list of tables under its header.

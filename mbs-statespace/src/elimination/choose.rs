@@ -7,7 +7,7 @@
 //! ```
 //!
 //! Comparing with all that is left, and not with one row or column, is what reveals the rank. The matrix is a list of entries
-//! linked along rows and columns; an entry stands for what it is in the pattern even when its number is zero just now, so the
+//! linked along rows and columns. An entry counts in the pattern even where its number is zero, so the
 //! order found holds for other numbers too.
 
 use super::pattern::{Pattern, index};

@@ -5,7 +5,7 @@ use super::pattern::index;
 use super::{Elimination, PivotSelection};
 use mbs_core::Real;
 
-/// u: a pivot has at least this share of the largest entry left.
+/// Least ratio u of a pivot to the largest remaining entry [-]: multipliers stay below 1/u. Chosen, not tuned.
 const THRESHOLD: f64 = 0.3;
 
 impl<T: Real> Elimination<T> {

@@ -3,12 +3,14 @@
 use crate::compare::results::StepTimes;
 use mbs_realtime::nearest_rank;
 
-/// Classes of a decade.
+/// Classes of times in a decade. Chosen, not tuned: a class is 26 % wide.
 const PER_DECADE: f64 = 10.0;
+/// Fraction of a class by which a time may be below its edge [-]: the logarithm is rounded.
+const ROUNDING: f64 = 1e-9;
 
 /// Sorts times of steps [s] into classes; `reading` [s] is what reading the clock takes.
 pub(super) fn step_times(mut times: Vec<f64>, reading: f64) -> Option<StepTimes> {
-    // the clock has ticks: no step takes less than one
+    // Least time of a step [s]: a tick of the clock.
     const TICK: f64 = 1e-9;
     for time in &mut times {
         *time = (*time - reading).max(TICK);
@@ -18,7 +20,7 @@ pub(super) fn step_times(mut times: Vec<f64>, reading: f64) -> Option<StepTimes>
     let mut classes: Vec<(i32, u64)> = Vec::new();
     for time in &times {
         #[allow(clippy::cast_possible_truncation, reason = "a small number")]
-        let class = (time.log10() * PER_DECADE + 1e-9).floor() as i32;
+        let class = (time.log10() * PER_DECADE + ROUNDING).floor() as i32;
         match classes.last_mut() {
             Some((of, count)) if *of == class => *count += 1,
             _ => classes.push((class, 1)),

@@ -1,4 +1,4 @@
-//! What `mbs run --error` would choose on the scene, held against what all methods were measured to take.
+//! What `mbs run --error` would choose on the scene, compared with the measured times of all methods.
 
 use super::reference::Known;
 use super::store::Store;
@@ -8,9 +8,9 @@ use crate::compare::results::{Comparison, JudgedChoice, MethodRuns, Status};
 use mbs::inside::in_space;
 use mbs::{Method, Settings};
 
-/// A chosen run is timed so often.
+/// Timings of a chosen run, of which the least counts. Chosen, not tuned.
 const TURNS: u32 = 9;
-/// Where choices stand in the progress bar.
+/// Place of the choices in the progress bar [-].
 const DONE: f64 = 0.96;
 
 impl Study<'_> {
@@ -78,7 +78,7 @@ impl Study<'_> {
         judged
     }
 
-    /// A chosen run, timed by turns with the runs of the best of all beside the error: what slows the machine for a while slows both.
+    /// A chosen run, timed interleaved with the runs of the best of all beside the error: what slows the machine for a while slows both.
     fn chosen_run(&self, pick: &Pick, known: &Known, best: Option<&Rival>) -> Result<Held, String> {
         let (settings, course) = self.course(&pick.method, pick.setting, known)?;
         let recorded = self.scenes.recorded(&settings, &course, f64::from(u16::MAX));

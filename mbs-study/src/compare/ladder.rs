@@ -1,18 +1,19 @@
 //! Which steps and tolerances are run, and at which instants runs are compared. None of it depends on a clock: two comparisons of
 //! a scene make the same runs.
 
-/// Steps by default, beside that of the scene.
+/// Steps by default, relative to the scene's [-].
 const STEPS: [f64; 9] = [10.0, 5.0, 2.0, 1.0, 0.5, 0.25, 0.125, 0.0625, 0.03125];
-/// Tolerances by default.
+/// Tolerances by default [-].
 const TOLERANCES: [f64; 8] = [1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10];
-/// Instants by default.
+/// Instants by default. Chosen, not tuned.
 const INSTANTS: usize = 200;
-/// A step fits if it misses by less than this share.
+/// Largest relative misfit of a step that fits into the interval of two instants [-]. Chosen, not tuned.
 const FITS: f64 = 1e-6;
 
-/// Work of one iteration for each coordinate and constraint, and besides [s]: roughly what they take on a processor of 3 GHz. A
+/// Work of one iteration for each coordinate and constraint [s]: what it takes on a processor of 3 GHz, by its order of magnitude. It is a
 /// measure of work that is the same every time, not of time.
 const PER_UNKNOWN: f64 = 2e-7;
+/// Work of one iteration besides [s], likewise.
 const PER_ITERATION: f64 = 3e-7;
 
 /// Steps to run, from the longest; those that are longer than a tenth of the run are left out.
@@ -76,7 +77,7 @@ impl Instants {
     }
 }
 
-/// The work of so many iterations of a model with so many coordinates and constraints [s, nominal].
+/// The work of iterations of a model with `unknowns` coordinates and constraints [s, nominal].
 #[allow(clippy::cast_precision_loss, reason = "a rough number")]
 pub(crate) fn work(iterations: u64, unknowns: usize) -> f64 {
     iterations as f64 * (PER_ITERATION + PER_UNKNOWN * unknowns as f64)

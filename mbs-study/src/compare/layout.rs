@@ -3,11 +3,11 @@
 
 use std::hint::black_box;
 
-/// Bytes that a level of the stack takes at least: no power of two, so that levels fall on all places within a page.
+/// Least bytes of a level of the stack: no power of two, so that levels begin at all places within a page.
 const LEVEL: usize = 208;
-/// So many levels at most.
+/// Most levels of the stack: prime, so that seven at a time come to each. Chosen, not tuned.
 const LEVELS: u32 = 19;
-/// Blocks of the heap that are held, so that what comes later lies elsewhere.
+/// Blocks of the heap that are held, so that what comes later is elsewhere. Chosen, not tuned.
 const BLOCKS: u32 = 48;
 
 /// Calls a function with stack and heap moved, by an amount that depends on the turn alone.

@@ -9,13 +9,13 @@ use mbs::FormulationKind;
 use mbs::Precision;
 use mbs::{Method, Settings};
 
-/// Penalties.
+/// Penalties of a map [-]: two decades apart.
 pub(super) const PENALTIES: [f64; 7] = [1e3, 1e5, 1e7, 1e9, 1e11, 1e13, 1e15];
-/// Steps beside that of the scene, to the nearest that fits.
+/// Steps of a map, relative to the scene's [-]: half decades, to the nearest that fits.
 const STEPS: [f64; 7] = [10.0, 3.0, 1.0, 0.3, 0.1, 0.03, 0.01];
-/// The longest step is made about so many times.
+/// Steps of a run with the longest step. Chosen, not tuned: the map shows convergence, not accuracy.
 const LONGEST_STEPS: f64 = 20.0;
-/// Iterations of a step, roughly.
+/// Iterations of a step for the estimate of the work. Chosen, not tuned.
 const ITERATIONS: f64 = 3.0;
 
 /// What is mapped.
@@ -31,7 +31,7 @@ pub(super) struct Plan {
 
 impl Plan {
     /// A map for each of the formulations and precisions; fewer steps, then none, where it would take more than `most` [s,
-    /// nominal] with so many unknowns.
+    /// nominal] with these unknowns.
     pub(super) fn new(
         (instants, of_scene): (Instants, f64),
         (formulations, precisions): (Vec<FormulationKind>, Vec<Precision>),
@@ -89,7 +89,7 @@ impl Plan {
         })
     }
 
-    /// One cell, for at most so many seconds.
+    /// One cell, for at most `most` seconds.
     pub(super) fn cell(
         &self,
         scenes: &Scenes,

@@ -1,7 +1,7 @@
 //! What each method costs and gives on one scene: every formulation, integrator, control and precision over a range of steps or
 //! tolerances, against a reference that is not under test.
 //!
-//! Runs are recorded first, with their errors, then timed by turns. Which runs are made follows from counts, not from a clock, so
+//! Runs are recorded first, with their errors, then timed interleaved. Which runs are made follows from counts, not from a clock, so
 //! that two comparisons make the same ones. Each result is in the journal before the next run begins.
 
 mod clocked;
@@ -69,11 +69,16 @@ pub struct Request {
     pub budget: f64,
     /// Are the convergence maps wanted?
     pub maps: bool,
-    /// Is the choice by measurement to be made at each error, and held against all methods?
+    /// Is the choice by measurement to be made at each error, and compared with all methods?
     pub choices: bool,
     /// What ends the comparison from outside.
     pub interrupt: Interrupt,
 }
+
+/// Ratio of the budget of all runs to that of the convergence maps [-]. Chosen, not tuned.
+const MAP_BUDGETS: f64 = 10.0;
+/// Place of the convergence maps in the progress bar [-].
+const MAPS_DONE: f64 = 0.95;
 
 impl Default for Request {
     fn default() -> Self {
@@ -127,18 +132,18 @@ pub enum CompareError {
     NotPositive(&'static str),
     /// A step that is longer than the run: both [s].
     StepTooLong(f64, f64),
-    /// Runs are to be timed so often, which tells nothing of how far times differ.
+    /// Runs are to be timed this often, which says nothing of how far times differ.
     Repeats(u32),
 }
 
 /// Called as results come; does nothing by default.
 pub trait Watch {
-    /// Told once, before the first run: what is going to be done.
+    /// Called once, before the first run, with what will be done.
     fn plan(&mut self, text: &str) {
         let _ = text;
     }
 
-    /// So much of the work is done, from 0 to 1; `doing` says what is next.
+    /// This fraction of the work is done, from 0 to 1; `doing` says what is next.
     fn doing(&mut self, share: f64, doing: &str) {
         let _ = (share, doing);
     }
@@ -330,7 +335,7 @@ impl<'a> Study<'a> {
         let precisions =
             precisions.filter(|p| self.methods.iter().any(|m| m.precision == *p)).collect();
         let instants = Instants { count: known.rows.len(), ..self.instants };
-        let budget = (self.unknowns(), self.request.budget / 10.0);
+        let budget = (self.unknowns(), self.request.budget / MAP_BUDGETS);
         let plan = map::Plan::new((instants, self.of_scene), (augmented, precisions), budget);
         (!plan.between.is_empty()).then_some(plan)
     }
@@ -345,7 +350,7 @@ impl<'a> Study<'a> {
         let Some(plan) = plan else { return Ok(Vec::new()) };
         let mut maps = Vec::new();
         for which in plan.which() {
-            watch.doing(0.95, "convergence maps");
+            watch.doing(MAPS_DONE, "convergence maps");
             let map = plan.map(which, |between, penalty| {
                 let (formulation, precision) = (which.0.name(), which.1.name());
                 let key = format!("map {formulation} {precision} {penalty:e} {between}");

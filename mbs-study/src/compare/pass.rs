@@ -26,12 +26,12 @@ use mbs_core::control::Accepted;
 use mbs_core::scene::Scene;
 use mbs_scene::SceneFile;
 
-/// Runs shorter than this are repeated within one timing, and the least of them is taken [s].
+/// Time from which one run is a timing [s]; shorter runs are repeated, and the least time counts. Chosen, not tuned.
 const SHORT: f64 = 0.01;
-/// But not more often.
+/// Most repetitions within one timing. Chosen, not tuned.
 const MOST_FRESH: u32 = 10;
-/// Steps that an integrator with a control of its own may try between two instants: no clock is read within, and one that finds no
-/// way past a kink of a force in 32 digits would go on for hours.
+/// Most steps that an integrator with its own step control tries between two instants. No clock is read within, and one that finds no
+/// way past a kink of a force in 32 digits would take hours.
 const MOST_OWN_STEPS: u32 = 2000;
 
 /// A scene in the precisions that run.
@@ -86,7 +86,7 @@ impl Scenes {
         Settings { interrupt: self.interrupt.clone(), ..settings.clone() }
     }
 
-    /// Runs and records, for at most so many seconds of CPU time.
+    /// Runs and records, for at most `most` seconds of CPU time.
     pub(super) fn recorded(&self, settings: &Settings, course: &Course, most: f64) -> Recorded {
         let Some(scene) = self.of(settings.precision) else {
             return Recorded { is_not_started: true, ..Recorded::default() };

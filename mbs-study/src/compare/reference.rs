@@ -6,15 +6,15 @@ use crate::compare::results::{CrossCheck, OutputScale, Reference, output_scales,
 use mbs::record::Channel;
 use mbs_scene::format::significant;
 
-/// The reference is well known at an instant if its uncertainty so far is less than this share of the least error ranked.
+/// Ratio of the least error ranked to the uncertainty of the reference, from which an instant is well known [-]. Chosen, not tuned.
 const KNOWN: f64 = 3.0;
-/// At least this share of the instants is compared, as well as they are known.
+/// Least fraction of the instants that is compared, however well they are known [-]. Chosen, not tuned.
 const LEAST_SHARE: f64 = 0.1;
-/// Another formulation agrees if it is no further away than so many times what both can tell.
+/// Largest difference of a formulation that agrees, in units of the uncertainty of both [-]. Chosen, not tuned.
 const AGREES: f64 = 3.0;
-/// A table is refuted by formulations that are further from it than so many times what both can tell.
-const FAR: f64 = 10.0;
-/// A check that tells no more than this checks nothing.
+/// Difference of a table and formulations that refutes the table, in units of the uncertainty of both [-]. Chosen, not tuned.
+const REFUTED: f64 = 10.0;
+/// Largest uncertainty of a check, relative to the outputs' ranges [-]: more checks nothing. Chosen, not tuned.
 const TELLS: f64 = 1e-2;
 
 /// Rows at the instants after the start.
@@ -91,8 +91,8 @@ impl Known {
         Self { rows: table.rows, scales, report, notes, is_refuted: false }
     }
 
-    /// Holds a table against two solutions by different formulations. It is verified where both agree with it, within what they and
-    /// its digits tell; it is refuted where they agree with each other and miss it by far.
+    /// Compares a table with two solutions by different formulations. It is verified where both agree with it, within the uncertainty of
+    /// all three. It is refuted where they agree with each other and miss it by [`REFUTED`].
     pub(super) fn verify(&mut self, name: &str, pairs: &[Pair], instants: &Instants) {
         let [a, b, ..] = pairs else {
             let note = "the reference is NOT verified: it is taken as given, since no two formulations run the scene to the end";
@@ -119,7 +119,7 @@ impl Known {
             let told = self.report.uncertainty + apart;
             (seen, largest) = (seen + 1, largest.max(d));
             is_near &= d <= AGREES * told;
-            if d > FAR * told && miss.is_none_or(|(_, most)| d > most) {
+            if d > REFUTED * told && miss.is_none_or(|(_, most)| d > most) {
                 miss = Some((k, d));
             }
         }

@@ -1,20 +1,20 @@
-//! Times of whole runs, by turns, until they are known well enough.
+//! Times of whole runs, interleaved, until they are known well enough.
 
 use super::reference::Known;
 use super::store::Store;
 use super::{CompareError, Study, Watch};
 use crate::compare::results::{Comparison, RunEntry, Status};
 
-/// The three least times of a run differ by no more than this share where it is known well enough.
+/// Largest relative difference of the three least times of a run that is known well enough [-]. Chosen, not tuned.
 const SETTLED: f64 = 0.005;
-/// So many times the repeats asked for, those that decide the ranking are timed at least and at most.
+/// Least and most rounds of the runs that decide the ranking, in units of the requested repeats [-]. Chosen, not tuned.
 const ROUNDS: [u32; 2] = [3, 8];
-/// Where the rounds stand in the progress bar.
-const SHARE: [f64; 2] = [0.35, 0.6];
+/// Start and length of the rounds in the progress bar, as fractions of it [-].
+const PROGRESS: [f64; 2] = [0.35, 0.6];
 
 impl Study<'_> {
-    /// Times every completed run: in rounds over all, there and back, so that what disturbs a while meets all alike; then again
-    /// those that decide the ranking, until their three least times meet.
+    /// Times every completed run in rounds over all, forth and back, so that a disturbance meets all alike. Then it times again those that
+    /// decide the ranking, until their three least times agree.
     pub(super) fn time(
         &self,
         comparison: &mut Comparison,
@@ -41,7 +41,7 @@ impl Study<'_> {
                 let usual = repeats * ROUNDS[0];
                 let share = ((f64::from(round) + part) / f64::from(usual)).min(1.0);
                 let doing = format!("timing, round {} of {usual}", round + 1);
-                watch.doing(SHARE[0] + SHARE[1] * share, &doing);
+                watch.doing(PROGRESS[0] + PROGRESS[1] * share, &doing);
                 let method = &self.methods[m];
                 let run = &mut comparison.methods[m].runs[r];
                 let key = format!("time {round} {} {:e}", method.name(), run.setting);

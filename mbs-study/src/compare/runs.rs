@@ -10,12 +10,12 @@ use crate::compare::results::{MethodRuns, RunEntry, Status};
 use mbs::FormulationKind;
 use serde_json::{Value, json};
 
-/// Errors below this are good enough to tell that finer settings bring no more.
+/// Error below which a finer setting can be no better for rounding, relative to the outputs' ranges [-]. Chosen, not tuned.
 const GOOD: f64 = 1e-2;
-/// So many finer settings without a smaller error end the refinement.
+/// Finer settings without a smaller error that end the refinement. Chosen, not tuned.
 const NO_BETTER: u32 = 2;
-/// Share of all work that recording is, for the progress bar.
-const RECORDING: f64 = 0.3;
+/// Start and length of recording in the progress bar, as fractions of it [-].
+const RECORDING: [f64; 2] = [0.05, 0.3];
 
 /// What is known of a method while its settings are refined.
 #[derive(Debug, Default)]
@@ -24,7 +24,7 @@ struct Refined {
     last: Option<(f64, f64, f64)>,
     best: Option<f64>,
     no_better: u32,
-    /// Steps, iterations and errors, to the bit, of the last run that was completed: a setting that changes none of them is held by the
+    /// Steps, iterations and errors, to the bit, of the last run that was completed. A setting that changes none of them is held by the
     /// instants of the results, and says nothing of finer ones.
     same: Option<[u64; 4]>,
     /// Nothing finer is run; why.
@@ -41,7 +41,7 @@ impl Study<'_> {
         let mut all = Vec::new();
         for (i, method) in self.methods.iter().enumerate() {
             let share = super::ladder::count(i) / super::ladder::count(self.methods.len());
-            watch.doing(0.05 + RECORDING * share, &method.name());
+            watch.doing(RECORDING[0] + RECORDING[1] * share, &method.name());
             let settings = if method.is_fixed() { &self.steps } else { &self.tolerances };
             let mut refined = Refined::default();
             let mut runs = Vec::new();

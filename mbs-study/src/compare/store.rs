@@ -12,7 +12,7 @@ pub enum Earlier {
     /// Refuses to begin.
     #[default]
     Refuse,
-    /// Goes on from them.
+    /// Resumes from them.
     Resume,
     /// Throws them away.
     Restart,

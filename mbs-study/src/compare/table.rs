@@ -4,7 +4,7 @@ use super::ladder::Instants;
 use core::fmt::{self, Display, Formatter};
 use mbs::record::Channel;
 
-/// A row belongs to an instant if it misses it by less than this share of the run.
+/// Largest difference of a row and its instant, relative to the run [-]: decimals are rounded. Chosen, not tuned.
 const SAME_TIME: f64 = 1e-9;
 
 /// A table that cannot be used.

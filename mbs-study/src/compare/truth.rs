@@ -11,15 +11,18 @@ use mbs::Settings;
 use mbs::{IntegratorKind, Precision};
 use serde_json::{Value, json};
 
-/// A run of the reference may take so many times what others may; the dearest kind is tried for no longer than they.
-const PATIENCE: f64 = 10.0;
-const SHORT_PATIENCE: f64 = 1.0;
-/// Tolerances of the reference's two runs, the best pair first.
+/// Time limit of a run of the reference, relative to that of others [-]. Chosen, not tuned.
+const TIME_LIMIT: f64 = 10.0;
+/// Time limit of a run of the most expensive kind, relative to that of others [-].
+const SHORT_TIME_LIMIT: f64 = 1.0;
+/// Tolerances of the reference's two runs, the best pair first [-]: their difference is the uncertainty.
 const TOLERANCES: [[f64; 2]; 3] = [[1e-13, 1e-12], [1e-11, 1e-10], [1e-9, 1e-8]];
-/// The same in double-double.
+/// The same in double-double [-].
 const PAIR_TOLERANCES: [[f64; 2]; 1] = [[1e-20, 1e-18]];
-/// Steps of the check beside that of the scene; each is halved twice. A third of the work of all runs is not exceeded.
+/// Steps of the check, relative to the scene's [-], from the finest that [`CHECK_BUDGETS`] allows: each is halved twice.
 const STEPS: [f64; 4] = [0.125, 0.25, 0.5, 1.0];
+/// Ratio of the budget of all runs to the most work of a run of the check [-]. Chosen, not tuned.
+const CHECK_BUDGETS: f64 = 20.0;
 /// An integrator that controls its error, in a precision; the tolerances of its two runs, and how long they may take.
 type Way<'a> = ((IntegratorKind, Precision), (&'a [[f64; 2]], f64));
 const ORDINARY: (IntegratorKind, Precision) = (IntegratorKind::Rk54, Precision::F64);
@@ -36,25 +39,25 @@ impl Study<'_> {
             let duration = self.scenes.double.duration;
             let table = table::read(text, &self.channels, (&self.instants, duration));
             let mut known = Known::of_table(table.map_err(CompareError::Table)?, name, of);
-            // a table is held against runs before runs are held against it
+            // a table is compared with runs before runs are compared with it
             let (pairs, _) =
-                self.pairs(&[(ORDINARY, (&TOLERANCES[1..], SHORT_PATIENCE))], store)?;
+                self.pairs(&[(ORDINARY, (&TOLERANCES[1..], SHORT_TIME_LIMIT))], store)?;
             known.verify(name, &pairs, &self.instants);
             return Ok(known);
         }
         let least = self.request.errors.iter().copied().fold(1e-2, f64::min);
         let dear = (IntegratorKind::Extrapolation, Precision::DoubleDouble);
         let kinds: [Way<'_>; 2] = [
-            (dear, (&PAIR_TOLERANCES[..], SHORT_PATIENCE)),
-            (ORDINARY, (&TOLERANCES[..], PATIENCE)),
+            (dear, (&PAIR_TOLERANCES[..], SHORT_TIME_LIMIT)),
+            (ORDINARY, (&TOLERANCES[..], TIME_LIMIT)),
         ];
         let (pairs, why) = self.pairs(&kinds, store)?;
         let Some(best) = pairs.first() else { return Err(CompareError::NoReference(why)) };
         Ok(Known::of_runs(best, pairs.get(1), of, (&self.instants, least)))
     }
 
-    /// Two solutions by different formulations, as far as there are: relative coordinates by the first of some ways that goes to the
-    /// end, then natural ones; and why the last one that failed did.
+    /// Up to two solutions by different formulations: relative coordinates by the first method that comes to the end, then natural ones.
+    /// Also why the last one that failed did.
     fn pairs(
         &self,
         kinds: &[Way<'_>],
@@ -120,7 +123,7 @@ impl Study<'_> {
             control: Control::Fixed,
             precision: Precision::F64,
         };
-        let most = self.request.budget / 20.0;
+        let most = self.request.budget / CHECK_BUDGETS;
         let affordable = |factor: &&f64| {
             let shortest = self.of_scene * **factor / 4.0;
             let steps = self.instants.steps_between(shortest) * self.instants.count as u64;
@@ -131,7 +134,7 @@ impl Study<'_> {
         let mut runs: Vec<Rows> = Vec::new();
         for halvings in 0..3 {
             let step = self.instants.interval / count((between as usize) << halvings);
-            match self.reference_run(&method, (step, PATIENCE), store, why)? {
+            match self.reference_run(&method, (step, TIME_LIMIT), store, why)? {
                 Some(rows) => runs.push(rows),
                 None => return Ok(None),
             }

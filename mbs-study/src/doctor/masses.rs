@@ -7,9 +7,9 @@ use mbs_core::scene::{Dimension, Entry, Scene, SceneFault};
 use mbs_linear::{Matrix, singular_values};
 use mbs_scene::format::few;
 
-/// Share of the largest principal moment by which the others exceed it, below which a body is a plate.
+/// Excess of two principal moments over the third, relative to it [-], below which a body is a plate. Chosen, not tuned.
 const FLAT: f64 = 1e-3;
-/// Ratio of masses beyond which roundings of the heavy body are forces on the light one.
+/// Ratio of masses from which rounding of the heavy body is a force on the light one [-]. Chosen, not tuned.
 const RATIO: f64 = 1e6;
 
 pub(super) fn findings(

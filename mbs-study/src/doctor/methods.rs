@@ -1,4 +1,4 @@
-//! Which formulations take a step of a scene with dependent equations: tried, not foretold.
+//! Which formulations take a step of a scene with dependent equations: tried, not predicted.
 
 use super::finding::{Finding, Severity, Topic};
 use mbs::FormulationKind;
@@ -17,7 +17,7 @@ pub struct Attempt {
     pub error: Option<(&'static str, String)>,
 }
 
-/// Bodies of a scene that is small enough to be tried.
+/// Most bodies of a scene whose methods are tried, for the time that it takes. Chosen, not tuned.
 const LARGEST: usize = 300;
 
 pub(super) fn try_all<const D: usize>(scene: &Scene<f64>, settings: &Settings) -> Vec<Attempt> {

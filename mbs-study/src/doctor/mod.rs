@@ -88,8 +88,8 @@ impl Checkup {
 
 /// Examines a checked scene.
 ///
-/// Cost: two assemblies; for each part with loops some singular value decompositions of its m equations in n velocities, 20 m n²
-/// operations each, as many as positions along the motion; and that run itself.
+/// Cost: two assemblies, and the run itself. For each part with loops some singular value decompositions of its m equations in n
+/// velocities, 20 m n² operations each, as many as positions along the motion.
 #[must_use]
 pub fn examine(scene: &Scene<f64>, settings: &Settings, effort: &Effort) -> Checkup {
     match scene.dimension {
@@ -171,6 +171,7 @@ fn unique(linkage: &Linkage, diagnosis: &Diagnosis) -> Vec<Vec<bool>> {
 }
 
 fn shares(linkage: &Linkage, poses: &[RigidMotion<f64>]) -> Vec<Drive> {
+    /// Most joints of a part whose drives are compared: each takes a decomposition. Chosen, not tuned.
     const SMALL: usize = 60;
     let parts = linkage.parts.iter().filter(|p| p.has_loop() && p.joints.len() <= SMALL);
     let of = |part| {

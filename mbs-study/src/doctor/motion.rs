@@ -4,7 +4,7 @@
 //! κ(t) = σ_r / σ₁,   r: the largest rank met on the way
 //! ```
 //!
-//! Where κ passes zero it is a smooth function with its sign taken off. So behind each smallest sample the sign is put back: if the
+//! Where κ passes zero it is a smooth function with its sign taken off. So behind each smallest sample the sign is put back. If the
 //! cubic through two samples before and two behind, these negated, meets the sample between them, κ passes zero, and the cubic
 //! says where. Else the least is that of the parabola through κ².
 
@@ -13,6 +13,7 @@ use super::finding::{Finding, Severity, Topic, joint_names};
 use crate::redundancy::{Linkage, Loop, Part, Poses, Rank, loops};
 use core::ops::ControlFlow;
 use mbs::Settings;
+use mbs::inside::SAME_LENGTH;
 use mbs::StopError;
 use mbs::inside::step;
 use mbs::inside::{Stretch, drive};
@@ -78,14 +79,16 @@ pub struct LinearMotion {
     pub changed: Option<f64>,
 }
 
-/// κ below which a position counts as passed through.
+/// Measure κ below which a position counts as passed through [-]. Chosen, not tuned.
 const SINGULAR: f64 = 1e-3;
-/// Parts beyond this number of joints are left out: decompositions would take minutes.
+/// Most joints of a part that is watched: decompositions of larger ones take minutes.
 const LARGEST: usize = 200;
-/// Operations that all decompositions may take: of large parts fewer positions are looked at.
+/// Most operations of all decompositions [-]: fewer positions of large parts are decomposed. Chosen, not tuned.
 const WORK: f64 = 2e10;
-/// Share of a combination above which a joint belongs to it.
-const SHARE: f64 = 0.05;
+/// Operations of a decomposition, relative to the cube of its columns [-]: that of singular values and vectors.
+const SVD_WORK: f64 = 20.0;
+/// Part of a unit combination above which a joint belongs to it [-]. Chosen, not tuned.
+const MEMBER_PART: f64 = 0.05;
 
 struct Watch<'a> {
     scene: &'a Scene<f64>,
@@ -171,7 +174,7 @@ impl<const D: usize> StepObserver<f64, D> for Look<'_, '_> {
         let Self { watch, motion, every, next, .. } = self;
         let t = now.state().t;
         motion.reached = t;
-        if t >= *next * (1.0 - 1e-9) {
+        if t >= *next * (1.0 - SAME_LENGTH) {
             watch.look(t, &places(watch.scene, now.model(), now.state()));
             motion.positions += 1;
             *next += *every * ((t - *next) / *every).floor().max(0.0) + *every;
@@ -182,11 +185,12 @@ impl<const D: usize> StepObserver<f64, D> for Look<'_, '_> {
     }
 }
 
-/// How many positions are looked at.
+/// How many positions are decomposed.
 #[allow(clippy::cast_precision_loss, reason = "counts stay far below 2^53")]
 fn positions(linkage: &Linkage, effort: &Effort) -> f64 {
     let watched = linkage.parts.iter().filter(|p| is_watched(p));
-    let work = watched.map(|p| 20.0 * (p.bodies.len() * linkage.freedoms()).pow(3) as f64).sum();
+    let work =
+        watched.map(|p| SVD_WORK * (p.bodies.len() * linkage.freedoms()).pow(3) as f64).sum();
     (effort.positions as f64).min((WORK / f64::max(work, 1.0)).ceil())
 }
 
@@ -272,7 +276,7 @@ impl Track<'_> {
                 range.clone().map(|row| weights[row] * weights[row]).sum::<f64>()
             };
             let joints = self.part.joints.iter().zip(&jacobian.rows);
-            let taken = joints.filter(|(_, range)| weight(range) > SHARE * SHARE);
+            let taken = joints.filter(|(_, range)| weight(range) > MEMBER_PART * MEMBER_PART);
             self.joints = taken.map(|(&joint, _)| joint).collect();
         }
         self.kappa.push([t, kappa]);

@@ -7,13 +7,13 @@ use mbs_core::effects::Value;
 use mbs_core::scene::{BodyId, Dimension, Entry, Inertia, JointKind, Scene};
 use mbs_scene::format::few;
 
-/// Distance between an end of an effect and another place of its body that is told, beside the length of the scene.
-const NEAR: f64 = 0.02;
-/// The same for an end of a rod that nothing is attached to, beside the rod's length: the other end is no candidate.
+/// Distance between an end of an effect and another place of its body that is reported, relative to the scene's length [-]. Chosen, not tuned.
+const NEAR_ON_SCENE: f64 = 0.02;
+/// The same for an end of a rod that nothing is attached to, relative to the rod's length [-]: the other end is no candidate.
 const NEAR_ON_ROD: f64 = 0.15;
-/// Distance from the centre of mass beyond which a place is not on a body, in sizes of the body; within one size it would be on it
-/// if it were counted from the centre.
-const FAR: f64 = 3.0;
+/// Distance from the centre of mass from which a place is not on a body, in sizes of the body [-]. Within one size it would be on it
+/// if it were measured from the centre.
+const FAR_FROM_CENTER: f64 = 3.0;
 
 /// What stands at a place.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -34,7 +34,7 @@ struct Place {
 
 /// Names what is near another place of its body without being there, and effects that are far from their body.
 pub(super) fn findings(scene: &Scene<f64>, findings: &mut Vec<Finding>) {
-    let near = NEAR * scene_length(scene);
+    let near = NEAR_ON_SCENE * scene_length(scene);
     for here in places(scene) {
         for (place, other) in apart(scene, &here, near) {
             findings.push(near_miss(scene, place, other));
@@ -153,7 +153,7 @@ fn stray(scene: &Scene<f64>, place: &Place, here: &[Place]) -> Option<Finding> {
     let reach = others.map(|other| (other.point - center).norm()).fold(0.0, f64::max);
     let size = reach.max((inertia.trace() / mass).sqrt());
     let distance = (place.point - center).norm();
-    if !(size > 0.0 && distance > FAR * size && place.point.norm() <= size) {
+    if !(size > 0.0 && distance > FAR_FROM_CENTER * size && place.point.norm() <= size) {
         return None;
     }
     let (entry, key) = entry(place);

@@ -47,8 +47,8 @@ pub(super) fn tilts(scene: &Scene<f64>, findings: &mut Vec<Finding>) {
     }
 }
 
-/// Ways below this share of the scene's length are rounding of the file's numbers.
-const STILL: f64 = 1e-6;
+/// Largest displacement that is rounding of the file's numbers, relative to the scene's length [-]: they have six digits or more.
+const ROUNDING: f64 = 1e-6;
 
 pub(super) fn findings<const D: usize>(
     scene: &Scene<f64>,
@@ -66,7 +66,7 @@ pub(super) fn findings<const D: usize>(
         begun.poses.iter().map(|p| [p.velocity.norm(), p.omega.norm()]).collect();
     let length = begun.model.length();
     let far: Vec<usize> = (0..bodies.len())
-        .filter(|&b| bodies[b][0] > STILL * length || bodies[b][1] > STILL)
+        .filter(|&b| bodies[b][0] > ROUNDING * length || bodies[b][1] > ROUNDING)
         .collect();
     if !far.is_empty() {
         let [way, turn] = [0, 1].map(|i| bodies.iter().map(|x| x[i]).fold(0.0, f64::max));
@@ -133,7 +133,7 @@ fn follow<const D: usize>(
     }
     let size = |s: &[f64; 2]| s[0].max(s[1] * begun.model.length());
     let fastest = speeds.iter().map(size).fold(0.0, f64::max);
-    let moves = |b: &usize| !is_written[*b] && size(&speeds[*b]) > STILL * fastest;
+    let moves = |b: &usize| !is_written[*b] && size(&speeds[*b]) > ROUNDING * fastest;
     let others: Vec<usize> = (0..scene.bodies.len()).filter(moves).collect();
     if n == 0 || n >= dof || others.is_empty() {
         return;

@@ -1,4 +1,4 @@
-//! Numbers that look like another unit: told only where the evidence is strong, as warnings that always come are not read.
+//! Numbers that look like another unit: reported only where the evidence is strong, as warnings that always come are not read.
 
 use super::finding::{Finding, Severity, Topic, body_names};
 use mbs_core::cluster::{mass_properties, scene_length};
@@ -7,13 +7,13 @@ use mbs_core::scene::{
 };
 use mbs_scene::format::few;
 
-/// Mass over the cube of the size [kg/m^3]: a slender rod of a metre and a kilogram has 1, a block of steel 8000.
+/// Bounds of mass over the cube of the size [kg/m^3]: a slender rod of a metre and a kilogram has 1, a block of steel 8000.
 const DENSITIES: [f64; 2] = [1e-6, 1e8];
-/// Radius of gyration over size beyond which an inertia is in another unit: a rod has 0.29.
+/// Ratio of radius of gyration to size from which an inertia is in another unit [-]: a rod has 0.29.
 const GYRATION: f64 = 30.0;
-/// Lengths of a spring at rest and in place differ by less.
+/// Ratio of a spring's free length to its length in place, from which it is in another unit [-]. Chosen, not tuned.
 const LENGTHS: f64 = 100.0;
-/// Frequency that no part of a machine has [rad/s].
+/// Angular frequency from which a unit is doubtful [rad/s]: a steel rod of 1.6 mm vibrates along itself so fast.
 const FASTEST: f64 = 1e7;
 
 pub(super) fn findings(scene: &Scene<f64>, findings: &mut Vec<Finding>) {
@@ -102,10 +102,12 @@ fn bodies(scene: &Scene<f64>, findings: &mut Vec<Finding>) {
     findings.push(doubt("size-or-mass-unit", message, remedy).at(Entry::Scene, "name"));
 }
 
-/// More than a turn, and a round number of degrees.
+/// More than a turn in radians, up to two in degrees, and a multiple of five.
 fn like_degrees(x: f64) -> bool {
+    /// Rounding of a quotient of two decimals [-]. Chosen, not tuned.
+    const ROUNDING: f64 = 1e-9;
     let steps = x / 5.0;
-    x.abs() > core::f64::consts::TAU && x.abs() <= 720.0 && (steps - steps.round()).abs() < 1e-9
+    x.abs() > core::f64::consts::TAU && x.abs() <= 720.0 && (steps - steps.round()).abs() < ROUNDING
 }
 
 fn is_turn(freedom: Freedom) -> bool {

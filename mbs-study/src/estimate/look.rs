@@ -17,16 +17,18 @@ use mbs_core::scene::Scene;
 use mbs_core::step::StepError;
 use mbs_sparse::Multifrontal;
 
-/// A look is given up when it has taken this share of its time and is behind by the second factor, which goes down to one: the first steps search
-/// for their length.
+/// Fraction of its time limit after which a run for comparison may stop for being behind [-]: its first steps search for their length.
 const PROBE: f64 = 0.1;
+/// Factor by which a run for comparison may be behind at first [-]; it falls to one at the time limit. Chosen, not tuned.
 const BEHIND: f64 = 1.5;
-/// States at which the stiffest force is looked for.
+/// States at which the stiffest force is searched. Chosen, not tuned.
 const STATES: usize = 5;
-/// Turn between two measurements at most [rad]: measured angles know no more than half a circle.
+/// Largest turn between two measurements [rad]: measured angles are known within half a turn.
 const TURN: f64 = 1.5;
-/// Steps between two measurements that a look of controlled steps has in any case, and beside them those that the run had there.
+/// Steps between two measurements that a comparison run with controlled steps has beside those of the run. Chosen, not tuned.
 const FEW_STEPS: f64 = 64.0;
+/// Most steps between two measurements: those that an integrator may try by default.
+const MOST_STEPS: f64 = 1e6;
 
 /// How a look ended.
 #[derive(Debug, Clone, PartialEq)]
@@ -193,7 +195,7 @@ impl<const D: usize> Eye<'_, D> {
         };
         #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a small count")]
         let (count, most) =
-            (pieces as u64, (FEW_STEPS + self.look.n_steps * rest / span).min(1e6) as u32);
+            (pieces as u64, (FEW_STEPS + self.look.n_steps * rest / span).min(MOST_STEPS) as u32);
         if self.step.is_none() {
             self.simulation.formulation_mut().set_max_steps(most);
         }

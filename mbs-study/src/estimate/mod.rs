@@ -8,7 +8,7 @@
 //! 3. the rows of the run alone (`differences`)
 //! ```
 //!
-//! The difference of two methods is at least a third of the run's error unless the errors of both agree within a third, in size and sign; if
+//! The difference of two methods is at least a third of the run's error unless the errors of both agree within a third, in size and sign. If
 //! the look errs by more than the run, the estimate is too large. In the second the true divisor is r - 1 for order 1 and r² - 1 for
 //! order 2: the mean of both is off by at most 2.9 either way. The results of the run are read, never changed.
 
@@ -31,36 +31,37 @@ use mbs_core::scene::{Dimension, Scene};
 use mbs_scene::format::few;
 use std::collections::BTreeSet;
 
-/// What the looks may take of the time of a run, together.
+/// Time of all comparison runs, relative to the run [-]. Chosen, not tuned.
 pub const TIME_SHARE: f64 = 0.27;
-/// Rows at which a look is compared: so many at equal distances, and at most so many where an output is steepest.
+/// Rows at equal distances at which runs are compared [-]. Chosen, not tuned.
 const EVENLY: usize = 100;
+/// Most rows beside them at which an output is steepest [-]. Chosen, not tuned.
 const STEEP: usize = 48;
-/// Rows at which the same method with longer steps is compared.
+/// Most rows at which the same method with longer steps is compared. Chosen, not tuned.
 const MANY: usize = 400;
-/// How many times longer the steps of the same method are. Long steps need up to half as many iterations more, and the looks before this
+/// Ratio of the longer steps of the same method to the run's [-]. Long steps need up to half as many iterations more, and comparison runs before this
 /// one may have taken a fifth of the time.
 const COARSER: f64 = 7.0;
 /// Tolerances of the looks in relative coordinates.
 const TOLERANCES: [(IntegratorKind, f64); 2] =
     [(IntegratorKind::Rk853, 1e-8), (IntegratorKind::Rk54, 1e-5)];
-/// A look at a run that controls its own steps is finer by this factor.
+/// Ratio of the tolerance of a finer comparison run to that of a run that controls its own steps [-]. Chosen, not tuned.
 const FINER: f64 = 0.01;
-/// No tolerance of a look is smaller: rounding is near.
+/// Least tolerance of a comparison run [-]: rounding is near.
 const FINEST: f64 = 1e-13;
-/// Tolerance of an integrator that controls its own steps where none is given; a coarser look is looser by the second: steps of order
-/// 5 are six times longer.
+/// Tolerance of an integrator that controls its own steps where none is given [-]: the default of its options.
 const OWN_TOLERANCE: f64 = 1e-8;
+/// Ratio of the tolerance of a coarser run for comparison to that of the run [-]: steps of order 5 are six times longer.
 const LOOSER: f64 = 1e4;
-/// What the iterations of a run leave of an output, relative to the largest range of its unit: Newton's tolerance.
+/// Error of an output by the iterations of a run, relative to the largest range of its unit [-]: Newton's tolerance.
 const ITERATION: f64 = 1e-10;
 /// Turn of a body in a step above which the rule errs by much [rad]: a hundredth of the turn of each revolution with second order.
 const MOST_TURN: f64 = 0.3;
-/// Steps in a period of the stiffest force below which its swing is wrong by much.
+/// Least steps in a period of the stiffest force [-]: with fewer its swing has a wrong period.
 const FEWEST_STEPS: f64 = 20.0;
-/// Differences above this share of an output's range are no small errors of its motion, and follow no order.
+/// Difference of an output, relative to its range, from which it is no small error and follows no order [-]. Chosen, not tuned.
 const LOST: f64 = 0.1;
-/// Roundings of an output that no look sees below.
+/// Least error that a comparison run shows, in units of rounding of an output [-]. Chosen, not tuned.
 const ROUNDINGS: f64 = 8.0;
 
 /// Estimates the errors of a run that was made with these settings, and puts them into its outcome. The looks take about [`TIME_SHARE`] of
@@ -235,7 +236,7 @@ impl Judge<'_> {
         (coarser, is_fixed.then_some(COARSER * settings.step))
     }
 
-    /// Rows that stand whole long steps apart, as far as the rows allow.
+    /// Rows that are whole long steps apart, where the rows allow it.
     fn spaced(&self, n_rows: usize) -> Vec<usize> {
         let a_row = self.settings.duration / count(n_rows.max(2) - 1);
         let long = (COARSER * self.settings.step / a_row).round().max(1.0);

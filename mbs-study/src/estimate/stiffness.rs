@@ -13,13 +13,13 @@ use mbs_core::model::{Load, Model, State, System, Tangent};
 use mbs_core::natural::NaturalModel;
 use mbs_sparse::Multifrontal;
 
-/// Iterations: the square root of the eigenvalue is then met to some per cent unless others lie close by, which give the same.
+/// Iterations of the power method [-]: the root of the eigenvalue is then met to some per cent, unless others are close, which give the same.
 const ITERATIONS: u32 = 12;
-/// Penalty of the constraints in effective masses: what moves across them is a millionth.
+/// Penalty of the constraints in effective masses [-]: the motion across them is a millionth.
 const PENALTY: f64 = 1e6;
-/// Difference of coordinates relative to the length of the model.
+/// Difference of coordinates, relative to the length of the model [-]. Chosen, not tuned.
 const DIFFERENCE: f64 = 1e-6;
-/// A stiffness is rounding below this ratio of a difference of forces to the forces themselves.
+/// Ratio of a difference of forces to the forces, below which a stiffness is rounding [-]. Chosen, not tuned.
 const NOISE: f64 = 1e-9;
 
 /// The period of the stiffest force [s]; nothing where no force grows with a displacement.

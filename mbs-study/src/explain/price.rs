@@ -13,9 +13,9 @@ use mbs_core::Real;
 use mbs_core::scene::Scene;
 use std::time::Instant;
 
-/// A recorded step takes so many times one that is only made.
+/// Ratio of the time of a recorded step to that of one that is only made [-]. Chosen, not tuned.
 const RECORDED: f64 = 2.0;
-/// A run is never shortened to fewer steps.
+/// Least steps of a run that is shortened. Chosen, not tuned.
 const FEWEST_STEPS: u64 = 50;
 
 /// What is left out together.

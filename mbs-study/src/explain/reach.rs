@@ -3,13 +3,14 @@
 use super::explanation::{LargestStep, SearchEnd};
 use super::trials::outcome;
 use mbs::Settings;
+use mbs::inside::SAME_LENGTH;
 use mbs::{InSpace, Plane};
 use mbs_core::Real;
 use mbs_core::scene::Scene;
 
-/// Doublings at most: 64 times the step.
+/// Most doublings of the step [-]: to 64 times its length.
 const MOST_DOUBLINGS: i32 = 6;
-/// A run has so many steps at least.
+/// Least steps of a run. Chosen, not tuned.
 const FEWEST_STEPS: f64 = 10.0;
 
 /// Doubles the step until the run over `duration` stops. `completes` says whether it does with the given step.
@@ -29,7 +30,7 @@ where
     let found = |k: i32, end| LargestStep { step: Some(h * f64::powi(2.0, k)), end };
     for k in 1..=MOST_DOUBLINGS {
         let times = f64::powi(2.0, k);
-        if h * times * FEWEST_STEPS > duration * (1.0 + 1e-9) {
+        if h * times * FEWEST_STEPS > duration * (1.0 + SAME_LENGTH) {
             return found(k - 1, SearchEnd::Limit);
         }
         if !has_time() {

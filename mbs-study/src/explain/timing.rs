@@ -7,9 +7,9 @@ use mbs::{InSpace, Plane};
 use mbs_core::Real;
 use mbs_core::scene::Scene;
 
-/// Steps fewer than these are no measure.
+/// Least steps of a timing. Chosen, not tuned.
 const FEWEST_STEPS: u64 = 10;
-/// Steps of a trial run at most, and its time [s].
+/// Most steps of a trial run [-], and its longest time [s]. Chosen, not tuned.
 const TRIAL: (u64, f64) = (200, 0.05);
 
 /// Times of one scene over the repeats.

@@ -6,7 +6,7 @@
 //! ```
 //!
 //! ℓ is the size of the part that the joint belongs to, and moments are unit forces at the lever ℓ, so that all rows and columns
-//! are of order one whatever the unit of length. Masses stand outside: rank is a matter of geometry, and bodies may have none.
+//! are of order one whatever the unit of length. Masses are outside: rank is a matter of geometry, and bodies may have none.
 
 use super::Vector;
 use super::link::{Link, Poses};

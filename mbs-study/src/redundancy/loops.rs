@@ -137,6 +137,9 @@ fn corners(linkage: &Linkage, at: &Poses, joints: &[usize]) -> Vec<Corner> {
     (0..m).filter_map(corner).collect()
 }
 
+/// Length that is none, relative to the sum of two neighbouring ones [-]: it has no direction. Chosen, not tuned.
+const NO_LENGTH: f64 = 1e-9;
+
 fn turn(linkage: &Linkage, at: &Poses, joint: usize, [to, from]: [Vector; 2]) -> Option<Corner> {
     let link = &linkage.links[joint].joint;
     let axis = match (linkage.dimension, link.kind.rotation(linkage.dimension)) {
@@ -148,7 +151,7 @@ fn turn(linkage: &Linkage, at: &Poses, joint: usize, [to, from]: [Vector; 2]) ->
     };
     let across = |x: Vector| axis.map_or(x, |a| x - a * a.dot(&x));
     let [to, from] = [across(to), across(from)];
-    let least = 1e-9 * (to.norm() + from.norm());
+    let least = NO_LENGTH * (to.norm() + from.norm());
     if to.norm() <= least || from.norm() <= least {
         return None;
     }

@@ -25,11 +25,11 @@ pub struct Massless {
     pub is_idle_spin: bool,
 }
 
-/// Columns that are small enough to be looked at.
+/// Most columns of a part that is decomposed, for the time that it takes. Chosen, not tuned.
 const LARGEST: usize = 600;
-/// Entries below this are zero.
+/// Largest entry of a unit vector that is zero [-]. Chosen, not tuned.
 const ZERO: f64 = 1e-6;
-/// Energy below this share of the mean body's is none: R holds roots of masses.
+/// Root of the largest energy that is none, relative to the mean body's [-]: R holds roots of masses. Chosen, not tuned.
 const LEAST: f64 = 1e-7;
 
 /// Massless motions of a scene at a pose; `None` where it is too large. Spins of rods come first, each alone.

@@ -1,6 +1,6 @@
 //! Is a dependency there in every position, or only in this one?
 //!
-//! The part is kicked along a random admissible motion and brought back onto its joints by Levenberg and Marquardt's method with
+//! The part is perturbed along a random admissible motion and brought back onto its joints by Levenberg and Marquardt's method with
 //! the damping |r| (Yamashita and Fukushima 2001: quadratic convergence though rows repeat each other). Dependent in every
 //! position thus reached: structural. Independent there: the first position is singular.
 
@@ -22,7 +22,7 @@ pub enum Nature {
     Singular,
     /// Some of it in every position, more in this one.
     Both,
-    /// It cannot be told: nothing can move.
+    /// It is not known: nothing can move.
     Rigid,
     /// It was not tried: too large, or no position near by was found.
     Untried,
@@ -42,17 +42,19 @@ impl Nature {
     }
 }
 
-/// Kicks in different directions.
-const KICKS: u64 = 3;
-/// Length of a kick: radians, and shares of the part's length.
-const KICK: f64 = 0.1;
-/// Sweeps allowed to come back.
+/// Perturbations in different directions. Chosen, not tuned.
+const PERTURBATIONS: u64 = 3;
+/// Size of a perturbation, in radians and in lengths of the part [-]. Chosen, not tuned: half of it is tried next.
+const PERTURBATION: f64 = 0.1;
+/// Least distance of a perturbed pose from the first one, relative to the perturbation [-]: closer ones are the same. Chosen, not tuned.
+const LEAST_DISTANCE: f64 = 1e-2;
+/// Most sweeps back onto the joints. Chosen, not tuned.
 const MAX_SWEEPS: usize = 60;
-/// Residual that meets the joints, over the part's length.
+/// Residual that meets the joints, relative to the part's length [-]. Chosen, not tuned.
 const MET: f64 = 1e-13;
-/// Residual that is accepted when it does not fall any more.
+/// Residual that is accepted when it does not fall any more, relative to the part's length [-]. Chosen, not tuned.
 const ACCEPTED: f64 = 1e-11;
-/// Entries of a matrix that is small enough to be tried.
+/// Most entries of a matrix that is decomposed here, for the time that it takes. Chosen, not tuned.
 const LARGEST: usize = 100_000;
 
 /// Positions near `at` that meet the joints of a part; empty where there is none.
@@ -66,19 +68,21 @@ pub(crate) fn neighbours(
     }
     let mut random = 0x9E37_79B9_7F4A_7C15_u64;
     let mut found = Vec::new();
-    for kick in 0..2 * KICKS {
-        if found.len() as u64 == KICKS || rank.free.n_columns() == 0 {
+    for kick in 0..2 * PERTURBATIONS {
+        if found.len() as u64 == PERTURBATIONS || rank.free.n_columns() == 0 {
             break;
         }
         let weights: Vec<f64> = (0..rank.free.n_columns()).map(|_| draw(&mut random)).collect();
         let mut twist = combine(&rank.free, &weights);
         let largest = twist.iter().fold(0.0_f64, |l, x| l.max(x.abs()));
-        // What fails is tried again nearer by.
-        let size = KICK * part.length / (1 + kick / KICKS) as f64;
+        // What fails is tried again with half of it.
+        let size = PERTURBATION * part.length / (1 + kick / PERTURBATIONS) as f64;
         twist.iter_mut().for_each(|x| *x *= size / largest);
         let mut there = at.to_vec();
         linkage.moved(part, &mut there, &twist);
-        if close(linkage, part, at, &mut there) && distance(part, at, &there) > 1e-2 * size {
+        if close(linkage, part, at, &mut there)
+            && distance(part, at, &there) > LEAST_DISTANCE * size
+        {
             found.push(there);
         }
     }

@@ -8,9 +8,9 @@
 use mbs_linear::Matrix;
 use mbs_linear::Svd;
 
-/// Gap below which a rank is uncertain [-].
+/// Ratio of neighbouring singular values below which a rank is uncertain [-]. Chosen, not tuned.
 pub const UNCERTAIN: f64 = 1e3;
-/// Singular values below this share of the largest are suspicious: numbers of a file have six digits or more.
+/// Singular value that is suspicious, relative to the largest [-]: numbers of a file have six digits or more.
 const ALMOST: f64 = 1e-6;
 
 /// Rank of a matrix, and what it leaves open.

@@ -6,7 +6,7 @@
 //! mended without new freedoms  ⇔  C N has independent rows (each takes a redundancy) and as many as columns
 //! ```
 //!
-//! Combinations of one, two and three joints are tried in the order of the scene; where more are needed, joints are taken one by
+//! Combinations of one, two and three joints are tried in the order of the scene. Where more are needed, joints are taken one by
 //! one, each as large a step as there is. What is found is tested on the joints themselves: their rank must be the same, and all
 //! their rows must count.
 
@@ -50,7 +50,7 @@ struct Choice {
     taken: Vec<Vec<f64>>,
 }
 
-/// Combinations of joints that are tried.
+/// Most combinations of joints that are tried, for the time that it takes. Chosen, not tuned.
 const MOST_TRIED: usize = 200_000;
 
 /// Searches a remedy for a group of dependent joints at a position.

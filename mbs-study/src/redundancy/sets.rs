@@ -55,7 +55,7 @@ pub struct Diagnosis {
     pub too_large: Vec<usize>,
 }
 
-/// Entries of a matrix whose singular values are taken: some ten seconds.
+/// Most entries of a matrix whose singular values are taken: some ten seconds.
 const LARGEST: usize = 4_000_000;
 
 /// Finds the dependent sets of a mechanism at a position that meets its joints.

@@ -72,7 +72,7 @@ pub enum SweepError {
     Journal(JournalError),
     /// A file cannot be written.
     Write(WriteError),
-    /// It was interrupted after so many of its members; these are in the journal.
+    /// It was interrupted after this many of its members, which are in the journal.
     Interrupted([usize; 2]),
 }
 
@@ -217,7 +217,7 @@ impl Study {
         Ok(rows.into_values().collect())
     }
 
-    /// Threads for so many members.
+    /// Threads for this many members.
     fn ensemble(&self, threads: Option<NonZeroUsize>, n: usize) -> Result<Ensemble, EnsembleError> {
         let most = NonZeroUsize::new(n.min(most_threads())).unwrap_or(NonZeroUsize::MIN);
         Ensemble::new(Some(threads.unwrap_or_else(available).min(most)))

@@ -26,7 +26,7 @@ pub(super) enum Kind {
     Text,
 }
 
-const FIRST: &str = "member";
+const MEMBER: &str = "member";
 const LAST: &str = "cpu_seconds";
 /// Between the varied numbers and the channels.
 const RUN: [(&str, Kind); 9] = [
@@ -44,7 +44,7 @@ const RUN: [(&str, Kind); 9] = [
 impl Columns {
     /// Of a scene's channels, without parameters.
     pub(super) fn new(channels: &[Channel]) -> Self {
-        let mut header = vec![FIRST.to_owned()];
+        let mut header = vec![MEMBER.to_owned()];
         header.extend(RUN.map(|(name, _)| name.to_owned()));
         for column in channels.iter().flat_map(Channel::columns) {
             header.extend([format!("{column}.min"), format!("{column}.max")]);

@@ -1,4 +1,4 @@
-//! A checkpoint that cannot be gone on from.
+//! A checkpoint that cannot be resumed.
 
 use crate::settings::SettingsError;
 use core::fmt::{self, Display, Formatter};

@@ -11,9 +11,9 @@ use std::path::{Path, PathBuf};
 /// The file of a run's checkpoint in its directory.
 pub const FILE: &str = "checkpoint.mbs";
 
-/// Rows that wait at most until they are written.
+/// Most rows that wait until they are written. Chosen, not tuned.
 const MOST_WAITING: usize = 256;
-/// Share of the time between two checkpoints that one may be early: times are rounded.
+/// Time by which a checkpoint may be early, relative to the interval of two [-]: times are rounded. Chosen, not tuned.
 const EARLY: f64 = 1e-6;
 
 /// The bytes of a checkpoint, or why there are none.
@@ -21,10 +21,10 @@ type Bytes = Result<Vec<u8>, CheckpointError>;
 
 /// Where and how often a run is kept.
 ///
-/// At its start, and at the first step that ends at or after each multiple of a simulated time, the checkpoint in the directory is
-/// replaced by a new one: written beside it, synced, renamed. No step is made shorter for it. The rows are written as the run goes,
-/// to `run.csv` and `steps.csv` in [`PART`], so that the results of an earlier run stay until there are new ones. A write that fails is tried again the next time, and
-/// reported in the end.
+/// At its start, and at the first step that ends at or after each multiple of a simulated time, a new checkpoint replaces that in the
+/// directory. It is written beside it, synced, renamed. No step is made shorter for it. The rows are written as the run goes, to
+/// `run.csv` and `steps.csv` in [`PART`], so that the results of an earlier run stay until there are new ones. A write that fails is
+/// tried again the next time, and reported in the end.
 #[derive(Debug)]
 pub struct Keeping {
     out: PathBuf,

@@ -1,4 +1,4 @@
-//! Checkpoints: everything that the next step depends on, in one file, to go on from later to the same bits.
+//! Checkpoints: everything that the next step depends on, in one file, to resume later with the same bits.
 //!
 //! ```text
 //! "mbs-ckpt" format | length checksum | mbs version | scene, settings | time | state, formulation, control, invariant | record

@@ -76,7 +76,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         self.restore_from(&mut checkpoint.body())
     }
 
-    /// Goes on from the state at which a tape stands.
+    /// Restores the state at which a tape is.
     pub(crate) fn restore_from(&mut self, tape: &mut impl Tape) -> Told {
         let before = self.kept();
         let mut kept = before.clone();

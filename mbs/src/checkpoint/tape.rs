@@ -11,9 +11,10 @@ use mbs_core::Real;
 /// What a walk comes to.
 pub(crate) type Told = Result<(), CheckpointError>;
 
-/// Counts at most: they go on growing.
-const MOST: u64 = 1 << 60;
-const MOST_U32: u32 = 1 << 30;
+/// Largest count that a file may have: it has room to grow.
+const MAX_U64: u64 = 1 << 60;
+/// Largest count of 32 bits that a file may have: it has room to grow.
+const MAX_U32: u32 = 1 << 30;
 
 /// Bytes that are written or read.
 pub(crate) trait Tape: Sized {
@@ -28,7 +29,7 @@ pub(crate) trait Tape: Sized {
         let mut bytes = x.to_le_bytes();
         self.bytes(&mut bytes)?;
         *x = u64::from_le_bytes(bytes);
-        holds(*x <= MOST)
+        holds(*x <= MAX_U64)
     }
 
     /// A number of 64 bits that may be any.
@@ -44,7 +45,7 @@ pub(crate) trait Tape: Sized {
         let mut bytes = x.to_le_bytes();
         self.bytes(&mut bytes)?;
         *x = u32::from_le_bytes(bytes);
-        holds(*x <= MOST_U32)
+        holds(*x <= MAX_U32)
     }
 
     /// An index below a limit.
@@ -94,7 +95,7 @@ pub(crate) trait Tape: Sized {
 
     /// A length of time.
     fn duration(&mut self, x: &mut Duration) -> Told {
-        let mut nanoseconds = u64::try_from(x.as_nanos()).unwrap_or(MOST).min(MOST);
+        let mut nanoseconds = u64::try_from(x.as_nanos()).unwrap_or(MAX_U64).min(MAX_U64);
         self.count(&mut nanoseconds)?;
         *x = Duration::from_nanos(nanoseconds);
         Ok(())

@@ -53,7 +53,7 @@ fn process(file: &mut File) -> Option<u32> {
     text.trim().parse().ok()
 }
 
-/// Is the file still the one of that name?
+/// Is the file the one that has that name now?
 #[cfg(unix)]
 fn is_at(file: &File, path: &Path) -> bool {
     use std::os::unix::fs::MetadataExt;

@@ -1,6 +1,6 @@
 //! A directory of results: locked while a process writes it, and replaced by results that are whole.
 //!
-//! Files are written into `.part` within the directory, synced, and renamed into their places when all are there; the JSON object comes
+//! Files are written into `.part` within the directory, synced, and renamed into their places when all are there. The JSON object comes
 //! last, and has the sizes and checksums of the tables. A process that is killed before leaves the results as they were. One that is
 //! killed between two renames leaves a mixture, which [`Folder::mixed`] finds by the sums.
 

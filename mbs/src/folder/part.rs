@@ -77,7 +77,7 @@ impl Part<'_> {
     }
 
     /// Writes the JSON object, with the id of the results, and with sizes and checksums of the tables so far, and puts everything into
-    /// its place; gives the text of the object.
+    /// its place. Gives the text of the object.
     ///
     /// # Errors
     /// [`WriteError`]; the results are then those that were there, unless they could not be renamed.

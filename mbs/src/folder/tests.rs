@@ -50,7 +50,7 @@ fn what_cannot_be_finished_leaves_the_results_before() {
     drop(part);
     assert_eq!(fs::read_to_string(path.join("run.csv")).unwrap(), "old\n");
     assert!(!path.join(PART).exists());
-    // and so does a process that was killed; what it has left is in nobody's way, file or directory
+    // and so does a process that was killed; what it has left, file or directory, stops no other
     fs::write(path.join(PART), "left").unwrap();
     put(&folder, "new\n").unwrap();
     assert_eq!(fs::read_to_string(path.join("run.csv")).unwrap(), "new\n");

@@ -14,12 +14,13 @@ use mbs_core::model::Owner;
 use mbs_core::scene::{EffectId, GuideId, JointId};
 use std::sync::Arc;
 
-/// A step that is shorter than the others by less than this ratio is as long as they are, and its end is rounded.
+/// Relative difference below which a step is as long as the others, and its end is rounded [-]. Chosen, not tuned.
 const SAME_LENGTH: f64 = 1e-9;
 
-/// Roundings of a time that a sum and its end may differ by, as long as they are no more than the share of a step.
+/// Largest difference of a sum of steps and its end, in units of rounding of the time [-]. Chosen, not tuned.
 const TIME_ROUNDINGS: f64 = 4.0;
-const SHARE: f64 = 1e-3;
+/// Largest difference of a sum of steps and its end, relative to a step [-]. Chosen, not tuned.
+const STEP_FRACTION: f64 = 1e-3;
 
 /// A mechanism in motion: stepped by hand, read between steps, and cloned to try something and throw the copy away.
 ///
@@ -123,7 +124,7 @@ impl Simulation {
             return self.inner.step(None, Some(time)).map_err(|error| self.stopped(error));
         }
         // times of short numbers round, by more than short steps last where they are late
-        let rounding = (TIME_ROUNDINGS * epsilon * there.abs()).min(SHARE * h);
+        let rounding = (TIME_ROUNDINGS * epsilon * there.abs()).min(STEP_FRACTION * h);
         let slack = SAME_LENGTH * (span + h) + rounding;
         loop {
             let rest = there - self.time();

@@ -85,7 +85,7 @@ pub fn run(m: &Mechanism, options: &Run) -> Result<RunResult, SimulationError> {
 
 /// [`run`], before observers: they set inputs on the way, read the mechanism after each step, and may end the run.
 ///
-/// Where there is an observer or an output that is code, the turns of all joints are followed: a joint that turns by more than half a circle
+/// Where there is an observer or an output that is code, the turns of all joints are followed. A joint that turns by more than half a circle
 /// in a step then stops a run that would not have read it.
 ///
 /// # Errors

@@ -16,7 +16,7 @@ pub struct Coordinates {
 }
 
 impl Coordinates {
-    /// So many of the given numbers, six at most.
+    /// This many of the given numbers, six at most.
     pub(crate) fn new(from: impl IntoIterator<Item = f64>) -> Self {
         let mut coordinates = Self::default();
         for (to, value) in coordinates.values.iter_mut().zip(from) {

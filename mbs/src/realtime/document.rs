@@ -9,6 +9,7 @@ use crate::digits::is_finer;
 use crate::precision::{ReadScene, SceneWork};
 use crate::run::{Outcome, Rung, Track, paced};
 use crate::settings::Settings;
+use crate::settings::way::SAME_LENGTH;
 use core::time::Duration;
 use mbs_core::Real;
 use mbs_core::scene::Scene;
@@ -109,14 +110,14 @@ fn track<T: Real>(
     Ok((Pace { overrun, awake, quiet, ..Pace::every(whole) }, track))
 }
 
-/// A time that a clock can tell.
+/// A time that a clock can have.
 fn time(seconds: f64) -> Option<Duration> {
     Duration::try_from_secs_f64(seconds).ok()
 }
 
 /// Steps of a period: the fewest of equal length that are not longer than the step, but for rounding.
 fn parts(period: f64, step: f64) -> u32 {
-    let n = (period / step * (1.0 - 1e-9)).ceil().clamp(1.0, f64::from(u32::MAX));
+    let n = (period / step * (1.0 - SAME_LENGTH)).ceil().clamp(1.0, f64::from(u32::MAX));
     #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "it is clamped")]
     let n = n as u32;
     n

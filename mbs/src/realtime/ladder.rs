@@ -20,7 +20,7 @@ pub(super) struct Sought<'a, T> {
 }
 
 impl<T: Real> Sought<'_, T> {
-    /// A level with so many halvings and these effects off.
+    /// A level with these halvings and these effects off.
     pub(super) fn rung(&self, halvings: u32, off: Vec<usize>) -> Rung {
         let without = off.iter().map(|&e| self.scene.effects[e].name.clone()).collect();
         let steps = self.track.steps.unwrap_or(1);
@@ -29,7 +29,7 @@ impl<T: Real> Sought<'_, T> {
         Rung { told: Degraded { step_times, without, ..Degraded::default() }, ..rung }
     }
 
-    /// Do so many halvings make steps longer than one fewer?
+    /// Do these halvings make steps longer than one fewer?
     pub(super) fn lengthens(&self, halvings: u32) -> bool {
         let Some(steps) = self.track.steps else { return false };
         let of = |halvings| Rung { halvings, ..Rung::default() }.steps(steps);
@@ -41,7 +41,7 @@ impl<T: Real> Sought<'_, T> {
         if rung.off.is_empty() {
             return Ok(());
         }
-        // What does not start is told by the run itself.
+        // What does not start is reported by the run itself.
         let Ok(full) = Simulation::<T, D>::new(self.scene, self.settings) else { return Ok(()) };
         let less = Simulation::<T, D>::new(&rung.scene(self.scene), self.settings);
         less.map_err(|_| SwitchError::Coordinates)?.takes_over(&full)

@@ -22,19 +22,19 @@ use mbs_core::Real;
 use mbs_realtime::{Clock, SystemClock};
 use std::time::Instant;
 
-/// Time for everything [s], about.
+/// Time of all measurements [s]. Chosen, not tuned.
 const SECONDS: f64 = 3.0;
-/// Periods of the first look, and of a measured run at least.
+/// Periods of the first run, and least periods of a measured one. Chosen, not tuned.
 const FEWEST: u64 = 50;
-/// Each is timed so often, in turn.
+/// Timings of each level, interleaved. Chosen, not tuned.
 const REPEATS: u32 = 3;
-/// Less is not worth a level.
+/// Least saving of a level, relative to the time of a period [-]. Chosen, not tuned.
 const LEAST_SAVING: f64 = 0.02;
-/// Levels below the full scene at most; more effects than that go by their kinds.
-const MOST: usize = 8;
-/// A level whose outputs are off by more than this share of their range tells nothing of them; who wants it names it.
+/// Most levels below the full scene: more effects than that are taken by their kinds. Chosen, not tuned.
+const MAX_LEVELS: usize = 8;
+/// Largest change of the outputs by a level, relative to their range [-]: a level beyond must be named. Chosen, not tuned.
 const MOST_CHANGE: f64 = 0.5;
-/// Halvings of the number of steps: twice and four times as long.
+/// Halvings of the number of steps of a period [-]: steps are then twice and four times as long.
 const HALVINGS: u32 = 2;
 
 /// A clock that passes while there is work and jumps over what is waited for.
@@ -116,7 +116,7 @@ fn candidates<T: Real, const D: usize>(sought: &Sought<'_, T>) -> Vec<Rung> {
     let can = |off: &Vec<usize>| sought.changes::<D>(&sought.rung(0, off.clone())).is_ok();
     let alone: Vec<Vec<usize>> = effects.map(|(i, _)| vec![i]).filter(can).collect();
     let mut groups = alone;
-    if groups.len() > MOST {
+    if groups.len() > MAX_LEVELS {
         let mut kinds: Vec<(&str, Vec<usize>)> = Vec::new();
         for effect in groups.into_iter().flatten() {
             let kind = sought.scene.effects[effect].kind.name();
@@ -145,7 +145,7 @@ fn ladder<T: Real>(sought: &Sought<'_, T>, alone: &[Trial]) -> Vec<Rung> {
     paying.sort_by(|a, b| changes(a).total_cmp(&changes(b)));
     let (mut halvings, mut off) = (0, Vec::new());
     let mut rungs = Vec::new();
-    for trial in paying.into_iter().take(MOST) {
+    for trial in paying.into_iter().take(MAX_LEVELS) {
         halvings = trial.rung.halvings.max(halvings);
         off.extend(&trial.rung.off);
         rungs.push(sought.rung(halvings, off.clone()));
@@ -153,7 +153,7 @@ fn ladder<T: Real>(sought: &Sought<'_, T>, alone: &[Trial]) -> Vec<Rung> {
     rungs
 }
 
-/// Runs the full scene and others by turns, and tells of each what it saves and changes.
+/// Runs the full scene and others interleaved, and reports what each saves and changes.
 fn run_all<T: Real, const D: usize>(
     sought: &Sought<'_, T>,
     full: &Rung,

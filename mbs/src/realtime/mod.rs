@@ -17,7 +17,7 @@
 //! struct Bench<'a> {
 //!     simulation: Simulation<f64, 2>,
 //!     motor: usize,
-//!     /// What the hardware asks for [N m], and what it is told [m].
+//!     /// What the hardware asks for [N m], and what it receives [m].
 //!     wanted: &'a dyn Fn(u64) -> f64,
 //!     tip: Vec<[f64; 2]>,
 //! }
@@ -117,13 +117,16 @@ pub struct Pacing {
     pub quiet: Recovery,
 }
 
+/// Time before a period's end in which a run waits awake, by default [s]. Chosen, not tuned.
+const AWAKE: f64 = 1e-4;
+
 impl Default for Pacing {
     fn default() -> Self {
         Self {
             period: None,
             overrun: Overrun::Finish,
             degrade: Degrade::Measured,
-            awake: 1e-4,
+            awake: AWAKE,
             quiet: Recovery::default(),
         }
     }
@@ -132,7 +135,7 @@ impl Default for Pacing {
 /// What levels below the full scene leave out.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Degrade {
-    /// Steps twice and four times as long, and effects, as far as they save time; what changes the outputs least goes first. Time
+    /// Steps twice and four times as long, and effects, where they save time; what changes the outputs least goes first. Time
     /// and changes are measured before the run begins.
     Measured,
     /// Each entry is one more level, and leaves out what it names in addition: `steps` makes steps twice as long, the name of an

@@ -17,7 +17,7 @@ pub struct CsvWriter<W: Write> {
 }
 
 impl<W: Write> CsvWriter<W> {
-    /// Rows between two flushes.
+    /// Rows between two flushes. Chosen, not tuned.
     pub const FLUSH_EVERY: usize = 256;
 
     /// Starts a file: the header is `t`, then the columns of the channels.
@@ -77,7 +77,7 @@ impl<W: Write> CsvWriter<W> {
         Ok(())
     }
 
-    /// Writes what is still buffered.
+    /// Writes what is buffered.
     ///
     /// # Errors
     /// Those of the sink.

@@ -1,4 +1,4 @@
-//! How accurate a run is, as far as a second look at its motion tells.
+//! How accurate a run is, by a second run of its motion.
 
 use super::outputs::Outputs;
 

@@ -1,4 +1,4 @@
-//! A run that is kept while it goes, and one that goes on from where it was kept.
+//! A run with checkpoints, and one that is resumed from a checkpoint.
 
 use super::Run;
 use super::record::{Counts, Kept, Record};
@@ -11,7 +11,7 @@ use mbs_core::Real;
 use mbs_core::outputs::{Instant, MOST_INSTANTS};
 
 impl<T: Real, const D: usize> Run<'_, T, D> {
-    /// Goes on from a checkpoint. On an error the run is of no use any more.
+    /// Resumes from a checkpoint. On an error the run is of no use any more.
     pub(super) fn resume(
         &mut self,
         checkpoint: &Checkpoint,

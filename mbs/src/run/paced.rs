@@ -1,7 +1,7 @@
 //! A run that keeps up with a clock: each task simulates one period, at a level of a ladder.
 //!
-//! Everything is built before the loop begins. The run's own simulation is level 0; a level without some effects has a simulation
-//! of its own, which takes the state over when the level changes, and shows it to the run's after each step: outputs are measured
+//! Everything is built before the loop begins. The run's own simulation is level 0. A level without some effects has a simulation
+//! of its own, which takes the state over when the level changes, and shows it to the run's after each step. Outputs are measured
 //! there. The state, the clock of the simulation and the rows are those of simulated time, whatever the clock of the loop does.
 
 use super::record::Record;
@@ -12,6 +12,7 @@ use crate::realtime::summary;
 use crate::record::{Channel, Degraded};
 use crate::recorder::Keep;
 use crate::settings::Settings;
+use crate::settings::way::SAME_LENGTH;
 use crate::simulation::Simulation;
 use crate::stop::StopError;
 use core::ops::ControlFlow;
@@ -44,7 +45,7 @@ pub(crate) struct Track<T> {
 /// A level of the ladder.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub(crate) struct Rung {
-    /// Steps of a period are so many times halved in number.
+    /// Halvings of the number of steps of a period.
     pub(crate) halvings: u32,
     /// Effects that are off.
     pub(crate) off: Vec<usize>,
@@ -185,7 +186,7 @@ impl<T: Real, const D: usize> Plant<T, D> for Ladder<T, D> {
 }
 
 impl<T: Real, const D: usize> Ladder<T, D> {
-    /// Goes on at another level. No allocation.
+    /// Continues at another level. No allocation.
     fn change(&mut self, to: usize, record: &mut Record<'_, T, D>) -> Result<(), StopError> {
         let Self { simulation: own, levels, at } = self;
         let from = core::mem::replace(at, to);
@@ -249,7 +250,8 @@ impl<T: Real, const D: usize> Paced<'_, T, D> {
         let from = at(k - 1);
         let to = if is_last { self.record.lengths.duration } else { at(k) };
         // The length of a whole period is exact; that between two multiples is rounded.
-        let is_whole = !is_last || (to - from - period.0).abs() <= period.0 * T::from_f64(1e-9);
+        let is_whole =
+            !is_last || (to - from - period.0).abs() <= period.0 * T::from_f64(SAME_LENGTH);
         let whole = if is_whole { period.0 } else { to - from };
         let fixed = |n: u32| {
             let h = whole / T::from_f64(f64::from(n));

@@ -73,15 +73,15 @@ pub(super) struct Record<'a, T: Real, const D: usize> {
     /// When the step began that is made next.
     begun: Instant,
     pub(super) kept: Option<Kept<'a>>,
-    /// Of a paced run: its periods, after each of which a row may be due; how it kept up; and the lowest level since the last row
-    /// where there is a ladder.
+    /// Of a paced run: its periods, after each of which a row may be due, and how it kept up. Where there is a ladder, also the lowest
+    /// level since the last row.
     pub(super) periods: Option<u64>,
     pub(super) realtime: Option<RealtimeSummary>,
     pub(super) level: Option<f64>,
 }
 
 impl<'a, T: Real, const D: usize> Record<'a, T, D> {
-    /// For rows after so many steps or intervals.
+    /// For rows after each of `n_rows` steps or intervals.
     pub(super) fn new(
         (scene, settings): (&'a Scene<T>, &'a Settings),
         simulation: &Simulation<T, D>,

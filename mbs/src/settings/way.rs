@@ -7,8 +7,8 @@ use crate::settings::Method;
 use mbs_core::scene::Scene;
 use mbs_scene::format::significant;
 
-/// A step that is longer than the run by less than this share is that of the run, written in fewer digits.
-const SAME_LENGTH: f64 = 1e-9;
+/// Relative difference below which two lengths of time are the same, written in fewer digits [-]. Chosen, not tuned.
+pub const SAME_LENGTH: f64 = 1e-9;
 
 /// Is the length of the steps controlled, by the integrator or by a rule?
 pub(super) fn is_controlled(integrator: IntegratorKind, rule: StepRule) -> bool {
@@ -30,8 +30,8 @@ pub fn too_long(step: f64, duration: f64) -> String {
 }
 
 impl Settings {
-    /// Refuses a step of fixed length that scene or caller ask for and that is longer than the run, which takes one step of its own length
-    /// instead: who writes it means something else.
+    /// Refuses a step of fixed length that scene or caller ask for and that is longer than the run: something else was intended. The run
+    /// would take one step of its own length.
     ///
     /// # Errors
     /// [`SettingsError::StepTooLong`].

@@ -6,7 +6,7 @@
 //! W      + (T + V)_after − (T + V)_before: what the change put into the mechanism or took out counts as work
 //! ```
 //!
-//! So Π = T + V − W goes on without a jump, and the invariant stays watched.
+//! So Π = T + V − W continues without a jump, and the invariant stays watched.
 
 use super::Simulation;
 use mbs_core::formulation::SwitchError;
@@ -43,14 +43,14 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         self.resume()
     }
 
-    /// Shows the state of another simulation, without being ready to go on from it.
+    /// Shows the state of another simulation, without being ready to continue from it.
     pub(crate) fn show(&mut self, other: &Self) {
         self.state.copy_unknowns(&other.state, self.model.n_unknowns());
         self.invariant = other.invariant;
         self.formulation.take_over(&*other.formulation);
     }
 
-    /// Makes ready to go on from a state that was shown.
+    /// Makes ready to continue from a state that was shown.
     pub(crate) fn resume(&mut self) -> Result<(), StepError> {
         let Self { model, state, formulation, control, invariant, .. } = self;
         formulation.refresh(model, state)?;

@@ -5,7 +5,7 @@
 //! 2. Nothing that panics or allocates can be reached from a step, in the disassembled images.
 //! 3. The images run under QEMU, within their bounds, and end where the host does.
 //! 4. Every feature of an effect adds to the image, and what it adds is gone without it.
-//! 5. A program in C, linked with the static library, gives the bits of the host's run; that one links with a panic handler of
+//! 5. A program in C, linked with the static library, gives the bits of the host's run. That one links with a panic handler of
 //!    its own, which a standard library that sneaks in would contradict.
 //!
 //! A host build cannot show that a crate works without the standard library: the library is there, and a

@@ -1,4 +1,4 @@
-//! What a run of the firmware told.
+//! What a run of the firmware reported.
 
 /// What a coordinate is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -44,7 +44,7 @@ pub(super) struct Told {
     pub(super) solver: u64,
     /// Instructions of one more evaluation in a step.
     pub(super) evaluation: u64,
-    /// Instructions of a step that the formula allows; told on the host alone, as what each coordinate is.
+    /// Instructions of a step that the formula allows; reported on the host alone, as what each coordinate is.
     pub(super) bound: u64,
     units: Vec<Unit>,
     is_single: bool,
@@ -81,7 +81,7 @@ impl Told {
         if told.lines.is_empty() { Err("the run told no states".to_owned()) } else { Ok(told) }
     }
 
-    /// The largest differences from a run that told what its coordinates are.
+    /// The largest differences from a run that reported what its coordinates are.
     ///
     /// # Errors
     ///

@@ -83,7 +83,7 @@ fn with_probe(html: &str) -> String {
     html.replacen("<head>", &format!("<head>{CATCH}"), 1).replacen("</body>", &probe, 1)
 }
 
-/// What the probe told, from the page as the browser leaves it.
+/// What the probe reported, from the page as the browser leaves it.
 fn told(dom: &str) -> String {
     let text = dom.split_once("<pre id=\"told\">").and_then(|(_, rest)| rest.split_once("</pre>"));
     let text = text.map_or("the browser showed nothing", |(text, _)| text);

@@ -29,9 +29,6 @@ const BANNED: [&str; 14] = [
 /// Most words of a sentence. A code span is one word.
 const MAX_WORDS: usize = 25;
 
-/// Names that say nothing as the whole name of a public constant.
-const VAGUE: [&str; 8] = ["MOST", "LIMIT", "SHARE", "SAME", "NEAR", "FAR", "SLOW", "FEW"];
-
 /// Exceptions: `rule | file | what | reason`. A line that is not needed fails too, so that the list only shrinks.
 const ALLOWED: &str = include_str!("allow.txt");
 
@@ -236,26 +233,6 @@ fn paths_in_documents_exist() {
         }
     }
     report("A path in backticks exists", &findings);
-}
-
-#[test]
-fn public_constants_say_what_they_limit() {
-    let mut findings = Vec::new();
-    for path in published().iter().flat_map(|folder| files(&folder.join("src"), "rs")) {
-        let text = read(&path);
-        for (number, docs) in public_items(&text) {
-            let line = text.lines().nth(number - 1).unwrap_or_default().trim_start();
-            let Some(constant) = line.strip_prefix("pub const ").filter(|c| !c.starts_with("fn "))
-            else {
-                continue;
-            };
-            let constant = constant.split(':').next().unwrap_or_default();
-            if docs.is_empty() || VAGUE.contains(&constant) {
-                findings.push(format!("{}:{number}: {constant}", name(&path)));
-            }
-        }
-    }
-    report("A public constant has its documentation and says what it is", &findings);
 }
 
 /// Names of public types that each crate may have: they are read with the crate's name before them.

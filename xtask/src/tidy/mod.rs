@@ -1,6 +1,7 @@
 //! Rules for the text of this repository, as tests: what a reader relies on and no compiler checks.
 
 mod circles;
+mod constants;
 mod crates;
 mod documents;
 mod kinds;

@@ -57,7 +57,7 @@ fn text<'a>(package: &'a Value, key: &str) -> &'a str {
     package[key].as_str().unwrap_or_default()
 }
 
-/// Whether an expression of SPDX allows a choice out of the list: `AND` asks for all, `OR` (formerly `/`) for one; an expression in
+/// Whether an expression of SPDX allows a choice out of the list: `AND` asks for all, `OR` (formerly `/`) for one. An expression in
 /// parentheses is one of those that `AND` joins.
 fn is_allowed(expression: &str) -> bool {
     let one_of = |choices: &str| {

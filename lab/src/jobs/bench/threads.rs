@@ -2,8 +2,8 @@
 
 use std::str::FromStr;
 
-/// Teams larger than this are a slip of the pen.
-const MOST: usize = 1024;
+/// Most threads of a team [-]: more are a slip of the pen.
+const MAX_TEAM: usize = 1024;
 
 /// Sizes of teams, ascending; one is always among them.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -45,7 +45,7 @@ impl FromStr for Threads {
         };
         let number = |word: &str| match word.trim() {
             "N" | "n" => Some(super::machine::cores()),
-            word => word.parse().ok().filter(|n| (1..=MOST).contains(n)),
+            word => word.parse().ok().filter(|n| (1..=MAX_TEAM).contains(n)),
         };
         match text.split_once('-') {
             None => number(text).map(|n| Self::span(n, n)).ok_or_else(hint),

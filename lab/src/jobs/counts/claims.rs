@@ -2,8 +2,8 @@
 
 use super::callgrind::Case;
 
-/// Most that a build with all effects may take beyond one without any, in a scene without effects [-].
-const SHARE: f64 = 0.01;
+/// Largest excess of a build with all effects over one without any, relative to it, in a scene without effects [-].
+const MAX_OVERHEAD: f64 = 0.01;
 
 /// A claim, and how often it was looked at and contradicted.
 #[derive(Debug, Clone, PartialEq)]
@@ -89,7 +89,7 @@ fn left_out(runs: &Runs) -> Claim {
         let full =
             other(&runs.full, lean, "out").map_or(f64::INFINITY, |case| case.instructions as f64);
         let share = full / lean.instructions as f64 - 1.0;
-        claim.check(share.abs() <= SHARE, || format!("{}: {share:+.4}", lean.name));
+        claim.check(share.abs() <= MAX_OVERHEAD, || format!("{}: {share:+.4}", lean.name));
     }
     claim
 }

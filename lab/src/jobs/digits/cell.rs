@@ -48,12 +48,17 @@ pub(super) const WAYS: [Way; 6] = [
     Way { name: "correction, f64", form: "correction", digits: "f64" },
     DEFAULT,
 ];
+/// Place of the printed forms in doubles [-].
 pub(super) const PRINTED: usize = 0;
+/// Place of the printed forms with refined solutions [-].
 pub(super) const REFINED: usize = 2;
+/// Place of the printed forms in pairs of doubles [-].
 pub(super) const PAIRS: usize = 3;
+/// Place of our projections in doubles [-].
 pub(super) const CORRECTION: usize = 4;
 /// Our default needs no alpha; it is run once for each step.
 pub(super) const DEFAULT: Way = Way { name: "default, f64", form: "default", digits: "f64" };
+/// Place of our default in doubles [-].
 pub(super) const OURS: usize = 5;
 
 /// A step with one penalty, in every way, in the order of [`WAYS`].

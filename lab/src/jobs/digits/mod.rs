@@ -16,12 +16,13 @@ use std::collections::BTreeSet;
 use std::time::Duration;
 use xtask::process;
 
-/// A run that takes longer is ended.
-const LIMIT: Duration = Duration::from_secs(300);
+/// Longest time of a run. Chosen, not tuned.
+const RUN_TIME: Duration = Duration::from_secs(300);
 /// Simulated time [s]: one swing of the double pendulum, one singular position of the four-bars, at 0.71 s.
 const SPAN: &str = "1";
-/// Steps are 10^-k s; the smallest ones are left out by `--quick`.
+/// Exponents k of the steps 10^-k s [-].
 const STEPS: [i32; 5] = [2, 3, 4, 5, 6];
+/// Largest exponent of a step with `--quick` [-]: smaller steps take minutes.
 const QUICK: i32 = 4;
 
 /// Runs everything one after the other.
@@ -33,7 +34,7 @@ pub(crate) fn d1(lab: &Lab<'_>) -> Result<Section, String> {
     let program = bench::built(&bench::Threads::up_to(1), lab.quick)?;
     let run = |words: &[&str]| {
         process::progress(&format!("D1 {}", words[1..].join(" ")));
-        Run::read(program.run(words, LIMIT))
+        Run::read(program.run(words, RUN_TIME))
     };
     let cells = cells(lab.quick, run);
     process::write(&lab.folder.join("digits.csv"), &cell::csv(&cells)?)?;

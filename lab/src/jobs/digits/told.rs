@@ -6,8 +6,8 @@ use crate::chart::{Axis, Chart, Kind, Look, Series};
 use crate::lab::section::Section;
 use crate::tell::{ratio, ratios, step};
 
-/// Errors that differ by less than this are the same.
-const SAME: f64 = 1.1;
+/// Ratio of two errors within which they are the same [-]: the tables show two digits.
+const SAME_ERROR: f64 = 1.1;
 
 /// What stands first.
 const WORDS: &str = "The report finds index-3 ill-conditioned at small steps, and guesses that \"a precision environment of \
@@ -153,7 +153,7 @@ fn judge(section: &mut Section, what: &str, cells: &[&Cell]) {
 /// Did this way reach the end with the error of our default?
 fn is_same(cell: &Cell, way: usize) -> bool {
     let error = |way: usize| cell.runs[way].completed().map(|f| f.energy_error);
-    matches!((error(way), error(OURS)), (Some(a), Some(b)) if a <= SAME * b)
+    matches!((error(way), error(OURS)), (Some(a), Some(b)) if a <= SAME_ERROR * b)
 }
 
 #[cfg(test)]

@@ -15,8 +15,9 @@ use printed::{METHODS, Method};
 
 /// Steps that are tried for a wanted accuracy, and under a hard condition: half decades [s].
 const STEPS: &[f64] = &[3e-2, 1e-2, 3e-3, 1e-3, 3e-4, 1e-4, 3e-5];
-/// The same under a hard condition, for small mechanisms and for vehicles [s].
+/// The same under a hard condition, for small mechanisms [s].
 const FINE: &[f64] = &[3e-2, 1e-2, 3e-3, 1e-3, 3e-4, 1e-4, 3e-5, 1e-5];
+/// The same under a hard condition, for vehicles [s].
 const COARSE: &[f64] = &[3e-2, 1e-2, 3e-3, 1e-3];
 /// The same for Andrews' mechanism, which is a hundred times as fast [s].
 const FAST: &[f64] = &[1e-4, 3e-5, 1e-5, 3e-6, 1e-6, 3e-7];

@@ -15,8 +15,8 @@ use std::path::{Path, PathBuf};
 use std::time::Duration;
 use xtask::process;
 
-/// A run that takes longer is ended.
-const LIMIT: Duration = Duration::from_secs(300);
+/// Longest time of a run. Chosen, not tuned.
+const RUN_TIME: Duration = Duration::from_secs(300);
 /// A run that takes longer is not repeated for its time [s].
 const LONG: f64 = 30.0;
 
@@ -134,7 +134,7 @@ fn run(mbs: &Mbs, folder: &Path, case: &Case, out: Option<&Path>) -> Result<Outc
         fs::create_dir_all(folder).and_then(|()| fs::write(&copy, text)).map_err(place)?;
         scene = copy;
     }
-    mbs.run(&scene, &case.arguments(), out, Some(LIMIT))
+    mbs.run(&scene, &case.arguments(), out, Some(RUN_TIME))
 }
 
 #[cfg(test)]

@@ -188,6 +188,7 @@ fn stopped(error: &Value) -> Result<Outcome, String> {
 mod tests {
     use super::*;
 
+    /// An object of a run that completed.
     const DONE: &[u8] = br#"{"completed": true, "error": null, "cpu_seconds": 0.25,
         "coordinates": 4, "constraints": 2, "dof": 2, "steps": 7, "iterations": 21, "factorizations": 14,
         "energy": {"initial": 1.0, "max_error": 2e-3, "final_error": 1e-3, "turned_over": 4.0},

@@ -7,8 +7,8 @@ use super::programs::{Line, Who};
 const OURS: f64 = 1e-9;
 /// A peer's evaluation counts within this; iterations that stop early and soft constraints may be farther off.
 const PEERS: f64 = 1e-5;
-/// Errors that differ by this factor, or this much, are the same.
-const SAME: [f64; 2] = [1.1, 1e-12];
+/// Ratio and distance of two errors within which they are the same [-]: the tables show two digits.
+const SAME_ERROR: [f64; 2] = [1.1, 1e-12];
 
 /// An algorithm of a program on a problem.
 #[derive(Debug, Clone, PartialEq)]
@@ -127,7 +127,7 @@ impl Measured {
         let kind = self.problem.kind;
         let most = match (kind, self.peer()) {
             (Kind::Evaluation, _) => OURS,
-            (_, Some(peer)) => (SAME[0] * peer.error_of(kind)).max(SAME[1]),
+            (_, Some(peer)) => (SAME_ERROR[0] * peer.error_of(kind)).max(SAME_ERROR[1]),
             (_, None) => f64::INFINITY,
         };
         let counts = |lane: &&Lane| lane.is_spatial() == is_spatial && lane.error_of(kind) <= most;

@@ -45,8 +45,9 @@ impl Problem {
 /// Right digits at which times are compared.
 pub(super) const DIGITS: std::ops::RangeInclusive<u8> = 3..=9;
 
-/// Solvers of differential-algebraic equations, which mbs is to leave further behind, and the limit for these.
+/// Solvers of differential-algebraic equations, which mbs is to leave further behind.
 pub(super) const ALGEBRAIC: [&str; 2] = ["RADAU5", "IDA"];
+/// Largest ratio of our time to theirs [-]: half.
 pub(super) const LIMIT_ALGEBRAIC: f64 = 0.5;
 
 /// The limit at so many digits: high order pays from six on.

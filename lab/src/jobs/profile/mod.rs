@@ -29,7 +29,7 @@ const WINDOW: [u32; 2] = [20, 320];
 const LOOPS: &str =
     "glibc.cpu.x86_rep_movsb_threshold=1073741824:glibc.cpu.x86_rep_stosb_threshold=1073741824";
 /// Longest run of the program [s].
-const LIMIT: Duration = Duration::from_secs(900);
+const RUN_TIME: Duration = Duration::from_secs(900);
 
 /// Profiles the scenes, or those named, and writes text and Markdown; `keep` puts the tables into docs/PROFILES.md.
 ///
@@ -83,7 +83,7 @@ fn build() -> Result<PathBuf, String> {
 fn told(program: &Path, words: &[&str]) -> Result<Value, String> {
     let mut command = Command::new(program);
     command.args(["bench", "profile"]).args(words).current_dir(process::root());
-    let line = printed(&mut command, LIMIT)?;
+    let line = printed(&mut command, RUN_TIME)?;
     serde_json::from_str(&line).map_err(|e| format!("`{line}`: {e}"))
 }
 
@@ -117,7 +117,7 @@ fn counted(program: &Path, name: &str, steps: &str) -> Result<callgrind::Costs, 
         .arg(program)
         .args(["bench", "profile", "bare", name, steps])
         .current_dir(process::root());
-    printed(&mut command, LIMIT)?;
+    printed(&mut command, RUN_TIME)?;
     let bytes = fs::read(&path).map_err(|e| format!("{}: {e}", path.display()))?;
     callgrind::costs(&String::from_utf8_lossy(&bytes))
 }

@@ -91,6 +91,7 @@ fn count(n: usize) -> f64 {
 mod tests {
     use super::*;
 
+    /// Largest error of a fit of exact numbers [-]: some hundred roundings.
     const CLOSE: f64 = 1e-12;
 
     fn is_close(x: Option<f64>, y: f64) -> bool {

@@ -145,6 +145,7 @@ fn called(rule: &str) -> &str {
 mod tests {
     use super::*;
 
+    /// Tolerances with errors of ten times each [-].
     const FALLING: [[f64; 2]; 3] = [[1e-3, 1e-2], [1e-4, 1e-3], [1e-5, 1e-4]];
 
     #[test]

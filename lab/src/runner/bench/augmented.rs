@@ -10,7 +10,7 @@ use mbs_parallel::{Pool, ThreadTeam};
 use mbs_sparse::{Counters, Multifrontal, Options, Ordering};
 use serde_json::{Value, json};
 
-/// From this many elements on a chain's cuts are tried one by one.
+/// Least elements of a chain whose cuts are tried one by one. Chosen, not tuned.
 const MANY: usize = 5000;
 /// Levels of cuts that are tried there.
 const LEVELS: [u32; 4] = [1, 2, 4, 8];
@@ -75,7 +75,7 @@ fn teams<W>(sizes: &[usize], new: impl Fn(usize) -> std::io::Result<W>) -> Resul
     sizes.iter().map(|&n| new(n).map_err(|e| format!("no {n} threads: {e}"))).collect()
 }
 
-/// Races the lanes and tells of each.
+/// Times the lanes interleaved and reports each.
 fn run(formulation: &str, lanes: &mut [Lane<'_>], seconds: f64) {
     let mut runners: Vec<&mut dyn Runner> =
         lanes.iter_mut().map(|lane| lane as &mut dyn Runner).collect();

@@ -39,7 +39,7 @@ pub(crate) struct Clock {
     readings: AtomicU64,
     began: AtomicU64,
     evaluated: AtomicU64,
-    /// The bias has not been asked for in this step: it may still iterate.
+    /// The bias has not been asked for in this step: it may yet iterate.
     is_iterating: AtomicBool,
 }
 

@@ -26,7 +26,7 @@ struct Asked<'a> {
     alpha: &'a str,
 }
 
-/// Runs what is asked for, and tells of it in one line.
+/// Runs what is asked for, and reports it in one line.
 pub(crate) fn measure(words: &[String]) -> Result<(), String> {
     let [scene, form, digits, step, span, alpha] = words else {
         return Err(
@@ -57,7 +57,7 @@ fn number<T: Real>(text: &str) -> Result<T, String> {
 /// The options of a form.
 fn options<T: Real>(asked: &Asked<'_>) -> Result<Options<T>, String> {
     let alpha = number(asked.alpha)?;
-    // Each of them iterates to what double precision can tell: more digits make nothing else different.
+    // Each of them iterates to double precision: more digits make nothing else different.
     let tolerance = T::from_f64(1e-10);
     let ours = Options { tolerance, ..Options::index3() };
     match asked.form {
@@ -80,7 +80,7 @@ struct Outcome {
     turned_over: f64,
     violation: [f64; 3],
     tally: Tally,
-    /// When and why it did not go on.
+    /// When and why it stopped.
     stopped: Option<(f64, String)>,
 }
 
@@ -200,6 +200,7 @@ impl<T: Real> Energy<T> {
 
 /// What reading the clock takes [s].
 fn reading() -> f64 {
+    /// Readings that are timed together [-], as one alone is too short for the clock.
     const TIMES: u32 = 10_000;
     let clock = Instant::now();
     let sum: f64 = (0..TIMES).map(|_| Instant::now().elapsed().as_secs_f64()).sum();

@@ -1,4 +1,4 @@
-//! One linear system of the scene, ours and faer's: assemble, factor, solve, by turns in one run; with blocks that are given, and
+//! One linear system of the scene, ours and faer's: assemble, factor, solve, interleaved in one run; with blocks that are given, and
 //! with blocks that are written each time, which costs both the same.
 //!
 //! ```text
@@ -20,10 +20,10 @@ use serde_json::{Value, json};
 use std::cell::RefCell;
 use std::hint::black_box;
 
-/// Steps after which it is measured again.
+/// Steps between two measurements. Chosen, not tuned.
 const STEPS: u32 = 20;
 
-/// Measures at the start and after some steps, and tells a line of each.
+/// Measures at the start and after some steps, and writes a line of each.
 pub(crate) fn measure<const D: usize>(
     prepared: &Prepared<D>,
     solver: &Multifrontal<f64>,

@@ -82,7 +82,7 @@ impl Sums {
     }
 }
 
-/// Who works, told by name and number.
+/// What works, by name and number.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Name {
     pub(crate) team: &'static str,
@@ -91,7 +91,7 @@ pub(crate) struct Name {
     pub(crate) order: String,
 }
 
-/// Makes so many steps, and counts.
+/// Makes this many steps, and counts.
 type Steps<'a> = Box<dyn FnMut(u32, &mut Sums) -> Result<(), String> + Send + 'a>;
 
 /// A way to step a scene, ready to run.

@@ -1,4 +1,4 @@
-//! Formulations as `mbs run` steps them: classical alone and with a crew, by turns; those without teams in one row each.
+//! Formulations as `mbs run` steps them: classical alone and with a thread team, interleaved; those without teams in one row each.
 
 use crate::bench::lane::Sums;
 use crate::bench::race::{Runner, Timing, race, timed};
@@ -9,7 +9,7 @@ use mbs::{FormulationKind, Method, Settings};
 use mbs_core::scene::Scene;
 use serde_json::{Value, json};
 
-/// A step that takes longer is not measured further [s].
+/// Longest step that is measured more than once [s]. Chosen, not tuned.
 const LONGEST: f64 = 2.0;
 
 /// A simulation that is stepped, and its counts.
@@ -36,7 +36,7 @@ impl<const D: usize> Runner for Steps<D> {
     }
 }
 
-/// Measures a scene in one formulation, or tells why not.
+/// Measures a scene in one formulation, or says why not.
 pub(crate) fn measure<const D: usize>(
     scene: &Scene<f64>,
     formulation: &str,

@@ -24,10 +24,11 @@ use mbs_sparse::{Counters, Multifrontal};
 use serde_json::{Map, Value, json};
 use std::collections::BTreeMap;
 
-/// Steps that are timed together: a few milliseconds, which others seldom interrupt.
+/// Steps that are timed together: a few milliseconds, which other processes seldom interrupt.
 const TOGETHER: u32 = 25;
-/// Each stretch is timed at least so often, and for about so long in all [s].
+/// Least timings of each stretch [-]. Chosen, not tuned.
 const LEAST: u32 = 10;
+/// Time of all timings of a stretch [s]. Chosen, not tuned.
 const SECONDS: f64 = 2.0;
 
 /// Does what the words ask for.
@@ -74,7 +75,7 @@ impl<T: Real, M: Model<T>, S: SpdSolver<T>> Walk<T, M, S> {
         Self { model, step, state: prepared.start.clone(), workspace }
     }
 
-    /// Makes so many steps, and counts.
+    /// Makes this many steps, and counts.
     fn go(&mut self, n: u32, sums: &mut Sums) -> Result<(), String> {
         let (options, Self { model, step, state, workspace }) = (Options::index3(), self);
         for _ in 0..n {
@@ -126,7 +127,7 @@ fn told<const D: usize>(scene: &str, [from, to]: [u32; 2]) -> Result<Value, Stri
     }))
 }
 
-/// How many elements have so many unknowns.
+/// How many elements have this many unknowns.
 fn cliques(model: &impl Cliques) -> BTreeMap<usize, usize> {
     let mut sizes = BTreeMap::new();
     for e in 0..model.n_elements() {
@@ -211,7 +212,7 @@ impl Sizes {
         8 * (self.counters.stored + self.terms + self.jacobian + self.vectors)
     }
 
-    /// Bytes that go to the core and back at least: a factorisation reads the Jacobian, writes all fronts and reads them again; a
+    /// Bytes that go to the core and back at least: a factorisation reads the Jacobian, writes all fronts and reads them again. A
     /// solution reads the Jacobian for its right-hand side, and the factor twice; an iteration writes the Jacobian.
     fn moved(&self, sums: &Sums) -> u64 {
         let Counters { stored, nonzeros, .. } = self.counters;
@@ -277,7 +278,7 @@ mod tests {
         let Counters { flops, extend_adds, .. } = solver.counters();
         let triangle = |e| model.clique(e).len() * (model.clique(e).len() + 1) / 2;
         let adds: usize = (0..model.n_elements()).map(triangle).sum();
-        // The sums that bring blocks together are told apart, at most one for each of their entries.
+        // The sums that bring blocks together are separate, at most one for each of their entries.
         let least = counted - extend_adds - adds as u64;
         assert!(least < flops && flops < counted, "{counted} {flops} {extend_adds} {adds}");
     }

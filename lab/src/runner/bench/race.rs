@@ -1,14 +1,14 @@
-//! Repeated measurements by turns: what is compared is measured in the same seconds of a machine that others may use too.
+//! Repeated measurements, interleaved: what is compared is measured in the same seconds of a machine that others may use too.
 
 use serde_json::{Value, json};
 use std::time::Instant;
 
-/// What is measured: it does its work so many times.
+/// What is measured: it does its work this many times.
 pub(crate) trait Runner {
     /// Works `n` times, and says how long that took [s].
     ///
     /// # Errors
-    /// Why it cannot go on.
+    /// Why it cannot continue.
     fn run(&mut self, n: u32) -> Result<f64, String>;
     /// Called when what was done before is to count no more.
     fn reset(&mut self) {}
@@ -51,15 +51,15 @@ pub(crate) fn quantile(sorted: &[f64], share: f64) -> f64 {
 /// Shortest measurement [s], unless one piece of work is longer: much shorter than what a busy system gives a process at a
 /// time, so that most measurements are not interrupted and the median is one of them.
 const SHORTEST: f64 = 2e-4;
-/// Measurements of each at least, and at most.
+/// Least and most measurements of each. Chosen, not tuned.
 const ROUNDS: [f64; 2] = [7.0, 301.0];
 
-/// Measures all runners by turns for about `seconds`, after they have warmed up. One that fails has its reason.
+/// Measures all runners interleaved for about `seconds`, after they have warmed up. One that fails has its reason.
 pub(crate) fn race(runners: &mut [&mut dyn Runner], seconds: f64) -> Vec<Result<Timing, String>> {
     let mut pilot = |runner: &mut &mut dyn Runner| -> Result<f64, String> {
         runner.run(2)?;
         let once = runner.run(1)?;
-        // Short work is told from a clock's reading by its repetition.
+        // Short work is repeated, so that a reading of the clock is small beside it.
         if once < SHORTEST { Ok(runner.run(20)? / 20.0) } else { Ok(once) }
     };
     let pilots: Vec<_> = runners.iter_mut().map(&mut pilot).collect();

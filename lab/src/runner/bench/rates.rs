@@ -15,19 +15,20 @@ use std::time::Instant;
 const NUMBERS: usize = 28;
 /// Products with their sums for a number that is read and written.
 const DEPTH: usize = 3;
-/// Rounds in a measurement, and measurements.
+/// Rounds in a measurement [-]. Chosen, not tuned.
 const ROUNDS: u32 = 50_000;
+/// Measurements, of which the least time counts [-]. Chosen, not tuned.
 const TURNS: usize = 300;
 
-/// Caches, where the system does not tell them: the second, and the last, in bytes.
+/// Sizes of the second and the last cache where the system does not report them [bytes].
 const CACHES: [usize; 2] = [1 << 20, 32 << 20];
-/// Most that is read beyond the last cache, in bytes.
-const MOST: usize = 256 << 20;
+/// Most that is read beyond the last cache [bytes]. Chosen, not tuned.
+const MAX_BYTES: usize = 256 << 20;
 
 /// The line of rates.
 pub(crate) fn measure() -> Value {
     let [second, last] = caches();
-    let [near, far] = [second / 2, (4 * last).min(MOST)];
+    let [near, far] = [second / 2, (4 * last).min(MAX_BYTES)];
     json!({
         "kind": "rates", "scalar": scalar(), "packed": packed(),
         "near": bytes(near), "far": bytes(far), "near_size": near, "far_size": far,
@@ -86,10 +87,10 @@ fn by_place(x: &mut [f64; 64], places: &[u8], [p, s]: [f64; 2]) {
     }
 }
 
-/// Bytes in a second of reading an array of so many.
+/// Bytes in a second of reading an array of this many.
 fn bytes(size: usize) -> f64 {
     let array = vec![1.0; size / size_of::<f64>()];
-    let times = (MOST / 16 / size).max(1);
+    let times = (MAX_BYTES / 16 / size).max(1);
     let seconds = least(|| (0..times).for_each(|_| _ = black_box(sum(black_box(&array)))));
     #[allow(clippy::cast_precision_loss, reason = "far below 2^53")]
     let read = (times * size) as f64;

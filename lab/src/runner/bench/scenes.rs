@@ -120,7 +120,7 @@ pub(crate) fn steps<T: Real>(scene: &Scene<T>) -> (f64, u32) {
 pub(crate) mod tests {
     use super::*;
 
-    /// A chain of so many links.
+    /// A chain of this many links.
     pub(crate) fn chain(n: usize) -> Scene<f64> {
         let text = made("chain", n).unwrap();
         SceneFile::parse(&text, "chain").unwrap().scene().unwrap()

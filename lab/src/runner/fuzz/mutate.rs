@@ -29,14 +29,14 @@ const NUMBERS: [&str; 24] = [
     "3.141592653589793",
     "0x10",
 ];
-/// Mutations of a text at most.
-const MOST: usize = 4;
+/// Most mutations of a text. Chosen, not tuned.
+const MAX_MUTATIONS: usize = 4;
 
 /// A text with a few mutations; lines may come from the corpus.
 #[must_use]
 pub(super) fn mutated(text: &str, corpus: &[String], dice: &mut Dice) -> String {
     let mut text = text.to_owned();
-    for _ in 0..=dice.below(MOST) {
+    for _ in 0..=dice.below(MAX_MUTATIONS) {
         text = match dice.below(8) {
             0..=3 => number(&text, dice),
             4 => word(&text, dice),

@@ -49,7 +49,7 @@ fn words(of: &str, message: &str, hint: &str) -> Result<(), String> {
     is_told.then_some(()).ok_or_else(|| format!("{of}: a refusal without words"))
 }
 
-/// Numbers, words and lines changed; and sometimes bytes, as far as they are text.
+/// Numbers, words and lines changed; and sometimes bytes, where they are text.
 fn damaged(text: &str, dice: &mut Dice) -> String {
     let mut bytes = mutated(text, &[], dice).into_bytes();
     if !bytes.is_empty() && dice.below(2) == 0 {

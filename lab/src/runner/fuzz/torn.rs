@@ -1,15 +1,16 @@
-//! A checkpoint with bytes changed, cut off or added, and by turns with a checksum that holds: it is refused, or what goes on from it runs or stops with a reason.
+//! A checkpoint with bytes changed, cut off or added, and alternately with a checksum that holds: it is refused, or what resumes from it runs or stops with a reason.
 
 use mbs::core::scene::{Dimension, Scene};
 use mbs::scene_file::Dice;
 use mbs::typed::Simulation;
 use mbs::{Method, Settings};
 
-/// Steps before a state is kept, and after it is taken up again.
+/// Steps before a state is saved, and after it is restored.
 const STEPS: [usize; 2] = [3, 3];
+/// Length of a step [s].
 const STEP: f64 = 1e-3;
 
-/// Keeps a scene after some steps, damages what was kept, and goes on from it; what was wrong. Nothing where the scene does not get
+/// Keeps a scene after some steps, damages what was kept, and resumes from it; what was wrong. Nothing where the scene does not get
 /// that far.
 ///
 /// # Errors
@@ -64,6 +65,7 @@ fn go<const D: usize>(
 
 /// Puts length and checksum of a checkpoint right, so that what comes after them is read: lengths of lists among it.
 fn seal(bytes: &mut [u8]) {
+    /// Bytes before those that are counted and summed: magic, format, length, checksum.
     const HEAD: usize = 28;
     let Some((head, rest)) = bytes.split_at_mut_checked(HEAD) else { return };
     let step = |sum: u64, byte: &u8| (sum ^ u64::from(*byte)).wrapping_mul(0x0100_0000_01b3);

@@ -11,9 +11,9 @@ use mbs::{FormulationKind, Method, Settings};
 const STEPS: f64 = 6.0;
 /// Steps where a scene names none [s].
 const STEP: f64 = 1e-3;
-/// Of so many texts one is run in f32 and one in double-double.
+/// Texts of which one is run in f32 and one in double-double. Chosen, not tuned.
 const OTHER_PRECISIONS: usize = 5;
-/// Larger mechanisms take too long in double-double.
+/// Most bodies of a mechanism that is run in double-double, for the time that it takes. Chosen, not tuned.
 const SMALL: usize = 8;
 /// Methods that control their steps; those whose index follows the step come before them. One of these is tried with every second text
 /// that is not in double-double: where a motion is hopeless, control takes a hundred thousand trials to say so.
@@ -36,7 +36,7 @@ fn tried() -> (Vec<[&'static str; 3]>, usize) {
     (all, fixed.len())
 }
 
-/// And over a shorter time than the fixed steps', since short steps are what control is there for.
+/// Time of a run with controlled steps, relative to that with fixed ones [-]: controlled steps may be short. Chosen, not tuned.
 const SHORTER: f64 = 1e-2;
 
 /// What became of a text.

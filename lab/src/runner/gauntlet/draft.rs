@@ -206,7 +206,7 @@ impl Draft {
         draft
     }
 
-    /// The same mechanism told in other units of length and mass (1 m is `length` of them); the second stays. Springs between
+    /// The same mechanism in other units of length and mass (1 m is `length` of them); the second stays. Springs between
     /// points go with it, other effects there must not be.
     #[must_use]
     pub fn in_units(&self, length: f64, mass: f64) -> Self {

@@ -2,33 +2,33 @@
 //!
 //! A method is *wrong* where its outputs differ from the reference by more than ten times what the rule's own error is at that step
 //! (the lower median of what the other formulations, or those on the twin, are off by), and more than rounding, without a typed
-//! error and without falling with the square of the step; what the others are off by at steps down to half of it counts where it
+//! error and without falling with the square of the step. What the others are off by at steps down to half of it counts where it
 //! is more. Or where its energy invariant is off by more than a tenth of the energy turned over.
 
 use crate::gauntlet::case::{Case, Image, Options, Truth};
 use crate::gauntlet::run::{EXTRAPOLATED, Ran, methods, run};
 use mbs::FormulationKind;
 
-/// So many times the error of the rule is wrong.
+/// Ratio of an error to that of the rule, from which it is wrong [-]. Chosen, not tuned.
 const TIMES: f64 = 10.0;
-/// What is rounding in double and in single precision, in sizes of the case.
+/// Error that is rounding in double and in single precision, in sizes of the case [-]. Chosen, not tuned.
 const ROUNDING: [f64; 2] = [1e-7, 2e-3];
-/// An error above this share of the size, or of the energy for a moment, is told as coarse, where the rule itself is not better.
+/// Error that is reported as coarse, relative to the size, or to the energy for a moment [-], where the rule itself is not better. Chosen, not tuned.
 const COARSE: f64 = 0.1;
-/// Two references nearer than this agree, and no third is asked.
-const NEAR: f64 = 1e-3;
-/// Where nothing but the invariants is judged: joints may be open by this share of the size.
+/// Largest difference of two references that agree, in sizes of the case [-]: no third is run then. Chosen, not tuned.
+const AGREEMENT: f64 = 1e-3;
+/// Largest openness of joints where the invariants alone are checked, in sizes of the case [-]. Chosen, not tuned.
 const MOST_VIOLATION: f64 = 1e-6;
-/// How far a quotient of errors may be from the square of that of the steps.
+/// Largest ratio of a quotient of errors to the square of that of the steps [-], either way. Chosen, not tuned.
 const ORDER: f64 = 3.0;
-/// A reference has so many steps in one of the case.
+/// Steps of a reference in one of the case. Chosen, not tuned.
 const FINER: f64 = 10.0;
-/// So many steps in one are taken beside that, to see how an error falls.
+/// Steps of a second run in one of the case, to see how an error falls. Chosen, not tuned.
 const THIRD: f64 = 3.0;
-/// Shares of the step at which it is seen whether the others were lucky at the whole: tenths, so that a reference at a tenth of the
-/// step has rows of the same times; other references are met at some times and at the end.
+/// Fractions of the step at which chance shows in the error of the others at the whole [-]: tenths, so that a reference at a tenth of the
+/// step has rows of the same times. Other references are met at some times and at the end.
 const SMALLER: [f64; 5] = [0.9, 0.8, 0.7, 0.6, 0.5];
-/// Formulations that references are taken from at most.
+/// Most formulations that references are taken from. Chosen, not tuned.
 const N_REFERENCES: usize = 4;
 
 /// They, in this order.
@@ -64,7 +64,7 @@ struct Reference {
     rows: Rows,
 }
 
-/// Runs a case with all methods; `about` is told what is run before it begins.
+/// Runs a case with all methods; `about` receives what is run before it begins.
 pub fn judge(case: &Case, about: &mut dyn FnMut(&str)) -> Vec<(&'static str, Verdict)> {
     let ran: Vec<(&'static str, Ran)> = methods()
         .map(|method| {
@@ -238,7 +238,7 @@ fn agreeing(
             .min_by(|a, b| a.0.total_cmp(&b.0));
         let Some((apart, i, j)) = nearest else { continue };
         let is_last = methods.last() == Some(&method);
-        if apart <= NEAR || (is_last && apart <= COARSE) {
+        if apart <= AGREEMENT || (is_last && apart <= COARSE) {
             let second = found.swap_remove(j);
             return vec![found.swap_remove(i), second];
         }

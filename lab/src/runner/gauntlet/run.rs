@@ -11,7 +11,7 @@ pub fn methods() -> impl Iterator<Item = &'static str> {
     FormulationKind::listed().map(FormulationKind::name)
 }
 
-/// Share of the energy turned over that an invariant may be off by.
+/// Largest error of an invariant, relative to the exchanged energy [-]. Chosen, not tuned.
 const MOST_ENERGY: f64 = 0.1;
 
 /// What a run came to.

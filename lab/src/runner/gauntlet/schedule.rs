@@ -1,10 +1,10 @@
-//! Which case has which number: all families by turns, those that take long in some rounds only.
+//! Which case has which number: all families in turn, those that take long in some rounds only.
 
-use crate::gauntlet::families::{FAMILIES, Family, SLOW};
+use crate::gauntlet::families::{FAMILIES, Family, LONG_FAMILIES};
 
 /// Families in the order of their turn.
 pub fn all() -> impl Iterator<Item = &'static Family> {
-    FAMILIES.iter().chain(&SLOW)
+    FAMILIES.iter().chain(&LONG_FAMILIES)
 }
 
 /// The first `count` cases: family and seed.

@@ -110,7 +110,7 @@ fn the_row_of_the_deflection_is_its_gradient_in_every_position() {
 #[test]
 fn a_spring_carries_a_wheel_round_a_closed_way_without_work() {
     let tire = TireLaw { radial: [4.6e5, 0.0], rolling: 0.0, side: None, ..wheel(true) };
-    // Round a circle in the space of a place and two angles, on the bend of the road; the mean of many chords' works errs
+    // Round a circle in the space of a place and two angles, on the bend of the road. The mean of many chords' works errs
     // by the square of a chord.
     let place = |phase: f64| {
         let (sin, cos) = phase.sin_cos();
@@ -190,8 +190,9 @@ fn a_wheel_on_its_side_and_one_below_the_road_have_finite_forces() {
     }
 }
 
-/// The load, and the largest side force over slip: the parabola's top, A0 + A1 A2 / 4 [N, N/rad].
+/// The load: the stiffness times a deflection of 1 cm [N].
 const LOAD: f64 = 4.6e5 * 0.01;
+/// The largest side force over slip: the parabola's top, A0 + A1 A2 / 4 [N/rad].
 const CORNERING: f64 = 2625.0 + 14.47 * 12930.0 / 4.0;
 
 #[test]

@@ -2,8 +2,9 @@
 
 use super::*;
 
-/// Bisection ends at the rounding of a share, and a cubic of order one is told to the rounding of a few products.
+/// Rounding of a bisected fraction of a step, and of a cubic of order one [-]: that of a few products.
 const ROUNDING: f64 = 1e-15;
+/// Half width of the band about zero, as events have it [-].
 const BAND: f64 = 1e-9;
 
 /// The cubic with the roots a, b, c over a step of length `h` from time zero, in shares of it.

@@ -30,7 +30,7 @@ pub(in crate::outputs) const MOST_GAPS: usize = 2;
 pub(in crate::outputs) struct Reading<T> {
     /// Its gaps, [`Load::n_gaps`] of them.
     pub(in crate::outputs) gaps: [Gap<T>; MOST_GAPS],
-    /// What tells its kinks: a wheel's centre along its road and up, or a length and zero.
+    /// The coordinates of its kinks: a wheel's centre along its road and up, or a length and zero.
     pub(in crate::outputs) place: [Gap<T>; 2],
 }
 

@@ -41,6 +41,7 @@ fn ring(axes: &[[f64; 3]]) -> Scene<f64> {
     }
 }
 
+/// The axis z.
 const Z: [f64; 3] = [0.0, 0.0, 1.0];
 
 #[test]

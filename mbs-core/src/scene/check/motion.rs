@@ -188,7 +188,9 @@ fn agrees<T: Real>(
 ) -> Result<(), SceneError> {
     let (Some(guide), Some(given)) = (guide, numbers.first()) else { return Ok(()) };
     let expected = GuideInput::new(&guide.law).at(T::ZERO)[derivative];
-    let tolerance = T::from_f64(1.0e-9).max(T::from_f64(8.0) * T::EPSILON);
+    /// Largest relative difference of a joint's start from its guide's [-]. Chosen, not tuned.
+    const AGREEMENT: f64 = 1e-9;
+    let tolerance = T::from_f64(AGREEMENT).max(T::from_f64(8.0) * T::EPSILON);
     if (*given - expected).abs() <= tolerance * expected.abs().max(T::ONE) {
         return Ok(());
     }

@@ -1,4 +1,4 @@
-//! Complex numbers, as far as a factorisation needs them, and the scalars that it is written for.
+//! Complex numbers with the operations of a factorisation, and the scalars that it is written for.
 
 use crate::Real;
 use core::ops::{Div, Mul, Sub};

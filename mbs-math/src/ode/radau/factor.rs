@@ -30,7 +30,7 @@ impl<T: Real> Matrices<T> {
 /// L U = P (x − J), row by row in one array.
 ///
 /// The leading unknowns, whose rates hardly depend on each other, are eliminated on the diagonal, and the zeros of their rows
-/// passed over; the others by the largest pivot in their column.
+/// passed over. The others are eliminated by the largest pivot in their column.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Factor<T, N> {
     n: usize,

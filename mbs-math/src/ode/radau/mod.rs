@@ -15,19 +15,19 @@ use coefficients::Coefficients;
 use factor::Matrices;
 use newton::{End, Newton};
 
-/// The size of error that stands for an iteration that did not converge: a step of half the length is tried.
+/// Error that stands for an iteration that did not converge, in tolerances [-]: the step control then halves the step.
 const DIVERGED: f64 = 10.0;
-/// A step that would grow by less than this share is left as it is, and its factors with it.
+/// Growth below which a step keeps its length, and its factors with it [-]: as published (Hairer and Wanner II, IV.8).
 const WORTH_IT: f64 = 1.2;
-/// A correction that leaves more than this share of what a stage was off by was made with slopes of another motion.
-const HIDDEN: f64 = 0.5;
-/// But for so many roundings.
+/// Ratio of a stage's defect after a correction to that before it, above which the slopes are of another motion [-]. Chosen, not tuned.
+const MAX_DEFECT_RATIO: f64 = 0.5;
+/// Defect that is rounding, in units of what rounding of the state makes of the rates [-]. Chosen, not tuned.
 const ROUNDINGS: f64 = 16.0;
-/// Differences are taken over the root of this share of a rounding and of a component's size, at least.
-const LEAST: f64 = 1e-5;
-/// Slopes are kept for the next step where each iteration left less than this share of the error.
-const FAST: f64 = 0.05;
-/// Factors of a step that is longer or shorter by less than this share serve as well.
+/// Least value of a component for differences, in units of its size [-]: as in the published code RADAU5 (Hairer and Wanner).
+const LEAST_VALUE: f64 = 1e-5;
+/// Contraction of the iteration below which its slopes are kept for the next step [-]. Chosen, not tuned.
+const FAST_CONTRACTION: f64 = 0.05;
+/// Relative difference of two steps below which the factors of one serve for the other [-]. Chosen, not tuned.
 const SAME_STEP: f64 = 1e-3;
 
 /// Radau IIA with three stages (Hairer and Wanner, Solving Ordinary Differential Equations II, IV.8): order 5, L-stable.
@@ -144,7 +144,7 @@ impl<T: Real> Radau<T> {
         system.fine_rates(t, stage, base)?;
         for k in 0..n {
             let unit = options.sizes.get(k).copied().unwrap_or(T::ONE);
-            let size = y[k].abs().max(T::from_f64(LEAST) * unit);
+            let size = y[k].abs().max(T::from_f64(LEAST_VALUE) * unit);
             let root = (T::EPSILON * size * unit).sqrt();
             for by in [root, -root] {
                 // What the sum is larger by, not what was added.
@@ -195,7 +195,7 @@ impl<T: Real> Radau<T> {
         }
         let (newton, n) = (&self.newton, y.len());
         let after = newton.defect(&self.coefficients, h, last);
-        if after <= T::ONE || after <= T::from_f64(HIDDEN) * newton.before {
+        if after <= T::ONE || after <= T::from_f64(MAX_DEFECT_RATIO) * newton.before {
             return End::Converged;
         }
         // What the rounding of the state makes of rates through these slopes.
@@ -323,7 +323,7 @@ impl<T: Real> Method<T> for Radau<T> {
         self.memory.step = Some(h);
         let error = self.error(system, (t, h, is_repeated), (y, end), (options, first))?;
         // A trial that is rejected is repeated with the same slopes.
-        let is_fast = self.newton.contraction <= T::from_f64(FAST);
+        let is_fast = self.newton.contraction <= T::from_f64(FAST_CONTRACTION);
         self.memory.has_jacobian = is_fast || !(error <= T::ONE);
         Ok(error)
     }

@@ -8,15 +8,17 @@ use crate::ode::Rates;
 use alloc::vec;
 use alloc::vec::Vec;
 
-/// Iterations at most.
-const MOST: i32 = 8;
-/// What is left of the iteration's error, in tolerances of the step.
-const SMALL: f64 = 0.03;
-/// An iteration that leaves more than this share of the error is given up.
+/// Most iterations [-]: from the published range of 7 to 10 (Hairer and Wanner II, IV.8).
+const MAX_ITERATIONS: i32 = 8;
+/// Largest remaining error of the iteration, in tolerances of the step [-]: from the published range of 0.01 to 0.1 (IV.8).
+const MAX_REMAINDER: f64 = 0.03;
+/// Contraction above which an iteration ends without success [-]. Chosen, not tuned.
 const TOO_SLOW: f64 = 0.9;
-/// What is left after a first correction is taken for at least this share of it, however fast the last step converged: what it
-/// leads to has not been seen yet.
+/// Least ratio of the remaining error to the first correction [-], however fast the last step converged: the contraction is not known yet.
+/// Chosen, not tuned.
 const UNSEEN: f64 = 1e-3;
+/// Exponent on the last step's ratio of remaining error to correction [-]: as published (IV.8), where it is less certain in the next step.
+const REST_EXPONENT: f64 = 0.8;
 
 /// How an iteration ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -63,8 +65,8 @@ impl<T: Real> Newton<T> {
 
     /// How far the third stage is from its equation, h f − (A⁻¹ z)₃, in tolerances, with these rates there.
     ///
-    /// Corrections are small where the slopes are steep, whatever the rates are: a spring that is in the slopes but not in the motion
-    /// any more hides what is wrong from them. Here it is seen.
+    /// Corrections are small where the slopes are steep, whatever the rates are. A spring that is in the slopes but not in the motion
+    /// any more hides what is wrong from them; the defect shows it.
     pub(super) fn defect(&self, coefficients: &Coefficients<T>, h: T, rates: &[T]) -> T {
         let n = self.one.len();
         let (gamma, Complex { re, im }) = (coefficients.real, coefficients.complex);
@@ -79,8 +81,8 @@ impl<T: Real> Newton<T> {
         (sum / T::from_f64(n.max(1) as f64)).sqrt()
     }
 
-    /// Begins from stages of zero, or from the polynomial of the step before: `places` has the stages' places in that step, and
-    /// `from` is one where its end is where this one begins, zero where both begin at the same place.
+    /// Begins from stages of zero, or from the polynomial of the step before. `places` has the stages' places in that step. `from` is one
+    /// where its end is where this one begins, zero where both begin at the same place.
     pub(super) fn begin(
         &mut self,
         coefficients: &Coefficients<T>,
@@ -121,9 +123,9 @@ impl<T: Real> Newton<T> {
     ) -> Result<End, R::Error> {
         let n = y.len();
         let mut last = T::ZERO;
-        let mut left = T::from_f64(libm::pow(rest.to_f64(), 0.8).max(UNSEEN));
+        let mut left = T::from_f64(libm::pow(rest.to_f64(), REST_EXPONENT).max(UNSEEN));
         self.contraction = T::ZERO;
-        for iteration in 0..MOST {
+        for iteration in 0..MAX_ITERATIONS {
             for (i, &node) in coefficients.nodes.iter().enumerate() {
                 for (k, stage) in self.stage.iter_mut().enumerate() {
                     *stage = y[k] + self.z[i * n + k];
@@ -150,12 +152,12 @@ impl<T: Real> Newton<T> {
                     return Ok(End::Diverged);
                 }
                 left = share / (T::ONE - share);
-                let ahead = libm::pow(share.to_f64(), f64::from(MOST - 1 - iteration));
-                if !(left * size * T::from_f64(ahead) <= T::from_f64(SMALL)) {
+                let ahead = libm::pow(share.to_f64(), f64::from(MAX_ITERATIONS - 1 - iteration));
+                if !(left * size * T::from_f64(ahead) <= T::from_f64(MAX_REMAINDER)) {
                     return Ok(End::Diverged);
                 }
             }
-            if left * size <= T::from_f64(SMALL) {
+            if left * size <= T::from_f64(MAX_REMAINDER) {
                 *rest = left;
                 return Ok(End::Converged);
             }

@@ -139,7 +139,7 @@ fn errors_follow_the_tolerance() {
     }
 }
 
-/// In pairs of doubles slopes by differences have 16 digits, and the tolerance may be far below what doubles can tell.
+/// In pairs of doubles slopes by differences have 16 digits, and the tolerance may be below the rounding of doubles.
 #[test]
 fn pairs_reach_20_digits() {
     let mut y = [Pair::ONE, Pair::ZERO];
@@ -162,7 +162,7 @@ fn slopes_and_factors_are_kept_while_they_serve() {
     assert!(counts.evaluations <= 7 * steps + 6, "{counts:?}");
 }
 
-/// Another that goes on from the history makes the same step, bit for bit.
+/// Another that is restored from the history makes the same step, bit for bit.
 #[test]
 fn a_history_makes_the_same_step() {
     let mut y = [1.0, 0.0];
@@ -194,7 +194,7 @@ fn a_wall_of_no_numbers_is_told() {
 
 /// A mass that is pressed on a stiff stop and pulled off it: x'' = p(t) + k max(−x, 0) − 2 √k v there. At rest the steps grow, and the
 /// slopes of the stop stand in the matrices when it is gone: all that it hides must be seen. It lifts off where the pull is zero and
-/// falls freely from then on; the way after that is the integral of the pull, but for what a stop of k lets through.
+/// falls freely from then on. The way after that is the integral of the pull, but for what a stop of k lets through.
 #[test]
 fn a_stiff_contact_that_ends_is_not_held_by_its_slopes() {
     for (k, tolerance, most) in [(1e6, 1e-6, 1e-3), (1e8, 1e-8, 1e-4)] {

@@ -44,7 +44,7 @@ pub enum SweepFault {
         /// Entries there.
         count: usize,
     },
-    /// A path that ends at something else than a number, or goes on where it should end.
+    /// A path that ends at something else than a number, or continues where it should end.
     NotANumber {
         /// The place, as the path names it.
         at: String,
@@ -77,7 +77,7 @@ pub enum SweepFault {
         /// End of the range.
         to: f64,
     },
-    /// Members beyond what a sweep may have; as many as can be told.
+    /// Members beyond what a sweep may have; as many as can be counted.
     TooMany(f64),
     /// Values that pair off with none of the others.
     ZipCount {
@@ -101,7 +101,7 @@ pub enum SweepFault {
     },
 }
 
-/// Members of a sweep at most.
+/// Most members of a sweep. Chosen, not tuned: a slip of a count ends in a message.
 pub(super) const MOST_MEMBERS: u32 = 1_000_000;
 
 impl Display for SweepFault {

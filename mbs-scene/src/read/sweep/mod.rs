@@ -41,7 +41,7 @@ struct PlaceOfScene {
     shifts: Vec<(usize, f64)>,
 }
 
-/// Digits that a sum of decimals keeps.
+/// Significant digits that a sum of decimals keeps: what every decimal text keeps through `f64`.
 const DIGITS: usize = 15;
 
 impl SweepFile {

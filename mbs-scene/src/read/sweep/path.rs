@@ -185,7 +185,7 @@ impl Walk {
         }
     }
 
-    /// Something that is no number, and how the path should go on.
+    /// Something that is no number, and how the path should continue.
     fn not_a_number(&self, item: &Item) -> SweepFault {
         let at = &self.at;
         let advice = match &item.node {

@@ -92,6 +92,7 @@ fn zip_pairs_values_one_to_one() {
 
 #[test]
 fn a_latin_hypercube_has_one_sample_in_each_stratum_of_each_parameter() {
+    // Samples, one in each stratum.
     const N: usize = 64;
     let text = format!("[sweep]\ncombine = 'latin-hypercube'\nsamples = {N}\nseed = 5\n")
         + &vary("body.lower.mass", &format!("from = 1\nto = {}", N + 1))

@@ -14,7 +14,7 @@ use crate::format::rounded;
 
 /// Significant digits of computed values: what every decimal text keeps through `f64`.
 const DIGITS: usize = 15;
-/// Steps that a range may miss its end by: rounding.
+/// Fraction of a step by which a range may miss its end [-]: decimals are rounded. Chosen, not tuned.
 const ROUNDING: f64 = 1e-9;
 
 /// Numbers between two ends.
@@ -51,7 +51,7 @@ impl Range {
         (steps.is_finite() && steps >= 1.0 - ROUNDING).then(|| (steps + ROUNDING).floor() + 1.0)
     }
 
-    /// Numbers at a given distance from the beginning on, as far as the end.
+    /// Numbers at a given distance from the beginning to the end.
     pub(super) fn stepped(&self, step: f64, count: u32) -> Vec<f64> {
         (0..count).map(|i| rounded(self.from + f64::from(i) * step, DIGITS)).collect()
     }
@@ -101,6 +101,7 @@ mod tests {
 
     #[test]
     fn every_stratum_has_one_sample() {
+        // Strata.
         const N: u32 = 500;
         for stream in 0..3 {
             let samples = range(0.0, f64::from(N), false).strata(N, 42, stream);

@@ -76,7 +76,7 @@ pub struct OutputScale {
     pub output: String,
     /// Unit of these components.
     pub unit: String,
-    /// Errors are divided by it; nothing where the output and all others of its unit stand still: it is not compared.
+    /// Errors are divided by it; nothing where the output and all others of its unit are constant: it is not compared.
     pub scale: Option<f64>,
     /// The largest range of a component over the reference.
     pub range: f64,
@@ -153,7 +153,7 @@ pub struct MethodRuns {
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Status {
-    /// It was not made: it would take too long, or could tell nothing more.
+    /// It was not made: it would take too long, or would show nothing more.
     #[default]
     NotRun,
     /// It reached the end.
@@ -253,7 +253,7 @@ pub struct RankLevel {
     pub not_reached: Vec<String>,
 }
 
-/// A choice by measurement, held against what all methods take.
+/// A choice by measurement, compared with the times of all methods.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub struct JudgedChoice {
     /// The wanted error.

@@ -3,12 +3,12 @@
 use super::data::{Comparison, MethodRuns, Rank, RankLevel, RunEntry, Status};
 use super::{fit, front, rank};
 
-/// Errors below so many times the reference's uncertainty are marked: the reference cannot tell them.
+/// Error below which an entry is marked, in units of the reference's uncertainty [-]. Chosen, not tuned.
 const TELLS: f64 = 3.0;
-/// A method may be the fastest of its formulation if it takes less than so many times the least.
+/// Ratio of times up to which a method may be the fastest of its formulation [-]. Chosen, not tuned.
 const NEARLY: f64 = 1.15;
-/// Counts of steps are the same where they do not differ by more than a fiftieth.
-const SAME: u64 = 50;
+/// Inverse of the relative difference of counts of steps that are the same: a fiftieth. Chosen, not tuned.
+const SAME_COUNT: u64 = 50;
 
 impl Comparison {
     /// The least error that the reference resolves.
@@ -109,7 +109,7 @@ impl MethodRuns {
         points.filter(|(h, e)| *h > 0.0 && *e > 0.0).collect()
     }
 
-    /// Least and second CPU time at an error, of runs whose results have so many instants.
+    /// Least and second CPU time at an error, of runs whose results have this many instants.
     fn at_error(&self, level: f64, instants: u64) -> Option<[f64; 2]> {
         let (places, points): (Vec<usize>, Vec<front::Point<2>>) = self.timed().unzip();
         let has_between = |coarse: usize, fine: usize| {
@@ -141,7 +141,7 @@ impl MethodRuns {
     fn has_between(&self, [coarse, fine]: [u64; 2], instants: u64) -> bool {
         match self.control.as_str() {
             "fixed" => coarse / instants.max(1) * instants.max(1) + instants < fine,
-            "own" => fine > coarse + coarse / SAME,
+            "own" => fine > coarse + coarse / SAME_COUNT,
             _ => true,
         }
     }

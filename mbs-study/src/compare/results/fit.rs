@@ -2,18 +2,19 @@
 
 use super::data::Fit;
 
-/// Slopes between neighbours that belong to one line differ by at most this.
+/// Largest difference of slopes between neighbours that belong to one line [-]. Chosen, not tuned.
 const SAME_SLOPE: f64 = 0.4;
-/// Errors above this share of the outputs' ranges have lost the motion: they say nothing of the order.
+/// Error from which a motion is lost and shows no order, relative to the outputs' ranges [-]. Chosen, not tuned.
 const LOST: f64 = 0.2;
-/// A line has three steps at least, this factor apart in all, misses no logarithm of an error by more than this [decades] in the root of the
-/// mean square, and an order that a method can have.
+/// Least ratio of the longest to the shortest step of a line [-], of which it has three or more. Chosen, not tuned.
 const SPAN: f64 = 4.0;
+/// Largest root of the mean square of a line's misfits [decades]. Chosen, not tuned.
 const RESIDUAL: f64 = 0.15;
+/// Largest order that a method can have [-].
 const MOST_ORDER: f64 = 20.0;
-/// Steps that differ by less than this share are the same: the instants of the results hold them.
+/// Relative difference below which steps are the same [-]: they end at the instants of the results. Chosen, not tuned.
 const SAME_STEP: f64 = 1e-6;
-/// Rounding: errors that are this many times the least one, at shorter steps.
+/// Ratio of an error at shorter steps to the least one, from which it is rounding [-]. Chosen, not tuned.
 const GROWN: f64 = 2.0;
 
 /// Fits the order to points (step, error), from the longest step to the shortest. Errors below `floor` are what the reference
@@ -37,7 +38,7 @@ pub(super) fn fit(points: &[(f64, f64)], floor: f64) -> Option<Fit> {
     })
 }
 
-/// Does a stretch tell an order?
+/// Does a stretch show an order?
 fn is_line(points: &[(f64, f64)]) -> bool {
     let [first, _, .., last] = points else { return false };
     let order = slope(points);

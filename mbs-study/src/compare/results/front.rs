@@ -42,7 +42,7 @@ pub(super) fn credited(errors: &[f64], i: usize) -> f64 {
 }
 
 /// CPU times at an error, by interpolation of logarithms between the runs beside it, where there are others between these two
-/// (`has_between`, of their indices); else those of the run that reaches it.
+/// (`has_between`, of their indices). Else they are those of the run that reaches it.
 pub(super) fn at_error<const N: usize>(
     points: &[Point<N>],
     level: f64,

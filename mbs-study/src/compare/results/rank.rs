@@ -2,8 +2,8 @@
 
 use super::data::Rank;
 
-/// Up to this factor times share the rank of its fastest. Where a computation happens to lie in memory, and who else is at work, moves
-/// the least of many times by one or two per cent; of the factors that tell methods apart this one leaves few on its edge.
+/// Ratio up to which times share the rank of the fastest [-]. The place of a computation in memory, and other work, change the least of
+/// many times by one or two per cent. Of the factors that distinguish methods this one leaves few at its edge.
 pub(super) const APART: f64 = 1.5;
 
 /// Gives ranks to methods with their least times. A rank ends where a time is more than `APART` times that of its fastest, and more

@@ -3,7 +3,7 @@
 use super::data::OutputScale;
 use mbs::record::Channel;
 
-/// The scale of an output is at least this share of the largest range of its unit.
+/// Least scale of an output, relative to the largest range of its unit [-]. Chosen, not tuned.
 const FLOOR: f64 = 1e-3;
 
 /// The scales of all channels: the components of one unit of a channel share the largest of their ranges over the reference, but

@@ -104,8 +104,9 @@ pub(super) struct Layout {
     pub(super) n: [usize; 2],
 }
 
-/// v, or efforts along v; and w.
+/// Place of v, or of efforts along v.
 const OWN: usize = 0;
+/// Place of w.
 const TREE: usize = 1;
 
 impl Layout {

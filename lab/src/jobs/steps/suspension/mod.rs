@@ -18,7 +18,7 @@ const FINE: f64 = 5e-4;
 /// Step of the report's run in index 3, and the largest one of the variable run [s].
 const COARSE: f64 = 1e-2;
 /// First step of the variable run [s].
-const FIRST: f64 = 1e-3;
+const FIRST_STEP: f64 = 1e-3;
 /// The report's tolerance.
 const TOLERANCE: f64 = 1e-6;
 /// Tolerances that are tried.
@@ -52,7 +52,7 @@ pub(crate) fn run(lab: &Lab<'_>) -> Result<Section, String> {
 }
 
 fn multi(scene: &'static str, tolerance: f64) -> Case {
-    Case::variable(scene, "multi-index", Rule::Energy(tolerance), [FIRST, COARSE])
+    Case::variable(scene, "multi-index", Rule::Energy(tolerance), [FIRST_STEP, COARSE])
 }
 
 /// The report's three runs.

@@ -7,10 +7,12 @@ use crate::gauntlet::draft::{Draft, Effect, GROUND};
 use crate::gauntlet::vector::plus;
 use mbs::scene_file::Dice;
 
+/// Steps of the runs, from long to short [s]: half decades.
 const STEPS: [f64; 4] = [3e-3, 1e-3, 3e-4, 1e-4];
+/// Acceleration of gravity [m/s²].
 const GRAVITY: f64 = 9.81;
 
-/// A mass on a vertical slide that falls on a spring which only pushes: parabolas and pieces of sines by turns.
+/// A mass on a vertical slide that falls on a spring which only pushes: parabolas and pieces of sines alternately.
 pub(super) fn bouncing(dice: &mut Dice) -> Case {
     let (mass, height) = (dice.between(0.5, 2.0), dice.between(0.05, 0.5));
     let stiffness = decades(dice, 3.0, 7.0);

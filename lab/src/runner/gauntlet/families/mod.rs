@@ -18,7 +18,7 @@ pub struct Family {
     pub name: &'static str,
     /// What is hard about it: a column of the table.
     pub property: &'static str,
-    /// In so many rounds of all families it has one case.
+    /// Rounds of all families in which it has one case.
     pub every: u64,
     make: fn(&mut Dice) -> Case,
 }
@@ -88,8 +88,8 @@ pub const FAMILIES: [Family; 29] = [
     Family::new("penalties from 1e3 to 1e13", PENALTIES, steps::penalties),
 ];
 
-/// And two that take longer.
-pub const SLOW: [Family; 2] = [
+/// Two families that take longer.
+pub const LONG_FAMILIES: [Family; 2] = [
     Family { every: 3, ..Family::new("walker with twelve legs", LOOPS, scales::walker) },
     Family::new("32 bits", SINGLE, steps::single),
 ];

@@ -8,6 +8,7 @@ use crate::gauntlet::draft::{Draft, GROUND};
 use crate::gauntlet::vector::{Point, Turn, dot, plus};
 use mbs::scene_file::Dice;
 
+/// Steps of the runs, from long to short [s]: half decades.
 const STEPS: [f64; 4] = [1e-2, 3e-3, 1e-3, 3e-4];
 
 /// A four-bar with hinges of space: three of each loop's equations are redundant. The twin is planar.

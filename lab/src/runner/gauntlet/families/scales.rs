@@ -8,6 +8,7 @@ use crate::gauntlet::text::text;
 use crate::gauntlet::vector::{Turn, plus};
 use mbs::scene_file::Dice;
 
+/// Steps of the runs, from long to short [s]: half decades.
 const STEPS: [f64; 4] = [1e-2, 3e-3, 1e-3, 3e-4];
 
 /// Seven bodies that turn at some ten thousand revolutions a minute; its drive at random.

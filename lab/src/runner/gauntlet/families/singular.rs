@@ -7,6 +7,7 @@ use crate::gauntlet::draft::{Draft, GROUND};
 use crate::gauntlet::vector::{Point, plus};
 use mbs::scene_file::Dice;
 
+/// Steps of the runs, from long to short [s]: half decades.
 const STEPS: [f64; 4] = [1e-2, 3e-3, 1e-3, 3e-4];
 
 /// Parallelograms side by side, whose cranks pass the horizontal together: a pendulum, and so is the twin.

@@ -6,6 +6,7 @@ use alloc::vec;
 use alloc::vec::Vec;
 
 const PAIR: [BodyId; 2] = [BodyId::Ground, BodyId::Body(0)];
+/// Attachment points one metre apart along x [m].
 const APART: [[f64; 3]; 2] = [[0.0; 3], [1.0, 0.0, 0.0]];
 
 pub(super) fn effect(kind: EffectKind<f64>) -> Vec<Effect<f64>> {
