@@ -34,7 +34,7 @@ const MOST: usize = 4;
 
 /// A text with a few mutations; lines may come from the corpus.
 #[must_use]
-pub fn mutated(text: &str, corpus: &[String], dice: &mut Dice) -> String {
+pub(crate) fn mutated(text: &str, corpus: &[String], dice: &mut Dice) -> String {
     let mut text = text.to_owned();
     for _ in 0..=dice.below(MOST) {
         text = match dice.below(8) {

@@ -18,7 +18,11 @@ const ROWS: usize = 12;
 ///
 /// # Errors
 /// What must not be: a refusal without words, or without its place.
-pub fn tables(document: &SceneFile, scene: &Scene<f64>, dice: &mut Dice) -> Result<(), String> {
+pub(crate) fn tables(
+    document: &SceneFile,
+    scene: &Scene<f64>,
+    dice: &mut Dice,
+) -> Result<(), String> {
     if let Err(error) = check_table(scene, &damaged(&reference(scene), dice)) {
         words("a table of references", &error.to_string(), &error.hint())?;
     }
