@@ -38,7 +38,7 @@ impl Space {
 
 /// The text of a scene.
 #[must_use]
-pub(super) fn mechanism(dice: &mut Dice) -> String {
+pub(crate) fn mechanism(dice: &mut Dice) -> String {
     // there is no code in it
     to_toml(&scene(dice)).unwrap_or_default()
 }

@@ -34,7 +34,7 @@ const MAX_MUTATIONS: usize = 4;
 
 /// A text with a few mutations; lines may come from the corpus.
 #[must_use]
-pub(super) fn mutated(text: &str, corpus: &[String], dice: &mut Dice) -> String {
+pub(crate) fn mutated(text: &str, corpus: &[String], dice: &mut Dice) -> String {
     let mut text = text.to_owned();
     for _ in 0..=dice.below(MAX_MUTATIONS) {
         text = match dice.below(8) {

@@ -18,7 +18,7 @@ const ROWS: usize = 12;
 ///
 /// # Errors
 /// What must not be: a refusal without words, or without its place.
-pub(super) fn tables(
+pub(crate) fn tables(
     document: &SceneFile,
     scene: &Scene<f64>,
     dice: &mut Dice,

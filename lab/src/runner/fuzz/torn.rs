@@ -15,7 +15,7 @@ const STEP: f64 = 1e-3;
 ///
 /// # Errors
 /// What must not be: a restored state that is not finite, or a refusal without words.
-pub(super) fn torn(
+pub(crate) fn torn(
     scene: &Scene<f64>,
     formulation: &str,
     dice: &mut Dice,

@@ -133,14 +133,7 @@ pub(super) const fn n(error: f64, seconds: f64) -> Printed {
 }
 
 /// Our methods without a printed row.
-pub(super) const CLASSICAL: Method = Method {
-    name: "classical",
-    formulation: "classical",
-    arguments: &[],
-    printed_name: "",
-    dt: &[],
-    printed: &[],
-};
+pub(super) const CLASSICAL: Method = method("classical", "", &[]);
 
 /// A method by our name of the formulation.
 pub(super) const fn method(
@@ -153,12 +146,6 @@ pub(super) const fn method(
 
 /// Index-3 with the report's fixed penalty.
 pub(super) const fn fixed(printed_name: &'static str, printed: &'static [Printed]) -> Method {
-    Method {
-        name: "index-3, alpha = 1e7",
-        formulation: "index-3",
-        arguments: &["--penalty", "1e7"],
-        printed_name,
-        dt: &[],
-        printed,
-    }
+    let arguments = &["--penalty", "1e7"];
+    Method { name: "index-3, alpha = 1e7", arguments, ..method("index-3", printed_name, printed) }
 }

@@ -10,7 +10,7 @@ const fn timed(
     dt: &'static [f64],
     printed: &'static [Printed],
 ) -> Method {
-    Method { name: formulation, formulation, arguments: &[], printed_name, dt, printed }
+    Method { dt, ..method(formulation, printed_name, printed) }
 }
 
 /// Index-3 with a fixed penalty, at steps of its own.
@@ -19,7 +19,7 @@ const fn penalised(
     arguments: &'static [&'static str],
     printed: &'static [Printed],
 ) -> Method {
-    Method { name, formulation: "index-3", arguments, printed_name: LAGRANGIAN, dt: STIFF, printed }
+    Method { name, arguments, ..timed("index-3", LAGRANGIAN, STIFF, printed) }
 }
 
 /// P3's models of the vehicle; the natural one is that of both Lagrangian methods.
@@ -48,6 +48,21 @@ const STIFF: &[f64] = &[5e-3, 1e-3];
 /// What every table of the vehicle must say.
 const VEHICLE: &str = "The dimensions of the report's roads are lost: those of the scenes are chosen anew. The first step of a \
     method is the largest that the report found workable; it gives no errors.";
+
+/// What the tables of the vehicle share.
+const ON_A_ROAD: Table = Table {
+    name: "",
+    title: "",
+    source: "",
+    scene: "",
+    duration: 10.0,
+    dt: &[],
+    methods: &[],
+    reference: None,
+    history: Some(ACCELERATION),
+    sizes: VEHICLE_SIZES,
+    note: VEHICLE,
+};
 
 /// Publication 1, Table IV.
 pub(super) const T4: Table = Table {
@@ -89,17 +104,12 @@ pub(super) const T5_1: Table = Table {
     title: "Iltis up a ramp and down a series of stairs",
     source: "publication 3, Table I, SIMUL1",
     scene: "iltis-stairs",
-    duration: 10.0,
-    dt: &[],
     methods: &[
         timed("index-3", LAGRANGIAN, &[1.75e-2, 1e-3], &[Printed::Time(34.0)]),
         timed("classical", "Classical Lagr.", &[1e-2, 1e-3], &[Printed::Time(139.0)]),
         timed("recursive", "Fully-rec", &[7.5e-3, 1e-3], &[Printed::Time(20.0)]),
     ],
-    reference: None,
-    history: Some(ACCELERATION),
-    sizes: VEHICLE_SIZES,
-    note: VEHICLE,
+    ..ON_A_ROAD
 };
 
 /// Publication 3, Table I, SIMUL2.
@@ -108,17 +118,12 @@ pub(super) const T5_2: Table = Table {
     title: "Iltis off a ramp and onto the ground",
     source: "publication 3, Table I, SIMUL2",
     scene: "iltis-jump",
-    duration: 10.0,
-    dt: &[],
     methods: &[
         timed("index-3", LAGRANGIAN, &[3e-2, 1e-3], &[Printed::Time(18.0)]),
         timed("classical", "Classical Lagr.", &[2.5e-2, 1e-3], &[Printed::Time(58.0)]),
         timed("recursive", "Fully-rec", &[7.5e-3, 1e-3], &[Printed::Time(14.0)]),
     ],
-    reference: None,
-    history: Some(ACCELERATION),
-    sizes: VEHICLE_SIZES,
-    note: VEHICLE,
+    ..ON_A_ROAD
 };
 
 /// Publication 3, Table I, SIMUL3.
@@ -127,17 +132,12 @@ pub(super) const T5_3: Table = Table {
     title: "Iltis in a slalom",
     source: "publication 3, Table I, SIMUL3",
     scene: "iltis-slalom",
-    duration: 10.0,
-    dt: &[],
     methods: &[
         timed("index-3", LAGRANGIAN, &[2.5e-2, 1e-3], &[Printed::Time(27.0)]),
         timed("classical", "Classical Lagr.", &[1e-2, 1e-3], &[Printed::Time(99.0)]),
         timed("recursive", "Fully-rec", &[7.5e-3, 1e-3], &[Printed::Time(9.0)]),
     ],
-    reference: None,
-    history: Some(ACCELERATION),
-    sizes: VEHICLE_SIZES,
-    note: VEHICLE,
+    ..ON_A_ROAD
 };
 
 /// Publication 3, Table III, SIMUL1S.
@@ -146,8 +146,6 @@ pub(super) const T8: Table = Table {
     title: "Iltis with rubber stops of 1e7 N/m, up a ramp and down a series of stairs",
     source: "publication 3, Table III, SIMUL1S",
     scene: "iltis-stairs-stiff",
-    duration: 10.0,
-    dt: &[],
     methods: &[
         timed("index-3", LAGRANGIAN, STIFF, &[Printed::Time(78.0)]),
         penalised("index-3, alpha = 1e9", &["--penalty", "1e9"], &[]),
@@ -155,9 +153,7 @@ pub(super) const T8: Table = Table {
         timed("classical", "Classical Lagr.", &[2.5e-3, 1e-3], &[Printed::Time(435.0)]),
         timed("recursive", "Fully-rec", &[2.5e-3, 1e-3], &[Printed::Time(34.0)]),
     ],
-    reference: None,
-    history: Some(ACCELERATION),
-    sizes: VEHICLE_SIZES,
     note: "The report needs a penalty of 1e10 here, and finds the system ill-conditioned at smaller steps. The dimensions \
         of its road are lost: those of the scene are chosen anew.",
+    ..ON_A_ROAD
 };
