@@ -1,7 +1,7 @@
 //! Contacts, ends, latches, friction and stiffness.
 
 use super::bases::{chain, four_bar};
-use super::{case, decades, others, time, twin};
+use super::case::{case, decades, others, time, twin};
 use crate::case::{Case, Truth};
 use crate::draft::{Draft, Effect, GROUND};
 use crate::vector::plus;

@@ -1,15 +1,14 @@
 //! The families of hard cases: each makes a case of any seed.
 
 mod bases;
+mod case;
 mod effects;
 mod redundant;
 mod scales;
 mod singular;
 mod steps;
 
-use crate::case::{Case, Image, Options, Truth};
-use crate::draft::Draft;
-use crate::text::text;
+use crate::case::Case;
 use mbs::scene_file::Dice;
 
 /// A property that makes cases hard, and the generator of such cases.
@@ -94,33 +93,3 @@ pub const SLOW: [Family; 2] = [
     Family { every: 3, ..Family::new("walker with twelve legs", LOOPS, scales::walker) },
     Family::new("32 bits", SINGLE, steps::single),
 ];
-
-/// A case of a draft whose outputs are judged by other formulations.
-fn others(draft: &Draft, name: &str, time: (f64, f64)) -> Case {
-    case(draft, name, time, Truth::Others)
-}
-
-fn case(draft: &Draft, name: &str, (step, duration): (f64, f64), truth: Truth) -> Case {
-    let scene = text(draft, name, duration);
-    Case { scene, step, size: draft.size(), options: Options::default(), truth }
-}
-
-/// A case that moves as another draft does.
-fn twin(draft: &Draft, plain: &Draft, name: &str, time: (f64, f64)) -> Case {
-    let image =
-        Image { dimensions: [plain.dimension, draft.dimension], ..Image::same(draft.dimension) };
-    let scene = text(plain, "twin", time.1);
-    case(draft, name, time, Truth::Twin(scene, image))
-}
-
-/// One of the steps, and so many of them.
-fn time(dice: &mut Dice, steps: &[f64], duration: f64) -> (f64, f64) {
-    let step = *dice.one_of(steps);
-    // whole steps, so that a tenth of one meets all of them
-    (step, (duration / step).round().max(1.0) * step)
-}
-
-/// Ten to a power between.
-fn decades(dice: &mut Dice, from: f64, to: f64) -> f64 {
-    10_f64.powf(dice.between(from, to))
-}

@@ -1,8 +1,8 @@
 //! Constraints that say the same more than once.
 
 use super::bases::{any, four_bar};
+use super::case::{others, time, twin};
 use super::singular::pendulum;
-use super::{others, time, twin};
 use crate::case::Case;
 use crate::draft::{Draft, GROUND};
 use crate::vector::{Point, Turn, dot, plus};

@@ -1,7 +1,7 @@
 //! Small beside large: masses, units, frequencies, numbers of loops; and other axes.
 
 use super::bases::{any, chain, direction, four_bar, loop_on, spatial_chain};
-use super::{case, decades, others, time, twin};
+use super::case::{case, decades, others, time, twin};
 use crate::case::{Case, Image, Options, Truth};
 use crate::draft::{Draft, GROUND, Joint};
 use crate::text::text;

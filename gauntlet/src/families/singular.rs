@@ -1,7 +1,7 @@
 //! Positions in which constraints lose rank, and those next to them.
 
 use super::bases::loop_on;
-use super::{decades, others, time, twin};
+use super::case::{decades, others, time, twin};
 use crate::case::Case;
 use crate::draft::{Draft, GROUND};
 use crate::vector::{Point, plus};

@@ -1,7 +1,7 @@
 //! Steps that are very small, very large or very many, numbers of few digits, and penalties of any size.
 
 use super::bases::{any, chain, four_bar};
-use super::{case, decades, time};
+use super::case::{case, decades, time};
 use crate::case::{Case, Options, Truth};
 use mbs::scene_file::Dice;
 

@@ -1,6 +1,7 @@
 //! Results are old or new, never lost, and never of two processes at once.
 
 use super::*;
+use std::io;
 
 fn scratch(name: &str) -> PathBuf {
     let path = std::env::temp_dir().join(format!("mbs-folder-{name}-{}", std::process::id()));

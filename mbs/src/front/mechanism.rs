@@ -33,7 +33,7 @@ use std::sync::Arc;
 /// ```
 #[derive(Debug, Clone)]
 pub struct Mechanism {
-    scene: Scene<Number>,
+    pub(super) scene: Scene<Number>,
     /// The file that says the same, or said so before the last change by handle.
     file: Option<SceneFile>,
     is_changed: bool,

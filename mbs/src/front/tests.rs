@@ -56,7 +56,7 @@ fn a_method_of_a_mechanism_is_written_to_its_file_and_what_it_leaves_open_stays(
     m.set_method(&method);
     let written = m.to_toml().expect("no code");
     assert!(written.starts_with("# Double pendulum: two uniform rods"), "{written}");
-    let solver = Mechanism::parse(&written).expect("a scene").scene().solver.clone();
+    let solver = Mechanism::parse(&written).expect("a scene").scene.solver.clone();
     assert_eq!(solver.formulation.as_deref(), Some("recursive"));
     assert_eq!(solver.integrator.as_deref(), Some("rk4"));
     assert_eq!(solver.step, Some(1e-3.into()));

@@ -8,6 +8,9 @@ use std::fs;
 use std::path::Path;
 use std::process::{Command, Stdio};
 
+/// Steps counted in each case.
+pub(super) const STEPS: u64 = 10;
+
 /// What one case executed.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct Case {

@@ -1,7 +1,6 @@
 //! Everything counted as JSON. It is written here: a library for it would be compiled before any job of this repository can begin.
 
-use super::STEPS;
-use super::callgrind::Case;
+use super::callgrind::{Case, STEPS};
 use super::claims::{Claim, Runs};
 
 /// The runs and the claims.

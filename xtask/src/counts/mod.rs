@@ -11,15 +11,12 @@ mod json;
 use crate::effects::{self, Listed};
 use crate::process::{self, cargo};
 use crate::summary::Outcome;
-use callgrind::Case;
 pub use callgrind::missing as missing_valgrind;
+use callgrind::{Case, STEPS};
 use claims::{Claim, Runs};
 use std::fs;
 use std::path::PathBuf;
 use std::process::{Command, ExitCode};
-
-/// Steps counted in each case.
-const STEPS: u64 = 10;
 /// Cases of a guide, which is there or not.
 const GUIDE: &str = "guide";
 
