@@ -2,9 +2,10 @@
 
 use crate::clocked::Clock;
 use crate::lane::{Lane, Method};
+use crate::line::{merge, say};
 use crate::race::{Runner, race};
 use crate::scenes::Prepared;
-use crate::{Request, faer_beside, say};
+use crate::{Request, faer_beside};
 use mbs_parallel::{Pool, ThreadTeam};
 use mbs_sparse::{Counters, Multifrontal, Options, Ordering};
 use serde_json::{Value, json};
@@ -93,16 +94,6 @@ fn run(formulation: &str, lanes: &mut [Lane<'_>], seconds: f64) {
             merge(&mut line, [clock.told(lane.sums.steps)]);
         }
         say(&line);
-    }
-}
-
-/// Adds keys to a line; one that is there already keeps its value.
-pub(crate) fn merge<const N: usize>(line: &mut Value, more: [Value; N]) {
-    for more in more {
-        let (Value::Object(line), Value::Object(more)) = (&mut *line, more) else { continue };
-        for (key, value) in more {
-            line.entry(key).or_insert(value);
-        }
     }
 }
 

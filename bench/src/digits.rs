@@ -2,7 +2,8 @@
 //!
 //! Printed: fixed alpha, multipliers from zero, projections that solve for the vector itself [P1 (13), (19)], plain arithmetic.
 
-use crate::{say, scenes};
+use crate::line::say;
+use crate::scenes;
 use mbs_augmented::{Options, Penalty, Workspace, index3};
 use mbs_core::Real;
 use mbs_core::model::{Model, State};

@@ -6,11 +6,11 @@
 //! ours:   T = sum T_e = L D L^T,  x = T^-1 b               faer:  slot map: sum T_e into one matrix, L L^T, x = T^-1 b
 //! ```
 
-use crate::augmented::merge;
+use crate::Request;
 use crate::faer_rival::Rival;
+use crate::line::{merge, say};
 use crate::race::{Work, race};
 use crate::scenes::Prepared;
-use crate::{Request, say};
 use faer::sparse::linalg::SupernodalThreshold;
 use mbs_augmented::{Options, Penalty, Workspace, index3};
 use mbs_core::model::{Load, Model, State, System, Tangent, Terms};

@@ -1,8 +1,8 @@
 //! The time of a fork: two pieces of no work, joined.
 
-use crate::augmented::merge;
+use crate::Request;
+use crate::line::{merge, say};
 use crate::race::{Runner, Timing, Work, race, timed};
-use crate::{Request, say};
 use mbs_core::team::{Alone, Team};
 use mbs_parallel::{Pool, ThreadTeam};
 use serde_json::json;

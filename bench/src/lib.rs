@@ -18,6 +18,7 @@ mod faer_beside;
 mod faer_rival;
 mod forks;
 mod lane;
+mod line;
 mod others;
 mod profile;
 mod race;
@@ -26,10 +27,11 @@ mod request;
 mod scenes;
 mod tally;
 
+use line::say;
 use mbs_core::scene::Dimension;
 use request::{Job, Request};
 use scenes::Prepared;
-use serde_json::{Value, json};
+use serde_json::json;
 use std::process::ExitCode;
 
 /// Does what the command line asks for; its exit status.
@@ -42,12 +44,6 @@ pub fn main() -> ExitCode {
             ExitCode::FAILURE
         }
     }
-}
-
-/// One line of output.
-#[allow(clippy::print_stdout, reason = "the lines are what is asked for")]
-pub(crate) fn say(line: &Value) {
-    println!("{line}");
 }
 
 fn run(words: &[String]) -> Result<(), String> {

@@ -1,10 +1,10 @@
 //! Formulations as `mbs run` steps them: classical alone and with a crew, by turns; those without teams in one row each.
 
-use crate::augmented::merge;
+use crate::Request;
 use crate::lane::Sums;
+use crate::line::{merge, say};
 use crate::race::{Runner, Timing, race, timed};
 use crate::scenes::steps;
-use crate::{Request, say};
 use mbs::typed::Simulation;
 use mbs::{FormulationKind, Method, Settings};
 use mbs_core::scene::Scene;

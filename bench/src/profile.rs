@@ -9,9 +9,10 @@
 use crate::clocked::{ClockedModel, ClockedSolver};
 use crate::counted::Counted;
 use crate::lane::Sums;
+use crate::line::say;
+use crate::rates;
 use crate::scenes::{self, Prepared};
 use crate::tally::Tally;
-use crate::{rates, say};
 use cpu_time::ProcessTime;
 use mbs_augmented::{Options, Workspace, index3};
 use mbs_core::model::{Model, State, Terms};
