@@ -7,7 +7,7 @@
 //! Unknowns are scaled by the roots of masses and inertias, and rows to length one, so that pivots show dependence.
 
 use crate::dense::{Factors, Square};
-use crate::laws::{Loads, Now};
+use crate::loads::{Loads, Now};
 use crate::rows::{Frame, Places, Row};
 use crate::scene::Scene;
 use crate::vector::{Vector, ZERO, add, cross, dot, product, sub, times, transpose};

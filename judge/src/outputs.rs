@@ -1,26 +1,8 @@
 //! What channels show.
 
 use crate::motion::{Mechanism, State};
+use crate::scene::Quantity;
 use crate::vector::{Vector, add, cross};
-
-/// What a channel shows.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Quantity {
-    /// Of a body's point.
-    Position(usize, Vector),
-    /// Of a body's point.
-    Velocity(usize, Vector),
-    /// Of a body's point.
-    Acceleration(usize, Vector),
-    /// Of a body.
-    AngularVelocity(usize),
-    /// Of a joint.
-    Value(usize),
-    /// Of a joint.
-    Rate(usize),
-    /// Of a joint.
-    Reaction(usize),
-}
 
 impl Quantity {
     /// Names of those of a body's point.

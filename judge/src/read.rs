@@ -1,44 +1,12 @@
 //! Reads the text of a scene file.
 
+use crate::names::Names;
 use crate::node::{Node, Read, Table, fault, parse};
 use crate::read_effect;
 use crate::scene::{
-    Body, Carrier, Feature, Guide, Initial, Joint, Kind, Law, Output, Quantity, Scene, Spline,
+    Body, Feature, Guide, Initial, Joint, Kind, Law, Output, Quantity, Scene, Spline,
 };
 use crate::vector::{ZERO, across, add, dot, norm, scale, sub, unit};
-
-/// Names of bodies and joints.
-pub(crate) struct Names {
-    pub(crate) bodies: Vec<String>,
-    pub(crate) joints: Vec<String>,
-}
-
-impl Names {
-    pub(crate) fn body(&self, name: &str) -> Read<usize> {
-        self.bodies
-            .iter()
-            .position(|n| n == name)
-            .map_or_else(|| fault(format!("no body `{name}`")), Ok)
-    }
-
-    pub(crate) fn carrier(&self, name: &str) -> Read<Carrier> {
-        if name == "ground" { Ok(None) } else { self.body(name).map(Some) }
-    }
-
-    pub(crate) fn joint(&self, name: &str) -> Read<usize> {
-        self.joints
-            .iter()
-            .position(|n| n == name)
-            .map_or_else(|| fault(format!("no joint `{name}`")), Ok)
-    }
-
-    pub(crate) fn pair(&self, table: &mut Table) -> Read<[Carrier; 2]> {
-        match table.need("bodies")?.list()? {
-            [Node::Text(a), Node::Text(b)] => Ok([self.carrier(a)?, self.carrier(b)?]),
-            other => fault(format!("not two bodies: {other:?}")),
-        }
-    }
-}
 
 /// Reads a scene.
 ///

@@ -1,7 +1,7 @@
 //! Reads effects.
 
+use crate::names::Names;
 use crate::node::{Node, Read, Table, fault};
-use crate::read::Names;
 use crate::scene::{Calspan, Effect, Line, Tire};
 use crate::vector::unit;
 

@@ -1,6 +1,5 @@
 //! What a scene says, as the judge reads it. A planar scene lies in the plane z = 0 of space.
 
-pub use crate::outputs::Quantity;
 use crate::vector::{Matrix, Vector};
 
 /// A scene.
@@ -277,4 +276,23 @@ pub struct Output {
     pub name: String,
     /// What it shows.
     pub quantity: Quantity,
+}
+
+/// What a channel shows.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Quantity {
+    /// Of a body's point.
+    Position(usize, Vector),
+    /// Of a body's point.
+    Velocity(usize, Vector),
+    /// Of a body's point.
+    Acceleration(usize, Vector),
+    /// Of a body.
+    AngularVelocity(usize),
+    /// Of a joint.
+    Value(usize),
+    /// Of a joint.
+    Rate(usize),
+    /// Of a joint.
+    Reaction(usize),
 }

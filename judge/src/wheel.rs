@@ -1,7 +1,7 @@
 //! A wheel on its road.
 
 use crate::curves::height;
-use crate::laws::{Loads, Now};
+use crate::loads::{Loads, Now};
 use crate::rows::six;
 use crate::scene::{Calspan, Feature, Tire};
 use crate::vector::{Vector, add, cross, dot, scale, sub, unit};
@@ -62,7 +62,7 @@ pub(crate) fn load(now: &Now<'_>, tire: &Tire, loads: &mut Loads) {
     let d_rate = dot(n, velocity);
     let depth = radius - d / held;
     let leaning = if counts { d * sine / held.powi(3) } else { 0.0 };
-    let radial = crate::laws::contact(k, c, depth, -d_rate / held - leaning * sine_rate);
+    let radial = crate::loads::contact(k, c, depth, -d_rate / held - leaning * sine_rate);
     if radial <= 0.0 {
         return;
     }

@@ -1,11 +1,12 @@
 //! Every kind of joint x both orders of its bodies x the ground, a body welded to it or a moving one as its first body x every effect that can act on it x plane and space;
 //! likewise guides. All coordinates are given at the start, in numbers by chance.
 
-use super::GRAVITY;
 use super::dice::Dice;
+use super::draft::{Draft, GRAVITY};
 use super::effects::{Effects, KINDS};
-use super::mechanism::{Draft, PLANE, SPACE};
-use super::{mechanism_of, time_scale};
+use super::mechanism::{PLANE, SPACE};
+use super::time_scale;
+use super::write::mechanism_of;
 use crate::scene::{Effect, Kind, Quantity};
 use crate::vector::{cross, dot, norm, scale, sub, unit};
 

@@ -1,7 +1,7 @@
 //! Effects in the units of a mechanism, as text.
 
 use super::dice::Dice;
-use super::mechanism::Draft;
+use super::draft::Draft;
 use super::write::{name, pair, vector};
 use crate::scene::{Carrier, Kind};
 use crate::vector::{norm, scale, sub};

@@ -1,7 +1,8 @@
 //! Bodies, joints, loops, guides and what is held at the start.
 
 use super::dice::Dice;
-use super::{GRAVITY, mechanism_of, starts};
+use super::draft::{Draft, GRAVITY, Link, Part};
+use super::write::{mechanism_of, starts};
 use crate::scene::{Carrier, Kind};
 use crate::vector::{
     Matrix, Vector, ZERO, across, add, cross, dot, exponential, product, rotation, scale, sub,
@@ -10,49 +11,6 @@ use crate::vector::{
 
 /// Least pivot of the scaled saddle matrix with which a mechanism begins [-]: with a smaller one it is nearly locked. Chosen, not tuned.
 const NEAR_LOCKED: f64 = 3e-3;
-
-/// A scene in the making.
-#[derive(Debug, Clone, Default)]
-pub(crate) struct Draft {
-    pub(crate) planar: bool,
-    pub(crate) length: f64,
-    pub(crate) time: f64,
-    pub(crate) mass: f64,
-    pub(crate) duration: f64,
-    pub(crate) gravity: Option<Vector>,
-    pub(crate) bodies: Vec<Part>,
-    pub(crate) links: Vec<Link>,
-    /// Effects, roads and velocities of bodies, as text.
-    pub(crate) blocks: Vec<String>,
-    /// The largest of the drawn frequencies, in radians in T.
-    pub(crate) stiffest: f64,
-}
-
-#[derive(Debug, Clone)]
-pub(crate) struct Part {
-    pub(crate) mass: f64,
-    pub(crate) center: Vector,
-    pub(crate) inertia: [f64; 6],
-    pub(crate) rod: Option<[Vector; 2]>,
-    /// A point whose motion is looked at.
-    pub(crate) mark: Vector,
-    /// The body before it in the tree, with its joint.
-    parent: Carrier,
-}
-
-#[derive(Debug, Clone)]
-pub(crate) struct Link {
-    pub(crate) kind: Kind,
-    pub(crate) bodies: [Carrier; 2],
-    pub(crate) points: [Vector; 2],
-    pub(crate) axes: [Vector; 2],
-    pub(crate) hinged: bool,
-    pub(crate) guide: Option<String>,
-    pub(crate) value: Option<Vec<f64>>,
-    pub(crate) rate: Option<Vec<f64>>,
-    /// Does it take part in a loop?
-    pub(crate) looped: bool,
-}
 
 pub(crate) const PLANE: [(Kind, f64); 5] = [
     (Kind::Revolute, 0.46),

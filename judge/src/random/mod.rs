@@ -6,18 +6,17 @@
 
 mod cases;
 mod dice;
+mod draft;
 mod effects;
 mod mechanism;
 mod write;
 
-use crate::{Mechanism, read};
+use crate::read;
 use dice::Dice;
-use mechanism::Draft;
+use draft::Draft;
+use write::mechanism_of;
 
 pub use cases::{Case, STEPS, cases};
-
-/// Acceleration of gravity, which makes times of lengths [m/s²].
-pub(crate) const GRAVITY: f64 = 9.81;
 
 /// A scene with how it is to be run.
 #[derive(Debug, Clone)]
@@ -49,15 +48,6 @@ pub fn scene(seed: u64) -> Drawn {
     let step = share * time_scale(&draft);
     draft.duration = step * f64::from(steps);
     Drawn { text: draft.text(), step, steps }
-}
-
-/// Does the judge start from what is drawn so far?
-pub(crate) fn starts(draft: &Draft) -> bool {
-    mechanism_of(draft).is_some_and(|m| m.start().is_ok())
-}
-
-pub(crate) fn mechanism_of(draft: &Draft) -> Option<Mechanism> {
-    read(&draft.text()).ok().map(Mechanism::new)
 }
 
 /// Is there a force that meets no inertia?

@@ -1,8 +1,9 @@
-//! The text of a draft.
+//! The text of a draft, and the mechanism that it means.
 
-use super::mechanism::{Draft, Link};
+use super::draft::{Draft, Link};
 use crate::scene::{Kind, Quantity};
 use crate::vector::Vector;
+use crate::{Mechanism, read};
 use std::fmt::Write;
 
 /// A vector of the plane or of space.
@@ -154,4 +155,13 @@ impl Draft {
             }
         }
     }
+}
+
+/// Does the judge start from what is drawn so far?
+pub(crate) fn starts(draft: &Draft) -> bool {
+    mechanism_of(draft).is_some_and(|m| m.start().is_ok())
+}
+
+pub(crate) fn mechanism_of(draft: &Draft) -> Option<Mechanism> {
+    read(&draft.text()).ok().map(Mechanism::new)
 }

@@ -1,6 +1,6 @@
 //! The static library for C and its example, compiled, run, and compared with the host's run.
 
-use super::firmware::{export, on_host};
+use super::board::{export, on_host};
 use super::told::Told;
 use crate::process::{self, cargo, output, run};
 use std::path::Path;

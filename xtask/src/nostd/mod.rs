@@ -11,6 +11,7 @@
 //! A host build cannot show that a crate works without the standard library: the library is there, and a
 //! dependency that asks for it goes unnoticed. The target has none.
 
+mod board;
 mod firmware;
 mod image;
 mod in_c;

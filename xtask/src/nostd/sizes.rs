@@ -1,6 +1,6 @@
 //! What each effect's feature adds to an image: flash, static data, stack.
 
-use super::firmware::{M7, build, emulate, export};
+use super::board::{M7, build, emulate, export};
 use super::image::Image;
 use super::told::Told;
 use super::toolchain::Toolchain;
@@ -8,7 +8,8 @@ use crate::effects::{self, Listed};
 use std::path::Path;
 
 /// Modules of the law of tires, which no other effect shares.
-const OF_TIRES: [&str; 4] = ["4laws4tire", "4laws12road_contact", "4laws7calspan", "4laws4road"];
+const OF_TIRES: [&str; 5] =
+    ["4laws4tire", "4laws12road_contact", "4laws7calspan", "4laws4road", "4laws7feature"];
 
 /// The module of rotations in space, which bushings alone measure.
 const OF_BUSHINGS: &str = "5loads8rotation";
@@ -21,6 +22,7 @@ fn features() -> Vec<(&'static str, Vec<String>)> {
         match module {
             "tire" => modules.extend(OF_TIRES.map(str::to_owned)),
             "bushing" => modules.push(OF_BUSHINGS.to_owned()),
+            "polynomial" => modules.push("4laws10polynomial".to_owned()),
             _ => {}
         }
         Some((feature?, modules))

@@ -1,0 +1,103 @@
+//! The firmware example built, and run on emulated boards and on the host.
+
+use super::image::Image;
+use super::toolchain::Toolchain;
+use crate::process::{self, cargo, output, run};
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+use std::time::{Duration, Instant};
+
+/// The target of both boards.
+const TARGET: &str = "thumbv7em-none-eabihf";
+
+/// Longest run of an emulator.
+const PATIENCE: Duration = Duration::from_secs(600);
+
+pub(super) const M7: Board = Board { machine: "mps2-an500", cpu: "cortex-m7" };
+
+pub(super) const M4: Board = Board { machine: "mps2-an386", cpu: "cortex-m4" };
+
+/// An emulated board.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Board {
+    machine: &'static str,
+    pub(super) cpu: &'static str,
+}
+
+/// Writes a scene as a table of Rust; where.
+pub(super) fn export(scene: &str, precision: &str, models: &Path) -> Result<PathBuf, String> {
+    let file = models.join(format!("{scene}-{precision}.rs"));
+    let mut command = Command::new(process::tested("mbs", "command")?);
+    command.arg("export").arg(format!("scenes/{scene}.toml")).args([
+        "--precision",
+        precision,
+        "--rust",
+    ]);
+    command.arg(&file).arg("--binary").arg(file.with_extension("mbs"));
+    run(command.current_dir(process::root()))?;
+    Ok(file)
+}
+
+/// Builds the firmware with a model; the image, and its sizes.
+pub(super) fn build(
+    (toolchain, lld): (Toolchain, Option<&Path>),
+    board: &Board,
+    features: &str,
+    model: &Path,
+) -> Result<(PathBuf, Image), String> {
+    let folder = process::target_dir().join("firmware").join(board.cpu);
+    let mut command = toolchain.cargo(false);
+    command.args(["build", "--release", "--quiet", "--locked", "--target", TARGET]);
+    command.args(["--features", &of_core(features)]).arg("--target-dir").arg(&folder);
+    let mut flags = format!("-C target-cpu={} -C link-arg=-Tlink.x", board.cpu);
+    if let Some(lld) = lld {
+        flags.push_str(&format!(" -C linker={}", lld.display()));
+    }
+    command.env("RUSTFLAGS", flags).env("MBS_MODEL", model);
+    run(command.current_dir(process::root().join("mbs-nostd/firmware")))?;
+    let elf = folder.join(TARGET).join("release/mbs-firmware");
+    let image = Image::read(&elf)?;
+    Ok((elf, image))
+}
+
+/// Runs an image on its board; what it told.
+pub(super) fn emulate(board: &Board, elf: &Path) -> Result<String, String> {
+    let file = elf.with_extension("told");
+    let to = std::fs::File::create(&file).map_err(|e| format!("{}: {e}", file.display()))?;
+    let mut command = Command::new("qemu-system-arm");
+    command.args(["-machine", board.machine, "-cpu", board.cpu, "-nographic"]);
+    command.args(["-semihosting-config", "enable=on,target=native", "-icount", "shift=0"]);
+    command.arg("-kernel").arg(elf).stdin(Stdio::null()).stdout(to);
+    let mut child = command.spawn().map_err(|e| format!("qemu-system-arm: {e}"))?;
+    let begin = Instant::now();
+    let status = loop {
+        if let Some(status) = child.try_wait().map_err(|e| format!("qemu-system-arm: {e}"))? {
+            break status;
+        }
+        if begin.elapsed() > PATIENCE {
+            let _ = child.kill();
+            let _ = child.wait();
+            return Err(format!("{} does not come to its end", elf.display()));
+        }
+        std::thread::sleep(Duration::from_millis(50));
+    };
+    let told = std::fs::read_to_string(&file).map_err(|e| format!("{}: {e}", file.display()))?;
+    if status.success() { Ok(told) } else { Err(format!("{}: {status}\n{told}", elf.display())) }
+}
+
+/// The same run on the host, in a program without the standard library.
+pub(super) fn on_host(model: &Path, features: &str) -> Result<String, String> {
+    let folder = process::target_dir().join("firmware/host");
+    let mut command = cargo();
+    command.args(["build", "--release", "--quiet", "--locked", "--features", &of_core(features)]);
+    command.arg("--target-dir").arg(&folder).env("MBS_MODEL", model);
+    run(command.current_dir(process::root().join("mbs-nostd/firmware/host")))?;
+    let program = folder.join("release/mbs-firmware-host");
+    output(&mut Command::new(&program)).ok_or_else(|| format!("{} failed", program.display()))
+}
+
+/// Features of mbs-core, which the firmware names.
+fn of_core(features: &str) -> String {
+    let named = features.split(',').filter(|feature| !feature.is_empty());
+    named.map(|feature| format!("mbs-core/{feature}")).collect::<Vec<_>>().join(",")
+}
