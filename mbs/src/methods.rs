@@ -220,7 +220,7 @@ fn augmented_options<T: Real>(
         options.adaptive_penalty = false;
     }
     if let Some(tolerance) = settings.tolerance {
-        (options.tolerance, options.share) = (T::from_f64(tolerance), T::ZERO);
+        (options.tolerance, options.truncation_share) = (T::from_f64(tolerance), T::ZERO);
     }
     options
 }
