@@ -1,7 +1,7 @@
 //! The formulations of this crate behind the common trait: [`Augmented`].
 
-use crate::history::{History as OfWorkspace, IndexHistory};
-use crate::index_change::{ConstraintIndex, IndexChange};
+use crate::history::History as OfWorkspace;
+use crate::index_change::{ConstraintIndex, IndexChange, IndexHistory};
 use crate::inputs::take_inputs;
 use crate::options::Options;
 use crate::workspace::Workspace;
@@ -134,16 +134,16 @@ where
 
     fn accept(&mut self) {
         if let Form::MultiIndex(change) = &mut self.form {
-            change.keep();
+            change.accept();
         }
     }
 
     fn save_trial(&mut self) {
-        self.workspace.keep();
+        self.workspace.save();
     }
 
     fn restore_trial(&mut self) {
-        self.workspace.undo();
+        self.workspace.restore();
     }
 
     fn history(&self) -> History<T> {
@@ -204,10 +204,10 @@ fn walk<T: Real>(
     book: &mut Book<'_, T>,
 ) -> Restored {
     book.kind(0)?;
-    let OfWorkspace { boost, rho, probe, settled } = own;
-    book.real("penalty factor", boost)?;
-    book.real("contraction", rho)?;
-    book.rows("weakest combination", probe)?;
+    let OfWorkspace { penalty_factor, contraction, weakest_combination, settled } = own;
+    book.real("penalty factor", penalty_factor)?;
+    book.real("contraction", contraction)?;
+    book.rows("weakest combination", weakest_combination)?;
     book.small("factorizations", &mut settled.factorizations)?;
     book.small("solves", &mut settled.solves)?;
     if let Form::MultiIndex(change) = form {

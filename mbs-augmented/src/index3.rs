@@ -8,24 +8,26 @@
 //! ```
 //!
 //! Differs from the source: unknowns are increments; s is in proportion to the mass, so that conditioning does not depend on the
-//! step; the start value of lambda is filtered, lambda <- s J T^-1 J^T lambda, where the constraints do not feel all of it; projections are
-//! in correction form, by one sweep where nothing but constraints acts; a factor is kept while laws are like those that were factored,
-//! with its own rows J' beside s phi and lambda <- lambda + s (phi + J' d); where effects act a share of the first correction may be
-//! left. The printed forms are options.
+//! step; the start value of lambda is filtered, lambda <- s J T^-1 J^T lambda, where the constraints do not determine all of it;
+//! projections are in correction form, by one sweep where nothing but constraints acts; a factor is kept while laws are like those that
+//! were factored, with its own rows J' beside s phi and lambda <- lambda + s (phi + J' d); where effects act a part of the first
+//! correction may be left. docs/INDEX3.md derives these; the published forms are in [`printed`](crate::printed).
+
+mod project;
 
 use crate::inputs::take_inputs;
-use crate::options::{Multipliers, Options, Penalty, Projection};
-use crate::pace::Pace;
-use crate::projection::Level;
-use crate::workspace::{Mass, Workspace};
+use crate::multipliers::MultiplierStart::{self, Filtered};
+use crate::multipliers::{filter, update_multipliers};
+use crate::newton::{FactorReuse, StopRule, residual_with_reused_jacobian};
+use crate::options::{Options, Penalty};
+use crate::workspace::Workspace;
+use mbs_core::implicit::Newton;
 use mbs_core::integrator::{Rule, is_far};
 use mbs_core::model::{Model, State};
-use mbs_core::step::{
-    ConvergenceCriterion, Counts, Step, StepError, StepReport, Stop, check_guides, check_rotations,
-    largest, largest_or_nan, step_scale, stopping,
-};
-use mbs_core::team::{add_product, norm_inf, on_stretches, set_product, set_sum};
+use mbs_core::step::{Step, StepError, StepReport, Stop, check_rotations, step_scale};
+use mbs_core::team::{add_product, set_sum};
 use mbs_core::{Real, SpdSolver};
+use project::project;
 
 /// Advances `s` by one [`Step`].
 ///
@@ -45,304 +47,118 @@ pub fn step<T: Real, M: Model<T>, S: SpdSolver<T>>(
     options.validate()?;
     take_inputs(model, s, w)?;
     let rule = options.integrator.rule(dt);
-    w.counts = Counts::default();
-    w.boost = w.kept_boost();
-    w.base = options.penalty.factor();
-    let scale = step_scale(model.team(), rule.dt, &s.a[..w.f.len()]);
-    begin(model, (&rule, is_far(scale, length)), options, s, w);
-
-    let (newton, since) = iterate(model, &rule, (scale, length), options, s, w)?;
-
-    // The accelerations leave the scaling of the iteration.
-    on_stretches(model.team(), [&mut w.a], |_, [a]| {
-        a.iter_mut().for_each(|a| *a *= rule.acceleration)
-    });
-    let violation = clean(model, &rule, (since, length), options, w)?;
-    check_rotations(model, &w.terms)?;
-    w.commit(model, &rule, options.compensated, rule.acceleration, s);
+    let (newton, since) = solve(model, (&rule, length), (options, Filtered), s, w)?;
+    let violation = project(model, (&rule, since, length), options, w)?;
+    check_rotations(model, w.terms())?;
+    w.commit(model, (&rule, options.compensated, rule.acceleration), s);
     Ok(w.report(newton, violation))
 }
 
-/// Predicts q, v, a and lambda at the end of the step, and evaluates there.
-fn begin<T: Real, M: Model<T>, S: SpdSolver<T>>(
+/// q, v, a and lambda at the end of the step, where the equations of motion and phi = 0 hold. Returns what is reported of the iteration, and
+/// the sum of the corrections since the factor.
+pub(crate) fn solve<T: Real, M: Model<T>, S: SpdSolver<T>>(
     model: &M,
-    (rule, is_far): (&Rule<T>, bool),
-    options: &Options<T>,
+    (rule, length): (&Rule<T>, T),
+    (options, start): (&Options<T>, MultiplierStart),
     s: &State<T>,
     w: &mut Workspace<T, S>,
-) {
+) -> Result<((u32, T, Stop), T), StepError> {
+    let scale = step_scale(model.team(), rule.dt, &s.a[..w.equations.f.len()]);
+    // q, v, a by the rule and lambda by extrapolation, and all that depends on them
     let inverse = T::ONE / rule.acceleration;
-    let n = w.f.len();
-    let coordinates = [&mut w.dq[..n], &mut w.v[..n], &mut w.a[..n], &mut w.q[..n]];
-    on_stretches(model.team(), coordinates, |first, [dq, v, a, q]| {
-        for k in 0..q.len() {
-            let i = first + k;
-            let predicted = rule.predict(s.v[i], s.a[i], s.a_aux[i]);
-            (dq[k], v[k], a[k]) = (predicted.0, predicted.1, predicted.2 * inverse);
-            q[k] = s.q[i] + dq[k];
-        }
-    });
-    if is_far {
-        rule.hold_back(inverse, [&mut w.dq[..n], &mut w.v, &mut w.a], &s.a_aux);
-        for (k, q) in w.q[..n].iter_mut().enumerate() {
-            *q = s.q[k] + w.dq[k];
-        }
-    }
-    let (expected, boost, masses) = (s.extrapolated(rule.dt), w.boost, &w.masses);
-    let rows = [&mut w.lambda[..], &mut w.penalty];
-    on_stretches(model.team(), rows, |first, [lambda, penalty]| {
-        for k in 0..lambda.len() {
-            lambda[k] = match options.multipliers {
-                Multipliers::FromZero => T::ZERO,
-                _ => expected(first + k) * inverse,
-            };
-            penalty[k] = match options.penalty {
-                Penalty::Scaled(factor) => factor * boost * masses[first + k],
-                Penalty::Fixed(alpha) => alpha * inverse,
-            };
-        }
-    });
-    model.set_inputs(s.t + rule.dt, s, &mut w.terms);
-    evaluate(model, options, s, w);
+    w.begin(model, (options.penalty, inverse, w.adaptation.carried(w.scale.factor)));
+    w.end.predict(model, (rule, inverse, is_far(scale, length)), s);
+    start.set(model, (s, rule.dt, inverse), &mut w.lambda);
+    model.set_inputs(s.t + rule.dt, s, &mut w.equations.terms);
+    w.evaluate(model, options.compensated, s);
+
+    let newton = Newton::new((scale, options.tolerance, length));
+    let done = iterate(model, (rule, newton), (options, start), s, w)?;
+    // the accelerations leave the unit of the iteration
+    w.end.scale_accelerations(model, rule.acceleration);
+    Ok(done)
 }
 
-/// phi, J and forces at the current q, v.
-fn evaluate<T: Real, M: Model<T>, S: SpdSolver<T>>(
-    model: &M,
-    options: &Options<T>,
-    s: &State<T>,
-    w: &mut Workspace<T, S>,
-) {
-    if options.compensated {
-        model.advance(&s.q, &w.dq, &s.phi, &mut w.terms);
-    } else {
-        model.evaluate(&w.q, &mut w.terms);
-    }
-    if model.has_forces() {
-        model.evaluate_forces(&w.q, &w.v, &mut w.terms);
-    }
-}
-
-/// The Newton loop. Returns iterations, the last correction and the sum of those since the factor, and what ended it.
+/// The Newton loop. Returns what is reported of it, and the sum of the corrections since the factor.
 fn iterate<T: Real, M: Model<T>, S: SpdSolver<T>>(
     model: &M,
-    rule: &Rule<T>,
-    (scale, length): (T, T),
-    options: &Options<T>,
+    (rule, mut newton): (&Rule<T>, Newton<T>),
+    (options, start): (&Options<T>, MultiplierStart),
     s: &State<T>,
     w: &mut Workspace<T, S>,
 ) -> Result<((u32, T, Stop), T), StepError> {
     let inverse = T::ONE / rule.acceleration;
-    let mut pace = Pace::new(model, options);
-    for iterations in 1..=options.max_iterations {
-        let is_kept = pace.keeps_factor(rule, w);
-        if !is_kept {
-            factor(model, rule, options, w)?;
-            pace.since = T::ZERO;
+    // with a fixed alpha multipliers grow as published
+    let is_balanced = matches!(options.penalty, Penalty::Scaled(_));
+    let rule_of_stop = StopRule::new(model, options, is_balanced);
+    let mut reuse = FactorReuse::new(is_balanced, rule_of_stop.is_tolerance_alone());
+    while newton.iterations < options.max_iterations {
+        let is_reused = reuse.can_reuse(&newton, rule, &w.equations);
+        if !is_reused {
+            w.factor(model, rule, options.geometric_stiffness)?;
+            reuse.since = T::ZERO;
         }
-        if iterations == 1 {
-            if options.adaptive_penalty && w.adapt(model) {
-                factor(model, rule, options, w)?;
-            }
-            if options.multipliers == Multipliers::Filtered
-                && !(options.adaptive_penalty && w.is_all_felt())
-            {
-                filter(model, w);
-            }
+        if newton.iterations == 0 {
+            adapt(model, rule, (options, start), w)?;
         }
 
         // f = M a/a' + J^T (s phi + lambda/a') - Q/a'   [P3 (9)]
-        if is_kept && pace.is_balanced {
-            w.balance_nearby(model, inverse);
+        let Workspace { equations: eq, end, lambda, scale, .. } = w;
+        if is_reused && is_balanced {
+            let rows = (&scale.weights[..], &lambda[..]);
+            residual_with_reused_jacobian(model, eq, (&end.a, inverse), rows);
         } else {
-            set_sum(model.team(), &mut w.mu, &w.lambda, (&w.penalty, &w.terms.phi));
-            w.assemble(model, Mass::Acceleration, inverse);
+            set_sum(model.team(), &mut eq.mu, lambda, (&scale.weights, &eq.terms.phi));
+            eq.assemble(model, Some(&end.a), inverse);
         }
 
-        // T d = -f,   q += d,   v += v' d,   a += a' d   [P3 (8), (4), (5)]
-        w.solve();
-        if pace.is_balanced {
-            w.take_multipliers(model);
-        }
-        correct(model, rule, s, w);
-        evaluate(model, options, s, w);
-        if iterations == 1 {
-            w.penalty_energy = w.stored(model.team(), &w.terms.phi) * rule.acceleration;
+        // T d = -f,   lambda <- lambda + s (phi + J' d)   [P3 (8)]
+        eq.solve();
+        if is_balanced {
+            update_multipliers(model, eq, (&scale.weights, lambda));
         }
 
+        // q += d,   v += v' d,   a += a' d   [P3 (4), (5)]
+        end.correct(model, (T::ONE, rule.velocity), &eq.f);
+        w.evaluate(model, options.compensated, s);
+        let Workspace { equations: eq, end, lambda, scale, .. } = w;
+        if newton.iterations == 0 {
+            w.penalty_energy = scale.energy(model.team(), &eq.terms.phi) * rule.acceleration;
+        }
         // lambda <- lambda + alpha phi   [P3 (2)]
-        if !pace.is_balanced {
-            add_product(model.team(), &mut w.lambda, (&w.penalty, &w.terms.phi));
+        if !is_balanced {
+            add_product(model.team(), lambda, (&scale.weights, &eq.terms.phi));
         }
 
-        let correction = norm_inf(model.team(), &w.f);
-        if !correction.is_finite() {
-            return Err(StepError::NotFinite { unknown: largest_or_nan(&w.f) });
+        let stop = newton.take(model, &eq.f, (end, options.compensated))?;
+        reuse.since += newton.last();
+        let is_below = rule_of_stop.is_below_truncation(&newton);
+        if let Some(stop) = stop.or(is_below.then_some(Stop::Converged)) {
+            return Ok((newton.ended(stop), reuse.since));
         }
-        pace.since += correction;
-        // the first correction, and a small one, are not measured by rounding
-        let is_small = correction <= scale * options.tolerance;
-        let is_measured = options.compensated && iterations > 1 && !is_small;
-        let moved = is_measured.then(|| norm_inf(model.team(), &w.dq[..w.f.len()]));
-        let measures = (scale, options.tolerance);
-        let sizes = (length, || norm_inf(model.team(), &w.q));
-        let criterion = ConvergenceCriterion::of_coordinates(iterations, measures, sizes, moved);
-        let stop = stopping(iterations, correction, pace.last(), &criterion);
-        let stop = stop.or(pace.is_enough(correction).then_some(Stop::Converged));
-        if let Some(stop) = stop {
-            return Ok(((iterations, correction, stop), pace.since));
-        }
-        pace.note(correction);
     }
-    let last = pace.last();
-    if last <= scale * T::from_f64(1e-6) {
-        return Ok(((options.max_iterations, last, Stop::Tolerance), pace.since));
+    if newton.is_accepted() {
+        return Ok((newton.ended(Stop::Tolerance), reuse.since));
     }
-    let (iterations, unknown) = (options.max_iterations, largest(&w.f));
-    Err(StepError::NotConverged { iterations, correction: (last / length).to_f64(), unknown })
+    Err(newton.failure(&w.equations.f))
 }
 
-/// q += d,   v += v' d,   a += a' d   with d = -f
-fn correct<T: Real, M: Model<T>, S: SpdSolver<T>>(
+/// With the first factor of a step: raises penalties for the weakest combination of constraints, or removes from the multipliers what none
+/// determines.
+fn adapt<T: Real, M: Model<T>, S: SpdSolver<T>>(
     model: &M,
     rule: &Rule<T>,
-    s: &State<T>,
-    w: &mut Workspace<T, S>,
-) {
-    let (n, f) = (w.f.len(), &w.f);
-    let coordinates = [&mut w.dq[..n], &mut w.v[..n], &mut w.a[..n], &mut w.q[..n]];
-    on_stretches(model.team(), coordinates, |first, [dq, v, a, q]| {
-        let n = q.len();
-        let (f, q_n) = (&f[first..][..n], &s.q[first..][..n]);
-        for k in 0..n {
-            dq[k] -= f[k];
-            q[k] = q_n[k] + dq[k];
-            v[k] -= rule.velocity * f[k];
-            a[k] -= f[k];
-        }
-    });
-}
-
-/// Do only constraints act, all of which are felt, so that T differs from M + J^T s J by little, and the rows that it was made with
-/// serve in place of those of now?
-fn is_nearby<T: Real, M: Model<T>, S>(model: &M, options: &Options<T>, w: &Workspace<T, S>) -> bool
-where
-    S: SpdSolver<T>,
-{
-    let is_default = options.projection == Projection::Correction && options.adaptive_penalty;
-    is_default && !model.has_forces() && w.is_all_felt()
-}
-
-/// T, with the geometric stiffness where it is wanted and leaves T positive definite.
-fn factor<T: Real, M: Model<T>, S: SpdSolver<T>>(
-    model: &M,
-    rule: &Rule<T>,
-    options: &Options<T>,
+    (options, start): (&Options<T>, MultiplierStart),
     w: &mut Workspace<T, S>,
 ) -> Result<(), StepError> {
-    let weights = (T::ONE / rule.acceleration, rule.velocity / rule.acceleration);
-    if options.geometric_stiffness && w.factor(model, weights, true).is_ok() {
-        return Ok(());
+    if options.adaptive_penalty && w.adaptation.adapt_penalty(model, &mut w.equations, &mut w.scale)
+    {
+        w.factor(model, rule, options.geometric_stiffness)?;
     }
-    Ok(w.factor(model, weights, false)?)
-}
-
-/// lambda <- s J T^-1 J^T lambda: removes what the constraints cannot feed.
-fn filter<T: Real, M: Model<T>, S: SpdSolver<T>>(model: &M, w: &mut Workspace<T, S>) {
-    w.mu.copy_from_slice(&w.lambda);
-    w.assemble(model, Mass::None, T::ZERO);
-    w.solve();
-    w.multiply_correction(model);
-    set_product(model.team(), &mut w.lambda, (&w.penalty, &w.mu));
-}
-
-/// Penalties raised by more than this are taken back before velocities and accelerations are projected.
-const MILD: f64 = 100.0;
-
-/// Projects velocities and accelerations. Returns the violation of the three levels.
-fn clean<T: Real, M: Model<T>, S: SpdSolver<T>>(
-    model: &M,
-    rule: &Rule<T>,
-    (since, length): (T, T),
-    options: &Options<T>,
-    w: &mut Workspace<T, S>,
-) -> Result<[T; 3], StepError> {
-    // The factor belongs to the configuration before the last corrections: near enough when they were small.
-    let is_nearby = is_nearby(model, options, w);
-    // A combination of constraints that is almost lost must not be enforced on velocities and accelerations beyond need: they
-    // would grow like 1 / sigma there. Penalties raised far for the iteration are taken back, but where its own factor projects.
-    let raised = w.boost;
-    let is_taken_back =
-        raised > T::from_f64(MILD) && options.projection != Projection::PrintedTangent;
-    if is_taken_back {
-        w.scale_penalties(T::ONE / raised);
+    let is_well_conditioned =
+        options.adaptive_penalty && w.adaptation.is_well_conditioned(&w.scale);
+    if start == Filtered && !is_well_conditioned {
+        filter(model, &mut w.equations, (&w.scale.weights, &mut w.lambda));
     }
-    // With rows of now and a factor that has others, s times their turn of a violation would go along free directions; with a factor that
-    // has stiffness and damping, what their share of the mass is.
-    let is_stale = is_taken_back || !is_nearby || since > length * T::from_f64(1e-7);
-    if options.projection == Projection::Correction && is_stale {
-        if is_nearby {
-            factor(model, rule, options, w)?;
-        } else {
-            // Nothing but the mass and the rows: a sweep leaves what the penalties leave.
-            w.factor(model, (T::ZERO, T::ZERO), false)?;
-        }
-    }
-    if model.has_guides() {
-        model.evaluate_phi_t(&w.q, &mut w.terms);
-        check_guides(model, &w.q, &w.terms)?;
-    }
-    let sweeps = options.max_sweeps;
-    let n = w.f.len();
-    let speed = norm_inf(model.team(), &w.v[..n]);
-    let velocity = match options.projection {
-        Projection::Correction => {
-            let size = [length + speed, speed];
-            w.clean(model, (Level::Velocity, is_nearby), size, sweeps)?
-        }
-        Projection::Printed { sweeps } => {
-            // W = M + J^T alpha J with alpha as it is: the penalty of the iteration is alpha / a'.
-            for p in &mut w.penalty {
-                *p *= rule.acceleration;
-            }
-            w.factor(model, (T::ZERO, T::ZERO), false)?;
-            w.project_as_printed(model, Level::Velocity, sweeps)
-        }
-        Projection::PrintedTangent => w.project_with_tangent(model, Level::Velocity),
-    };
-    model.evaluate_bias(&w.q, &w.v, &mut w.terms);
-    let size = norm_inf(model.team(), &w.a[..n]).max(norm_inf(model.team(), &w.terms.phi_bias));
-    let acceleration = match options.projection {
-        Projection::Correction => {
-            let size = [T::ONE + size, size];
-            w.clean(model, (Level::Acceleration, is_nearby), size, sweeps)?
-        }
-        Projection::Printed { sweeps } => w.project_as_printed(model, Level::Acceleration, sweeps),
-        Projection::PrintedTangent => w.project_with_tangent(model, Level::Acceleration),
-    };
-    if model.has_guides() {
-        balance(model, rule, w);
-    }
-    w.boost = raised;
-    Ok([norm_inf(model.team(), &w.terms.phi), velocity, acceleration])
-}
-
-/// sigma <- sigma - s J T^-1 (M a + J^T (lambda + sigma) - Q): multipliers in balance with the projected accelerations.
-///
-/// What the last correction left stands in lambda, and with it in the power of guides; where multipliers grow as printed, alpha times the
-/// rounding of phi (4e-4 N for 1 kg at 1 ms).
-fn balance<T: Real, M: Model<T>, S: SpdSolver<T>>(
-    model: &M,
-    rule: &Rule<T>,
-    w: &mut Workspace<T, S>,
-) {
-    for k in 0..w.mu.len() {
-        w.mu[k] = w.lambda[k] * rule.acceleration + w.sigma[k];
-    }
-    w.assemble(model, Mass::Acceleration, T::ONE);
-    w.solve();
-    w.multiply_correction(model);
-    for k in 0..w.sigma.len() {
-        w.sigma[k] -= w.penalty[k] * w.mu[k];
-    }
+    Ok(())
 }

@@ -4,7 +4,6 @@
 //! reductions in a row have not helped; back where it grows beyond twice the threshold. Before each change velocities,
 //! accelerations and multipliers are made consistent at the present positions [P2 (5)].
 
-use crate::history::IndexHistory;
 use crate::options::Options;
 use crate::workspace::Workspace;
 use crate::{index1, index3};
@@ -21,6 +20,26 @@ pub enum ConstraintIndex {
     Three,
 }
 
+/// What an [`IndexChange`] remembers from step to step.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct IndexHistory<T> {
+    /// The present index.
+    pub index: ConstraintIndex,
+    /// Changes of it so far.
+    pub changes: u32,
+    /// The last trial, and the last step that was kept [s].
+    pub tried: T,
+    /// See `tried`.
+    pub last: T,
+}
+
+/// Step below which steps are made in index-1 [s]: the multipliers of index-3 lose alpha phi to rounding there.
+const THRESHOLD: f64 = 1e-4;
+/// Multiple of the threshold beyond which steps are made in index-3 again [-]: one doubling, so that the index does not change with each step.
+const HYSTERESIS: f64 = 2.0;
+/// Reductions of one step in a row after which index-1 is tried [-]: by halves, a sixteenth of the step did not help.
+const MAX_REDUCTIONS: u32 = 4;
+
 /// Both forms, with the rule that changes between them.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct IndexChange<T> {
@@ -33,7 +52,7 @@ pub struct IndexChange<T> {
     /// Times the threshold, beyond which steps are made in index-3 again.
     pub hysteresis: T,
     /// Reductions of one step in a row after which index-1 is tried, whatever the step (the flowchart's maxite).
-    pub patience: u32,
+    pub max_reductions: u32,
     /// Present index.
     index: ConstraintIndex,
     changes: u32,
@@ -43,15 +62,15 @@ pub struct IndexChange<T> {
 }
 
 impl<T: Real> IndexChange<T> {
-    /// Begins in index-3; threshold 1e-4 s, hysteresis 2, patience 4.
+    /// Begins in index-3; threshold 1e-4 s, hysteresis 2, at most 4 reductions.
     #[must_use]
     pub fn new(index1: Options<T>, index3: Options<T>) -> Self {
         Self {
             index1,
             index3,
-            threshold: T::from_f64(1e-4),
-            hysteresis: T::TWO,
-            patience: 4,
+            threshold: T::from_f64(THRESHOLD),
+            hysteresis: T::from_f64(HYSTERESIS),
+            max_reductions: MAX_REDUCTIONS,
             index: ConstraintIndex::Three,
             changes: 0,
             tried: T::ZERO,
@@ -85,7 +104,7 @@ impl<T: Real> IndexChange<T> {
     }
 
     /// Chooses the index for a trial after `reductions` of it in a row. Where the state cannot be made
-    /// consistent the index stays, and the workspace goes back to what it kept. Returns whether it changed, and the state with it.
+    /// consistent the index stays, and the workspace goes back to what it saved. Returns whether it changed, and the state with it.
     pub fn prepare<M: Model<T>, S: SpdSolver<T>>(
         &mut self,
         model: &M,
@@ -96,8 +115,8 @@ impl<T: Real> IndexChange<T> {
     ) -> bool {
         let Step { dt: h, length } = step;
         let is_grown = reductions == 0 && h > self.last;
-        let wanted = match self.index {
-            ConstraintIndex::Three if h < self.threshold || reductions >= self.patience => {
+        let target = match self.index {
+            ConstraintIndex::Three if h < self.threshold || reductions >= self.max_reductions => {
                 ConstraintIndex::One
             }
             ConstraintIndex::One if is_grown && h > self.threshold * self.hysteresis => {
@@ -105,14 +124,14 @@ impl<T: Real> IndexChange<T> {
             }
             same => same,
         };
-        if wanted == self.index {
+        if target == self.index {
             return false;
         }
         if index1::settle(model, length, &self.index1, s, w).is_err() {
-            w.undo();
+            w.restore();
             return false;
         }
-        self.index = wanted;
+        self.index = target;
         self.changes += 1;
         true
     }
@@ -122,8 +141,8 @@ impl<T: Real> IndexChange<T> {
         self.tried = h;
     }
 
-    /// The last trial is kept: the next step may be longer than it.
-    pub fn keep(&mut self) {
+    /// The last trial is accepted: the next step may be longer than it.
+    pub fn accept(&mut self) {
         self.last = self.tried;
     }
 

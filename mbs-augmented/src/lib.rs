@@ -3,6 +3,7 @@
 
 extern crate alloc;
 
+mod equations;
 mod formulation;
 mod history;
 pub mod index1;
@@ -10,17 +11,20 @@ pub mod index3;
 mod index_change;
 mod inputs;
 mod multi_index;
-mod nearby;
+mod multipliers;
+mod newton;
 mod options;
-mod pace;
+mod penalty;
+#[doc(hidden)]
+pub mod printed;
 mod projection;
 mod workspace;
 
 pub use formulation::{Augmented, Form};
-pub use history::{History, IndexHistory};
-pub use index_change::{ConstraintIndex, IndexChange};
+pub use history::History;
+pub use index_change::{ConstraintIndex, IndexChange, IndexHistory};
 pub use inputs::take_inputs;
 pub use mbs_core::step::{OptionError, Step, StepError, StepReport, Stop};
 pub use multi_index::MultiIndex;
-pub use options::{Multipliers, Options, Penalty, Projection};
+pub use options::{Options, Penalty};
 pub use workspace::Workspace;

@@ -77,7 +77,7 @@ impl<T: Real> MultiIndex<T> {
         let Step { dt: rest, length } = step.checked()?;
         take_inputs(model, s, w)?;
         self.saved.copy_from(s);
-        w.keep();
+        w.save();
         let Self { change, driver, invariant, estimate, saved } = self;
         let mut trial = Trial { model, length, change, estimate: *estimate, s, saved, w };
         let t = trial.s.t;
@@ -101,7 +101,7 @@ impl<T: Real, M: Model<T>, S: SpdSolver<T>> Stepper<T> for Trial<'_, T, M, S> {
         let step = Step { dt: h, length: self.length };
         if self.change.prepare(self.model, step, reductions, self.s, self.w) {
             self.saved.copy_from(self.s);
-            self.w.keep();
+            self.w.save();
         }
         Ok(())
     }
@@ -109,7 +109,7 @@ impl<T: Real, M: Model<T>, S: SpdSolver<T>> Stepper<T> for Trial<'_, T, M, S> {
     fn attempt(&mut self, h: T) -> Result<TrialStep<T>, StepError> {
         let step = Step { dt: h, length: self.length };
         let report = self.change.step(self.model, step, self.s, self.w);
-        let report = report.inspect_err(|_| self.w.undo())?;
+        let report = report.inspect_err(|_| self.w.restore())?;
         let s = &*self.s;
         let potential = self.model.potential_energy(&s.q, self.w.terms());
         let energies = [self.model.kinetic_energy(&s.v), potential, s.work].map(T::to_f64);
@@ -122,10 +122,10 @@ impl<T: Real, M: Model<T>, S: SpdSolver<T>> Stepper<T> for Trial<'_, T, M, S> {
 
     fn undo(&mut self) {
         self.s.copy_from(self.saved);
-        self.w.undo();
+        self.w.restore();
     }
 
     fn keep(&mut self, _: bool) {
-        self.change.keep();
+        self.change.accept();
     }
 }

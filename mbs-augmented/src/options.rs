@@ -4,6 +4,29 @@ use mbs_core::Real;
 use mbs_core::integrator::Integrator;
 use mbs_core::step::OptionError;
 
+/// c of the penalty in double precision and finer [effective masses]: a sweep leaves 1e-6 of a violation, and 10 of 16 digits remain beside it;
+/// 1e2 to 1e8 work in regular motion.
+const PENALTY: f64 = 1e6;
+/// The same in coarser scalars: the square root of 1/EPSILON in f32, so that digits are shared between mass and penalty.
+const PENALTY_OF_SINGLE: f64 = 3e3;
+/// EPSILON from which a scalar is coarser in this sense [-]: between that of f64 and that of f32.
+const COARSE: f64 = 1e-12;
+/// Newton tolerance [displacement per step]: below it a correction is at the rounding of forces in most scenes.
+const TOLERANCE: f64 = 1e-10;
+/// The least tolerance [EPSILON]: six binary digits are left to rounding.
+const MIN_TOLERANCE: f64 = 64.0;
+/// What may be left of the first correction where effects act [-]: at 1e-6 the energy error of a vehicle that steers at 30 m/s grows to the
+/// double, at 3e-7 by a seventh.
+const TRUNCATION_SHARE: f64 = 3e-7;
+/// Iterations of index-3 [-]: passages of singular positions take up to 20.
+const MAX_ITERATIONS: u32 = 40;
+/// Iterations of index-1 [-]: iterating on at a singular position leads away from the solution there.
+const MAX_ITERATIONS_OF_INDEX1: u32 = 4;
+/// Sweeps of a projection in index-3 [-]: at the slowest contraction that raises no penalty, a tenth, twelve digits.
+const MAX_SWEEPS: u32 = 12;
+/// Sweeps of a projection in index-1 [-]: those of positions begin further off.
+const MAX_SWEEPS_OF_INDEX1: u32 = 20;
+
 /// Choices for a step.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Options<T> {
@@ -11,25 +34,21 @@ pub struct Options<T> {
     pub integrator: Integrator<T>,
     /// Penalty on the constraints.
     pub penalty: Penalty<T>,
-    /// A correction below this times what accelerations move in a step is small; in index-1, times the accelerations [-].
+    /// Newton tolerance, relative to the displacement per step; in index-1, to the accelerations [-].
     pub tolerance: T,
-    /// Where effects act, what a correction of index-3 leaves, taken to be a tenth of it at least, is small too where it is below this
-    /// share of the step's first one, which is three times what the trapezoidal rule errs by in the step; zero, and with a fixed alpha or
-    /// printed projections: the tolerance alone [-].
-    pub share: T,
+    /// Where effects act, the iteration of index-3 also ends where what a correction leaves, at least a tenth of it, is below this times
+    /// the first correction of the step, which is three times the error of the trapezoidal rule in it. Zero, and with a fixed alpha: the
+    /// tolerance alone [-].
+    pub truncation_share: T,
     /// Iterations allowed in one step.
     pub max_iterations: u32,
     /// Sweeps of a projection after which its level must be reached.
     pub max_sweeps: u32,
-    /// Start value of the multipliers.
-    pub multipliers: Multipliers,
-    /// How velocities and accelerations are projected.
-    pub projection: Projection,
     /// Put the geometric stiffness of the constraints into the tangent.
     pub geometric_stiffness: bool,
     /// Evaluate phi by increments and carry q as a compensated pair.
     pub compensated: bool,
-    /// Choose the penalty anew at each step from the contraction that the projections showed.
+    /// Raise the penalty of a step where the weakest combination of constraints asks for it.
     pub adaptive_penalty: bool,
 }
 
@@ -39,7 +58,7 @@ pub enum Penalty<T> {
     /// In proportion to the effective mass of each row: alpha = factor a' m_k in index-3 (a' = 4/dt^2 for the trapezoidal
     /// rule), alpha = factor m_k in index-1 [-]. Conditioning then does not depend on the step.
     Scaled(T),
-    /// The printed, fixed alpha on every row [N/m in index-3, kg in index-1].
+    /// The published, fixed alpha on every row [N/m in index-3, kg in index-1].
     Fixed(T),
 }
 
@@ -54,32 +73,6 @@ impl<T: Real> Penalty<T> {
     }
 }
 
-/// Start value of the multipliers of a step.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Multipliers {
-    /// 2 lambda_n - lambda_(n-1) [P3 (3)], filtered by s J T^-1 J^T so that no component grows that the constraints cannot feed.
-    Filtered,
-    /// 2 lambda_n - lambda_(n-1) [P3 (3)].
-    Extrapolated,
-    /// Zero [P1 (16)], publication 2.
-    FromZero,
-}
-
-/// How velocities and accelerations are projected on their constraints.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Projection {
-    /// Mass-orthogonal, solved for the correction from the residual, swept until the level is reached.
-    Correction,
-    /// The printed iteration [P1 (13), (19)]: (M + J^T alpha J) v <- M v - J^T alpha phi_t at the final q, factored anew, a
-    /// fixed number of sweeps, no level. Index-3 only.
-    Printed {
-        /// Sweeps.
-        sweeps: u32,
-    },
-    /// The printed one with the already factored tangent [P3 (11)-(12)]: one sweep, weight M + C + K. Index-3 only.
-    PrintedTangent,
-}
-
 impl<T: Real> Options<T> {
     /// Defaults of index-3.
     ///
@@ -88,18 +81,17 @@ impl<T: Real> Options<T> {
     /// singular positions take up to 20.
     #[must_use]
     pub fn index3() -> Self {
-        let scale =
-            if T::EPSILON < T::from_f64(1e-12) { T::from_f64(1e6) } else { T::from_f64(3e3) };
+        let is_coarse = T::EPSILON >= T::from_f64(COARSE);
+        let scale = T::from_f64(if is_coarse { PENALTY_OF_SINGLE } else { PENALTY });
+        // in finer scalars than double the rule's own solution is asked for, to rounding
+        let is_fine = T::EPSILON < T::from_f64(f64::EPSILON);
         Self {
             integrator: Integrator::trapezoidal(),
             penalty: Penalty::Scaled(scale),
-            tolerance: T::tolerance(1e-10).max(T::EPSILON * T::from_f64(64.0)),
-            // in finer scalars than double what is wanted is the rule's own solution, to rounding
-            share: if T::EPSILON < T::from_f64(f64::EPSILON) { T::ZERO } else { T::from_f64(3e-7) },
-            max_iterations: 40,
-            max_sweeps: 12,
-            multipliers: Multipliers::Filtered,
-            projection: Projection::Correction,
+            tolerance: T::tolerance(TOLERANCE).max(T::EPSILON * T::from_f64(MIN_TOLERANCE)),
+            truncation_share: if is_fine { T::ZERO } else { T::from_f64(TRUNCATION_SHARE) },
+            max_iterations: MAX_ITERATIONS,
+            max_sweeps: MAX_SWEEPS,
             geometric_stiffness: false,
             compensated: true,
             adaptive_penalty: true,
@@ -110,20 +102,9 @@ impl<T: Real> Options<T> {
     /// leads away from the solution there; eight times as many where what is left is not small.
     #[must_use]
     pub fn index1() -> Self {
-        Self { max_iterations: 4, max_sweeps: 20, ..Self::index3() }
-    }
-
-    /// The form of publications 1 and 2: fixed alpha, multipliers from zero, printed projections, plain arithmetic.
-    #[must_use]
-    pub fn printed(alpha: T) -> Self {
         Self {
-            penalty: Penalty::Fixed(alpha),
-            multipliers: Multipliers::FromZero,
-            projection: Projection::Printed { sweeps: 1 },
-            compensated: false,
-            adaptive_penalty: false,
-            max_iterations: 20,
-            share: T::ZERO,
+            max_iterations: MAX_ITERATIONS_OF_INDEX1,
+            max_sweeps: MAX_SWEEPS_OF_INDEX1,
             ..Self::index3()
         }
     }
@@ -139,8 +120,8 @@ impl<T: Real> Options<T> {
                 return Err(OptionError::NotPositive(name));
             }
         }
-        if !(self.share >= T::ZERO && self.share.is_finite()) {
-            return Err(OptionError::Negative("share"));
+        if !(self.truncation_share >= T::ZERO && self.truncation_share.is_finite()) {
+            return Err(OptionError::Negative("truncation_share"));
         }
         if self.max_iterations == 0 {
             return Err(OptionError::NotPositive("max_iterations"));

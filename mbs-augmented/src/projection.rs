@@ -3,354 +3,220 @@
 //! ```text
 //! min (x - x*)^T M (x - x*)  subject to  J x + b = 0
 //!
-//! W d = -[M (x - x*) + J^T (sigma + s (J x + b))],   x += d,   sigma += s (J x + b),     W = M + J^T s J
+//! exact:   W d = -[M (x - x*) + J^T (sigma + s r)],   x += d,   sigma += s (J x + b),       W = M + J^T s J,   r = J x + b
+//! reused:  T' d = -J'^T s r,                          x += d,   sigma += s (r + J' d),      T' = M + J'^T s J'
 //! ```
 //!
-//! [P1 (11)-(14), (17)-(19)] solve for x itself, which loses cond(W) eps at every step; the correction does not.
-//! One sweep leaves 1 / (1 + s sigma^2 / m) of a violation in a direction with singular value sigma; it is swept until
-//! the level is reached. Any factored matrix near W will do: the fixed point does not depend on it.
+//! [P1 (11)-(14), (17)-(19)] solve for x itself, which loses cond(W) eps at every step; the correction does not. A sweep leaves
+//! 1 / (1 + s sigma^2 / m) of a violation in a direction with singular value sigma; it is repeated until the level is reached. Any factored
+//! matrix near W will do: the fixed point does not depend on it.
+//!
+//! Reused are the rows J' of a factor that was made nearby. With J^T on the right d has a part s (J - J')^T r / m along free directions,
+//! which s multiplies and only a second sweep takes back; with J'^T it has none. What is left is r times what the penalties leave and times
+//! the turn of the rows, and d is orthogonal to directions that are off by the turn: the factor has to be from before a small correction.
 
-use crate::workspace::{Mass, Workspace};
+use crate::equations::Equations;
+use crate::penalty::PenaltyScale;
+use alloc::vec;
 use alloc::vec::Vec;
+use mbs_core::implicit::{ConstraintLevel, ResidualLimits};
 use mbs_core::model::Model;
-use mbs_core::step::{StepError, largest};
-use mbs_core::team::{add, add_product, norm_inf, on_stretches, set_sum, subtract, sum};
-use mbs_core::{FactorError, Real, SpdSolver};
+use mbs_core::step::StepError;
+use mbs_core::team::{add_product, norm_inf, on_stretches, set_product, set_sum, subtract, sum};
+use mbs_core::{Real, SpdSolver};
 
-/// What one correction may leave of the multiplier of the least felt combination of constraints.
-const FELT: f64 = 0.003;
-/// Where less than this was left of the combination that is followed, others are added to it, so that none is overlooked.
-const FOLLOWED: f64 = 0.001;
-/// Most that penalties may be, in effective masses times EPSILON: above, rounding of T^-1 looks like a lost direction.
-const MOST: f64 = 0.2;
-/// By how much penalties that are too large are lowered at a time.
-const LOWERED: f64 = 1.0 / 16.0;
+/// Violation of velocities, and of accelerations, that a projection within a step may leave [EPSILON of what it is compared with]: 2^13, and
+/// 2^21 for accelerations, which enter the motion times the square of the step.
+const LEFT: [f64; 2] = [8_192.0, 2_097_152.0];
+/// Part of a violation up to which a reused sweep is repeated [-]: slower ones are followed by sweeps with the rows of now, which cost a
+/// factorisation's worth of residuals but lose nothing to the turn of the rows.
+const SLOW_REUSED: f64 = 0.01;
+/// Parts of a violation between which what a sweep leaves is shortened by scaling its correction [-]: below the first there is nothing to
+/// gain; above the second directions differ too much in what is left of them.
+const SCALED: [f64; 2] = [0.01, 0.7];
+/// Part of a violation above which a sweep is slow, so that penalties are raised for it [-]: ten sweeps would make ten digits.
+const SLOW: f64 = 0.1;
 
-/// A sweep that leaves more than the first of these shares of a violation, and less than the second, has met combinations of constraints
-/// that are felt little, of which it takes in the same share each: it is lengthened.
-const SHORT: [f64; 2] = [0.01, 0.7];
-
-/// How much of a violation may be left by a projection.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct ResidualLimits<T> {
-    /// A violation that is not swept at all.
-    pub(crate) goal: T,
-    /// What sweeps may leave.
-    pub(crate) enough: T,
-    /// What they may leave where they no longer shrink it.
-    pub(crate) limit: T,
-}
-
-/// Which vector is projected, with its right-hand side b.
+/// With which matrix and rows velocities and accelerations are projected.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Level {
-    /// J v + phi_t = 0.
-    Velocity,
-    /// J a + bias = 0.
-    Acceleration,
+pub(crate) enum ProjectionStrategy {
+    /// The rows of now, with a factor of them.
+    Exact,
+    /// The factor that there is, with the rows that it was made with.
+    Reused,
 }
 
-impl<T: Real, S: SpdSolver<T>> Workspace<T, S> {
-    /// rates = J x + b of the level; returns their largest absolute value.
-    pub(crate) fn violation<M: Model<T>>(&mut self, model: &M, level: Level) -> T {
-        let (x, b) = match level {
-            Level::Velocity => (&self.v, &self.terms.phi_t),
-            Level::Acceleration => (&self.a, &self.terms.phi_bias),
-        };
-        model.multiply_jacobian(&self.terms, x, &mut self.rates);
-        if level == Level::Acceleration || model.has_guides() {
-            on_stretches(model.team(), [&mut self.rates], |first, [rates]| {
-                for (r, &b) in rates.iter_mut().zip(&b[first..]) {
-                    *r += b;
-                }
-            });
+impl ProjectionStrategy {
+    /// The limits of a step's projection: sweeps are repeated down to rounding only where constraints act alone.
+    pub(crate) fn limits<T: Real, M: Model<T>>(
+        self,
+        model: &M,
+        level: ConstraintLevel,
+        limits: ResidualLimits<T>,
+    ) -> ResidualLimits<T> {
+        if self == Self::Exact && !model.has_forces() {
+            return limits;
         }
-        norm_inf(model.team(), &self.rates)
+        let left = LEFT[usize::from(level == ConstraintLevel::Acceleration)];
+        let enough = (limits.size * T::EPSILON * T::from_f64(left)).min(limits.limit);
+        ResidualLimits { enough, ..limits }
     }
+}
 
-    /// Projects v or a with the factored matrix; the multipliers are left in `sigma`. Returns the violation left.
+/// Scratch of projections.
+#[derive(Debug, Clone)]
+pub(crate) struct Projection<T> {
+    /// x - x*, extended.
+    pub(crate) change: Vec<T>,
+    /// Multipliers of the projection, m.
+    pub(crate) sigma: Vec<T>,
+    /// r = J x + b, m.
+    pub(crate) rates: Vec<T>,
+}
+
+impl<T: Real> Projection<T> {
+    pub(crate) fn new(model: &impl Model<T>) -> Self {
+        let (e, m) = (model.n_extended(), model.n_constraints());
+        let zeros = |n| vec![T::ZERO; n];
+        Self { change: zeros(e), sigma: zeros(m), rates: zeros(m) }
+    }
+}
+
+/// One projection: x on its level, with the equations and penalties of the step.
+#[derive(Debug)]
+pub(crate) struct Projector<'a, T, M, S> {
+    pub(crate) model: &'a M,
+    pub(crate) level: ConstraintLevel,
+    pub(crate) x: &'a mut [T],
+    pub(crate) equations: &'a mut Equations<T, S>,
+    pub(crate) scale: &'a mut PenaltyScale<T>,
+    pub(crate) scratch: &'a mut Projection<T>,
+}
+
+impl<T: Real, M: Model<T>, S: SpdSolver<T>> Projector<'_, T, M, S> {
+    /// Projects x by the rows of now; the multipliers are left in `sigma`. Returns the violation left.
     ///
     /// Sweeps at least once unless the level holds already, until the violation is `enough`, or stops shrinking below `limit`.
-    pub(crate) fn project<M: Model<T>>(
-        &mut self,
-        model: &M,
-        level: Level,
-        left: ResidualLimits<T>,
+    ///
+    /// Cost: a solve, a residual and a product of the Jacobian for each sweep.
+    pub(crate) fn project(
+        mut self,
+        limits: ResidualLimits<T>,
         max_sweeps: u32,
     ) -> Result<T, StepError> {
         self.begin();
-        self.project_on(model, level, left, (0, max_sweeps))
+        self.continue_from(0, limits, max_sweeps)
+    }
+
+    /// Projects x by the rows of the factor, once unless the violation is at most `goal`, then while sweeps of this kind shrink it until it is
+    /// `enough`, else by the rows of now. The multipliers of accelerations are left in `sigma`. Returns the violation left.
+    ///
+    /// Cost: a solve and three products of the Jacobian for each sweep, of which there is mostly one.
+    pub(crate) fn project_reused(
+        mut self,
+        limits: ResidualLimits<T>,
+        max_sweeps: u32,
+    ) -> Result<T, StepError> {
+        let ResidualLimits { goal, enough, .. } = limits;
+        self.begin();
+        let mut violation = self.violation();
+        let (mut sweeps, mut most) = (0, goal);
+        // a NaN is no violation that may be left
+        while !(violation <= most) {
+            most = enough;
+            self.sweep_reused();
+            sweeps += 1;
+            let mut left = self.violation();
+            if left > enough && sweeps == 1 {
+                left = self.scale_first();
+            }
+            let is_slow = !(left <= violation * T::from_f64(SLOW_REUSED));
+            if is_slow && !(left <= enough) {
+                return self.continue_from(sweeps, limits, max_sweeps);
+            }
+            violation = left;
+        }
+        Ok(violation)
     }
 
     /// sigma = 0, x = x*.
     pub(crate) fn begin(&mut self) {
-        self.sigma.fill(T::ZERO);
-        self.change.fill(T::ZERO);
+        self.scratch.sigma.fill(T::ZERO);
+        self.scratch.change.fill(T::ZERO);
     }
 
-    /// Goes on with a projection after so many sweeps.
-    pub(crate) fn project_on<M: Model<T>>(
+    /// Sweeps by the rows of now, after `done` others.
+    fn continue_from(
         &mut self,
-        model: &M,
-        level: Level,
-        ResidualLimits { goal, enough, limit }: ResidualLimits<T>,
-        (done, max_sweeps): (u32, u32),
+        done: u32,
+        ResidualLimits { goal, enough, limit, .. }: ResidualLimits<T>,
+        max_sweeps: u32,
     ) -> Result<T, StepError> {
-        let mut violation = self.violation(model, level);
+        let mut violation = self.violation();
         for sweeps in done..max_sweeps {
             if violation <= if sweeps == 0 { goal } else { enough } {
                 return Ok(violation);
             }
-            self.sweep(model, level, sweeps > 0);
-            self.mu.copy_from_slice(&self.rates);
-            let mut left = self.violation(model, level);
-            add_product(model.team(), &mut self.sigma, (&self.penalty, &self.rates));
-            let is_short = left > violation * T::from_f64(SHORT[0]);
-            if is_short && left > enough && left < violation * T::from_f64(SHORT[1]) {
-                left = self.lengthen_last(model, level);
+            self.sweep(sweeps > 0);
+            self.equations.mu.copy_from_slice(&self.scratch.rates);
+            let mut left = self.violation();
+            let Projection { sigma, rates, .. } = &mut *self.scratch;
+            add_product(self.model.team(), sigma, (&self.scale.weights, rates));
+            let [least, most] = SCALED.map(|part| violation * T::from_f64(part));
+            if left > least && left > enough && left < most {
+                left = self.scale_last();
             }
             let contraction = left / violation;
             violation = left;
             if contraction > T::HALF && violation <= limit {
                 return Ok(violation);
             }
-            let is_slow = contraction > T::from_f64(0.1) && violation > limit;
-            if is_slow && self.raise_penalties(contraction) {
-                self.factor_raised(model)?;
+            let is_slow = contraction > T::from_f64(SLOW) && violation > limit;
+            if is_slow && self.scale.raise(contraction) {
+                self.scale.factor(self.model, self.equations)?;
             }
         }
         if violation <= limit {
             return Ok(violation);
         }
-        let level = if level == Level::Velocity { 1 } else { 2 };
-        let row = largest(&self.rates);
-        Err(StepError::Violated { level, violation: violation.to_f64(), row })
+        Err(self.level.violated(violation, &self.scratch.rates))
     }
 
-    /// As printed, with W = M + J^T alpha J factored [P1 (13), (19)]:
-    ///
-    /// ```text
-    /// W x <- M x - J^T alpha b,   a fixed number of times
-    /// ```
-    ///
-    /// Solves for x itself and so loses cond(W) eps each time. Returns the violation left, whatever it is.
-    pub(crate) fn project_as_printed<M: Model<T>>(
-        &mut self,
-        model: &M,
-        level: Level,
-        sweeps: u32,
-    ) -> T {
-        self.sigma.fill(T::ZERO);
-        let mut violation = self.violation(model, level);
-        for _ in 0..sweeps {
-            let (b, mass) = match level {
-                Level::Velocity => (&self.terms.phi_t, Mass::Velocity),
-                Level::Acceleration => (&self.terms.phi_bias, Mass::Acceleration),
-            };
-            for k in 0..self.mu.len() {
-                self.mu[k] = -self.penalty[k] * b[k];
-            }
-            self.assemble(model, mass, T::ZERO);
-            self.solve();
-            let x = match level {
-                Level::Velocity => &mut self.v,
-                Level::Acceleration => &mut self.a,
-            };
-            x[..self.f.len()].copy_from_slice(&self.f);
-            violation = self.violation(model, level);
-            for k in 0..self.sigma.len() {
-                self.sigma[k] += self.penalty[k] * self.rates[k];
-            }
+    /// r = J x + b; returns its largest absolute value.
+    pub(crate) fn violation(&mut self) -> T {
+        let (terms, rates) = (&self.equations.terms, &mut self.scratch.rates);
+        self.level.violation(self.model, terms, self.x, rates)
+    }
+
+    /// One sweep by the rows of now; as long as nothing `is_changed` the mass has no part in it.
+    pub(crate) fn sweep(&mut self, is_changed: bool) {
+        let Projection { change, sigma, rates } = &*self.scratch;
+        set_sum(self.model.team(), &mut self.equations.mu, sigma, (&self.scale.weights, rates));
+        self.equations.assemble(self.model, is_changed.then_some(&change[..]), T::ZERO);
+        self.equations.solve();
+        self.take();
+    }
+
+    /// One sweep by the rows of the factor.
+    fn sweep_reused(&mut self) {
+        let (model, team, s) = (self.model, self.model.team(), &self.scale.weights);
+        let Projection { sigma, rates, .. } = &mut *self.scratch;
+        set_product(team, &mut self.equations.mu, (s, rates));
+        self.equations.with_factored_rows(|eq| eq.assemble(model, None, T::ZERO));
+        self.equations.solve();
+        if self.level == ConstraintLevel::Acceleration {
+            self.equations.with_factored_rows(|eq| eq.multiply_correction(model));
+            subtract(team, rates, &self.equations.mu);
+            add_product(team, sigma, (s, rates));
         }
-        violation
-    }
-
-    /// One sweep with the tangent as the iteration left it [P3 (11), (12)]:
-    ///
-    /// ```text
-    /// T x = (T - J^T s J) x* - J^T s b,   that is   T (x - x*) = -J^T s (J x* + b)
-    /// ```
-    ///
-    /// Returns the violation left, whatever it is.
-    pub(crate) fn project_with_tangent<M: Model<T>>(&mut self, model: &M, level: Level) -> T {
-        self.sigma.fill(T::ZERO);
-        self.change.fill(T::ZERO);
-        self.violation(model, level);
-        self.sweep(model, level, false);
-        let violation = self.violation(model, level);
-        for k in 0..self.sigma.len() {
-            self.sigma[k] = self.penalty[k] * self.rates[k];
-        }
-        violation
-    }
-
-    /// Chooses the penalties of a step: follows the least felt combination u of constraints by one power iteration, from the last
-    /// step's, or where that was felt well from it and a part of all,
-    ///
-    /// ```text
-    /// u <- (1 + s H)^-1 u = u - s J T^-1 J^T u,   H = J M^-1 J^T,   rho = |u_new| / |u|
-    /// ```
-    ///
-    /// and raises s until rho is at most [`FELT`]. A combination that no allowed penalty makes felt is redundant and left.
-    /// Returns whether the penalties changed, so that T must be factored anew. Needs T factored. Cost: one solve.
-    pub(crate) fn adapt<M: Model<T>>(&mut self, model: &M) -> bool {
-        let size = norm_inf(model.team(), &self.probe);
-        if size > T::ZERO {
-            let inverse = T::ONE / size;
-            self.probe.iter_mut().for_each(|u| *u *= inverse);
-        }
-        if !(self.rho > T::from_f64(FOLLOWED)) {
-            add(model.team(), &mut self.probe, &self.spread);
-        }
-        let size = norm_inf(model.team(), &self.probe);
-        self.mu.copy_from_slice(&self.probe);
-        self.assemble(model, Mass::None, T::ZERO);
-        self.solve();
-        self.multiply_correction(model);
-        let (penalty, mu) = (&self.penalty, &self.mu);
-        on_stretches(model.team(), [&mut self.probe], |first, [probe]| {
-            for k in 0..probe.len() {
-                probe[k] -= penalty[first + k] * mu[first + k];
-            }
-        });
-        let rho = norm_inf(model.team(), &self.probe) / size;
-        self.rho = rho;
-        if !rho.is_finite() {
-            self.rho = T::ZERO;
-            self.probe.fill(T::ZERO);
-        }
-        if !(rho > T::from_f64(FELT)) {
-            return false;
-        }
-        let room = self.room();
-        // What even the largest penalty cannot make felt is redundant, or so near a singular position that nothing is lost.
-        rho / (T::ONE - rho).max(T::EPSILON) < room * T::from_f64(FELT) && self.stiffen(rho, room)
-    }
-
-    /// Do the constraints feed every combination of multipliers, so that there is nothing to filter?
-    pub(crate) fn is_all_felt(&self) -> bool {
-        self.boost <= T::ONE && self.rho <= T::from_f64(FOLLOWED)
-    }
-
-    /// What a step begins with: raised penalties fall by a factor of four where the last step felt all combinations well.
-    pub(crate) fn kept_boost(&self) -> T {
-        let is_felt = self.rho < T::from_f64(0.1 * FELT);
-        if is_felt { (self.boost * T::from_f64(0.25)).max(T::ONE) } else { self.boost }
-    }
-
-    /// Raises the penalties so that corrections that leave `rho` leave [`FELT`], by rho / (1 - rho) / FELT, at most `room`.
-    /// Returns whether they changed.
-    fn stiffen(&mut self, rho: T, room: T) -> bool {
-        let growth = rho / (T::ONE - rho).max(T::EPSILON) / T::from_f64(FELT);
-        let growth = growth.min(room);
-        if growth > T::ONE {
-            self.scale_penalties(growth);
-        }
-        growth > T::ONE
-    }
-
-    /// Raises the penalties after a slow sweep; returns whether they changed.
-    pub(crate) fn raise_penalties(&mut self, contraction: T) -> bool {
-        self.stiffen(contraction.min(T::ONE), self.room())
-    }
-
-    /// Factors W, whose penalties may have been raised. Where they are too large for the digits there are, that the mass is lost beside them,
-    /// they are lowered until W is positive definite.
-    pub(crate) fn factor_raised<M: Model<T>>(&mut self, model: &M) -> Result<(), FactorError> {
-        loop {
-            match self.factor(model, (T::ZERO, T::ZERO), false) {
-                Err(_) if self.boost > T::ONE => {
-                    self.scale_penalties((T::ONE / self.boost).max(T::from_f64(LOWERED)));
-                }
-                result => return result,
-            }
-        }
-    }
-
-    /// Takes raised penalties back; returns whether there were any.
-    pub(crate) fn restore_penalties(&mut self) -> bool {
-        let was_raised = self.boost > T::ONE;
-        if was_raised {
-            self.scale_penalties(T::ONE / self.boost);
-        }
-        was_raised
-    }
-
-    /// By how much penalties may still be raised.
-    fn room(&self) -> T {
-        T::from_f64(MOST) / T::EPSILON / (self.boost * self.base)
-    }
-
-    /// Multiplies all penalties.
-    pub(crate) fn scale_penalties(&mut self, factor: T) {
-        for p in &mut self.penalty {
-            *p *= factor;
-        }
-        self.boost *= factor;
-    }
-
-    /// x += k d, sigma += k s (J x + b), and the violation with them, for the last sweep: with the factor of W, and in balance before it, they
-    /// are in balance, M d + J^T s (J x + b) = 0, and stay so. With a nearby factor what is off grows by 1 + k in a first sweep, and what a
-    /// later one found stays by k. Needs the violation before it in `mu`. Returns the violation left.
-    fn lengthen_last<M: Model<T>>(&mut self, model: &M, level: Level) -> T {
-        subtract(model.team(), &mut self.mu, &self.rates);
-        let k = self.best_length(model);
-        let (penalty, rates) = (&self.penalty, &self.rates);
-        on_stretches(model.team(), [&mut self.sigma], |first, [sigma]| {
-            for (i, sigma) in sigma.iter_mut().enumerate() {
-                *sigma += k * penalty[first + i] * rates[first + i];
-            }
-        });
-        self.lengthen(model, level, k)
-    }
-
-    /// The k with which a further k d leaves least of a violation; zero where d does nothing. Needs J f = -J d in `mu`.
-    ///
-    /// ```text
-    /// k = -(r . J d) / (J d . J d)
-    /// ```
-    pub(crate) fn best_length<M: Model<T>>(&self, model: &M) -> T {
-        let (mu, rates) = (&self.mu, &self.rates);
-        let dot = |x: &[T]| {
-            sum(model.team(), mu.len(), |from, to| {
-                let pairs = x[from..to].iter().zip(&mu[from..to]);
-                pairs.fold(T::ZERO, |sum, (&x, &y)| sum + x * y)
-            })
-        };
-        let k = dot(rates) / dot(mu);
-        if k.is_finite() { k } else { T::ZERO }
-    }
-
-    /// x += k d, r += k J d for the last sweep. Needs `f` = -d, which is lost, and J f in `mu`. Returns the violation left.
-    pub(crate) fn lengthen<M: Model<T>>(&mut self, model: &M, level: Level, k: T) -> T {
-        let mu = &self.mu;
-        on_stretches(model.team(), [&mut self.rates], |first, [rates]| {
-            for (i, rates) in rates.iter_mut().enumerate() {
-                *rates -= k * mu[first + i];
-            }
-        });
-        on_stretches(model.team(), [&mut self.f], |_, [f]| f.iter_mut().for_each(|f| *f *= k));
-        self.take(model, level);
-        norm_inf(model.team(), &self.rates)
-    }
-
-    /// One sweep; as long as nothing `is_changed` the mass has no part in it.
-    fn sweep<M: Model<T>>(&mut self, model: &M, level: Level, is_changed: bool) {
-        set_sum(model.team(), &mut self.mu, &self.sigma, (&self.penalty, &self.rates));
-        self.assemble(model, if is_changed { Mass::Change } else { Mass::None }, T::ZERO);
-        self.solve();
-        self.take(model, level);
+        self.take();
     }
 
     /// x += d and change += d with d = -f.
-    pub(crate) fn take<M: Model<T>>(&mut self, model: &M, level: Level) {
-        let x = match level {
-            Level::Velocity => &mut self.v,
-            Level::Acceleration => &mut self.a,
-        };
-        let (n, f) = (self.f.len(), &self.f);
-        let vectors = [&mut x[..n], &mut self.change[..n]];
-        on_stretches(model.team(), vectors, |first, [x, change]| {
+    fn take(&mut self) {
+        let (n, f) = (self.equations.f.len(), &self.equations.f);
+        let vectors = [&mut self.x[..n], &mut self.scratch.change[..n]];
+        on_stretches(self.model.team(), vectors, |first, [x, change]| {
             let f = &f[first..][..x.len()];
             for i in 0..x.len() {
                 x[i] -= f[i];
@@ -358,14 +224,63 @@ impl<T: Real, S: SpdSolver<T>> Workspace<T, S> {
             }
         });
     }
+
+    /// x += k d, sigma += k s r for the last sweep by the rows of now: with the factor of W, and in balance before it, they are in balance,
+    /// M d + J^T s r = 0, and stay so. With a factor from nearby what is off grows by 1 + k in a first sweep, and what a later one found
+    /// stays by k. Needs the violation before it in `mu`. Returns the violation left.
+    fn scale_last(&mut self) -> T {
+        let Projection { sigma, rates, .. } = &mut *self.scratch;
+        subtract(self.model.team(), &mut self.equations.mu, rates);
+        let k = best_scale(self.model, rates, &self.equations.mu);
+        let s = &self.scale.weights;
+        on_stretches(self.model.team(), [sigma], |first, [sigma]| {
+            for (i, sigma) in sigma.iter_mut().enumerate() {
+                *sigma += k * s[first + i] * rates[first + i];
+            }
+        });
+        self.scale_correction(k)
+    }
+
+    /// After the first sweep by the rows of the factor x += k d, sigma += k sigma with the best k: d is short by what the penalties leave,
+    /// much the same part in all rows. Needs the last `f` = -d, of accelerations with J' f in `mu`. Returns the violation left.
+    fn scale_first(&mut self) -> T {
+        if self.level == ConstraintLevel::Velocity {
+            self.equations.multiply_correction(self.model);
+        }
+        let k = best_scale(self.model, &self.scratch.rates, &self.equations.mu);
+        let by = T::ONE + k;
+        on_stretches(self.model.team(), [&mut self.scratch.sigma], |_, [sigma]| {
+            sigma.iter_mut().for_each(|sigma| *sigma *= by);
+        });
+        self.scale_correction(k)
+    }
+
+    /// x += k d, r += k J d for the last sweep. Needs `f` = -d, which is lost, and J f in `mu`. Returns the violation left.
+    fn scale_correction(&mut self, k: T) -> T {
+        let (team, mu) = (self.model.team(), &self.equations.mu);
+        on_stretches(team, [&mut self.scratch.rates], |first, [rates]| {
+            for (i, rates) in rates.iter_mut().enumerate() {
+                *rates -= k * mu[first + i];
+            }
+        });
+        on_stretches(team, [&mut self.equations.f], |_, [f]| f.iter_mut().for_each(|f| *f *= k));
+        self.take();
+        norm_inf(self.model.team(), &self.scratch.rates)
+    }
 }
 
-/// A part of all, up to a half, always the same: with it no combination of constraints is out of sight by symmetry.
-pub(crate) fn spread<T: Real>(m: usize) -> Vec<T> {
-    let mut seed = 1_u32;
-    let next = |_| {
-        seed = seed.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
-        T::from_f64(f64::from(seed) / f64::from(u32::MAX) - 0.5)
+/// The k with which a further k d leaves least of a violation r; zero where d does nothing.
+///
+/// ```text
+/// k = -(r . J d) / (J d . J d),      mu = -J d
+/// ```
+fn best_scale<T: Real, M: Model<T>>(model: &M, rates: &[T], mu: &[T]) -> T {
+    let dot = |x: &[T]| {
+        sum(model.team(), mu.len(), |from, to| {
+            let pairs = x[from..to].iter().zip(&mu[from..to]);
+            pairs.fold(T::ZERO, |sum, (&x, &y)| sum + x * y)
+        })
     };
-    (0..m).map(next).collect()
+    let k = dot(rates) / dot(mu);
+    if k.is_finite() { k } else { T::ZERO }
 }

@@ -12,21 +12,23 @@
 //! [ J  -delta ] ( d_lambda ) = - ( J a + bias + 2 alpha phi' + beta^2 phi ),    a += d,  q += d/a',  v += v' d/a'
 //! ```
 //!
-//! Differs from the source: the printed system is solved once per evaluation, here the corrections of an implicit rule. The
+//! Differs from the source: the published system is solved once per evaluation, here the corrections of an implicit rule. The
 //! position projection is mass-orthogonal in correction form, as those of velocities and accelerations.
 
 use crate::inputs::take_inputs;
 use crate::options::{Options, Stabilisation};
-use crate::projection::Level;
 use crate::workspace::{Mass, Workspace};
-use mbs_core::integrator::Rule;
+use mbs_core::implicit::{ConstraintLevel, Newton, ResidualLimits};
+use mbs_core::integrator::{Rule, is_far};
 use mbs_core::model::{Model, State};
 use mbs_core::step::{
-    ConvergenceCriterion, Step, StepError, StepReport, Stop, check_guides, check_rotations,
-    largest, largest_or_nan, step_scale, stopping,
+    Step, StepError, StepReport, Stop, check_guides, check_rotations, step_scale,
 };
 use mbs_core::team::{norm_inf, on_stretches};
 use mbs_core::{Real, SymmetricSolver};
+
+/// Part of a violation of positions that a sweep leaves which is of no use [-].
+const USELESS: f64 = 0.9;
 
 /// Advances `s` by one [`Step`].
 ///
@@ -48,36 +50,28 @@ pub fn step<T: Real, M: Model<T>, S: SymmetricSolver<T>>(
     take_inputs(model, options, s, w)?;
     let rule = options.integrator.rule(dt);
     w.begin(options.regularisation);
-    predict(model, (&rule, length), options, s, w);
-    let newton = iterate(model, &rule, length, options, s, w)?;
+    let scale = step_scale(model.team(), dt, &s.a);
+    w.end.predict(model, (&rule, T::ONE, is_far(scale, length)), s);
+    w.lambda.copy_from_slice(&s.lambda);
+    model.set_inputs(s.t + dt, s, &mut w.terms);
+    evaluate(model, options, s, w);
+    let scale = scale.max(norm_inf(model.team(), &s.v) * dt * T::EPSILON);
+    let newton = Newton::new((scale, options.tolerance, length));
+    let newton = iterate(model, (&rule, newton), options, s, w)?;
     let violation = if options.stabilisation == Stabilisation::Projection {
         positions(model, &rule, length, options, s, w)?;
-        w.clean(model, (length, T::ONE), options.max_sweeps)?
+        w.project_velocities_and_accelerations(model, (length, T::ONE), options.max_sweeps)?
     } else {
-        check_guides(model, &w.q, &w.terms)?;
+        check_guides(model, &w.end.q, &w.terms)?;
         w.mu.copy_from_slice(&w.lambda);
-        let velocity = w.violation(model, Level::Velocity);
-        model.evaluate_bias(&w.q, &w.v, &mut w.terms);
-        let acceleration = w.violation(model, Level::Acceleration);
+        let velocity = w.violation(model, ConstraintLevel::Velocity);
+        model.evaluate_bias(&w.end.q, &w.end.v, &mut w.terms);
+        let acceleration = w.violation(model, ConstraintLevel::Acceleration);
         [norm_inf(model.team(), &w.terms.phi), velocity, acceleration]
     };
     check_rotations(model, &w.terms)?;
-    w.commit(model, &rule, options.compensated, T::ONE, s);
+    w.commit(model, (&rule, options.compensated, T::ONE), s);
     Ok(StepReport::of_newton(newton, w.counts, violation))
-}
-
-/// q, v, a at the end of the step by extrapolation, lambda of the last step, and everything evaluated there.
-fn predict<T: Real, M: Model<T>, S: SymmetricSolver<T>>(
-    model: &M,
-    (rule, length): (&Rule<T>, T),
-    options: &Options<T>,
-    s: &State<T>,
-    w: &mut Workspace<T, S>,
-) {
-    w.predict(model, (rule, T::ONE, length), s);
-    w.lambda.copy_from_slice(&s.lambda);
-    model.set_inputs(s.t + rule.dt, s, &mut w.terms);
-    evaluate(model, options, s, w);
 }
 
 /// phi, J, phi_t, bias and forces at the current q, v.
@@ -89,9 +83,9 @@ fn evaluate<T: Real, M: Model<T>, S: SymmetricSolver<T>>(
 ) {
     w.evaluate(model, options.compensated, s);
     if model.has_guides() {
-        model.evaluate_phi_t(&w.q, &mut w.terms);
+        model.evaluate_phi_t(&w.end.q, &mut w.terms);
     }
-    model.evaluate_bias(&w.q, &w.v, &mut w.terms);
+    model.evaluate_bias(&w.end.q, &w.end.v, &mut w.terms);
 }
 
 /// rates = J a + bias + 2 alpha (J v + phi_t) + beta^2 phi
@@ -101,56 +95,48 @@ fn demand<T: Real, M: Model<T>, S: SymmetricSolver<T>>(
     w: &mut Workspace<T, S>,
 ) {
     let Stabilisation::Baumgarte { alpha, beta } = stabilisation else {
-        w.violation(model, Level::Acceleration);
+        w.violation(model, ConstraintLevel::Acceleration);
         return;
     };
-    w.violation(model, Level::Velocity);
+    w.violation(model, ConstraintLevel::Velocity);
     for k in 0..w.mu.len() {
         w.mu[k] = T::TWO * alpha * w.rates[k] + beta * beta * w.terms.phi[k];
     }
-    w.violation(model, Level::Acceleration);
+    w.violation(model, ConstraintLevel::Acceleration);
     for k in 0..w.mu.len() {
         w.rates[k] += w.mu[k];
     }
 }
 
-/// Corrections of accelerations and multipliers. Returns iterations, the last correction of the coordinates, and what ended it.
+/// Corrections of accelerations and multipliers. Returns what is reported of them, as corrections of the coordinates.
 fn iterate<T: Real, M: Model<T>, S: SymmetricSolver<T>>(
     model: &M,
-    rule: &Rule<T>,
-    length: T,
+    (rule, mut newton): (&Rule<T>, Newton<T>),
     options: &Options<T>,
     s: &State<T>,
     w: &mut Workspace<T, S>,
 ) -> Result<(u32, T, Stop), StepError> {
     let inverse = T::ONE / rule.acceleration;
-    let scale = step_scale(model.team(), rule.dt, &s.a)
-        .max(norm_inf(model.team(), &s.v) * rule.dt * T::EPSILON);
-    let mut last = T::ZERO;
-    for iterations in 1..=options.max_iterations {
+    let Newton { scale, length, .. } = newton;
+    while newton.iterations < options.max_iterations {
         factor(model, rule, options, w)?;
         demand(model, options.stabilisation, w);
         w.mu.copy_from_slice(&w.lambda);
         w.assemble(model, Mass::Acceleration, T::ONE, true);
         w.solve();
         w.correct(model, (inverse, rule.velocity * inverse));
-        let correction = norm_inf(model.team(), &w.f[..w.n]) * inverse;
-        if !correction.is_finite() {
-            return Err(StepError::NotFinite { unknown: largest_or_nan(&w.f[..w.n]) });
-        }
+        let f = &w.f[..w.n];
+        newton.count(norm_inf(model.team(), f) * inverse, f)?;
         evaluate(model, options, s, w);
-        let noise =
-            norm_inf(model.team(), &w.dq).max(length * rule.dt) * T::EPSILON * T::from_f64(64.0);
-        let criterion = ConvergenceCriterion { scale, goal: scale * options.tolerance, noise };
-        if let Some(stop) = stopping(iterations, correction, last, &criterion) {
-            return Ok((iterations, correction, stop));
+        let moved = norm_inf(model.team(), &w.end.dq).max(length * rule.dt);
+        if let Some(stop) = newton.stop(scale * options.tolerance, Newton::rounding(moved)) {
+            return Ok(newton.ended(stop));
         }
-        last = correction;
     }
-    w.exhausted(model, (options.max_iterations, last), (scale, length))
+    w.exhausted(model, &newton)
 }
 
-/// Moves q onto phi = 0, and v by the integrator's relation, so that both tell of the same motion. The matrix at the new q is
+/// Moves q onto phi = 0, and v by the integrator's relation, so that both describe the same motion. The matrix at the new q is
 /// left factored.
 fn positions<T: Real, M: Model<T>, S: SymmetricSolver<T>>(
     model: &M,
@@ -160,22 +146,20 @@ fn positions<T: Real, M: Model<T>, S: SymmetricSolver<T>>(
     s: &State<T>,
     w: &mut Workspace<T, S>,
 ) -> Result<(), StepError> {
-    let goal = length * T::EPSILON * T::from_f64(if options.compensated { 0.01 } else { 4.0 });
-    // The iteration knows positions to its tolerance: a residual below it that no sweep lowers says nothing more.
-    let limit = length * options.tolerance.max(T::EPSILON * T::from_f64(256.0));
+    let limits = ResidualLimits::of_positions(length, options.tolerance, options.compensated);
     w.sigma.fill(T::ZERO);
     w.change.fill(T::ZERO);
     let mut violation = norm_inf(model.team(), &w.terms.phi);
     for sweeps in 0..options.max_sweeps {
         factor(model, rule, options, w)?;
-        if violation <= goal {
+        if violation <= limits.goal {
             break;
         }
         w.rates.copy_from_slice(&w.terms.phi);
         w.sweep(model, sweeps > 0);
         w.check_branch(model, length)?;
         let (n, d) = (w.n, &w.f);
-        on_stretches(model.team(), [&mut w.dq[..n], &mut w.v[..n]], |first, [dq, v]| {
+        on_stretches(model.team(), [&mut w.end.dq[..n], &mut w.end.v[..n]], |first, [dq, v]| {
             for ((dq, v), &d) in dq.iter_mut().zip(v).zip(&d[first..]) {
                 *dq -= d;
                 *v -= rule.velocity * d;
@@ -185,14 +169,11 @@ fn positions<T: Real, M: Model<T>, S: SymmetricSolver<T>>(
         let left = norm_inf(model.team(), &w.terms.phi);
         let contraction = left / violation;
         violation = left;
-        if contraction > T::from_f64(0.9) {
+        if contraction > T::from_f64(USELESS) {
             break;
         }
     }
-    if violation <= limit {
-        return Ok(());
-    }
-    Err(StepError::Violated { level: 0, violation: violation.to_f64(), row: largest(&w.terms.phi) })
+    limits.check_positions(violation, T::ZERO, &w.terms.phi)
 }
 
 /// The saddle matrix at the current terms.

@@ -16,14 +16,15 @@
 use crate::inputs::take_inputs;
 use crate::options::Options;
 use crate::workspace::{Mass, Workspace};
-use mbs_core::integrator::Rule;
+use mbs_core::implicit::Newton;
+use mbs_core::integrator::{Rule, is_far};
 use mbs_core::model::{Model, State};
-use mbs_core::step::{
-    ConvergenceCriterion, Step, StepError, StepReport, Stop, check_rotations, largest_or_nan,
-    step_scale, stopping,
-};
-use mbs_core::team::{norm_inf, on_stretches};
+use mbs_core::step::{Step, StepError, StepReport, Stop, check_rotations, step_scale};
+use mbs_core::team::on_stretches;
 use mbs_core::{Real, SymmetricSolver};
+
+/// The last correction from which the matrix is factored anew for the projections [scene's length]: half of the digits that they look for.
+const MAX_CORRECTION_OF_FACTOR: f64 = 1e-7;
 
 /// Advances `s` by one [`Step`].
 ///
@@ -45,33 +46,37 @@ pub fn step<T: Real, M: Model<T>, S: SymmetricSolver<T>>(
     take_inputs(model, options, s, w)?;
     let rule = options.integrator.rule(dt);
     w.begin(options.regularisation);
-    predict(model, (&rule, length), options, s, w);
-    let newton = iterate(model, &rule, length, options, s, w)?;
+    let scale = step_scale(model.team(), dt, &s.a);
+    predict(model, (&rule, is_far(scale, length)), options, s, w);
+    let newton = Newton::new((scale, options.tolerance, length));
+    let newton = iterate(model, (&rule, newton), options, s, w)?;
 
-    // The accelerations leave the scaling of the iteration.
-    on_stretches(model.team(), [&mut w.a], |_, [a]| {
-        a.iter_mut().for_each(|a| *a *= rule.acceleration);
-    });
+    // The accelerations leave the unit of the iteration.
+    w.end.scale_accelerations(model, rule.acceleration);
     // The factor belongs to the configuration before the last correction: near enough when that was small.
-    if newton.1 > length * T::from_f64(1e-7) {
+    if newton.1 > length * T::from_f64(MAX_CORRECTION_OF_FACTOR) {
         factor(model, &rule, options, w)?;
     }
-    let violation = w.clean(model, (length, rule.acceleration), options.max_sweeps)?;
+    let violation = w.project_velocities_and_accelerations(
+        model,
+        (length, rule.acceleration),
+        options.max_sweeps,
+    )?;
     check_rotations(model, &w.terms)?;
-    w.commit(model, &rule, options.compensated, rule.acceleration, s);
+    w.commit(model, (&rule, options.compensated, rule.acceleration), s);
     Ok(StepReport::of_newton(newton, w.counts, violation))
 }
 
 /// q, v, a and lambda at the end of the step by extrapolation, and everything evaluated there.
 fn predict<T: Real, M: Model<T>, S: SymmetricSolver<T>>(
     model: &M,
-    (rule, length): (&Rule<T>, T),
+    (rule, is_far): (&Rule<T>, bool),
     options: &Options<T>,
     s: &State<T>,
     w: &mut Workspace<T, S>,
 ) {
     let inverse = T::ONE / rule.acceleration;
-    w.predict(model, (rule, inverse, length), s);
+    w.end.predict(model, (rule, inverse, is_far), s);
     // lambda = 2 lambda_n - lambda_(n-1)   [P3 (3)]
     let expected = s.extrapolated(rule.dt);
     on_stretches(model.team(), [&mut w.lambda], |first, [lambda]| {
@@ -83,21 +88,18 @@ fn predict<T: Real, M: Model<T>, S: SymmetricSolver<T>>(
     w.evaluate(model, options.compensated, s);
 }
 
-/// The Newton loop. Returns iterations, the last correction, and what ended it.
+/// The Newton loop. Returns what is reported of it.
 fn iterate<T: Real, M: Model<T>, S: SymmetricSolver<T>>(
     model: &M,
-    rule: &Rule<T>,
-    length: T,
+    (rule, mut newton): (&Rule<T>, Newton<T>),
     options: &Options<T>,
     s: &State<T>,
     w: &mut Workspace<T, S>,
 ) -> Result<(u32, T, Stop), StepError> {
     let inverse = T::ONE / rule.acceleration;
-    let scale = step_scale(model.team(), rule.dt, &s.a);
-    let mut last = T::ZERO;
-    for iterations in 1..=options.max_iterations {
+    while newton.iterations < options.max_iterations {
         factor(model, rule, options, w)?;
-        if iterations == 1 && options.regularisation.is_some() {
+        if newton.iterations == 0 && options.regularisation.is_some() {
             filter(model, w);
         }
 
@@ -111,23 +113,15 @@ fn iterate<T: Real, M: Model<T>, S: SymmetricSolver<T>>(
         w.correct(model, (T::ONE, rule.velocity));
         w.evaluate(model, options.compensated, s);
 
-        let correction = norm_inf(model.team(), &w.f[..w.n]);
-        if !correction.is_finite() {
-            return Err(StepError::NotFinite { unknown: largest_or_nan(&w.f[..w.n]) });
+        let stop = newton.take(model, &w.f[..w.n], (&w.end, options.compensated))?;
+        if newton.iterations == 1 {
+            w.check_branch(model, newton.length)?;
         }
-        if iterations == 1 {
-            w.check_branch(model, length)?;
+        if let Some(stop) = stop {
+            return Ok(newton.ended(stop));
         }
-        let moved = options.compensated.then(|| norm_inf(model.team(), &w.dq));
-        let measures = (scale, options.tolerance);
-        let sizes = (length, || norm_inf(model.team(), &w.q));
-        let criterion = ConvergenceCriterion::of_coordinates(iterations, measures, sizes, moved);
-        if let Some(stop) = stopping(iterations, correction, last, &criterion) {
-            return Ok((iterations, correction, stop));
-        }
-        last = correction;
     }
-    w.exhausted(model, (options.max_iterations, last), (scale, length))
+    w.exhausted(model, &newton)
 }
 
 /// lambda <- 1/delta J T^-1 J^T lambda, T = W + J^T J / delta: removes what redundant constraints cannot feed, and what would

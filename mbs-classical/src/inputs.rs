@@ -2,13 +2,11 @@
 
 use crate::options::Options;
 use crate::workspace::{Mass, Workspace};
+use mbs_core::implicit::{add_response, has_new_inputs, load_at, solve_response};
 use mbs_core::model::{Model, State};
-use mbs_core::step::{StepError, add_response, has_new_inputs, largest_or_nan, load_at};
-use mbs_core::team::norm_inf;
+use mbs_core::step::StepError;
+use mbs_core::team::add;
 use mbs_core::{Real, SymmetricSolver};
-
-/// Sweeps of the response: one is exact but for rounding and for delta.
-const MAX_SWEEPS: u32 = 12;
 
 /// Makes accelerations, multipliers and power those of the inputs that are set now, if others were set since the last step; says
 /// whether they were. Every step begins with this; a caller that keeps a state to go back to calls it before.
@@ -36,7 +34,7 @@ pub fn take_inputs<T: Real, M: Model<T>, S: SymmetricSolver<T>>(
     for rows in [&mut w.mu, &mut w.lambda, &mut w.rates] {
         rows.fill(T::ZERO);
     }
-    w.a.fill(T::ZERO);
+    w.end.a.fill(T::ZERO);
 
     // -dQ = -Q(u) + Q(u_n)
     let before = load_at(model, s, false, &mut w.terms);
@@ -50,26 +48,15 @@ pub fn take_inputs<T: Real, M: Model<T>, S: SymmetricSolver<T>>(
         *change = f - *change;
     }
 
-    let mut last = None;
-    for _ in 0..MAX_SWEEPS {
+    let sweep = |w: &mut Workspace<T, S>| {
         w.mu.copy_from_slice(&w.lambda);
         w.assemble(model, Mass::Acceleration, T::ZERO, true);
-        for (f, &change) in w.f.iter_mut().zip(&w.change[..n]) {
-            *f += change;
-        }
+        add(model.team(), &mut w.f[..n], &w.change);
         w.solve();
         w.correct(model, (T::ZERO, T::ZERO));
-        model.multiply_jacobian(&w.terms, &w.a, &mut w.rates);
-        let correction = norm_inf(model.team(), &w.f[..n]);
-        if !correction.is_finite() {
-            return Err(StepError::NotFinite { unknown: largest_or_nan(&w.f[..n]) });
-        }
-        let rounding = norm_inf(model.team(), &w.a) * T::EPSILON;
-        if correction <= rounding || last.is_some_and(|last| correction > last * T::HALF) {
-            break;
-        }
-        last = Some(correction);
-    }
-    add_response(model, s, (&w.a[..n], &w.lambda, after - before), &mut w.terms);
+        model.multiply_jacobian(&w.terms, &w.end.a, &mut w.rates);
+    };
+    solve_response(model, w, sweep, |w| [&w.f[..n], &w.end.a])?;
+    add_response(model, s, (&w.end.a[..n], &w.lambda, after - before), &mut w.terms);
     Ok(true)
 }

@@ -4,12 +4,26 @@ use mbs_core::Real;
 use mbs_core::integrator::Integrator;
 use mbs_core::step::OptionError;
 
+/// Newton tolerance [displacement per step]: below it a correction is at the rounding of forces in most scenes.
+const TOLERANCE: f64 = 1e-10;
+/// The least tolerance [EPSILON]: six binary digits are left to rounding.
+const MIN_TOLERANCE: f64 = 64.0;
+/// Iterations [-]: regular steps need two or three.
+const MAX_ITERATIONS: u32 = 20;
+/// Sweeps of a projection [-]: one is exact but for a factor of a near configuration and for delta.
+const MAX_SWEEPS: u32 = 12;
+/// Weakest pivot of rows that count as independent [part of what the pivot is the sum of]: within 1e-6 rad of being dependent, as it goes
+/// with the square.
+const RANK: f64 = 1e-12;
+/// The least of these [EPSILON]: what cancellation leaves in a row of some hundred entries.
+const MIN_RANK: f64 = 300.0;
+
 /// Choices for a step.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Options<T> {
     /// Time integrator.
     pub integrator: Integrator<T>,
-    /// A correction of the coordinates below this times the displacement of a step is small [-].
+    /// Newton tolerance, relative to the displacement per step [-].
     pub tolerance: T,
     /// Iterations allowed in one step.
     pub max_iterations: u32,
@@ -54,10 +68,10 @@ impl<T: Real> Options<T> {
     pub fn index3() -> Self {
         Self {
             integrator: Integrator::trapezoidal(),
-            tolerance: T::tolerance(1e-10).max(T::EPSILON * T::from_f64(64.0)),
-            max_iterations: 20,
-            max_sweeps: 12,
-            rank: T::tolerance(1e-12).max(T::EPSILON * T::from_f64(300.0)),
+            tolerance: T::tolerance(TOLERANCE).max(T::EPSILON * T::from_f64(MIN_TOLERANCE)),
+            max_iterations: MAX_ITERATIONS,
+            max_sweeps: MAX_SWEEPS,
+            rank: T::tolerance(RANK).max(T::EPSILON * T::from_f64(MIN_RANK)),
             regularisation: None,
             stabilisation: Stabilisation::Projection,
             geometric_stiffness: true,

@@ -6,73 +6,45 @@
 //! ```
 //!
 //! [P3 (21), (22)] solve for x itself with the weight W; the correction loses no digits to the condition of the matrix. The
-//! first sweep is the printed projection; the next ones make it orthogonal in the mass, whatever forces are in W, and remove
+//! first sweep is the published projection; the next ones make it orthogonal in the mass, whatever forces are in W, and remove
 //! what a factor of a near configuration or delta left.
 
 use crate::workspace::{Mass, Workspace};
+use mbs_core::implicit::{ConstraintLevel, ResidualLimits};
 use mbs_core::model::Model;
-use mbs_core::step::{StepError, check_guides, largest};
+use mbs_core::step::StepError;
 use mbs_core::team::{norm_inf, on_stretches, subtract};
 use mbs_core::{Real, SymmetricSolver};
 
-/// Violation of a level that is accepted when no sweep lowers it further, relative to the size of the level.
-const LIMIT: f64 = 5e-10;
-
-/// A correction below this times the first one changes the orthogonality of a projection no more.
+/// Part of the first correction below which the next ones change the orthogonality of a projection no more [-]: three digits of a correction
+/// that is small itself.
 const ORTHOGONAL: f64 = 1e-3;
-
-/// Which vector is projected, with its right-hand side b.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Level {
-    /// J v + phi_t = 0.
-    Velocity,
-    /// J a + bias = 0.
-    Acceleration,
-}
 
 impl<T: Real, S: SymmetricSolver<T>> Workspace<T, S> {
     /// rates = J x + b of the level; returns their largest absolute value.
-    pub(crate) fn violation<M: Model<T>>(&mut self, model: &M, level: Level) -> T {
-        let (x, b) = match level {
-            Level::Velocity => (&self.v, &self.terms.phi_t),
-            Level::Acceleration => (&self.a, &self.terms.phi_bias),
+    pub(crate) fn violation<M: Model<T>>(&mut self, model: &M, level: ConstraintLevel) -> T {
+        let x = match level {
+            ConstraintLevel::Velocity => &self.end.v,
+            ConstraintLevel::Acceleration => &self.end.a,
         };
-        model.multiply_jacobian(&self.terms, x, &mut self.rates);
-        if level == Level::Acceleration || model.has_guides() {
-            on_stretches(model.team(), [&mut self.rates], |first, [rates]| {
-                for (r, &b) in rates.iter_mut().zip(&b[first..]) {
-                    *r += b;
-                }
-            });
-        }
-        norm_inf(model.team(), &self.rates)
+        level.violation(model, &self.terms, x, &mut self.rates)
     }
 
     /// Projects v, then a (unscaled), and balances the multipliers `unit` lambda with a; they are left in `mu`. Returns the
     /// violation left at each level. The matrix is factored near q.
-    pub(crate) fn clean<M: Model<T>>(
+    pub(crate) fn project_velocities_and_accelerations<M: Model<T>>(
         &mut self,
         model: &M,
         (length, unit): (T, T),
         max_sweeps: u32,
     ) -> Result<[T; 3], StepError> {
-        if model.has_guides() {
-            model.evaluate_phi_t(&self.q, &mut self.terms);
-            check_guides(model, &self.q, &self.terms)?;
-        }
-        let rounding = T::EPSILON * T::from_f64(1024.0);
-        let limit = T::from_f64(LIMIT).max(rounding);
-        let speed = norm_inf(model.team(), &self.v);
-        let goal = (speed * T::EPSILON * T::from_f64(16.0), (length + speed) * limit);
-        let velocity = self.project(model, Level::Velocity, goal, max_sweeps)?;
-
-        model.evaluate_bias(&self.q, &self.v, &mut self.terms);
-        let size =
-            norm_inf(model.team(), &self.a).max(norm_inf(model.team(), &self.terms.phi_bias));
-        let goal = (size * rounding, (T::ONE + size) * limit);
-        let acceleration = self.project(model, Level::Acceleration, goal, max_sweeps)?;
-
-        self.evaluate_forces(model);
+        let level = ConstraintLevel::Velocity;
+        let limits = level.limits(model, &self.end, length, &mut self.terms)?;
+        let velocity = self.project(model, level, limits, max_sweeps)?;
+        let level = ConstraintLevel::Acceleration;
+        let limits = level.limits(model, &self.end, length, &mut self.terms)?;
+        let acceleration = self.project(model, level, limits, max_sweeps)?;
+        self.end.evaluate_forces(model, &mut self.terms);
         self.balance(model, unit);
         Ok([norm_inf(model.team(), &self.terms.phi), velocity, acceleration])
     }
@@ -84,8 +56,8 @@ impl<T: Real, S: SymmetricSolver<T>> Workspace<T, S> {
     fn project<M: Model<T>>(
         &mut self,
         model: &M,
-        level: Level,
-        (goal, limit): (T, T),
+        level: ConstraintLevel,
+        ResidualLimits { goal, limit, .. }: ResidualLimits<T>,
         max_sweeps: u32,
     ) -> Result<T, StepError> {
         self.sigma.fill(T::ZERO);
@@ -98,8 +70,8 @@ impl<T: Real, S: SymmetricSolver<T>> Workspace<T, S> {
         for sweeps in 0..max_sweeps {
             self.sweep(model, sweeps > 0);
             let x = match level {
-                Level::Velocity => &mut self.v,
-                Level::Acceleration => &mut self.a,
+                ConstraintLevel::Velocity => &mut self.end.v,
+                ConstraintLevel::Acceleration => &mut self.end.a,
             };
             subtract(model.team(), &mut x[..self.n], &self.f);
             let left = self.violation(model, level);
@@ -118,9 +90,7 @@ impl<T: Real, S: SymmetricSolver<T>> Workspace<T, S> {
         if violation <= limit {
             return Ok(violation);
         }
-        let level = if level == Level::Velocity { 1 } else { 2 };
-        let row = largest(&self.rates);
-        Err(StepError::Violated { level, violation: violation.to_f64(), row })
+        Err(level.violated(violation, &self.rates))
     }
 
     /// One sweep on the violation in `rates`; as long as nothing `is_changed` mass and sigma have no part in it. The

@@ -2,11 +2,12 @@
 
 use alloc::vec;
 use alloc::vec::Vec;
-use mbs_core::integrator::{Rule, is_far};
+use mbs_core::implicit::{Newton, StepEnd, commit};
+use mbs_core::integrator::Rule;
 use mbs_core::model::{Load, Model, Owner, State, Tangent, Terms};
 use mbs_core::saddle::{Saddle, SaddleSystem};
-use mbs_core::step::{Counts, StepError, Stop, add_work, largest, step_scale, take_coordinates};
-use mbs_core::team::{norm_inf, on_elements, on_stretches, subtract};
+use mbs_core::step::{Counts, StepError, Stop, largest};
+use mbs_core::team::{norm_inf, on_elements, subtract};
 use mbs_core::{FactorError, Real, SymmetricSolver};
 
 /// Scratch of the classical steps over a solver `S`. Nothing is allocated after [`Workspace::new`], but for what the solver
@@ -18,11 +19,8 @@ pub struct Workspace<T, S> {
     pub(crate) terms: Terms<T>,
     /// Jacobian rows of all elements.
     jacobian: Vec<T>,
-    /// q_(n+1) - q_n and q_(n+1), v, a/a' (index-3) or a (index-1), extended.
-    pub(crate) dq: Vec<T>,
-    pub(crate) q: Vec<T>,
-    pub(crate) v: Vec<T>,
-    pub(crate) a: Vec<T>,
+    /// The end of the step, with a/a' (index-3) or a (index-1).
+    pub(crate) end: StepEnd<T>,
     /// x - x* of a projection, extended.
     pub(crate) change: Vec<T>,
     /// Right-hand side, then correction, of coordinates and multipliers, n + m.
@@ -44,15 +42,21 @@ pub struct Workspace<T, S> {
     pub(crate) counts: Counts,
 }
 
-/// A weakest pivot below this may belong to a singular position nearby: within some hundredths of a radian of it.
-const CLOSE: f64 = 1e-3;
-
-/// Rows are nearly dependent when |J^T mu| is below this share of its parts. Where the tangent is only badly scaled, as by a
-/// fast spin, it is of order one; in the singular position it is zero.
-const DEPENDENT: f64 = 0.1;
-
-/// A weakest pivot below this explains why an iteration does not converge.
-const NEAR: f64 = 1e-4;
+/// Weakest pivot below which a singular position may be near [part of what the pivot is the sum of]: it goes with the square of the
+/// distance, so that this is within 0.03 rad.
+const MAX_PIVOT_OF_BRANCH: f64 = 1e-3;
+/// Cancellation in J^T mu below which rows are nearly dependent [part of the sum of its parts]: of order one where the tangent is only badly
+/// scaled, as by a fast spin; zero in the singular position.
+const MAX_CANCELLATION: f64 = 0.1;
+/// Weakest pivot below which lost rank explains why an iteration does not converge [part of what the pivot is the sum of]: within 0.01 rad of
+/// a singular position.
+const MAX_PIVOT_OF_FAILURE: f64 = 1e-4;
+/// Part of the largest multiplier in a null vector from which a row takes part in the dependence [-]: three digits are more than rounding
+/// leaves in it.
+const MIN_PART_OF_ROW: f64 = 1e-3;
+/// Distances of two branches, as a multiple of which a correction is compared with the weakest pivot [-]: a step that goes a quarter of the
+/// way may end on either.
+const BRANCH_DISTANCE: f64 = 4.0;
 
 /// Which vector stands at M in a residual.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -80,10 +84,7 @@ impl<T: Real, S: SymmetricSolver<T>> Workspace<T, S> {
             solver,
             saddle,
             terms,
-            dq: zeros(e),
-            q: start.q,
-            v: zeros(e),
-            a: zeros(e),
+            end: StepEnd::new(model),
             change: zeros(e),
             f: zeros(n + m),
             sums: zeros(2 * n),
@@ -126,64 +127,17 @@ impl<T: Real, S: SymmetricSolver<T>> Workspace<T, S> {
         }
     }
 
-    /// dq, v and a at the end of the step by extrapolation, a times `weight`.
-    pub(crate) fn predict<M: Model<T>>(
-        &mut self,
-        model: &M,
-        (rule, weight, length): (&Rule<T>, T, T),
-        s: &State<T>,
-    ) {
-        let n = self.n;
-        let vectors = [&mut self.dq[..n], &mut self.v[..n], &mut self.a[..n]];
-        on_stretches(model.team(), vectors, |first, [dq, v, a]| {
-            for k in 0..dq.len() {
-                let i = first + k;
-                let predicted = rule.predict(s.v[i], s.a[i], s.a_aux[i]);
-                (dq[k], v[k], a[k]) = (predicted.0, predicted.1, predicted.2 * weight);
-            }
-        });
-        if is_far(step_scale(model.team(), rule.dt, &s.a[..n]), length) {
-            rule.hold_back(weight, [&mut self.dq[..n], &mut self.v, &mut self.a], &s.a_aux);
-        }
-    }
-
     /// q += x d,   v += y d,   a += d,   lambda += d_lambda   with (d, d_lambda) = -f
-    pub(crate) fn correct<M: Model<T>>(&mut self, model: &M, (x, y): (T, T)) {
-        let n = self.n;
-        let (d, d_lambda) = self.f.split_at(n);
-        let vectors = [&mut self.dq[..n], &mut self.v[..n], &mut self.a[..n]];
-        on_stretches(model.team(), vectors, |first, [dq, v, a]| {
-            let d = &d[first..][..dq.len()];
-            for k in 0..dq.len() {
-                dq[k] -= x * d[k];
-                v[k] -= y * d[k];
-                a[k] -= d[k];
-            }
-        });
+    pub(crate) fn correct<M: Model<T>>(&mut self, model: &M, weights: (T, T)) {
+        let (d, d_lambda) = self.f.split_at(self.n);
+        self.end.correct(model, weights, d);
         subtract(model.team(), &mut self.lambda, d_lambda);
     }
 
     /// phi and J at the current q, and forces at the current q, v.
     pub(crate) fn evaluate<M: Model<T>>(&mut self, model: &M, compensated: bool, s: &State<T>) {
-        let (n, dq) = (self.n, &self.dq);
-        on_stretches(model.team(), [&mut self.q[..n]], |first, [q]| {
-            for ((q, &q_n), &dq) in q.iter_mut().zip(&s.q[first..]).zip(&dq[first..]) {
-                *q = q_n + dq;
-            }
-        });
-        if compensated {
-            model.advance(&s.q, &self.dq, &s.phi, &mut self.terms);
-        } else {
-            model.evaluate(&self.q, &mut self.terms);
-        }
-        self.evaluate_forces(model);
-    }
-
-    /// Forces at the current q, v.
-    pub(crate) fn evaluate_forces<M: Model<T>>(&mut self, model: &M) {
-        if model.has_forces() {
-            model.evaluate_forces(&self.q, &self.v, &mut self.terms);
-        }
+        self.end.evaluate(model, compensated, s, &mut self.terms);
+        self.end.evaluate_forces(model, &mut self.terms);
     }
 
     /// Factors the saddle matrix with the given weights of stiffness and damping. Rank must not fall below `rank`.
@@ -245,7 +199,7 @@ impl<T: Real, S: SymmetricSolver<T>> Workspace<T, S> {
         }
         let rows = &self.null[self.n..];
         let most = norm_inf(model.team(), rows);
-        let part = |row: &usize| rows[*row].abs() > most * T::from_f64(1e-3);
+        let part = |row: &usize| rows[*row].abs() > most * T::from_f64(MIN_PART_OF_ROW);
         let is_of_joint = |row: &usize| matches!(model.owner_of_row(*row), Owner::Joint(_));
         let row = (0..rows.len())
             .find(|row| part(row) && is_of_joint(row))
@@ -254,12 +208,12 @@ impl<T: Real, S: SymmetricSolver<T>> Workspace<T, S> {
         StepError::RankLost { row: u32::try_from(row).unwrap_or(u32::MAX), pivot: error.pivot }
     }
 
-    /// Does the null vector, with a one at `unknown`, tell of rows that depend on each other, or nearly do? Pivots are measured by inertias: a light
+    /// Does the null vector, with a one at `unknown`, show rows that depend on each other, or nearly do? Pivots are measured by inertias: a light
     /// piece that carries heavy ones makes them small too, and so does a coordinate that nothing determines.
     fn has_dependent_rows<M: Model<T>>(&mut self, model: &M, unknown: u32) -> bool {
         let most = norm_inf(model.team(), &self.null[self.n..]);
         let has_rows = unknown as usize >= self.n || most > T::EPSILON.sqrt();
-        has_rows && !(self.cancellation(model) > T::from_f64(DEPENDENT))
+        has_rows && !(self.cancellation(model) > T::from_f64(MAX_CANCELLATION))
     }
 
     /// Near a singular position two branches cross, as far from each other as the mechanism is from it. The correction of the
@@ -276,7 +230,7 @@ impl<T: Real, S: SymmetricSolver<T>> Workspace<T, S> {
     ) -> Result<(), StepError> {
         let weakest = self.solver.weakest();
         let ratio = T::from_f64(weakest.ratio);
-        if !self.delta.is_empty() || ratio > T::from_f64(CLOSE) {
+        if !self.delta.is_empty() || ratio > T::from_f64(MAX_PIVOT_OF_BRANCH) {
             return Ok(());
         }
         self.solver.null_vector(&mut self.null, &mut self.scratch);
@@ -289,7 +243,8 @@ impl<T: Real, S: SymmetricSolver<T>> Workspace<T, S> {
             along += x * d;
             square += x * x;
         }
-        let part = along.abs() * norm_inf(model.team(), x) / square * T::from_f64(4.0) / length;
+        let part = along.abs() * norm_inf(model.team(), x) / square * T::from_f64(BRANCH_DISTANCE)
+            / length;
         if square > T::ZERO && part * part > ratio {
             let error = FactorError { unknown: weakest.unknown, pivot: weakest.ratio };
             return Err(self.diagnose(model, error));
@@ -318,26 +273,24 @@ impl<T: Real, S: SymmetricSolver<T>> Workspace<T, S> {
         sum(sums) / sum(sizes).max(T::EPSILON)
     }
 
-    /// The allowed iterations are used: the `last` correction is small beside the displacement of the step (`scale`), or the
-    /// iteration did not converge, near a singular position for want of rank.
+    /// The allowed iterations are used: the last correction is small beside the displacement of the step, or the iteration did not
+    /// converge, near a singular position for want of rank.
     pub(crate) fn exhausted<M: Model<T>>(
         &mut self,
         model: &M,
-        (iterations, last): (u32, T),
-        (scale, length): (T, T),
+        newton: &Newton<T>,
     ) -> Result<(u32, T, Stop), StepError> {
-        if last <= scale * T::from_f64(1e-6) {
-            return Ok((iterations, last, Stop::Tolerance));
+        if newton.is_accepted() {
+            return Ok(newton.ended(Stop::Tolerance));
         }
         let weakest = self.solver.weakest();
-        if weakest.ratio < NEAR {
+        if weakest.ratio < MAX_PIVOT_OF_FAILURE {
             let error = FactorError { unknown: weakest.unknown, pivot: weakest.ratio };
             if let lost @ StepError::RankLost { .. } = self.diagnose(model, error) {
                 return Err(lost);
             }
         }
-        let (unknown, correction) = (largest(&self.f[..self.n]), (last / length).to_f64());
-        Err(StepError::NotConverged { iterations, correction, unknown })
+        Err(newton.failure(&self.f[..self.n]))
     }
 
     fn last_coordinate(&self) -> u32 {
@@ -360,19 +313,16 @@ impl<T: Real, S: SymmetricSolver<T>> Workspace<T, S> {
     ) {
         let mass = match mass {
             Mass::None => None,
-            Mass::Acceleration => Some(&self.a[..]),
+            Mass::Acceleration => Some(&self.end.a[..]),
             Mass::Change => Some(&self.change[..]),
         };
+        let tangent =
+            Tangent { stiffness: T::ZERO, damping: T::ZERO, penalty: &[], geometric: None };
         let system = SaddleSystem {
             model,
             saddle: &self.saddle,
             terms: &self.terms,
-            tangent: Tangent {
-                stiffness: T::ZERO,
-                damping: T::ZERO,
-                penalty: &[],
-                geometric: None,
-            },
+            tangent,
             jacobian: &self.jacobian,
             delta: &self.delta,
             load: Load { mass, multipliers: Some(&self.mu), force },
@@ -385,31 +335,11 @@ impl<T: Real, S: SymmetricSolver<T>> Workspace<T, S> {
     pub(crate) fn commit<M: Model<T>>(
         &mut self,
         model: &M,
-        rule: &Rule<T>,
-        compensated: bool,
-        unit: T,
+        (rule, compensated, unit): (&Rule<T>, bool, T),
         s: &mut State<T>,
     ) {
-        take_coordinates(
-            model.team(),
-            (rule, compensated, self.n),
-            s,
-            (&self.dq, &self.v, &self.a),
-        );
-        let m = self.lambda.len();
-        let (lambda_new, mu, phi_new) = (&self.lambda, &self.mu, &self.terms.phi);
-        let State { lambda_previous, lambda, reaction, phi, .. } = s;
-        let vectors =
-            [&mut lambda_previous[..m], &mut lambda[..m], &mut reaction[..m], &mut phi[..m]];
-        on_stretches(model.team(), vectors, |first, [previous, lambda, reaction, phi]| {
-            for k in 0..lambda.len() {
-                previous[k] = lambda[k];
-                lambda[k] = lambda_new[first + k] * unit;
-                reaction[k] = mu[first + k];
-                phi[k] = phi_new[first + k];
-            }
-        });
-        s.t += rule.dt;
-        add_work(model, rule.dt, s, &mut self.terms);
+        let mu = &self.mu;
+        let multipliers = (&self.lambda[..], unit, |row: usize, _| mu[row]);
+        commit(model, (rule, compensated), &self.end, multipliers, &mut self.terms, s);
     }
 }

@@ -17,6 +17,8 @@ mod forward;
 #[cfg(feature = "alloc")]
 pub mod history;
 #[cfg(feature = "alloc")]
+pub mod implicit;
+#[cfg(feature = "alloc")]
 pub mod inputs;
 pub mod integrator;
 pub mod laws;

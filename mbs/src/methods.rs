@@ -230,7 +230,7 @@ fn augmented_options<T: Real>(
         options.adaptive_penalty = false;
     }
     if let Some(tolerance) = demands.tolerance {
-        (options.tolerance, options.share) = (T::from_f64(tolerance), T::ZERO);
+        (options.tolerance, options.truncation_share) = (T::from_f64(tolerance), T::ZERO);
     }
     options
 }

@@ -5,3 +5,5 @@ mod double_double;
 mod inputs;
 mod invariants;
 mod multi_index;
+mod printed;
+mod strategies;

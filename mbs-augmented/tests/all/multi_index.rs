@@ -117,7 +117,7 @@ fn short_steps_are_made_in_index_1_and_long_ones_in_index_3_with_room_between() 
     let mut index_at = |change: &mut IndexChange<f64>, h: f64, reductions: u32| {
         let is_changed = change.prepare(model, Step { dt: h, length }, reductions, state, work);
         change.tried(h);
-        change.keep();
+        change.accept();
         (change.index(), is_changed)
     };
     assert_eq!(index_at(&mut change, 1.1e-4, 0), (ConstraintIndex::Three, false));

@@ -1,19 +1,15 @@
-//! What the steps of all formulations share: errors, reports, and how a finished step enters the state.
+//! What the steps of all formulations share: errors, reports, and what they look for in vectors. What implicit ones share beside this is in
+//! `implicit`, re-exported here where others than the augmented and the classical Lagrangian use it.
 
-#[cfg(feature = "alloc")]
-mod commit;
 mod error;
-#[cfg(feature = "alloc")]
-mod inputs;
-mod newton;
 mod report;
 mod scan;
 
 #[cfg(feature = "alloc")]
-pub use commit::{add_work, check_guides, check_rotations, take_coordinates};
+pub use crate::implicit::{
+    add_response, add_work, check_guides, check_rotations, has_new_inputs, load_at,
+    take_coordinates,
+};
 pub use error::{InputError, OptionError, StepError};
-#[cfg(feature = "alloc")]
-pub use inputs::{add_response, has_new_inputs, load_at};
-pub use newton::{ConvergenceCriterion, stopping};
 pub use report::{Counts, Step, StepReport, Stop};
 pub use scan::{largest, largest_or_nan, step_scale};

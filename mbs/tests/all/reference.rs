@@ -1,5 +1,4 @@
-//! Motions against references: elliptic functions, extrapolation with 34 digits, closed-form kinematics; and the report's
-//! breakdown of the printed form.
+//! Motions against references: elliptic functions, extrapolation with 34 digits, closed-form kinematics.
 #![allow(
     clippy::print_stdout,
     clippy::excessive_precision,
@@ -9,10 +8,6 @@
 use crate::common;
 
 use crate::common::{Bench, FORMULATIONS, distance, steps, worst};
-use mbs::StopError;
-use mbs::augmented::{Augmented, Form, Options, Projection, StepError};
-use mbs::parallel::Threads;
-use mbs::sparse::Multifrontal;
 
 /// Errors at a step and at half of it have this ratio in a method of order 2; higher orders of the step make the rest.
 const SECOND_ORDER: core::ops::Range<f64> = 3.7..4.3;
@@ -185,80 +180,6 @@ fn rssr_rocker_follows_the_crank_in_closed_form() {
         assert!(off <= KINEMATICS, "{formulation}: {off:e}");
         assert!(reach > 50.0, "the crank turns fully, several times");
     }
-}
-
-/// Steps a bench in index-3 with other options.
-fn step_with(bench: &mut Bench<2>, options: Options<f64>) {
-    type OfRun = Augmented<f64, Multifrontal<f64, Threads>, Threads>;
-    let formulation = bench.simulation.formulation_mut().as_any_mut();
-    let augmented: &mut OfRun = formulation.downcast_mut().expect("index-3 is augmented");
-    augmented.set_form(Form::Index3(options)).expect("options in their ranges");
-}
-
-/// Outcome of the double pendulum in the printed form to 10 s: largest energy error, or the error of the step that failed.
-fn printed(alpha: f64, step: f64, projection: Projection) -> Result<f64, (f64, StopError)> {
-    let mut bench = Bench::<2>::new("double-pendulum", "index-3", step);
-    step_with(&mut bench, Options { projection, ..Options::printed(alpha) });
-    let mut error = 0.0;
-    let outcome = bench.run(10.0, |b| error = worst(error, b.energy_error()));
-    println!("printed alpha {alpha:e} dt {step:e} {projection:?}: {outcome:?}, {error:.3e} J");
-    outcome.map(|()| error)
-}
-
-/// The forms of the projections in publications 1 and 3.
-const PRINTED_PROJECTIONS: [Projection; 2] =
-    [Projection::Printed { sweeps: 1 }, Projection::PrintedTangent];
-
-/// Publication 1's index-3 column is 2.1e-1 and 4.6e-3 in its own measure; in joules the exact form gives 4.7e-1 and 4.7e-3.
-/// One sweep with the tangent leaves 1 / (1 + alpha dt^2 / (4 m)) of a velocity violation and a fifth more at 1e-3 [J].
-const PRINTED_AT_1E_2: f64 = 4.7e-1;
-const PRINTED_AT_1E_3: f64 = 6e-3;
-/// With alpha = 1e9 the projection, solved for v itself, loses 1e9 eps of v at each of 1e5 steps: the book is off by 1.7e-2
-/// where the exact form gives 4.3e-5 [J].
-const PRINTED_AT_1E_4: f64 = 5e-2;
-
-#[test]
-fn printed_form_with_alpha_1e7_works_to_1e_3_and_does_not_converge_at_1e_4() {
-    for projection in PRINTED_PROJECTIONS {
-        for (step, limit) in [(1e-2, PRINTED_AT_1E_2), (1e-3, PRINTED_AT_1E_3)] {
-            let error = printed(1e7, step, projection).expect("the report's table has this entry");
-            assert!(error <= limit, "{step}: {error:e}");
-        }
-        let broken = printed(1e7, 1e-4, projection);
-        assert!(
-            matches!(broken, Err((_, StopError::Step(StepError::NotConverged { .. }, _)))),
-            "{broken:?}"
-        );
-    }
-}
-
-#[test]
-fn printed_form_with_alpha_1e9_works_to_1e_4_and_does_not_converge_at_1e_5() {
-    for projection in PRINTED_PROJECTIONS {
-        let error = printed(1e9, 1e-4, projection).expect("a larger alpha reaches a smaller step");
-        assert!(error <= PRINTED_AT_1E_4, "{error:e}");
-        let broken = printed(1e9, 1e-5, projection);
-        assert!(
-            matches!(broken, Err((_, StopError::Step(StepError::NotConverged { .. }, _)))),
-            "{broken:?}"
-        );
-    }
-}
-
-/// Steps leave velocities off by 3e-5 m/s where the cranks cross the horizontal; of that a sweep leaves a millionth, and rounding [m/s].
-const SWEPT: f64 = 1e-9;
-
-#[test]
-fn sweeps_with_the_tangent_as_it_is_hold_where_penalties_were_raised() {
-    let mut bench = Bench::<2>::new("two-four-bars", "index-3", 1e-3);
-    let projection = Projection::PrintedTangent;
-    step_with(&mut bench, Options { projection, ..Options::index3() });
-    let mut off = 0.0;
-    for _ in 0..2000 {
-        off = worst(off, bench.step().expect("passes singular positions").violation[1]);
-    }
-    println!("two-four-bars, tangent as it is: {off:.1e} m/s");
-    assert!(off <= SWEPT, "{off:e} m/s");
 }
 
 type Point = [f64; 2];

@@ -81,12 +81,13 @@ impl Frame<'_> {
             "sparse/src/multifrontal.rs" if is(&["factor"]) => Some(Part::Kernels),
             "sparse/src/multifrontal.rs" if is(&["assemble"]) => Some(Part::Residuals),
             "sparse/src/multifrontal.rs" => Some(Part::Sweeps),
-            "augmented/src/nearby.rs" => Some(Part::Projections),
-            "augmented/src/projection.rs" if is(&PROJECTIONS) => Some(Part::Projections),
-            "augmented/src/index3.rs" if is(&["clean", "is_nearby", "balance"]) => {
+            "augmented/src/projection.rs" | "augmented/src/index3/project.rs" => {
                 Some(Part::Projections)
             }
-            "augmented/src/index3.rs" | "augmented/src/projection.rs" => Some(Part::Rest),
+            "augmented/src/multipliers.rs" if is(&["balance"]) => Some(Part::Projections),
+            "augmented/src/index3.rs" | "augmented/src/penalty.rs" => Some(Part::Rest),
+            "augmented/src/multipliers.rs" => Some(Part::Rest),
+            _ if path.starts_with("augmented/src/newton/") => Some(Part::Rest),
             _ if path.starts_with("core/src/") => self.part_of_model(&path["core/src/".len()..]),
             _ => None,
         }
@@ -147,17 +148,6 @@ const RESIDUALS: [&str; 9] = [
     "add_multiples",
 ];
 const SWEEPS: [&str; 6] = ["visit", "solve", "forward", "forward_all", "backward", "backward_all"];
-const PROJECTIONS: [&str; 9] = [
-    "violation",
-    "project",
-    "project_on",
-    "begin",
-    "sweep",
-    "take",
-    "best_length",
-    "lengthen",
-    "lengthen_last",
-];
 
 /// The chains of functions at addresses, as `addr2line -a -f -i -C` tells them: innermost first.
 pub(crate) fn chains(told: &str) -> BTreeMap<u64, Vec<Frame<'_>>> {
@@ -250,8 +240,8 @@ mod tests {
         /r/mbs-core/src/natural/element.rs:48 (discriminator 2)\n\
         mbs_sparse::share::assemble\n/r/mbs-sparse/src/share.rs:120\n\
         0x0000000000000018\nmbs_core::team::norm_inf\n/r/mbs-core/src/team.rs:190\n\
-        mbs_augmented::projection::<impl mbs_augmented::workspace::Workspace<T,S>>::violation\n\
-        /r/mbs-augmented/src/projection.rs:40\nmbs_augmented::index3::clean\n/r/mbs-augmented/src/index3.rs:270\n\
+        mbs_augmented::projection::Projector<T,M,S>::violation\n\
+        /r/mbs-augmented/src/projection.rs:40\nmbs_augmented::index3::project::project\n/r/mbs-augmented/src/index3/project.rs:27\n\
         0x0000000000000080\n??\n??:0\n";
 
     fn part_of(function: &str, file: &str) -> Option<Part> {

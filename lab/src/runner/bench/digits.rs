@@ -4,6 +4,7 @@
 
 use crate::bench::request::say;
 use crate::bench::scenes;
+use mbs_augmented::printed::{self, publication1};
 use mbs_augmented::{Options, Penalty, Workspace, index3};
 use mbs_core::Real;
 use mbs_core::model::{Model, State};
@@ -54,18 +55,28 @@ fn number<T: Real>(text: &str) -> Result<T, String> {
     T::from_decimal(text).ok_or_else(|| format!("`{text}` is no number"))
 }
 
-/// The options of a form.
-fn options<T: Real>(asked: &Asked<'_>) -> Result<Options<T>, String> {
+/// A form of index-3 with its options.
+#[derive(Debug)]
+enum Form<T> {
+    Published(printed::Options<T>),
+    Ours(Options<T>),
+}
+
+/// The form that is asked for.
+fn form<T: Real>(asked: &Asked<'_>) -> Result<Form<T>, String> {
     let alpha = number(asked.alpha)?;
     // Each of them iterates to double precision: more digits make nothing else different.
     let tolerance = T::from_f64(1e-10);
     let ours = Options { tolerance, ..Options::index3() };
     match asked.form {
-        "printed" => Ok(Options { tolerance, ..Options::printed(alpha) }),
-        "correction" => {
-            Ok(Options { penalty: Penalty::Fixed(alpha), adaptive_penalty: false, ..ours })
+        "printed" => {
+            Ok(Form::Published(printed::Options { tolerance, ..printed::Options::new(alpha) }))
         }
-        "default" => Ok(ours),
+        "correction" => {
+            let penalty = Penalty::Fixed(alpha);
+            Ok(Form::Ours(Options { penalty, adaptive_penalty: false, ..ours }))
+        }
+        "default" => Ok(Form::Ours(ours)),
         form => Err(format!("no form `{form}`; there are printed, correction, default")),
     }
 }
@@ -134,7 +145,7 @@ fn run<T: Real, S: SpdSolver<T>>(
     if scene.dimension != Dimension::Planar {
         return Err(format!("`{}` is not planar", asked.scene));
     }
-    let options = options::<T>(asked)?;
+    let form = form::<T>(asked)?;
     let model = NaturalModel::<T, 2>::new(&scene).map_err(|e| e.to_string())?;
     let mut solver = plain(&model);
     let start = assemble(&scene, &model, |p| plain(p), &mut solver);
@@ -149,7 +160,10 @@ fn run<T: Real, S: SpdSolver<T>>(
     let mut outcome = Outcome::default();
     for _ in 0..n {
         let clock = Instant::now();
-        let report = index3::step(&model, step, &options, &mut state, &mut workspace);
+        let report = match &form {
+            Form::Published(o) => publication1(&model, step, o, &mut state, &mut workspace),
+            Form::Ours(o) => index3::step(&model, step, o, &mut state, &mut workspace),
+        };
         outcome.seconds += (clock.elapsed().as_secs_f64() - reading).max(0.0);
         outcome.take(state.t.to_f64(), report, tally(workspace.solver()));
         if outcome.stopped.is_some() {
@@ -227,20 +241,23 @@ mod tests {
             assert!(told.contains(why), "{told}");
         }
         let asked = |form, alpha| Asked { scene: "", form, step: "1", span: "1", alpha };
-        assert!(options::<f64>(&asked("print", "1")).unwrap_err().contains("no form `print`"));
-        assert!(options::<f64>(&asked("printed", "x")).unwrap_err().contains("`x` is no number"));
+        assert!(form::<f64>(&asked("print", "1")).unwrap_err().contains("no form `print`"));
+        assert!(form::<f64>(&asked("printed", "x")).unwrap_err().contains("`x` is no number"));
     }
 
     #[test]
     fn a_form_is_the_same_with_more_digits() {
-        for form in ["printed", "correction", "default"] {
-            let asked = Asked { scene: "", form, step: "1", span: "1", alpha: "1e9" };
-            let (short, long) = (options::<f64>(&asked).unwrap(), options::<Pair>(&asked).unwrap());
-            assert_eq!(short.tolerance.to_bits(), long.tolerance.to_f64().to_bits());
-            assert_eq!(
-                (short.max_iterations, short.projection),
-                (long.max_iterations, long.projection)
-            );
+        fn limits<T: Real>(form: &Form<T>) -> (u64, u32, bool) {
+            let (tolerance, iterations) = match form {
+                Form::Published(o) => (o.tolerance, o.max_iterations),
+                Form::Ours(o) => (o.tolerance, o.max_iterations),
+            };
+            (tolerance.to_f64().to_bits(), iterations, matches!(form, Form::Published(_)))
+        }
+        for name in ["printed", "correction", "default"] {
+            let asked = Asked { scene: "", form: name, step: "1", span: "1", alpha: "1e9" };
+            let (short, long) = (form::<f64>(&asked).unwrap(), form::<Pair>(&asked).unwrap());
+            assert_eq!(limits(&short), limits(&long));
         }
     }
 

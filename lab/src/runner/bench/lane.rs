@@ -43,11 +43,11 @@ impl Method {
             Self::One => index1::step(model, step, &Options::index1(), s, w),
             Self::Three => index3::step(model, step, &Options::index3(), s, w),
             Self::Both(change) => {
-                w.keep();
+                w.save();
                 change.prepare(model, step, 0, s, w);
                 let report = change.step(model, step, s, w)?;
                 change.tried(step.dt);
-                change.keep();
+                change.accept();
                 Ok(report)
             }
         }

@@ -1,10 +1,39 @@
 //! How a finished step in natural coordinates enters the state, and what steps look for on the way.
 
-use super::error::StepError;
+use super::StepEnd;
 use crate::Real;
 use crate::integrator::Rule;
 use crate::model::{Model, Owner, State, Terms};
+use crate::step::StepError;
 use crate::team::{Team, on_stretches};
+
+/// Takes a finished step over into the state: its end, with accelerations in [m/s^2]; `lambda` times `unit` as multipliers of the equations
+/// of motion, and those that are in balance with the projected accelerations, `reaction` of a row and its multiplier.
+#[inline]
+pub fn commit<T: Real, M: Model<T>>(
+    model: &M,
+    (rule, compensated): (&Rule<T>, bool),
+    end: &StepEnd<T>,
+    (lambda, unit, reaction): (&[T], T, impl Fn(usize, T) -> T + Sync),
+    terms: &mut Terms<T>,
+    s: &mut State<T>,
+) {
+    let team = model.team();
+    take_coordinates(team, (rule, compensated, end.moved().len()), s, (&end.dq, &end.v, &end.a));
+    let phi = &terms.phi;
+    let rows = [&mut s.lambda_previous[..], &mut s.lambda, &mut s.reaction, &mut s.phi];
+    on_stretches(team, rows, |first, [previous, last, reaction_n, phi_n]| {
+        for k in 0..last.len() {
+            let i = first + k;
+            previous[k] = last[k];
+            last[k] = lambda[i] * unit;
+            reaction_n[k] = reaction(i, last[k]);
+            phi_n[k] = phi[i];
+        }
+    });
+    s.t += rule.dt;
+    add_work(model, rule.dt, s, terms);
+}
 
 /// (q, q_low) += dq without rounding where `compensated`, q += dq where not; v and a are taken over, and the auxiliary
 /// accelerations follow. All slices are read over the unknowns (the length of `dq` or less: `n`).

@@ -10,6 +10,11 @@
 
 use crate::Real;
 use crate::model::{Model, State, Terms};
+use crate::step::{StepError, largest_or_nan};
+use crate::team::norm_inf;
+
+/// Sweeps of a response at most [-]: the first leaves 1e-6 of it or less, one or two more go to rounding.
+const MAX_SWEEPS: u32 = 12;
 
 /// Are inputs set to other values than those that the accelerations of `s` were made with?
 #[inline]
@@ -33,6 +38,34 @@ pub fn load_at<T: Real, M: Model<T>>(
     }
     model.evaluate_forces(&s.q, &s.v, terms);
     model.potential_energy(&s.q, terms)
+}
+
+/// Solves for a response by sweeps, each of which writes the correction -f and the response over the unknowns, until a correction is
+/// rounding or no longer shrinks.
+///
+/// # Errors
+/// That of a sweep, or [`StepError::NotFinite`].
+pub fn solve_response<T: Real, M: Model<T>, W>(
+    model: &M,
+    w: &mut W,
+    mut sweep: impl FnMut(&mut W),
+    vectors: impl Fn(&W) -> [&[T]; 2],
+) -> Result<(), StepError> {
+    let mut last = None;
+    for _ in 0..MAX_SWEEPS {
+        sweep(w);
+        let [f, da] = vectors(w);
+        let correction = norm_inf(model.team(), f);
+        if !correction.is_finite() {
+            return Err(StepError::NotFinite { unknown: largest_or_nan(f) });
+        }
+        let is_slow = last.is_some_and(|last| correction > last * T::HALF);
+        if correction <= norm_inf(model.team(), da) * T::EPSILON || is_slow {
+            break;
+        }
+        last = Some(correction);
+    }
+    Ok(())
 }
 
 /// Adds the response of accelerations (over the unknowns, or more) and multipliers to the state, and books `work` [J]; `terms` are

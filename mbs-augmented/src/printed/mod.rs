@@ -1,0 +1,129 @@
+//! Index-3 as publications 1 and 3 have it: fixed alpha, plain arithmetic, projections without a level.
+//!
+//! ```text
+//! M q'' + J^T (alpha phi + lambda) = Q,      lambda <- lambda + alpha phi              [P3 (1), (2)]
+//! publication 1: lambda from zero [P1 (16)], then W x <- M x - J^T alpha b, once       [P1 (13), (19)]
+//! publication 3: lambda extrapolated [P3 (3)], then T x = (T - J^T s J) x* - J^T s b   [P3 (11), (12)]
+//! ```
+//!
+//! For comparison alone: the small steps in which these lose their digits are what the formulation of [`index3`](crate::index3) is for.
+
+mod projection;
+
+use crate::index3;
+use crate::inputs::take_inputs;
+use crate::multipliers::{MultiplierStart, balance};
+use crate::options::Penalty;
+use crate::workspace::Workspace;
+use mbs_core::implicit::ConstraintLevel;
+use mbs_core::integrator::Integrator;
+use mbs_core::model::{Model, State};
+use mbs_core::step::{Step, StepError, StepReport, check_rotations};
+use mbs_core::team::norm_inf;
+use mbs_core::{Real, SpdSolver};
+use projection::{Published, project};
+
+/// Iterations of a step [-]: those of the published tables end well before.
+const MAX_ITERATIONS: u32 = 20;
+
+/// Choices for a step as published.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Options<T> {
+    /// Time integrator.
+    pub integrator: Integrator<T>,
+    /// The same alpha on every row [N/m].
+    pub alpha: T,
+    /// Newton tolerance, relative to the displacement per step [-].
+    pub tolerance: T,
+    /// Iterations allowed in one step.
+    pub max_iterations: u32,
+}
+
+impl<T: Real> Options<T> {
+    /// Trapezoidal rule, the tolerance of [`Options::index3`](crate::Options::index3), 20 iterations.
+    #[must_use]
+    pub fn new(alpha: T) -> Self {
+        let crate::Options { integrator, tolerance, .. } = crate::Options::index3();
+        Self { integrator, alpha, tolerance, max_iterations: MAX_ITERATIONS }
+    }
+
+    /// The same of the formulation that has all strategies, with none of them.
+    fn of_index3(&self) -> crate::Options<T> {
+        let Self { integrator, alpha, tolerance, max_iterations } = *self;
+        crate::Options {
+            integrator,
+            penalty: Penalty::Fixed(alpha),
+            tolerance,
+            truncation_share: T::ZERO,
+            max_iterations,
+            compensated: false,
+            adaptive_penalty: false,
+            ..crate::Options::index3()
+        }
+    }
+}
+
+/// One step as in publication 1.
+///
+/// # Errors
+/// [`StepError`]; the state is then unchanged.
+pub fn publication1<T: Real, M: Model<T>, S: SpdSolver<T>>(
+    model: &M,
+    step: Step<T>,
+    options: &Options<T>,
+    s: &mut State<T>,
+    w: &mut Workspace<T, S>,
+) -> Result<StepReport<T>, StepError> {
+    published(model, step, options, (MultiplierStart::Zero, Published::ByMass), s, w)
+}
+
+/// One step as in publication 3.
+///
+/// # Errors
+/// [`StepError`]; the state is then unchanged.
+pub fn publication3<T: Real, M: Model<T>, S: SpdSolver<T>>(
+    model: &M,
+    step: Step<T>,
+    options: &Options<T>,
+    s: &mut State<T>,
+    w: &mut Workspace<T, S>,
+) -> Result<StepReport<T>, StepError> {
+    published(model, step, options, (MultiplierStart::Extrapolated, Published::ByTangent), s, w)
+}
+
+fn published<T: Real, M: Model<T>, S: SpdSolver<T>>(
+    model: &M,
+    step: Step<T>,
+    options: &Options<T>,
+    (start, projection): (MultiplierStart, Published),
+    s: &mut State<T>,
+    w: &mut Workspace<T, S>,
+) -> Result<StepReport<T>, StepError> {
+    let Step { dt, length } = step.checked()?;
+    let options = options.of_index3();
+    options.validate()?;
+    take_inputs(model, s, w)?;
+    let rule = options.integrator.rule(dt);
+    let (newton, _) = index3::solve(model, (&rule, length), (&options, start), s, w)?;
+
+    let mut violation = [norm_inf(model.team(), &w.terms().phi), T::ZERO, T::ZERO];
+    if projection == Published::ByMass {
+        // W = M + J^T alpha J with alpha as it is: the penalty of the iteration is alpha / a'
+        w.scale.weights.iter_mut().for_each(|s| *s *= rule.acceleration);
+    }
+    for (k, level) in [(1, ConstraintLevel::Velocity), (2, ConstraintLevel::Acceleration)] {
+        level.limits(model, &w.end, length, &mut w.equations.terms)?;
+        if projection == Published::ByMass && k == 1 {
+            w.factor_mass(model)?;
+        }
+        violation[k] = project(w.projector(model, level), projection);
+    }
+    if model.has_guides() {
+        let Workspace { equations: eq, end, lambda, scale, projection, .. } = w;
+        let multipliers = (&lambda[..], rule.acceleration, &mut projection.sigma[..]);
+        balance(model, eq, (&end.a, &scale.weights), multipliers);
+    }
+    check_rotations(model, w.terms())?;
+    w.commit(model, (&rule, false, rule.acceleration), s);
+    Ok(w.report(newton, violation))
+}

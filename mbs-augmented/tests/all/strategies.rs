@@ -1,0 +1,131 @@
+//! What each strategy of index-3 gives, by a closed form or by exact counts: docs/INDEX3.md names the tests.
+#![allow(clippy::print_stdout, reason = "what is measured is shown with --nocapture")]
+
+use mbs_augmented::{Options, Workspace, index3};
+use mbs_core::model::{Model, State};
+use mbs_core::natural::NaturalModel;
+use mbs_core::scene::{BodyId, Scene};
+use mbs_core::step::Step;
+use mbs_sparse::Multifrontal;
+use mbs_testkit::{dot, file, in_null_space, invariant, jacobian, solver, start};
+
+type Work = Workspace<f64, Multifrontal<f64>>;
+
+/// Makes `n` steps of `dt` [s]; returns iterations, factorisations and solutions.
+fn run<const D: usize>(
+    scene: &Scene<f64>,
+    (dt, n): (f64, u32),
+    options: &Options<f64>,
+    mut each: impl FnMut(&NaturalModel<f64, D>, &State<f64>, &Work),
+) -> [u32; 3] {
+    let (model, mut state) = start::<D>(scene);
+    let mut work = Workspace::new(&model, solver(&model));
+    let step = Step { dt, length: model.length() };
+    let mut counts = [0; 3];
+    for k in 0..n {
+        let report = index3::step(&model, step, options, &mut state, &mut work)
+            .unwrap_or_else(|e| panic!("{}: step {k}: {e}", scene.name));
+        let of_step = [report.iterations, report.factorizations, report.solves];
+        counts.iter_mut().zip(of_step).for_each(|(sum, count)| *sum += count);
+        each(&model, &state, &work);
+    }
+    println!("{}: {n} steps of {dt} s: {counts:?}", scene.name);
+    counts
+}
+
+/// One row: s = c m, so that (1 + s J M^-1 J^T)^-1 = 1 / (1 + c); the predicted row is longer by 1e-6.
+#[test]
+fn a_correction_leaves_one_part_in_1_plus_c_whatever_mass_and_step() {
+    let mut scene = file("simple-pendulum");
+    for mass in [1e-3, 1.0, 1e3] {
+        scene.bodies[0].mass = mass;
+        for dt in [1e-2, 1e-5] {
+            run::<2>(&scene, (dt, 2), &Options::index3(), |_, _, work| {
+                let left = work.history().contraction * (1.0 + 1e6);
+                assert!((left - 1.0).abs() < 1e-4, "{mass} kg, {dt} s: {left}");
+            });
+        }
+    }
+}
+
+/// A step of 1/700 s ends so near to a singular position that the penalties of regular motion leave its multiplier: no correction shrinks.
+#[test]
+fn steps_that_end_next_to_a_singular_position_converge_with_penalties_raised_for_it() {
+    let mut factor = 0.0_f64;
+    run::<2>(&file("two-four-bars"), (1.0 / 700.0, 600), &Options::index3(), |_, _, work| {
+        factor = factor.max(work.history().penalty_factor);
+    });
+    println!("largest penalty factor: {factor:e}");
+    assert!(factor > 1e3, "{factor:e}");
+}
+
+/// What the energy [J] of the double pendulum at 1e-2 s differs by between the two strategies of projection [-]: it is off by 4e-3 J, and
+/// by 6e-4 of that with a reused factor from before a large correction.
+const SAME_ENERGY: f64 = 1e-6;
+
+#[test]
+fn a_reused_factor_projects_as_an_exact_one_does() {
+    let of = |adaptive_penalty| {
+        let (mut first, mut error) = (None, 0.0);
+        let options = Options { adaptive_penalty, ..Options::index3() };
+        run::<2>(&file("double-pendulum"), (1e-2, 100), &options, |model, state, _| {
+            let energy = invariant(model, state);
+            error = energy - *first.get_or_insert(energy);
+        });
+        error
+    };
+    // without an adapted penalty all projections are exact
+    let (reused, exact) = (of(true), of(false));
+    assert!((reused - exact).abs() < SAME_ENERGY * exact.abs(), "{reused:e} J, {exact:e} J");
+}
+
+/// Where constraints act alone a step has one factor, for two corrections, the probe of the penalties and both projections; with a factor for
+/// each correction, or one for the projections, it has two. Multipliers from zero take a third correction. On the two four-bars velocities
+/// would be swept twice if the first sweep were not scaled.
+#[test]
+fn a_step_under_constraints_alone_has_one_factor_two_corrections_and_a_sweep_at_each_level() {
+    let counts = |name| run::<2>(&file(name), (1e-3, 100), &Options::index3(), |_, _, _| {});
+    assert_eq!(counts("n-four-bar-10"), [200, 100, 500]);
+    assert_eq!(counts("two-four-bars"), [200, 100, 500]);
+}
+
+/// Where effects act a step has two factors, one for its corrections and one of the mass for its projections, but where wheels meet the bump:
+/// laws are others there. Corrections end below what the rule errs by: to the tolerance they are 273.
+///
+/// The vehicle is the same on both sides. Only rounding leads it off its plane, unless a projection is not orthogonal in the mass: with the
+/// factor of the corrections it is off by 1e-5 m.
+#[test]
+fn a_vehicle_meets_a_bump_in_few_factors_and_stays_in_its_plane() {
+    let mut off = 0.0_f64;
+    let options = Options::index3();
+    let counts = run::<3>(&file("iltis-bump-5"), (1e-2, 60), &options, |model, state, _| {
+        let origin = model.point(BodyId::Body(0), [0.0; 3]).value(&state.q);
+        off = off.max(origin[1].abs());
+    });
+    assert!(off < 1e-9, "{off:e} m off its plane");
+    assert_eq!(counts, [233, 142, 706]);
+}
+
+/// The part of the multipliers that no motion determines, J^T x = 0, orthogonal in 1 / s to those that do: extrapolated alone it grows to
+/// nearly all of them.
+#[test]
+fn multipliers_that_no_constraint_determines_do_not_grow() {
+    let mut most = 0.0_f64;
+    run::<3>(&file("spatial-four-bar"), (1e-3, 500), &Options::index3(), |model, state, _| {
+        let (mut terms, mut reference) = (model.terms(), vec![0.0; model.n_extended()]);
+        let mut masses = vec![0.0; model.n_constraints()];
+        model.write_reference(&mut reference);
+        model.evaluate(&reference, &mut terms);
+        model.effective_masses(&terms, &mut masses);
+        let roots: Vec<f64> = masses.iter().map(|m| m.sqrt()).collect();
+        model.evaluate(&state.q, &mut terms);
+        let rows = jacobian(model, &terms);
+        let column = |i: usize| rows.iter().zip(&roots).map(|(row, root)| row[i] * root).collect();
+        let columns: Vec<Vec<f64>> = (0..rows[0].len()).map(column).collect();
+        let scaled: Vec<f64> = state.lambda.iter().zip(&roots).map(|(x, root)| x / root).collect();
+        let free = in_null_space(&columns, &scaled);
+        most = most.max((dot(&free, &free) / dot(&scaled, &scaled)).sqrt());
+    });
+    println!("undetermined part of the multipliers: {most:e}");
+    assert!(most < 1e-2, "{most:e}");
+}
