@@ -5,6 +5,8 @@ mod scale;
 pub(crate) mod style;
 mod thin;
 
+pub(crate) use scale::Kind;
+
 use plotters::prelude::*;
 use scale::Scale;
 use style::{CURRENT, Style};
@@ -29,17 +31,6 @@ pub(crate) struct Axis {
     pub(crate) label: String,
     /// How numbers lie on it.
     pub(crate) kind: Kind,
-}
-
-/// How numbers lie on an axis.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) enum Kind {
-    /// Evenly, over the span of the numbers.
-    Linear,
-    /// Evenly, and zero is there.
-    FromZero,
-    /// By their logarithm; what is not positive is left out.
-    Log,
 }
 
 /// Points that belong together.

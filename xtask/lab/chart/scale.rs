@@ -1,6 +1,5 @@
 //! One axis: where numbers lie on it, and which of them are written.
 
-use super::Kind;
 use plotters::coord::ranged1d::{KeyPointHint, NoDefaultFormatting, Ranged, ValueFormatter};
 use std::ops::Range;
 
@@ -120,6 +119,17 @@ impl ValueFormatter<f64> for Scale {
         let text = format!("{:.4}", if value.abs() < 1e-9 { 0.0 } else { *value });
         text.trim_end_matches('0').trim_end_matches('.').to_owned()
     }
+}
+
+/// How numbers lie on an axis.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum Kind {
+    /// Evenly, over the span of the numbers.
+    Linear,
+    /// Evenly, and zero is there.
+    FromZero,
+    /// By their logarithm; what is not positive is left out.
+    Log,
 }
 
 #[cfg(test)]

@@ -3,13 +3,16 @@
 //! The report guesses that words of 128 bits could cure it. Each run is one of the program `bench`, which has the printed form
 //! over every arithmetic; here is which runs there are, and what is made of them.
 
+mod cells;
 mod outcome;
+mod run;
 mod told;
 
 use crate::bench;
 use crate::lab::Lab;
 use crate::lab::section::Section;
-use outcome::Run;
+use cells::{Cell, DEFAULT, LADDERS, OURS, SCENES, WAYS, Way};
+use run::Run;
 use std::collections::BTreeSet;
 use std::time::Duration;
 use xtask::process;
@@ -21,80 +24,6 @@ const SPAN: &str = "1";
 /// Steps are 10^-k s; the smallest ones are left out by `--quick`.
 const STEPS: [i32; 5] = [2, 3, 4, 5, 6];
 const QUICK: i32 = 4;
-
-/// A scene.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-struct Scene {
-    file: &'static str,
-    what: &'static str,
-}
-
-const SCENES: [Scene; 2] = [
-    Scene { file: "double-pendulum", what: "Double pendulum: smooth motion" },
-    Scene { file: "two-four-bars", what: "Two four-bars: through a singular position" },
-];
-
-/// How the penalty is chosen for a step of 10^-k s.
-#[derive(Debug, Clone, Copy)]
-struct Ladder {
-    name: &'static str,
-    /// The exponent of alpha.
-    exponent: fn(i32) -> i32,
-}
-
-/// The report's fixed alpha; as it raises that where it does not converge, to 1e9 at 1e-4 s and 1e11 at 1e-5 s; and raised so
-/// fast that multipliers from zero converge at the singular position.
-const LADDERS: [Ladder; 3] = [
-    Ladder { name: "1e7", exponent: |_| 7 },
-    Ladder { name: "10/dt², 1e7 at least", exponent: |k| (2 * k + 1).max(7) },
-    Ladder { name: "10/dt⁴", exponent: |k| 4 * k + 1 },
-];
-
-/// How a run is made.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-struct Way {
-    name: &'static str,
-    form: &'static str,
-    digits: &'static str,
-}
-
-/// The printed form with 16 digits, with 32, and with the factor of the one and the residuals of the other; then ours.
-const WAYS: [Way; 6] = [
-    Way { name: "printed, f64", form: "printed", digits: "f64" },
-    Way { name: "printed, once", form: "printed", digits: "once" },
-    Way { name: "printed, refined", form: "printed", digits: "refined" },
-    Way { name: "printed, dd", form: "printed", digits: "dd" },
-    Way { name: "correction, f64", form: "correction", digits: "f64" },
-    DEFAULT,
-];
-const PRINTED: usize = 0;
-const REFINED: usize = 2;
-const PAIRS: usize = 3;
-const CORRECTION: usize = 4;
-/// Our default needs no alpha; it is run once for each step.
-const DEFAULT: Way = Way { name: "default, f64", form: "default", digits: "f64" };
-const OURS: usize = 5;
-
-/// A step with one penalty, in every way, in the order of [`WAYS`].
-#[derive(Debug, Clone)]
-struct Cell {
-    scene: Scene,
-    /// The step is 10^-k s, alpha 10^exponent.
-    k: i32,
-    exponent: i32,
-    runs: Vec<Run>,
-}
-
-impl Cell {
-    fn step(&self) -> f64 {
-        10_f64.powi(-self.k)
-    }
-
-    /// Is its penalty the one that this ladder chooses for its step?
-    fn is_on(&self, ladder: &Ladder) -> bool {
-        (ladder.exponent)(self.k) == self.exponent
-    }
-}
 
 /// Runs everything one after the other.
 ///
@@ -136,6 +65,7 @@ fn cells(quick: bool, mut run: impl FnMut(&[&str]) -> Run) -> Vec<Cell> {
 
 #[cfg(test)]
 mod tests {
+    use super::cells::{CORRECTION, PAIRS, PRINTED, REFINED};
     use super::*;
 
     #[test]

@@ -1,7 +1,8 @@
 //! The section: errors and prices side by side, a drawing for each scene, and what the runs say.
 
-use super::outcome::{self, Run};
-use super::{CORRECTION, Cell, LADDERS, OURS, PAIRS, PRINTED, REFINED, SCENES, WAYS};
+use super::cells::{CORRECTION, Cell, LADDERS, OURS, PAIRS, PRINTED, REFINED, SCENES, WAYS};
+use super::outcome;
+use super::run::Run;
 use crate::chart::{Axis, Chart, Kind, Look, Series};
 use crate::lab::section::Section;
 use crate::tell::{ratio, ratios, step};

@@ -1,7 +1,7 @@
 //! The tables of a profile: a step beside its floor, its instructions by parts, and the functions that take most of them.
 
-use super::Profile;
 use super::parts::Part;
+use super::scene::Profile;
 use serde_json::Value;
 use std::fmt::Write;
 

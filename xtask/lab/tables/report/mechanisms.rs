@@ -1,7 +1,7 @@
 //! Tables on mechanisms: pendulum, four-bars, Andrews' mechanism.
 
-use super::Printed::{DoesNotWork, NoConvergence, Wrong};
-use super::{CLASSICAL, Printed, Reference, Table, fixed, method, n};
+use super::table::Printed::{DoesNotWork, NoConvergence, Wrong};
+use super::table::{CLASSICAL, Printed, Reference, Table, fixed, method, n};
 
 /// P1, Table I, index-3: the two smaller steps needed alpha = 1e9 and 1e11.
 const T1_INDEX3: &[Printed] = &[n(2.1e-1, 0.4), n(4.6e-3, 1.9), n(2.0e-5, 17.2), Wrong];

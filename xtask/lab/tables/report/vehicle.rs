@@ -1,7 +1,7 @@
 //! Tables on the Iltis: its front suspension, and the whole vehicle.
 
-use super::Printed::{NoConvergence, Wrong};
-use super::{CLASSICAL, History, Method, Printed, Table, method, n};
+use super::table::Printed::{NoConvergence, Wrong};
+use super::table::{CLASSICAL, History, Method, Printed, Table, method, n};
 
 /// A method with steps of its own, of which the report prints the time of the first.
 const fn timed(

@@ -1,0 +1,164 @@
+//! A table of the report: its methods, what is printed of them, and what we run.
+
+/// Our methods without a printed row.
+pub(super) const CLASSICAL: Method = Method {
+    name: "classical",
+    formulation: "classical",
+    arguments: &[],
+    printed_name: "",
+    dt: &[],
+    printed: &[],
+};
+
+/// What the report prints for one method and one step.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum Printed {
+    /// Error, and CPU time [s] where there is one.
+    Numbers(f64, Option<f64>),
+    /// CPU time [s] alone.
+    Time(f64),
+    /// "No convergent."
+    NoConvergence,
+    /// "Wrong results".
+    Wrong,
+    /// "Does not work".
+    DoesNotWork,
+    /// The table has no such entry.
+    Nothing,
+}
+
+/// A method of a table: how we run it, and the report's row for it.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Method {
+    /// Its name in our tables.
+    pub(crate) name: &'static str,
+    /// `--formulation` of `mbs run`.
+    pub(crate) formulation: &'static str,
+    /// Further arguments of `mbs run`.
+    pub(crate) arguments: &'static [&'static str],
+    /// Name of the report's row, or empty.
+    pub(crate) printed_name: &'static str,
+    /// Step sizes [s] where they are not those of the table; else empty.
+    pub(crate) dt: &'static [f64],
+    /// The report's entries, one for each of its steps; further steps are ours alone.
+    pub(crate) printed: &'static [Printed],
+}
+
+impl Method {
+    /// The arguments of `mbs run`, without scene and step.
+    pub(crate) fn options(&self) -> Vec<&'static str> {
+        let formulation = ["--formulation", self.formulation];
+        formulation.iter().chain(self.arguments).copied().collect()
+    }
+}
+
+/// A channel whose value at the end is known from elsewhere.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Reference {
+    /// The channel.
+    pub(crate) channel: &'static str,
+    /// What its distance from the reference is called, with its unit.
+    pub(crate) label: &'static str,
+    /// Its components at the end.
+    pub(crate) value: &'static [f64],
+}
+
+/// A channel whose history is drawn: of each method at its first step, and of the first method at its last one.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct History {
+    /// Its column in the CSV of a run.
+    pub(crate) column: &'static str,
+    /// What it is, with its unit.
+    pub(crate) label: &'static str,
+    /// What a number of the column is multiplied by.
+    pub(crate) scale: f64,
+}
+
+/// One table.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Table {
+    /// Short name.
+    pub(crate) name: &'static str,
+    /// What it is about.
+    pub(crate) title: &'static str,
+    /// Where it is printed.
+    pub(crate) source: &'static str,
+    /// The scene, by its file.
+    pub(crate) scene: &'static str,
+    /// Simulated time [s].
+    pub(crate) duration: f64,
+    /// Step sizes [s].
+    pub(crate) dt: &'static [f64],
+    /// The methods.
+    pub(crate) methods: &'static [Method],
+    /// A known end.
+    pub(crate) reference: Option<Reference>,
+    /// A history to be drawn.
+    pub(crate) history: Option<History>,
+    /// Sizes of the report's models, by the formulation.
+    pub(crate) sizes: &'static [(&'static str, &'static str)],
+    /// What a reader must know.
+    pub(crate) note: &'static str,
+}
+
+impl Table {
+    /// All entries: methods, and their steps.
+    pub(crate) fn entries(&self) -> impl Iterator<Item = (&'static Method, f64)> {
+        let dt = self.dt;
+        self.methods.iter().flat_map(move |method| {
+            let dt = if method.dt.is_empty() { dt } else { method.dt };
+            dt.iter().map(move |&step| (method, step))
+        })
+    }
+
+    /// Is this the first method at its smallest step?
+    pub(crate) fn is_finest(&self, method: &Method, step: f64) -> bool {
+        let last = self.entries().take_while(|(m, _)| m.name == self.methods[0].name).last();
+        last.is_some_and(|(m, dt)| m.name == method.name && dt.to_bits() == step.to_bits())
+    }
+
+    /// Is the history of this entry drawn? The finest one is, and every method of the report at its first step.
+    pub(crate) fn draws(&self, method: &Method, step: f64) -> bool {
+        let is_first = method.dt.first().is_some_and(|dt| dt.to_bits() == step.to_bits());
+        let is_printed = !method.printed.is_empty() && method.arguments.is_empty();
+        (is_first && is_printed) || self.is_finest(method, step)
+    }
+
+    /// Number of steps of a run.
+    pub(crate) fn steps(&self, step: f64) -> f64 {
+        (self.duration / step).ceil()
+    }
+
+    /// What the report prints for a method and a step of this table.
+    pub(crate) fn printed(&self, method: &Method, step: f64) -> Printed {
+        let dt = if method.dt.is_empty() { self.dt } else { method.dt };
+        let place = dt.iter().position(|dt| dt.to_bits() == step.to_bits());
+        place.and_then(|i| method.printed.get(i)).copied().unwrap_or(Printed::Nothing)
+    }
+}
+
+/// Error and time as the tables print them.
+pub(super) const fn n(error: f64, seconds: f64) -> Printed {
+    Printed::Numbers(error, Some(seconds))
+}
+
+/// A method by our name of the formulation.
+pub(super) const fn method(
+    formulation: &'static str,
+    printed_name: &'static str,
+    printed: &'static [Printed],
+) -> Method {
+    Method { name: formulation, formulation, arguments: &[], printed_name, dt: &[], printed }
+}
+
+/// Index-3 with the report's fixed penalty.
+pub(super) const fn fixed(printed_name: &'static str, printed: &'static [Printed]) -> Method {
+    Method {
+        name: "index-3, alpha = 1e7",
+        formulation: "index-3",
+        arguments: &["--penalty", "1e7"],
+        printed_name,
+        dt: &[],
+        printed,
+    }
+}
