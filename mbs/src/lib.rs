@@ -91,7 +91,7 @@ pub mod inside {
     pub use crate::recorder::Keep;
     pub use crate::run::{run_keeping, step};
     pub use crate::settings::DEFAULT_STEP;
-    pub use crate::settings::way::{SAME_LENGTH, is_too_long, too_long};
+    pub use crate::settings::length::{SAME_LENGTH, is_too_long, too_long};
     pub use crate::tilt::notes;
 }
 

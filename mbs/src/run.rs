@@ -14,7 +14,7 @@ use crate::driver::{StepObserver, Stretch, drive, multiple};
 use crate::names::Names;
 use crate::record::{Channel, ControlSummary, Outputs, RunRecord, RunSummary};
 use crate::recorder::Keep;
-use crate::settings::way::SAME_LENGTH;
+use crate::settings::length::SAME_LENGTH;
 use crate::settings::{Lengths, Settings};
 use crate::simulation::Simulation;
 use crate::stop::StopError;

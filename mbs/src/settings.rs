@@ -1,7 +1,8 @@
 //! What is asked of a run: the scene's `[solver]` table, overridden by the command line, checked against what is built.
 
+pub(crate) mod length;
 mod method;
-pub(crate) mod way;
+mod way;
 
 use crate::choice::{INTEGRATORS, IntegratorKind, PRECISIONS, Precision, STEP_RULES, StepRule};
 use crate::digits::is_finer;
@@ -214,7 +215,9 @@ impl core::fmt::Display for SettingsError {
             Self::Scene(SceneError { entry, field, fault }) => {
                 write!(f, "`{field}` of {entry} {fault:#}")
             }
-            Self::StepTooLong { step, duration } => f.write_str(&way::too_long(*step, *duration)),
+            Self::StepTooLong { step, duration } => {
+                f.write_str(&length::too_long(*step, *duration))
+            }
             Self::TooManySteps { step, duration } => write!(
                 f,
                 "a step of {} s is too short for a run of {} s: more than {MOST_STEPS:e} steps",
@@ -254,7 +257,7 @@ impl Settings {
         let step_max = overrides.step_max.or(of_scene(solver.step_max)).unwrap_or(step);
         let step_max = positive("step_max", step_max)?;
         let rule = step_rule(solver, overrides, (formulation, integrator))?;
-        let is_controlled = way::is_controlled(integrator, rule);
+        let is_controlled = length::is_controlled(integrator, rule);
         let limits = energy_limits(solver, overrides);
         let duration = overrides.duration.unwrap_or(scene.duration.to_f64());
         let duration = positive("duration", duration)?;
@@ -315,7 +318,7 @@ impl Settings {
     pub fn n_steps(&self) -> u64 {
         let steps = self.duration / self.step_max;
         let whole = steps.round();
-        if (steps - whole).abs() <= way::SAME_LENGTH * whole.max(1.0) {
+        if (steps - whole).abs() <= length::SAME_LENGTH * whole.max(1.0) {
             whole.max(1.0) as u64
         } else {
             steps.ceil() as u64

@@ -9,7 +9,7 @@ use crate::digits::is_finer;
 use crate::precision::{ReadScene, SceneWork};
 use crate::run::{Outcome, Rung, Track, paced};
 use crate::settings::Settings;
-use crate::settings::way::SAME_LENGTH;
+use crate::settings::length::SAME_LENGTH;
 use core::time::Duration;
 use mbs_core::Real;
 use mbs_core::scene::Scene;

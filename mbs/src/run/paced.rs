@@ -12,7 +12,7 @@ use crate::realtime::summary;
 use crate::record::{Channel, Degraded};
 use crate::recorder::Keep;
 use crate::settings::Settings;
-use crate::settings::way::SAME_LENGTH;
+use crate::settings::length::SAME_LENGTH;
 use crate::simulation::Simulation;
 use crate::stop::StopError;
 use core::ops::ControlFlow;

@@ -1,33 +1,12 @@
 //! Settings as what runs: a step that goes with the run, and the way in words.
 
+use super::length::{is_controlled, is_too_long};
 use super::{Settings, SettingsError};
 use crate::choice::{IntegratorKind, StepRule};
 use crate::record::MethodChoice;
 use crate::settings::Method;
 use mbs_core::scene::Scene;
 use mbs_scene::format::significant;
-
-/// Relative difference below which two lengths of time are the same, written in fewer digits [-]. Chosen, not tuned.
-pub const SAME_LENGTH: f64 = 1e-9;
-
-/// Is the length of the steps controlled, by the integrator or by a rule?
-pub(super) fn is_controlled(integrator: IntegratorKind, rule: StepRule) -> bool {
-    integrator.controls_its_step() || rule != StepRule::Fixed
-}
-
-/// Is a step [s] longer than the run?
-pub fn is_too_long(step: f64, duration: f64) -> bool {
-    step > duration * (1.0 + SAME_LENGTH)
-}
-
-/// Says so.
-pub fn too_long(step: f64, duration: f64) -> String {
-    format!(
-        "the step of {} s is longer than the run of {} s",
-        significant(step),
-        significant(duration)
-    )
-}
 
 impl Settings {
     /// Refuses a step of fixed length that scene or caller ask for and that is longer than the run: something else was intended. The run

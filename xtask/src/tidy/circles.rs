@@ -82,7 +82,6 @@ impl Crate<'_> {
         let (mut rest, mut is_test, mut is_shown) = (&tokens[..], false, false);
         while let Some(token) = rest.first() {
             let word = ident(Some(token)).unwrap_or_default();
-            let next = ident(rest.get(1));
             let is_end = |t: &TokenTree| match t {
                 TokenTree::Group(group) => word != "use" && group.delimiter() == Delimiter::Brace,
                 other => is_punct(Some(other), ';'),
@@ -104,43 +103,54 @@ impl Crate<'_> {
                 (std::mem::take(&mut is_test), std::mem::take(&mut is_shown));
             let (item, after) = rest.split_at(end + 1);
             rest = after;
-            match (word.as_str(), next) {
-                _ if was_test => {}
-                ("mod", Some(child)) if child == "tests" => {}
-                ("mod", Some(child)) => {
-                    let below = folder.join(&child);
-                    let index = if let Some(TokenTree::Group(group)) = item.get(2) {
-                        self.add_module(group.stream(), file, &below, Some(at))
-                    } else {
-                        let beside = folder.join(format!("{child}.rs"));
-                        let own =
-                            (self.read)(&beside).map_or_else(|| below.join("mod.rs"), |_| beside);
-                        self.add_file(&own, &below, Some(at))
-                    };
-                    self.modules[at].names.push((child, Name::Module(index)));
-                }
-                ("use", _) => self.modules[at].import(&item[1..end], &[], was_shown),
-                ("macro_rules", _) => {
-                    let own = ident(item.get(2)).unwrap_or_default();
-                    self.macros.insert(own.clone(), file);
-                    self.modules[at].names.push((own, Name::Item));
-                    self.modules[at].code(&item[3..]);
-                }
-                _ => {
-                    let is_item =
-                        |t: &TokenTree| ident(Some(t)).is_some_and(|w| ITEMS.contains(&w.as_str()));
-                    let heads =
-                        item.iter().take_while(|t| ident(Some(t)).is_some_and(|w| w != "impl"));
-                    if let Some(own) =
-                        heads.take(5).zip(&item[1..]).filter(|(t, _)| is_item(t)).last()
-                    {
-                        self.modules[at].names.push((own.1.to_string(), Name::Item));
-                    }
-                    self.modules[at].code(item);
-                }
+            if !was_test {
+                self.add_item(at, (item, end), was_shown, folder);
             }
         }
         at
+    }
+
+    /// Adds an item of module `at`, which ends at a place in its tokens.
+    fn add_item(
+        &mut self,
+        at: usize,
+        (item, end): (&[TokenTree], usize),
+        is_shown: bool,
+        folder: &Path,
+    ) {
+        let file = self.modules[at].file;
+        let (word, next) = (ident(item.first()).unwrap_or_default(), ident(item.get(1)));
+        match (word.as_str(), next) {
+            ("mod", Some(child)) if child == "tests" => {}
+            ("mod", Some(child)) => {
+                let below = folder.join(&child);
+                let index = if let Some(TokenTree::Group(group)) = item.get(2) {
+                    self.add_module(group.stream(), file, &below, Some(at))
+                } else {
+                    let beside = folder.join(format!("{child}.rs"));
+                    let own = (self.read)(&beside).map_or_else(|| below.join("mod.rs"), |_| beside);
+                    self.add_file(&own, &below, Some(at))
+                };
+                self.modules[at].names.push((child, Name::Module(index)));
+            }
+            ("use", _) => self.modules[at].import(&item[1..end], &[], is_shown),
+            ("macro_rules", _) => {
+                let own = ident(item.get(2)).unwrap_or_default();
+                self.macros.insert(own.clone(), file);
+                self.modules[at].names.push((own, Name::Item));
+                self.modules[at].code(&item[3..]);
+            }
+            _ => {
+                let is_item =
+                    |t: &TokenTree| ident(Some(t)).is_some_and(|w| ITEMS.contains(&w.as_str()));
+                let heads = item.iter().take_while(|t| ident(Some(t)).is_some_and(|w| w != "impl"));
+                if let Some(own) = heads.take(5).zip(&item[1..]).filter(|(t, _)| is_item(t)).last()
+                {
+                    self.modules[at].names.push((own.1.to_string(), Name::Item));
+                }
+                self.modules[at].code(item);
+            }
+        }
     }
 
     /// What a path leads to, seen from a module; `seen` stops imports that lead back to themselves.

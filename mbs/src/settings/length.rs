@@ -1,0 +1,26 @@
+//! Lengths of steps and of runs, compared.
+
+use crate::choice::{IntegratorKind, StepRule};
+use mbs_scene::format::significant;
+
+/// Relative difference below which two lengths of time are the same, written in fewer digits [-]. Chosen, not tuned.
+pub const SAME_LENGTH: f64 = 1e-9;
+
+/// Is the length of the steps controlled, by the integrator or by a rule?
+pub(super) fn is_controlled(integrator: IntegratorKind, rule: StepRule) -> bool {
+    integrator.controls_its_step() || rule != StepRule::Fixed
+}
+
+/// Is a step [s] longer than the run?
+pub fn is_too_long(step: f64, duration: f64) -> bool {
+    step > duration * (1.0 + SAME_LENGTH)
+}
+
+/// Says so.
+pub fn too_long(step: f64, duration: f64) -> String {
+    format!(
+        "the step of {} s is longer than the run of {} s",
+        significant(step),
+        significant(duration)
+    )
+}
