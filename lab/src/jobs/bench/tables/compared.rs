@@ -3,7 +3,7 @@
 use super::super::measured::{Measured, number, ratio, speed_up, times};
 use super::super::papers;
 use super::costs::over;
-use super::{average, by_size, count, span, time};
+use super::numbers::{average, by_size, count, span, time};
 use crate::lab::section::Section;
 use serde_json::Value;
 

@@ -1,7 +1,7 @@
 //! What a step costs, what it is made of, and where its time goes.
 
 use super::super::measured::{Lane, Measured, Scene, number};
-use super::{average, by_size, count, percent, ratio, span, time};
+use super::numbers::{average, by_size, count, percent, ratio, span, time};
 use crate::chart::{Axis, Chart, Kind, Look, Series};
 use crate::lab::section::Section;
 

@@ -1,7 +1,7 @@
 //! What threads gain.
 
 use super::super::measured::{Measured, Scene, efficiency, number, speed_up};
-use super::{by_size, percent, ratio, time};
+use super::numbers::{by_size, percent, ratio, time};
 use crate::chart::{Axis, Chart, Kind, Look, Series};
 use crate::lab::section::Section;
 

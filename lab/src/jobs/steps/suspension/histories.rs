@@ -2,12 +2,17 @@
 
 use super::super::draw::{INDEX_1, INDEX_3, MULTI, line, over_time, steps};
 use super::super::fit::span;
-use super::{COARSE, FINE};
 use crate::chart::{Chart, Kind};
 use crate::lab::case::size;
 use crate::lab::record::Record;
 use crate::lab::section::Section;
 use crate::tell::error;
+
+/// Step of the report's run in index 1 [s].
+pub(super) const FINE: f64 = 5e-4;
+
+/// Step of the report's run in index 3, and the largest one of the variable run [s].
+pub(super) const COARSE: f64 = 1e-2;
 
 /// When the wheel is on the bump [s].
 const BUMP: [f64; 2] = [3.0, 3.2];

@@ -10,13 +10,10 @@ use crate::lab::case::{Case, Rule, size};
 use crate::lab::section::Section;
 use crate::lab::{Lab, Run};
 use crate::tell::{self, error, ratio, seconds};
+use histories::{COARSE, FINE};
 
 /// The scenes: the damper as printed there, and the suspension whose rubber stop the bump hits.
 const SCENES: [&str; 2] = ["iltis-suspension-halved", "iltis-suspension-stiff"];
-/// Step of the report's run in index 1 [s].
-const FINE: f64 = 5e-4;
-/// Step of the report's run in index 3, and the largest one of the variable run [s].
-const COARSE: f64 = 1e-2;
 /// First step of the variable run [s].
 const FIRST_STEP: f64 = 1e-3;
 /// The report's tolerance.
