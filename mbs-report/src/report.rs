@@ -39,7 +39,7 @@ impl Report {
     ///
     /// # Examples
     /// ```
-    /// use mbs_scene::{Report, Section};
+    /// use mbs_report::{Report, Section};
     /// let rows = vec![vec!["bodies".into(), "2".into()], vec!["joints".into(), "3".into()]];
     /// let section = Section { title: "sizes".into(), rows, ..Section::default() };
     /// let report = Report { title: "pendulum".into(), sections: vec![section], ..Report::default() };

@@ -24,7 +24,7 @@ const MAIN: &str = include_str!("main.js");
 /// # Examples
 /// ```
 /// let record = mbs::record::RunRecord { scene: "pendulum".into(), ..Default::default() };
-/// let html = crate::report::page(&record);
+/// let html = mbs_report::page(&record);
 /// assert!(html.starts_with("<!doctype html>") && html.contains("<title>pendulum</title>"));
 /// ```
 #[must_use]
