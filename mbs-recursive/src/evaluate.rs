@@ -231,7 +231,7 @@ fn sweep<T: Real, S: Space<T>>(
     level: Level,
     s: &mut Store<'_, T, S>,
 ) -> Result<T, Fault<T>> {
-    let rounding = T::EPSILON * T::from_f64(FINE_ROUNDINGS);
+    let rounding = || T::EPSILON * T::from_f64(FINE_ROUNDINGS);
     let share = match level {
         Level::Once => return Ok(residual(m, s)?.0),
         Level::Fixed(sweeps) => {
@@ -242,8 +242,8 @@ fn sweep<T: Real, S: Space<T>>(
             return Ok(residual(m, s)?.0);
         }
         Level::Coarse => T::EPSILON.sqrt() * T::from_f64(COARSE),
-        Level::Rates => (options.error * T::from_f64(RATES_FRACTION)).max(rounding),
-        Level::Fine => rounding,
+        Level::Rates => (options.error * T::from_f64(RATES_FRACTION)).max(rounding()),
+        Level::Fine => rounding(),
     };
     // Near a singular position a combination of rows is weakly determined: a part of its residual may stay.
     let enough = if note_rank(s) { T::from_f64(SINGULAR_RESIDUAL) } else { T::EPSILON.sqrt() };
