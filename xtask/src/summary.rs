@@ -186,7 +186,7 @@ mod tests {
     }
 
     #[test]
-    fn lists_beside_each_other_come_to_their_ends_and_the_failure_is_told() {
+    fn lists_beside_each_other_come_to_their_ends_and_the_failure_is_reported() {
         let mut summary = Summary::default();
         let result = summary.beside([true, false].map(|fails| {
             move |part: &mut Summary| {

@@ -46,6 +46,6 @@ fn a_controller_moves_every_joint_with_every_effect_as_the_recursion_does() {
         };
         *(if is_followed { &mut followed } else { &mut without }) += 1;
     }
-    crate::tell(&format!("{followed} cases on the controller's solver, {without} without a tree"));
+    crate::say(&format!("{followed} cases on the controller's solver, {without} without a tree"));
     assert!(followed > 1000 && without == 0, "{followed}, {without}");
 }

@@ -11,7 +11,7 @@ use judge::{Mechanism, State};
 const TOLERANCE: f64 = 1e-12;
 
 /// Says a count to whoever runs the tests, as `println` does not where they hold.
-fn tell(text: &str) {
+fn say(text: &str) {
     use std::io::Write;
     let _ = writeln!(std::io::stdout(), "{text}");
 }

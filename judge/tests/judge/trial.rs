@@ -29,7 +29,7 @@ fn every_joint_with_every_effect_moves_as_the_judge_says_in_every_formulation() 
     }
     let left_out: usize = tally.left_out.values().sum();
     let (n, agree) = (cases.len(), tally.agree);
-    crate::tell(&format!("{n} cases, {agree} combinations agree, {left_out} are left out"));
+    crate::say(&format!("{n} cases, {agree} combinations agree, {left_out} are left out"));
     assert!(tally.wrong.is_empty(), "{}", tally.wrong.join("\n"));
     assert_eq!(tally.left_out.keys().collect::<Vec<_>>(), [NO_SUCH_RULE]);
     // Half of all pairs of a formulation and an integrator exist.
@@ -45,7 +45,7 @@ fn the_first_hundred_random_scenes_move_as_the_judge_says_or_are_refused_as_list
     let mut tally = seeds::Tally::default();
     let said: String = (1..=100).map(|seed| tally.add(seed, None)).collect();
     let agree: usize = tally.verdicts.iter().filter(|((_, v), _)| v == "agrees").map(|x| x.1).sum();
-    crate::tell(&format!("{} random scenes, {agree} runs agree with the judge", tally.scenes));
+    crate::say(&format!("{} random scenes, {agree} runs agree with the judge", tally.scenes));
     assert_eq!((tally.differences, tally.unjudged), (0, 0), "{said}{}", tally.text());
     let mut refused: BTreeMap<(&str, &str), Vec<u64>> = BTreeMap::new();
     for ((formulation, code), seeds) in &tally.refused {
@@ -63,7 +63,7 @@ fn every_kind_is_in_a_twentieth_of_the_random_scenes_at_least() {
             *counts.entry(kind).or_default() += 1;
         }
     }
-    crate::tell(&format!("scenes of 1000 by kind: {counts:?}"));
+    crate::say(&format!("scenes of 1000 by kind: {counts:?}"));
     let rare: Vec<_> = counts.iter().filter(|(_, n)| **n < 50).collect();
     assert!(rare.is_empty(), "{rare:?}");
     // Nine kinds of joints and fifteen of effects, plane and space, three numbers of loops, guides, starts.

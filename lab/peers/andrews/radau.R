@@ -20,7 +20,7 @@ run <- function(tolerance, end = 0.03) {
         dllname = "andrews_radau", initfunc = NULL, mass = mass, massup = 0, massdown = 0, nind = c(7, 7, 13),
         rtol = tolerance, atol = tolerance, hini = min(tolerance, end), maxsteps = 1e5)
 }
-# proc.time() tells milliseconds; a batch takes so long that one is a fiftieth of it at most [s].
+# proc.time() has milliseconds; a batch takes so long that one is a fiftieth of it at most [s].
 least_seconds <- 0.05
 time_of <- function(f) {
   cpu <- function(n) {

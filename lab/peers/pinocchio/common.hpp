@@ -80,7 +80,7 @@ template <class F> double time_of(double seconds, F call) {
 }
 
 // One line: algorithm, seconds for one call, the value at the first state, what that is compared with.
-inline void tell(const char * algorithm, double seconds, double value, const char * reference = "exact") {
+inline void print_line(const char * algorithm, double seconds, double value, const char * reference = "exact") {
   std::printf("%s,%.6e,%.17g,%s\n", algorithm, seconds, value, reference);
   std::fflush(stdout);
 }

@@ -48,7 +48,7 @@ static void constraint_dynamics(FourBars & f, double seconds) {
     return pin::constraintDynamics(f.model, data, f.q, f.v, f.none, f.constraints, closures, settings)[0];
   };
   const double value = (call(0), data.ddq[0]);
-  tell("constraintDynamics", time_of(seconds, call), value);
+  print_line("constraintDynamics", time_of(seconds, call), value);
 }
 
 static void loop_aba(FourBars & f, double seconds) {
@@ -60,7 +60,7 @@ static void loop_aba(FourBars & f, double seconds) {
     return pin::lcaba(f.model, data, f.q, f.v, f.none, f.constraints, closures, settings)[0];
   };
   const double value = (call(0), data.ddq[0]);
-  tell("lcaba", time_of(seconds, call), value);
+  print_line("lcaba", time_of(seconds, call), value);
 }
 
 int main(int argc, char ** argv) {

@@ -39,16 +39,16 @@ static void forward(const pin::Model & model, double seconds) {
     pin::cholesky::solve(model, data, rhs);
     return rhs[0];
   };
-  tell("aba local", time_of(seconds, local), local(0));
-  tell("aba world", time_of(seconds, world), world(0));
-  tell("crba + Cholesky", time_of(seconds, factored), factored(0));
+  print_line("aba local", time_of(seconds, local), local(0));
+  print_line("aba world", time_of(seconds, world), world(0));
+  print_line("crba + Cholesky", time_of(seconds, factored), factored(0));
 }
 
 static void inverse(const pin::Model & model, double seconds) {
   pin::Data data(model);
   const States s(model.nv);
   auto rnea = [&](int k) { return pin::rnea(model, data, s.q[k], s.v[k], s.a[k])[0]; };
-  tell("rnea", time_of(seconds, rnea), rnea(0));
+  print_line("rnea", time_of(seconds, rnea), rnea(0));
 }
 
 int main(int argc, char ** argv) {

@@ -1,7 +1,7 @@
 //! `cargo xtask choice`: does `mbs run --error` choose well? Every scene, at three errors, against the best of all methods.
 
 use crate::child::watched;
-use crate::tell;
+use crate::format;
 use serde_json::Value;
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
@@ -9,7 +9,7 @@ use std::process::Command;
 use xtask::command::built;
 use xtask::process;
 
-/// A choice is good within so many times the best.
+/// Largest ratio of a good choice's time to the best time [-].
 const GOOD: f64 = 1.3;
 /// Least fraction of the cases that are good [-]: what is promised.
 const GOOD_SHARE: f64 = 0.9;
@@ -19,7 +19,7 @@ const LONG: f64 = 1.0;
 const EFFORT: [&str; 4] = ["--budget", "12", "--time-limit", "4"];
 const ERRORS: &str = "1e-2,1e-4,1e-6";
 
-/// A choice, as `mbs compare --choice` tells it.
+/// A choice, as `mbs compare --choice` reports it.
 #[derive(Debug, Clone, PartialEq)]
 struct Row {
     scene: String,
@@ -141,7 +141,7 @@ fn table(rows: &[Row]) -> String {
         let why = match (&r.best, r.stopped) {
             (_, n) if n > 0 => format!("{n} stopped before"),
             (Some((best, _)), _) => format!("{best}; {:.0} ms", 1e3 * r.pilot),
-            (None, _) => "no method reaches it, or the reference cannot tell".to_owned(),
+            (None, _) => "no method reaches it, or the reference is too coarse".to_owned(),
         };
         line([
             &r.scene,
@@ -205,7 +205,7 @@ fn csv(rows: &[Row]) -> Result<Vec<u8>, String> {
         ]
     };
     let head = "scene,wanted_error,chosen,error,cpu_seconds,pilot_seconds,best,best_seconds,over_best,stopped";
-    tell::csv(head, rows.iter().map(record))
+    format::csv(head, rows.iter().map(record))
 }
 
 #[cfg(test)]

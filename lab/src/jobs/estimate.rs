@@ -9,7 +9,7 @@ use std::process::Command;
 use xtask::command::built;
 use xtask::process;
 
-/// An error is stated if it is no more than so many times the estimate.
+/// Largest ratio of a stated error to its estimate [-].
 const STATED: f64 = 3.0;
 /// Least fraction of the components that are good [-]: what is promised.
 const GOOD_SHARE: f64 = 0.95;

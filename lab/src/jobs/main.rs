@@ -7,18 +7,18 @@ mod choice;
 mod counts;
 mod digits;
 mod estimate;
+mod format;
 mod fuzz;
 mod gauntlet;
-mod grades;
 mod lab;
 mod mbs;
 mod page;
 mod peers;
 mod profile;
 mod report;
-mod steps;
+mod report_grades;
+mod step_experiments;
 mod tables;
-mod tell;
 
 use clap::{Parser, Subcommand};
 use std::process::ExitCode;
@@ -87,7 +87,7 @@ enum Job {
         #[arg(value_name = "SCENE")]
         scenes: Vec<String>,
     },
-    /// Time mbs and its peers on the same problems by turns (docs/PEERS.md): text, Markdown, CSV and HTML under target/peers
+    /// Time mbs and its peers on the same problems, interleaved (docs/PEERS.md): text, Markdown, CSV and HTML under target/peers
     Peers {
         /// Fewer and shorter turns
         #[arg(long)]
@@ -116,7 +116,7 @@ enum Job {
     },
     /// Count the instructions of a step under callgrind: what is absent or switched off costs nothing
     Counts,
-    /// Try scenes that nobody meant, mutated text and random mechanisms; what breaks or hangs is kept under target/fuzz
+    /// Try malformed scenes, mutated text and random mechanisms; what breaks or hangs is kept under target/fuzz
     Fuzz {
         /// For so long [s]
         #[arg(long, value_name = "S", default_value_t = 120)]
@@ -146,7 +146,7 @@ fn run(job: Job) -> Result<bool, String> {
     match job {
         Job::Tables { quick, names } => tables::tables(quick, &names)?,
         Job::Report { quick } => report::report(quick)?,
-        Job::Steps { quick, names } => drop(steps::run(quick, &names)?),
+        Job::Steps { quick, names } => drop(step_experiments::run(quick, &names)?),
         Job::Bench { threads, quick, scenes } => {
             bench::run(&bench::Asked { threads, quick, scenes })?;
         }

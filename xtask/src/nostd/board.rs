@@ -60,9 +60,9 @@ pub(super) fn build(
     Ok((elf, image))
 }
 
-/// Runs an image on its board; what it told.
+/// Runs an image on its board; what it printed.
 pub(super) fn emulate(board: &Board, elf: &Path) -> Result<String, String> {
-    let file = elf.with_extension("told");
+    let file = elf.with_extension("txt");
     let to = std::fs::File::create(&file).map_err(|e| format!("{}: {e}", file.display()))?;
     let mut command = Command::new("qemu-system-arm");
     command.args(["-machine", board.machine, "-cpu", board.cpu, "-nographic"]);
@@ -81,8 +81,8 @@ pub(super) fn emulate(board: &Board, elf: &Path) -> Result<String, String> {
         }
         std::thread::sleep(Duration::from_millis(50));
     };
-    let told = std::fs::read_to_string(&file).map_err(|e| format!("{}: {e}", file.display()))?;
-    if status.success() { Ok(told) } else { Err(format!("{}: {status}\n{told}", elf.display())) }
+    let text = std::fs::read_to_string(&file).map_err(|e| format!("{}: {e}", file.display()))?;
+    if status.success() { Ok(text) } else { Err(format!("{}: {status}\n{text}", elf.display())) }
 }
 
 /// The same run on the host, in a program without the standard library.

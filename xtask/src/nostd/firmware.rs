@@ -3,8 +3,8 @@
 use super::board::{Board, M4, M7, build, emulate, export, on_host};
 use super::image::{Image, reachable};
 use super::in_c;
+use super::run_report::RunReport;
 use super::sizes;
-use super::told::Told;
 use super::toolchain::Toolchain;
 use crate::debian;
 use crate::process::{self, output};
@@ -82,16 +82,16 @@ impl Case {
         let model = export(scene, precision, models)?;
         let (elf, image) = build((toolchain, lld), board, self.features, &model)?;
         no_panics(&elf, board.cpu, &place)?;
-        let told = Told::read(&emulate(board, &elf)?)?;
-        let same = Told::read(&on_host(&model, self.features)?)?;
+        let report = RunReport::read(&emulate(board, &elf)?)?;
+        let same = RunReport::read(&on_host(&model, self.features)?)?;
         let exact = if *precision == "f64" {
             same.clone()
         } else {
-            Told::read(&on_host(&export(scene, "f64", models)?, self.features)?)?
+            RunReport::read(&on_host(&export(scene, "f64", models)?, self.features)?)?
         };
-        let apart = told.apart(&exact)?;
+        let apart = report.apart(&exact)?;
         match self.apart {
-            None if told.lines != same.lines => {
+            None if report.lines != same.lines => {
                 return Err(format!("{place}: controller and host differ, by {apart}"));
             }
             Some(most) if !apart.is_within(most) => {
@@ -101,16 +101,16 @@ impl Case {
         }
         let bound = same.bound;
         for (what, is, most) in [
-            ("instructions in a step", told.most, self.instructions),
-            ("instructions in a step", told.most, bound),
-            ("bytes of stack", told.stack, self.stack),
+            ("instructions in a step", report.most, self.instructions),
+            ("instructions in a step", report.most, bound),
+            ("bytes of stack", report.stack, self.stack),
             ("bytes of flash", image.flash, FLASH),
         ] {
             if is > most {
                 return Err(format!("{place}: {is} {what}, and {most} are allowed"));
             }
         }
-        let Told { least, most, evaluation, stack, solver, .. } = told;
+        let RunReport { least, most, evaluation, stack, solver, .. } = report;
         let Image { flash, ram } = image;
         Ok(format!(
             "{place}: {least} to {most} instructions a step (bound {bound}), {evaluation} an evaluation, stack {stack} bytes, static \

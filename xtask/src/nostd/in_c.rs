@@ -1,7 +1,7 @@
 //! The static library for C and its example, compiled, run, and compared with the host's run.
 
 use super::board::{export, on_host};
-use super::told::Told;
+use super::run_report::RunReport;
 use crate::process::{self, cargo, output, run};
 use std::path::Path;
 use std::process::Command;
@@ -24,12 +24,12 @@ pub(super) fn check(models: &Path) -> Result<String, String> {
     run(compile.current_dir(&here))?;
     let model = export("six-joint-arm", "f64", models)?;
     let mut example = Command::new(&program);
-    let told = output(example.arg(model.with_extension("mbs")));
-    let told = Told::read(&told.ok_or_else(|| format!("{} failed", program.display()))?)?;
-    let host = Told::read(&on_host(&model, "")?)?;
-    if told.lines == host.lines {
+    let text = output(example.arg(model.with_extension("mbs")));
+    let report = RunReport::read(&text.ok_or_else(|| format!("{} failed", program.display()))?)?;
+    let host = RunReport::read(&on_host(&model, "")?)?;
+    if report.lines == host.lines {
         Ok("a program in C gives the same bits".to_owned())
     } else {
-        Err(format!("a program in C differs from the host's run by {}", told.apart(&host)?))
+        Err(format!("a program in C differs from the host's run by {}", report.apart(&host)?))
     }
 }

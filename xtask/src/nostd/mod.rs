@@ -15,9 +15,9 @@ mod board;
 mod firmware;
 mod image;
 mod in_c;
+mod run_report;
 mod sizes;
 mod table;
-mod told;
 mod toolchain;
 
 use crate::process;

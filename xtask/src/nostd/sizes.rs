@@ -2,7 +2,7 @@
 
 use super::board::{M7, build, emulate, export};
 use super::image::Image;
-use super::told::Told;
+use super::run_report::RunReport;
 use super::toolchain::Toolchain;
 use crate::effects::{self, Listed};
 use std::path::Path;
@@ -49,11 +49,11 @@ pub(super) fn check(
     for set in &sets {
         let (elf, image) = build((toolchain, lld), &M7, set, &model)?;
         without_others(&image.names(&elf)?, set)?;
-        let told = Told::read(&emulate(&M7, &elf)?)?;
+        let report = RunReport::read(&emulate(&M7, &elf)?)?;
         let Image { flash, ram } = image;
         lines.push(format!(
             "six-joint-arm [{set}]: flash {flash}, static data {ram}, stack {}",
-            told.stack
+            report.stack
         ));
         eprintln!("   {}", lines[lines.len() - 1]);
         sizes.push(flash);

@@ -68,9 +68,9 @@ pub fn look(browser: &str, page: &Path) -> Result<(), String> {
         let name = probed.file_name().unwrap_or_default().to_string_lossy();
         let text = include_str!("frame.html").replace("{{page}}", &name);
         fs::write(&frame, text.replace("{{width}}", &width.to_string())).map_err(place)?;
-        let told = told(&dom(browser, &frame)?);
-        if told != "sound" {
-            faults.push(format!("{} at {width} px: {told}", page.display()));
+        let report = report_in(&dom(browser, &frame)?);
+        if report != "sound" {
+            faults.push(format!("{} at {width} px: {report}", page.display()));
         }
         fs::remove_file(&frame).map_err(place)?;
     }
@@ -84,8 +84,9 @@ fn with_probe(html: &str) -> String {
 }
 
 /// What the probe reported, from the page as the browser leaves it.
-fn told(dom: &str) -> String {
-    let text = dom.split_once("<pre id=\"told\">").and_then(|(_, rest)| rest.split_once("</pre>"));
+fn report_in(dom: &str) -> String {
+    let text =
+        dom.split_once("<pre id=\"report\">").and_then(|(_, rest)| rest.split_once("</pre>"));
     let text = text.map_or("the browser showed nothing", |(text, _)| text);
     text.replace("&lt;", "<").replace("&gt;", ">").replace("&amp;", "&")
 }
@@ -111,7 +112,7 @@ fn dom(browser: &str, page: &Path) -> Result<String, String> {
     command.arg(format!("--user-data-dir={}", profile.display()));
     command.arg(format!("file://{}", absolute(page).display()));
     let out = command.stdin(Stdio::null()).output().map_err(|e| format!("{browser}: {e}"))?;
-    // What is left of it is nobody's.
+    // No other program needs what is left of it.
     let _ = fs::remove_dir_all(profile);
     Ok(String::from_utf8_lossy(&out.stdout).into_owned())
 }
@@ -132,13 +133,13 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_page_gets_the_probe_and_what_it_tells_is_read() {
+    fn a_page_gets_the_probe_and_its_report_is_read() {
         let page = with_probe("<html><head><title>x</title></head><body>y</body></html>");
         assert!(
             page.starts_with("<html><head><script>window.probeFaults")
                 && page.ends_with("</script></body></html>")
         );
-        assert_eq!(told("<pre id=\"told\">faults\na &lt; b</pre>"), "faults\na < b");
-        assert_eq!(told("<p>"), "the browser showed nothing");
+        assert_eq!(report_in("<pre id=\"report\">faults\na &lt; b</pre>"), "faults\na < b");
+        assert_eq!(report_in("<p>"), "the browser showed nothing");
     }
 }

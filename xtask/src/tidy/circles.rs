@@ -271,7 +271,7 @@ impl Crate<'_> {
         let circle = |first: usize| {
             let inside = |i: usize| together(first, i);
             let edges = edges.iter().filter(|((from, to), _)| inside(*from) && inside(*to));
-            let told = edges.map(|((from, to), places)| {
+            let lines = edges.map(|((from, to), places)| {
                 let places: Vec<_> =
                     places.iter().map(|(line, name)| format!("{line} `{name}`")).collect();
                 format!(
@@ -283,7 +283,7 @@ impl Crate<'_> {
             });
             (
                 (0..n).filter(|i| inside(*i)).map(|i| self.files[i].as_str()).collect(),
-                told.collect(),
+                lines.collect(),
             )
         };
         firsts.map(circle).collect()

@@ -2,7 +2,7 @@
 
 use crate::clock::time_of;
 use crate::space::in_space;
-use crate::{Failure, tell};
+use crate::{Failure, print_line};
 use mbs_core::model::Owner;
 use mbs_core::scene::Scene;
 use mbs_core::step::{StepError, StepReport};
@@ -18,7 +18,7 @@ const SCENE: &str = include_str!("../../../../scenes/andrews.toml");
 
 /// Length of the run [s].
 const END: f64 = 0.03;
-/// First step tried [s], as the peers' programs are told.
+/// First step tried [s], the same as in the peers' programs.
 const FIRST: f64 = 1e-7;
 
 /// Joints of the seven angles in the scene, their starts and their ends [rad].
@@ -77,7 +77,7 @@ fn runs<S: Space<f64>>(space: &str, scene: &Scene<f64>, seconds: f64) -> Result<
                 black_box(run().is_ok());
             });
             let digits = digits(&seats, &state);
-            tell(&format!("{space} {name} {error:.1e}"), time, digits, "digits");
+            print_line(&format!("{space} {name} {error:.1e}"), time, digits, "digits");
         }
     }
     Ok(())

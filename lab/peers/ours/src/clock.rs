@@ -2,7 +2,7 @@
 
 use cpu_time::ProcessTime;
 
-/// States that are gone through by turns.
+/// States, which the calls take in turn.
 pub(crate) const STATES: usize = 8;
 /// Batches of which the middle one counts.
 const BATCHES: usize = 7;
@@ -18,7 +18,7 @@ fn median(seconds: f64, mut batch: impl FnMut(usize) -> f64) -> f64 {
     times[BATCHES / 2]
 }
 
-/// Seconds for one call, which is told the number of the state that is its turn.
+/// Seconds for one call, which gets the number of its state.
 pub(crate) fn time_of(seconds: f64, mut call: impl FnMut(usize)) -> f64 {
     median(seconds, |n| {
         let start = ProcessTime::now();

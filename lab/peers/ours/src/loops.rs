@@ -6,7 +6,7 @@
 
 use crate::clock::time_of;
 use crate::scenes::{GRAVITY, add_joint, add_rod, empty};
-use crate::{Failure, tell};
+use crate::{Failure, print_line};
 use mbs_core::model::Owner;
 use mbs_core::scene::{BodyId, Dimension, JointKind, Scene};
 use mbs_recursive::space::Space;
@@ -50,7 +50,7 @@ fn scene(n: usize, dimension: Dimension) -> (Scene<f64>, Vec<f64>) {
 pub(crate) fn four_bars(n: usize, seconds: f64) -> Result<(), Failure> {
     let cranks = n as f64 + 1.0;
     let exact = -GRAVITY * ANGLE.cos() * (0.5 * cranks + n as f64) / (cranks / 3.0 + n as f64);
-    tell("reference", 0.0, exact, "exact");
+    print_line("reference", 0.0, exact, "exact");
     timed::<Planar>("planar", scene(n, Dimension::Planar), seconds)?;
     timed::<Spatial>("spatial", scene(n, Dimension::Spatial), seconds)
 }
@@ -75,6 +75,6 @@ fn timed<S: Space<f64>>(
     let time = time_of(seconds, |_| {
         black_box(model.accelerate(&options, &mut state, &mut workspace).is_ok());
     });
-    tell(name, time, value, "exact");
+    print_line(name, time, value, "exact");
     Ok(())
 }

@@ -1,7 +1,7 @@
 //! mbs on the problems that its peers are timed on: ours PROBLEM N (SECONDS | STEP)
 //!
 //! A line has an algorithm, seconds for one call or run, a value, and what that is compared with. Lines whose algorithm is
-//! `reference` tell the exact value: in closed form, or by the same equations in 32 digits.
+//! `reference` have the exact value: in closed form, or by the same equations in 32 digits.
 
 mod andrews;
 mod clock;
@@ -28,7 +28,7 @@ fn exactly<T: mbs_core::Real>(x: f64) -> T {
 }
 
 /// One line.
-fn tell(algorithm: &str, seconds: f64, value: f64, reference: &str) {
+fn print_line(algorithm: &str, seconds: f64, value: f64, reference: &str) {
     println!("{algorithm},{seconds:.6e},{value:.17e},{reference}");
 }
 

@@ -2,7 +2,7 @@
 
 use crate::clock::time_of;
 use crate::scenes::{GRAVITY, Shape, states};
-use crate::{Failure, exactly, tell};
+use crate::{Failure, exactly, print_line};
 use mbs_core::Real;
 use mbs_core::model::Owner;
 use mbs_core::real::DoubleDouble;
@@ -64,9 +64,9 @@ pub(crate) fn forward(shape: Shape, n: usize, seconds: f64) -> Result<(), Failur
         let scene = shape.scene(n, Dimension::Spatial, gravity);
         Open::<DoubleDouble, Spatial>::new(&scene)?.accelerate(0).map(Real::to_f64)
     };
-    tell("reference", 0.0, exact(GRAVITY)?, "exact");
+    print_line("reference", 0.0, exact(GRAVITY)?, "exact");
     // Gravity along the axes moves nothing.
-    tell("reference", 0.0, exact(0.0)?, "weightless");
+    print_line("reference", 0.0, exact(0.0)?, "weightless");
     let scene = |dimension| shape.scene(n, dimension, GRAVITY);
     timed_forward::<Planar>("planar", &scene(Dimension::Planar), seconds)?;
     timed_forward::<Spatial>("spatial", &scene(Dimension::Spatial), seconds)
@@ -82,7 +82,7 @@ fn timed_forward<S: Space<f64>>(
     let time = time_of(seconds, |k| {
         black_box(open.accelerate(k).is_ok());
     });
-    tell(name, time, value, "exact");
+    print_line(name, time, value, "exact");
     Ok(())
 }
 
@@ -91,7 +91,7 @@ pub(crate) fn inverse(n: usize, seconds: f64) -> Result<(), Failure> {
     let scene = Shape::Chain.scene(n, Dimension::Spatial, GRAVITY);
     let mut exact = Open::<DoubleDouble, Spatial>::new(&scene)?;
     let value = exact.effort(0, &mut vec![DoubleDouble::ZERO; n])?;
-    tell("reference", 0.0, value.to_f64(), "exact");
+    print_line("reference", 0.0, value.to_f64(), "exact");
     let scene = |dimension| Shape::Chain.scene(n, dimension, GRAVITY);
     timed_inverse::<Planar>("planar", &scene(Dimension::Planar), seconds)?;
     timed_inverse::<Spatial>("spatial", &scene(Dimension::Spatial), seconds)
@@ -108,6 +108,6 @@ fn timed_inverse<S: Space<f64>>(
     let time = time_of(seconds, |k| {
         black_box(open.effort(k, &mut efforts).is_ok());
     });
-    tell(name, time, value, "exact");
+    print_line(name, time, value, "exact");
     Ok(())
 }

@@ -1,10 +1,10 @@
 //! Whole runs of the repository's scenes with a fixed step, each method in turn; seconds are CPU time of the steps alone.
 
 use crate::space::in_space;
-use crate::{Failure, tell};
+use crate::{Failure, print_line};
 use cpu_time::ProcessTime;
-use mbs::{InSpace, Method, Plane, Settings};
 use mbs::typed::Simulation;
+use mbs::{InSpace, Method, Plane, Settings};
 use mbs_core::scene::Scene;
 use mbs_recursive::space::Space;
 use mbs_recursive::{Options, Planar, Spatial, TreeModel, Workspace, rk4_step, step};
@@ -53,11 +53,11 @@ pub(crate) fn four_bars(n: usize, dt: f64) -> Result<(), Failure> {
         40 => FORTY,
         _ => return Err("there are scenes of 2 and of 40 four-bars".into()),
     };
-    tell("reference", 0.0, exact, "exact");
+    print_line("reference", 0.0, exact, "exact");
     runs(text, dt, Judge::CrankEnd)
 }
 
-/// Runs a scene by every method; one that stops is told and left out.
+/// Runs a scene by every method; one that stops is reported and left out.
 fn runs(text: &str, dt: f64, judge: Judge) -> Result<(), Failure> {
     let scene = SceneFile::parse(text, "scene").and_then(|document| document.scene());
     let scene: Scene<f64> = scene.map_err(|e| e.render())?;
@@ -66,29 +66,29 @@ fn runs(text: &str, dt: f64, judge: Judge) -> Result<(), Failure> {
     for (is_explicit, integrator) in [(false, "trapezoidal"), (true, "rk4")] {
         let planar =
             |is_watched| kernel::<Planar, 2>(&scene, (dt, n), is_explicit, (judge, is_watched));
-        told(&format!("planar kernel {integrator}"), judge, planar);
+        print_run(&format!("planar kernel {integrator}"), judge, planar);
         let spatial =
             |is_watched| kernel::<Spatial, 3>(&spatial, (dt, n), is_explicit, (judge, is_watched));
-        told(&format!("spatial kernel {integrator}"), judge, spatial);
+        print_run(&format!("spatial kernel {integrator}"), judge, spatial);
     }
     for method in METHODS {
         let run = |is_watched| simulated::<2>(&scene, (dt, n), method, (judge, is_watched));
-        told(&format!("planar {}", method.join(" ")), judge, run);
+        print_run(&format!("planar {}", method.join(" ")), judge, run);
     }
     let method = METHODS[2];
     let run = |is_watched| simulated::<3>(&spatial, (dt, n), method, (judge, is_watched));
-    told(&format!("spatial {}", method.join(" ")), judge, run);
+    print_run(&format!("spatial {}", method.join(" ")), judge, run);
     Ok(())
 }
 
 /// Times a run without looking at it, then judges another.
-fn told(name: &str, judge: Judge, run: impl Fn(bool) -> Result<[f64; 2], Failure>) {
+fn print_run(name: &str, judge: Judge, run: impl Fn(bool) -> Result<[f64; 2], Failure>) {
     let timed = run(false).and_then(|[seconds, value]| match judge {
         Judge::Energy => Ok((seconds, run(true)?[1])),
         Judge::CrankEnd => Ok((seconds, value)),
     });
     match timed {
-        Ok((seconds, value)) => tell(name, seconds, value, judge.reference()),
+        Ok((seconds, value)) => print_line(name, seconds, value, judge.reference()),
         Err(why) => eprintln!("{name}: {why}"),
     }
 }

@@ -3,7 +3,7 @@
 use crate::clock::time_of_steps;
 use crate::open::Open;
 use crate::scenes::{GRAVITY, Shape};
-use crate::{Failure, exactly, tell};
+use crate::{Failure, exactly, print_line};
 use mbs_core::Real;
 use mbs_core::real::DoubleDouble;
 use mbs_core::scene::{Dimension, Scene};
@@ -23,7 +23,7 @@ pub(crate) fn step(n: usize, seconds: f64) -> Result<(), Failure> {
     let options = Options { error: exactly(FINE), ..Options::default() };
     let state = &mut exact.states[0];
     extrapolated_step(&exact.model, exactly(STEP), &options, state, &mut exact.workspace)?;
-    tell("reference", 0.0, state.z[exact.first].to_f64(), "exact");
+    print_line("reference", 0.0, state.z[exact.first].to_f64(), "exact");
     let scene = |dimension| Shape::Chain.scene(n, dimension, GRAVITY);
     timed::<Planar>("planar RK4", &scene(Dimension::Planar), seconds)?;
     timed::<Spatial>("spatial RK4", &scene(Dimension::Spatial), seconds)
@@ -41,6 +41,6 @@ fn timed<S: Space<f64>>(name: &str, scene: &Scene<f64>, seconds: f64) -> Result<
             black_box(rk4_step(&model, STEP, &options, &mut state, &mut workspace).is_ok());
         }
     });
-    tell(name, time, value, "exact");
+    print_line(name, time, value, "exact");
     Ok(())
 }

@@ -4,7 +4,7 @@ pub mod andrews;
 
 use cpu_time::ProcessTime;
 
-/// States that are gone through by turns.
+/// States, which the calls take in turn.
 pub const STATES: usize = 8;
 /// Batches of which the middle one counts.
 const BATCHES: usize = 7;
@@ -38,7 +38,7 @@ pub fn time_of(seconds: f64, mut call: impl FnMut(usize)) -> f64 {
 }
 
 /// One line: algorithm, seconds for one call, the value, what that is compared with.
-pub fn tell(algorithm: &str, seconds: f64, value: f64, reference: &str) {
+pub fn print_line(algorithm: &str, seconds: f64, value: f64, reference: &str) {
     println!("{algorithm},{seconds:.6e},{value:.17e},{reference}");
 }
 

@@ -7,9 +7,9 @@ use std::thread::available_parallelism;
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Machine {
     pub(crate) cores: usize,
-    /// The processor's name, where the system tells it.
+    /// The processor's name, where the system reports it.
     pub(crate) processor: String,
-    /// Processes that ran or waited, over the last minute: before and after; where the system tells it.
+    /// Processes that ran or waited, over the last minute: before and after; where the system reports it.
     pub(crate) load: [Option<f64>; 2],
 }
 
@@ -35,7 +35,7 @@ impl Machine {
     }
 
     /// As a sentence.
-    pub(crate) fn told(&self) -> String {
+    pub(crate) fn sentence(&self) -> String {
         let processor =
             if self.processor.is_empty() { "processor not named" } else { &self.processor };
         let busy = match self.is_busy() {
@@ -43,13 +43,13 @@ impl Machine {
                 "it was busy with other work, so that times are upper bounds, and teams waited for cores that others had"
             }
             Some(false) => "it was idle",
-            None => "it does not tell whether it was busy",
+            None => "it does not report whether it was busy",
         };
-        format!("Measured on {} cores ({processor}), {}: {busy}.", self.cores, self.load_told())
+        format!("Measured on {} cores ({processor}), {}: {busy}.", self.cores, self.load_text())
     }
 
     /// The load before and after.
-    pub(crate) fn load_told(&self) -> String {
+    pub(crate) fn load_text(&self) -> String {
         let [before, after] = self.load.map(|x| x.map_or("?".to_owned(), |x| format!("{x:.1}")));
         format!("load average {before} before and {after} after")
     }
@@ -85,13 +85,16 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_machine_tells_whether_it_was_busy() {
+    fn a_machine_reports_whether_it_was_busy() {
         let machine = |load| Machine { cores: 2, processor: String::new(), load: [load, None] };
         assert_eq!(
             [Some(3.0), Some(0.1), None].map(|load| machine(load).is_busy()),
             [Some(true), Some(false), None]
         );
-        let told = machine(Some(3.0)).told();
-        assert!(told.contains("2 cores") && told.contains("3.0 before and ? after"), "{told}");
+        let sentence = machine(Some(3.0)).sentence();
+        assert!(
+            sentence.contains("2 cores") && sentence.contains("3.0 before and ? after"),
+            "{sentence}"
+        );
     }
 }

@@ -36,7 +36,7 @@ const SCENES: [&str; 14] = [
     "tree-4095",
     "chain-10000",
 ];
-/// What cargo is told to build the measuring program alone.
+/// Arguments of cargo that build the measuring program alone.
 pub(crate) const RUNNER: [&str; 7] =
     ["--package", "lab", "--bin", "runner", "--no-default-features", "--features", "runner"];
 /// The largest ones, which `--quick` leaves out.
@@ -63,7 +63,7 @@ pub(crate) fn run(asked: &Asked) -> Result<String, String> {
     let measured = measure(asked)?;
     let sections = tables::sections(&measured);
     let mut remark = String::new();
-    crate::tell::paragraph(&mut remark, 0, &tables::remark(&measured));
+    crate::format::paragraph(&mut remark, 0, &tables::remark(&measured));
     println!("{remark}");
     for section in &sections {
         println!("{}", section.text());

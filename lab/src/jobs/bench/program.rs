@@ -7,7 +7,7 @@ use std::process::Command;
 use std::time::Duration;
 use xtask::process;
 
-/// The program, and what every run of it is told.
+/// The program, and the arguments of every run of it.
 #[derive(Debug)]
 pub(crate) struct Program {
     pub(crate) path: PathBuf,

@@ -222,7 +222,7 @@ mod tests {
     }
 
     #[test]
-    fn functions_are_told_apart_by_their_paths() {
+    fn functions_are_distinguished_by_their_paths() {
         assert!(Kind::Effect.has("<mbs_core::effects::Law<f64>>::evaluate"));
         assert!(!Kind::Effect.has("<alloc::vec::Vec<mbs_core::effects::Law<f64>>>::len"));
         assert!(Kind::Guide.has("<NaturalModel<f64, 2> as Model<f64>>::evaluate_phi_t"));

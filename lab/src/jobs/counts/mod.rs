@@ -7,7 +7,7 @@
 mod callgrind;
 mod claims;
 
-use crate::tell;
+use crate::format;
 use callgrind::Case;
 pub(crate) use callgrind::missing as missing_valgrind;
 use claims::{Claim, Runs};
@@ -131,7 +131,7 @@ fn table(runs: &Runs) -> String {
     let lean = row(&runs.lean, "none compiled", "spring-damper", &["out"]);
     let headings = columns.iter().map(|column| column.join(", "));
     let head: Vec<_> = ["effect".to_owned()].into_iter().chain(headings).collect();
-    tell::markdown(&head, [lean].into_iter().chain(cases().into_iter().map(full)))
+    format::markdown(&head, [lean].into_iter().chain(cases().into_iter().map(full)))
 }
 
 /// One line for each claim, then what contradicts it.

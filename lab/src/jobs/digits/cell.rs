@@ -1,7 +1,7 @@
 //! Which runs there are: scenes, ladders of penalties and ways, and their runs in full.
 
 use super::outcome::{Figures, Run};
-use crate::tell::{self, error, step};
+use crate::format::{self, error, step};
 
 /// A scene.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -161,5 +161,5 @@ pub(super) fn csv(cells: &[Cell]) -> Result<Vec<u8>, String> {
             run.reason(),
         ]
     };
-    tell::csv(head, cells.iter().flat_map(each).map(record))
+    format::csv(head, cells.iter().flat_map(each).map(record))
 }

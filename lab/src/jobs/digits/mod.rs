@@ -5,7 +5,7 @@
 
 mod cell;
 mod outcome;
-mod told;
+mod report;
 
 use crate::bench;
 use crate::lab::Lab;
@@ -38,7 +38,7 @@ pub(crate) fn d1(lab: &Lab<'_>) -> Result<Section, String> {
     };
     let cells = cells(lab.quick, run);
     process::write(&lab.folder.join("digits.csv"), &cell::csv(&cells)?)?;
-    Ok(told::section(&cells))
+    Ok(report::section(&cells))
 }
 
 /// All cells, by what `run` makes of the words for the program.

@@ -1,6 +1,6 @@
-//! What a run came to, as the program tells it.
+//! What a run came to, as the program reports it.
 
-use crate::tell::error;
+use crate::format::error;
 use serde_json::Value;
 
 /// A run: its figures, or why there are none.
@@ -63,7 +63,7 @@ impl Run {
     }
 
     /// Its error [J], or when it stopped.
-    pub(super) fn told(&self) -> String {
+    pub(super) fn text(&self) -> String {
         match self {
             Self::Made(Figures { steps, .. }) if self.completed().is_none() && *steps < 1.0 => {
                 "no step".to_owned()
@@ -100,10 +100,10 @@ mod tests {
             "seconds": 3e-5, "stopped_at": 0.594, "reason": "no convergence",
         });
         let run = Run::read(Ok(vec![line.clone()]));
-        assert_eq!((run.told(), run.reason()), ("stops at 0.59 s".into(), "no convergence".into()));
+        assert_eq!((run.text(), run.reason()), ("stops at 0.59 s".into(), "no convergence".into()));
         let Run::Made(figures) = run else { panic!("it has figures") };
         assert!(figures.energy_error.is_nan() && figures.corrections.is_none());
-        assert_eq!(Run::read(Err("took too long".into())).told(), "not run");
+        assert_eq!(Run::read(Err("took too long".into())).text(), "not run");
         assert_eq!(Run::read(Ok(vec![line.clone(), line])).reason(), "2 lines came back");
     }
 }

@@ -56,8 +56,8 @@ fn run(count: usize, jobs: Option<usize>) -> Result<(Section, bool), String> {
     let tallies = Tallies::of(&lines);
     let section = section(&tallies, (count, stride), start.elapsed());
     let folder = process::target_dir().join("gauntlet");
-    let told: String = lines.iter().map(|line| format!("{line}\n")).collect();
-    write(&folder.join("cases.jsonl"), told.as_bytes())?;
+    let json_lines: String = lines.iter().map(|line| format!("{line}\n")).collect();
+    write(&folder.join("cases.jsonl"), json_lines.as_bytes())?;
     write(&folder.join("gauntlet.txt"), section.text().as_bytes())?;
     let remark = process::commit().map_or_else(String::new, |commit| format!("commit {commit}"));
     write(&folder.join("gauntlet.html"), page("Gauntlet", &remark, &section.html()).as_bytes())?;
@@ -85,7 +85,7 @@ fn section(tallies: &Tallies, (count, jobs): (usize, usize), time: Duration) -> 
     let mut head = vec!["property"];
     head.extend(tallies.methods.iter().map(String::as_str));
     let row = |name: &str, tallies: &[tally::Tally]| {
-        let cells = tallies.iter().map(tally::Tally::told);
+        let cells = tallies.iter().map(tally::Tally::cell);
         [name.to_owned()].into_iter().chain(cells).collect::<Vec<_>>()
     };
     let rows = tallies.properties().iter().map(|(name, cells)| row(name, cells)).collect();

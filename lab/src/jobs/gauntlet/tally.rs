@@ -102,7 +102,7 @@ impl Tally {
     }
 
     /// What a cell says: pass, the largest step, the share of typed errors with their most frequent code, what is wrong.
-    pub(super) fn told(&self) -> String {
+    pub(super) fn cell(&self) -> String {
         if self.runs() == 0 {
             return String::new();
         }
@@ -193,21 +193,21 @@ mod tests {
     use serde_json::json;
 
     #[test]
-    fn a_cell_tells_pass_the_largest_step_the_error_or_what_is_wrong() {
+    fn a_cell_says_pass_the_largest_step_the_error_or_what_is_wrong() {
         let mut tally = Tally::default();
-        assert_eq!(tally.told(), "");
+        assert_eq!(tally.cell(), "");
         let right = json!({ "is": "right", "error": 1e-4 });
         let stopped = json!({ "is": "stopped", "code": "rank-lost", "time": 0.5 });
         for step in [1e-4, 1e-3, 1e-2] {
             tally.take(&right, step);
         }
-        assert_eq!(tally.told(), "pass");
+        assert_eq!(tally.cell(), "pass");
         tally.take(&stopped, 1e-2);
-        assert_eq!(tally.told(), "to 1e-3 s; 25 % stop: rank-lost");
+        assert_eq!(tally.cell(), "to 1e-3 s; 25 % stop: rank-lost");
         tally.take(&stopped, 1e-4);
-        assert_eq!(tally.told(), "40 % stop: rank-lost");
+        assert_eq!(tally.cell(), "40 % stop: rank-lost");
         tally.take(&json!({ "is": "wrong", "why": "a panic" }), 1e-4);
-        assert_eq!(tally.told(), "1 WRONG of 6");
+        assert_eq!(tally.cell(), "1 WRONG of 6");
     }
 
     #[test]

@@ -1,4 +1,4 @@
-//! Processes that run cases, each watched: one that is about a run for too long is ended, and another goes on after it.
+//! Processes that run cases, each watched: one that is about a run for too long is ended, and another continues after it.
 
 use serde_json::{Value, json};
 use std::io::{BufRead, BufReader};
@@ -23,7 +23,7 @@ pub(super) struct Share {
     pub(super) limit: Duration,
 }
 
-/// Runs a share of the cases; `done` is told each line.
+/// Runs a share of the cases; `done` is called for each line.
 ///
 /// # Errors
 ///
@@ -40,10 +40,10 @@ pub(super) fn run(
         command.args(["gauntlet", "run"]).args(numbers).stdin(Stdio::null()).stdout(Stdio::piped());
         let line = process::line(&command);
         let mut child = command.spawn().map_err(|e| format!("cannot start `{line}`: {e}"))?;
-        let told = listen(&mut child)?;
+        let received = listen(&mut child)?;
         let (mut number, mut about) = (first, String::from("its beginning"));
         let fault = loop {
-            match told.recv_timeout(share.limit) {
+            match received.recv_timeout(share.limit) {
                 Ok(line) if line.starts_with('{') => {
                     let case = serde_json::from_str(&line).map_err(|e| format!("`{line}`: {e}"))?;
                     lines.push(case);
@@ -93,7 +93,7 @@ mod tests {
     const SCRIPT: &str = "#!/bin/sh\nk=$4\nwhile [ $k -lt $3 ]; do\n  echo \"begin $k a run\"\n  [ $k -eq 1 ] && exec sleep 30\n  [ $k -eq 2 ] && exit 7\n  echo \"{\\\"number\\\":$k}\"\n  k=$((k+$5))\ndone\n";
 
     #[test]
-    fn a_case_that_hangs_or_dies_is_told_and_the_others_are_run() {
+    fn a_case_that_hangs_or_dies_is_reported_and_the_others_are_run() {
         use std::os::unix::fs::PermissionsExt;
         let program = std::env::temp_dir().join(format!("lab-gauntlet-{}", std::process::id()));
         std::fs::write(&program, SCRIPT).unwrap();
@@ -101,9 +101,9 @@ mod tests {
         let share = Share { count: 5, first: 0, stride: 1, limit: Duration::from_millis(500) };
         let lines = run(&program, share, &|| {}).unwrap();
         std::fs::remove_file(&program).unwrap();
-        let told: Vec<_> =
+        let cases: Vec<_> =
             lines.iter().map(|line| (line["number"].as_u64(), line["fault"].as_str())).collect();
-        let [zero, one, two, three, four] = told.as_slice() else { panic!("{told:?}") };
+        let [zero, one, two, three, four] = cases.as_slice() else { panic!("{cases:?}") };
         assert_eq!((*zero, *three, *four), ((Some(0), None), (Some(3), None), (Some(4), None)));
         assert!(one.1.is_some_and(|why| why.contains("a run hung")), "{one:?}");
         assert!(two.1.is_some_and(|why| why.contains("ended with")), "{two:?}");

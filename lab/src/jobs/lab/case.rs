@@ -1,6 +1,6 @@
 //! One run of an experiment: scene, formulation, and what chooses its steps.
 
-use crate::tell::step;
+use crate::format::step;
 
 /// What chooses the steps of a run.
 #[derive(Debug, Clone, Copy, PartialEq)]

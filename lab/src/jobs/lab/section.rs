@@ -2,8 +2,8 @@
 
 use super::Run;
 use crate::chart::Chart;
+use crate::format::paragraph;
 use crate::page::{cell, escape, figure, words};
-use crate::tell::paragraph;
 use std::fmt::Write;
 
 /// A claim and what the runs say of it.
@@ -148,8 +148,9 @@ impl Section {
                     grid(&mut text, head, &rows.iter().map(row).collect::<Vec<_>>());
                 }
                 Block::Claim(claim) => {
-                    let told = format!("{}: {} ({})", claim.what, claim.measured, claim.verdict());
-                    paragraph(&mut text, 2, &told);
+                    let sentence =
+                        format!("{}: {} ({})", claim.what, claim.measured, claim.verdict());
+                    paragraph(&mut text, 2, &sentence);
                 }
                 Block::Figure(_, caption) => paragraph(&mut text, 0, caption),
                 Block::Behind(..) => {}

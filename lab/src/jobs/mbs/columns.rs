@@ -55,7 +55,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn columns_are_read_by_name_and_their_absence_is_told() {
+    fn columns_are_read_by_name_and_their_absence_is_reported() {
         let file = std::env::temp_dir().join(format!("mbs-columns-{}.csv", std::process::id()));
         std::fs::write(&file, "t,a.x,a.z\n0,1,2\n0.5,,-4\n").unwrap();
         let (z, x, b) = (history(&file, "a.z"), history(&file, "a.x"), history(&file, "b"));

@@ -212,14 +212,14 @@ mod tests {
         let json =
             String::from_utf8_lossy(DONE).replace("\"error\"", &format!("{control}\"error\""));
         let Ok(Outcome::Completed(figures)) = read(Some(0), json.as_bytes(), b"") else { panic!() };
-        let told = Control {
+        let expected = Control {
             rejected: 2,
             steps: [1e-4, 1e-2],
             index_changes: 1,
             index_1_steps: 3,
             events: 5,
         };
-        assert_eq!(figures.control, Some(told));
+        assert_eq!(figures.control, Some(expected));
         let odd = json.replace("\"rejected\": 2", "\"rejected\": -2");
         assert!(read(Some(0), odd.as_bytes(), b"").unwrap_err().contains("rejected"));
     }
@@ -238,7 +238,7 @@ mod tests {
     }
 
     #[test]
-    fn refusals_are_told_from_what_is_not_built() {
+    fn refusals_are_distinguished_from_what_is_not_built() {
         let stderr = b"error: formulation `recursive` is not built yet\nhint: built are: auto\n";
         assert_eq!(read(Some(1), b"", stderr), Ok(Outcome::NotBuilt));
         let stderr = b"error: the loops cannot be closed\n";

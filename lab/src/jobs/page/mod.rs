@@ -85,8 +85,8 @@ mod tests {
 
     #[test]
     fn numbers_stay_whole_and_beside_their_units() {
-        let told = "<span class=\"number\">2.5e-11</span>&nbsp;m, &lt; 3 in <span class=\"number\">index-3</span>";
-        assert_eq!(words("2.5e-11 m, < 3 in index-3"), told);
+        let html = "<span class=\"number\">2.5e-11</span>&nbsp;m, &lt; 3 in <span class=\"number\">index-3</span>";
+        assert_eq!(words("2.5e-11 m, < 3 in index-3"), html);
     }
 
     #[test]

@@ -23,11 +23,11 @@ impl Solver {
     }
 }
 
-/// The solvers of a problem whose runs tell digits: their algorithms without the last word, which is the tolerance.
+/// The solvers of a problem whose runs report digits: their algorithms without the last word, which is the tolerance.
 pub(super) fn solvers(measured: &Measured) -> Vec<Solver> {
     let mut solvers: Vec<(String, Vec<&Lane>)> = Vec::new();
     for lane in &measured.lanes {
-        let name = lane.told();
+        let name = lane.label();
         let name = name.rsplit_once(' ').map_or(name.as_str(), |(name, _)| name).to_owned();
         match solvers.iter_mut().find(|(known, _)| *known == name) {
             Some((_, lanes)) => lanes.push(lane),

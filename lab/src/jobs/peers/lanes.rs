@@ -17,7 +17,7 @@ pub(super) struct Lane {
     pub(super) algorithm: String,
     /// CPU time in each turn [s].
     pub(super) seconds: Vec<f64>,
-    /// Right digits, where that is what it tells.
+    /// Right digits, where it reports them.
     pub(super) digits: Option<f64>,
     /// Distance from the exact value, in its unit, and relative to it where it is not zero.
     pub(super) error: Option<[f64; 2]>,
@@ -25,7 +25,7 @@ pub(super) struct Lane {
 
 impl Lane {
     /// The program and the algorithm.
-    pub(super) fn told(&self) -> String {
+    pub(super) fn label(&self) -> String {
         match self.who {
             Who::RustChains | Who::RustAndrews | Who::Radau | Who::Ida => self.algorithm.clone(),
             _ => format!("{} {}", self.who.name(), self.algorithm),
@@ -178,7 +178,7 @@ mod tests {
             let others = [line("aba", peer, 3.0 + 1e-9), line("soft", 0.1, 3.3)];
             measured.take(Who::MuJoCo, others.to_vec());
         }
-        assert_eq!(measured.peer().map(Lane::told), Some("MuJoCo aba".to_owned()));
+        assert_eq!(measured.peer().map(Lane::label), Some("MuJoCo aba".to_owned()));
         assert_eq!([measured.ratio(false), measured.ratio(true)], [Some(0.5), None]);
         assert_eq!(measured.wrong().len(), 1, "3.1 is not 3");
     }

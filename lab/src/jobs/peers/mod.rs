@@ -1,4 +1,4 @@
-//! `cargo xtask peers`: mbs and its peers on the same problems, by turns, in one run (docs/PEERS.md).
+//! `cargo xtask peers`: mbs and its peers on the same problems, interleaved, in one run (docs/PEERS.md).
 
 mod digits;
 mod lanes;
@@ -59,7 +59,7 @@ fn measure(problem: Problem, effort: Effort) -> Result<Measured, String> {
     let asked =
         Asked { problem: problem.name, n: problem.n, number: problem.step.unwrap_or(seconds) };
     for turn in 0..effort.turns {
-        process::progress(&format!("{}, turn {} of {}", problem.told(), turn + 1, effort.turns));
+        process::progress(&format!("{}, turn {} of {}", problem.label(), turn + 1, effort.turns));
         measured.take(Who::Ours, Who::Ours.run(&asked)?);
         for &who in problem.peers.iter().filter(|who| who.is_here()) {
             if measured.failed.iter().any(|(failed, _)| *failed == who) {
@@ -82,7 +82,7 @@ fn remark(machine: &Machine, effort: Effort) -> String {
         effort.turns,
         Who::Ours.version(),
         machine.processor,
-        machine.load_told()
+        machine.load_text()
     )
 }
 

@@ -24,7 +24,7 @@ pub(super) struct Problem {
     pub(super) n: usize,
     /// How it is judged.
     pub(super) kind: Kind,
-    /// Step of a whole run [s]; evaluations are told how long to measure.
+    /// Step of a whole run [s]; evaluations get the time to measure for.
     pub(super) step: Option<f64>,
     /// Ours over the fastest peer, at most, and what is aimed at.
     pub(super) limit: [f64; 2],
@@ -34,7 +34,7 @@ pub(super) struct Problem {
 
 impl Problem {
     /// Its name with its size.
-    pub(super) fn told(&self) -> String {
+    pub(super) fn label(&self) -> String {
         match self.kind {
             Kind::Digits => self.name.to_owned(),
             _ => format!("{} {}", self.name, self.n),

@@ -23,7 +23,7 @@ pub(super) enum Who {
 }
 
 impl Who {
-    /// All peers, in the order in which they are told.
+    /// All peers, in the order of the tables.
     pub(super) const PEERS: [Self; 10] = [
         Self::PinocchioOpen,
         Self::PinocchioLoop,
@@ -106,9 +106,9 @@ impl Who {
         }
     }
 
-    /// Its version, as it tells it itself.
+    /// Its version, as it reports it.
     pub(super) fn version(self) -> String {
-        let told = match self {
+        let text = match self {
             // what Cargo.toml pins
             Self::RustChains => Some("dynibo 0.5.3, phyz-rigid 0.4.0".to_owned()),
             Self::RustAndrews => Some("0.18.0".to_owned()),
@@ -116,8 +116,8 @@ impl Who {
             Self::PinocchioLoop => Some(Self::PinocchioOpen.version()),
             _ => output(self.command().arg("version")),
         };
-        let told = told.unwrap_or_default();
-        told.lines().last().unwrap_or_default().to_owned()
+        let text = text.unwrap_or_default();
+        text.lines().last().unwrap_or_default().to_owned()
     }
 
     /// The lines that it prints on a problem.
@@ -206,7 +206,7 @@ pub(super) fn build() -> Result<(), String> {
         package("rust").env("RUSTFLAGS", "-C target-cpu=native"),
         Command::new(sources().join("build.sh")).env("PEERS_DIR", folder()),
     ] {
-        // A peer that cannot be built is told as one that is not there.
+        // A peer that cannot be built is reported as one that is not there.
         if let Err(why) = process::run(peers) {
             eprintln!("{why}");
         }

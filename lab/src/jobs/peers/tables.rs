@@ -4,8 +4,8 @@ use super::digits::{against, solvers};
 use super::lanes::{Lane, Measured};
 use super::problems::{ALGEBRAIC, DIGITS, Kind, LIMIT_ALGEBRAIC, limit_at};
 use super::programs::Who;
+use crate::format::{self, error, paragraph, ratio};
 use crate::lab::section::Section;
-use crate::tell::{self, error, paragraph, ratio};
 
 /// A table: its head and its rows.
 type Table = (Vec<&'static str>, Vec<Vec<String>>);
@@ -46,27 +46,27 @@ fn time(seconds: f64) -> String {
     format!("{x:.digits$} {unit}")
 }
 
-fn told_error(lane: &Lane) -> String {
+fn error_cell(lane: &Lane) -> String {
     lane.error.map_or_else(String::new, |[far, _]| error(far))
 }
 
-fn told_ratio(x: Option<f64>) -> String {
+fn ratio_cell(x: Option<f64>) -> String {
     x.map_or_else(|| "-".to_owned(), ratio)
 }
 
-/// Ours in the plane beside the fastest peer, for every problem but those that tell digits.
+/// Ours in the plane beside the fastest peer, for every problem but those that report digits.
 fn beside(measured: &[Measured]) -> Table {
     let row = |m: &Measured| {
-        let problem = m.problem.told();
+        let problem = m.problem.label();
         let Some(peer) = m.peer() else {
             return vec![problem, "no peer is installed, or none is right".to_owned()];
         };
         let ours = m.ours(false).map_or_else(
             || ["none errs as little".to_owned(), String::new(), String::new()],
-            |lane| [lane.algorithm.clone(), time(lane.time()), told_error(lane)],
+            |lane| [lane.algorithm.clone(), time(lane.time()), error_cell(lane)],
         );
-        let peer = [peer.told(), time(peer.time()), told_error(peer)];
-        let ratios = [m.ratio(false), m.ratio(true)].map(told_ratio);
+        let peer = [peer.label(), time(peer.time()), error_cell(peer)];
+        let ratios = [m.ratio(false), m.ratio(true)].map(ratio_cell);
         let [problem, limit] = [[problem], [ratio(m.problem.limit[0])]];
         [&problem[..], &ours, &peer, &ratios, &limit].concat()
     };
@@ -82,7 +82,7 @@ fn at_digits(measured: &Measured) -> Table {
             return vec![digits.to_string(), "mbs or every peer does not reach them".to_owned()];
         };
         let over = |is_spatial, name| {
-            told_ratio(against(&solvers, digits, is_spatial, name).map(|(_, _, quotient)| quotient))
+            ratio_cell(against(&solvers, digits, is_spatial, name).map(|(_, _, quotient)| quotient))
         };
         let [radau, ida] = ALGEBRAIC.map(|name| over(false, name));
         let took = |x: Option<f64>| x.map_or_else(String::new, time);
@@ -106,12 +106,12 @@ fn at_digits(measured: &Measured) -> Table {
 fn peers(measured: &[Measured]) -> Table {
     let row = |&who: &Who| {
         let failed = measured.iter().flat_map(|m| &m.failed).find(|(failed, _)| *failed == who);
-        let told = match failed {
+        let version = match failed {
             _ if !who.is_here() => format!("not installed: {}", who.remedy()),
             Some((_, why)) => format!("{}, failed: {}", who.version(), why.trim()),
             None => who.version(),
         };
-        vec![who.name().to_owned(), told]
+        vec![who.name().to_owned(), version]
     };
     let is_asked = |who: &&Who| measured.iter().any(|m| m.problem.peers.contains(who));
     let mut rows: Vec<_> = Who::PEERS.iter().filter(is_asked).map(row).collect();
@@ -126,7 +126,7 @@ fn all(measured: &[Measured]) -> Table {
         for lane in &m.lanes {
             let digits = lane.digits.map_or_else(String::new, |x| format!("{x:.2}"));
             let cells =
-                [m.problem.told(), lane.told(), time(lane.time()), told_error(lane), digits];
+                [m.problem.label(), lane.label(), time(lane.time()), error_cell(lane), digits];
             rows.push(cells.to_vec());
         }
     }
@@ -143,34 +143,34 @@ pub(super) fn sections(measured: &[Measured]) -> Vec<Section> {
     let (head, rows) = beside(measured);
     section.table(&head, rows);
     claims(&mut section, measured);
-    let mut told = vec![section];
+    let mut sections = vec![section];
     for m in measured.iter().filter(|m| m.problem.kind == Kind::Digits) {
         let mut section = Section::new("digits", m.problem.title);
         let (head, rows) = at_digits(m);
         section.table(&head, rows);
         claims_at_digits(&mut section, m);
-        told.push(section);
+        sections.push(section);
     }
     let mut section = Section::new("programs", "The programs");
     let (head, rows) = peers(measured);
     section.table(&head, rows);
     let (head, rows) = all(measured);
     section.behind("every algorithm", &head, rows);
-    told.push(section);
-    told
+    sections.push(section);
+    sections
 }
 
 /// What is wanted of each problem, and whether it holds.
 fn claims(section: &mut Section, measured: &[Measured]) {
     for m in measured.iter().filter(|m| m.problem.kind != Kind::Digits) {
         let [limit, aim] = m.problem.limit;
-        let what = format!("{}, {}: at most {}", m.problem.told(), m.problem.title, ratio(limit));
+        let what = format!("{}, {}: at most {}", m.problem.label(), m.problem.title, ratio(limit));
         let found = m.ratio(false);
-        let measured = format!("{}, aim {}", told_ratio(found), ratio(aim));
+        let measured = format!("{}, aim {}", ratio_cell(found), ratio(aim));
         section.claim(what, measured, found.map(|x| x <= limit));
     }
     for lane in measured.iter().flat_map(Measured::wrong) {
-        section.claim(format!("{} is exact", lane.told()), told_error(lane), Some(false));
+        section.claim(format!("{} is exact", lane.label()), error_cell(lane), Some(false));
     }
 }
 
@@ -209,7 +209,7 @@ pub(super) fn markdown(measured: &[Measured], remark: &str) -> String {
     let tables = [beside(measured)].into_iter().chain(digits).chain([peers(measured)]);
     for (head, rows) in tables.filter(|(_, rows)| !rows.is_empty()) {
         text.push('\n');
-        text.push_str(&tell::markdown(&head, rows));
+        text.push_str(&format::markdown(&head, rows));
     }
     text
 }
@@ -232,7 +232,7 @@ pub(super) fn csv(measured: &[Measured]) -> Result<Vec<u8>, String> {
             ]);
         }
     }
-    tell::csv("problem,size,program,algorithm,turn,seconds,error,digits", records)
+    format::csv("problem,size,program,algorithm,turn,seconds,error,digits", records)
 }
 
 #[cfg(test)]
@@ -247,12 +247,12 @@ mod tests {
 
     #[test]
     fn times_keep_three_digits() {
-        let told = [2.347e-7, 1.5e-6, 0.0123, 12.34].map(time);
-        assert_eq!(told, ["235 ns", "1.50 us", "12.3 ms", "12.3 s"]);
+        let texts = [2.347e-7, 1.5e-6, 0.0123, 12.34].map(time);
+        assert_eq!(texts, ["235 ns", "1.50 us", "12.3 ms", "12.3 s"]);
     }
 
     #[test]
-    fn a_missed_limit_is_told_and_a_missing_peer_too() {
+    fn a_missed_limit_is_reported_and_a_missing_peer_too() {
         let mut measured = Measured::new(wanted(&["tree".to_owned()])[0]);
         let own = [line("reference", 0.0, 3.0), line("planar", 1.0, 3.0)];
         measured.take(Who::Ours, own.to_vec());
@@ -262,8 +262,8 @@ mod tests {
             "{alone}"
         );
         measured.take(Who::MuJoCo, vec![line("mj_forward", 1.25, 3.0)]);
-        let told = text(&[measured.clone()], "remark");
-        assert!(told.contains("0.80, aim 0.55 (does not hold)"), "{told}");
+        let page = text(&[measured.clone()], "remark");
+        assert!(page.contains("0.80, aim 0.55 (does not hold)"), "{page}");
         assert!(markdown(&[measured], "remark").contains("| tree 127 | planar | 1.00 s |"));
     }
 }

@@ -31,8 +31,8 @@ pub(crate) fn costs(dump: &str) -> Result<Costs, String> {
             function = name;
         } else if line.starts_with("calls=") {
             is_call = true;
-        } else if let Some(told) = line.strip_prefix("totals: ") {
-            total = told.trim().parse::<u64>().ok();
+        } else if let Some(count) = line.strip_prefix("totals: ") {
+            total = count.trim().parse::<u64>().ok();
         } else if line.starts_with("0x") && !std::mem::take(&mut is_call) {
             let mut words = line.split(' ');
             let (address, count) = (words.next(), words.nth(1).and_then(|n| n.parse::<u64>().ok()));
@@ -73,7 +73,7 @@ pub(crate) mod tests {
         ob=/lib/libc.so.6\nfl=???\nfn=memset\n0x900 0 20\n\ntotals: 62\n";
 
     #[test]
-    fn what_callees_take_is_counted_once_and_objects_are_told_apart() {
+    fn what_callees_take_is_counted_once_and_objects_are_distinguished() {
         let costs = costs(SAMPLE).unwrap();
         let at = |address: &str| {
             let (place, count) = costs.iter().find(|(place, _)| place.address == address).unwrap();

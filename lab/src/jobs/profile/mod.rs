@@ -1,7 +1,7 @@
 //! `cargo xtask profile`: where the instructions of a step go, and how far its time is from the floor (docs/PROFILES.md).
 //!
 //! The program `runner` is built for any x86-64 with the names of functions in it. Callgrind counts two runs of different length, so
-//! that start-up falls out; `addr2line` tells which functions are inlined at an instruction; time, operations and rates are
+//! that start-up falls out; `addr2line` finds which functions are inlined at an instruction; time, operations and rates are
 //! measured without callgrind.
 
 mod callgrind;
@@ -47,7 +47,7 @@ pub(crate) fn profile(keep: bool, names: &[String]) -> Result<(), String> {
     let mut machine = Machine::now();
     let program = build()?;
     process::progress("rates");
-    let rates = told(&program, &["rates"])?;
+    let rates = read_line(&program, &["rates"])?;
     let names: Vec<&str> = match names {
         [] => SCENES.to_vec(),
         names => names.iter().map(String::as_str).collect(),
@@ -80,7 +80,7 @@ fn build() -> Result<PathBuf, String> {
 }
 
 /// One line of the program.
-fn told(program: &Path, words: &[&str]) -> Result<Value, String> {
+fn read_line(program: &Path, words: &[&str]) -> Result<Value, String> {
     let mut command = Command::new(program);
     command.args(["bench", "profile"]).args(words).current_dir(process::root());
     let line = printed(&mut command, RUN_TIME)?;
@@ -91,8 +91,8 @@ fn told(program: &Path, words: &[&str]) -> Result<Value, String> {
 fn scene(program: &Path, name: &str) -> Result<Profile, String> {
     process::progress(name);
     let [from, to] = WINDOW.map(|n| n.to_string());
-    let told = told(program, &["told", name, &from, &to])?;
-    let [from, to] = ["from", "to"].map(|key| told[key].to_string());
+    let line = read_line(program, &["step", name, &from, &to])?;
+    let [from, to] = ["from", "to"].map(|key| line[key].to_string());
     process::progress(&format!("{name} under callgrind"));
     let costs = callgrind::more(&counted(program, name, &to)?, &counted(program, name, &from)?);
     let own = program.display().to_string();
@@ -102,7 +102,7 @@ fn scene(program: &Path, name: &str) -> Result<Profile, String> {
         .map(|place| place.address.as_str())
         .collect();
     let shares = parts::shares(&costs, &own, &functions(program, addresses)?);
-    Ok(Profile { told, shares })
+    Ok(Profile { line, shares })
 }
 
 /// Counts a run of so many steps.
@@ -142,18 +142,18 @@ fn functions(program: &Path, addresses: Vec<&str>) -> Result<String, String> {
 /// Where the numbers are from.
 fn remark(machine: &Machine) -> String {
     let version = |program: &str| output(Command::new(program).arg("--version"));
-    let told = |what: Option<String>| what.unwrap_or_else(|| "?".to_owned());
-    let rustc = told(version("rustc"));
+    let or_unknown = |what: Option<String>| what.unwrap_or_else(|| "?".to_owned());
+    let rustc = or_unknown(version("rustc"));
     let rustc = rustc.split(" (").next().unwrap_or_default();
     format!(
         "Steps {} to {} of each run, by `cargo xtask profile`. mbs {}, built for any x86-64, {rustc}, {}. {} cores ({}), {}.",
         WINDOW[0],
         WINDOW[1],
-        told(process::commit()),
-        told(version("valgrind")),
+        or_unknown(process::commit()),
+        or_unknown(version("valgrind")),
         machine.cores,
         machine.processor,
-        machine.load_told()
+        machine.load_text()
     )
 }
 

@@ -1,7 +1,7 @@
 //! The parts of a step, and which part an instruction belongs to.
 //!
 //! A release build inlines most of a step, and a product of two numbers stands in a line of the standard library: an instruction is
-//! told by the whole chain of functions that are inlined there, from the innermost outwards; the first that has a part decides.
+//! known by the whole chain of functions that are inlined there, from the innermost outwards; the first that has a part decides.
 
 use super::callgrind::{Costs, Place};
 use std::collections::BTreeMap;
@@ -149,10 +149,10 @@ const RESIDUALS: [&str; 9] = [
 ];
 const SWEEPS: [&str; 6] = ["visit", "solve", "forward", "forward_all", "backward", "backward_all"];
 
-/// The chains of functions at addresses, as `addr2line -a -f -i -C` tells them: innermost first.
-pub(crate) fn chains(told: &str) -> BTreeMap<u64, Vec<Frame<'_>>> {
+/// The chains of functions at addresses, as `addr2line -a -f -i -C` prints them: innermost first.
+pub(crate) fn chains(printed: &str) -> BTreeMap<u64, Vec<Frame<'_>>> {
     let mut chains: BTreeMap<u64, Vec<Frame<'_>>> = BTreeMap::new();
-    let (mut at, mut lines) = (0, told.lines());
+    let (mut at, mut lines) = (0, printed.lines());
     while let Some(line) = lines.next() {
         if let Some(address) = address(line) {
             at = address;
@@ -216,8 +216,8 @@ pub(crate) struct Shares {
 }
 
 /// Adds the costs up.
-pub(crate) fn shares(costs: &Costs, program: &str, told: &str) -> Shares {
-    let chains = chains(told);
+pub(crate) fn shares(costs: &Costs, program: &str, printed: &str) -> Shares {
+    let chains = chains(printed);
     let mut shares = Shares::default();
     for (place, &count) in costs {
         let own = (place.object == program).then(|| address(&place.address)).flatten();
@@ -234,7 +234,7 @@ mod tests {
     use super::super::callgrind::{costs, tests::SAMPLE};
     use super::*;
 
-    const TOLD: &str = "0x0000000000000010\nmbs_augmented::index3::step\n/r/mbs-augmented/src/index3.rs:50\n\
+    const PRINTED: &str = "0x0000000000000010\nmbs_augmented::index3::step\n/r/mbs-augmented/src/index3.rs:50\n\
         0x0000000000000014\n<f64 as core::ops::arith::Mul>::mul\n/rustc/library/core/src/ops/arith.rs:350\n\
         mbs_core::natural::element::<impl mbs_core::natural::model::NaturalModel<T,_>>::write_sized_block\n\
         /r/mbs-core/src/natural/element.rs:48 (discriminator 2)\n\
@@ -250,7 +250,7 @@ mod tests {
 
     #[test]
     fn an_instruction_belongs_to_the_innermost_function_that_has_a_part() {
-        let shares = shares(&costs(SAMPLE).unwrap(), "/p/bench", TOLD);
+        let shares = shares(&costs(SAMPLE).unwrap(), "/p/bench", PRINTED);
         let of = |part| shares.parts.get(&part).copied();
         assert_eq!(of(Part::Blocks), Some(4), "a product belongs to the block that it is in");
         assert_eq!(of(Part::Projections), Some(5), "a norm belongs to the projection that asks");
@@ -264,7 +264,7 @@ mod tests {
     }
 
     #[test]
-    fn functions_of_one_file_are_told_apart() {
+    fn functions_of_one_file_are_distinguished() {
         let share = |f| part_of(f, "/r/mbs-sparse/src/share.rs");
         assert_eq!(share("mbs_sparse::share::Numbers<T>::factor_task"), Some(Part::Kernels));
         assert_eq!(
@@ -288,7 +288,7 @@ mod tests {
     }
 
     #[test]
-    fn functions_are_told_by_their_last_names() {
+    fn functions_are_named_by_their_last_names() {
         assert_eq!(short("mbs_sparse::kernel::fixed"), "fixed");
         let closure = "mbs_core::natural::teamed::<impl a::B<T,_>>::advance_on::{{closure}}";
         assert_eq!(short(closure), "advance_on");

@@ -1,32 +1,32 @@
 //! The tables of a profile: a step beside its floor, its instructions by parts, and the functions that take most of them.
 
 use super::parts::{Part, Shares};
-use crate::tell;
+use crate::format;
 use serde_json::Value;
 use std::fmt::Write;
 
 /// One scene.
 #[derive(Debug)]
 pub(crate) struct Profile {
-    /// What `runner bench profile told` says.
-    pub(crate) told: Value,
+    /// The line of `runner bench profile step`.
+    pub(crate) line: Value,
     /// Instructions of all its steps.
     pub(crate) shares: Shares,
 }
 
 impl Profile {
     pub(crate) fn name(&self) -> &str {
-        self.told["scene"].as_str().unwrap_or_default()
+        self.line["scene"].as_str().unwrap_or_default()
     }
 
     /// A number of the line; not a number where there is none.
     pub(crate) fn number(&self, key: &str) -> f64 {
-        self.told[key].as_f64().unwrap_or(f64::NAN)
+        self.line[key].as_f64().unwrap_or(f64::NAN)
     }
 
     /// A count of work in a step.
     pub(crate) fn work(&self, key: &str) -> f64 {
-        self.told["work"][key].as_f64().unwrap_or(f64::NAN)
+        self.line["work"][key].as_f64().unwrap_or(f64::NAN)
     }
 
     /// How many steps were looked at.
@@ -46,7 +46,7 @@ impl Profile {
     }
 }
 
-/// Functions told of each scene.
+/// Functions listed of each scene.
 const FUNCTIONS: usize = 12;
 
 /// What the machine does at best.
@@ -62,8 +62,8 @@ struct Rates {
 }
 
 impl Rates {
-    fn of(told: &Value) -> Self {
-        let number = |key: &str| told[key].as_f64().unwrap_or(f64::NAN);
+    fn of(line: &Value) -> Self {
+        let number = |key: &str| line[key].as_f64().unwrap_or(f64::NAN);
         Self {
             scalar: number("scalar"),
             packed: number("packed"),
@@ -73,7 +73,7 @@ impl Rates {
         }
     }
 
-    fn told(&self) -> String {
+    fn sentence(&self) -> String {
         let [near, far] = self.sizes.map(|size| size / f64::from(1 << 20));
         format!(
             "Rates of this machine in the same run: {:.1} G products and sums in a second one at a time, {:.1} G two at a time (SSE2); \
@@ -98,9 +98,9 @@ fn operations(profile: &Profile) -> f64 {
     ["products", "sums", "quotients", "roots", "turns"].map(|key| profile.number(key)).iter().sum()
 }
 
-/// Operations of a step in a part; `None` where they are not told apart.
+/// Operations of a step in a part; `None` where they are not counted apart.
 fn operations_of(profile: &Profile, part: Part) -> Option<f64> {
-    let of = |phase: &str| profile.told["operations"][phase].as_f64().unwrap_or(f64::NAN);
+    let of = |phase: &str| profile.line["operations"][phase].as_f64().unwrap_or(f64::NAN);
     let eliminated = profile.work("factorizations") * profile.number("factor_flops");
     Some(match part {
         Part::Kernels => eliminated,
@@ -121,7 +121,7 @@ fn instructions(profile: &Profile) -> f64 {
 /// All tables with the remark.
 pub(crate) fn markdown(profiles: &[Profile], rates: &Value, remark: &str) -> String {
     let rates = Rates::of(rates);
-    let mut text = format!("{remark} {}\n\n", rates.told());
+    let mut text = format!("{remark} {}\n\n", rates.sentence());
     let heading = [
         "scene",
         "step [s]",
@@ -183,7 +183,7 @@ fn row(profile: &Profile, cells: impl IntoIterator<Item = String>) -> Vec<String
 }
 
 fn grid(heading: &[&str], rows: impl Iterator<Item = Vec<String>>) -> String {
-    tell::markdown(heading, rows) + "\n"
+    format::markdown(heading, rows) + "\n"
 }
 
 fn counts(profile: &Profile) -> Vec<String> {
@@ -236,7 +236,7 @@ fn functions(profile: &Profile) -> String {
 /// One scene as text.
 pub(crate) fn text(profile: &Profile, rates: &Value) -> String {
     let rates = Rates::of(rates);
-    let mut text = format!("{}\n\n", rates.told());
+    let mut text = format!("{}\n\n", rates.sentence());
     let [by_operations, by_bytes] = rates.floors(profile);
     let time = profile.number("seconds");
     let _ = writeln!(
@@ -284,12 +284,12 @@ pub(crate) fn text(profile: &Profile, rates: &Value) -> String {
 /// 3 of 6, 20 of 12
 fn cliques(profile: &Profile) -> String {
     let mut sizes: Vec<(u64, u64)> = Vec::new();
-    for (size, n) in profile.told["cliques"].as_object().into_iter().flatten() {
+    for (size, n) in profile.line["cliques"].as_object().into_iter().flatten() {
         sizes.extend(size.parse().ok().zip(n.as_u64()));
     }
     sizes.sort_unstable();
-    let told = sizes.iter().map(|(size, n)| format!("{n} of {size}"));
-    told.collect::<Vec<_>>().join(", ")
+    let cliques = sizes.iter().map(|(size, n)| format!("{n} of {size}"));
+    cliques.collect::<Vec<_>>().join(", ")
 }
 
 #[cfg(test)]
@@ -298,7 +298,7 @@ mod tests {
     use serde_json::json;
 
     fn sample() -> (Profile, Value) {
-        let told = json!({
+        let line = json!({
             "scene": "x", "from": 0, "to": 10, "step": 0.001, "seconds": 2e-6, "factor_flops": 100,
             "work": { "iterations": 2.0, "factorizations": 2.0, "solves": 3.0 },
             "products": 500.0, "sums": 400.0, "quotients": 90.0, "roots": 10.0, "turns": 0.0,
@@ -309,7 +309,7 @@ mod tests {
         let mut shares = Shares::default();
         shares.parts.extend([(Part::Kernels, 3000), (Part::Rest, 1000)]);
         shares.functions.insert((Part::Kernels, "factor".to_owned()), 3000);
-        (Profile { told, shares }, rates)
+        (Profile { line, shares }, rates)
     }
 
     #[test]
@@ -322,15 +322,15 @@ mod tests {
     }
 
     #[test]
-    fn tables_tell_every_part_and_shares_make_up_all() {
+    fn tables_have_every_part_and_shares_make_up_all() {
         let (profile, rates) = sample();
-        let told = markdown(&[profile], &rates, "Here.");
-        assert!(told.starts_with("Here. Rates"), "{told}");
+        let tables = markdown(&[profile], &rates, "Here.");
+        assert!(tables.starts_with("Here. Rates"), "{tables}");
         assert!(
-            told.contains("| `x` | 75.0 | 0.0 | 0.0 | 0.0 | 0.0 | 0.0 | 0.0 | 0.0 | 25.0 |"),
-            "{told}"
+            tables.contains("| `x` | 75.0 | 0.0 | 0.0 | 0.0 | 0.0 | 0.0 | 0.0 | 0.0 | 25.0 |"),
+            "{tables}"
         );
-        assert!(told.contains("200, 1.50"), "instructions for each operation: {told}");
-        assert!(told.contains("      300  75.0 %  factorisation  factor"), "{told}");
+        assert!(tables.contains("200, 1.50"), "instructions for each operation: {tables}");
+        assert!(tables.contains("      300  75.0 %  factorisation  factor"), "{tables}");
     }
 }

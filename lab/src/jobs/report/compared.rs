@@ -93,9 +93,9 @@ mod tests {
             { "name": "b", "runs": [run("completed")] },
         ] });
         assert_eq!(judged("s", &json, &["a"]), Judged { counts: [2, 1], surprises: vec![] });
-        let told = judged("s", &json, &["b"]).surprises;
+        let surprises = judged("s", &json, &["b"]).surprises;
         assert_eq!(
-            told,
+            surprises,
             ["s, a: 1 runs stop; why", "s, b: every run ends, and it is listed to stop"]
         );
     }

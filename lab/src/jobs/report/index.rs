@@ -170,7 +170,7 @@ impl Index {
     }
 }
 
-/// Commit, processor and compiler, as far as they can be asked for.
+/// Commit, processor and compiler; what cannot be asked for is left out.
 fn provenance() -> String {
     let said = |program: &str, arguments: &[&str]| {
         let mut command = Command::new(program);

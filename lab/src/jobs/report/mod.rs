@@ -6,7 +6,7 @@ mod index;
 
 use crate::chart::picture::picture;
 use crate::mbs::{self, Mbs};
-use crate::{bench, steps, tables};
+use crate::{bench, step_experiments, tables};
 use index::{Entry, Index};
 use std::path::Path;
 use std::time::Instant;
@@ -39,7 +39,7 @@ pub(crate) fn report(quick: bool) -> Result<(), String> {
     }
 
     let clock = Instant::now();
-    let made = steps::run(quick, &[])?;
+    let made = step_experiments::run(quick, &[])?;
     let [claims, hold] = made.claims;
     let remark = format!("{hold} of {claims} claims hold; the page says which do not.");
     index.add_page(&folder, &made.html, Entry::new(&index::STEPS, remark, clock, Vec::new()))?;

@@ -72,14 +72,14 @@ mod tests {
     #[test]
     fn what_stops_unlisted_and_what_ends_though_listed_are_surprises() {
         let rows = samples();
-        let told = |i: usize, listed: &[Entry]| surprise(&rows[i], listed);
+        let found = |i: usize, listed: &[Entry]| surprise(&rows[i], listed);
         let stops = [("T1", rows[1].method.name, 1e-4, "not-converged")];
-        assert_eq!((told(0, &[]), told(1, &stops)), (None, None));
-        assert!(told(1, &[]).unwrap().contains("not-converged"));
+        assert_eq!((found(0, &[]), found(1, &stops)), (None, None));
+        assert!(found(1, &[]).unwrap().contains("not-converged"));
         let other = [("T1", rows[1].method.name, 1e-4, "violated")];
-        assert!(told(1, &other).unwrap().contains("listed to stop with violated"));
+        assert!(found(1, &other).unwrap().contains("listed to stop with violated"));
         let ends = [("T1", rows[0].method.name, 1e-2, "violated")];
-        assert!(told(0, &ends).unwrap().contains("reached its end"));
-        assert!(told(2, &[]).unwrap().contains("not built"));
+        assert!(found(0, &ends).unwrap().contains("reached its end"));
+        assert!(found(2, &[]).unwrap().contains("not built"));
     }
 }

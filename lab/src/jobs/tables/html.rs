@@ -3,10 +3,10 @@
 use super::report::Table;
 use super::rows::{Row, by_table, sizes};
 use super::text::REMARK;
+use crate::format::step;
 use crate::lab::section::Section;
 use crate::mbs::outcome::Outcome;
 use crate::page::{cell, escape, words};
-use crate::tell::step;
 use std::fmt::Write;
 
 /// The page with all tables, and under some of them a figure; then what is made of sections.

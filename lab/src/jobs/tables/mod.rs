@@ -13,7 +13,7 @@ use crate::lab::section::Section;
 use crate::lab::{self, Lab};
 use crate::mbs::outcome::Outcome;
 use crate::mbs::{Mbs, columns, scene};
-use crate::{bench, digits, grades, page, steps};
+use crate::{bench, digits, page, report_grades, step_experiments};
 use rows::Row;
 use std::path::Path;
 use xtask::process;
@@ -24,8 +24,12 @@ const QUICK: f64 = 1e6;
 /// A table that is made of sections: grades, and what the experiments on steps draw.
 type Made = fn(&Lab<'_>) -> Result<Section, String>;
 /// Those tables, by their names; F6 shows the report's Figures 6 and 7, D1 answers what it asks about 32 digits.
-const MADE: [(&str, Made); 4] =
-    [("G1", grades::g1), ("G2", grades::g2), (STEPS, steps::figures), ("D1", digits::d1)];
+const MADE: [(&str, Made); 4] = [
+    ("G1", report_grades::g1),
+    ("G2", report_grades::g2),
+    (STEPS, step_experiments::figures),
+    ("D1", digits::d1),
+];
 /// The one of them that is also an experiment on steps.
 const STEPS: &str = "F6";
 /// Tables IV and V of the report, on processors, by their names; the bench measures both.

@@ -1,8 +1,8 @@
 //! One row for each method and step: ours beside the report's, as words and as CSV.
 
 use super::report::{Method, Printed, Table};
+use crate::format::{self, error, seconds, step};
 use crate::mbs::outcome::{Figures, Outcome};
-use crate::tell::{self, error, seconds, step};
 
 /// One entry of a table: what was run, and what came of it.
 #[derive(Debug, Clone)]
@@ -66,9 +66,9 @@ pub(crate) fn by_table(rows: &[Row]) -> impl Iterator<Item = (&'static Table, &[
     rows.chunk_by(|a, b| a.table.name == b.table.name).map(|rows| (rows[0].table, rows))
 }
 
-/// The sizes of the models of a table, ours and the report's; methods with the same ones are told together.
+/// The sizes of the models of a table, ours and the report's; methods with the same ones are in one line.
 pub(crate) fn sizes(table: &Table, rows: &[Row]) -> Vec<String> {
-    let mut told: Vec<(Vec<&str>, String)> = Vec::new();
+    let mut groups: Vec<(Vec<&str>, String)> = Vec::new();
     for row in rows {
         let Outcome::Completed(Figures { sizes: [coordinates, constraints, freedoms], .. }) =
             row.outcome
@@ -81,15 +81,15 @@ pub(crate) fn sizes(table: &Table, rows: &[Row]) -> Vec<String> {
             "{coordinates} coordinates, {constraints} constraints, freedoms: {freedoms}{printed}"
         );
         let name = row.method.formulation;
-        if told.iter().any(|(names, _)| names.contains(&name)) {
+        if groups.iter().any(|(names, _)| names.contains(&name)) {
             continue;
         }
-        match told.iter_mut().find(|(_, same)| *same == text) {
+        match groups.iter_mut().find(|(_, same)| *same == text) {
             Some((names, _)) => names.push(name),
-            None => told.push((vec![name], text)),
+            None => groups.push((vec![name], text)),
         }
     }
-    told.into_iter().map(|(names, text)| format!("{}: {text}.", names.join(", "))).collect()
+    groups.into_iter().map(|(names, text)| format!("{}: {text}.", names.join(", "))).collect()
 }
 
 /// A printed error with two digits, or all it has.
@@ -147,7 +147,7 @@ pub(crate) fn csv(rows: &[Row]) -> Result<Vec<u8>, String> {
         .map(str::to_owned)
         .to_vec()
     };
-    tell::csv(head, rows.iter().map(record))
+    format::csv(head, rows.iter().map(record))
 }
 
 #[cfg(test)]
@@ -208,10 +208,10 @@ pub(crate) mod tests {
             .iter()
             .map(|m| Row::new(t8, m, 1e-3, rows[0].outcome.clone()))
             .collect();
-        let told = sizes(t8, &rows);
-        assert_eq!(told.len(), 1, "{told:?}");
-        assert!(told[0].starts_with("index-3, classical: 4 coord"), "{told:?}");
-        assert!(told[0].ends_with("the report: 168 variables, 157 constraints and 1 guide, 11 freedoms with the guided one."));
+        let lines = sizes(t8, &rows);
+        assert_eq!(lines.len(), 1, "{lines:?}");
+        assert!(lines[0].starts_with("index-3, classical: 4 coord"), "{lines:?}");
+        assert!(lines[0].ends_with("the report: 168 variables, 157 constraints and 1 guide, 11 freedoms with the guided one."));
     }
 
     #[test]

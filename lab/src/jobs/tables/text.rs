@@ -1,7 +1,7 @@
 //! The tables as text for a terminal.
 
 use super::rows::{Row, by_table, sizes};
-use crate::tell::{paragraph, step};
+use crate::format::{paragraph, step};
 use std::fmt::Write;
 
 /// Widths of the columns: method, step, error, share, distance, time, the report's error and time.
@@ -78,7 +78,7 @@ mod tests {
         ));
         assert!(text.contains("2.0e-5     17.2\n"));
         assert!(text.contains("not-converged at 0.0082 s"));
-        assert!(text.lines().all(|line| line.len() <= crate::tell::PAGE), "{text}");
+        assert!(text.lines().all(|line| line.len() <= crate::format::PAGE), "{text}");
         assert!(text.contains("not built") && text.contains("refused: singular & stuck"));
     }
 }

@@ -87,11 +87,11 @@ fn run(formulation: &str, lanes: &mut [Lane<'_>], seconds: f64) {
             "order": name.order, "clocked": lane.clock.is_some(),
         });
         match timing {
-            Ok(timing) => merge(&mut line, [timing.told(), json!({ "work": lane.sums.told() })]),
+            Ok(timing) => merge(&mut line, [timing.json(), json!({ "work": lane.sums.json() })]),
             Err(why) => merge(&mut line, [json!({ "reason": why })]),
         }
         if let Some(clock) = lane.clock {
-            merge(&mut line, [clock.told(lane.sums.steps)]);
+            merge(&mut line, [clock.json(lane.sums.steps)]);
         }
         say(&line);
     }
@@ -128,7 +128,7 @@ mod tests {
         }
         assert_eq!(lanes[0].sums.steps, 3);
         assert!(lanes.iter().all(|lane| lane.sums == lanes[0].sums));
-        let told = clock.told(3);
-        assert!(told["after_evaluation"].as_f64().unwrap() < told["step"].as_f64().unwrap());
+        let line = clock.json(3);
+        assert!(line["after_evaluation"].as_f64().unwrap() < line["step"].as_f64().unwrap());
     }
 }

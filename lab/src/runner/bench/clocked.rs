@@ -81,7 +81,7 @@ impl Clock {
     }
 
     /// Seconds of each phase in one of `steps` steps, with what is left of the step, and what comes after the last evaluation.
-    pub(crate) fn told(&self, steps: u64) -> Value {
+    pub(crate) fn json(&self, steps: u64) -> Value {
         #[allow(clippy::cast_precision_loss, reason = "nanoseconds of minutes")]
         let each = |sum: &AtomicU64| sum.load(Relaxed) as f64 / steps.max(1) as f64;
         let mut phases = Map::new();
@@ -206,14 +206,14 @@ mod tests {
         clock.read(Phase::Bias, work);
         clock.read(Phase::Forces, work);
         clock.end();
-        let told = clock.told(1);
+        let line = clock.json(1);
         let number = |value: &Value| value.as_f64().unwrap();
-        let sum: f64 = told["phases"].as_object().unwrap().values().map(number).sum();
-        assert!((sum - number(&told["step"])).abs() < 1e-12);
-        let [after, evaluation] = [&told["after_evaluation"], &told["phases"]["evaluation"]];
-        assert!(number(after) < number(&told["step"]) - number(evaluation) + 1e-12);
-        assert!((number(&told["readings"]) - 8.0).abs() < 1e-12);
+        let sum: f64 = line["phases"].as_object().unwrap().values().map(number).sum();
+        assert!((sum - number(&line["step"])).abs() < 1e-12);
+        let [after, evaluation] = [&line["after_evaluation"], &line["phases"]["evaluation"]];
+        assert!(number(after) < number(&line["step"]) - number(evaluation) + 1e-12);
+        assert!((number(&line["readings"]) - 8.0).abs() < 1e-12);
         clock.reset();
-        assert!(number(&clock.told(1)["step"]).abs() < 1e-12);
+        assert!(number(&clock.json(1)["step"]).abs() < 1e-12);
     }
 }

@@ -36,7 +36,7 @@ pub(crate) fn measure(words: &[String]) -> Result<(), String> {
     };
     let asked = Asked { scene, form, step, span, alpha };
     let none = Tally::default;
-    let told = match digits.as_str() {
+    let line = match digits.as_str() {
         "f64" => run(&asked, plain::<f64, _>, |_| none()),
         "dd" => run(&asked, plain::<Pair, _>, |_| none()),
         "once" | "refined" => {
@@ -46,7 +46,7 @@ pub(crate) fn measure(words: &[String]) -> Result<(), String> {
         }
         _ => return Err(format!("no digits `{digits}`; there are f64, once, refined, dd")),
     };
-    say(&told?);
+    say(&line?);
     Ok(())
 }
 
@@ -116,7 +116,7 @@ impl Outcome {
         }
     }
 
-    fn told(&self) -> Value {
+    fn json(&self) -> Value {
         let each = |x: f64| x / f64::from(self.steps.max(1));
         #[allow(clippy::cast_precision_loss, reason = "counts of steps")]
         let [iterations, solutions, corrections] =
@@ -176,7 +176,7 @@ fn run<T: Real, S: SpdSolver<T>>(
         }
     }
     (outcome.energy_error, outcome.turned_over) = (energy.error, energy.kinetic);
-    Ok(outcome.told())
+    Ok(outcome.json())
 }
 
 /// A factor in the precision of the model.
@@ -237,8 +237,8 @@ mod tests {
             ("double-pendulum printed f64", "STEP SPAN ALPHA"),
             ("double-pendulum printed f16 1e-3 1 1e7", "no digits `f16`"),
         ] {
-            let told = measure(&words(text)).unwrap_err();
-            assert!(told.contains(why), "{told}");
+            let why_not = measure(&words(text)).unwrap_err();
+            assert!(why_not.contains(why), "{why_not}");
         }
         let asked = |form, alpha| Asked { scene: "", form, step: "1", span: "1", alpha };
         assert!(form::<f64>(&asked("print", "1")).unwrap_err().contains("no form `print`"));
@@ -262,12 +262,12 @@ mod tests {
     }
 
     #[test]
-    fn failures_are_told_with_their_time_and_leave_no_average_behind() {
+    fn failures_are_reported_with_their_time_and_leave_no_average_behind() {
         let mut outcome = Outcome::default();
         let error = RefinementError::NotFinite;
         let tally = Tally { solutions: 3, corrections: 8, failed: 1, failure: Some(error) };
         outcome.take::<f64>(0.5, Err(StepError::NotFinite { unknown: 1 }), tally);
-        let line = outcome.told();
+        let line = outcome.json();
         assert_eq!(line["reason"], json!(error.to_string()));
         assert_eq!((&line["stopped_at"], &line["corrections"]), (&json!(0.5), &json!(4.0)));
     }

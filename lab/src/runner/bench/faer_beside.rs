@@ -83,14 +83,14 @@ fn beside<const D: usize>(
         return say(&json!({ "kind": "faer", "after": after, "reason": error.to_string() }));
     }
     let mut line = json!({ "kind": "faer", "after": after });
-    let (written, difference) = by_turns(model, &mut ours, &system, &b, request.seconds);
-    let (given, _) = by_turns(model, &mut ours, &Given::of(model, &system), &b, request.seconds);
+    let (written, difference) = interleaved(model, &mut ours, &system, &b, request.seconds);
+    let (given, _) = interleaved(model, &mut ours, &Given::of(model, &system), &b, request.seconds);
     merge(&mut line, [written, json!({ "given": given, "difference": difference })]);
     say(&line);
 }
 
 /// Times of the three ways with blocks from `source`, and how far their solutions are apart.
-fn by_turns(
+fn interleaved(
     cliques: &impl Cliques,
     ours: &mut Multifrontal<f64>,
     source: &impl BlockSource<f64>,
@@ -119,14 +119,14 @@ fn by_turns(
     let mut simplicial = Work(rival(SupernodalThreshold::FORCE_SIMPLICIAL, 1));
     let mut supernodal = Work(rival(SupernodalThreshold::FORCE_SUPERNODAL, 2));
     let timings = race(&mut [&mut own, &mut simplicial, &mut supernodal], seconds);
-    let mut told = json!({});
+    let mut times = json!({});
     for (name, timing) in ["ours", "simplicial", "supernodal"].into_iter().zip(timings) {
         // None of them can fail.
-        let timing = timing.map(|timing| timing.told()).unwrap_or_default();
-        merge(&mut told, [json!({ name: timing })]);
+        let timing = timing.map(|timing| timing.json()).unwrap_or_default();
+        merge(&mut times, [json!({ name: timing })]);
     }
     let difference = |i: usize| distance(&found[0].borrow(), &found[i].borrow());
-    (told, difference(1).max(difference(2)))
+    (times, difference(1).max(difference(2)))
 }
 
 /// Blocks that are written once.

@@ -29,21 +29,21 @@ fn fork(team: &impl Team) {
 pub(crate) fn measure(request: &Request) -> Result<(), String> {
     let mut sizes = request.threads.clone();
     sizes.retain(|&n| n > 1);
-    tell("alone", 1, race(&mut [&mut Work(|| fork(&Alone))], request.seconds));
+    print_lines("alone", 1, race(&mut [&mut Work(|| fork(&Alone))], request.seconds));
     for n in sizes {
         let crew = ThreadTeam::new(n).map_err(|e| format!("no {n} threads: {e}"))?;
-        tell("crew", n, race(&mut [&mut Work(|| fork(&crew))], request.seconds));
+        print_lines("crew", n, race(&mut [&mut Work(|| fork(&crew))], request.seconds));
         drop(crew);
         let pool = Pool::new(n).map_err(|e| format!("no {n} threads: {e}"))?;
-        tell("pool", n, race(&mut [&mut Inside(&pool)], request.seconds));
+        print_lines("pool", n, race(&mut [&mut Inside(&pool)], request.seconds));
     }
     Ok(())
 }
 
-fn tell(team: &str, threads: usize, timings: Vec<Result<Timing, String>>) {
+fn print_lines(team: &str, threads: usize, timings: Vec<Result<Timing, String>>) {
     for timing in timings.into_iter().flatten() {
         let mut line = json!({ "kind": "fork", "team": team, "threads": threads });
-        merge(&mut line, [timing.told()]);
+        merge(&mut line, [timing.json()]);
         say(&line);
     }
 }

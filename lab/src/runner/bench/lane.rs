@@ -72,7 +72,7 @@ impl Sums {
     }
 
     /// Of one step.
-    pub(crate) fn told(&self) -> Value {
+    pub(crate) fn json(&self) -> Value {
         #[allow(clippy::cast_precision_loss, reason = "counts of steps")]
         let each = |sum: u64| sum as f64 / self.steps.max(1) as f64;
         json!({

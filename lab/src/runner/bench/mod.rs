@@ -5,7 +5,7 @@
 //! runner bench forks [--threads 2,3] [--seconds S]
 //! runner bench SCENE FORMULATION[,FORMULATION] [--threads 1,2] [--seconds S]
 //! runner bench digits SCENE FORM DIGITS STEP SPAN ALPHA
-//! runner bench profile rates | told SCENE FROM TO | bare SCENE N
+//! runner bench profile rates | step SCENE FROM TO | bare SCENE N
 //! ```
 //!
 //! Clocks live here alone: what is timed is the step of the library, through a model and a solver that delegate to its own.
@@ -78,6 +78,6 @@ fn measure<const D: usize>(
         return Ok(());
     }
     let prepared = Prepared::<D>::new(scene)?;
-    say(&prepared.told());
+    say(&prepared.json());
     own.into_iter().try_for_each(|name| augmented::measure(&prepared, name, request))
 }

@@ -42,27 +42,27 @@ pub(crate) fn measure<const D: usize>(
     formulation: &str,
     request: &Request,
 ) -> Result<(), String> {
-    let tell = |threads: usize, told: [Value; 2]| {
+    let print_line = |threads: usize, figures: [Value; 2]| {
         let team = if threads == 1 { "alone" } else { "crew" };
         let mut line = json!({
             "kind": "lane", "own": false, "formulation": formulation, "team": team, "threads": threads, "order": "chosen",
             "clocked": false,
         });
-        merge(&mut line, told);
+        merge(&mut line, figures);
         say(&line);
     };
     let (lanes, timings) = match raced::<D>(scene, formulation, request) {
         Ok(raced) => raced,
         Err(why) => {
-            tell(1, [json!({ "reason": why }), json!({})]);
+            print_line(1, [json!({ "reason": why }), json!({})]);
             return Ok(());
         }
     };
     for ((threads, lane), timing) in lanes.iter().zip(timings) {
-        tell(
+        print_line(
             *threads,
             match timing {
-                Ok(timing) => [timing.told(), json!({ "work": lane.sums.told() })],
+                Ok(timing) => [timing.json(), json!({ "work": lane.sums.json() })],
                 Err(why) => [json!({ "reason": why }), json!({})],
             },
         );

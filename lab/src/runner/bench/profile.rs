@@ -2,7 +2,7 @@
 //!
 //! ```text
 //! bench profile rates                    operations and bytes that this machine does in a second
-//! bench profile told SCENE FROM TO       steps FROM to TO of the scene's run: counts, CPU time, operations, bytes
+//! bench profile step SCENE FROM TO       steps FROM to TO of the scene's run: counts, CPU time, operations, bytes
 //! bench profile bare SCENE N             N steps and nothing else
 //! ```
 
@@ -36,18 +36,18 @@ pub(crate) fn measure(words: &[String]) -> Result<(), String> {
     let number = |word: &String| word.parse::<u32>().map_err(|e| format!("`{word}`: {e}"));
     match words {
         [word] if word == "rates" => say(&rates::measure()),
-        [word, scene, from, to] if word == "told" => {
+        [word, scene, from, to] if word == "step" => {
             let window = [number(from)?, number(to)?];
             match dimension(scene)? {
-                Dimension::Planar => say(&told::<2>(scene, window)?),
-                Dimension::Spatial => say(&told::<3>(scene, window)?),
+                Dimension::Planar => say(&step_line::<2>(scene, window)?),
+                Dimension::Spatial => say(&step_line::<3>(scene, window)?),
             }
         }
         [word, scene, n] if word == "bare" => match dimension(scene)? {
             Dimension::Planar => bare::<2>(scene, number(n)?)?,
             Dimension::Spatial => bare::<3>(scene, number(n)?)?,
         },
-        _ => return Err("expected `rates`, `told SCENE FROM TO` or `bare SCENE N`".to_owned()),
+        _ => return Err("expected `rates`, `step SCENE FROM TO` or `bare SCENE N`".to_owned()),
     }
     Ok(())
 }
@@ -100,7 +100,7 @@ fn bare<const D: usize>(scene: &str, n: u32) -> Result<(), String> {
 }
 
 /// The line of one scene.
-fn told<const D: usize>(scene: &str, [from, to]: [u32; 2]) -> Result<Value, String> {
+fn step_line<const D: usize>(scene: &str, [from, to]: [u32; 2]) -> Result<Value, String> {
     let prepared = Prepared::<D>::new(scenes::read(scene)?)?;
     let to = to.min(prepared.n_steps).max(from + 1);
     let mut walk = plain(&prepared);
@@ -118,7 +118,7 @@ fn told<const D: usize>(scene: &str, [from, to]: [u32; 2]) -> Result<Value, Stri
     Ok(json!({
         "kind": "step", "scene": scene, "step": prepared.dt, "from": from, "to": to,
         "unknowns": prepared.model.n_unknowns(), "rows": prepared.model.n_constraints(),
-        "seconds": seconds / f64::from(to - from), "work": sums.told(),
+        "seconds": seconds / f64::from(to - from), "work": sums.json(),
         "factor_flops": sizes.counters.flops, "entries": sizes.counters.nonzeros,
         "stored": sizes.counters.stored, "fronts": sizes.counters.n_fronts,
         "products": each(all.products), "sums": each(all.sums), "quotients": each(all.quotients),
@@ -286,7 +286,7 @@ mod tests {
     #[test]
     fn words_that_ask_for_nothing_are_refused() {
         let words = |text: &str| text.split(' ').map(str::to_owned).collect::<Vec<_>>();
-        assert!(measure(&words("told chain-12 1")).is_err());
+        assert!(measure(&words("step chain-12 1")).is_err());
         assert!(measure(&words("bare chain-12 x")).is_err());
     }
 }

@@ -32,7 +32,7 @@ impl Timing {
     }
 
     /// As keys of a line.
-    pub(crate) fn told(&self) -> Value {
+    pub(crate) fn json(&self) -> Value {
         json!({ "seconds": self.median, "quartiles": self.quartiles, "rounds": self.rounds, "batch": self.batch })
     }
 }

@@ -111,11 +111,11 @@ fn sum(array: &[f64]) -> f64 {
 /// Sizes of the second cache and of the last one, in bytes.
 fn caches() -> [usize; 2] {
     let folder = "/sys/devices/system/cpu/cpu0/cache";
-    let told = |i: usize, what: &str| read_to_string(format!("{folder}/index{i}/{what}")).ok();
+    let read = |i: usize, what: &str| read_to_string(format!("{folder}/index{i}/{what}")).ok();
     let mut found = CACHES;
     for i in 0..8 {
-        let level = told(i, "level").and_then(|text| text.trim().parse::<u32>().ok());
-        let size = told(i, "size").and_then(|text| size(text.trim()));
+        let level = read(i, "level").and_then(|text| text.trim().parse::<u32>().ok());
+        let size = read(i, "size").and_then(|text| size(text.trim()));
         match (level, size) {
             (Some(2), Some(size)) => found = [size, size],
             (Some(3..), Some(size)) => found[1] = size,
@@ -142,7 +142,6 @@ mod tests {
 
     #[test]
     fn sizes_of_caches_have_units() {
-        let told = |text| size(text);
-        assert_eq!([told("32768K"), told("2M"), told("x")], [Some(32 << 20), Some(2 << 20), None]);
+        assert_eq!([size("32768K"), size("2M"), size("x")], [Some(32 << 20), Some(2 << 20), None]);
     }
 }

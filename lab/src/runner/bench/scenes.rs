@@ -92,7 +92,7 @@ impl<const D: usize, T: Real> Prepared<D, T> {
 
 impl<const D: usize> Prepared<D> {
     /// Sizes as a line.
-    pub(crate) fn told(&self) -> Value {
+    pub(crate) fn json(&self) -> Value {
         let scene = &self.scene;
         json!({
             "kind": "scene", "title": scene.name, "bodies": scene.bodies.len(),

@@ -45,8 +45,8 @@ pub(crate) fn tables(
 }
 
 fn words(of: &str, message: &str, hint: &str) -> Result<(), String> {
-    let is_told = !message.is_empty() && !hint.is_empty();
-    is_told.then_some(()).ok_or_else(|| format!("{of}: a refusal without words"))
+    let has_words = !message.is_empty() && !hint.is_empty();
+    has_words.then_some(()).ok_or_else(|| format!("{of}: a refusal without words"))
 }
 
 /// Numbers, words and lines changed; and sometimes bytes, where they are text.

@@ -50,8 +50,8 @@ fn go<const D: usize>(
         seal(&mut bytes);
     }
     if let Err(error) = simulation.restore((scene, settings), &bytes[..]) {
-        let is_told = !error.to_string().is_empty() && !error.hint().is_empty();
-        return if is_told { Ok(Some(false)) } else { Err("a refusal without words".to_owned()) };
+        let has_words = !error.to_string().is_empty() && !error.hint().is_empty();
+        return if has_words { Ok(Some(false)) } else { Err("a refusal without words".to_owned()) };
     }
     for _ in 0..STEPS[1] {
         if simulation.step(settings.step).is_err() {

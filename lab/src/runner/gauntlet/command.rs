@@ -1,4 +1,4 @@
-//! `runner gauntlet run COUNT FIRST STRIDE`: the cases of these numbers, a line of JSON for each; before each run a line tells what begins, so
+//! `runner gauntlet run COUNT FIRST STRIDE`: the cases of these numbers, a line of JSON for each; before each run a line says what begins, so
 //! that who watches knows what hangs. `show FAMILY SEED`: the scene of a case, and how it is run. `one FAMILY SEED`:
 //! its verdicts.
 
@@ -21,7 +21,7 @@ pub fn run(words: &[String]) -> Result<(), String> {
         ["show", name, seed] => of(name, seed).map(|(family, seed)| show(family, seed)),
         ["one", name, seed] => of(name, seed).map(|(family, seed)| {
             keep_panics();
-            tell(&told((family, seed), &mut |_| {}).to_string());
+            print_line(&verdicts_of((family, seed), &mut |_| {}).to_string());
         }),
         _ => Err(
             "usage: runner gauntlet run COUNT FIRST STRIDE | show FAMILY SEED | one FAMILY SEED"
@@ -40,14 +40,14 @@ fn number(text: &str) -> Result<u64, String> {
 }
 
 /// A line; a reader that has gone away is no error.
-fn tell(line: &str) {
+fn print_line(line: &str) {
     let mut out = std::io::stdout().lock();
     let _ = writeln!(out, "{line}").and_then(|()| out.flush());
 }
 
 fn show(family: &Family, seed: u64) {
     let case = family.case(seed);
-    tell(&format!(
+    print_line(&format!(
         "# step {:e} s, {:?}, judged by {:?}\n{}",
         case.step, case.options, case.truth, case.scene
     ));
@@ -59,15 +59,15 @@ fn cases_of(numbers: &[&str]) -> Result<(), String> {
     let (count, first, stride) = (as_usize(count)?, as_usize(first)?, as_usize(stride)?.max(1));
     keep_panics();
     for (k, case) in cases(count).enumerate().skip(first).step_by(stride) {
-        let mut line = told(case, &mut |about| tell(&format!("begin {k} {about}")));
+        let mut line = verdicts_of(case, &mut |about| print_line(&format!("begin {k} {about}")));
         line["number"] = json!(k);
-        tell(&line.to_string());
+        print_line(&line.to_string());
     }
     Ok(())
 }
 
 /// What became of a case.
-fn told((family, seed): (&Family, u64), about: &mut dyn FnMut(&str)) -> Value {
+fn verdicts_of((family, seed): (&Family, u64), about: &mut dyn FnMut(&str)) -> Value {
     let case = family.case(seed);
     let verdicts: serde_json::Map<String, Value> = judge(&case, about)
         .into_iter()

@@ -114,14 +114,14 @@ fn go(scene: &str, overrides: &Method) -> Ran {
         }
         (Some(error), false) => Ran::Stopped { code: error.code.clone(), time: summary.end_time },
         (None, true) => {
-            let told = &summary.energy;
-            let rounding = 1e-6 * told.initial.abs();
-            if told.final_error > MOST_ENERGY * told.turned_over + rounding {
-                let (error, turned) = (told.final_error, told.turned_over);
+            let balance = &summary.energy;
+            let rounding = 1e-6 * balance.initial.abs();
+            if balance.final_error > MOST_ENERGY * balance.turned_over + rounding {
+                let (error, turned) = (balance.final_error, balance.turned_over);
                 return Ran::Broken(format!("the energy is off by {error:e} of {turned:e} J"));
             }
-            let is_off = told.max_error > rounding;
-            let energy = if is_off { told.max_error / told.turned_over } else { 0.0 };
+            let is_off = balance.max_error > rounding;
+            let energy = if is_off { balance.max_error / balance.turned_over } else { 0.0 };
             let violation = summary.violation.position;
             Ran::Completed { rows: outcome.rows().to_vec(), violation, energy }
         }

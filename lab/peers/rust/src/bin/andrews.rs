@@ -5,7 +5,7 @@
 
 use diffsol::{NalgebraMat, OdeBuilder, OdeSolverMethod, OdeSolverStopReason, Vector};
 use rust_peers::andrews::{START, digits, rate};
-use rust_peers::{asked, tell, time_of};
+use rust_peers::{asked, print_line, time_of};
 use std::error::Error;
 
 const END: f64 = 0.03;
@@ -47,7 +47,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let (_, _, seconds) = asked("andrews andrews 7 SECONDS")?;
     for tolerance in tolerances() {
         let [found, time] = measure(tolerance, seconds)?;
-        tell(&format!("diffsol TSIT45 {tolerance:.1e}"), time, found, "digits");
+        print_line(&format!("diffsol TSIT45 {tolerance:.1e}"), time, found, "digits");
     }
     Ok(())
 }

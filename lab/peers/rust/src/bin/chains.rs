@@ -2,7 +2,7 @@
 
 use phyz_math::{Mat3, SpatialInertia, SpatialTransform, Vec3};
 use phyz_model::ModelBuilder;
-use rust_peers::{asked, states, tell, time_of};
+use rust_peers::{asked, print_line, states, time_of};
 use std::error::Error;
 use std::fmt::Write;
 use std::hint::black_box;
@@ -40,7 +40,7 @@ fn dynibo(n: usize, seconds: f64) -> Result<(), Box<dyn Error>> {
         let done = robot.forward_dynamics(q, v, &none, &[], &mut out);
         black_box((&done.is_ok(), &out));
     });
-    tell("dynibo", time, value, "weightless");
+    print_line("dynibo", time, value, "weightless");
     Ok(())
 }
 
@@ -69,7 +69,7 @@ fn phyz(n: usize, seconds: f64) {
     let time = time_of(seconds, |k| {
         black_box(phyz_rigid::aba(&model, &states[k]));
     });
-    tell("phyz-rigid", time, value, "exact");
+    print_line("phyz-rigid", time, value, "exact");
 }
 
 fn main() -> Result<(), Box<dyn Error>> {

@@ -32,7 +32,7 @@ pub(super) fn faer(measured: &Measured) -> Section {
             };
             ratios.push(ratio);
             whole.push(with_blocks);
-            let difference = number(line, "difference").map(crate::tell::error);
+            let difference = number(line, "difference").map(crate::format::error);
             let mut row = vec![name];
             row.extend(times.map(time));
             row.extend([format!("{ratio:.2}"), format!("{with_blocks:.2}")]);
@@ -48,7 +48,7 @@ pub(super) fn faer(measured: &Measured) -> Section {
         "No system was measured.".to_owned()
     } else {
         format!(
-            "The matrix of an index-3 step, summed from the same blocks of its elements, factored and solved once, by turns in one run; \
+            "The matrix of an index-3 step, summed from the same blocks of its elements, factored and solved once, interleaved in one run; \
              the ratio is to the faster of faer's two ways. Ours takes {low:.2} to {high:.2} times as long, and is the faster one in \
              {faster} of {} systems. With blocks: both write the blocks of their elements as well, each time, as a step does; then it \
              is {least:.2} to {most:.2} times. The solutions differ by their share of the largest number.",

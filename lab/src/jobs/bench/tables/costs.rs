@@ -89,11 +89,11 @@ fn fastest(measured: &Measured) -> String {
             wins[at] += 1;
         }
     }
-    let told = measured.formulations.iter().zip(wins).filter(|(_, n)| *n > 0);
-    let told: Vec<_> = told.map(|(name, n)| format!("{name} in {n}")).collect();
+    let counts = measured.formulations.iter().zip(wins).filter(|(_, n)| *n > 0);
+    let counts: Vec<_> = counts.map(|(name, n)| format!("{name} in {n}")).collect();
     format!(
         "The cheapest step, of those that could be measured: {} of {} scenes. How accurate a step is, is in the tables on accuracy.",
-        told.join(", "),
+        counts.join(", "),
         measured.scenes.len()
     )
 }

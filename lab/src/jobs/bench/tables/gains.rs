@@ -143,7 +143,7 @@ pub(super) fn forks(measured: &Measured) -> Section {
     });
     section.table(&["team, threads", "median", "quartiles"], rows.collect());
     section.words(
-        "Two pieces of no work, joined: what a team asks for each cut where nobody takes the other piece. A task of a factorisation is \
+        "Two pieces of no work, joined: what a team asks for each cut where no thread takes the other piece. A task of a factorisation is \
          some hundred times as long at least; what handing a piece over costs shows in the steps above.",
     );
     section

@@ -11,9 +11,9 @@ use crate::lab::section::Section;
 /// What holds for all of them.
 pub(crate) fn remark(measured: &Measured) -> String {
     format!(
-        "{} Times are medians of repeated measurements, taken by turns in one process, with their quartiles; steps go on from the \
+        "{} Times are medians of repeated measurements, interleaved in one process, with their quartiles; steps continue from the \
          scene's start at its own step. Nothing here is a test.",
-        measured.machine.told()
+        measured.machine.sentence()
     )
 }
 
@@ -78,7 +78,7 @@ mod tests {
     }
 
     #[test]
-    fn a_vehicle_that_gains_nothing_is_told() {
+    fn a_vehicle_that_gains_nothing_is_reported() {
         let mut measured = sample();
         for lane in measured.scenes[0].lanes.iter_mut().filter(|lane| lane.threads > 1) {
             lane.seconds = Some(6e-4);

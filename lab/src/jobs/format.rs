@@ -37,7 +37,7 @@ pub(crate) fn ratio(x: f64) -> String {
     }
 }
 
-/// The ends of a span of ratios; one that is told alike at both, once.
+/// The ends of a span of ratios; one that is formatted alike at both, once.
 pub(crate) fn ratios([low, high]: [f64; 2]) -> String {
     let ends = [low, high].map(ratio);
     if ends[0] == ends[1] {
@@ -110,8 +110,8 @@ mod tests {
 
     #[test]
     fn ratios_keep_two_or_three_digits() {
-        let told = [0.0432, 0.2345, 3.1378, 42.42, 1234.5, 1e-5].map(ratio);
-        assert_eq!(told, ["0.043", "0.23", "3.14", "42.4", "1234", "1.0e-5"]);
+        let texts = [0.0432, 0.2345, 3.1378, 42.42, 1234.5, 1e-5].map(ratio);
+        assert_eq!(texts, ["0.043", "0.23", "3.14", "42.4", "1234", "1.0e-5"]);
         assert_eq!([[0.5, 2.0], [1.001, 1.002]].map(ratios), ["0.50 to 2.00 times", "1.00 times"]);
     }
 

@@ -33,7 +33,7 @@ impl std::fmt::Display for Apart {
 
 /// Lines and figures.
 #[derive(Debug, Clone, Default, PartialEq)]
-pub(super) struct Told {
+pub(super) struct RunReport {
     /// Lines of states, as they stand.
     pub(super) lines: Vec<String>,
     /// Least and most instructions of a step.
@@ -50,35 +50,39 @@ pub(super) struct Told {
     is_single: bool,
 }
 
-impl Told {
+impl RunReport {
     /// Reads it.
     ///
     /// # Errors
     ///
     /// A line that is not one.
     pub(super) fn read(text: &str) -> Result<Self, String> {
-        let mut told = Self { is_single: true, ..Self::default() };
+        let mut report = Self { is_single: true, ..Self::default() };
         for line in text.lines() {
             let words: Vec<&str> = line.split_whitespace().collect();
             let number = |i: usize| words.get(i).and_then(|w| w.parse::<u64>().ok());
             match words.first() {
                 Some(&("s" | "v")) => {
-                    told.is_single &= words[2..].iter().all(|bits| bits.len() <= 8);
-                    told.lines.push(line.to_owned());
+                    report.is_single &= words[2..].iter().all(|bits| bits.len() <= 8);
+                    report.lines.push(line.to_owned());
                 }
                 Some(&"n") => {
-                    (told.least, told.most) = (number(1).unwrap_or(0), number(3).unwrap_or(0));
+                    (report.least, report.most) = (number(1).unwrap_or(0), number(3).unwrap_or(0));
                 }
-                Some(&"m") => told.stack = number(1).unwrap_or(0),
-                Some(&"z") => told.solver = number(1).unwrap_or(0),
-                Some(&"b") => told.bound = number(1).unwrap_or(0),
-                Some(&"e") => told.evaluation = number(1).unwrap_or(0),
-                Some(&"u") => told.units = words[1..].iter().filter_map(|w| unit(w)).collect(),
+                Some(&"m") => report.stack = number(1).unwrap_or(0),
+                Some(&"z") => report.solver = number(1).unwrap_or(0),
+                Some(&"b") => report.bound = number(1).unwrap_or(0),
+                Some(&"e") => report.evaluation = number(1).unwrap_or(0),
+                Some(&"u") => report.units = words[1..].iter().filter_map(|w| unit(w)).collect(),
                 Some(&"r") | None => {}
-                Some(_) => return Err(format!("the run told: {line}")),
+                Some(_) => return Err(format!("the run printed: {line}")),
             }
         }
-        if told.lines.is_empty() { Err("the run told no states".to_owned()) } else { Ok(told) }
+        if report.lines.is_empty() {
+            Err("the run printed no states".to_owned())
+        } else {
+            Ok(report)
+        }
     }
 
     /// The largest differences from a run that reported what its coordinates are.
@@ -148,21 +152,21 @@ fn unit(word: &str) -> Option<Unit> {
 
 #[cfg(test)]
 mod tests {
-    use super::Told;
+    use super::RunReport;
 
     #[test]
     fn bits_of_both_precisions_are_compared_as_ways_and_angles() {
-        let single = Told::read("s 100 3f800000 0\nv 100 0\nn 10 20 30\nm 7\nz 5\ne 4\n");
+        let single = RunReport::read("s 100 3f800000 0\nv 100 0\nn 10 20 30\nm 7\nz 5\ne 4\n");
         let single = single.expect("a run");
         let text = "s 100 3ff8000000000000 3fd0000000000000\nv 100 0\nb 9\nu m r\n";
-        let double = Told::read(text).expect("a run");
+        let double = RunReport::read(text).expect("a run");
         assert_eq!((single.least, single.most, single.stack, double.bound), (10, 30, 7, 9));
         assert_eq!(single.evaluation, 4);
         let apart = single.apart(&double).expect("one length");
         assert_eq!((apart.way, apart.angle), (0.5, 0.25));
         assert!(apart.is_within([0.5, 0.25]) && !apart.is_within([0.5, 0.2]));
-        assert!(Told::read("step 3: singular\n").is_err());
-        assert!(single.apart(&single).is_err(), "it tells no units");
+        assert!(RunReport::read("step 3: singular\n").is_err());
+        assert!(single.apart(&single).is_err(), "it has no units");
     }
 
     #[test]
@@ -170,7 +174,7 @@ mod tests {
         // 1, 0, 0, 0 beside 1, 0.001, 0, 0: two milliradians.
         let text = |x: f64| {
             let bits = [1.0, x, 0.0, 0.0, 0.3].map(|x: f64| format!("{:x}", x.to_bits())).join(" ");
-            Told::read(&format!("s 100 {bits}\nu q q q q m\n")).expect("a run")
+            RunReport::read(&format!("s 100 {bits}\nu q q q q m\n")).expect("a run")
         };
         let apart = text(1e-3).apart(&text(0.0)).expect("one length");
         assert!((apart.angle - 2e-3).abs() < 1e-15 && apart.way == 0.0, "{apart}");
@@ -178,8 +182,8 @@ mod tests {
 
     #[test]
     fn a_difference_that_is_no_number_is_within_nothing() {
-        let nan = Told::read("s 100 7fc00000\n").expect("a run");
-        let double = Told::read("s 100 0\nu r\n").expect("a run");
+        let nan = RunReport::read("s 100 7fc00000\n").expect("a run");
+        let double = RunReport::read("s 100 0\nu r\n").expect("a run");
         assert!(!nan.apart(&double).expect("one length").is_within([1.0, 1.0]));
     }
 }

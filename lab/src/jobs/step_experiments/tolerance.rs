@@ -2,13 +2,13 @@
 
 use super::draw::{INDEX_1, INDEX_3, MULTI, curve, log_log, points};
 use super::reference::{Reference, Watched};
-use super::rows::{HEAD, row_with, told};
+use super::rows::{HEAD, cell, row_with};
 use super::sight::{self, Sight};
 use crate::chart::Series;
+use crate::format::{error, step};
 use crate::lab::case::{Case, Rule};
 use crate::lab::section::Section;
 use crate::lab::{Lab, Run};
-use crate::tell::{error, step};
 
 /// What is watched, with the first and the largest step [s].
 const SCENES: [(Watched, [f64; 2]); 6] = [
@@ -103,7 +103,7 @@ pub(crate) fn run(lab: &Lab<'_>) -> Result<Section, String> {
         };
         section.words(format!(
             "{} First step {} s, largest {} s.",
-            reference.told(watched),
+            reference.sentence(watched),
             step(steps[0]),
             step(steps[1])
         ));
@@ -111,7 +111,7 @@ pub(crate) fn run(lab: &Lab<'_>) -> Result<Section, String> {
         sights.extend(scene(watched, &reference, &runs, &mut section));
         section.runs.extend(runs);
     }
-    sight::tell(&sights, &mut section);
+    sight::report(&sights, &mut section);
     Ok(section)
 }
 
@@ -156,7 +156,7 @@ fn scene(
     let caption = format!("True error over CPU time. {}", sentences.join(" "));
     section.figure(&log_log("CPU [s]", &label, draw(Run::seconds)), &caption);
     let head = [&HEAD[..], &["true error"]].concat();
-    let row = |run: &Run| row_with(run, [told(run.true_error, error)]);
+    let row = |run: &Run| row_with(run, [cell(run.true_error, error)]);
     section.behind("Every run", &head, runs.iter().map(row).collect());
     sights.to_vec()
 }

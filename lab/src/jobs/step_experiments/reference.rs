@@ -1,9 +1,9 @@
 //! A channel at the end of a run, as it is known from elsewhere.
 
+use crate::format::error;
 use crate::lab::case::{Case, Rule};
 use crate::lab::{Lab, Run};
 use crate::mbs::outcome::Figures;
-use crate::tell::error;
 
 /// A channel that is watched at the end of a run.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -121,7 +121,7 @@ impl Watched {
 
 impl Reference {
     /// Where it comes from and how far off it may be, as a sentence.
-    pub(crate) fn told(&self, watched: &Watched) -> String {
+    pub(crate) fn sentence(&self, watched: &Watched) -> String {
         let when = watched.time.map_or("the end".to_owned(), |t| format!("{t} s"));
         let channel = if watched.channel.is_empty() { "all channels" } else { watched.channel };
         format!(
@@ -170,7 +170,7 @@ mod tests {
             let stairs = Watched { scene: "iltis-stairs", channel: "nose", digits: &[], ..TIP };
             let extrapolated = stairs.reference(lab).unwrap().unwrap();
             assert!(extrapolated.source.contains("extrapolated"));
-            assert!(extrapolated.told(&stairs).contains("nose at 3 s"));
+            assert!(extrapolated.sentence(&stairs).contains("nose at 3 s"));
         });
     }
 

@@ -5,11 +5,11 @@ mod histories;
 
 use super::draw::work_precision;
 use super::fit::span;
-use super::rows::{HEAD, row_with, told};
+use super::rows::{HEAD, cell, row_with};
+use crate::format::{self, error, ratio, seconds};
 use crate::lab::case::{Case, Rule, size};
 use crate::lab::section::Section;
 use crate::lab::{Lab, Run};
-use crate::tell::{self, error, ratio, seconds};
 use histories::{COARSE, FINE};
 
 /// The scenes: the damper as printed there, and the suspension whose rubber stop the bump hits.
@@ -133,7 +133,7 @@ fn report(runs: &[Run], section: &mut Section) {
     let rows = runs.iter().zip(PRINTED).map(|(run, printed)| {
         let share = run.seconds().zip(slowest).map(|(a, b)| a / b);
         let last = PRINTED[PRINTED.len() - 1];
-        row_with(run, [told(share, ratio), printed.to_string(), ratio(printed / last)])
+        row_with(run, [cell(share, ratio), printed.to_string(), ratio(printed / last)])
     });
     section.table(&head, rows.collect());
 }
@@ -193,10 +193,10 @@ fn at_equal_error(runs: &[Run], section: &mut Section) {
         ratios.extend(share);
         cells.push(best.map_or("none of the sweep".into(), |best| best.case.name()));
         cells.extend([
-            told(best.and_then(Run::energy_error), error),
-            told(best.and_then(Run::seconds), seconds),
+            cell(best.and_then(Run::energy_error), error),
+            cell(best.and_then(Run::seconds), seconds),
         ]);
-        cells.push(told(share, ratio));
+        cells.push(cell(share, ratio));
         cells
     });
     let rows: Vec<_> = rows.collect();
@@ -217,7 +217,7 @@ fn at_equal_error(runs: &[Run], section: &mut Section) {
         section.words(format!(
             "At equal error the variable runs take {} the time of the cheapest fixed step; at most 0.7 of it in {within} of {}. The fixed \
             steps are those of index 1 and index 3 from {} down to {} s, most of them in ratios of the fourth root of 2.",
-            tell::ratios(ends),
+            format::ratios(ends),
             ratios.len(),
             size(4.0 * FINE),
             size(finest)

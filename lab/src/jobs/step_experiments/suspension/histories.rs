@@ -3,10 +3,10 @@
 use super::super::draw::{INDEX_1, INDEX_3, MULTI, line, over_time, steps};
 use super::super::fit::span;
 use crate::chart::{Chart, Kind};
+use crate::format::error;
 use crate::lab::case::size;
 use crate::lab::record::Record;
 use crate::lab::section::Section;
-use crate::tell::error;
 
 /// Step of the report's run in index 1 [s].
 pub(super) const FINE: f64 = 5e-4;
@@ -84,14 +84,14 @@ fn largest_change(record: &Record) -> String {
     let all = sum(&mut record.steps.iter().map(|s| s.energy_change.abs()));
     let on =
         sum(&mut record.steps.iter().filter(|s| is_on_bump(s.t)).map(|s| s.energy_change.abs()));
-    let told = "Energy error over time.".to_owned();
+    let caption = "Energy error over time.".to_owned();
     if all > 0.0 {
         format!(
-            "{told} Of all changes of the energy in the variable run, {} are made on the bump.",
+            "{caption} Of all changes of the energy in the variable run, {} are made on the bump.",
             percent(on / all)
         )
     } else {
-        told
+        caption
     }
 }
 
@@ -132,9 +132,14 @@ mod tests {
 
     #[test]
     fn captions_say_where_steps_are_short_and_where_energy_changes() {
-        let told = shortest(&record());
-        assert!(told.contains("steps of 1e-5 to 1e-5 s, elsewhere of 1e-2 to 1e-2 s"), "{told}");
-        assert!(told.contains("1 of its 2 recorded steps are in index 1, 1 of them on the bump"));
+        let caption = shortest(&record());
+        assert!(
+            caption.contains("steps of 1e-5 to 1e-5 s, elsewhere of 1e-2 to 1e-2 s"),
+            "{caption}"
+        );
+        assert!(
+            caption.contains("1 of its 2 recorded steps are in index 1, 1 of them on the bump")
+        );
         assert!(largest_change(&record()).contains("75 %"));
     }
 

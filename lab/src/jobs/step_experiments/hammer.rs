@@ -2,11 +2,11 @@
 
 use super::draw::work_precision;
 use super::reference::{Reference, Watched};
-use super::rows::{HEAD, row_with, told};
+use super::rows::{HEAD, cell, row_with};
+use crate::format::{error, ratio, seconds};
 use crate::lab::case::{Case, Rule, size};
 use crate::lab::section::Section;
 use crate::lab::{Lab, Run};
-use crate::tell::{error, ratio, seconds};
 
 /// What is watched.
 ///
@@ -45,7 +45,7 @@ pub(crate) fn run(lab: &Lab<'_>) -> Result<Section, String> {
         section.words("There is no such scene, or no reference could be computed: left out.");
         return Ok(section);
     };
-    section.words(reference.told(&WATCHED));
+    section.words(reference.sentence(&WATCHED));
     let tightest = if lab.quick { 5 } else { 7 };
     let rules = (3..=tightest).map(|k| Rule::Error(10_f64.powi(-k)));
     let variable: Vec<_> = rules.map(|rule| WATCHED.case(rule, STEPS)).collect();
@@ -59,7 +59,7 @@ pub(crate) fn run(lab: &Lab<'_>) -> Result<Section, String> {
     let head = [&HEAD[..], &["true error"]].concat();
     section.table(
         &head,
-        runs.iter().map(|run| row_with(run, [told(run.true_error, error)])).collect(),
+        runs.iter().map(|run| row_with(run, [cell(run.true_error, error)])).collect(),
     );
     section.figure(
         &work_precision(&runs, &WATCHED.label(), |run| run.true_error),
@@ -117,7 +117,7 @@ fn claim(run: &Run, fixed: &[Run], section: &mut Section) {
         seconds(theirs),
         size(best.case.step),
         error(true_error),
-        told(best.true_error, error)
+        cell(best.true_error, error)
     );
     section.claim(what, measured, Some(theirs / ours >= CLAIM));
 }

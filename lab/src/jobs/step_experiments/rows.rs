@@ -1,9 +1,9 @@
 //! Runs as rows: of the tables of a section, and of the CSV.
 
+use crate::format::{self, error, seconds, step};
 use crate::lab::Run;
 use crate::lab::case::size;
 use crate::lab::section::Section;
-use crate::tell::{self, error, seconds, step};
 
 /// Columns that every table of runs has.
 pub(crate) const HEAD: [&str; 8] = [
@@ -46,8 +46,8 @@ pub(crate) fn row_with(run: &Run, further: impl IntoIterator<Item = String>) -> 
 }
 
 /// A number as a cell; empty where there is none.
-pub(crate) fn told(number: Option<f64>, tell: impl Fn(f64) -> String) -> String {
-    number.map(tell).unwrap_or_default()
+pub(crate) fn cell(number: Option<f64>, format: impl Fn(f64) -> String) -> String {
+    number.map(format).unwrap_or_default()
 }
 
 /// Every run as CSV.
@@ -62,20 +62,20 @@ pub(crate) fn csv(sections: &[Section]) -> Result<Vec<u8>, String> {
     let records = |section: &'_ Section| -> Vec<_> {
         section.runs.iter().map(|run| record(section.name, run)).collect()
     };
-    tell::csv(head, sections.iter().flat_map(records))
+    format::csv(head, sections.iter().flat_map(records))
 }
 
 /// One run, in the order of the header.
 fn record(experiment: &str, run: &Run) -> Vec<String> {
     let (case, figures) = (&run.case, run.figures());
     let control = figures.and_then(|f| f.control);
-    let exact = |x: Option<f64>| told(x, |x| format!("{x:e}"));
+    let exact = |x: Option<f64>| cell(x, |x| format!("{x:e}"));
     let count = |x: Option<u64>| x.map(|x| x.to_string()).unwrap_or_default();
     let events = case.events.map_or("", |events| if events { "on" } else { "off" });
     let mut cells =
         [experiment, case.scene, case.formulation, case.control()].map(str::to_owned).to_vec();
     cells.extend([step(case.step), step(case.largest), exact(case.tolerance())]);
-    cells.extend([events.to_owned(), told(case.duration, |x| x.to_string())]);
+    cells.extend([events.to_owned(), cell(case.duration, |x| x.to_string())]);
     cells.extend([
         exact(run.energy_error()),
         exact(figures.map(|f| f.share())),
@@ -122,8 +122,11 @@ mod tests {
     #[test]
     fn a_row_has_a_cell_for_each_column_or_its_reason() {
         let [done, stopped] = runs();
-        let told = ["index-3, both 1e-5", "2.0e-3", "5.0e-4", "0.500", "70", "4", "2e-6", "0"];
-        assert_eq!((row(&done), HEAD.len()), (told.map(str::to_owned).to_vec(), told.len()));
+        let expected = ["index-3, both 1e-5", "2.0e-3", "5.0e-4", "0.500", "70", "4", "2e-6", "0"];
+        assert_eq!(
+            (row(&done), HEAD.len()),
+            (expected.map(str::to_owned).to_vec(), expected.len())
+        );
         assert_eq!(row_with(&done, ["x".to_owned()]).len(), 9);
         assert_eq!(row_with(&stopped, ["x".to_owned()])[1..], ["took more than 300 s"]);
     }

@@ -3,8 +3,8 @@
 use super::cell::{self, CORRECTION, Cell, LADDERS, OURS, PAIRS, PRINTED, REFINED, SCENES, WAYS};
 use super::outcome::Run;
 use crate::chart::{Axis, Chart, Kind, Look, Series};
+use crate::format::{ratio, ratios, step};
 use crate::lab::section::Section;
-use crate::tell::{ratio, ratios, step};
 
 /// Ratio of two errors within which they are the same [-]: the tables show two digits.
 const SAME_ERROR: f64 = 1.1;
@@ -15,7 +15,7 @@ const WORDS: &str = "The report finds index-3 ill-conditioned at small steps, an
     (publication 1, (13) and (19)). dd computes in pairs of doubles, 32 digits; refined takes the factor in doubles and refines \
     each solution to 32 digits with residuals in pairs, once leaves it with what the factor gives. Correction is our form of \
     the projections, compensated and with filtered multipliers, at the same alpha; default scales the penalty by step and mass, \
-    and follows the least felt constraint. All iterate to the same tolerance.";
+    and follows the most weakly determined constraint. All iterate to the same tolerance.";
 
 /// The section of all cells.
 pub(super) fn section(cells: &[Cell]) -> Section {
@@ -51,7 +51,7 @@ fn name(cell: &Cell) -> String {
 
 fn errors(cells: &[&Cell]) -> Vec<Vec<String>> {
     let row =
-        |cell: &&Cell| std::iter::once(name(cell)).chain(cell.runs.iter().map(Run::told)).collect();
+        |cell: &&Cell| std::iter::once(name(cell)).chain(cell.runs.iter().map(Run::text)).collect();
     cells.iter().map(row).collect()
 }
 
@@ -59,12 +59,12 @@ fn errors(cells: &[&Cell]) -> Vec<Vec<String>> {
 fn prices(cells: &[&Cell]) -> Vec<Vec<String>> {
     let row = |cell: &&Cell| {
         let first = seconds(&cell.runs[PRINTED]);
-        let told = |run: &Run| {
+        let time_of = |run: &Run| {
             let Some(time) = seconds(run) else { return String::new() };
             let beside = first.map(|first| format!(" ({})", ratio(time / first)));
             format!("{:.2}{}", time * 1e6, beside.unwrap_or_default())
         };
-        std::iter::once(name(cell)).chain(cell.runs.iter().map(told)).collect()
+        std::iter::once(name(cell)).chain(cell.runs.iter().map(time_of)).collect()
     };
     cells.iter().map(row).collect()
 }

@@ -4,10 +4,10 @@
 use super::draw::work_precision;
 use super::fit::span;
 use super::rows::{HEAD, row};
+use crate::format::ratios;
 use crate::lab::case::{Case, Rule, size};
 use crate::lab::section::Section;
 use crate::lab::{Lab, Run};
-use crate::tell::ratios;
 
 /// Scenes, with the first and the largest step [s].
 const SCENES: [(&str, [f64; 2]); 3] = [
@@ -117,12 +117,14 @@ mod tests {
         let alone = |energy_error| {
             Outcome::Completed(Figures { energy_error, seconds: 1.0, ..Figures::default() })
         };
-        let told = needed(&runs(alone(1.5e-6)));
+        let sentence = needed(&runs(alone(1.5e-6)));
         assert!(
-            told.contains("2e-5 s, below the threshold") && told.contains("not needed"),
-            "{told}"
+            sentence.contains("2e-5 s, below the threshold") && sentence.contains("not needed"),
+            "{sentence}"
         );
-        assert!(told.contains("1.50 times the energy error") && told.contains("0.50 times"));
+        assert!(
+            sentence.contains("1.50 times the energy error") && sentence.contains("0.50 times")
+        );
         assert!(needed(&runs(alone(3e-6))).contains("helps at 1e-9 (smaller error)"));
         assert!(needed(&runs(Outcome::NotBuilt)).contains("helps at 1e-9 (index 3 alone stops)"));
     }

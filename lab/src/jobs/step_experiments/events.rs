@@ -3,11 +3,11 @@
 use super::draw::{INDEX_1, INDEX_3, curve, log_log, points};
 use super::fit::{between, median, span};
 use super::reference::Watched;
-use super::rows::{HEAD, row_with, told};
+use super::rows::{HEAD, cell, row_with};
+use crate::format::{self, error, ratio};
 use crate::lab::case::{Case, Rule};
 use crate::lab::section::Section;
 use crate::lab::{Lab, Run};
-use crate::tell::{self, error, ratio};
 
 /// What is watched: the wheel behind the bump, the nose of the vehicle on the stairs, and every channel after the blow.
 pub(crate) const SCENES: [Watched; 3] = [
@@ -39,7 +39,7 @@ pub(crate) fn run(lab: &Lab<'_>) -> Result<Section, String> {
             section.words("There is no such scene, or no reference could be computed: left out.");
             continue;
         };
-        section.words(reference.told(watched));
+        section.words(reference.sentence(watched));
         let runs = watched.measure(lab, &reference, &cases(watched, lab.quick), REPEATS)?;
         scene(watched, &runs, &mut section);
         section.runs.extend(runs);
@@ -58,7 +58,7 @@ fn scene(watched: &Watched, runs: &[Run], section: &mut Section) {
     let head = [&HEAD[..6], &["steps to events", "true error"]].concat();
     let row = |run: &Run| {
         let events = run.figures().and_then(|f| f.control).map(|c| c.events.to_string());
-        let mut cells = row_with(run, [events.unwrap_or_default(), told(run.true_error, error)]);
+        let mut cells = row_with(run, [events.unwrap_or_default(), cell(run.true_error, error)]);
         // Smallest step and steps in index 1 say nothing here.
         if cells.len() > head.len() {
             cells.drain(6..8);
@@ -70,23 +70,25 @@ fn scene(watched: &Watched, runs: &[Run], section: &mut Section) {
     let of = |events: bool, number: &dyn Fn(&Run) -> Option<f64>| {
         points(runs.iter().filter(|run| run.case.events == Some(events)), Run::seconds, number)
     };
-    let draw = |section: &mut Section,
-                what: &str,
-                label: &str,
-                number: &dyn Fn(&Run) -> Option<f64>| {
-        let (on, off) = (of(true, number), of(false, number));
-        let ratios: Vec<_> = on.iter().filter_map(|[s, e]| Some(e / between(&off, *s)?)).collect();
-        let told = span(ratios.iter().copied()).zip(median(ratios));
-        let told = told.map_or(String::new(), |(ends, middle)| {
-            let middle = ratio(middle);
-            format!(
-                " At equal time it is with events {} that without ({middle} in the middle).",
-                tell::ratios(ends)
-            )
-        });
-        let series = vec![curve("events off", INDEX_1, off), curve("events on", INDEX_3, on)];
-        section.figure(&log_log("CPU [s]", label, series), &format!("{what} over CPU time.{told}"));
-    };
+    let draw =
+        |section: &mut Section, what: &str, label: &str, number: &dyn Fn(&Run) -> Option<f64>| {
+            let (on, off) = (of(true, number), of(false, number));
+            let ratios: Vec<_> =
+                on.iter().filter_map(|[s, e]| Some(e / between(&off, *s)?)).collect();
+            let compared = span(ratios.iter().copied()).zip(median(ratios));
+            let compared = compared.map_or(String::new(), |(ends, middle)| {
+                let middle = ratio(middle);
+                format!(
+                    " At equal time it is with events {} that without ({middle} in the middle).",
+                    format::ratios(ends)
+                )
+            });
+            let series = vec![curve("events off", INDEX_1, off), curve("events on", INDEX_3, on)];
+            section.figure(
+                &log_log("CPU [s]", label, series),
+                &format!("{what} over CPU time.{compared}"),
+            );
+        };
     draw(section, "True error", &watched.label(), &|run| run.true_error);
     draw(section, "Largest energy error", "largest energy error [J]", &Run::energy_error);
 }

@@ -6,9 +6,9 @@ mod ladder;
 mod letter;
 mod printed;
 
+use crate::format::{error, ratio, seconds, step};
 use crate::lab::section::{Leading, Section};
 use crate::lab::{Lab, Run};
-use crate::tell::{error, ratio, seconds, step};
 use column::{Cell, Column};
 use ladder::Ladder;
 use printed::{METHODS, Method};
@@ -150,7 +150,7 @@ fn section(
     for (m, method) in METHODS.iter().enumerate() {
         let plain = |text: &str| Leading { text: text.to_owned(), to: String::new() };
         let cell = |column: &Column| Leading {
-            text: told(&column.cells[m]),
+            text: cell_text(&column.cells[m]),
             to: anchor(name, method, column.name),
         };
         rows.push([plain(method.name)].into_iter().chain(columns.iter().map(cell)).collect());
@@ -176,12 +176,12 @@ fn section(
 }
 
 /// A letter and what it rests on.
-fn told(cell: &Cell) -> String {
+fn cell_text(cell: &Cell) -> String {
     let rests = match cell.ratio {
         Some(x) if cell.counted.is_empty() => ratio(x),
         _ => cell.counted.clone(),
     };
-    format!("{} {rests}", cell.letter.told()).trim_end().to_owned()
+    format!("{} {rests}", cell.letter.symbol()).trim_end().to_owned()
 }
 
 /// The name of the first row behind a cell.

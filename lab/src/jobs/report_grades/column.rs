@@ -171,14 +171,14 @@ fn is_useful(run: &Run) -> bool {
     ladder::share(run).is_some_and(|share| share <= USEFUL)
 }
 
-/// Numbers that are counted: `(over what, told)` for each method.
+/// Numbers that are counted: `(number, text)` for each method.
 pub(crate) fn easiness(counts: &[(usize, String)]) -> Column {
     #[allow(clippy::cast_precision_loss, reason = "some thousand lines")]
     let numbers: Vec<_> = counts.iter().map(|(n, _)| Some(*n as f64)).collect();
-    let cells = over_best(&numbers, 0.0).into_iter().zip(counts).map(|(ratio, (_, told))| Cell {
+    let cells = over_best(&numbers, 0.0).into_iter().zip(counts).map(|(ratio, (_, text))| Cell {
         letter: Letter::of_ratio(ratio, TIMES),
         ratio,
-        counted: told.clone(),
+        counted: text.clone(),
         runs: Vec::new(),
     });
     Column {

@@ -12,7 +12,7 @@ pub(crate) enum Letter {
 
 impl Letter {
     /// As it is printed.
-    pub(crate) const fn told(self) -> &'static str {
+    pub(crate) const fn symbol(self) -> &'static str {
         match self {
             Self::A => "A",
             Self::B => "B",
@@ -64,9 +64,9 @@ mod tests {
 
     #[test]
     fn letters_fall_at_their_limits_and_a_missing_number_is_a_failure() {
-        let letter = |x| Letter::of_ratio(x, [2.0, 4.0, 8.0]).told();
-        let told = [Some(1.0), Some(2.0), Some(2.1), Some(8.0), Some(9.0), None, Some(f64::NAN)];
-        assert_eq!(told.map(letter), ["A", "A", "B", "C", "D", "F", "F"]);
+        let letter = |x| Letter::of_ratio(x, [2.0, 4.0, 8.0]).symbol();
+        let ratios = [Some(1.0), Some(2.0), Some(2.1), Some(8.0), Some(9.0), None, Some(f64::NAN)];
+        assert_eq!(ratios.map(letter), ["A", "A", "B", "C", "D", "F", "F"]);
     }
 
     #[test]

@@ -1,4 +1,4 @@
-//! What no run can tell: lines of code of a formulation, and whether it searches a graph; both counted in its sources.
+//! What no run shows: lines of code of a formulation, and whether it searches a graph; both counted in its sources.
 
 use std::fs;
 use std::path::Path;

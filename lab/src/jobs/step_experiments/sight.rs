@@ -1,15 +1,15 @@
 //! Does a rule see the error? How the true error follows the tolerance, and what it is at equal time.
 
 use super::fit::{between, continued, median, rises, slope};
+use crate::format::ratio;
 use crate::lab::case::size;
 use crate::lab::section::Section;
-use crate::tell::ratio;
 
 /// How much larger the error may be than that of the estimate at equal time before a rule is said not to see it.
 const BLIND: f64 = 10.0;
 /// The least power of the tolerance that the error of a rule follows that sees it.
 const FLAT: f64 = 0.15;
-/// Above so many times the doubt of the reference an error is judged.
+/// Least ratio of an error to the doubt of the reference for it to be judged [-].
 const ABOVE_DOUBT: f64 = 10.0;
 
 /// What a rule sees of the error in a scene.
@@ -51,7 +51,7 @@ impl Sight {
         let Some(power) = self.power else {
             return format!("With {} too few runs came to their end.", self.named());
         };
-        let told = if self.rises.is_empty() {
+        let rises = if self.rises.is_empty() {
             "each error is at most twice that of the next looser tolerance".to_owned()
         } else {
             format!(
@@ -59,7 +59,7 @@ impl Sight {
                 self.risen()
             )
         };
-        format!("With {} it follows the tolerance to the power {power:.2}; {told}.", self.named())
+        format!("With {} it follows the tolerance to the power {power:.2}; {rises}.", self.named())
     }
 
     /// What the error is at equal time, as a sentence; empty where it is not known.
@@ -93,7 +93,7 @@ impl Sight {
 }
 
 /// All scenes and rules in one table, whether errors fall, and which scenes the energy does not see.
-pub(crate) fn tell(sights: &[Sight], section: &mut Section) {
+pub(crate) fn report(sights: &[Sight], section: &mut Section) {
     section.heading("All scenes");
     let row = |sight: &Sight| {
         vec![
@@ -150,11 +150,17 @@ mod tests {
 
     #[test]
     fn behaviour_names_where_an_error_rises() {
-        let told = Sight::new("andrews", "estimate", &FALLING, 1e-12).behaviour();
-        assert!(told.contains("power 1.00") && told.contains("at most twice"), "{told}");
+        let sentence = Sight::new("andrews", "estimate", &FALLING, 1e-12).behaviour();
+        assert!(
+            sentence.contains("power 1.00") && sentence.contains("at most twice"),
+            "{sentence}"
+        );
         let rising = [[1e-3, 1e-2], [1e-4, 3e-2], [1e-5, 1e-4]];
-        let told = Sight::new("andrews", "both", &rising, 1e-12).behaviour();
-        assert!(told.starts_with("With both it") && told.contains("tolerance at 1e-4"), "{told}");
+        let sentence = Sight::new("andrews", "both", &rising, 1e-12).behaviour();
+        assert!(
+            sentence.starts_with("With both it") && sentence.contains("tolerance at 1e-4"),
+            "{sentence}"
+        );
         assert!(Sight::new("andrews", "both", &[], 1e-12).behaviour().contains("too few"));
     }
 
@@ -170,7 +176,7 @@ mod tests {
         let flat = sight(&[[1e-3, 1e-2], [1e-5, 1e-2]]);
         assert!(flat.blindness().unwrap().contains("power 0.00"));
         let mut section = Section::new("B", "title");
-        tell(&[flat], &mut section);
+        report(&[flat], &mut section);
         assert!(section.text().contains("does not see the error: andrews"));
     }
 
@@ -180,7 +186,7 @@ mod tests {
         let sights =
             [FALLING.as_slice(), &rising].map(|p| Sight::new("andrews", "estimate", p, 1e-12));
         let mut section = Section::new("B", "title");
-        tell(&sights, &mut section);
+        report(&sights, &mut section);
         let holds: Vec<_> = section.claims().map(|claim| claim.holds).collect();
         assert_eq!(holds, [Some(false), None]);
     }

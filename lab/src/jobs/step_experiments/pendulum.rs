@@ -4,11 +4,11 @@ use super::draw::{ALONE, INDEX_3, MULTI, line, over_time, steps, work_precision}
 use super::fit::{between, median, rank_correlation, span};
 use super::rows::{HEAD, row};
 use crate::chart::Kind;
+use crate::format::{error, ratio};
 use crate::lab::case::{Case, Rule, size};
 use crate::lab::record::{Record, Step};
 use crate::lab::section::Section;
 use crate::lab::{Lab, Run};
-use crate::tell::{error, ratio};
 use std::collections::BTreeMap;
 
 /// The scene.
@@ -75,7 +75,7 @@ fn measures(record: &Record, section: &mut Section) {
     let acceleration = record.channels.first().cloned().unwrap_or_default();
     let at: BTreeMap<u64, f64> = acceleration.iter().map(|[t, a]| (t.to_bits(), a.abs())).collect();
     let most = acceleration.iter().map(|[t, a]| [a.abs(), *t]).max_by(|a, b| a[0].total_cmp(&b[0]));
-    let peak = told_peak(most);
+    let peak = peak_sentence(most);
     let mut draw = |label: &str, kind, points, caption: String| {
         let series = vec![line("index-3, fixed", ALONE, points)];
         section.figure(&over_time(label, kind, series), &caption);
@@ -100,7 +100,7 @@ fn measures(record: &Record, section: &mut Section) {
 }
 
 /// The largest amount of the acceleration and its time, in words.
-fn told_peak(most: Option<[f64; 2]>) -> String {
+fn peak_sentence(most: Option<[f64; 2]>) -> String {
     most.map_or(String::new(), |[a, t]| format!(" Its largest amount is {a:.0} m/s² at {t:.2} s."))
 }
 
@@ -122,7 +122,7 @@ fn beside(fixed: &Record, variable: &[Record; 2], section: &mut Section) {
         );
     }
     let worst = |record: &Record| span(record.steps.iter().map(|s| s.energy_error.abs()));
-    let told = [fixed, &variable[0], &variable[1]].map(|record| {
+    let errors = [fixed, &variable[0], &variable[1]].map(|record| {
         worst(record).map_or("unknown".to_owned(), |[_, most]| format!("{} J", error(most)))
     });
     let series = vec![
@@ -138,7 +138,7 @@ fn beside(fixed: &Record, variable: &[Record; 2], section: &mut Section) {
         &format!(
             "Total energy, zero at the start (Figure 8). Its largest recorded error is {} with the fixed step, {} with the first \
             tolerance and {} with the second.",
-            told[0], told[1], told[2]
+            errors[0], errors[1], errors[2]
         ),
     );
 }
@@ -166,7 +166,7 @@ fn work(lab: &Lab<'_>, section: &mut Section) -> Result<(), String> {
     let ratios: Vec<f64> =
         ours.iter().filter_map(|[e, s]| Some(s / between(&fixed, *e)?)).collect();
     let worst = ratios.iter().copied().fold(0.0, f64::max);
-    let told = median(ratios).map_or(String::new(), |r| {
+    let compared = median(ratios).map_or(String::new(), |r| {
         section.claim(
             format!("{SCENE}: at equal energy error at most the time of fixed steps in index 3"),
             format!("ratio {} in the middle of all tolerances, {} at most", ratio(r), ratio(worst)),
@@ -176,7 +176,7 @@ fn work(lab: &Lab<'_>, section: &mut Section) -> Result<(), String> {
     });
     section.figure(
         &work_precision(&runs, "largest energy error [J]", Run::energy_error),
-        &format!("Largest energy error over CPU time: lower and further left is better.{told}"),
+        &format!("Largest energy error over CPU time: lower and further left is better.{compared}"),
     );
     section.runs.extend(runs);
     Ok(())
