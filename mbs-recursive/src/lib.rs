@@ -24,6 +24,8 @@ mod history;
 pub mod inverse;
 pub mod joint;
 #[cfg(feature = "alloc")]
+mod joint_facts;
+#[cfg(feature = "alloc")]
 mod lanes;
 pub mod ledger;
 pub mod link;
@@ -47,8 +49,6 @@ pub mod space;
 mod start;
 #[cfg(feature = "alloc")]
 mod state;
-#[cfg(feature = "alloc")]
-mod told;
 pub mod trapezoidal;
 #[cfg(feature = "alloc")]
 mod tree;
