@@ -104,7 +104,7 @@ fn track<T: Real>(
         period: (exact, period),
         periods: of_periods.n_steps(),
         steps: (!is_controlled).then(|| parts(period, step)),
-        tells_level: pacing.overrun == Overrun::Degrade,
+        has_level: pacing.overrun == Overrun::Degrade,
     };
     let Pacing { overrun, quiet, .. } = *pacing;
     Ok((Pace { overrun, awake, quiet, ..Pace::every(whole) }, track))

@@ -24,9 +24,9 @@ impl<T: Real> Sought<'_, T> {
     pub(super) fn rung(&self, halvings: u32, off: Vec<usize>) -> Rung {
         let without = off.iter().map(|&e| self.scene.effects[e].name.clone()).collect();
         let steps = self.track.steps.unwrap_or(1);
-        let rung = Rung { halvings, off, told: Degraded::default() };
+        let rung = Rung { halvings, off, measured: Degraded::default() };
         let step_times = f64::from(steps) / f64::from(rung.steps(steps));
-        Rung { told: Degraded { step_times, without, ..Degraded::default() }, ..rung }
+        Rung { measured: Degraded { step_times, without, ..Degraded::default() }, ..rung }
     }
 
     /// Do these halvings make steps longer than one fewer?

@@ -104,7 +104,8 @@ pub(super) fn measured<T: Real, const D: usize>(
     let levels = run_all::<T, D>(sought, &full, ladder(sought, &alone), periods);
     let mut rungs = vec![full];
     let is_near = |trial: &Trial| {
-        trial.completes() && trial.rung.told.changes.is_some_and(|changes| changes <= MOST_CHANGE)
+        trial.completes()
+            && trial.rung.measured.changes.is_some_and(|changes| changes <= MOST_CHANGE)
     };
     rungs.extend(levels.into_iter().skip(1).take_while(is_near).map(|trial| trial.rung));
     if rungs.len() == 1 { Err(PacingError::NoLadder) } else { Ok(rungs) }
@@ -138,10 +139,10 @@ fn ladder<T: Real>(sought: &Sought<'_, T>, alone: &[Trial]) -> Vec<Rung> {
     let full = alone.first().map_or(f64::INFINITY, noise);
     let pays = |trial: &&Trial| {
         let least = LEAST_SAVING.max(full.max(noise(trial)));
-        trial.completes() && trial.rung.told.saves.is_some_and(|saves| saves > least)
+        trial.completes() && trial.rung.measured.saves.is_some_and(|saves| saves > least)
     };
     let mut paying: Vec<&Trial> = alone.iter().skip(1).filter(pays).collect();
-    let changes = |trial: &Trial| trial.rung.told.changes.unwrap_or(f64::INFINITY);
+    let changes = |trial: &Trial| trial.rung.measured.changes.unwrap_or(f64::INFINITY);
     paying.sort_by(|a, b| changes(a).total_cmp(&changes(b)));
     let (mut halvings, mut off) = (0, Vec::new());
     let mut rungs = Vec::new();
@@ -173,12 +174,12 @@ fn run_all<T: Real, const D: usize>(
     let outputs = full.outcome.as_ref().map(|outcome| OutputRanges::new(sought.scene, outcome));
     for other in others {
         let saves = full.best().zip(other.best()).map(|([full, _], [less, _])| 1.0 - less / full);
-        other.rung.told.saves = saves;
-        other.rung.told.measured_over = other.outcome.as_ref().map(|o| o.summary.end_time);
+        other.rung.measured.saves = saves;
+        other.rung.measured.measured_over = other.outcome.as_ref().map(|o| o.summary.end_time);
         let outcome = outputs.as_ref().zip(other.outcome.as_ref());
         let changes = outcome.map(|(outputs, outcome)| outputs.changes(outcome));
         if let Some((output, share)) = changes.as_deref().and_then(largest) {
-            (other.rung.told.output, other.rung.told.changes) = (Some(output), Some(share));
+            (other.rung.measured.output, other.rung.measured.changes) = (Some(output), Some(share));
         }
     }
     trials
@@ -207,7 +208,7 @@ fn trial<T: Real, const D: usize>(
     let duration = settings.duration.min(count(usize::try_from(periods).ok()?) * track.period.1);
     let settings = Settings { duration, ..settings.clone() };
     let steps = track.steps.map(|steps| rung.steps(steps));
-    let track = Track { periods, steps, tells_level: false, ..*track };
+    let track = Track { periods, steps, has_level: false, ..*track };
     let scene = rung.scene(sought.scene);
     let mut pacer = Pacer::new(Pace::every(Duration::from_secs_f64(track.period.1)), 1).ok()?;
     let mut clock = Hurried { system: SystemClock::new(), ahead: Cell::default() };

@@ -22,7 +22,7 @@ pub(crate) fn summary<T>(pacer: &Pacer, track: &Track<T>, rungs: &[Rung]) -> Rea
     };
     let level = |(i, rung): (usize, &Rung)| {
         let periods = report.at_level.get(i).copied().unwrap_or(0);
-        Degraded { level: i, periods, ..rung.told.clone() }
+        Degraded { level: i, periods, ..rung.measured.clone() }
     };
     let levels: Vec<Degraded> = rungs.iter().enumerate().map(level).collect();
     RealtimeSummary {
@@ -45,7 +45,7 @@ pub(crate) fn summary<T>(pacer: &Pacer, track: &Track<T>, rungs: &[Rung]) -> Rea
         behind: report.behind.as_secs_f64(),
         skipped: report.skipped,
         degraded_periods: levels.iter().skip(1).map(|level| level.periods).sum(),
-        levels: if track.tells_level { levels } else { Vec::new() },
+        levels: if track.has_level { levels } else { Vec::new() },
         log: report.log.iter().map(|entry| logged(entry, track.period.1)).collect(),
         log_left_out: report.log_left_out,
     }

@@ -39,7 +39,7 @@ pub(crate) struct Track<T> {
     /// Steps of a period at level 0; `None`: their lengths are controlled.
     pub(crate) steps: Option<u32>,
     /// Is the level a column?
-    pub(crate) tells_level: bool,
+    pub(crate) has_level: bool,
 }
 
 /// A level of the ladder.
@@ -50,7 +50,7 @@ pub(crate) struct Rung {
     /// Effects that are off.
     pub(crate) off: Vec<usize>,
     /// What was measured of it.
-    pub(crate) told: Degraded,
+    pub(crate) measured: Degraded,
 }
 
 impl Rung {
@@ -81,7 +81,7 @@ pub(crate) fn paced<T: Real, const D: usize>(
     clock: &mut impl Clock,
 ) -> Result<Outcome, (usize, SwitchError)> {
     let mut channels = Channel::of_scene(scene);
-    if track.tells_level {
+    if track.has_level {
         let one = Component { label: String::new(), unit: "level".to_owned() };
         channels.push(Channel { name: LEVEL.to_owned(), components: vec![one] });
     }
@@ -89,7 +89,7 @@ pub(crate) fn paced<T: Real, const D: usize>(
         Ok(run) => run,
         Err(outcome) => return Ok(*outcome),
     };
-    run.record.level = track.tells_level.then_some(0.0);
+    run.record.level = track.has_level.then_some(0.0);
     run.record.periods = Some(track.periods);
     let levels: Result<Vec<_>, _> =
         rungs.iter().map(|rung| Level::new(&run, rung, track.steps)).collect();
