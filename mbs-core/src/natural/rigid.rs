@@ -7,7 +7,7 @@
 //! that length.
 
 use super::basis::Basis;
-use super::draft::RowDraft;
+use super::row_builder::RowDraft;
 use super::sharing::{Entity, EntityKind};
 use crate::Real;
 use crate::algebra::{Coef, Vector, norm};

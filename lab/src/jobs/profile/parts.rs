@@ -97,10 +97,10 @@ impl Frame<'_> {
     fn part_of_model(&self, path: &str) -> Option<Part> {
         let is = |names: &[&str]| self.is(names);
         match path {
-            "natural/touches.rs" => Some(Part::Products),
-            "natural/reach.rs" => Some(Part::Blocks),
+            "natural/incidence.rs" => Some(Part::Products),
+            "natural/coordinate_sets.rs" => Some(Part::Blocks),
             // Who walks over groups does so for the function around it.
-            "natural/parts.rs" => None,
+            "natural/element_ranges.rs" => None,
             "model.rs" | "natural/evaluate.rs" | "natural/element.rs" | "natural/group.rs"
                 if is(&BLOCKS) =>
             {
@@ -276,11 +276,11 @@ mod tests {
         assert_eq!(core("x::subtract", "dense/panel.rs"), None);
         assert_eq!(core("x::subtract_products", "dense/panel.rs"), Some(Part::Kernels));
         assert_eq!(
-            core("x::evaluate_bias_on::{{closure}}", "natural/teamed.rs"),
+            core("x::evaluate_bias_on::{{closure}}", "natural/threaded.rs"),
             Some(Part::Evaluation)
         );
-        assert_eq!(core("x::multiply_jacobian_on", "natural/teamed.rs"), Some(Part::Products));
-        assert_eq!(core("x::on_parts", "natural/parts.rs"), None);
+        assert_eq!(core("x::multiply_jacobian_on", "natural/threaded.rs"), Some(Part::Products));
+        assert_eq!(core("x::on_parts", "natural/element_ranges.rs"), None);
         assert_eq!(
             core("mbs_core::laws::tire::Tire<T>::evaluate", "laws/tire.rs"),
             Some(Part::Evaluation)
@@ -290,7 +290,7 @@ mod tests {
     #[test]
     fn functions_are_told_by_their_last_names() {
         assert_eq!(short("mbs_sparse::kernel::fixed"), "fixed");
-        let closure = "mbs_core::natural::teamed::<impl a::B<T,_>>::advance_on::{{closure}}";
+        let closure = "mbs_core::natural::threaded::<impl a::B<T,_>>::advance_on::{{closure}}";
         assert_eq!(short(closure), "advance_on");
         assert_eq!(short("mbs_sparse::tasks::Tasks::each'2"), "each");
         assert_eq!(short("__memset_avx2_unaligned_erms"), "__memset_avx2_unaligned_erms");
