@@ -4,12 +4,14 @@
 #[cfg(feature = "alloc")]
 extern crate alloc;
 
+pub mod anderson;
 #[cfg(feature = "alloc")]
 mod angles;
 mod at;
 pub mod bounded;
 #[cfg(feature = "alloc")]
 mod cut;
+pub mod energy_balance;
 #[cfg(feature = "alloc")]
 mod error;
 mod evaluate;
@@ -27,12 +29,10 @@ pub mod joint;
 mod joint_facts;
 #[cfg(feature = "alloc")]
 mod lanes;
-pub mod ledger;
 pub mod link;
 pub mod loads;
 pub mod loops;
 pub mod mechanism;
-pub mod mixing;
 mod options;
 #[cfg(feature = "alloc")]
 mod order;

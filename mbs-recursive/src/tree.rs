@@ -38,7 +38,7 @@ pub(crate) struct Part<T: Real> {
 
 /// A cluster's place in the tree.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Seat {
+pub(crate) struct TreePlace {
     pub(crate) branch: Branch,
     /// The last link of its joint, which carries its body.
     pub(crate) link: u32,
@@ -65,7 +65,7 @@ pub struct TreeModel<T: Real, S: Space<T>> {
     pub(crate) floor: [T; 2],
     pub(crate) n_coordinates: usize,
     pub(crate) n_freedoms: usize,
-    pub(crate) seats: Vec<Seat>,
+    pub(crate) seats: Vec<TreePlace>,
     /// Where each link's origin was in the reference configuration.
     pub(crate) origins: Vec<Vector<T, 3>>,
     /// Link of each body of the scene; 0: ground.
@@ -211,7 +211,7 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         for &body in &cluster.bodies {
             self.link_of_body[body] = parent;
         }
-        self.seats.push(Seat { branch, link: parent, first });
+        self.seats.push(TreePlace { branch, link: parent, first });
     }
 
     /// No branch may end without mass.
