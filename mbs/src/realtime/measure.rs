@@ -14,7 +14,7 @@ use super::ladder::Sought;
 use super::{Pace, Pacer};
 use crate::changes::OutputRanges;
 use crate::record::OutputChange;
-use crate::run::{Outcome, Rung, Track, paced};
+use crate::run::{Outcome, PacedLevel, PacedSchedule, paced};
 use crate::settings::Settings;
 use core::cell::Cell;
 use core::time::Duration;
@@ -57,13 +57,13 @@ impl Clock for Hurried {
 
 /// A candidate, or a level: times of its repeats, and its run.
 struct Trial {
-    rung: Rung,
+    rung: PacedLevel,
     times: Vec<f64>,
     outcome: Option<Outcome>,
 }
 
 impl Trial {
-    fn new(rung: Rung) -> Self {
+    fn new(rung: PacedLevel) -> Self {
         Self { rung, times: Vec::new(), outcome: None }
     }
 
@@ -83,7 +83,7 @@ impl Trial {
 /// The levels, that of everything first, with what was measured of each.
 pub(super) fn measured<T: Real, const D: usize>(
     sought: &Sought<'_, T>,
-) -> Result<Vec<Rung>, PacingError> {
+) -> Result<Vec<PacedLevel>, PacingError> {
     let full = sought.rung(0, Vec::new());
     let candidates = candidates::<T, D>(sought);
     if candidates.is_empty() {
@@ -112,7 +112,7 @@ pub(super) fn measured<T: Real, const D: usize>(
 }
 
 /// Longer steps, and effects one by one, or by kinds where they are many.
-fn candidates<T: Real, const D: usize>(sought: &Sought<'_, T>) -> Vec<Rung> {
+fn candidates<T: Real, const D: usize>(sought: &Sought<'_, T>) -> Vec<PacedLevel> {
     let effects = sought.scene.effects.iter().enumerate().filter(|(_, effect)| effect.enabled);
     let can = |off: &Vec<usize>| sought.changes::<D>(&sought.rung(0, off.clone())).is_ok();
     let alone: Vec<Vec<usize>> = effects.map(|(i, _)| vec![i]).filter(can).collect();
@@ -134,7 +134,7 @@ fn candidates<T: Real, const D: usize>(sought: &Sought<'_, T>) -> Vec<Rung> {
 }
 
 /// The levels below the full scene: those that pay, one more each, in the order of what they change.
-fn ladder<T: Real>(sought: &Sought<'_, T>, alone: &[Trial]) -> Vec<Rung> {
+fn ladder<T: Real>(sought: &Sought<'_, T>, alone: &[Trial]) -> Vec<PacedLevel> {
     let noise = |trial: &Trial| trial.best().map_or(f64::INFINITY, |[_, noise]| noise);
     let full = alone.first().map_or(f64::INFINITY, noise);
     let pays = |trial: &&Trial| {
@@ -157,8 +157,8 @@ fn ladder<T: Real>(sought: &Sought<'_, T>, alone: &[Trial]) -> Vec<Rung> {
 /// Runs the full scene and others interleaved, and reports what each saves and changes.
 fn run_all<T: Real, const D: usize>(
     sought: &Sought<'_, T>,
-    full: &Rung,
-    others: Vec<Rung>,
+    full: &PacedLevel,
+    others: Vec<PacedLevel>,
     periods: u64,
 ) -> Vec<Trial> {
     let all = core::iter::once(full.clone()).chain(others);
@@ -200,7 +200,7 @@ fn largest(changes: &[OutputChange]) -> Option<(String, f64)> {
 /// The first periods at one level, without waiting; `None` where the level is none of this scene.
 fn trial<T: Real, const D: usize>(
     sought: &Sought<'_, T>,
-    rung: &Rung,
+    rung: &PacedLevel,
     periods: u64,
 ) -> Option<Outcome> {
     let Sought { settings, track, .. } = *sought;
@@ -208,11 +208,11 @@ fn trial<T: Real, const D: usize>(
     let duration = settings.duration.min(count(usize::try_from(periods).ok()?) * track.period.1);
     let settings = Settings { duration, ..settings.clone() };
     let steps = track.steps.map(|steps| rung.steps(steps));
-    let track = Track { periods, steps, has_level: false, ..*track };
+    let track = PacedSchedule { periods, steps, has_level: false, ..*track };
     let scene = rung.scene(sought.scene);
     let mut pacer = Pacer::new(Pace::every(Duration::from_secs_f64(track.period.1)), 1).ok()?;
     let mut clock = Hurried { system: SystemClock::new(), ahead: Cell::default() };
-    let of_one = (&mut pacer, &[Rung::default()][..]);
+    let of_one = (&mut pacer, &[PacedLevel::default()][..]);
     paced::<T, D>(&scene, &settings, &track, of_one, &mut clock).ok()
 }
 
