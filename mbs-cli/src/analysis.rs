@@ -66,10 +66,10 @@ enum At {
 /// Runs `mbs equilibrium`.
 pub(crate) fn equilibrium(arguments: &Equilibrium) -> ExitCode {
     let search = arguments.common.search();
-    let told = |scene: &Scene<f64>| {
+    let analyse = |scene: &Scene<f64>| {
         StaticEquilibrium::new(scene, search).map(|s| (s.to_json(), still(&s)))
     };
-    command(&arguments.common, "equilibrium.json", told)
+    command(&arguments.common, "equilibrium.json", analyse)
 }
 
 /// Runs `mbs modes`.
@@ -89,8 +89,8 @@ pub(crate) fn modes(arguments: &Modes) -> ExitCode {
         .report();
     }
     let analysed = |scene: &Scene<f64>| mbs::Modes::new(scene, place, search);
-    let told = |scene: &Scene<f64>| analysed(scene).map(|m| (m.to_json(), spectrum(&m)));
-    command(&arguments.common, "modes.json", told)
+    let analyse = |scene: &Scene<f64>| analysed(scene).map(|m| (m.to_json(), spectrum(&m)));
+    command(&arguments.common, "modes.json", analyse)
 }
 
 /// Reads, analyses, and writes JSON or text.
@@ -189,7 +189,7 @@ fn still(s: &StaticEquilibrium) -> String {
             let _ = writeln!(text, "{title}");
         }
         for (channel, values) in channels {
-            let _ = writeln!(text, "  {:<24} {}", channel.name, told(channel, values));
+            let _ = writeln!(text, "  {:<24} {}", channel.name, values_text(channel, values));
         }
     }
     leave_out(&s.left_out, &mut text);
@@ -223,7 +223,7 @@ fn leave_out(left_out: &[LeftOut], text: &mut String) {
 }
 
 /// Values with their units.
-fn told(channel: &Channel, values: &[f64]) -> String {
+fn values_text(channel: &Channel, values: &[f64]) -> String {
     let parts = channel.components.iter().zip(values).map(|(component, x)| {
         let label = if component.label.parse::<u32>().is_ok() { "" } else { &component.label };
         let space = if label.is_empty() { "" } else { " " };

@@ -172,7 +172,7 @@ fn named<U: Copy>(
 /// Runs the command.
 pub(crate) fn main(arguments: &Arguments) -> ExitCode {
     match run(arguments) {
-        Ok((comparison, written)) => tell(&comparison, written, arguments),
+        Ok((comparison, written)) => write_results(&comparison, written, arguments),
         Err(refusal) => refusal.report(),
     }
 }
@@ -209,7 +209,7 @@ fn refusal(error: &CompareError, has_journal: bool) -> Refusal {
         CompareError::Read(read) => Refusal::scene(read),
         CompareError::Journal(JournalError::Interrupted) => {
             let hint = match has_journal {
-                true => "the runs that were finished are kept: go on with --resume",
+                true => "the runs that were finished are kept: continue with --resume",
                 false => "with --out DIR finished runs are kept, and --resume continues from them",
             };
             Refusal::interrupted(error, hint)
@@ -227,8 +227,8 @@ fn refusal(error: &CompareError, has_journal: bool) -> Refusal {
 
 /// The commit, as the build or the environment of the command has it.
 fn commit() -> String {
-    let told = option_env!("MBS_COMMIT").map(str::to_owned);
-    told.or_else(|| std::env::var("MBS_COMMIT").ok()).unwrap_or_default()
+    let built = option_env!("MBS_COMMIT").map(str::to_owned);
+    built.or_else(|| std::env::var("MBS_COMMIT").ok()).unwrap_or_default()
 }
 
 /// Profile and vector instructions of this build.
@@ -243,7 +243,7 @@ fn build() -> String {
 }
 
 /// Files, then JSON or tables. Runs that fail are results; the exit status is that of a run that stopped if no run was completed.
-fn tell(
+fn write_results(
     comparison: &Comparison,
     written: Option<(Folder, String)>,
     arguments: &Arguments,

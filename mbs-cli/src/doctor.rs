@@ -68,11 +68,11 @@ pub(crate) fn main(arguments: &Arguments) -> ExitCode {
     if overrides.interrupt.is_set() {
         return Refusal::interrupted("interrupted by a signal", "start it again").report();
     }
-    tell(&begun, &checkup, arguments)
+    write_results(&begun, &checkup, arguments)
 }
 
 /// Files, then JSON or text; the exit status says whether there is a fault.
-fn tell(begun: &files::Begun, checkup: &Checkup, arguments: &Arguments) -> ExitCode {
+fn write_results(begun: &files::Begun, checkup: &Checkup, arguments: &Arguments) -> ExitCode {
     let files::Begun { document, scene, settings, folder } = begun;
     let options = [
         ("formulation", arguments.formulation.clone()),

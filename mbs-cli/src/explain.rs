@@ -51,7 +51,7 @@ pub(crate) struct Arguments {
 /// Runs the command.
 pub(crate) fn main(arguments: &Arguments) -> ExitCode {
     match explain(arguments) {
-        Ok((begun, explanation)) => tell(&begun, &explanation, arguments),
+        Ok((begun, explanation)) => write_results(&begun, &explanation, arguments),
         Err(refusal) => refusal.report(),
     }
 }
@@ -90,7 +90,11 @@ fn explain(arguments: &Arguments) -> Result<(files::Begun, Explanation), Refusal
 }
 
 /// Files, then JSON or tables; the exit status says whether the run with all effects was completed.
-fn tell(begun: &files::Begun, explanation: &Explanation, arguments: &Arguments) -> ExitCode {
+fn write_results(
+    begun: &files::Begun,
+    explanation: &Explanation,
+    arguments: &Arguments,
+) -> ExitCode {
     let options = [
         ("formulation", arguments.formulation.clone()),
         ("step", arguments.step.map(|x| x.to_string())),

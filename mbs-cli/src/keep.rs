@@ -66,7 +66,7 @@ impl Arguments {
             (Some(None), Some(out)) => Ok(Some(out.join(CHECKPOINT))),
             (Some(None), None) => Err(Refusal::new(
                 "checkpoint-refused",
-                "there is no directory to go on in",
+                "there is no directory to resume in",
                 "give --out DIR, or --resume=FILE",
             )),
         }
@@ -78,7 +78,10 @@ impl Arguments {
         let there = out.join(CHECKPOINT);
         match self.resumed(Some(out))? {
             None if there.exists() && !self.restart => {
-                return Err(unfinished(out, "go on with --resume, or begin anew with --restart"));
+                return Err(unfinished(
+                    out,
+                    "continue with --resume, or begin anew with --restart",
+                ));
             }
             Some(file) if is_another(&there, &file) => {
                 return Err(unfinished(

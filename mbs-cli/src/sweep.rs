@@ -78,7 +78,7 @@ impl Arguments {
 /// Runs the command.
 pub(crate) fn main(arguments: &Arguments) -> ExitCode {
     match run(arguments) {
-        Ok((report, out)) => tell(&report, &out, arguments),
+        Ok((report, out)) => write_results(&report, &out, arguments),
         Err(refusal) => refusal.report(),
     }
 }
@@ -123,7 +123,7 @@ fn not_run(error: &SweepError, out: &Path) -> Refusal {
 }
 
 /// JSON or text; the exit status says whether all members were completed.
-fn tell(report: &Report, out: &Path, arguments: &Arguments) -> ExitCode {
+fn write_results(report: &Report, out: &Path, arguments: &Arguments) -> ExitCode {
     let text = if arguments.json { json(report, arguments) } else { text(report, out) };
     let is_run = report.resumed < report.members;
     let asked = arguments.threads.filter(|_| is_run).map_or(0, NonZeroUsize::get);

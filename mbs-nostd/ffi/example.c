@@ -19,7 +19,7 @@ static int is_on(void *context)
     return 1;
 }
 
-static void tell(char what, int step, const mbs_real *numbers, size_t n)
+static void write_line(char what, int step, const mbs_real *numbers, size_t n)
 {
     printf("%c %d", what, step);
     for (size_t i = 0; i < n; i++) {
@@ -64,8 +64,8 @@ int main(int argc, char **argv)
         }
         if (step % 100 == 0) {
             mbs_real numbers[96];
-            tell('s', step, numbers, mbs_coordinates(solver, numbers, 96));
-            tell('v', step, numbers, mbs_velocities(solver, numbers, 96));
+            write_line('s', step, numbers, mbs_coordinates(solver, numbers, 96));
+            write_line('v', step, numbers, mbs_velocities(solver, numbers, 96));
         }
     }
     free(memory);

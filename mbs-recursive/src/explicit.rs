@@ -9,9 +9,9 @@
 //! are those of [`mbs_core::ode`].
 
 use crate::at::Outside;
+use crate::energy_balance;
 use crate::evaluate::{Level, accelerations, is_redundant, is_tight};
 use crate::fault::failure;
-use crate::ledger;
 use crate::link::{Kind, Link};
 use crate::loads::check_rotations;
 use crate::mechanism::{Counts, Inputs, Mechanism, Start, Store};
@@ -126,8 +126,8 @@ impl<T: Real, S: Space<T>, I: Inputs<T>> Rates<T> for System<'_, '_, '_, T, S, I
         }
         coordinate_rates(self.m.links, self.s.z, self.s.v, &mut dy[..nz]);
         dy[nz..nz + nv].copy_from_slice(self.s.zdd);
-        dy[nz + nv] =
-            ledger::power(self.m, self.s).map_err(|outside| failure(self.m, outside.into()))?;
+        dy[nz + nv] = energy_balance::power(self.m, self.s)
+            .map_err(|outside| failure(self.m, outside.into()))?;
         Ok(())
     }
 

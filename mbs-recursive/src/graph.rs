@@ -14,7 +14,7 @@
 //! the heaviest one. Links are always cut, free joints between moving bodies constrain nothing.
 
 use crate::error::TreeError;
-use crate::told;
+use crate::joint_facts;
 use alloc::collections::BinaryHeap;
 use alloc::vec;
 use alloc::vec::Vec;
@@ -143,7 +143,7 @@ fn edges<T: Real>(
         let is_on_line = joint.freedoms(scene.dimension).contains(&Freedom::Ball)
             && (0..2).any(|i| {
                 let rod = clusters.clusters.get(ends[i]).and_then(|cluster| cluster.rod);
-                rod.is_some_and(|rod| told::is_on_line(&rod, joint.points[i]))
+                rod.is_some_and(|rod| joint_facts::is_on_line(&rod, joint.points[i]))
             });
         let rank = (
             !demands.is_guided[j],

@@ -4,12 +4,14 @@
 #[cfg(feature = "alloc")]
 extern crate alloc;
 
+pub mod anderson;
 #[cfg(feature = "alloc")]
 mod angles;
 mod at;
 pub mod bounded;
 #[cfg(feature = "alloc")]
 mod cut;
+pub mod energy_balance;
 #[cfg(feature = "alloc")]
 mod error;
 mod evaluate;
@@ -24,13 +26,13 @@ mod history;
 pub mod inverse;
 pub mod joint;
 #[cfg(feature = "alloc")]
+mod joint_facts;
+#[cfg(feature = "alloc")]
 mod lanes;
-pub mod ledger;
 pub mod link;
 pub mod loads;
 pub mod loops;
 pub mod mechanism;
-pub mod mixing;
 mod options;
 #[cfg(feature = "alloc")]
 mod order;
@@ -47,8 +49,6 @@ pub mod space;
 mod start;
 #[cfg(feature = "alloc")]
 mod state;
-#[cfg(feature = "alloc")]
-mod told;
 pub mod trapezoidal;
 #[cfg(feature = "alloc")]
 mod tree;

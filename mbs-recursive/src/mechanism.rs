@@ -71,7 +71,7 @@ pub struct Store<'a, T: Real, S: Space<T>> {
     pub zdd: &'a mut [T],
     /// Increments of the step being made, or accelerations of the last iteration.
     pub scratch: &'a mut [T],
-    /// What a step with effects remembers of its iteration: [`history`](crate::mixing::history) numbers, or
+    /// What a step with effects remembers of its iteration: [`history`](crate::anderson::history) numbers, or
     /// none, and the iteration is a plain one.
     pub history: &'a mut [T],
     /// The most rows that had an effect so far.

@@ -2,11 +2,11 @@
 
 use crate::at::own;
 use crate::bounded::{self, BoundedReport, Bounds, Unwatched};
+use crate::energy_balance;
 use crate::evaluate::{Level, accelerations};
 use crate::explicit;
 use crate::fault::failure;
 use crate::inverse;
-use crate::ledger;
 use crate::mechanism::Start;
 use crate::mechanism::{Inputs, Store};
 use crate::options::Options;
@@ -42,7 +42,7 @@ pub fn step<T: Real, S: Space<T>>(
     let report = trapezoidal::step(&m, &model.inputs(state), (dt, options), start, &mut s);
     let report = report.map_err(|error| model.with_effect(error))?;
     // Work by the trapezoidal rule in time.
-    let power = own(ledger::power(&m, &mut s));
+    let power = own(energy_balance::power(&m, &mut s));
     state.work += (state.power + power) * dt * T::HALF;
     take(options, (dt, power), &s, state);
     Ok(report)
@@ -96,7 +96,7 @@ pub fn rk4_step<T: Real, S: Space<T>>(
     let report = explicit::rk4(&m, &model.inputs(state), (dt, options), memory, &mut s);
     let report = report.map_err(|error| model.with_effect(error))?;
     state.work += work(scratch);
-    let power = own(ledger::power(&m, &mut s));
+    let power = own(energy_balance::power(&m, &mut s));
     take(options, (dt, power), &s, state);
     Ok(report)
 }
@@ -209,7 +209,7 @@ fn controlled<T: Real, S: Space<T>, M: Method<T>>(
     *slot(scratch) = Some(driver);
     let report = report.map_err(|error| model.with_effect(error))?;
     state.work += work(scratch);
-    let power = own(ledger::power(&m, &mut s));
+    let power = own(energy_balance::power(&m, &mut s));
     take(options, (dt, power), &s, state);
     Ok(report)
 }
@@ -295,12 +295,12 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         let m = self.mechanism();
         let mut s = workspace.store();
         self.place_in(state, &mut s);
-        let before = own(ledger::potential(&m, &s.instant(&m)));
+        let before = own(energy_balance::potential(&m, &s.instant(&m)));
         let at_end = (&state.applied[..], &state.inputs[..]);
         self.prescribed.write_end(state.t, at_end, (s.guides, s.courses));
         accelerations(&m, options, Level::Fine, &mut s).map_err(|fault| failure(&m, fault))?;
-        let after = own(ledger::potential(&m, &s.instant(&m)));
-        state.power = own(ledger::power(&m, &mut s));
+        let after = own(energy_balance::potential(&m, &s.instant(&m)));
+        state.power = own(energy_balance::power(&m, &mut s));
         state.work += after - before;
         for ((aux, a), &new) in state.a_aux.iter_mut().zip(&mut state.a).zip(&*s.zdd) {
             *aux = if aux == a { new } else { new + (*aux - *a) };
@@ -318,7 +318,10 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         let m = self.mechanism();
         let mut s = workspace.store();
         self.place_in(state, &mut s);
-        [ledger::kinetic(m.links, s.placed), own(ledger::potential(&m, &s.instant(&m)))]
+        [
+            energy_balance::kinetic(m.links, s.placed),
+            own(energy_balance::potential(&m, &s.instant(&m))),
+        ]
     }
 
     /// Puts a state into the scratch.
@@ -396,7 +399,7 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
     }
 
     /// The joint's place on the parent, from the base.
-    fn parent_place(&self, seat: &crate::tree::Seat, s: &Store<'_, T, S>) -> S::Point {
+    fn parent_place(&self, seat: &crate::tree::TreePlace, s: &Store<'_, T, S>) -> S::Point {
         let first = &self.links[seat.first as usize];
         let parent = &s.placed[first.parent as usize];
         parent.position + S::rotate(&parent.rotation, &first.offset)

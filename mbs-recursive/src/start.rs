@@ -14,7 +14,7 @@ use crate::passes::kinematics;
 use crate::project::{project, rounding};
 use crate::space::{Numbers, Space};
 use crate::state::{TreeState, Workspace};
-use crate::tree::{Part, Seat, TreeModel, parts};
+use crate::tree::{Part, TreeModel, TreePlace, parts};
 use alloc::vec;
 use alloc::vec::Vec;
 use mbs_core::Real;
@@ -163,7 +163,7 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
             project(&m, (&options, rounding()), &mut s).map_err(fault)?;
         }
         accelerations(&m, &options, Level::Fine, &mut s).map_err(fault)?;
-        state.power = own(crate::ledger::power(&m, &mut s));
+        state.power = own(crate::energy_balance::power(&m, &mut s));
         state.applied.copy_from_slice(&state.inputs);
         state.z.copy_from_slice(s.z);
         state.v.copy_from_slice(s.v);
@@ -176,7 +176,7 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
     fn read_seat(
         &self,
         (scene, values): (&Scene<T>, &[T]),
-        seat: &Seat,
+        seat: &TreePlace,
         motions: &[RigidMotion<T>],
         state: &mut TreeState<T>,
     ) {
@@ -221,7 +221,7 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
     /// Angles and slides of a joint of several parts, from the parent to the child.
     fn read_chain(
         &self,
-        seat: &Seat,
+        seat: &TreePlace,
         chain: &[Part<T>],
         (parent, child, [gap, gap_rate]): (&RigidMotion<T>, &RigidMotion<T>, [Vector<T, 3>; 2]),
         values: &[T],

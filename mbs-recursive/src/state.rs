@@ -1,10 +1,10 @@
 //! The state of a mechanism in relative coordinates, and the scratch of a step.
 
+use crate::anderson::history;
 use crate::explicit::n_components;
 use crate::link::{Condensed, Placed};
 use crate::loops::LoopStore;
 use crate::mechanism::{Counts, Store};
-use crate::mixing::history;
 use crate::space::{Numbers, Space};
 use crate::tree::TreeModel;
 use alloc::vec;

@@ -10,19 +10,19 @@
 //! ([`Integrator::auxiliary`]).
 //!
 //! Effects answer to Δz̈ within the passes, so that stiff ones let the iteration contract (`loads::Reach`), and iterates of models with
-//! effects are mixed (`mixing`). Without effects the iteration is the source's.
+//! effects are mixed (`anderson`). Without effects the iteration is the source's.
 //!
 //! Differs from the source: increments in place of hats, which round less; rotations are quaternions, q exp(δ). Positions and
 //! velocities are projected on the loops afterwards, and the accelerations are those of the projected state.
 
 pub use crate::mechanism::Start;
 
+use crate::anderson::Mixing;
 use crate::at::{Outside, at, at_mut, copy};
 use crate::evaluate::{Level, accelerations, accelerations_ahead, is_redundant, note_rank};
 use crate::fault::failure;
 use crate::loads::{Reach, check_rotations};
 use crate::mechanism::{Inputs, Mechanism, Store};
-use crate::mixing::Mixing;
 use crate::options::{Closure, Options};
 use crate::project::{advance, project, rounding};
 use crate::space::Space;

@@ -4,6 +4,7 @@ use crate::at::own;
 use crate::error::TreeError;
 use crate::fault::Fault;
 use crate::graph::{Branch, span};
+use crate::joint_facts::JointFacts;
 use crate::link::{Condensed, Kind, Link, Placed};
 use crate::loads::Load;
 use crate::loops::{LoopStore, Loops, Regularisation, index};
@@ -13,7 +14,6 @@ use crate::passes;
 use crate::plan::Plan;
 use crate::rows::{Loop, Row};
 use crate::space::{Numbers, Space};
-use crate::told::Told;
 use alloc::vec;
 use alloc::vec::Vec;
 use mbs_core::Real;
@@ -38,7 +38,7 @@ pub(crate) struct Part<T: Real> {
 
 /// A cluster's place in the tree.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Seat {
+pub(crate) struct TreePlace {
     pub(crate) branch: Branch,
     /// The last link of its joint, which carries its body.
     pub(crate) link: u32,
@@ -65,7 +65,7 @@ pub struct TreeModel<T: Real, S: Space<T>> {
     pub(crate) floor: [T; 2],
     pub(crate) n_coordinates: usize,
     pub(crate) n_freedoms: usize,
-    pub(crate) seats: Vec<Seat>,
+    pub(crate) seats: Vec<TreePlace>,
     /// Where each link's origin was in the reference configuration.
     pub(crate) origins: Vec<Vector<T, 3>>,
     /// Link of each body of the scene; 0: ground.
@@ -93,10 +93,10 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         let actions = Actions::new(scene)?;
         let graph = span(scene, &actions, &clusters)?;
         let Actions { list, prescribed, tables } = actions;
-        let told = Told::new(scene, &clusters);
+        let facts = JointFacts::new(scene, &clusters);
         let mut tree = Self::ground(scene, clusters, (prescribed, tables));
         for branch in &graph.branches {
-            tree.add_branch((scene, &told), *branch);
+            tree.add_branch((scene, &facts), *branch);
         }
         tree.check_ends()?;
         tree.check_inertia()?;
@@ -169,9 +169,9 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
     }
 
     /// Adds the links of a branch.
-    fn add_branch(&mut self, (scene, told): (&Scene<T>, &Told), branch: Branch) {
+    fn add_branch(&mut self, (scene, facts): (&Scene<T>, &JointFacts), branch: Branch) {
         let cluster = self.clusters.clusters[branch.cluster].clone();
-        let guide = branch.joint.and_then(|joint| told.guide[joint]);
+        let guide = branch.joint.and_then(|joint| facts.guide[joint]);
         let parts = parts(scene, &branch, guide.is_some());
         let joint = branch.joint.map(|j| &scene.joints[j]);
         let is_free = parts[0].kind == Kind::Free;
@@ -185,7 +185,7 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         for (k, part) in parts.iter().enumerate() {
             let is_last = k + 1 == parts.len();
             let (mass, center, inertia) = if is_last {
-                let is_idle = S::DIMENSION == 3 && told.is_idle[branch.cluster];
+                let is_idle = S::DIMENSION == 3 && facts.is_idle[branch.cluster];
                 (cluster.mass, cluster.center - place, tensor(&cluster, is_idle, &place))
             } else {
                 (T::ZERO, Vector::zeros(), Matrix::zeros())
@@ -211,7 +211,7 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         for &body in &cluster.bodies {
             self.link_of_body[body] = parent;
         }
-        self.seats.push(Seat { branch, link: parent, first });
+        self.seats.push(TreePlace { branch, link: parent, first });
     }
 
     /// No branch may end without mass.

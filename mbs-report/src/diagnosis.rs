@@ -31,7 +31,7 @@ pub fn report(
     sections.extend(start(scene, checkup));
     let title = format!("{}: {}", checkup.scene, verdict(checkup));
     let report = Report { title, error: None, sections, provenance };
-    let text = report.text() + &told(checkup, line);
+    let text = report.text() + &sentences(checkup, line);
     (report, text)
 }
 
@@ -53,7 +53,7 @@ fn verdict(c: &Checkup) -> String {
 }
 
 /// Findings as sentences, for a terminal.
-fn told(c: &Checkup, line: Line<'_>) -> String {
+fn sentences(c: &Checkup, line: Line<'_>) -> String {
     let mut out = String::new();
     for finding in &c.findings {
         let place = place(finding, line).map_or_else(String::new, |l| format!(", line {l}"));
@@ -173,11 +173,11 @@ fn reactions(c: &Checkup) -> Section {
     let rows = if some.is_empty() {
         vec![row("all joints", "every component is determined by the motion".to_owned())]
     } else {
-        let told = |(j, open): &(usize, String)| {
+        let entry = |(j, open): &(usize, String)| {
             let value = format!("not unique: {open}{}", directions(c, *j));
             row(&c.joints[*j], value)
         };
-        let mut rows: Vec<_> = some.iter().map(told).collect();
+        let mut rows: Vec<_> = some.iter().map(entry).collect();
         if c.unique.len() > some.len() {
             rows.push(row("all others", "every component is determined by the motion".to_owned()));
         }
@@ -286,13 +286,13 @@ fn changes(c: &Checkup, corners: &[mbs_study::doctor::LinearMotion]) -> Vec<Vec<
     changed.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
     changed.dedup();
     let together = changed.chunk_by(|a, b| a.0.total_cmp(&b.0).is_eq());
-    let told = |of: &[(f64, usize)]| {
+    let entry = |of: &[(f64, usize)]| {
         let joints: Vec<&str> = of.iter().map(|(_, j)| c.joints[*j].as_str()).collect();
         let corner =
             if of.len() == 1 { "a corner changed its side" } else { "corners changed sides" };
         row(corner, format!("t = {} s: {}", few(of[0].0), joints.join(", ")))
     };
-    together.map(told).collect()
+    together.map(entry).collect()
 }
 
 fn start(scene: &Scene<f64>, c: &Checkup) -> Option<Section> {

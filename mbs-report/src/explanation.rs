@@ -216,8 +216,8 @@ fn price_list(title: &str, list: &[EffectCost], prices: &EffectCosts) -> Option<
     let head = ["left out", "kind", "fraction of a step", "iterations", "largest step", "the run"];
     let head = head.into_iter().chain(["changes most"]);
     let lengths = list.iter().map(|p| {
-        let is_felt = p.below_noise == Some(false);
-        p.share.filter(|_| is_felt).unwrap_or(0.0)
+        let is_resolved = p.below_noise == Some(false);
+        p.share.filter(|_| is_resolved).unwrap_or(0.0)
     });
     (!list.is_empty()).then(|| Section {
         title: title.to_owned(),

@@ -11,7 +11,7 @@
 use crate::front::{Front, column};
 use crate::part;
 use crate::plan::Plan;
-use crate::share::{Direction, Sweep};
+use crate::subtree::{Direction, Sweep};
 use crate::tasks::{Owned, Task};
 use mbs_math::dense::front::{self, Places, Tally, Thresholds};
 use mbs_math::{Real, Team};

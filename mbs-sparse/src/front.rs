@@ -5,7 +5,7 @@ use std::ops::Range;
 
 /// What a front holds before anything is added to it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Opening {
+pub(crate) enum FrontInit {
     /// Zeros.
     Zeros,
     /// The block of its first element, which has all its unknowns in its order.
@@ -30,7 +30,7 @@ pub(crate) struct Front {
     /// Places of the remaining rows in the list of all rows.
     pub(crate) rows: Range<usize>,
     /// How its first numbers come.
-    pub(crate) opening: Opening,
+    pub(crate) init: FrontInit,
     /// Place of the first pivot in the own vector of its task.
     pub(crate) at: usize,
     /// Its elements in the list of all elements.

@@ -20,7 +20,7 @@ use crate::delayed::{Delays, Factor, Job, Layout, Share, Shares};
 use crate::options::{Counters, Options};
 use crate::plan::plan;
 use crate::scatter::Scatter;
-use crate::share::Vectors;
+use crate::subtree::Vectors;
 use mbs_math::blocks::{Inertia, Weakest};
 use mbs_math::dense::front::{Tally, Thresholds};
 use mbs_math::dense::scaling::{self, larger, measure_rows};

@@ -12,7 +12,7 @@ mod part;
 mod pivoting;
 mod plan;
 mod scatter;
-mod share;
+mod subtree;
 mod sweep;
 mod tasks;
 mod tree;

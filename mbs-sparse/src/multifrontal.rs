@@ -9,7 +9,7 @@
 use crate::options::{Counters, Options, Pivoting};
 use crate::plan::{Plan, plan};
 use crate::scatter::Scatter;
-use crate::share::{Factor, Numbers, Vectors};
+use crate::subtree::{Factor, Numbers, Vectors};
 use crate::sweep;
 use mbs_math::team::{Alone, Team, on_stretches};
 use mbs_math::{BlockSource, Cliques, FactorError, Real, SpdSolver};

@@ -8,7 +8,7 @@
 //! ```
 
 use crate::dissection;
-use crate::front::{Front, Opening, column};
+use crate::front::{Front, FrontInit, column};
 use crate::graph::{self, Lists, index};
 use crate::options::{Counters, Options, Ordering};
 use crate::part::{self, Part, Place, place_of, triangle};
@@ -164,7 +164,7 @@ impl Planner {
                 offset: 0,
                 first,
                 rows: 0..0,
-                opening: Opening::Zeros,
+                init: FrontInit::Zeros,
                 at: 0,
                 elements: 0..0,
                 children: 0..0,
@@ -232,13 +232,13 @@ impl Planner {
         }
         let front = &mut self.plan.fronts[s];
         let is_small = |part: &Part| part.size as usize <= part::SMALL;
-        front.opening = match (straight, whole) {
-            (Some(_), _) => Opening::Written,
-            (None, Some(_)) => Opening::Permuted,
+        front.init = match (straight, whole) {
+            (Some(_), _) => FrontInit::Written,
+            (None, Some(_)) => FrontInit::Permuted,
             (None, None) if elements.len() > 1 && elements.iter().all(is_small) => {
-                Opening::Gathered
+                FrontInit::Gathered
             }
-            (None, None) => Opening::Zeros,
+            (None, None) => FrontInit::Zeros,
         };
         front.elements = from..self.plan.elements.len();
     }

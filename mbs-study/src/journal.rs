@@ -154,7 +154,7 @@ impl JournalError {
             Self::NotAJournal(_) => "give another directory with --out, or remove the file",
             Self::Busy(_) => "wait for it, or give another directory with --out",
             Self::Interrupted => {
-                "start it again to go on: what is finished is kept in the directory"
+                "start it again to continue: what is finished is kept in the directory"
             }
             Self::Io(_) => "give a directory that can be made or written with --out",
         }

@@ -1,6 +1,6 @@
 //! What the channels of a run read: measures, and joint reactions where an output asks for one.
 
-use crate::checkpoint::tape::{Tape, Told, holds};
+use crate::checkpoint::tape::{Tape, Walked, holds};
 use crate::simulation::Simulation;
 use crate::stop::StopError;
 use mbs_core::Real;
@@ -54,7 +54,7 @@ impl<T: Real, const D: usize> Channels<T, D> {
     }
 
     /// Writes what is remembered of them, or reads it back.
-    pub(crate) fn walk(&mut self, tape: &mut impl Tape) -> Told {
+    pub(crate) fn walk(&mut self, tape: &mut impl Tape) -> Walked {
         tape.reals(self.measures.memory_mut())?;
         let asked = &self.asked;
         tape.list(&mut self.not_unique, 8, |tape, joint| {

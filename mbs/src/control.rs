@@ -66,7 +66,7 @@ impl<T: Real, const D: usize> Control<T, D> {
     }
 
     /// Restores what was kept; says whether it is of the same rules and effects.
-    pub(crate) fn go_on(&mut self, kept: &ControlKept<T>) -> bool {
+    pub(crate) fn restore(&mut self, kept: &ControlKept<T>) -> bool {
         let is_ours = match (&mut self.events, &kept.events) {
             (Some(events), Some(history)) => events.set_history(history),
             (events, history) => events.is_none() && history.is_none(),

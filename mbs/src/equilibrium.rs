@@ -67,21 +67,21 @@ pub fn find_equilibrium<T: Real, const D: usize>(
     let quiet = NaturalModel::<T, D>::new(&still).map_err(|e| StopError::Start(e.into()))?;
     let mut there = State::at_rest(&quiet);
     there.t = state.t;
-    tell((scene, model), state, &quiet, &mut there);
+    transfer((scene, model), state, &quiet, &mut there);
     let found = settle_model(&quiet, search, &mut there)?;
-    tell((&still, &quiet), &there, model, state);
+    transfer((&still, &quiet), &there, model, state);
     Ok(found)
 }
 
-/// Tells a state of one model in another of the same bodies and joints.
-fn tell<T: Real, const D: usize>(
+/// Transfers a state of one model to another of the same bodies and joints.
+fn transfer<T: Real, const D: usize>(
     (scene, from): (&Scene<T>, &NaturalModel<T, D>),
     state: &State<T>,
     to: &NaturalModel<T, D>,
-    told: &mut State<T>,
+    target: &mut State<T>,
 ) {
     let motions: Vec<_> = (0..scene.bodies.len()).map(|b| from.motion(scene, b, state)).collect();
-    to.take_motions(&motions, &mut to.terms(), told);
+    to.take_motions(&motions, &mut to.terms(), target);
 }
 
 fn settle_model<T: Real, const D: usize>(

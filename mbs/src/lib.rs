@@ -1,6 +1,6 @@
 #![doc = include_str!("../README.md")]
 
-mod alarm;
+mod animation;
 mod changes;
 mod channels;
 mod checkpoint;
@@ -9,9 +9,9 @@ mod control;
 mod digits;
 mod document;
 mod driver;
+mod energy_alarm;
 mod equilibrium;
 pub mod export;
-mod figure;
 mod fingerprint;
 pub mod folder;
 mod friction;
@@ -80,10 +80,10 @@ pub use tree::{InSpace, Plane};
 /// What the studies of mbs-study share with this crate; no part of its interface.
 #[doc(hidden)]
 pub mod inside {
-    pub use crate::alarm::Alarm;
     pub use crate::changes::OutputRanges;
     pub use crate::channels::Channels;
     pub use crate::driver::{Fixed, Stretch, continue_if, drive};
+    pub use crate::energy_alarm::Alarm;
     pub use crate::fingerprint::fingerprint;
     pub use crate::precision::{ReadScene, SceneWork, in_space, not_built_hint};
     pub use crate::ready::AssembledScene;

@@ -1,7 +1,7 @@
 //! What is kept of a run: rows of channels, energies, violations and counts, thinned to a bounded number; maxima over every
 //! step.
 
-use crate::checkpoint::tape::{Tape, Told, holds};
+use crate::checkpoint::tape::{Tape, Walked, holds};
 use crate::digits::is_finer;
 use crate::record::{
     Channel, ChannelSeries, ControlSummary, EnergySeries, IterationSeries, StepRow, StepSeries,
@@ -65,7 +65,7 @@ pub enum Keep {
 
 impl StepMark {
     /// Writes it, or reads it back.
-    pub(crate) fn walk(&mut self, tape: &mut impl Tape) -> Told {
+    pub(crate) fn walk(&mut self, tape: &mut impl Tape) -> Walked {
         let Self { t, energies, violation, step } = self;
         tape.float(t)?;
         tape.floats(energies)?;
@@ -87,7 +87,7 @@ impl StepMark {
 
 impl Recorder {
     /// Writes all that is recorded so far, or reads it back; channels and what is kept stay.
-    pub(crate) fn walk(&mut self, tape: &mut impl Tape) -> Told {
+    pub(crate) fn walk(&mut self, tape: &mut impl Tape) -> Walked {
         tape.list(&mut self.marks, StepMark::SIZE, |tape, mark| mark.walk(tape))?;
         tape.list(&mut self.rows, 8, Tape::float)?;
         tape.list(&mut self.rests, 8, Tape::float)?;

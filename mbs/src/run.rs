@@ -7,7 +7,7 @@ mod paced;
 mod record;
 mod summary;
 
-pub(crate) use paced::{Rung, Track, paced};
+pub(crate) use paced::{PacedLevel, PacedSchedule, paced};
 
 use crate::checkpoint::{Checkpoint, CheckpointError, Identity, Keeping};
 use crate::driver::{StepObserver, Stretch, drive, multiple};

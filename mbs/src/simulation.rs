@@ -195,10 +195,10 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     }
 
     /// Restores what was kept; says whether it is of this simulation.
-    pub(crate) fn go_on(&mut self, kept: &Kept<T>) -> bool {
+    pub(crate) fn restore_kept(&mut self, kept: &Kept<T>) -> bool {
         let Kept { state, formulation, control, invariant, inputs: [courses, guides] } = kept;
         let mut is_ours = match (&mut self.control, control) {
-            (Some(present), Some(control)) => present.go_on(control),
+            (Some(present), Some(control)) => present.restore(control),
             (present, control) => present.is_none() && control.is_none(),
         };
         if !is_ours || self.formulation.set_history(formulation).is_err() {

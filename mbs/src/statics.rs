@@ -86,10 +86,10 @@ impl StaticEquilibrium {
         let reactions = scene.joints.iter().enumerate().map(reaction).collect();
         let joints = Scene { outputs: Vec::new(), ..scene.clone() }.channels();
         let stability = stability(&model, &state);
-        let told = |outputs| measured(outputs, scene, &model, &state);
-        let (joints, _) = told(joints)?;
-        let (reactions, not_unique) = told(reactions).unwrap_or_default();
-        let (outputs, _) = told(scene.outputs.clone())?;
+        let values = |outputs| measured(outputs, scene, &model, &state);
+        let (joints, _) = values(joints)?;
+        let (reactions, not_unique) = values(reactions).unwrap_or_default();
+        let (outputs, _) = values(scene.outputs.clone())?;
         let mut terms = model.terms();
         model.set_inputs(state.t, &state, &mut terms);
         model.evaluate(&state.q, &mut terms);
@@ -185,7 +185,7 @@ fn object(channels: &[(Channel, Vec<f64>)]) -> Map<String, Value> {
 }
 
 /// Channels with their values.
-type Told = Vec<(Channel, Vec<f64>)>;
+type ChannelValues = Vec<(Channel, Vec<f64>)>;
 
 /// Outputs of a scene at a state, and the joints whose reaction is not unique.
 fn measured<const D: usize>(
@@ -193,7 +193,7 @@ fn measured<const D: usize>(
     scene: &Scene<f64>,
     model: &NaturalModel<f64, D>,
     state: &State<f64>,
-) -> Result<(Told, Vec<String>), StopError> {
+) -> Result<(ChannelValues, Vec<String>), StopError> {
     if outputs.is_empty() {
         return Ok(Default::default());
     }
@@ -203,9 +203,9 @@ fn measured<const D: usize>(
     let mut values = vec![0.0; channels.iter().map(|c| c.components.len()).sum()];
     measures.write(state, &mut values)?;
     let mut rest = values.into_iter();
-    let told = channels.into_iter().map(|channel| {
+    let pairs = channels.into_iter().map(|channel| {
         let n = channel.components.len();
         (channel, rest.by_ref().take(n).collect())
     });
-    Ok((told.collect(), measures.not_unique(scene)))
+    Ok((pairs.collect(), measures.not_unique(scene)))
 }

@@ -226,7 +226,7 @@ impl Effort {
     }
 
     /// The last trial with the work of all.
-    fn told<T>(&self, mut attempt: TrialStep<T>) -> TrialStep<T> {
+    fn with_counts<T>(&self, mut attempt: TrialStep<T>) -> TrialStep<T> {
         let report = &mut attempt.report;
         [report.iterations, report.factorizations, report.solves] = self.work;
         report.rejected = self.rejected;
@@ -364,7 +364,7 @@ impl<T: Real> Driver<T> {
             let was_cut = is_cut || effort.landings > 0;
             let limit = self.plan(h, (was_cut, effort.reductions), judgement);
             let limit = if is_landed { Limit::Event } else { effort.reason.unwrap_or(limit) };
-            let (attempt, rejected) = (effort.told(attempt), effort.rejected);
+            let (attempt, rejected) = (effort.with_counts(attempt), effort.rejected);
             return Ok(Accepted { attempt, step: h, rejected, change, limit, is_last: h >= rest });
         }
     }
@@ -375,9 +375,9 @@ impl<T: Real> Driver<T> {
         if rest <= self.next {
             (rest, rest < self.next)
         } else if rest < self.next + self.next {
-            (told(t, rest * T::HALF).min(rest), true)
+            (clock_step(t, rest * T::HALF).min(rest), true)
         } else {
-            (told(t, self.next), false)
+            (clock_step(t, self.next), false)
         }
     }
 
@@ -403,7 +403,7 @@ impl<T: Real> Driver<T> {
         let least = (self.max_step * T::from_f64(SMALLEST))
             .max(t.abs() * T::EPSILON * T::from_f64(TIME_ROUNDINGS));
         if wish >= least {
-            Ok(told(t, wish))
+            Ok(clock_step(t, wish))
         } else {
             Err(StepError::StepTooSmall { step: wish.to_f64() })
         }
@@ -452,7 +452,7 @@ impl<T: Real> Driver<T> {
 }
 
 /// The step by which the clock moves when it is asked to move by `h` [s]: times are rounded.
-fn told<T: Real>(t: T, h: T) -> T {
+fn clock_step<T: Real>(t: T, h: T) -> T {
     let step = (t + h) - t;
     if step > T::ZERO { step } else { h }
 }

@@ -149,11 +149,11 @@ impl Invariant {
     /// Has more energy moved so far than what is rounding of the energy that is stored?
     #[must_use]
     pub fn is_moving(&self) -> bool {
-        self.scale(self.last) > self.untold()
+        self.scale(self.last) > self.stored_rounding()
     }
 
     /// Energy that is rounding of what is stored [J].
-    fn untold(&self) -> f64 {
+    fn stored_rounding(&self) -> f64 {
         (self.last[0] + self.last[1].abs()).max(self.ground) * libm::sqrt(self.epsilon)
     }
 
@@ -161,7 +161,7 @@ impl Invariant {
     /// said while that is rounding of what is stored, or of the ground. A NaN is off.
     #[must_use]
     pub fn is_off(&self, share: f64) -> bool {
-        let limit = (share * self.turned_over()).max(self.untold());
+        let limit = (share * self.turned_over()).max(self.stored_rounding());
         let is_given = self.error > 0.0 && self.growth <= limit;
         !(self.error.abs() <= limit || is_given)
     }

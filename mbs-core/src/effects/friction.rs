@@ -215,8 +215,8 @@ mod tests {
         let h = 1e-7;
         for rate in [0.0, 5e-4, -2e-3, 1e-3, 5.0] {
             let slope = (LAW.force(rate + h).0 - LAW.force(rate - h).0) / (2.0 * h);
-            let told = LAW.force(rate).1;
-            assert!((slope.max(0.0) - told).abs() < 1e-5 * (1.0 + told), "{rate}: {slope} {told}");
+            let tangent = LAW.force(rate).1;
+            assert!((slope.max(0.0) - tangent).abs() < 1e-5 * (1.0 + tangent), "{rate}: {slope} {tangent}");
         }
     }
 }

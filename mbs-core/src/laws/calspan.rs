@@ -174,8 +174,8 @@ mod tests {
         for [f, slip, camber, ..] in CASES {
             let by = (side(&c, f, slip + h, camber).force - side(&c, f, slip - h, camber).force)
                 / (2.0 * h);
-            let told = side(&c, f, slip, camber).stiffness;
-            assert!((by + told).abs() < 1e-5 * 4e4, "{f} {slip}: {by} {told}");
+            let stiffness = side(&c, f, slip, camber).stiffness;
+            assert!((by + stiffness).abs() < 1e-5 * 4e4, "{f} {slip}: {by} {stiffness}");
         }
     }
 }

@@ -306,7 +306,7 @@ mod tests {
     }
 
     #[test]
-    fn the_normal_is_the_gradient_of_the_distance_and_turns_as_told() {
+    fn the_normal_is_the_gradient_of_the_distance_and_turns_as_computed() {
         let features = [
             Feature::Flat(0.1),
             Feature::Rise { start: 1.0, length: 2.0, height: 0.3, rounding: 0.5 },
@@ -333,10 +333,11 @@ mod tests {
                 if (before.bend - after.bend).abs() < 1e-4 {
                     let turned =
                         [0, 1].map(|k| (after.normal[k] - before.normal[k]) / (2.0 * step));
-                    let told = [at.turn() * at.normal[1], -at.turn() * at.normal[0]];
+                    let computed = [at.turn() * at.normal[1], -at.turn() * at.normal[0]];
                     assert!(
-                        (turned[0] - told[0]).abs() < 1e-4 && (turned[1] - told[1]).abs() < 1e-4,
-                        "{c:?}: {turned:?} {told:?}"
+                        (turned[0] - computed[0]).abs() < 1e-4
+                            && (turned[1] - computed[1]).abs() < 1e-4,
+                        "{c:?}: {turned:?} {computed:?}"
                     );
                 }
             }

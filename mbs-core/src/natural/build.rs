@@ -1,11 +1,11 @@
 //! What a model is built of: sharing, bases, rigid-body rows; then joint rows and effects.
 
 use super::basis::{Basis, Combination};
-use super::draft::{Constants, GroupDraft, RowDraft};
 use super::error::ModelError;
 use super::rigid::rigid_rows;
-use super::rods::Rods;
+use super::row_builder::{Constants, GroupDraft, RowDraft};
 use super::sharing::{Entity, EntityKind, Sharing};
+use super::thin_rods::ThinRods;
 use crate::Real;
 use crate::actions::Actions;
 use crate::algebra::Vector;
@@ -37,7 +37,7 @@ impl<'a, T: Real> Builder<'a, T> {
         let length = scene_length(scene);
         let clusters = Clusters::new(scene);
         let Sharing { mut entities, of_cluster: shared } = Sharing::new(scene, &clusters, length);
-        let rods = Rods::new((scene, actions), &clusters, length);
+        let rods = ThinRods::new((scene, actions), &clusters, length);
         let mut bases = Vec::with_capacity(shared.len());
         for (c, cluster) in clusters.clusters.iter().enumerate() {
             let basis = match (scene.dimension, rods.of_cluster(cluster)) {
@@ -95,7 +95,7 @@ impl<'a, T: Real> Builder<'a, T> {
             if let Some(g) = self.scene.gravity {
                 let weight = Vector::<T, 3>::from(g) * cluster.mass;
                 for (e, coef) in basis.point(&cluster.center) {
-                    group.forces.push((e, super::draft::lifted(coef, &weight)));
+                    group.forces.push((e, super::row_builder::lifted(coef, &weight)));
                 }
             }
             group.rows = rows;
@@ -108,8 +108,10 @@ impl<'a, T: Real> Builder<'a, T> {
                     EntityKind::Point => basis.point(&entity.at),
                     EntityKind::Direction => basis.direction(&entity.at),
                 };
-                let x =
-                    super::draft::difference(&x, &alloc::vec![(e, crate::algebra::Coef::one())]);
+                let x = super::row_builder::difference(
+                    &x,
+                    &alloc::vec![(e, crate::algebra::Coef::one())],
+                );
                 if i >= TOGETHER {
                     self.groups.push(GroupDraft::new(owner));
                 }

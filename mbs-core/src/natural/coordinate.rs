@@ -9,8 +9,8 @@
 use super::affine::Affine;
 use super::basis::Combination;
 use super::build::Builder;
-use super::draft::difference;
 use super::model::NaturalModel;
+use super::row_builder::difference;
 use crate::Real;
 use crate::algebra::Vector;
 use crate::scene::{BodyId, Dimension, Freedom, Joint};

@@ -3,8 +3,8 @@
 use super::basis::Combination;
 use super::build::Builder;
 use super::coordinate::{Coordinate, Places};
-use super::draft::{EffectDraft, GroupDraft, difference, lifted};
 use super::error::ModelError;
+use super::row_builder::{EffectDraft, GroupDraft, difference, lifted};
 use crate::Real;
 use crate::actions::{Action, Seat};
 use crate::algebra::{Vector, unit};

@@ -1,12 +1,12 @@
 //! The arithmetic of one element: its block, residual and rates with the clique's length known to the compiler, and the
 //! curvature parts of its tangent.
 
+use super::coordinate_sets::add_rows;
 use super::forces::Gauge;
 use super::group::{
     Group, add_curvature, add_mass_product, add_multiples, add_squares, write_square,
 };
 use super::model::NaturalModel;
-use super::reach::add_rows;
 use crate::Real;
 use crate::algebra::{Vector, cross, raised};
 use crate::elements::{GuidedMotion, combine};
@@ -68,7 +68,7 @@ impl<T: Real, const D: usize> NaturalModel<T, D> {
             let penalty = group.rows.of(tangent.penalty);
             // In a group of two entities every row touches all; in a small one the rest is as soon added as left out.
             let is_small = K > 0 && K <= DENSE;
-            let reach = if is_small { &[][..] } else { group.rows.of(&self.reach) };
+            let reach = if is_small { &[][..] } else { group.rows.of(&self.coordinate_sets) };
             add_rows::<T, D>(block, k, (jacobian, width), (penalty, reach));
             jacobian = &jacobian[width * penalty.len()..];
         }

@@ -2,7 +2,7 @@
 
 use super::build::Builder;
 use super::error::ModelError;
-use super::finish::finish;
+use super::layout::layout;
 use super::model::NaturalModel;
 use crate::Real;
 use crate::actions::Actions;
@@ -27,6 +27,6 @@ impl<T: Real, const D: usize> NaturalModel<T, D> {
         }
         builder.add_guides();
         builder.add_effects(&actions.list)?;
-        Ok(finish(builder, actions))
+        Ok(layout(builder, actions))
     }
 }

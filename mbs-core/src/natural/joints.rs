@@ -12,7 +12,7 @@
 use super::basis::Combination;
 use super::build::Builder;
 use super::coordinate::{Coordinate, Places};
-use super::draft::RowDraft;
+use super::row_builder::RowDraft;
 use crate::Real;
 use crate::algebra::{Vector, norm};
 use crate::scene::{Axis, Joint, Rotation};

@@ -1,8 +1,8 @@
 //! Bodies and joints of a small mechanism as one element. A dense block whose size the compiler knows takes less time than distinguishing
 //! the blocks of its parts.
 
-use super::draft::GroupDraft;
 use super::element::DENSE;
+use super::row_builder::GroupDraft;
 use super::sharing::Entity;
 use crate::Real;
 use crate::algebra::Coef;

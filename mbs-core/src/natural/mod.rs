@@ -1,36 +1,36 @@
 //! Natural coordinates: shared points and unit vectors with a constant mass matrix, made from a scene.
 //!
 //! The way down: [`cluster`](crate::cluster) (welds), `sharing` (what joints make common), `basis` (entities of each body), `build`,
-//! `joints`, `effects` (rows and laws), `finish` (numbering and tables), `evaluate` (the numbers).
+//! `joints`, `effects` (rows and laws), `layout` (numbering and tables), `evaluate` (the numbers).
 
 mod affine;
+mod angle_memory;
 mod basis;
 mod build;
 mod coordinate;
-mod draft;
+mod coordinate_sets;
 mod effects;
 mod element;
+mod element_ranges;
 mod error;
 mod evaluate;
-mod finish;
 mod forces;
 mod from_scene;
 mod group;
+mod incidence;
 mod joints;
-mod memory;
+mod layout;
 mod merge;
 mod model;
 mod motion;
-mod near;
 mod on_body;
-mod parts;
-mod reach;
 mod rigid;
-mod rods;
 mod rotation;
+mod row_builder;
 mod sharing;
-mod teamed;
-mod touches;
+mod spatial_index;
+mod thin_rods;
+mod threaded;
 
 pub use affine::Affine;
 pub use basis::INDEPENDENCE;
@@ -40,4 +40,4 @@ pub(crate) use group::{add_squares, index, packed};
 pub use model::NaturalModel;
 pub use rotation::{unwrap, unwrap_rotation};
 pub use sharing::TOLERANCE;
-pub use teamed::Teamed;
+pub use threaded::Threaded;

@@ -1,11 +1,11 @@
 //! [`NaturalModel`]: elements by kind in contiguous arrays, gathered into groups.
 
 use super::basis::Basis;
+use super::coordinate_sets::CoordinateSet;
 use super::forces::{BodyTorque, MeasureElement, PointForce};
 use super::group::Group;
+use super::incidence::Incidence;
 use super::on_body::BodyElement;
-use super::reach::Reach;
-use super::touches::Touches;
 use crate::Real;
 use crate::actions::Tables;
 use crate::algebra::{Coef, Vector};
@@ -56,7 +56,7 @@ pub struct NaturalModel<T: Real, const D: usize> {
     pub(super) torques: Vec<BodyTorque>,
     pub(super) row_owner: Vec<Owner>,
     /// The entities that each row touches.
-    pub(super) reach: Vec<Reach>,
+    pub(super) coordinate_sets: Vec<CoordinateSet>,
     pub(super) unknown_owner: Vec<Owner>,
     pub(super) clusters: Clusters<T>,
     pub(super) bases: Vec<Basis<T>>,
@@ -66,9 +66,9 @@ pub struct NaturalModel<T: Real, const D: usize> {
     pub(super) carried: Vec<Carried<T>>,
     /// The scene's length [m].
     pub(super) length: T,
-    pub(super) touches: Touches,
+    pub(super) incidence: Incidence,
     /// Where parts begin, and the end.
-    pub(super) marks: Vec<Mark>,
+    pub(super) cursors: Vec<Cursor>,
     /// The residual of every group has room on the stack.
     pub(super) is_small: bool,
     /// There is one group, of all unknowns in their order, few enough that its rows are taken as dense.
@@ -133,7 +133,7 @@ impl<T: Real> Carried<T> {
 
 /// The first of everything that belongs to a group and those after it.
 #[derive(Debug, Clone, Copy, Default)]
-pub(super) struct Mark {
+pub(super) struct Cursor {
     pub(super) group: usize,
     pub(super) row: usize,
     pub(super) jacobian: usize,

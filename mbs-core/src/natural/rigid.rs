@@ -7,7 +7,7 @@
 //! that length.
 
 use super::basis::Basis;
-use super::draft::RowDraft;
+use super::row_builder::RowDraft;
 use super::sharing::{Entity, EntityKind};
 use crate::Real;
 use crate::algebra::{Coef, Vector, norm};
@@ -38,20 +38,20 @@ pub(super) fn rigid_rows<T: Real>(
     let own: Vec<Vec<Own<T>>> = bases.iter().map(|basis| rows_of(basis, entities, zero)).collect();
     let implied = implied_by(bases, shared, &own, zero);
     let mut rows: Vec<Vec<RowDraft<T>>> = vec![Vec::new(); bases.len()];
-    let (mut told, mut is_done) = (BTreeSet::new(), vec![false; bases.len()]);
+    let (mut covered, mut is_done) = (BTreeSet::new(), vec![false; bases.len()]);
     for c in order(&own, &implied) {
         let is_open = |own: &&Own<T>| {
             let by = implied.get(&(c, own.key));
-            !told.contains(&own.key) && !by.is_some_and(|by| by.iter().any(|&b| is_done[b]))
+            !covered.contains(&own.key) && !by.is_some_and(|by| by.iter().any(|&b| is_done[b]))
         };
         let mut open: Vec<&Own<T>> = own[c].iter().filter(is_open).collect();
         let dependent = shared[c].iter().filter(|e| !bases[c].entities.contains(e));
         for &e in dependent.filter(|&&e| entities[e].kind == EntityKind::Direction) {
-            if !told.insert(length_of(e, zero)) {
+            if !covered.insert(length_of(e, zero)) {
                 leave_out(&mut open, &bases[c], &entities[e].at, entities);
             }
         }
-        told.extend(open.iter().map(|own| own.key));
+        covered.extend(open.iter().map(|own| own.key));
         rows[c] = open.into_iter().map(|own| own.row.clone()).collect();
         is_done[c] = true;
     }

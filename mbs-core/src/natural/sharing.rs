@@ -4,7 +4,7 @@
 //! same place (parallel, either sign) within [`TOLERANCE`] of the scene's length is the same feature. Features joined by
 //! any chain of joints are one *entity*. An entity that the ground has is a constant.
 
-use super::near::Near;
+use super::spatial_index::SpatialIndex;
 use crate::Real;
 use crate::algebra::{Vector, cross, norm};
 use crate::cluster::{Clusters, root};
@@ -58,7 +58,7 @@ impl<T: Real> Sharing<T> {
             tolerance: length * tolerance::<T>(),
         };
         table.by_owner.resize_with(clusters.clusters.len() + 1, || {
-            [Near::new(table.tolerance), Near::new(tolerance::<T>())]
+            [SpatialIndex::new(table.tolerance), SpatialIndex::new(tolerance::<T>())]
         });
         for joint in &scene.joints {
             let owners = joint.bodies.map(|b| clusters.of(b));
@@ -96,7 +96,7 @@ struct Table<T: Real> {
     /// The feature that each one hangs from; itself: the root of its class.
     parent: Vec<usize>,
     /// Points and directions of each cluster; the ground's last.
-    by_owner: Vec<[Near; 2]>,
+    by_owner: Vec<[SpatialIndex; 2]>,
     tolerance: T,
 }
 

@@ -239,7 +239,7 @@ mod tests {
     }
 
     #[test]
-    fn a_doubled_support_is_shared_and_told_by_hand() {
+    fn a_doubled_support_is_shared_as_computed_by_hand() {
         // x0 + x1 = 2, x2 = 3, and their sum again
         let rows = [[1.0, 1.0, 0.0], [0.0, 0.0, 1.0], [1.0, 1.0, 1.0]];
         let (x, determined, rest) = solved(&rows, &[2.0, 3.0, 5.0]);

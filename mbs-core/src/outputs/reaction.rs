@@ -10,9 +10,9 @@
 
 use super::error::ReactionError;
 use super::frame::Frame;
+use super::leaf_elimination::{Block, eliminate_leaves};
 use super::load::Loads;
 use super::minimum_norm::MinimumNorm;
-use super::peel::{Block, peel};
 use super::wrench::{Wrench, WrenchBasis};
 use crate::Real;
 use crate::algebra::{Matrix, Vector, cross, raised};
@@ -80,7 +80,7 @@ impl<T: Real, const D: usize> Reactions<T, D> {
             (0..scene.joints.len()).map(|joint| WrenchBasis::new(scene, model, joint)).collect();
         let pairs: Vec<_> =
             joints.iter().map(|j| (j.n_directions() > 0).then_some(j.bodies)).collect();
-        let blocks = peel(scene.bodies.len(), &pairs);
+        let blocks = eliminate_leaves(scene.bodies.len(), &pairs);
         let unknowns =
             |block: &Block| block.joints.iter().map(|&j| joints[j].n_directions()).sum::<usize>();
         let columns = blocks.iter().map(unknowns).max().unwrap_or(0);

@@ -131,11 +131,12 @@ impl<T: Real> Met<'_, T> {
             tilt = (product(&moved) / (product(&weak) * self.alpha)).sqrt();
             weak.iter_mut().zip(&moved).for_each(|(y, &d)| *y -= d);
         }
-        let felt = rates.iter().zip(&weak).fold(T::ZERO, |s, (&all, &w)| s.max((all - w).abs()));
+        let determined =
+            rates.iter().zip(&weak).fold(T::ZERO, |s, (&all, &w)| s.max((all - w).abs()));
         let squares = weak.iter().zip(self.penalty).fold(T::ZERO, |s, (&y, &p)| s + p * y * y);
         let size = (squares / self.alpha).sqrt();
         let way = (model.kinetic_energy(a) * T::TWO).sqrt();
-        felt <= self.accepted && tilt <= T::from_f64(TILT) && size <= T::TWO * tilt * way
+        determined <= self.accepted && tilt <= T::from_f64(TILT) && size <= T::TWO * tilt * way
     }
 }
 

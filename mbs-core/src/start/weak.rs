@@ -41,7 +41,7 @@ impl<T: Real, S: SpdSolver<T>, const D: usize> Assembly<'_, T, S, D> {
             self.problem.multiply(&self.f, level, &mut self.products);
             weak.iter_mut().zip(&self.products).for_each(|(y, &d)| *y -= d);
         }
-        let felt: alloc::vec::Vec<T> =
+        let determined: alloc::vec::Vec<T> =
             self.rows.iter().zip(&weak).map(|(&all, &weak)| all - weak).collect();
         self.weigh(&weak);
         self.pull(level);
@@ -53,7 +53,7 @@ impl<T: Real, S: SpdSolver<T>, const D: usize> Assembly<'_, T, S, D> {
         let pull = sum(&mut p.mass.iter().zip(&self.f).map(|(&m, &f)| f * f / m));
         let way = sum(&mut p.mass.iter().zip(moved).map(|(&m, &x)| m * x * x));
         let tilt = (pull / (size * p.alpha)).sqrt();
-        self.worst(&felt) <= accepted
+        self.worst(&determined) <= accepted
             && tilt <= T::from_f64(TILT)
             && (size / p.alpha).sqrt() <= T::TWO * tilt * way.sqrt()
     }

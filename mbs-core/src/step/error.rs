@@ -54,7 +54,7 @@ pub enum StepError {
     BadOption(OptionError),
     /// Numbers in a model's tables point outside of them, or a scratch is not the model's.
     Tables,
-    /// A joint turned by more in one step than its position at the end can tell: its turns would be lost.
+    /// A joint turned by more in one step than its position at the end can resolve: its turns would be lost.
     TurnTooLarge {
         /// The joint in the scene.
         joint: u32,

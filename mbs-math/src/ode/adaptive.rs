@@ -192,8 +192,8 @@ impl<T: Real, M: Method<T>> Adaptive<T, M> {
             if h >= planned || self.method.shares() {
                 let factor = self.control.accepted(error);
                 let wish = h * self.method.worth(factor);
-                let is_told = h >= planned || factor < T::ONE && h >= planned * T::HALF;
-                self.step = if is_told { wish } else { planned.max(wish) };
+                let is_informative = h >= planned || factor < T::ONE && h >= planned * T::HALF;
+                self.step = if is_informative { wish } else { planned.max(wish) };
             }
             let at_end = t + done;
             let end = hook(system, at_end, y)

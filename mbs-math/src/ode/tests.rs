@@ -285,7 +285,7 @@ fn stiffness_ends_with_the_steps_used_up() {
 }
 
 #[test]
-fn stiffness_out_of_all_proportion_is_told_after_a_tenth_of_the_steps() {
+fn stiffness_out_of_all_proportion_is_reported_after_a_tenth_of_the_steps() {
     // Stability bounds a step by 3.3e-12 s: 10 s would take three million times a million of them.
     let stiff = Problem::new(|t, y: &[f64; 1]| [-1e12 * (y[0] - libm::cos(t))]);
     let (error, _) = failure::<1, 9>(stiff, [1.0], &Options::new(1e-6));

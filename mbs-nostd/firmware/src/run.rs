@@ -1,4 +1,4 @@
-//! Steps the model at 1 kHz of its own time and tells how it went; the same on the controller and on the host.
+//! Steps the model at 1 kHz of its own time and reports the result; the same on the controller and on the host.
 //!
 //! ```text
 //! s STEP COORDINATES      every so many steps, as hexadecimal bits
@@ -10,15 +10,15 @@
 //! ```
 
 use crate::model::{Axes, MODEL, ModelSolver, Scalar};
-use core::fmt::Write;
+use core::fmt::{Arguments, Write};
 use mbs_nostd::{BoundedReport, Checked, StepError, Unwatched};
 
 /// Steps of 1 ms.
 const STEPS: u32 = 10_000;
 /// Pairs of steps, with one evaluation and with two, behind these.
 const COMPARED: u32 = 100;
-/// Steps between two that are told.
-const TOLD: u32 = 100;
+/// Steps between two that are reported.
+const REPORT_INTERVAL: u32 = 100;
 
 /// One step: what is proved to have no path to a panic.
 #[unsafe(no_mangle)]
@@ -59,12 +59,12 @@ pub fn run(out: &mut impl Write, mut clock: impl FnMut() -> u32) -> Option<()> {
         for (largest, x) in residuals.iter_mut().zip(report.violation) {
             *largest = if x > *largest { x } else { *largest };
         }
-        if step % TOLD == 0 {
-            tell(out, format_args!("s {step}"), solver.coordinates())?;
-            tell(out, format_args!("v {step}"), solver.velocities())?;
+        if step % REPORT_INTERVAL == 0 {
+            write_line(out, format_args!("s {step}"), solver.coordinates())?;
+            write_line(out, format_args!("v {step}"), solver.velocities())?;
         }
     }
-    tell(out, format_args!("r"), &residuals)?;
+    write_line(out, format_args!("r"), &residuals)?;
     writeln!(out, "n {least} {} {most}", sum / u64::from(STEPS)).ok()?;
     let mut spent = [0_u64; 2];
     for _ in 0..COMPARED {
@@ -80,7 +80,7 @@ pub fn run(out: &mut impl Write, mut clock: impl FnMut() -> u32) -> Option<()> {
 }
 
 /// A line of numbers, as bits.
-fn tell(out: &mut impl Write, what: core::fmt::Arguments<'_>, numbers: &[Scalar]) -> Option<()> {
+fn write_line(out: &mut impl Write, what: Arguments<'_>, numbers: &[Scalar]) -> Option<()> {
     write!(out, "{what}").ok()?;
     for x in numbers {
         write!(out, " {:x}", x.to_bits()).ok()?;

@@ -1,7 +1,7 @@
 //! How much stack was used, by paint: the one file here that touches memory by address.
 //!
 //! The stack grows down from the end of RAM to the end of the static data (`_stack_start` and `__euninit` of the linker script).
-//! What lies between the latter and the stack pointer belongs to nobody; it is painted, and whoever used it later has
+//! What lies between the latter and the stack pointer is not in use; it is painted, and whoever used it later has
 //! scratched the paint off. Words are read and written volatile, within these two addresses alone.
 
 use core::ptr::{addr_of, addr_of_mut};

@@ -4,8 +4,8 @@
 //! spare = threads without work - forks in the queue           a fork is made only while spare > 0
 //! ```
 //!
-//! Two pieces of work are done one after the other by the thread that has them, unless another one waits. So a thread goes
-//! on in the numbers that it has in its cache, and a fork that no thread takes costs a nanosecond.
+//! Two pieces of work are done one after the other by the thread that has them, unless another one waits. So a thread stays
+//! with the numbers that it has in its cache, and a fork that no thread takes costs a nanosecond.
 
 use super::job::{Handle, Job};
 use crossbeam_queue::ArrayQueue;

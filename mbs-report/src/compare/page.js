@@ -1,4 +1,4 @@
-// The page of a comparison: diagrams with logarithmic axes, told apart by mark and dash as well as by colour.
+// The page of a comparison: diagrams with logarithmic axes, distinguished by mark and dash as well as by colour.
 const SHAPES = [
   "M-4,0a4,4 0 1,0 8,0a4,4 0 1,0 -8,0", "M-3.6,-3.6H3.6V3.6H-3.6Z", "M0,-4.6L4.4,3.4H-4.4Z",
   "M0,-5L5,0L0,5L-5,0Z", "M0,4.6L4.4,-3.4H-4.4Z", "M-4,-4.4H4L-4,4.4H4Z",

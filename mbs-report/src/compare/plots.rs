@@ -160,8 +160,9 @@ fn against_step(comparison: &Comparison, value: Value) -> Panel {
 }
 
 fn points(m: &MethodRuns, x: Value, y: Value) -> Vec<(f64, f64, String)> {
-    let point =
-        |run: &RunEntry| Some((rounded(x(run)?, DIGITS), rounded(y(run)?, DIGITS), told(m, run)));
+    let point = |run: &RunEntry| {
+        Some((rounded(x(run)?, DIGITS), rounded(y(run)?, DIGITS), tooltip(m, run)))
+    };
     m.completed().filter_map(point).collect()
 }
 
@@ -182,7 +183,7 @@ fn setting(m: &MethodRuns, run: &RunEntry) -> String {
 }
 
 /// What is said of a run under the cursor.
-fn told(m: &MethodRuns, run: &RunEntry) -> String {
+fn tooltip(m: &MethodRuns, run: &RunEntry) -> String {
     let error = run.error.map_or("no error".to_owned(), |e| format!("error {e:.2e}"));
     let below = if run.is_below_reference { " (not resolved by the reference)" } else { "" };
     let cpu = run.cpu_least.map_or("not timed".to_owned(), seconds);

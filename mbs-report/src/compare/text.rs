@@ -167,11 +167,11 @@ impl Tables<'_> {
             }
             for (code, texts) in reasons {
                 let more = texts.len().saturating_sub(MOST_SETTINGS);
-                let mut told = texts[..texts.len().min(MOST_SETTINGS)].join("; ");
+                let mut listed = texts[..texts.len().min(MOST_SETTINGS)].join("; ");
                 if more > 0 {
-                    told += &format!("; and {more} more");
+                    listed += &format!("; and {more} more");
                 }
-                rows.push(vec![method.name.clone(), code, told]);
+                rows.push(vec![method.name.clone(), code, listed]);
             }
         }
         let head =

@@ -1,5 +1,5 @@
 "use strict";
-// Plots: SVG lines over time, told apart by dash and marker as well as by colour.
+// Plots: SVG lines over time, distinguished by dash and marker as well as by colour.
 const SVG = "http://www.w3.org/2000/svg";
 const DASHES = ["", "8 4", "2 3", "10 3 2 3", "14 4", "5 2 1 2 1 2"];
 const MARKS = [

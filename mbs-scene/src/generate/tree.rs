@@ -14,7 +14,7 @@ const COMMENT: &str = "\
 Binary tree of bars with spatial revolute joints, hung on the ground by its trunk.
 
 A bar with the number k >= 2 hangs on the end of bar k / 2 (rounded down) and points down and to one side, to the other
-one for the next number: in x and y by turns of the generations. Its joint turns about the horizontal across it. The
+one for the next number; generations alternate between x and y. Its joint turns about the horizontal across it. The
 trunk is a square bar of 2 kg and 0.6 m; each generation is lighter by the factor 0.7 and shorter by 0.8. The trunk
 starts with 0.5 rad/s; the rest follows with the least kinetic energy. No loops, one freedom for each bar; the energy is
 kept.";

@@ -100,7 +100,7 @@ impl SceneFile {
         }
     }
 
-    /// Names of bodies or joints as far as they are texts; the rest is refused when the entry is read.
+    /// Names of bodies or joints that are texts; the rest is refused when the entry is read.
     fn names(&self, key: &str) -> Names {
         let Some(Item { node: Node::List(items), .. }) = self.top(key) else {
             return Names::default();
@@ -114,7 +114,7 @@ impl SceneFile {
         Names::new(items.iter().map(|item| name(item).unwrap_or_default()).collect())
     }
 
-    /// Names are told apart before they are referred to: else a repeated name reads as an unknown one.
+    /// Names are checked before they are referred to: else a repeated name reads as an unknown one.
     fn refuse_duplicates(&self, names: &[String], entry: fn(usize) -> Entry) -> Read<()> {
         let mut seen = BTreeMap::new();
         for (i, name) in names.iter().enumerate().filter(|(_, name)| !name.is_empty()) {

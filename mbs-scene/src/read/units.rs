@@ -95,7 +95,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn numbers_with_units_are_told_in_si() {
+    fn numbers_with_units_are_converted_to_si() {
         for (text, expected) in [
             ("1 kg", "write 1: all numbers are in SI units, here in kg"),
             ("5mm", "write 0.005: all numbers are in SI units, here in m"),

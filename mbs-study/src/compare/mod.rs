@@ -377,7 +377,7 @@ impl CompareError {
             Self::Read(_) => String::new(),
             Self::Journal(error) => error.hint().to_owned(),
             Self::Unfinished => {
-                "go on from them with --resume, throw them away with --restart, or give another directory with --out"
+                "continue from them with --resume, throw them away with --restart, or give another directory with --out"
                     .to_owned()
             }
             Self::Table(error) => error.hint(),

@@ -15,7 +15,7 @@ const AGREES: f64 = 3.0;
 /// Difference of a table and formulations that refutes the table, in units of the uncertainty of both [-]. Chosen, not tuned.
 const REFUTED: f64 = 10.0;
 /// Largest uncertainty of a check, relative to the outputs' ranges [-]: more checks nothing. Chosen, not tuned.
-const TELLS: f64 = 1e-2;
+const MAX_CHECK_UNCERTAINTY: f64 = 1e-2;
 
 /// Rows at the instants after the start.
 pub(super) type Rows = Vec<Vec<f64>>;
@@ -111,15 +111,15 @@ impl Known {
                 apart = apart.max(distance(x, y));
             }
             // beyond that the motion is not known, chaotic ones for instance
-            if !(apart <= TELLS) {
+            if !(apart <= MAX_CHECK_UNCERTAINTY) {
                 break;
             }
             let Some(row) = row else { continue };
             let d = distance(row, &best);
-            let told = self.report.uncertainty + apart;
+            let expected = self.report.uncertainty + apart;
             (seen, largest) = (seen + 1, largest.max(d));
-            is_near &= d <= AGREES * told;
-            if d > REFUTED * told && miss.is_none_or(|(_, most)| d > most) {
+            is_near &= d <= AGREES * expected;
+            if d > REFUTED * expected && miss.is_none_or(|(_, most)| d > most) {
                 miss = Some((k, d));
             }
         }
@@ -183,8 +183,8 @@ impl Known {
             CrossCheck::new(&check.method, largest(&check.rows), uncertainty)
         });
         let is_verified = cross_check.as_ref().is_some_and(|check| {
-            let told = check.own_uncertainty.max(uncertainty);
-            check.own_uncertainty <= TELLS && check.difference <= AGREES * told
+            let larger = check.own_uncertainty.max(uncertainty);
+            check.own_uncertainty <= MAX_CHECK_UNCERTAINTY && check.difference <= AGREES * larger
         });
         if !is_verified {
             notes.push(doubt(cross_check.as_ref()));
@@ -234,7 +234,7 @@ fn doubt(check: Option<&CrossCheck>) -> String {
     match check {
         None => "the reference is NOT verified: no other formulation runs the scene to the end"
             .to_owned(),
-        Some(check) if check.own_uncertainty > TELLS => format!(
+        Some(check) if check.own_uncertainty > MAX_CHECK_UNCERTAINTY => format!(
             "the reference is NOT verified: the check itself has an uncertainty of {:.1e}",
             check.own_uncertainty
         ),
@@ -351,7 +351,7 @@ mod tests {
     }
 
     #[test]
-    fn a_check_that_disagrees_or_tells_nothing_does_not_verify() {
+    fn a_check_that_disagrees_or_is_too_uncertain_does_not_verify() {
         let good = pair(|_| 0.0, |_| 1e-10);
         let off = of(&good, Some(&pair(|_| 1e-3, |_| 1.0001e-3)));
         assert!(!off.report.is_verified && off.notes[0].contains("away"), "{:?}", off.notes);

@@ -20,9 +20,9 @@ pub(super) fn findings(
     match massless {
         Some(all) => all.iter().for_each(|m| findings.push(direction(scene, m))),
         None => {
-            let told = (Topic::Masses, "masses-not-looked-at");
+            let code = (Topic::Masses, "masses-not-looked-at");
             let message = "too many bodies to look for massless motions".to_owned();
-            findings.push(Finding::new(Severity::Note, told, message, ""));
+            findings.push(Finding::new(Severity::Note, code, message, ""));
         }
     }
     odd_parts(scene, findings);
@@ -33,8 +33,8 @@ pub(super) fn findings(
     if !empty.is_empty() {
         let names = body_names(scene, &empty);
         let message = format!("without mass: {names}; the other bodies determine how they move");
-        let told = (Topic::Masses, "no-mass");
-        findings.push(Finding::new(Severity::Note, told, message, "").bodies(empty));
+        let code = (Topic::Masses, "no-mass");
+        findings.push(Finding::new(Severity::Note, code, message, "").bodies(empty));
     }
     let with = || lumps.iter().filter(|lump| lump.mass > 0.0);
     let heavy = with().max_by(|a, b| a.mass.total_cmp(&b.mass));
@@ -50,8 +50,8 @@ pub(super) fn findings(
             body_names(scene, &[light])
         );
         let remedy = "check the units of both; a body that light may be left out, or given no mass";
-        let told = (Topic::Masses, "mass-ratio");
-        let finding = Finding::new(Severity::Doubt, told, message, remedy);
+        let code = (Topic::Masses, "mass-ratio");
+        let finding = Finding::new(Severity::Doubt, code, message, remedy);
         findings.push(finding.bodies(vec![heavy, light]));
     }
     let flat: Vec<usize> =
@@ -61,8 +61,8 @@ pub(super) fn findings(
             "the inertia of {} is that of a thin plate: at the limit of the triangle inequality",
             body_names(scene, &flat)
         );
-        let told = (Topic::Masses, "flat-body");
-        findings.push(Finding::new(Severity::Note, told, message, "").bodies(flat));
+        let code = (Topic::Masses, "flat-body");
+        findings.push(Finding::new(Severity::Note, code, message, "").bodies(flat));
     }
 }
 
@@ -78,8 +78,8 @@ fn odd_parts(scene: &Scene<f64>, findings: &mut Vec<Finding>) {
             "{} {what}: it counts in the sum of what it is welded to, which is checked instead",
             body_names(scene, &[body])
         );
-        let told = (Topic::Masses, "part-inertia");
-        let finding = Finding::new(Severity::Note, told, message, "").bodies(vec![body]);
+        let code = (Topic::Masses, "part-inertia");
+        let finding = Finding::new(Severity::Note, code, message, "").bodies(vec![body]);
         findings.push(finding.at(Entry::Body(body), "inertia"));
     }
 }

@@ -137,14 +137,14 @@ pub(super) fn watch<const D: usize>(
     motion.positions = 1;
     let every = settings.duration / positions(linkage, effort);
     let clock = Instant::now();
-    let goes_on = || clock.elapsed().as_secs_f64() <= effort.seconds;
+    let has_time = || clock.elapsed().as_secs_f64() <= effort.seconds;
     let (lengths, is_controlled) = (settings.lengths(scene), simulation.is_controlled());
     let stretches = (1..=settings.n_steps()).map(|k| {
         let step = step(settings, &lengths, k);
         if is_controlled { Stretch { fixed: None, ..step } } else { step }
     });
     let mut look =
-        Look { watch: &mut watch, motion: &mut motion, every, next: every, goes_on: &goes_on };
+        Look { watch: &mut watch, motion: &mut motion, every, next: every, has_time: &has_time };
     if let Err(stop) = drive(&mut simulation, stretches, &settings.interrupt, &mut look) {
         let (message, hint) = stopped(scene, &stop, motion.reached);
         (motion.error, motion.entry) = (Some((stop.code(), message, hint)), stop.entry());
@@ -161,7 +161,7 @@ struct Look<'a, 'b> {
     /// Time between two positions, and that of the next [s].
     every: f64,
     next: f64,
-    goes_on: &'a dyn Fn() -> bool,
+    has_time: &'a dyn Fn() -> bool,
 }
 
 impl<const D: usize> StepObserver<f64, D> for Look<'_, '_> {
@@ -179,9 +179,9 @@ impl<const D: usize> StepObserver<f64, D> for Look<'_, '_> {
             motion.positions += 1;
             *next += *every * ((t - *next) / *every).floor().max(0.0) + *every;
         }
-        let goes_on = (self.goes_on)();
-        self.motion.is_cut_short = !goes_on && !is_last;
-        Ok(mbs::inside::continue_if(goes_on))
+        let has_time = (self.has_time)();
+        self.motion.is_cut_short = !has_time && !is_last;
+        Ok(mbs::inside::continue_if(has_time))
     }
 }
 
@@ -384,8 +384,8 @@ pub(super) fn findings(
             "the loops that {} belong to are too many to be looked at along the motion",
             joint_names(scene, &left)
         );
-        let told = (Topic::Motion, "not-watched");
-        findings.push(Finding::new(Severity::Note, told, message, "").joints(left));
+        let code = (Topic::Motion, "not-watched");
+        findings.push(Finding::new(Severity::Note, code, message, "").joints(left));
     }
     if motion.is_cut_short {
         let message = format!(
@@ -393,8 +393,8 @@ pub(super) fn findings(
             few(motion.reached),
             few(motion.duration)
         );
-        let told = (Topic::Motion, "cut-short");
-        findings.push(Finding::new(Severity::Note, told, message, ""));
+        let code = (Topic::Motion, "cut-short");
+        findings.push(Finding::new(Severity::Note, code, message, ""));
     }
 }
 
@@ -412,8 +412,8 @@ fn passes(scene: &Scene<f64>, near: &Nearest) -> Option<Finding> {
         few(near.sigma_at_start)
     );
     let remedy = "run it by index-3 or index-1, compare two steps, and check that the branch is the intended one";
-    let told = (Topic::Motion, "passes-singular-position");
-    Some(Finding::new(Severity::Doubt, told, message, remedy).joints(near.joints.clone()))
+    let code = (Topic::Motion, "passes-singular-position");
+    Some(Finding::new(Severity::Doubt, code, message, remedy).joints(near.joints.clone()))
 }
 
 #[cfg(test)]

@@ -138,8 +138,8 @@ fn near_miss(scene: &Scene<f64>, place: &Place, other: &Place) -> Finding {
         "write the same place for both, or leave it: it runs as it is written ({})",
         written(scene, other.point)
     );
-    let told = (Topic::Places, "places-apart");
-    Finding::new(Severity::Doubt, told, message, remedy).bodies(vec![place.body]).at(entry, key)
+    let code = (Topic::Places, "places-apart");
+    Finding::new(Severity::Doubt, code, message, remedy).bodies(vec![place.body]).at(entry, key)
 }
 
 /// An effect that is far from its body, and would be on it if its place were counted from the centre of mass.
@@ -168,8 +168,8 @@ fn stray(scene: &Scene<f64>, place: &Place, here: &[Place]) -> Option<Finding> {
         "all places are global ones, in the reference configuration: counted from the centre it is {}",
         written(scene, center + place.point)
     );
-    let told = (Topic::Places, "place-off-body");
-    let finding = Finding::new(Severity::Doubt, told, message, remedy);
+    let code = (Topic::Places, "place-off-body");
+    let finding = Finding::new(Severity::Doubt, code, message, remedy);
     Some(finding.bodies(vec![place.body]).at(entry, key))
 }
 

@@ -38,8 +38,8 @@ pub(super) fn findings(
             counted(hidden, "redundant equation"),
             constraints - rank
         );
-        let told = (Topic::Dependence, "hidden-by-sharing");
-        findings.push(Finding::new(Severity::Note, told, message, ""));
+        let code = (Topic::Dependence, "hidden-by-sharing");
+        findings.push(Finding::new(Severity::Note, code, message, ""));
     }
 }
 

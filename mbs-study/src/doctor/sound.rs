@@ -18,16 +18,16 @@ pub(super) fn findings(
             few(diagnosis.gap)
         );
         let remedy = "give places and axes with all their digits, or start in another position";
-        let told = (Topic::Rank, "uncertain-rank");
-        findings.push(Finding::new(Severity::Doubt, told, message, remedy));
+        let code = (Topic::Rank, "uncertain-rank");
+        findings.push(Finding::new(Severity::Doubt, code, message, remedy));
     }
     for &joint in &diagnosis.too_large {
         let message = format!(
             "the loops that `{}` belongs to are too many for singular values: they were not looked at",
             scene.joints[joint].name
         );
-        let told = (Topic::Rank, "too-large");
-        findings.push(Finding::new(Severity::Note, told, message, "").joints(vec![joint]));
+        let code = (Topic::Rank, "too-large");
+        findings.push(Finding::new(Severity::Note, code, message, "").joints(vec![joint]));
     }
     if let Some([coordinates, _, rank]) = natural {
         differs(diagnosis, coordinates - rank, massless, findings);
@@ -38,8 +38,8 @@ pub(super) fn findings(
                 counted(velocities, "velocity")
             );
             let remedy = "if it is to move, leave a joint out, or take a kind that allows more";
-            let told = (Topic::Rank, "no-freedom");
-            findings.push(Finding::new(Severity::Note, told, message, remedy));
+            let code = (Topic::Rank, "no-freedom");
+            findings.push(Finding::new(Severity::Note, code, message, remedy));
         }
     }
     let is_held = |b: &usize| scene.joints.iter().any(|j| j.bodies.contains(&BodyId::Body(*b)));
@@ -47,8 +47,8 @@ pub(super) fn findings(
     if !free.is_empty() {
         let message =
             format!("no joint holds {}: free in all directions", body_names(scene, &free));
-        let told = (Topic::Rank, "free-body");
-        findings.push(Finding::new(Severity::Note, told, message, "").bodies(free));
+        let code = (Topic::Rank, "free-body");
+        findings.push(Finding::new(Severity::Note, code, message, "").bodies(free));
     }
 }
 

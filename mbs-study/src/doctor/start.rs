@@ -145,6 +145,6 @@ fn follow<const D: usize>(
         counted(others.len(), "body"),
         if others.len() == 1 { "s" } else { "" }
     );
-    let told = (Topic::Start, "velocities-follow");
-    findings.push(Finding::new(Severity::Note, told, message, "").bodies(others));
+    let code = (Topic::Start, "velocities-follow");
+    findings.push(Finding::new(Severity::Note, code, message, "").bodies(others));
 }

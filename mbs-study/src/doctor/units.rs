@@ -89,13 +89,13 @@ fn bodies(scene: &Scene<f64>, findings: &mut Vec<Finding>) {
     }
     densities.sort_by(f64::total_cmp);
     let Some(&median) = densities.get(densities.len() / 2) else { return };
-    let told = match median {
+    let guess = match median {
         x if x < DENSITIES[0] => "lengths look like millimetres, or masses like tonnes",
         x if x > DENSITIES[1] => "lengths look like kilometres, or masses like grams",
         _ => return,
     };
     let message = format!(
-        "half of the bodies have less or more than {} kg per cubic metre: {told}",
+        "half of the bodies have less or more than {} kg per cubic metre: {guess}",
         few(median)
     );
     let remedy = "write lengths in m and masses in kg";
@@ -117,7 +117,7 @@ fn is_turn(freedom: Freedom) -> bool {
 fn angles(scene: &Scene<f64>, findings: &mut Vec<Finding>) {
     let kind = |joint: JointId| scene.joints[joint].kind;
     let turns = |joint: JointId| kind(joint).single(scene.dimension).is_some_and(is_turn);
-    let mut tell = |x: f64, entry: Entry, key: &'static str| {
+    let mut report = |x: f64, entry: Entry, key: &'static str| {
         let message = format!("{} rad is more than a turn and looks like degrees", few(x));
         let remedy = format!("write {} for {} degrees", few(x.to_radians()), few(x));
         findings.push(doubt("angle-unit", message, &remedy).at(entry, key));
@@ -126,7 +126,7 @@ fn angles(scene: &Scene<f64>, findings: &mut Vec<Finding>) {
         if let InitialTarget::Joint { joint, value: Some(value), .. } = &initial.target {
             let numbers = kind(*joint).numbered(scene.dimension).filter(|(_, f)| is_turn(*f));
             let values = numbers.filter_map(|(number, _)| value.get(number).copied());
-            values.filter(|x| like_degrees(*x)).for_each(|x| tell(x, Entry::Initial(i), "value"));
+            values.filter(|x| like_degrees(*x)).for_each(|x| report(x, Entry::Initial(i), "value"));
         }
     }
     for (i, guide) in scene.guides.iter().enumerate() {
@@ -134,16 +134,16 @@ fn angles(scene: &Scene<f64>, findings: &mut Vec<Finding>) {
             && turns(guide.joint)
             && like_degrees(amplitude)
         {
-            tell(amplitude, Entry::Guide(i), "amplitude");
+            report(amplitude, Entry::Guide(i), "amplitude");
         }
     }
     for (i, effect) in scene.effects.iter().enumerate().filter(|(_, e)| e.enabled) {
         match &effect.kind {
             EffectKind::TorsionSpring(spring) if like_degrees(spring.free_value) => {
-                tell(spring.free_value, Entry::Effect(i), "free_value");
+                report(spring.free_value, Entry::Effect(i), "free_value");
             }
             EffectKind::Limit(stop) if turns(stop.joint) && like_degrees(stop.upper) => {
-                tell(stop.upper, Entry::Effect(i), "upper");
+                report(stop.upper, Entry::Effect(i), "upper");
             }
             _ => {}
         }

@@ -98,9 +98,9 @@ where
     let mut simulation = Simulation::<T, D>::new(scene, settings).ok()?;
     let start = clock.elapsed().as_secs_f64();
     let clock = ThreadTime::now();
-    let goes_on = || clock.elapsed().as_secs_f64() < TRIAL.1;
+    let has_time = || clock.elapsed().as_secs_f64() < TRIAL.1;
     let n = TRIAL.0.min(settings.n_steps());
-    let done = steps(&mut simulation, settings.step_max, n, goes_on);
+    let done = steps(&mut simulation, settings.step_max, n, has_time);
     Some([start, clock.elapsed().as_secs_f64() / count(done.max(1))])
 }
 
@@ -109,14 +109,14 @@ fn steps<T: Real, const D: usize>(
     simulation: &mut Simulation<T, D>,
     h: f64,
     n: u64,
-    goes_on: impl Fn() -> bool,
+    has_time: impl Fn() -> bool,
 ) -> u64
 where
     Plane<D>: InSpace<T>,
 {
     let dt = T::from_f64(h);
     for k in 0..n {
-        if !goes_on() || simulation.step(dt).is_err() {
+        if !has_time() || simulation.step(dt).is_err() {
             return k;
         }
         simulation.set_time(T::from_f64(count(k + 1) * h));

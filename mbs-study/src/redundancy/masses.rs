@@ -58,7 +58,7 @@ pub fn massless(scene: &Scene<f64>, linkage: &Linkage, at: &Poses) -> Option<Vec
         return Some(Vec::new());
     }
     let motions = free.times(&rank);
-    Some(told(scene, linkage, at, &motions))
+    Some(classified(scene, linkage, at, &motions))
 }
 
 /// √M of a body as a 6 x 6 matrix on (v, ω) in global axes.
@@ -115,7 +115,12 @@ fn cut(r: &Matrix) -> Option<Matrix> {
 }
 
 /// Idle spins of rods, and what is left of the motions besides.
-fn told(scene: &Scene<f64>, linkage: &Linkage, at: &Poses, motions: &Matrix) -> Vec<Massless> {
+fn classified(
+    scene: &Scene<f64>,
+    linkage: &Linkage,
+    at: &Poses,
+    motions: &Matrix,
+) -> Vec<Massless> {
     let f = linkage.freedoms();
     let mut found = Vec::new();
     let mut spins = Vec::new();

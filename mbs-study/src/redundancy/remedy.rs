@@ -65,7 +65,7 @@ pub(crate) fn remedy(
         options.extend(options_of(linkage, (part, at), (jacobian, null), place));
     }
     let k = group.redundant;
-    let told = |chosen: Vec<usize>, is_smallest| {
+    let verified = |chosen: Vec<usize>, is_smallest| {
         let found: Vec<&Choice> = chosen.into_iter().map(|i| &options[i]).collect();
         holds(linkage, (part, at), group, &found).then(|| Remedy {
             changes: found.iter().map(|o| o.change.clone()).collect(),
@@ -74,9 +74,9 @@ pub(crate) fn remedy(
         })
     };
     search(&options, k)
-        .and_then(|chosen| told(chosen, true))
+        .and_then(|chosen| verified(chosen, true))
         .or_else(|| without_a_body(linkage, (part, at), group))
-        .or_else(|| told(greedy(&options, k)?, false))
+        .or_else(|| verified(greedy(&options, k)?, false))
 }
 
 /// A body that can be left out with all its joints: a third crank of a parallelogram carries nothing that others do not.

@@ -53,13 +53,13 @@ impl CheckpointError {
             Self::Busy => "wait for it, or give another directory with --out".to_owned(),
             Self::NotACheckpoint => "give the checkpoint.mbs of a run".to_owned(),
             Self::Version(found) => format!(
-                "go on with mbs {found}, or begin anew with --restart: another version may round otherwise"
+                "continue with mbs {found}, or begin anew with --restart: another version may round otherwise"
             ),
             Self::Torn { .. } | Self::Checksum | Self::Misfit => {
                 "begin anew with --restart, or give an earlier copy of the file".to_owned()
             }
             Self::Scene(_) => {
-                "go on with the scene as it was, or begin anew with --restart".to_owned()
+                "continue with the scene as it was, or begin anew with --restart".to_owned()
             }
             Self::Setting { key, was, .. } if was.is_empty() => {
                 format!("leave --{key} out, or begin anew with --restart")

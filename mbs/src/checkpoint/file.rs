@@ -2,7 +2,7 @@
 
 use super::CheckpointError;
 use super::identity::Identity;
-use super::tape::{Eye, Pen, Tape, Told, holds};
+use super::tape::{Eye, Pen, Tape, Walked, holds};
 use crate::fingerprint::fingerprint;
 use crate::settings::{Method, Settings};
 use mbs_core::Real;
@@ -125,7 +125,7 @@ impl Checkpoint {
     }
 
     /// Is it of these, scene and settings?
-    pub(crate) fn check(&self, identity: &Identity) -> Told {
+    pub(crate) fn check(&self, identity: &Identity) -> Walked {
         identity.check(&self.identity)
     }
 
@@ -146,7 +146,7 @@ fn walk(
     kind: &mut Kind,
     times: &mut [f64; 2],
     identity: &mut Identity,
-) -> Told {
+) -> Walked {
     let mut version = env!("CARGO_PKG_VERSION").to_owned();
     tape.text(&mut version)?;
     if version != env!("CARGO_PKG_VERSION") {
@@ -164,7 +164,7 @@ fn walk(
 pub(crate) fn whole(
     identity: &Identity,
     (mut kind, mut times): (Kind, [f64; 2]),
-    body: impl FnOnce(&mut Pen) -> Told,
+    body: impl FnOnce(&mut Pen) -> Walked,
 ) -> Result<Vec<u8>, CheckpointError> {
     let mut pen = Pen(vec![0; N_HEAD]);
     walk(&mut pen, &mut kind, &mut times, &mut identity.clone())?;

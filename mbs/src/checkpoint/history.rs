@@ -1,6 +1,6 @@
 //! Histories and states on a tape.
 
-use super::tape::{Tape, Told, holds};
+use super::tape::{Tape, Walked, holds};
 use mbs_core::Real;
 use mbs_core::history::{Entry, Numbers, Shape};
 use mbs_core::model::State;
@@ -8,7 +8,7 @@ use mbs_core::model::State;
 /// Parts that several have.
 pub(crate) trait Parts: Tape {
     /// What a formulation remembers: its numbers in their order, without their names.
-    fn history<T: Real>(&mut self, entries: &mut [Entry<T>]) -> Told {
+    fn history<T: Real>(&mut self, entries: &mut [Entry<T>]) -> Walked {
         entries.iter_mut().try_for_each(|Entry { shape, numbers, .. }| match numbers {
             Numbers::Reals(x) => array(self, *shape, (x, 8), Self::real),
             Numbers::Floats(x) => array(self, *shape, (x, 8), Self::float),
@@ -23,13 +23,13 @@ pub(crate) trait Parts: Tape {
     }
 
     /// What a control by error estimates remembers.
-    fn errors(&mut self, (memory, was_rejected): &mut (Option<f64>, bool)) -> Told {
+    fn errors(&mut self, (memory, was_rejected): &mut (Option<f64>, bool)) -> Walked {
         self.option(memory, Tape::float)?;
         self.flag(was_rejected)
     }
 
     /// A natural state.
-    fn state<T: Real>(&mut self, state: &mut State<T>) -> Told {
+    fn state<T: Real>(&mut self, state: &mut State<T>) -> Walked {
         let State {
             t,
             dt,
@@ -64,8 +64,8 @@ fn array<P: Tape, E: Copy + Default + PartialEq>(
     tape: &mut P,
     shape: Shape,
     (x, size): (&mut Vec<E>, usize),
-    mut each: impl FnMut(&mut P, &mut E) -> Told,
-) -> Told {
+    mut each: impl FnMut(&mut P, &mut E) -> Walked,
+) -> Walked {
     match shape {
         Shape::Fixed => {}
         Shape::Constant => {
@@ -94,7 +94,7 @@ fn array<P: Tape, E: Copy + Default + PartialEq>(
 }
 
 /// A number of rows that the model knows.
-fn same(tape: &mut impl Tape, n: usize) -> Told {
+fn same(tape: &mut impl Tape, n: usize) -> Walked {
     let mut found = n as u64;
     tape.count(&mut found)?;
     holds(found == n as u64)

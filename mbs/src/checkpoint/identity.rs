@@ -1,7 +1,7 @@
 //! What a checkpoint belongs to: the scene, part by part, and the settings of its run.
 
 use super::CheckpointError;
-use super::tape::{Tape, Told, holds};
+use super::tape::{Tape, Walked, holds};
 use crate::fingerprint::Fingerprint;
 use crate::settings::{Method, Settings};
 use core::fmt::{Debug, Write};
@@ -57,14 +57,14 @@ impl Identity {
     }
 
     /// Is that of a checkpoint the same?
-    pub(super) fn check(&self, kept: &Self) -> Told {
+    pub(super) fn check(&self, kept: &Self) -> Walked {
         self.check_settings(kept)?;
         let differs = |&i: &usize| self.parts[i] != kept.parts[i];
         let parts: Vec<_> = (0..PARTS.len()).filter(differs).map(|i| PARTS[i]).collect();
         if parts.is_empty() { Ok(()) } else { Err(CheckpointError::Scene(parts)) }
     }
 
-    fn check_settings(&self, kept: &Self) -> Told {
+    fn check_settings(&self, kept: &Self) -> Walked {
         match (0..KEYS.len()).find(|&i| self.values[i] != kept.values[i]) {
             None => Ok(()),
             Some(i) => {
@@ -123,7 +123,7 @@ impl Identity {
     }
 
     /// Writes it, or reads it back.
-    pub(super) fn walk(&mut self, tape: &mut impl Tape) -> Told {
+    pub(super) fn walk(&mut self, tape: &mut impl Tape) -> Walked {
         tape.places(&mut self.parts, Tape::word)?;
         tape.places(&mut self.values, Tape::text)?;
         tape.text(&mut self.asked)?;

@@ -1,7 +1,7 @@
 //! What a simulation steps on from, as plain data.
 
 use super::history::Parts;
-use super::tape::{Tape, Told, holds};
+use super::tape::{Tape, Walked, holds};
 use mbs_core::Real;
 use mbs_core::control::{DriverHistory, Invariant};
 use mbs_core::history::History;
@@ -29,7 +29,7 @@ pub(crate) struct ControlKept<T> {
 
 impl<T: Real> Kept<T> {
     /// Writes it, or reads it back in the same shape.
-    pub(crate) fn walk(&mut self, tape: &mut impl Tape) -> Told {
+    pub(crate) fn walk(&mut self, tape: &mut impl Tape) -> Walked {
         let Self { state, formulation, control, invariant, inputs } = self;
         tape.state(state)?;
         tape.history(&mut formulation.entries)?;
@@ -50,7 +50,7 @@ impl<T: Real> Kept<T> {
 }
 
 impl<T: Real> ControlKept<T> {
-    fn walk(&mut self, tape: &mut impl Tape) -> Told {
+    fn walk(&mut self, tape: &mut impl Tape) -> Walked {
         let DriverHistory { next, energy, error, stretch } = &mut self.driver;
         tape.real(next)?;
         tape.option(energy, |tape, (memory, small)| {

@@ -1,6 +1,6 @@
 //! A simulation saved and restored.
 
-use super::tape::{Tape, Told, holds};
+use super::tape::{Tape, Walked, holds};
 use super::{Checkpoint, CheckpointError, Identity, Kind, whole};
 use crate::settings::Settings;
 use crate::simulation::Simulation;
@@ -77,14 +77,14 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     }
 
     /// Restores the state at which a tape is.
-    pub(crate) fn restore_from(&mut self, tape: &mut impl Tape) -> Told {
+    pub(crate) fn restore_from(&mut self, tape: &mut impl Tape) -> Walked {
         let before = self.kept();
         let mut kept = before.clone();
         kept.walk(tape)?;
-        if self.go_on(&kept) {
+        if self.restore_kept(&kept) {
             return Ok(());
         }
-        let _ = self.go_on(&before);
+        let _ = self.restore_kept(&before);
         holds(false)
     }
 }

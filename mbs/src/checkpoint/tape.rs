@@ -9,7 +9,7 @@ use core::time::Duration;
 use mbs_core::Real;
 
 /// What a walk comes to.
-pub(crate) type Told = Result<(), CheckpointError>;
+pub(crate) type Walked = Result<(), CheckpointError>;
 
 /// Largest count that a file may have: it has room to grow.
 const MAX_U64: u64 = 1 << 60;
@@ -19,13 +19,13 @@ const MAX_U32: u32 = 1 << 30;
 /// Bytes that are written or read.
 pub(crate) trait Tape: Sized {
     /// Writes these bytes, or replaces them by those that were written.
-    fn bytes(&mut self, bytes: &mut [u8]) -> Told;
+    fn bytes(&mut self, bytes: &mut [u8]) -> Walked;
 
     /// Bytes that are left to be read; nothing where they are written.
     fn left(&self) -> Option<usize>;
 
     /// A count.
-    fn count(&mut self, x: &mut u64) -> Told {
+    fn count(&mut self, x: &mut u64) -> Walked {
         let mut bytes = x.to_le_bytes();
         self.bytes(&mut bytes)?;
         *x = u64::from_le_bytes(bytes);
@@ -33,7 +33,7 @@ pub(crate) trait Tape: Sized {
     }
 
     /// A number of 64 bits that may be any.
-    fn word(&mut self, x: &mut u64) -> Told {
+    fn word(&mut self, x: &mut u64) -> Walked {
         let mut bytes = x.to_le_bytes();
         self.bytes(&mut bytes)?;
         *x = u64::from_le_bytes(bytes);
@@ -41,7 +41,7 @@ pub(crate) trait Tape: Sized {
     }
 
     /// A small count.
-    fn small(&mut self, x: &mut u32) -> Told {
+    fn small(&mut self, x: &mut u32) -> Walked {
         let mut bytes = x.to_le_bytes();
         self.bytes(&mut bytes)?;
         *x = u32::from_le_bytes(bytes);
@@ -49,7 +49,7 @@ pub(crate) trait Tape: Sized {
     }
 
     /// An index below a limit.
-    fn index(&mut self, x: &mut usize, below: usize) -> Told {
+    fn index(&mut self, x: &mut usize, below: usize) -> Walked {
         let mut count = *x as u64;
         self.count(&mut count)?;
         *x = usize::try_from(count).map_err(|_| CheckpointError::Misfit)?;
@@ -57,7 +57,7 @@ pub(crate) trait Tape: Sized {
     }
 
     /// Yes or no.
-    fn flag(&mut self, x: &mut bool) -> Told {
+    fn flag(&mut self, x: &mut bool) -> Walked {
         let mut byte = [u8::from(*x)];
         self.bytes(&mut byte)?;
         *x = byte == [1];
@@ -65,7 +65,7 @@ pub(crate) trait Tape: Sized {
     }
 
     /// A number that may be any, infinite ones and NaN among them.
-    fn float(&mut self, x: &mut f64) -> Told {
+    fn float(&mut self, x: &mut f64) -> Walked {
         let mut bits = x.to_bits();
         self.word(&mut bits)?;
         *x = f64::from_bits(bits);
@@ -73,12 +73,12 @@ pub(crate) trait Tape: Sized {
     }
 
     /// Several of them.
-    fn floats(&mut self, x: &mut [f64]) -> Told {
+    fn floats(&mut self, x: &mut [f64]) -> Walked {
         x.iter_mut().try_for_each(|x| self.float(x))
     }
 
     /// A number of the mechanics, to the last bit.
-    fn real<T: Real>(&mut self, x: &mut T) -> Told {
+    fn real<T: Real>(&mut self, x: &mut T) -> Walked {
         let [mut near, mut rest] = x.parts();
         self.float(&mut near)?;
         if is_finer::<T>() {
@@ -89,12 +89,12 @@ pub(crate) trait Tape: Sized {
     }
 
     /// As many of them as there are places.
-    fn reals<T: Real>(&mut self, x: &mut [T]) -> Told {
+    fn reals<T: Real>(&mut self, x: &mut [T]) -> Walked {
         self.places(x, Self::real)
     }
 
     /// A length of time.
-    fn duration(&mut self, x: &mut Duration) -> Told {
+    fn duration(&mut self, x: &mut Duration) -> Walked {
         let mut nanoseconds = u64::try_from(x.as_nanos()).unwrap_or(MAX_U64).min(MAX_U64);
         self.count(&mut nanoseconds)?;
         *x = Duration::from_nanos(nanoseconds);
@@ -102,7 +102,11 @@ pub(crate) trait Tape: Sized {
     }
 
     /// As many things as there are places.
-    fn places<E>(&mut self, x: &mut [E], mut each: impl FnMut(&mut Self, &mut E) -> Told) -> Told {
+    fn places<E>(
+        &mut self,
+        x: &mut [E],
+        mut each: impl FnMut(&mut Self, &mut E) -> Walked,
+    ) -> Walked {
         let mut n = x.len() as u64;
         self.count(&mut n)?;
         holds(n == x.len() as u64)?;
@@ -114,8 +118,8 @@ pub(crate) trait Tape: Sized {
         &mut self,
         list: &mut Vec<E>,
         size: usize,
-        mut each: impl FnMut(&mut Self, &mut E) -> Told,
-    ) -> Told {
+        mut each: impl FnMut(&mut Self, &mut E) -> Walked,
+    ) -> Walked {
         let mut n = list.len() as u64;
         self.count(&mut n)?;
         if let Some(left) = self.left() {
@@ -130,8 +134,8 @@ pub(crate) trait Tape: Sized {
     fn option<E: Default>(
         &mut self,
         x: &mut Option<E>,
-        each: impl FnOnce(&mut Self, &mut E) -> Told,
-    ) -> Told {
+        each: impl FnOnce(&mut Self, &mut E) -> Walked,
+    ) -> Walked {
         let mut is_some = x.is_some();
         self.flag(&mut is_some)?;
         if self.left().is_some() {
@@ -141,7 +145,7 @@ pub(crate) trait Tape: Sized {
     }
 
     /// A text.
-    fn text(&mut self, text: &mut String) -> Told {
+    fn text(&mut self, text: &mut String) -> Walked {
         let mut bytes = core::mem::take(text).into_bytes();
         self.list(&mut bytes, 1, |tape, byte| tape.bytes(core::slice::from_mut(byte)))?;
         *text = String::from_utf8(bytes).map_err(|_| CheckpointError::Misfit)?;
@@ -149,7 +153,7 @@ pub(crate) trait Tape: Sized {
     }
 
     /// One of some words, or none.
-    fn word_of(&mut self, x: &mut Option<&'static str>, words: &[&'static str]) -> Told {
+    fn word_of(&mut self, x: &mut Option<&'static str>, words: &[&'static str]) -> Walked {
         let mut place = x.and_then(|x| words.iter().position(|w| *w == x)).unwrap_or(words.len());
         self.index(&mut place, words.len() + 1)?;
         *x = words.get(place).copied();
@@ -158,7 +162,7 @@ pub(crate) trait Tape: Sized {
 }
 
 /// What does not hold is a misfit.
-pub(crate) fn holds(does: bool) -> Told {
+pub(crate) fn holds(does: bool) -> Walked {
     if does { Ok(()) } else { Err(CheckpointError::Misfit) }
 }
 
@@ -167,7 +171,7 @@ pub(crate) fn holds(does: bool) -> Told {
 pub(crate) struct Pen(pub(crate) Vec<u8>);
 
 impl Tape for Pen {
-    fn bytes(&mut self, bytes: &mut [u8]) -> Told {
+    fn bytes(&mut self, bytes: &mut [u8]) -> Walked {
         self.0.extend_from_slice(bytes);
         Ok(())
     }
@@ -182,7 +186,7 @@ impl Tape for Pen {
 pub(crate) struct Eye<'a>(pub(crate) &'a [u8]);
 
 impl Tape for Eye<'_> {
-    fn bytes(&mut self, bytes: &mut [u8]) -> Told {
+    fn bytes(&mut self, bytes: &mut [u8]) -> Walked {
         let (head, rest) = self.0.split_at_checked(bytes.len()).ok_or(CheckpointError::Misfit)?;
         bytes.copy_from_slice(head);
         self.0 = rest;

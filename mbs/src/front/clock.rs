@@ -1,6 +1,6 @@
 //! The time of a simulation that is stepped by hand: sums of many steps drift, multiples do not.
 
-use crate::checkpoint::tape::{Tape, Told};
+use crate::checkpoint::tape::{Tape, Walked};
 use crate::driver::multiple;
 use mbs_core::Real;
 
@@ -29,7 +29,7 @@ impl<T: Real> StepClock<T> {
     }
 
     /// Writes it, or reads it back.
-    pub(super) fn walk(&mut self, tape: &mut impl Tape) -> Told {
+    pub(super) fn walk(&mut self, tape: &mut impl Tape) -> Walked {
         tape.real(&mut self.origin)?;
         tape.float(&mut self.dt.0)?;
         tape.real(&mut self.dt.1)?;

@@ -2,7 +2,7 @@
 
 use super::values::{Coordinates, Wrench};
 use crate::channels::Channels;
-use crate::checkpoint::tape::{Tape, Told};
+use crate::checkpoint::tape::{Tape, Walked};
 use crate::simulation::Simulation;
 use crate::stop::StopError;
 use core::ops::Range;
@@ -189,7 +189,7 @@ impl<T: Real, const D: usize> Readings<T, D> {
     }
 
     /// Writes the turns that are remembered, or reads them back.
-    pub(super) fn walk(&mut self, tape: &mut impl Tape) -> Told {
+    pub(super) fn walk(&mut self, tape: &mut impl Tape) -> Walked {
         self.joints.channels.walk(tape)?;
         self.outputs.as_mut().map_or(Ok(()), |outputs| outputs.channels.walk(tape))
     }

@@ -7,7 +7,7 @@ use super::{Degrade, Overrun, Pace, Pacer, Pacing};
 use crate::choice::StepRule;
 use crate::digits::is_finer;
 use crate::precision::{ReadScene, SceneWork};
-use crate::run::{Outcome, Rung, Track, paced};
+use crate::run::{Outcome, PacedLevel, PacedSchedule, paced};
 use crate::settings::Settings;
 use crate::settings::length::SAME_LENGTH;
 use core::time::Duration;
@@ -62,7 +62,7 @@ fn run<T: Real, const D: usize>(
     let rungs = match (&pacing.degrade, pacing.overrun) {
         (Degrade::Measured, Overrun::Degrade) => measured::<T, D>(&sought)?,
         (Degrade::Listed(words), Overrun::Degrade) => listed::<T, D>(&sought, words)?,
-        _ => vec![Rung::default()],
+        _ => vec![PacedLevel::default()],
     };
     let mut pacer = Pacer::new(pace, rungs.len()).map_err(|_| PacingError::Quiet)?;
     let of_levels = (&mut pacer, &rungs[..]);
@@ -78,7 +78,7 @@ fn track<T: Real>(
     scene: &Scene<T>,
     settings: &Settings,
     pacing: &Pacing,
-) -> Result<(Pace, Track<T>), PacingError> {
+) -> Result<(Pace, PacedSchedule<T>), PacingError> {
     let is_controlled = settings.rule != StepRule::Fixed || settings.integrator.controls_its_step();
     let lengths = settings.lengths(scene);
     let (step, exact) = if is_controlled {
@@ -100,11 +100,11 @@ fn track<T: Real>(
         Some(period) => T::from_f64(period),
     };
     let of_periods = Settings { step_max: period, ..settings.clone() };
-    let track = Track {
+    let track = PacedSchedule {
         period: (exact, period),
         periods: of_periods.n_steps(),
         steps: (!is_controlled).then(|| parts(period, step)),
-        tells_level: pacing.overrun == Overrun::Degrade,
+        has_level: pacing.overrun == Overrun::Degrade,
     };
     let Pacing { overrun, quiet, .. } = *pacing;
     Ok((Pace { overrun, awake, quiet, ..Pace::every(whole) }, track))

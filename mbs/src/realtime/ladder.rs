@@ -2,7 +2,7 @@
 
 use super::error::PacingError;
 use crate::record::Degraded;
-use crate::run::{Rung, Track};
+use crate::run::{PacedLevel, PacedSchedule};
 use crate::settings::Settings;
 use crate::simulation::Simulation;
 use mbs_core::Real;
@@ -16,28 +16,28 @@ const STEPS: &str = "steps";
 pub(super) struct Sought<'a, T> {
     pub(super) scene: &'a Scene<T>,
     pub(super) settings: &'a Settings,
-    pub(super) track: &'a Track<T>,
+    pub(super) track: &'a PacedSchedule<T>,
 }
 
 impl<T: Real> Sought<'_, T> {
     /// A level with these halvings and these effects off.
-    pub(super) fn rung(&self, halvings: u32, off: Vec<usize>) -> Rung {
+    pub(super) fn rung(&self, halvings: u32, off: Vec<usize>) -> PacedLevel {
         let without = off.iter().map(|&e| self.scene.effects[e].name.clone()).collect();
         let steps = self.track.steps.unwrap_or(1);
-        let rung = Rung { halvings, off, told: Degraded::default() };
+        let rung = PacedLevel { halvings, off, measured: Degraded::default() };
         let step_times = f64::from(steps) / f64::from(rung.steps(steps));
-        Rung { told: Degraded { step_times, without, ..Degraded::default() }, ..rung }
+        PacedLevel { measured: Degraded { step_times, without, ..Degraded::default() }, ..rung }
     }
 
     /// Do these halvings make steps longer than one fewer?
     pub(super) fn lengthens(&self, halvings: u32) -> bool {
         let Some(steps) = self.track.steps else { return false };
-        let of = |halvings| Rung { halvings, ..Rung::default() }.steps(steps);
+        let of = |halvings| PacedLevel { halvings, ..PacedLevel::default() }.steps(steps);
         halvings == 0 || of(halvings) < of(halvings - 1)
     }
 
     /// Can the running scene change between everything and this level, and back?
-    pub(super) fn changes<const D: usize>(&self, rung: &Rung) -> Result<(), SwitchError> {
+    pub(super) fn changes<const D: usize>(&self, rung: &PacedLevel) -> Result<(), SwitchError> {
         if rung.off.is_empty() {
             return Ok(());
         }
@@ -52,7 +52,7 @@ impl<T: Real> Sought<'_, T> {
 pub(super) fn listed<T: Real, const D: usize>(
     sought: &Sought<'_, T>,
     words: &[String],
-) -> Result<Vec<Rung>, PacingError> {
+) -> Result<Vec<PacedLevel>, PacingError> {
     let effects = &sought.scene.effects;
     let mut rungs = vec![sought.rung(0, Vec::new())];
     let (mut halvings, mut off) = (0, Vec::new());

@@ -14,7 +14,7 @@ use super::ladder::Sought;
 use super::{Pace, Pacer};
 use crate::changes::OutputRanges;
 use crate::record::OutputChange;
-use crate::run::{Outcome, Rung, Track, paced};
+use crate::run::{Outcome, PacedLevel, PacedSchedule, paced};
 use crate::settings::Settings;
 use core::cell::Cell;
 use core::time::Duration;
@@ -57,13 +57,13 @@ impl Clock for Hurried {
 
 /// A candidate, or a level: times of its repeats, and its run.
 struct Trial {
-    rung: Rung,
+    rung: PacedLevel,
     times: Vec<f64>,
     outcome: Option<Outcome>,
 }
 
 impl Trial {
-    fn new(rung: Rung) -> Self {
+    fn new(rung: PacedLevel) -> Self {
         Self { rung, times: Vec::new(), outcome: None }
     }
 
@@ -83,7 +83,7 @@ impl Trial {
 /// The levels, that of everything first, with what was measured of each.
 pub(super) fn measured<T: Real, const D: usize>(
     sought: &Sought<'_, T>,
-) -> Result<Vec<Rung>, PacingError> {
+) -> Result<Vec<PacedLevel>, PacingError> {
     let full = sought.rung(0, Vec::new());
     let candidates = candidates::<T, D>(sought);
     if candidates.is_empty() {
@@ -104,14 +104,15 @@ pub(super) fn measured<T: Real, const D: usize>(
     let levels = run_all::<T, D>(sought, &full, ladder(sought, &alone), periods);
     let mut rungs = vec![full];
     let is_near = |trial: &Trial| {
-        trial.completes() && trial.rung.told.changes.is_some_and(|changes| changes <= MOST_CHANGE)
+        trial.completes()
+            && trial.rung.measured.changes.is_some_and(|changes| changes <= MOST_CHANGE)
     };
     rungs.extend(levels.into_iter().skip(1).take_while(is_near).map(|trial| trial.rung));
     if rungs.len() == 1 { Err(PacingError::NoLadder) } else { Ok(rungs) }
 }
 
 /// Longer steps, and effects one by one, or by kinds where they are many.
-fn candidates<T: Real, const D: usize>(sought: &Sought<'_, T>) -> Vec<Rung> {
+fn candidates<T: Real, const D: usize>(sought: &Sought<'_, T>) -> Vec<PacedLevel> {
     let effects = sought.scene.effects.iter().enumerate().filter(|(_, effect)| effect.enabled);
     let can = |off: &Vec<usize>| sought.changes::<D>(&sought.rung(0, off.clone())).is_ok();
     let alone: Vec<Vec<usize>> = effects.map(|(i, _)| vec![i]).filter(can).collect();
@@ -133,15 +134,15 @@ fn candidates<T: Real, const D: usize>(sought: &Sought<'_, T>) -> Vec<Rung> {
 }
 
 /// The levels below the full scene: those that pay, one more each, in the order of what they change.
-fn ladder<T: Real>(sought: &Sought<'_, T>, alone: &[Trial]) -> Vec<Rung> {
+fn ladder<T: Real>(sought: &Sought<'_, T>, alone: &[Trial]) -> Vec<PacedLevel> {
     let noise = |trial: &Trial| trial.best().map_or(f64::INFINITY, |[_, noise]| noise);
     let full = alone.first().map_or(f64::INFINITY, noise);
     let pays = |trial: &&Trial| {
         let least = LEAST_SAVING.max(full.max(noise(trial)));
-        trial.completes() && trial.rung.told.saves.is_some_and(|saves| saves > least)
+        trial.completes() && trial.rung.measured.saves.is_some_and(|saves| saves > least)
     };
     let mut paying: Vec<&Trial> = alone.iter().skip(1).filter(pays).collect();
-    let changes = |trial: &Trial| trial.rung.told.changes.unwrap_or(f64::INFINITY);
+    let changes = |trial: &Trial| trial.rung.measured.changes.unwrap_or(f64::INFINITY);
     paying.sort_by(|a, b| changes(a).total_cmp(&changes(b)));
     let (mut halvings, mut off) = (0, Vec::new());
     let mut rungs = Vec::new();
@@ -156,8 +157,8 @@ fn ladder<T: Real>(sought: &Sought<'_, T>, alone: &[Trial]) -> Vec<Rung> {
 /// Runs the full scene and others interleaved, and reports what each saves and changes.
 fn run_all<T: Real, const D: usize>(
     sought: &Sought<'_, T>,
-    full: &Rung,
-    others: Vec<Rung>,
+    full: &PacedLevel,
+    others: Vec<PacedLevel>,
     periods: u64,
 ) -> Vec<Trial> {
     let all = core::iter::once(full.clone()).chain(others);
@@ -173,12 +174,12 @@ fn run_all<T: Real, const D: usize>(
     let outputs = full.outcome.as_ref().map(|outcome| OutputRanges::new(sought.scene, outcome));
     for other in others {
         let saves = full.best().zip(other.best()).map(|([full, _], [less, _])| 1.0 - less / full);
-        other.rung.told.saves = saves;
-        other.rung.told.measured_over = other.outcome.as_ref().map(|o| o.summary.end_time);
+        other.rung.measured.saves = saves;
+        other.rung.measured.measured_over = other.outcome.as_ref().map(|o| o.summary.end_time);
         let outcome = outputs.as_ref().zip(other.outcome.as_ref());
         let changes = outcome.map(|(outputs, outcome)| outputs.changes(outcome));
         if let Some((output, share)) = changes.as_deref().and_then(largest) {
-            (other.rung.told.output, other.rung.told.changes) = (Some(output), Some(share));
+            (other.rung.measured.output, other.rung.measured.changes) = (Some(output), Some(share));
         }
     }
     trials
@@ -199,7 +200,7 @@ fn largest(changes: &[OutputChange]) -> Option<(String, f64)> {
 /// The first periods at one level, without waiting; `None` where the level is none of this scene.
 fn trial<T: Real, const D: usize>(
     sought: &Sought<'_, T>,
-    rung: &Rung,
+    rung: &PacedLevel,
     periods: u64,
 ) -> Option<Outcome> {
     let Sought { settings, track, .. } = *sought;
@@ -207,11 +208,11 @@ fn trial<T: Real, const D: usize>(
     let duration = settings.duration.min(count(usize::try_from(periods).ok()?) * track.period.1);
     let settings = Settings { duration, ..settings.clone() };
     let steps = track.steps.map(|steps| rung.steps(steps));
-    let track = Track { periods, steps, tells_level: false, ..*track };
+    let track = PacedSchedule { periods, steps, has_level: false, ..*track };
     let scene = rung.scene(sought.scene);
     let mut pacer = Pacer::new(Pace::every(Duration::from_secs_f64(track.period.1)), 1).ok()?;
     let mut clock = Hurried { system: SystemClock::new(), ahead: Cell::default() };
-    let of_one = (&mut pacer, &[Rung::default()][..]);
+    let of_one = (&mut pacer, &[PacedLevel::default()][..]);
     paced::<T, D>(&scene, &settings, &track, of_one, &mut clock).ok()
 }
 

@@ -1,7 +1,7 @@
 //! What a pacer has measured, as it stands in files.
 
 use crate::record::{Degraded, MarginSummary, Overrun as Logged, RealtimeSummary, Times};
-use crate::run::{Rung, Track};
+use crate::run::{PacedLevel, PacedSchedule};
 use mbs_realtime::{Action, Entry, Overrun, Pacer, Spread};
 
 /// Policies as they are written.
@@ -14,15 +14,19 @@ fn name(overrun: Overrun) -> &'static str {
 }
 
 /// The report of a pacer with what was simulated.
-pub(crate) fn summary<T>(pacer: &Pacer, track: &Track<T>, rungs: &[Rung]) -> RealtimeSummary {
+pub(crate) fn summary<T>(
+    pacer: &Pacer,
+    track: &PacedSchedule<T>,
+    rungs: &[PacedLevel],
+) -> RealtimeSummary {
     let report = pacer.report();
     let times = |of: Spread| {
         let [p50, p99, max] = [of.p50, of.p99, of.max].map(|time| time.as_secs_f64());
         Times { p50, p99, max }
     };
-    let level = |(i, rung): (usize, &Rung)| {
+    let level = |(i, rung): (usize, &PacedLevel)| {
         let periods = report.at_level.get(i).copied().unwrap_or(0);
-        Degraded { level: i, periods, ..rung.told.clone() }
+        Degraded { level: i, periods, ..rung.measured.clone() }
     };
     let levels: Vec<Degraded> = rungs.iter().enumerate().map(level).collect();
     RealtimeSummary {
@@ -45,7 +49,7 @@ pub(crate) fn summary<T>(pacer: &Pacer, track: &Track<T>, rungs: &[Rung]) -> Rea
         behind: report.behind.as_secs_f64(),
         skipped: report.skipped,
         degraded_periods: levels.iter().skip(1).map(|level| level.periods).sum(),
-        levels: if track.tells_level { levels } else { Vec::new() },
+        levels: if track.has_level { levels } else { Vec::new() },
         log: report.log.iter().map(|entry| logged(entry, track.period.1)).collect(),
         log_left_out: report.log_left_out,
     }

@@ -28,7 +28,7 @@ pub fn rows(s: &RealtimeSummary) -> Vec<(&'static str, String)> {
     if s.behind > 0.0 {
         rows.push(("behind the clock", duration(s.behind)));
     }
-    rows.extend(s.levels.iter().map(|level| ("level", told(level))));
+    rows.extend(s.levels.iter().map(|level| ("level", level_text(level))));
     rows
 }
 
@@ -47,7 +47,7 @@ fn signed(seconds: f64) -> String {
 }
 
 /// A level in words.
-fn told(level: &Degraded) -> String {
+fn level_text(level: &Degraded) -> String {
     let mut text = format!("{}: ", level.level);
     let longer = level.step_times > 1.0;
     if longer {

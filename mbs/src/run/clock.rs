@@ -30,13 +30,13 @@ impl Clock {
         (self.before + self.begun.elapsed()).saturating_sub(self.apart)
     }
 
-    /// Takes off what was done since `get` told this.
+    /// Takes off what was done since `get` returned this.
     pub(super) fn take_off(&mut self, since: Duration) {
         self.apart += self.get().saturating_sub(since);
     }
 }
 
-/// When it was begun, by a clock that runs for those who share the steps and for nobody else: runs side by side in a process count each
+/// When it was begun, by a clock that runs for those who share the steps and for no others: runs side by side in a process count each
 /// time once.
 #[derive(Debug, Clone, Copy)]
 enum Begun {

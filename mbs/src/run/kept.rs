@@ -2,7 +2,7 @@
 
 use super::Run;
 use super::record::{Counts, Kept, Record};
-use crate::checkpoint::tape::{Tape, Told, holds};
+use crate::checkpoint::tape::{Tape, Walked, holds};
 use crate::checkpoint::{Checkpoint, CheckpointError, Identity, Kind, whole};
 use crate::record::ControlSummary;
 use crate::simulation::Simulation;
@@ -77,7 +77,12 @@ impl<T: Real, const D: usize> Record<'_, T, D> {
     }
 
     /// Writes the record, or reads it back. What the last step left in `mark` and `values` the next one replaces.
-    fn walk(&mut self, simulation: &Simulation<T, D>, tape: &mut impl Tape, cpu: Duration) -> Told {
+    fn walk(
+        &mut self,
+        simulation: &Simulation<T, D>,
+        tape: &mut impl Tape,
+        cpu: Duration,
+    ) -> Walked {
         tape.count(&mut self.done)?;
         tape.float(&mut self.reached)?;
         self.recorder.walk(tape)?;
@@ -95,7 +100,7 @@ impl<T: Real, const D: usize> Record<'_, T, D> {
     }
 
     /// The instants of contact; the gaps are those of the state.
-    fn walk_contacts(&mut self, simulation: &Simulation<T, D>, tape: &mut impl Tape) -> Told {
+    fn walk_contacts(&mut self, simulation: &Simulation<T, D>, tape: &mut impl Tape) -> Walked {
         let numbers = |i: &Instant| (i.t, i.effect, i.end, i.makes);
         let mut instants: Vec<_> = self.contacts.instants().iter().map(numbers).collect();
         let mut left_out = self.contacts.left_out();
@@ -118,7 +123,7 @@ impl<T: Real, const D: usize> Record<'_, T, D> {
 }
 
 impl Counts {
-    fn walk(&mut self, tape: &mut impl Tape) -> Told {
+    fn walk(&mut self, tape: &mut impl Tape) -> Walked {
         let Self { steps, iterations, factorizations, worst, control } = self;
         [steps, iterations, factorizations].into_iter().try_for_each(|x| tape.count(x))?;
         tape.duration(worst)?;

@@ -31,7 +31,7 @@ const LEVEL: &str = "realtime-level";
 
 /// How simulated time is cut.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Track<T> {
+pub(crate) struct PacedSchedule<T> {
     /// Length of a period in the precision of the run and in `f64` [s].
     pub(crate) period: (T, f64),
     /// Periods, the last of which may be shorter.
@@ -39,21 +39,21 @@ pub(crate) struct Track<T> {
     /// Steps of a period at level 0; `None`: their lengths are controlled.
     pub(crate) steps: Option<u32>,
     /// Is the level a column?
-    pub(crate) tells_level: bool,
+    pub(crate) has_level: bool,
 }
 
 /// A level of the ladder.
 #[derive(Debug, Clone, Default, PartialEq)]
-pub(crate) struct Rung {
+pub(crate) struct PacedLevel {
     /// Halvings of the number of steps of a period.
     pub(crate) halvings: u32,
     /// Effects that are off.
     pub(crate) off: Vec<usize>,
     /// What was measured of it.
-    pub(crate) told: Degraded,
+    pub(crate) measured: Degraded,
 }
 
-impl Rung {
+impl PacedLevel {
     /// Steps of a period.
     pub(crate) fn steps(&self, of: u32) -> u32 {
         of.div_ceil(1 << self.halvings.min(30)).max(1)
@@ -76,12 +76,12 @@ impl Rung {
 pub(crate) fn paced<T: Real, const D: usize>(
     scene: &Scene<T>,
     settings: &Settings,
-    track: &Track<T>,
-    (pacer, rungs): (&mut Pacer, &[Rung]),
+    track: &PacedSchedule<T>,
+    (pacer, rungs): (&mut Pacer, &[PacedLevel]),
     clock: &mut impl Clock,
 ) -> Result<Outcome, (usize, SwitchError)> {
     let mut channels = Channel::of_scene(scene);
-    if track.tells_level {
+    if track.has_level {
         let one = Component { label: String::new(), unit: "level".to_owned() };
         channels.push(Channel { name: LEVEL.to_owned(), components: vec![one] });
     }
@@ -89,7 +89,7 @@ pub(crate) fn paced<T: Real, const D: usize>(
         Ok(run) => run,
         Err(outcome) => return Ok(*outcome),
     };
-    run.record.level = track.tells_level.then_some(0.0);
+    run.record.level = track.has_level.then_some(0.0);
     run.record.periods = Some(track.periods);
     let levels: Result<Vec<_>, _> =
         rungs.iter().map(|rung| Level::new(&run, rung, track.steps)).collect();
@@ -138,7 +138,7 @@ struct Level<T: Real, const D: usize> {
 
 impl<T: Real, const D: usize> Level<T, D> {
     /// Builds what a level needs beside the run.
-    fn new(run: &Run<'_, T, D>, rung: &Rung, steps: Option<u32>) -> Result<Self, Unready> {
+    fn new(run: &Run<'_, T, D>, rung: &PacedLevel, steps: Option<u32>) -> Result<Self, Unready> {
         let steps = steps.map(|steps| rung.steps(steps));
         let Some(&last) = rung.off.last() else {
             return Ok(Self { simulation: None, reactions: None, steps });
@@ -210,7 +210,7 @@ impl<T: Real, const D: usize> Ladder<T, D> {
 struct Paced<'a, T: Real, const D: usize> {
     ladder: Ladder<T, D>,
     record: Record<'a, T, D>,
-    track: Track<T>,
+    track: PacedSchedule<T>,
 }
 
 impl<T: Real, const D: usize> Work for Paced<'_, T, D> {
@@ -244,7 +244,7 @@ impl<T: Real, const D: usize> Work for Paced<'_, T, D> {
 impl<T: Real, const D: usize> Paced<'_, T, D> {
     /// Period `k` from 1.
     fn period(&self, k: u64) -> Stretch<T> {
-        let Track { period, periods, .. } = self.track;
+        let PacedSchedule { period, periods, .. } = self.track;
         let is_last = k == periods;
         let at = |k| multiple((T::ZERO, 0.0), k, period);
         let from = at(k - 1);

@@ -1,11 +1,11 @@
 //! What a run records of its steps: rows, maxima, counts, contacts, and the alarms that end it.
 
 use super::clock::Clock;
-use crate::alarm::Alarm;
+use crate::animation::Figure;
 use crate::channels::Channels;
 use crate::checkpoint::{Identity, Keeping};
 use crate::driver::StepObserver;
-use crate::figure::Figure;
+use crate::energy_alarm::Alarm;
 use crate::friction::Frictions;
 use crate::record::{Channel, ControlSummary, RealtimeSummary, StepRow};
 use crate::recorder::{Keep, Recorder, StepMark};

@@ -73,11 +73,11 @@ impl Frame<'_> {
             "sparse/src/part.rs" => Some(Part::Blocks),
             "sparse/src/sweep.rs" => Some(Part::Sweeps),
             "sparse/src/scatter.rs" => Some(Part::Residuals),
-            "sparse/src/share.rs" if is(&["assemble"]) => Some(Part::Blocks),
-            "sparse/src/share.rs" if is(&["factor", "factor_task", "eliminate"]) => {
+            "sparse/src/subtree.rs" if is(&["assemble"]) => Some(Part::Blocks),
+            "sparse/src/subtree.rs" if is(&["factor", "factor_task", "eliminate"]) => {
                 Some(Part::Kernels)
             }
-            "sparse/src/share.rs" => is(&SWEEPS).then_some(Part::Sweeps),
+            "sparse/src/subtree.rs" => is(&SWEEPS).then_some(Part::Sweeps),
             "sparse/src/multifrontal.rs" if is(&["factor"]) => Some(Part::Kernels),
             "sparse/src/multifrontal.rs" if is(&["assemble"]) => Some(Part::Residuals),
             "sparse/src/multifrontal.rs" => Some(Part::Sweeps),
@@ -97,10 +97,10 @@ impl Frame<'_> {
     fn part_of_model(&self, path: &str) -> Option<Part> {
         let is = |names: &[&str]| self.is(names);
         match path {
-            "natural/touches.rs" => Some(Part::Products),
-            "natural/reach.rs" => Some(Part::Blocks),
+            "natural/incidence.rs" => Some(Part::Products),
+            "natural/coordinate_sets.rs" => Some(Part::Blocks),
             // Who walks over groups does so for the function around it.
-            "natural/parts.rs" => None,
+            "natural/element_ranges.rs" => None,
             "model.rs" | "natural/evaluate.rs" | "natural/element.rs" | "natural/group.rs"
                 if is(&BLOCKS) =>
             {
@@ -238,7 +238,7 @@ mod tests {
         0x0000000000000014\n<f64 as core::ops::arith::Mul>::mul\n/rustc/library/core/src/ops/arith.rs:350\n\
         mbs_core::natural::element::<impl mbs_core::natural::model::NaturalModel<T,_>>::write_sized_block\n\
         /r/mbs-core/src/natural/element.rs:48 (discriminator 2)\n\
-        mbs_sparse::share::assemble\n/r/mbs-sparse/src/share.rs:120\n\
+        mbs_sparse::subtree::assemble\n/r/mbs-sparse/src/subtree.rs:120\n\
         0x0000000000000018\nmbs_core::team::norm_inf\n/r/mbs-core/src/team.rs:190\n\
         mbs_augmented::projection::Projector<T,M,S>::violation\n\
         /r/mbs-augmented/src/projection.rs:40\nmbs_augmented::index3::project::project\n/r/mbs-augmented/src/index3/project.rs:27\n\
@@ -265,22 +265,22 @@ mod tests {
 
     #[test]
     fn functions_of_one_file_are_distinguished() {
-        let share = |f| part_of(f, "/r/mbs-sparse/src/share.rs");
-        assert_eq!(share("mbs_sparse::share::Numbers<T>::factor_task"), Some(Part::Kernels));
+        let share = |f| part_of(f, "/r/mbs-sparse/src/subtree.rs");
+        assert_eq!(share("mbs_sparse::subtree::Numbers<T>::factor_task"), Some(Part::Kernels));
         assert_eq!(
-            share("mbs_sparse::share::Vectors<W,F>::forward::{{closure}}"),
+            share("mbs_sparse::subtree::Vectors<W,F>::forward::{{closure}}"),
             Some(Part::Sweeps)
         );
-        assert_eq!(share("mbs_sparse::share::Numbers<T>::split_at"), None);
+        assert_eq!(share("mbs_sparse::subtree::Numbers<T>::split_at"), None);
         let core = |f, file| part_of(f, &format!("/r/mbs-core/src/{file}"));
         assert_eq!(core("x::subtract", "dense/panel.rs"), None);
         assert_eq!(core("x::subtract_products", "dense/panel.rs"), Some(Part::Kernels));
         assert_eq!(
-            core("x::evaluate_bias_on::{{closure}}", "natural/teamed.rs"),
+            core("x::evaluate_bias_on::{{closure}}", "natural/threaded.rs"),
             Some(Part::Evaluation)
         );
-        assert_eq!(core("x::multiply_jacobian_on", "natural/teamed.rs"), Some(Part::Products));
-        assert_eq!(core("x::on_parts", "natural/parts.rs"), None);
+        assert_eq!(core("x::multiply_jacobian_on", "natural/threaded.rs"), Some(Part::Products));
+        assert_eq!(core("x::on_parts", "natural/element_ranges.rs"), None);
         assert_eq!(
             core("mbs_core::laws::tire::Tire<T>::evaluate", "laws/tire.rs"),
             Some(Part::Evaluation)
@@ -290,7 +290,7 @@ mod tests {
     #[test]
     fn functions_are_named_by_their_last_names() {
         assert_eq!(short("mbs_sparse::kernel::fixed"), "fixed");
-        let closure = "mbs_core::natural::teamed::<impl a::B<T,_>>::advance_on::{{closure}}";
+        let closure = "mbs_core::natural::threaded::<impl a::B<T,_>>::advance_on::{{closure}}";
         assert_eq!(short(closure), "advance_on");
         assert_eq!(short("mbs_sparse::tasks::Tasks::each'2"), "each");
         assert_eq!(short("__memset_avx2_unaligned_erms"), "__memset_avx2_unaligned_erms");

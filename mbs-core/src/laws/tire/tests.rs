@@ -266,12 +266,15 @@ fn nothing_pulls_a_wheel_down_and_one_off_the_road_is_free() {
                 for speed in [-8.0, -0.5, 0.0, 0.5, 8.0] {
                     let mut motion = motion(x, depth, angles);
                     motion.velocity[2] = speed;
-                    let told = actions(&tire, &motion);
+                    let computed = actions(&tire, &motion);
                     let case = format!("x {x}, {angles:?}, {depth} m, {speed} m/s");
-                    assert!(told[RADIAL].measure.tension <= 0.0, "{case}");
+                    assert!(computed[RADIAL].measure.tension <= 0.0, "{case}");
                     // `motion` leaves rounding of the depth.
-                    if depth < -1e-9 || told[RADIAL].measure.tension == 0.0 {
-                        assert!(told.iter().all(|action| action.measure.tension == 0.0), "{case}");
+                    if depth < -1e-9 || computed[RADIAL].measure.tension == 0.0 {
+                        assert!(
+                            computed.iter().all(|action| action.measure.tension == 0.0),
+                            "{case}"
+                        );
                     }
                 }
             }

@@ -44,7 +44,7 @@ fn the_root_of_a_cubic_is_exact_and_lies_within_the_step() {
 }
 
 #[test]
-fn the_first_of_three_changes_is_told_and_a_hair_onto_the_new_side() {
+fn the_first_of_three_changes_is_reported_and_a_hair_onto_the_new_side() {
     for h in [1.0, 1e-3] {
         changes_at(&with_roots([0.2, 0.5, 0.9], h), 0.2, 0.3 * 0.7);
         changes_at(&with_roots([-0.2, 0.5, 0.9], h), 0.5, 0.7 * 0.4);
@@ -105,7 +105,7 @@ fn an_end_just_short_of_a_change_asks_for_a_longer_step_and_one_far_short_does_n
 }
 
 #[test]
-fn a_change_at_the_start_is_one_of_the_step_before_and_the_next_is_told() {
+fn a_change_at_the_start_is_one_of_the_step_before_and_the_next_is_reported() {
     assert_eq!(with_roots([-2.0, 0.5 * AT_START, 3.0], 1.0).change(BAND), None);
     changes_at(&with_roots([-2.0, 2.0 * AT_START, 3.0], 1.0), 2.0 * AT_START, 2.002 * 2.998);
     let share = 0.5 * AT_START;

@@ -152,12 +152,12 @@ impl<T: Real> Radau<T> {
                 let step = stage[k] - y[k];
                 system.fine_rates(t, stage, moved)?;
                 self.evaluations += 1;
-                let is_told = moved.iter().all(|rate| rate.is_finite());
+                let is_finite = moved.iter().all(|rate| rate.is_finite());
                 for i in 0..n {
-                    let slope = if is_told { (moved[i] - base[i]) / step } else { T::ZERO };
+                    let slope = if is_finite { (moved[i] - base[i]) / step } else { T::ZERO };
                     self.memory.jacobian[i * n + k] = slope;
                 }
-                if is_told {
+                if is_finite {
                     break;
                 }
             }
@@ -299,8 +299,8 @@ impl<T: Real> Method<T> for Radau<T> {
             }
             self.newton.begin(&self.coefficients, before);
             let solvers = (&self.coefficients, &self.matrices);
-            let told = (&mut self.memory.rest, &mut self.evaluations);
-            let mut how = self.newton.solve(system, solvers, (t, h), y, told)?;
+            let progress = (&mut self.memory.rest, &mut self.evaluations);
+            let mut how = self.newton.solve(system, solvers, (t, h), y, progress)?;
             if how == End::Converged {
                 for k in 0..n {
                     end[k] = y[k] + self.newton.z[2 * n + k];

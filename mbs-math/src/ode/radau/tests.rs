@@ -182,7 +182,7 @@ fn a_history_makes_the_same_step() {
 
 /// A rate that is no number from some place on ends the run with a typed error, not with numbers.
 #[test]
-fn a_wall_of_no_numbers_is_told() {
+fn a_wall_of_no_numbers_is_reported() {
     let mut problem = Problem::new(|_, y: &[f64], dy: &mut [f64]| {
         (dy[0], dy[1]) = (1.0, if y[0] > 0.5 { f64::NAN } else { -y[1] });
     });

@@ -32,7 +32,7 @@ impl fmt::Write for Out {
 }
 
 /// What each coordinate is: m a way, r an angle, q one of the four numbers of a turn.
-fn tell_units() -> fmt::Result {
+fn write_units() -> fmt::Result {
     write!(Out, "u")?;
     // Link 0 is the ground.
     for link in model::MODEL.mechanism.links.iter().skip(1) {
@@ -58,8 +58,9 @@ fn is_planar(free: Kind) -> bool {
 pub extern "C" fn main() -> c_int {
     let bound = bound::step(&model::MODEL, Bounds::default());
     let is_double = size_of::<model::Scalar>() == 8;
-    let is_told = writeln!(Out, "b {}", bound.instructions(is_double)).is_ok() && tell_units().is_ok();
-    c_int::from(!is_told || run::run(&mut Out, || 0).is_none())
+    let is_sent =
+        writeln!(Out, "b {}", bound.instructions(is_double)).is_ok() && write_units().is_ok();
+    c_int::from(!is_sent || run::run(&mut Out, || 0).is_none())
 }
 
 #[panic_handler]

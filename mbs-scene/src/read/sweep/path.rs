@@ -234,7 +234,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_no_path_is_told_apart() {
+    fn what_is_no_path_is_distinguished() {
         for text in [
             "",
             ".",

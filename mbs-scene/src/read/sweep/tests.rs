@@ -159,10 +159,10 @@ fn refuse(cases: Vec<Case>) {
         let error = read(&text).expect_err(&text);
         let at = error.place();
         let found: String = at.text.chars().skip(at.column - 1).take(at.width).collect();
-        let told = error.render();
-        assert!(place.is_empty() || found == place, "{found}\n{told}");
-        assert!(error.to_string().contains(message), "{message}\n{told}");
-        assert!(error.hint().contains(hint), "{hint}\n{told}");
+        let rendered = error.render();
+        assert!(place.is_empty() || found == place, "{found}\n{rendered}");
+        assert!(error.to_string().contains(message), "{message}\n{rendered}");
+        assert!(error.hint().contains(hint), "{hint}\n{rendered}");
         assert_eq!(error.file(), "sweep.toml");
     }
 }

@@ -4,7 +4,7 @@ use super::data::{Comparison, MethodRuns, Rank, RankLevel, RunEntry, Status};
 use super::{fit, front, rank};
 
 /// Error below which an entry is marked, in units of the reference's uncertainty [-]. Chosen, not tuned.
-const TELLS: f64 = 3.0;
+const MIN_RESOLVED: f64 = 3.0;
 /// Ratio of times up to which a method may be the fastest of its formulation [-]. Chosen, not tuned.
 const NEARLY: f64 = 1.15;
 /// Inverse of the relative difference of counts of steps that are the same: a fiftieth. Chosen, not tuned.
@@ -14,7 +14,7 @@ impl Comparison {
     /// The least error that the reference resolves.
     #[must_use]
     pub fn floor(&self) -> f64 {
-        TELLS * self.reference.uncertainty
+        MIN_RESOLVED * self.reference.uncertainty
     }
 
     /// Fills in what follows from the runs: least times, marks, orders, and the ranking at the errors given.
@@ -261,7 +261,7 @@ mod tests {
     }
 
     #[test]
-    fn errors_that_the_reference_cannot_tell_are_marked_and_not_ranked() {
+    fn errors_that_the_reference_cannot_resolve_are_marked_and_not_ranked() {
         let reference = Reference { uncertainty: 1e-6, ..Reference::default() };
         let methods = vec![method("index-3", "fixed", 1.0)];
         let mut comparison = Comparison { reference, methods, ..Comparison::default() };

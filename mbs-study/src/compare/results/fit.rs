@@ -18,17 +18,17 @@ const SAME_STEP: f64 = 1e-6;
 const GROWN: f64 = 2.0;
 
 /// Fits the order to points (step, error), from the longest step to the shortest. Errors below `floor` are what the reference
-/// cannot tell.
+/// cannot resolve.
 pub(super) fn fit(points: &[(f64, f64)], floor: f64) -> Option<Fit> {
     let least = points.iter().enumerate().min_by(|a, b| a.1.1.total_cmp(&b.1.1))?.0;
     let is_rounding = points[least..].iter().any(|&(_, e)| e > GROWN * points[least].1.max(floor));
     let rounding_below = is_rounding.then_some(points[least].0);
     // the least error itself is bent by what makes the others grow
     let end = if is_rounding { least } else { points.len() };
-    let mut told: Vec<(f64, f64)> =
+    let mut resolved: Vec<(f64, f64)> =
         points[..end].iter().copied().filter(|&(_, e)| e > floor && e < LOST).collect();
-    told.dedup_by(|next, last| (next.0 / last.0 - 1.0).abs() < SAME_STEP);
-    let line = straight(&told);
+    resolved.dedup_by(|next, last| (next.0 / last.0 - 1.0).abs() < SAME_STEP);
+    let line = straight(&resolved);
     let is_line = is_line(line);
     Some(Fit {
         order: is_line.then(|| slope(line)),
@@ -112,9 +112,9 @@ mod tests {
     }
 
     #[test]
-    fn errors_that_have_lost_the_motion_or_that_the_reference_cannot_tell_are_left_out() {
-        let told = |h: f64| (3e4 * h * h).clamp(1e-4, 0.7);
-        let points: Vec<_> = steps().map(|h| (h, told(h))).collect();
+    fn errors_that_have_lost_the_motion_or_that_the_reference_cannot_resolve_are_left_out() {
+        let error = |h: f64| (3e4 * h * h).clamp(1e-4, 0.7);
+        let points: Vec<_> = steps().map(|h| (h, error(h))).collect();
         let fit = fit(&points, 3e-4).unwrap();
         assert!((fit.order.unwrap() - 2.0).abs() < 1e-9, "{fit:?}");
         assert!(fit.points < 9 && fit.rounding_below.is_none());

@@ -1,6 +1,6 @@
 //! The stick figure of a scene: which points are drawn and what lines join them.
 
-use crate::checkpoint::tape::{Tape, Told, holds};
+use crate::checkpoint::tape::{Tape, Walked, holds};
 use crate::record::{Animation, Polyline, Trace};
 use mbs_core::Real;
 use mbs_core::natural::{Affine, NaturalModel};
@@ -68,7 +68,7 @@ impl<T: Real, const D: usize> Figure<T, D> {
     }
 
     /// Writes the pictures so far, or reads them back.
-    pub(crate) fn walk(&mut self, tape: &mut impl Tape) -> Told {
+    pub(crate) fn walk(&mut self, tape: &mut impl Tape) -> Walked {
         let n = self.points.len() * D;
         tape.float(&mut self.next)?;
         tape.list(&mut self.animation.times, 8, Tape::float)?;

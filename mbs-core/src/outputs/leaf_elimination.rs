@@ -15,7 +15,7 @@ pub(super) struct Block {
 /// Orders the joints (pairs of bodies; those that carry nothing are `None`) into blocks.
 ///
 /// Cost: proportional to bodies and joints.
-pub(super) fn peel(n_bodies: usize, joints: &[Option<[BodyId; 2]>]) -> Vec<Block> {
+pub(super) fn eliminate_leaves(n_bodies: usize, joints: &[Option<[BodyId; 2]>]) -> Vec<Block> {
     let mut at_body = vec![Vec::new(); n_bodies];
     for (j, pair) in joints.iter().enumerate() {
         for body in ends(*pair) {
@@ -99,7 +99,7 @@ mod tests {
             Some([Body(4), Body(5)]),
             None,
         ];
-        let blocks = peel(6, &joints);
+        let blocks = eliminate_leaves(6, &joints);
         let single = |body, joint| Block { bodies: vec![body], joints: vec![joint] };
         let expected = [
             single(5, 6),

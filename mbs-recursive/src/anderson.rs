@@ -150,7 +150,7 @@ mod tests {
     }
 
     #[test]
-    fn pairs_that_tell_nothing_new_are_forgotten() {
+    fn pairs_that_add_nothing_new_are_forgotten() {
         let mut history = vec![0.0; history(1)];
         let (mut mixing, mut x) = (Mixing::default(), vec![0.0]);
         // a contraction that changes on the way: the first pair would lead away from the new solution for ever

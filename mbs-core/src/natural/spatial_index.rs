@@ -10,7 +10,7 @@ const MAX_UNSORTED: usize = 16;
 
 /// Numbers of places that the caller knows, by where they are.
 #[derive(Debug, Clone)]
-pub(super) struct Near {
+pub(super) struct SpatialIndex {
     /// The first [`MAX_UNSORTED`], in order.
     few: Vec<usize>,
     /// All of them by cell, each in order, once there are more.
@@ -19,7 +19,7 @@ pub(super) struct Near {
     edge: f64,
 }
 
-impl Near {
+impl SpatialIndex {
     /// For places that are one when no component differs by more than `tolerance`.
     pub(super) fn new<T: Real>(tolerance: T) -> Self {
         Self { few: Vec::new(), cells: BTreeMap::new(), edge: tolerance.to_f64() * 4.0 }
@@ -86,17 +86,17 @@ mod tests {
 
     #[test]
     fn what_is_near_is_found_whatever_the_number_of_places_and_the_side_of_a_cell() {
-        let mut near = Near::new(TOLERANCE);
+        let mut index = SpatialIndex::new(TOLERANCE);
         let mut places: Vec<Vector<f64, 3>> = Vec::new();
         for i in 0..100_usize {
             let at = Vector::<f64, 3>::new(i as f64 * 0.1, -(i as f64), 4e-9 * i as f64);
             for shift in [0.0, 0.9 * TOLERANCE, -0.9 * TOLERANCE] {
                 let moved = at + Vector::<f64, 3>::new(shift, 0.0, 0.0);
                 let same = |k: usize| (places[k] - moved).norm() <= TOLERANCE;
-                let found = near.first(&[moved], same, |k| places[k]);
+                let found = index.first(&[moved], same, |k| places[k]);
                 assert_eq!(found, places.iter().position(|p| (p - moved).norm() <= TOLERANCE));
                 if found.is_none() {
-                    near.push(places.len(), &moved);
+                    index.push(places.len(), &moved);
                     places.push(moved);
                 }
             }

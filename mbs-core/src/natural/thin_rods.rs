@@ -11,14 +11,14 @@ use alloc::vec::Vec;
 
 /// The rods of a scene that nothing has asked for more than two points. One pass over the scene asks for all.
 #[derive(Debug)]
-pub(super) struct Rods<T: Real> {
+pub(super) struct ThinRods<T: Real> {
     /// Ends of each body that is such a rod.
     ends: Vec<Option<[Vector<T, 3>; 2]>>,
     /// Distance from the line that counts as on it [m].
     tolerance: T,
 }
 
-impl<T: Real> Rods<T> {
+impl<T: Real> ThinRods<T> {
     pub(super) fn new(
         (scene, actions): (&Scene<T>, &Actions<T>),
         clusters: &Clusters<T>,

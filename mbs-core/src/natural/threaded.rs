@@ -1,9 +1,9 @@
 //! The evaluation of a [`NaturalModel`] by a team, part by part; and the model that brings its team along.
 
+use super::element_ranges::Out;
 use super::forces::{add_terms, add_torque};
 use super::group::Group;
 use super::model::NaturalModel;
-use super::parts::Out;
 use crate::Real;
 use crate::algebra::Vector;
 use crate::blocks::Cliques;
@@ -12,8 +12,8 @@ use crate::team::{Team, sum};
 
 impl<T: Real, const D: usize> NaturalModel<T, D> {
     /// This model with a team that its evaluation, and the vectors of a step, are shared among. Same bits for every team.
-    pub fn with_team<'a, W: Team>(&'a self, team: &'a W) -> Teamed<'a, T, D, W> {
-        Teamed { model: self, team }
+    pub fn with_team<'a, W: Team>(&'a self, team: &'a W) -> Threaded<'a, T, D, W> {
+        Threaded { model: self, team }
     }
 
     pub(super) fn evaluate_on<W: Team>(&self, team: &W, q: &[T], terms: &mut Terms<T>) {
@@ -148,7 +148,7 @@ impl<T: Real, const D: usize> NaturalModel<T, D> {
         }
         let out = Out { rows: rates, ..Out::default() };
         self.on_parts(team, out, |part, Out { rows: rates, .. }| {
-            self.touches.multiply::<T, D>((&terms.jacobian, x), part.from.row, rates);
+            self.incidence.multiply::<T, D>((&terms.jacobian, x), part.from.row, rates);
         });
     }
 
@@ -228,16 +228,16 @@ fn multiply_dense<T: Real, const K: usize>(
 
 /// A natural-coordinate model with its team: [`NaturalModel::with_team`].
 #[derive(Debug)]
-pub struct Teamed<'a, T: Real, const D: usize, W> {
+pub struct Threaded<'a, T: Real, const D: usize, W> {
     model: &'a NaturalModel<T, D>,
     team: &'a W,
 }
 
-impl<T: Real, const D: usize, W: Team> Cliques for Teamed<'_, T, D, W> {
+impl<T: Real, const D: usize, W: Team> Cliques for Threaded<'_, T, D, W> {
     crate::forward_cliques!(model);
 }
 
-impl<T: Real, const D: usize, W: Team> Model<T> for Teamed<'_, T, D, W> {
+impl<T: Real, const D: usize, W: Team> Model<T> for Threaded<'_, T, D, W> {
     crate::forward_model!(T, model);
     fn team(&self) -> &impl Team {
         self.team

@@ -1,6 +1,6 @@
 //! The alarm of a run: its energy invariant has drifted too far.
 
-use crate::checkpoint::tape::{Tape, Told};
+use crate::checkpoint::tape::{Tape, Walked};
 use crate::simulation::Simulation;
 use crate::stop::StopError;
 use mbs_core::Real;
@@ -24,7 +24,7 @@ impl Alarm {
     }
 
     /// Writes what it remembers, or reads it back.
-    pub(crate) fn walk(&mut self, tape: &mut impl Tape) -> Told {
+    pub(crate) fn walk(&mut self, tape: &mut impl Tape) -> Walked {
         tape.small(&mut self.off)
     }
 

@@ -8,14 +8,14 @@ use mbs_core::cluster::Clusters;
 use mbs_core::scene::{BodyId, Scene};
 
 /// Guides by joint, and thin rods without spin by cluster.
-pub(crate) struct Told {
+pub(crate) struct JointFacts {
     /// The guide of each joint.
     pub(crate) guide: Vec<Option<usize>>,
     /// Is the cluster a thin rod that nothing can turn about itself?
     pub(crate) is_idle: Vec<bool>,
 }
 
-impl Told {
+impl JointFacts {
     pub(crate) fn new<T: Real>(scene: &Scene<T>, clusters: &Clusters<T>) -> Self {
         let mut guide = vec![None; scene.joints.len()];
         for (g, law) in scene.guides.iter().enumerate() {

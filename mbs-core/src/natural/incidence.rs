@@ -4,14 +4,14 @@
 //! rate_r = sum over the unknown entities e that row r touches of g_re . x_e
 //! ```
 
+use super::coordinate_sets::CoordinateSet;
 use super::group::{Group, index};
-use super::reach::Reach;
 use crate::Real;
 use alloc::vec::Vec;
 
 /// An entity that a row touches.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-struct Touch {
+struct Entry {
     /// Its first coordinate.
     slot: u32,
     /// Where its gradient stands in the Jacobian store.
@@ -20,29 +20,33 @@ struct Touch {
 
 /// What each row touches.
 #[derive(Debug, Clone, Default)]
-pub(super) struct Touches {
+pub(super) struct Incidence {
     /// Where each row begins in the list, and the end.
     start: Vec<u32>,
-    list: Vec<Touch>,
+    list: Vec<Entry>,
 }
 
-impl Touches {
+impl Incidence {
     /// Of the rows of a model that has all its groups.
-    pub(super) fn of<const D: usize>(groups: &[Group], slots: &[u32], reach: &[Reach]) -> Self {
-        let mut touches = Self { start: Vec::from([0]), list: Vec::new() };
+    pub(super) fn of<const D: usize>(
+        groups: &[Group],
+        slots: &[u32],
+        reach: &[CoordinateSet],
+    ) -> Self {
+        let mut incidence = Self { start: Vec::from([0]), list: Vec::new() };
         for group in groups {
             let slots = &group.slots.of(slots)[..group.n_unknown as usize];
             for (k, reach) in group.rows.of(reach).iter().enumerate() {
                 let row = group.jacobian as usize + k * group.width as usize;
                 for (e, &slot) in slots.iter().enumerate() {
                     if reach.pair().is_none_or(|pair| pair.contains(&(e * D))) {
-                        touches.list.push(Touch { slot, place: index(row + e * D) });
+                        incidence.list.push(Entry { slot, place: index(row + e * D) });
                     }
                 }
-                touches.start.push(index(touches.list.len()));
+                incidence.start.push(index(incidence.list.len()));
             }
         }
-        touches
+        incidence
     }
 
     /// rates = J x of the rows from `first` on, one for each rate.

@@ -8,7 +8,7 @@
 //! Where it is cut depends on the number of groups alone.
 
 use super::group::Group;
-use super::model::{Mark, NaturalModel};
+use super::model::{Cursor, NaturalModel};
 use crate::Real;
 use crate::elements::{Distance, Dot, Guided, Linear, Span};
 use crate::laws::scalar::Measure;
@@ -19,11 +19,11 @@ use core::ops::Range;
 /// Groups of a part [-], which one thread evaluates: some ten microseconds of work.
 const GROUPS: usize = 64;
 
-/// Neighbouring groups: from one mark to another.
+/// Neighbouring groups: from one cursor to another.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Part {
-    pub(super) from: Mark,
-    to: Mark,
+    pub(super) from: Cursor,
+    to: Cursor,
 }
 
 /// What the evaluation of a part writes: its stretches, or empty ones of what is not written.
@@ -130,8 +130,8 @@ fn narrow(i: usize) -> u32 {
 }
 
 impl<'a, T> Out<'a, T> {
-    /// Cuts at a mark, given the first mark.
-    fn split(self, first: &Mark, at: &Mark) -> (Self, Self) {
+    /// Cuts at a cursor, given the first cursor.
+    fn split(self, first: &Cursor, at: &Cursor) -> (Self, Self) {
         let (rows, rows_after) = cut(self.rows, at.row - first.row);
         let (jacobian, jacobian_after) = cut(self.jacobian, at.jacobian - first.jacobian);
         let (force, force_after) = cut(self.force, at.force - first.force);
@@ -156,16 +156,16 @@ fn cut<T>(x: &mut [T], at: usize) -> (&mut [T], &mut [T]) {
 
 impl<T: Real, const D: usize> NaturalModel<T, D> {
     /// Marks between the parts, when all tables are filled.
-    pub(super) fn marks(&self) -> Vec<Mark> {
-        let mut marks = Vec::with_capacity(self.groups.len() / GROUPS + 2);
+    pub(super) fn cursors(&self) -> Vec<Cursor> {
+        let mut cursors = Vec::with_capacity(self.groups.len() / GROUPS + 2);
         let mut force = 0;
         for (g, group) in self.groups.iter().enumerate() {
             if g % GROUPS == 0 {
-                marks.push(self.mark(g, group, force));
+                cursors.push(self.cursor(g, group, force));
             }
             force = force.max(group.force.end as usize);
         }
-        marks.push(Mark {
+        cursors.push(Cursor {
             group: self.groups.len(),
             row: self.n_rows,
             jacobian: self.n_jacobian,
@@ -180,16 +180,16 @@ impl<T: Real, const D: usize> NaturalModel<T, D> {
             point_force: self.point_forces.len(),
             torque: self.torques.len(),
         });
-        marks
+        cursors
     }
 
-    fn mark(&self, g: usize, group: &Group, force: usize) -> Mark {
+    fn cursor(&self, g: usize, group: &Group, force: usize) -> Cursor {
         let (row, jacobian) = (group.rows.start, group.jacobian);
         let body_element = self.body_elements.partition_point(|e| e.place.start < jacobian);
         let body_measure = self.body_elements[..body_element]
             .last()
             .map_or(self.measures.len(), |element| element.measures.end as usize);
-        Mark {
+        Cursor {
             group: g,
             row: row as usize,
             jacobian: jacobian as usize,
@@ -214,51 +214,51 @@ impl<T: Real, const D: usize> NaturalModel<T, D> {
         out: Out<'_, T>,
         work: impl Fn(&Part, Out<'_, T>) + Sync,
     ) {
-        if let ([from, .., to], 1) = (&self.marks[..], team.size()) {
+        if let ([from, .., to], 1) = (&self.cursors[..], team.size()) {
             work(&Part { from: *from, to: *to }, out);
         } else {
-            on_marks(team, &self.marks, out, &work);
+            on_cursors(team, &self.cursors, out, &work);
         }
     }
 
     /// The sum of `part` over the parts, pair by pair: the same bits for every team.
     pub(super) fn sum_of_parts<W: Team>(&self, team: &W, part: impl Fn(&Part) -> T + Sync) -> T {
-        sum_of_marks(team, &self.marks, &part)
+        sum_of_cursors(team, &self.cursors, &part)
     }
 }
 
-fn on_marks<W: Team, T: Real>(
+fn on_cursors<W: Team, T: Real>(
     team: &W,
-    marks: &[Mark],
+    cursors: &[Cursor],
     out: Out<'_, T>,
     work: &(impl Fn(&Part, Out<'_, T>) + Sync),
 ) {
-    match marks {
+    match cursors {
         [from, to] => work(&Part { from: *from, to: *to }, out),
         [from, .., _] => {
-            let half = marks.len() / 2;
-            let (left, right) = out.split(from, &marks[half]);
+            let half = cursors.len() / 2;
+            let (left, right) = out.split(from, &cursors[half]);
             team.join(
-                || on_marks(team, &marks[..=half], left, work),
-                || on_marks(team, &marks[half..], right, work),
+                || on_cursors(team, &cursors[..=half], left, work),
+                || on_cursors(team, &cursors[half..], right, work),
             );
         }
         _ => {}
     }
 }
 
-fn sum_of_marks<W: Team, T: Real>(
+fn sum_of_cursors<W: Team, T: Real>(
     team: &W,
-    marks: &[Mark],
+    cursors: &[Cursor],
     part: &(impl Fn(&Part) -> T + Sync),
 ) -> T {
-    match marks {
+    match cursors {
         [from, to] => part(&Part { from: *from, to: *to }),
         [_, .., _] => {
-            let half = marks.len() / 2;
+            let half = cursors.len() / 2;
             let (a, b) = team.join(
-                || sum_of_marks(team, &marks[..=half], part),
-                || sum_of_marks(team, &marks[half..], part),
+                || sum_of_cursors(team, &cursors[..=half], part),
+                || sum_of_cursors(team, &cursors[half..], part),
             );
             a + b
         }

@@ -8,7 +8,7 @@
 //!
 //! Every sum has one order, that of the plan. Parts are cut with `split_at_mut`, so two tasks cannot meet in a number.
 
-use crate::front::{Front, Opening, column};
+use crate::front::{Front, FrontInit, column};
 use crate::kernel::{self, BadPivot};
 use crate::options::Pivoting;
 use crate::part;
@@ -118,18 +118,18 @@ fn assemble<T: Real, S: BlockSource<T>>(
     let (done, rest) = fronts.split_at_mut(front.offset - start);
     let a = &mut rest[..column(f, f)];
     let mut elements = &plan.elements[front.elements.clone()];
-    match (front.opening, elements) {
-        (Opening::Written, [whole, others @ ..]) => {
+    match (front.init, elements) {
+        (FrontInit::Written, [whole, others @ ..]) => {
             source.write_block(whole.source, a);
             elements = others;
         }
-        (Opening::Permuted, [whole, others @ ..]) => {
+        (FrontInit::Permuted, [whole, others @ ..]) => {
             let block = &mut block[..a.len()];
             source.write_block(whole.source, block);
             part::permute(a, whole.targets(&plan.targets), block);
             elements = others;
         }
-        (Opening::Gathered, [first, ..]) => {
+        (FrontInit::Gathered, [first, ..]) => {
             a.fill(T::ZERO);
             let mut n = 0;
             for element in elements {

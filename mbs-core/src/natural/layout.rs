@@ -2,17 +2,17 @@
 
 use super::basis::Combination;
 use super::build::Builder;
-use super::draft::{EffectDraft, GroupDraft, RowDraft};
+use super::coordinate_sets::CoordinateSet;
 use super::element::{DENSE, ROOM};
 use super::forces::{BodyTorque, Gauge, MeasureElement, PointForce};
 use super::group::{Group, index, packed};
+use super::incidence::Incidence;
 use super::merge::merged;
 use super::model::NaturalModel;
 use super::motion::carriers;
 use super::on_body::BodyElement;
-use super::reach::Reach;
+use super::row_builder::{EffectDraft, GroupDraft, RowDraft};
 use super::sharing::Entity;
-use super::touches::Touches;
 use crate::Real;
 use crate::actions::Actions;
 use crate::algebra::{Coef, Vector};
@@ -24,7 +24,7 @@ use alloc::vec;
 use alloc::vec::Vec;
 
 /// Numbers and lays out everything.
-pub(super) fn finish<T: Real, const D: usize>(
+pub(super) fn layout<T: Real, const D: usize>(
     builder: Builder<'_, T>,
     actions: Actions<T>,
 ) -> NaturalModel<T, D> {
@@ -38,8 +38,8 @@ pub(super) fn finish<T: Real, const D: usize>(
     let mut model = layout.model;
     number_measures(&mut model);
     model.angles.sort_by_key(|&(owner, _)| effect_of(owner));
-    model.marks = model.marks();
-    model.touches = Touches::of::<D>(&model.groups, &model.slots, &model.reach);
+    model.cursors = model.cursors();
+    model.incidence = Incidence::of::<D>(&model.groups, &model.slots, &model.coordinate_sets);
     model.is_whole = is_whole(&model);
     model.is_small = model.groups.iter().all(|g| g.clique.len() <= ROOM);
     let owners = (&model.clusters, bases.as_slice(), shared.as_slice());
@@ -123,15 +123,15 @@ impl<T: Real, const D: usize> Layout<T, D> {
             point_forces: Vec::new(),
             torques: Vec::new(),
             row_owner: Vec::new(),
-            reach: Vec::new(),
+            coordinate_sets: Vec::new(),
             unknown_owner,
             clusters,
             bases: Vec::new(),
             entity_at,
             carried: Vec::new(),
             length,
-            touches: Touches::default(),
-            marks: Vec::new(),
+            incidence: Incidence::default(),
+            cursors: Vec::new(),
             is_small: false,
             is_whole: false,
         };
@@ -248,8 +248,8 @@ impl<T: Real, const D: usize> Layout<T, D> {
         let (row, place) = self.claim(n, owner, group);
         let n_unknown = group.n_unknown as usize;
         let touched = draft.entities().into_iter().map(|e| columns.of(e));
-        let reach = Reach::of(touched.filter(|&at| at < n_unknown), n_unknown, D);
-        self.model.reach.extend(core::iter::repeat_n(reach, n));
+        let reach = CoordinateSet::of(touched.filter(|&at| at < n_unknown), n_unknown, D);
+        self.model.coordinate_sets.extend(core::iter::repeat_n(reach, n));
         match draft {
             RowDraft::Distance { ends, length } => {
                 let at = |e: usize| place.start + index(columns.of(e) * D);

@@ -1,6 +1,6 @@
 //! Where a state remembers the angles of effects.
 
-use super::finish::effect_of;
+use super::layout::effect_of;
 use super::model::NaturalModel;
 use crate::Real;
 use crate::model::Owner;

@@ -9,12 +9,12 @@ use crate::Real;
 
 /// The columns of the first unknowns that a row touches: of one entity or two in a group that has more, or of any.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) struct Reach {
+pub(crate) struct CoordinateSet {
     first: u8,
     second: u8,
 }
 
-impl Reach {
+impl CoordinateSet {
     /// A row that touches any unknown of its group.
     pub(crate) const ANY: Self = Self { first: u8::MAX, second: u8::MAX };
 
@@ -50,13 +50,15 @@ pub(crate) fn add_rows<T: Real, const D: usize>(
     block: &mut [T],
     k: usize,
     (mut g, width): (&[T], usize),
-    (mut weights, mut reach): (&[T], &[Reach]),
+    (mut weights, mut reach): (&[T], &[CoordinateSet]),
 ) {
     while let ([w, others @ ..], [row, rows @ ..]) = (weights, reach) {
         if let Some(pair) = row.pair() {
             add_pair_square::<T, D>(block, k, g, pair, *w);
-        } else if let ([_, w2, w3, others @ ..], [Reach::ANY, Reach::ANY, rows @ ..]) =
-            (weights, rows)
+        } else if let (
+            [_, w2, w3, others @ ..],
+            [CoordinateSet::ANY, CoordinateSet::ANY, rows @ ..],
+        ) = (weights, rows)
         {
             add_squares(block, k, [g, &g[width..], &g[2 * width..]], [*w, *w2, *w3]);
             (g, weights, reach) = (&g[3 * width..], others, rows);
@@ -113,12 +115,12 @@ mod tests {
 
     #[test]
     fn rows_of_one_or_two_entities_have_their_columns() {
-        assert_eq!(Reach::of([3, 1, 3].into_iter(), 4, 3).pair(), Some([3, 9]));
-        assert_eq!(Reach::of([2].into_iter(), 4, 3).pair(), Some([6, 6]));
-        assert_eq!(Reach::of([0, 1, 2].into_iter(), 4, 3), Reach::ANY);
-        assert_eq!(Reach::of([0, 1].into_iter(), 2, 3), Reach::ANY);
-        assert_eq!(Reach::of([0, 90].into_iter(), 100, 3), Reach::ANY);
-        assert_eq!(Reach::of([].into_iter(), 4, 3), Reach::ANY);
+        assert_eq!(CoordinateSet::of([3, 1, 3].into_iter(), 4, 3).pair(), Some([3, 9]));
+        assert_eq!(CoordinateSet::of([2].into_iter(), 4, 3).pair(), Some([6, 6]));
+        assert_eq!(CoordinateSet::of([0, 1, 2].into_iter(), 4, 3), CoordinateSet::ANY);
+        assert_eq!(CoordinateSet::of([0, 1].into_iter(), 2, 3), CoordinateSet::ANY);
+        assert_eq!(CoordinateSet::of([0, 90].into_iter(), 100, 3), CoordinateSet::ANY);
+        assert_eq!(CoordinateSet::of([].into_iter(), 4, 3), CoordinateSet::ANY);
     }
 
     #[test]
