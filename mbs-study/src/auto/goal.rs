@@ -1,8 +1,13 @@
-//! What is wanted of a run: an error, a deadline, or both; and why that may be refused.
+//! What is required of a run: an error, a deadline, or both; and why that may be refused.
 
 use core::fmt::{self, Display, Formatter};
 use mbs::Method;
 use mbs::Precision;
+
+/// Error that is aimed at, relative to the required one [-]: predictions may be off by as much.
+const AIM: f64 = 0.7;
+/// With a deadline alone, no smaller error is aimed at [-]: outputs are printed with so many digits.
+pub(super) const ACCURATE: f64 = 1e-6;
 
 /// What `auto` is to reach.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
@@ -11,6 +16,26 @@ pub struct Goal {
     pub error: Option<f64>,
     /// The run is made in frames of this length [s], each computed within the same time.
     pub deadline: Option<f64>,
+}
+
+/// What a run is to reach.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Target {
+    /// Error of the outputs.
+    pub(crate) error: f64,
+    /// Frames of this length are to be computed each within that time [s].
+    pub(crate) deadline: Option<f64>,
+}
+
+impl Target {
+    pub(super) fn of(goal: &Goal) -> Self {
+        Self { error: goal.error.unwrap_or(ACCURATE), deadline: goal.deadline }
+    }
+
+    /// The error that settings are chosen for.
+    pub(crate) fn aim(&self) -> f64 {
+        AIM * self.error
+    }
 }
 
 /// A goal that cannot be meant.
@@ -47,7 +72,7 @@ const DECIDED: [Given; 6] = [
 ];
 
 impl Goal {
-    /// Is anything wanted?
+    /// Is anything required?
     #[must_use]
     pub fn is_some(&self) -> bool {
         self.error.is_some() || self.deadline.is_some()
@@ -97,7 +122,7 @@ pub fn time(text: &str) -> Result<f64, String> {
     })
 }
 
-/// The distance of neighbouring numbers: errors below it are not told, whatever the method.
+/// The distance of neighbouring numbers: errors below it are not resolved, whatever the method.
 fn finest(precision: Precision) -> f64 {
     match precision {
         Precision::F32 => f64::from(f32::EPSILON),

@@ -1,7 +1,6 @@
 //! What a scene's structure says before anything is run: who cannot run it, and what makes it dear.
 
 use crate::compare::method::MethodCase;
-use mbs::FormulationKind;
 use mbs::Names;
 use mbs::StopError;
 use mbs::inside::AssembledScene;
@@ -13,9 +12,6 @@ use mbs_recursive::TreeModel;
 
 /// Steps of an explicit method in each period of the stiffest spring, roughly.
 const STEPS_A_PERIOD: f64 = 2.0;
-
-/// Steps that make explicit methods dear.
-const STIFF: f64 = 3000.0;
 
 /// What is known of a scene without a step.
 #[derive(Debug, Clone, PartialEq)]
@@ -72,7 +68,7 @@ fn frequency<T: Real>(scene: &Scene<T>, effect: &Effect<T>) -> f64 {
             Value::Bodies(bodies) => mobility = bodies.iter().map(of).sum::<f64>(),
             Value::Number(k) if field.key == "stiffness" => stiffness = k.to_f64(),
             Value::Six(k) if field.key == "stiffness" => {
-                stiffness = k[..3].iter().map(|k| k.to_f64()).fold(0.0, f64::max);
+                stiffness = k.iter().take(k.len() / 2).map(|k| k.to_f64()).fold(0.0, f64::max);
             }
             _ => {}
         }
@@ -92,21 +88,6 @@ impl Structure {
                 rows - rank
             )),
             _ => None,
-        }
-    }
-
-    /// Place in the order of trials: those of high order first, where no spring is too stiff for them; relative coordinates before
-    /// others; what takes about the same steps as another, but more work in each, last.
-    pub(crate) fn promise(&self, method: &MethodCase) -> usize {
-        let steps = STEPS_A_PERIOD * self.frequency * self.duration / core::f64::consts::TAU;
-        let is_stiff = steps > STIFF;
-        let is_controlled = !method.is_fixed();
-        match (method.formulation.row().relative, method.integrator.is_explicit()) {
-            (true, true) if !is_stiff => usize::from(!is_controlled),
-            (true, true) => 6,
-            (true, false) => 3 - usize::from(is_controlled),
-            _ if method.formulation == FormulationKind::DEFAULT => 5 - usize::from(is_controlled),
-            _ => 7,
         }
     }
 
