@@ -9,9 +9,6 @@ use mbs::FormulationKind;
 
 /// The next trial has a step that is shorter by this factor [-]: two points of a law of order 1 to 4, and a time that may still be had.
 const FINER_STEP: f64 = 4.0;
-/// The next trial has a tolerance that is smaller by this factor [-], as has the first one over the required error: the errors of controlled
-/// steps are mostly smaller than their tolerance.
-const FINER_TOLERANCE: f64 = 10.0;
 /// First tolerance of steps that are controlled by an estimate of the error [-]: such a run takes less time than most.
 const FIRST_ERROR_TOLERANCE: f64 = 1e-3;
 /// No tolerance is larger [-]: rssr and iltis-stairs-stiff stop with 0.1, and steps are a third shorter only.
@@ -108,7 +105,8 @@ impl Candidate {
     pub(crate) fn new(method: MethodCase, target: Target, longest: f64) -> Self {
         let (first, coarsest) = match method.control {
             Control::Fixed => (longest, longest),
-            Control::Own => ((FINER_TOLERANCE * target.error).min(LOOSEST), LOOSEST),
+            // errors of controlled steps are mostly smaller than their tolerance
+            Control::Own => ((target.error / SMALL).min(LOOSEST), LOOSEST),
             Control::Error | Control::Energy => (FIRST_ERROR_TOLERANCE, LOOSEST),
         };
         Self {
@@ -220,8 +218,7 @@ impl Candidate {
     /// A setting that is finer than all trials, if there is one.
     pub(crate) fn finer(&self) -> Option<f64> {
         let last = self.trials.last()?.setting;
-        let finer =
-            self.fit(last / if self.method.is_fixed() { FINER_STEP } else { FINER_TOLERANCE });
+        let finer = self.fit(if self.method.is_fixed() { last / FINER_STEP } else { SMALL * last });
         (finer < last).then_some(finer)
     }
 

@@ -14,7 +14,7 @@ pub(super) const ERROR_RANGE: [f64; 2] = [0.5, 1.25];
 /// results, whatever the tolerance.
 const COST_RANGE: [f64; 2] = [0.25, 1.25];
 /// What is smaller than this fraction is small [-]: the error of a trial beside its distance from a coarser one, which may agree with it
-/// by chance; the steps that it has more; the error of the best trial beside the required one.
+/// by chance; the steps that it has more; the error of the best trial beside the required one; a tolerance beside that of the trial before.
 pub(super) const SMALL: f64 = 0.1;
 
 /// Exponents of a method in its setting: the step, or the tolerance.

@@ -147,8 +147,8 @@ impl<'a> Search<'a> {
         pick
     }
 
-    /// Before any reaches the required error, each first trial has twice its share of what is left, and twice the time of the fastest trial, at
-    /// most [s].
+    /// Before any reaches the required error, each first trial has twice its share of half of the budget, and twice the time of the fastest
+    /// trial, at most [s]: the other half is for second trials, without which no error is known (iltis-jump at 1e-2).
     fn patience(&self, i: usize, left: f64) -> f64 {
         let is_untried = |c: &&Candidate| c.out.is_none() && c.trials.is_empty();
         if !is_untried(&&self.candidates[i]) {
@@ -158,7 +158,7 @@ impl<'a> Search<'a> {
         let untried = self.candidates.iter().filter(is_untried).count() as f64;
         let done = self.candidates.iter().flat_map(Candidate::done).map(|t| t.trial.seconds);
         let fastest = done.fold(f64::INFINITY, f64::min);
-        (2.0 / (untried + 1.0) * left).min(2.0 * fastest)
+        (2.0 / (untried + 1.0) * (left - 0.5 * self.budget())).min(2.0 * fastest)
     }
 
     /// CPU time that a candidate is expected to take for the required error, as far as it is known; 0 before its first trial [s].
@@ -276,10 +276,10 @@ impl<'a> Search<'a> {
         }
     }
 
-    /// CPU time of the cheapest that reaches the required error [s].
+    /// CPU time of the cheapest trial that reached the required error [s]: as measured, since a prediction may be too low.
     fn cheapest(&self) -> Option<f64> {
-        let places = (0..self.candidates.len()).filter_map(|i| self.place(i));
-        places.filter(|p| p.reaches).map(|p| p.prediction.seconds).reduce(f64::min)
+        let left = self.candidates.iter().filter(|c| c.out.is_none());
+        left.filter_map(|c| c.seen(self.target.error)).map(|p| p.seconds).reduce(f64::min)
     }
 
     /// What is known of a candidate that is not out.

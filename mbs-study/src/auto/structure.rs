@@ -10,9 +10,6 @@ use mbs_core::effects::Value;
 use mbs_core::scene::{BodyId, Effect, Scene};
 use mbs_recursive::TreeModel;
 
-/// Steps of an explicit method in each period of the stiffest spring, roughly.
-const STEPS_A_PERIOD: f64 = 2.0;
-
 /// What is known of a scene without a step.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Structure {
@@ -124,7 +121,8 @@ impl Structure {
             ));
         }
         if self.frequency > 0.0 {
-            let steps = STEPS_A_PERIOD * self.frequency * self.duration / core::f64::consts::TAU;
+            // an explicit method makes at least two in a period, roughly
+            let steps = 2.0 * self.frequency * self.duration / core::f64::consts::TAU;
             words.push(format!(
                 "its stiffest spring turns at about {} rad/s: explicit integrators need {} steps or more",
                 mbs_scene::format::few(self.frequency),

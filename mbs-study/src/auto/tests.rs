@@ -12,8 +12,9 @@ use mbs::Precision;
 use mbs::record::RunError;
 use mbs::{Method, Settings};
 
-/// Longest step [s], and tolerance.
+/// Longest step [s].
 const LONGEST: f64 = 0.05;
+/// Largest tolerance [-].
 const LOOSEST: f64 = 0.1;
 
 /// How a method behaves: error and CPU time [s] at a setting of 0.01, by its law from there; settings at which it stops.
