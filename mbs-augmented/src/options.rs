@@ -4,7 +4,7 @@ use mbs_core::Real;
 use mbs_core::integrator::Integrator;
 use mbs_core::step::OptionError;
 
-/// c of the penalty in double precision and finer [effective masses]: a sweep leaves 1e-6 of a violation, and 10 of 16 digits remain beside it;
+/// Penalty c in double precision and finer [effective masses]: a sweep leaves 1e-6 of a violation, and 10 of 16 digits remain beside it;
 /// 1e2 to 1e8 work in regular motion.
 const PENALTY: f64 = 1e6;
 /// The same in coarser scalars: the square root of 1/EPSILON in f32, so that digits are shared between mass and penalty.

@@ -35,7 +35,7 @@ const SLOW_REUSED: f64 = 0.01;
 /// gain; above the second directions differ too much in what is left of them.
 const SCALED: [f64; 2] = [0.01, 0.7];
 /// Part of a violation above which a sweep is slow, so that penalties are raised for it [-]: ten sweeps would make ten digits.
-const SLOW: f64 = 0.1;
+const SLOW_CONTRACTION: f64 = 0.1;
 
 /// With which matrix and rows velocities and accelerations are projected.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -171,7 +171,7 @@ impl<T: Real, M: Model<T>, S: SpdSolver<T>> Projector<'_, T, M, S> {
             if contraction > T::HALF && violation <= limit {
                 return Ok(violation);
             }
-            let is_slow = contraction > T::from_f64(SLOW) && violation > limit;
+            let is_slow = contraction > T::from_f64(SLOW_CONTRACTION) && violation > limit;
             if is_slow && self.scale.raise(contraction) {
                 self.scale.factor(self.model, self.equations)?;
             }

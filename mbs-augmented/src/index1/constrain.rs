@@ -12,7 +12,7 @@ use mbs_core::{Real, SpdSolver};
 /// What rounding leaves of the constraints, for which penalties are not raised [EPSILON of what their coordinates went]: six binary digits.
 const ROUNDING: f64 = 64.0;
 /// Part of a violation of positions that a slow sweep leaves, for which penalties are raised [-]: ten sweeps would make ten digits.
-const SLOW: f64 = 0.1;
+const SLOW_CONTRACTION: f64 = 0.1;
 /// Part of a violation of positions that a sweep leaves which is of no use [-].
 const USELESS: f64 = 0.9;
 
@@ -98,7 +98,7 @@ fn positions<T: Real, M: Model<T>, S: SpdSolver<T>>(
         let left = norm_inf(model.team(), &eq.terms.phi);
         let contraction = left / violation;
         violation = left;
-        let is_slow = contraction > T::from_f64(SLOW) && violation > rounding;
+        let is_slow = contraction > T::from_f64(SLOW_CONTRACTION) && violation > rounding;
         let is_raised = is_slow && w.scale.raise(contraction);
         if contraction > T::from_f64(USELESS) && !is_raised {
             break;
