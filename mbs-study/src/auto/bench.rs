@@ -1,6 +1,6 @@
 //! Trials of a scene, on a clock that is given.
 
-use super::trial::{Aim, Bench, End, Rows, Time, Trial};
+use super::trial::{Aim, Bench, End, Rows, Trial};
 use crate::compare::course::Course;
 use crate::compare::ladder::{Instants, count, work};
 use crate::compare::method::{Control, MethodCase};
@@ -24,22 +24,17 @@ use mbs_core::control::Accepted;
 use mbs_core::scene::Scene;
 use mbs_core::step::StepError;
 
-/// The clock is read every so many steps where each takes no longer than this [s], and steps are not timed one by one.
+/// The clock is read after this number of steps, where they are not timed one by one [-]: the smallest steps take less than to read it.
 const STRIDE: u64 = 8;
-const SOON: f64 = 1e-5;
-/// The first interval of an integrator that controls its own steps is cut into so many, to see how long it takes.
-const CAUTIOUS: u64 = 4;
-/// A trial is begun where its first interval promises no more than so many times what it may take.
-const DOUBT: f64 = 10.0;
-/// Steps that it may try in a piece of that.
-const FEW: u32 = 300;
+/// Steps in the first interval of an integrator that controls its own [-]: nothing else ends an interval whose steps are far too many.
+const FIRST_STEPS: u32 = 1000;
 
 /// What a pilot measures time by: a processor's clock, or one that counts work.
 pub trait Clock {
     /// Time since some beginning [s].
     fn seconds(&mut self) -> f64;
 
-    /// Told of the work of each step [s, nominal: the same every time].
+    /// Reported work of each step [s, nominal: the same every time].
     fn worked(&mut self, nominal: f64) {
         let _ = nominal;
     }
@@ -56,8 +51,6 @@ pub(crate) struct SceneBench<'a, T: Real, const D: usize> {
     ready: &'a Result<AssembledScene<T, D>, Box<RunError>>,
     clock: &'a mut dyn Clock,
     begun: f64,
-    /// Steps that an integrator of its own control may try in an interval.
-    most_steps: Option<u32>,
 }
 
 impl<'a, T: Real, const D: usize> SceneBench<'a, T, D>
@@ -74,7 +67,7 @@ where
         let begun = clock.seconds() - spent;
         let channels = Channel::of_scene(scene);
         let length = scene_length(scene).to_f64();
-        Self { scene, base, instants, channels, length, ready, clock, begun, most_steps: None }
+        Self { scene, base, instants, channels, length, ready, clock, begun }
     }
 
     /// A simulation ready to step, with its outputs and its alarm.
@@ -94,22 +87,13 @@ where
         both.map_err(|e| Box::new(e.report(0.0, &Names::new(self.scene))))
     }
 
-    /// Runs the span, with so many steps between two instants where they are counted.
-    fn run(
-        &mut self,
-        (method, between): (&MethodCase, Option<u64>),
-        setting: f64,
-        aim: Aim,
-        time: Time,
-    ) -> Trial {
+    /// Runs the span, for no longer than `limit` [s].
+    fn run(&mut self, method: &MethodCase, setting: f64, aim: Aim, limit: f64) -> Trial {
         let started = self.start(method, setting);
         let (mut simulation, channels, alarm) = match started {
             Ok(started) => started,
-            Err(error) => return Trial { end: End::NotStarted(*error), ..nothing() },
+            Err(error) => return not_started(*error),
         };
-        if let Some(most) = self.most_steps {
-            simulation.formulation_mut().set_max_steps(most);
-        }
         let [coordinates, constraints, _] = simulation.sizes();
         let n_columns = self.channels.iter().map(|c| c.components.len()).sum();
         let begun = self.clock.seconds();
@@ -121,32 +105,44 @@ where
             clock: &mut *self.clock,
             per_iteration: work(1, coordinates + constraints),
             is_fine: aim == Aim::Steps,
-            is_slow: true,
-            time,
             begun,
-            span: self.instants.time(self.instants.count),
+            limit,
             last: begun,
             slowest: 0.0,
             steps: 0,
             reached: 0.0,
             is_late: false,
         };
+        let between = method.is_fixed().then(|| self.instants.steps_between(setting));
+        let is_own = method.control == Control::Own;
         let course = Course { instants: self.instants, between };
-        let end = drive(&mut simulation, course.stretches(), &self.base.interrupt, &mut recorder);
-        let Recorder { rows, steps, reached, slowest, is_late, span, .. } = recorder;
+        let mut stretches = course.stretches();
+        let interrupt = &self.base.interrupt;
+        let mut end = Ok(());
+        if is_own {
+            // one step of it may be a whole interval, which nothing but the number of its own steps ends
+            simulation.formulation_mut().set_max_steps(FIRST_STEPS);
+            end = drive(&mut simulation, stretches.next(), interrupt, &mut recorder);
+            let steps = recorder.steps_in(limit);
+            simulation.formulation_mut().set_max_steps(steps.max(FIRST_STEPS));
+        }
+        if end.is_ok() && !recorder.is_late {
+            end = drive(&mut simulation, stretches, interrupt, &mut recorder);
+        }
+        let Recorder { rows, steps, reached, slowest, is_late, .. } = recorder;
         let seconds = self.clock.seconds() - begun;
         let end = match end {
-            Err(_) if is_late => End::GivenUp,
+            Ok(()) if !is_late => End::Done,
             Err(StopError::Step(StepError::StepTooSmall { .. }, _))
-                if self.most_steps.is_some() =>
+                if is_own && seconds >= 0.5 * limit =>
             {
                 End::GivenUp
             }
-            Err(error) => End::Stopped(error.report(reached, &Names::new(self.scene))),
-            Ok(()) if is_late => End::GivenUp,
-            Ok(()) => End::Done,
+            Err(error) if !is_late => End::Stopped(error.report(reached, &Names::new(self.scene))),
+            _ => End::GivenUp,
         };
         let slowest = (aim == Aim::Steps).then_some(slowest);
+        let span = self.instants.time(self.instants.count);
         Trial { rows, seconds, steps, reached: (reached / span).min(1.0), slowest, end }
     }
 }
@@ -155,33 +151,8 @@ impl<T: Real, const D: usize> Bench for SceneBench<'_, T, D>
 where
     Plane<D>: InSpace<T>,
 {
-    fn trial(&mut self, method: &MethodCase, setting: f64, aim: Aim, time: Time) -> Trial {
-        if method.control == Control::Own && aim == Aim::Rows {
-            // one step of it may be a whole interval, which nothing interrupts
-            let whole = self.instants;
-            self.instants = Instants { count: 1, ..whole };
-            self.most_steps = Some(FEW);
-            let probe =
-                self.run((method, Some(CAUTIOUS)), setting, Aim::Time, Time::strictly(time.most));
-            self.instants = whole;
-            let share = 1.0 / count(whole.count);
-            // pieces take more steps, and the first ones the search for their length
-            if probe.end != End::Done || probe.seconds > DOUBT * share * time.most {
-                let reached = probe.reached * share * DOUBT;
-                return Trial { reached, end: late(probe.end), ..probe };
-            }
-            #[allow(clippy::cast_precision_loss, reason = "a rough number")]
-            let a_step = probe.seconds / probe.steps.max(1) as f64;
-            #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "capped")]
-            let steps = (time.at_last / a_step).clamp(f64::from(FEW), 1e6) as u32;
-            self.most_steps = Some(steps);
-            let trial = self.run((method, None), setting, aim, time);
-            self.most_steps = None;
-            return trial;
-        }
-        self.most_steps = None;
-        let between = method.is_fixed().then(|| self.instants.steps_between(setting));
-        self.run((method, between), setting, aim, time)
+    fn trial(&mut self, method: &MethodCase, setting: f64, aim: Aim, limit: f64) -> Trial {
+        self.run(method, setting, aim, limit)
     }
 
     fn spent(&mut self) -> f64 {
@@ -196,12 +167,8 @@ where
     }
 }
 
-fn late(end: End) -> End {
-    if end == End::Done { End::GivenUp } else { end }
-}
-
-fn nothing() -> Trial {
-    let end = End::GivenUp;
+fn not_started(error: RunError) -> Trial {
+    let end = End::NotStarted(error);
     Trial { rows: Vec::new(), seconds: 0.0, steps: 0, reached: 0.0, slowest: None, end }
 }
 
@@ -250,16 +217,27 @@ struct Recorder<'a, T: Real, const D: usize> {
     per_iteration: f64,
     /// Is every step timed?
     is_fine: bool,
-    /// Do a few steps take so long that the clock is read after each?
-    is_slow: bool,
-    time: Time,
     begun: f64,
-    span: f64,
+    /// It may take no longer [s].
+    limit: f64,
     last: f64,
     slowest: f64,
     steps: u64,
     reached: f64,
     is_late: bool,
+}
+
+impl<T: Real, const D: usize> Recorder<'_, T, D> {
+    /// Steps that are made in a time, as fast as those so far.
+    #[allow(
+        clippy::cast_precision_loss,
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "a rough count"
+    )]
+    fn steps_in(&mut self, limit: f64) -> u32 {
+        (self.steps as f64 * limit / (self.clock.seconds() - self.begun)) as u32
+    }
 }
 
 impl<T: Real, const D: usize> StepObserver<T, D> for Recorder<'_, T, D>
@@ -277,12 +255,10 @@ where
         let before = self.steps;
         self.steps += u64::from(report.steps.max(1));
         self.reached = simulation.state().t.to_f64();
-        if self.is_fine || self.is_slow || before / STRIDE != self.steps / STRIDE {
+        if self.is_fine || before / STRIDE != self.steps / STRIDE {
             let now = self.clock.seconds();
-            self.is_slow =
-                now - self.last > SOON * if self.is_slow { 1.0 } else { count(STRIDE as usize) };
             self.slowest = self.slowest.max(now - self.last);
-            self.is_late = self.time.is_over(now - self.begun, self.reached / self.span);
+            self.is_late = now - self.begun > self.limit;
             self.last = now;
         }
         let Some(channels) = &mut self.channels else { return Ok(continue_if(!self.is_late)) };

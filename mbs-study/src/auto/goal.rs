@@ -1,8 +1,13 @@
-//! What is wanted of a run: an error, a deadline, or both; and why that may be refused.
+//! What is required of a run: an error, a deadline, or both; and why that may be refused.
 
 use core::fmt::{self, Display, Formatter};
 use mbs::Method;
 use mbs::Precision;
+
+/// Error that is aimed at, relative to the required one [-]: predictions may be off by as much.
+const AIM: f64 = 0.7;
+/// With a deadline alone, no smaller error is aimed at [-]: outputs are printed with so many digits.
+pub(super) const ACCURATE: f64 = 1e-6;
 
 /// What `auto` is to reach.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
@@ -13,13 +18,33 @@ pub struct Goal {
     pub deadline: Option<f64>,
 }
 
+/// What a run is to reach.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Target {
+    /// Error of the outputs.
+    pub(crate) error: f64,
+    /// Frames of this length are to be computed each within that time [s].
+    pub(crate) deadline: Option<f64>,
+}
+
+impl Target {
+    pub(super) fn of(goal: &Goal) -> Self {
+        Self { error: goal.error.unwrap_or(ACCURATE), deadline: goal.deadline }
+    }
+
+    /// The error that settings are chosen for.
+    pub(crate) fn aim(&self) -> f64 {
+        AIM * self.error
+    }
+}
+
 /// A goal that cannot be meant.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub enum GoalError {
     /// An error that is not between 0 and 1.
     Error(f64),
-    /// An error that numbers of the run cannot tell: the error, and their precision.
+    /// An error that numbers of the run cannot resolve: the error, and their precision.
     TooFine(f64, Precision),
     /// A deadline that is not a positive time.
     Deadline(f64),
@@ -47,7 +72,7 @@ const DECIDED: [Given; 6] = [
 ];
 
 impl Goal {
-    /// Is anything wanted?
+    /// Is anything required?
     #[must_use]
     pub fn is_some(&self) -> bool {
         self.error.is_some() || self.deadline.is_some()
@@ -97,7 +122,7 @@ pub fn time(text: &str) -> Result<f64, String> {
     })
 }
 
-/// The distance of neighbouring numbers: errors below it are not told, whatever the method.
+/// The distance of neighbouring numbers: errors below it are not resolved, whatever the method.
 fn finest(precision: Precision) -> f64 {
     match precision {
         Precision::F32 => f64::from(f32::EPSILON),

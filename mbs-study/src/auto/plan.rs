@@ -1,6 +1,9 @@
 //! From a goal to a run: the ranked settings, and what happens where the first of them stops.
 
-use super::{Clock, Goal, GoalError, Pick, Pilot, Task, bench, instants, methods};
+use super::bench::{self, Clock};
+use super::choose::{Pick, Pilot, Task, instants, methods};
+use super::estimate::SMALL;
+use super::goal::{ACCURATE, Goal, GoalError};
 use crate::compare::method::MethodCase;
 use cpu_time::ThreadTime;
 use mbs::Names;
@@ -80,7 +83,7 @@ impl PlanError {
     }
 }
 
-/// Decides how a scene is run: as the settings say where nothing is wanted, else by a pilot.
+/// Decides how a scene is run: as the settings say where nothing is required, else by a pilot.
 ///
 /// # Errors
 /// A goal that cannot be meant beside these options; a scene that is none in the precision asked for.
@@ -133,7 +136,7 @@ fn ranked(
 }
 
 /// Where the pilot has got nowhere: every method that starts, in the order of its candidates, with the step of the scene, or a
-/// tolerance of a hundredth of the wanted error.
+/// tolerance of a tenth of the required error.
 fn blind(task: &Task<'_>, choice: &PilotReport, methods: &[MethodCase]) -> Vec<Pick> {
     let starts = |m: &&MethodCase| {
         let same = choice.candidates.iter().find(|c| c.method == m.name());
@@ -144,7 +147,7 @@ fn blind(task: &Task<'_>, choice: &PilotReport, methods: &[MethodCase]) -> Vec<P
     left.sort_by_key(|m| place(m));
     let setting = |m: &MethodCase| match m.is_fixed() {
         true => task.goal.deadline.unwrap_or(f64::INFINITY).min(task.settings.step),
-        false => 0.01 * task.goal.error.unwrap_or(super::ACCURATE),
+        false => SMALL * task.goal.error.unwrap_or(ACCURATE),
     };
     left.into_iter().map(|m| Pick { method: *m, setting: setting(m) }).collect()
 }

@@ -1,68 +1,67 @@
 //! A choice as evidence, and why in words.
 
-use super::entrant::Entrant;
-use super::finish::{Place, basis};
-use super::race::{BUDGET, Race};
+use super::candidates::{Candidate, Tried};
+use super::estimate::Basis;
+use super::pilot::{BUDGET, BUDGET_FRACTION, Place, Search};
 use super::structure::Structure;
 use super::trial::End;
-use mbs::record::{Candidate, PilotReference, PilotReport, TrialEntry};
+use mbs::record::Candidate as Entry;
+use mbs::record::{PilotReference, PilotReport, TrialEntry};
 use mbs_scene::format::few;
 
 /// The evidence: the ranked ones first, then those that are out.
 pub(super) fn evidence(
-    race: &mut Race<'_>,
+    search: &mut Search<'_>,
     places: &[Place],
     structure: &Structure,
 ) -> PilotReport {
-    let pilot_seconds = race.bench.spent();
-    let pilot_budget = race.budget();
-    let chosen = places.first().map(|place| place.prediction.point.seconds);
-    let mut candidates: Vec<Candidate> = Vec::new();
-    for (k, place) in places.iter().enumerate() {
-        let entrant = &race.entrants[place.entrant];
-        let point = place.prediction.point;
-        let missed = if place.reaches { "" } else { "; the required error is not reached" };
-        candidates.push(Candidate {
+    let pilot_seconds = search.bench.spent();
+    let chosen = places.first().map(|place| place.prediction.seconds);
+    let ranked = places.iter().enumerate().map(|(k, place)| {
+        let p = place.prediction;
+        let missed = if place.reaches { "" } else { "; no trial reached the required error" };
+        Entry {
             rank: Some(k + 1),
-            setting: Some(point.setting),
-            seconds: Some(point.seconds),
-            over_chosen: chosen.map(|seconds| point.seconds / seconds),
-            error: Some(point.error),
+            setting: Some(p.setting),
+            seconds: Some(p.seconds),
+            over_chosen: chosen.map(|seconds| p.seconds / seconds),
+            error: Some(p.error),
             basis: basis(place) + missed,
-            ..candidate(entrant)
-        });
-    }
-    let is_placed = |i: usize| places.iter().any(|place| place.entrant == i);
-    for (i, entrant) in race.entrants.iter().enumerate().filter(|(i, _)| !is_placed(*i)) {
-        let open = if race.is_cut {
-            "the pilot had no time for it"
-        } else {
-            "another is cheaper in any case"
+            out: None,
+            ..entry(&search.candidates[place.candidate])
+        }
+    });
+    let is_placed = |i: usize| places.iter().any(|place| place.candidate == i);
+    let rest = search.candidates.iter().enumerate().filter(|(i, _)| !is_placed(*i));
+    let rest = rest.map(|(_, candidate)| {
+        let open = match search.is_cut {
+            true => "the pilot had no time for it",
+            false => "another is cheaper in any case",
         };
-        let out = race.entrants[i].out.clone().unwrap_or_else(|| open.to_owned());
-        candidates.push(Candidate { out: Some(out), ..candidate(entrant) });
-    }
-    let reference = race.best.map(|best| PilotReference {
-        method: race.entrants[best.entrant].method.name(),
-        setting: best.setting,
-        uncertainty: best.own,
+        let out = candidate.out.clone().unwrap_or_else(|| open.to_owned());
+        Entry { out: Some(out), ..entry(candidate) }
+    });
+    let reference = search.best.map(|best| {
+        let candidate = &search.candidates[best.candidate];
+        let setting = candidate.trials[best.trial].setting;
+        PilotReference { method: candidate.method.name(), setting, uncertainty: best.own }
     });
     PilotReport {
-        error: Some(race.wanted.error),
-        deadline: race.wanted.deadline,
+        error: Some(search.target.error),
+        deadline: search.target.deadline,
         structure: structure.words(),
         pilot_seconds,
-        pilot_budget,
+        pilot_budget: search.budget(),
         reference,
-        candidates,
-        notes: notes(race, places),
+        candidates: ranked.chain(rest).collect(),
+        notes: notes(search, places),
         ..PilotReport::default()
     }
 }
 
 /// A candidate by itself, with its trials.
-pub(super) fn candidate(entrant: &Entrant) -> Candidate {
-    let trial = |t: &super::entrant::Try| TrialEntry {
+pub(super) fn entry(candidate: &Candidate) -> Entry {
+    let trial = |t: &Tried| TrialEntry {
         setting: t.setting,
         seconds: t.trial.seconds,
         steps: t.trial.steps,
@@ -74,37 +73,72 @@ pub(super) fn candidate(entrant: &Entrant) -> Candidate {
             End::Stopped(e) | End::NotStarted(e) => e.code.clone(),
         },
     };
-    Candidate {
-        method: entrant.method.name(),
-        formulation: entrant.method.formulation.name().to_owned(),
-        integrator: entrant.method.integrator.name().to_owned(),
-        control: entrant.method.control().to_owned(),
-        slowest_step: entrant.slowest(),
-        trials: entrant.tries.iter().map(trial).collect(),
-        ..Candidate::default()
+    Entry {
+        method: candidate.method.name(),
+        formulation: candidate.method.formulation.name().to_owned(),
+        integrator: candidate.method.integrator.name().to_owned(),
+        control: candidate.method.control().to_owned(),
+        slowest_step: candidate.slowest(),
+        trials: candidate.trials.iter().map(trial).collect(),
+        out: candidate.out.clone(),
+        ..Entry::default()
     }
 }
 
-fn notes(race: &Race<'_>, places: &[Place]) -> Vec<String> {
-    let mut notes = Vec::new();
+/// What a prediction stands on, in words.
+fn basis(place: &Place) -> String {
+    match (place.is_timed, place.prediction.basis) {
+        (true, _) => "timed with this setting".to_owned(),
+        (_, Basis::Tried) => "a trial with this setting".to_owned(),
+        (_, Basis::Between) => "between two trials".to_owned(),
+        (_, Basis::Beyond(factor)) if factor < 1.0 => {
+            format!("beyond its trials, whose least error is {:.1} times smaller", 1.0 / factor)
+        }
+        (_, Basis::Beyond(factor)) => {
+            format!("beyond its trials, whose least error is {factor:.1} times larger")
+        }
+    }
+}
+
+fn notes(search: &Search<'_>, places: &[Place]) -> Vec<String> {
+    let (mut notes, error) = (Vec::new(), search.target.error);
     if places.first().is_none_or(|place| !place.reaches) {
+        let chosen = match search.target.deadline {
+            Some(_) => "chosen is the one with the least",
+            None => "chosen is the one that is expected to reach it first",
+        };
+        notes.push(format!("no trial reached an error of {}: {chosen}", few(error)));
+    }
+    if search.is_cut {
         notes.push(format!(
-            "no candidate is expected to reach an error of {}: chosen is the one with the least",
-            few(race.wanted.error)
+            "the pilot ended with its time: {BUDGET} s, or {BUDGET_FRACTION} of the run it expects"
         ));
     }
-    if race.is_cut {
-        notes.push(format!(
-            "the pilot ended with its time: {} s, or {} % of the run it expects",
-            BUDGET[0],
-            100.0 * BUDGET[1]
-        ));
-    }
-    if let Some(best) = race.best.filter(|best| best.own > race.wanted.error) {
+    if let Some(best) = search.best.filter(|best| best.own > error) {
         notes.push(format!(
             "errors are known to {:.1e} only: the pilot had no time for a better reference",
             best.own
         ));
     }
     notes
+}
+
+/// The choice has not been confirmed from the other coordinates.
+pub(super) fn unconfirmed(why: &str) -> String {
+    format!("index-3, which shares no model with the chosen one, does not confirm it: {why}")
+}
+
+/// CPU times of the whole run from those of the pilot's span, and a word about it.
+pub(super) fn extend(choice: &mut PilotReport, times: f64) {
+    if times <= 1.0 + f64::EPSILON {
+        return;
+    }
+    for candidate in &mut choice.candidates {
+        candidate.seconds = candidate.seconds.map(|seconds| seconds * times);
+        candidate.error = None;
+    }
+    choice.notes.push(format!(
+        "the pilot saw the first {} s, which is all that its time was enough for: the error of what comes later is not known",
+        few(choice.span)
+    ));
 }

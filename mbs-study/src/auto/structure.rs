@@ -1,7 +1,6 @@
 //! What a scene's structure says before anything is run: who cannot run it, and what makes it dear.
 
 use crate::compare::method::MethodCase;
-use mbs::FormulationKind;
 use mbs::Names;
 use mbs::StopError;
 use mbs::inside::AssembledScene;
@@ -10,12 +9,6 @@ use mbs_core::Real;
 use mbs_core::effects::Value;
 use mbs_core::scene::{BodyId, Effect, Scene};
 use mbs_recursive::TreeModel;
-
-/// Steps of an explicit method in each period of the stiffest spring, roughly.
-const STEPS_A_PERIOD: f64 = 2.0;
-
-/// Steps that make explicit methods dear.
-const STIFF: f64 = 3000.0;
 
 /// What is known of a scene without a step.
 #[derive(Debug, Clone, PartialEq)]
@@ -72,7 +65,7 @@ fn frequency<T: Real>(scene: &Scene<T>, effect: &Effect<T>) -> f64 {
             Value::Bodies(bodies) => mobility = bodies.iter().map(of).sum::<f64>(),
             Value::Number(k) if field.key == "stiffness" => stiffness = k.to_f64(),
             Value::Six(k) if field.key == "stiffness" => {
-                stiffness = k[..3].iter().map(|k| k.to_f64()).fold(0.0, f64::max);
+                stiffness = k.iter().take(k.len() / 2).map(|k| k.to_f64()).fold(0.0, f64::max);
             }
             _ => {}
         }
@@ -92,21 +85,6 @@ impl Structure {
                 rows - rank
             )),
             _ => None,
-        }
-    }
-
-    /// Place in the order of trials: those of high order first, where no spring is too stiff for them; relative coordinates before
-    /// others; what takes about the same steps as another, but more work in each, last.
-    pub(crate) fn promise(&self, method: &MethodCase) -> usize {
-        let steps = STEPS_A_PERIOD * self.frequency * self.duration / core::f64::consts::TAU;
-        let is_stiff = steps > STIFF;
-        let is_controlled = !method.is_fixed();
-        match (method.formulation.row().relative, method.integrator.is_explicit()) {
-            (true, true) if !is_stiff => usize::from(!is_controlled),
-            (true, true) => 6,
-            (true, false) => 3 - usize::from(is_controlled),
-            _ if method.formulation == FormulationKind::DEFAULT => 5 - usize::from(is_controlled),
-            _ => 7,
         }
     }
 
@@ -143,7 +121,8 @@ impl Structure {
             ));
         }
         if self.frequency > 0.0 {
-            let steps = STEPS_A_PERIOD * self.frequency * self.duration / core::f64::consts::TAU;
+            // an explicit method makes at least two in a period, roughly
+            let steps = 2.0 * self.frequency * self.duration / core::f64::consts::TAU;
             words.push(format!(
                 "its stiffest spring turns at about {} rad/s: explicit integrators need {} steps or more",
                 mbs_scene::format::few(self.frequency),

@@ -17,26 +17,6 @@ pub(crate) enum Aim {
     Time,
 }
 
-/// How long a trial may take [s].
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Time {
-    pub(crate) most: f64,
-    /// So long where it goes at a pace that brings it to its end by then.
-    pub(crate) at_last: f64,
-}
-
-impl Time {
-    /// No longer than that.
-    pub(crate) fn strictly(most: f64) -> Self {
-        Self { most, at_last: most }
-    }
-
-    /// Is a trial given up that has taken so long for a share of the span?
-    pub(crate) fn is_over(&self, seconds: f64, reached: f64) -> bool {
-        seconds > self.most && (seconds > self.at_last || seconds > reached * self.at_last)
-    }
-}
-
 /// A run of the pilot.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Trial {
@@ -44,21 +24,11 @@ pub(crate) struct Trial {
     /// CPU time of its steps [s].
     pub(crate) seconds: f64,
     pub(crate) steps: u64,
-    /// Share of the span that was reached.
+    /// Fraction of the span that was reached.
     pub(crate) reached: f64,
     /// The slowest step [s], where each was timed.
     pub(crate) slowest: Option<f64>,
     pub(crate) end: End,
-}
-
-/// Steps per row, as a quotient, up to which the rows are what holds them.
-const HELD: [u64; 2] = [5, 4];
-
-impl Trial {
-    /// Are its steps those between the instants of its rows? A finer tolerance costs nothing until it asks for shorter ones.
-    pub(crate) fn is_held(&self) -> bool {
-        HELD[1] * self.steps <= HELD[0] * self.rows.len() as u64
-    }
 }
 
 /// How a trial ended.
@@ -76,8 +46,8 @@ pub(crate) enum End {
 
 /// Runs trials. Whoever chooses knows time by this only, so that a choice can be made on any clock.
 pub(crate) trait Bench {
-    /// Runs the span with a setting, for no longer than is given.
-    fn trial(&mut self, method: &MethodCase, setting: f64, aim: Aim, time: Time) -> Trial;
+    /// Runs the span with a setting, for no longer than `limit` [s].
+    fn trial(&mut self, method: &MethodCase, setting: f64, aim: Aim, limit: f64) -> Trial;
 
     /// Seconds since the pilot began, by the clock of the trials.
     fn spent(&mut self) -> f64;

@@ -3,7 +3,7 @@
 use super::reference::Known;
 use super::store::Store;
 use super::{CompareError, Study, Watch};
-use crate::auto::{Goal, Pick, Pilot, Processor, Task, methods};
+use crate::auto::{Goal, GoalError, Pick, Pilot, Processor, Task, methods};
 use crate::compare::results::{Comparison, JudgedChoice, MethodRuns, Status};
 use mbs::inside::in_space;
 use mbs::{Method, Settings};
@@ -59,6 +59,11 @@ impl Study<'_> {
         let pilot = Pilot { task: &task, methods: &methods, clock: &mut Processor::new(1) };
         let (picks, choice) = in_space(scene, pilot);
         judged.pilot_seconds = choice.pilot_seconds;
+        if let Some(look) = choice.second_look.as_ref().filter(|look| look.differs) {
+            let apart = look.distance.unwrap_or(f64::INFINITY);
+            judged.stopped.push(GoalError::Differs(apart).to_string());
+            return judged;
+        }
         for (pick, candidate) in picks.iter().zip(&choice.candidates) {
             judged.method = pick.method.name();
             judged.setting = pick.setting;

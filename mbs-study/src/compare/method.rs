@@ -121,6 +121,17 @@ impl MethodCase {
         }
     }
 
+    /// Order of the error in the mean step; what the tolerance stands for where the integrator controls its own steps.
+    pub(crate) fn order(&self) -> f64 {
+        match (self.control, self.integrator) {
+            (Control::Fixed, IntegratorKind::Rk4) => 4.0,
+            (Control::Fixed, IntegratorKind::Newmark) => 1.0,
+            (Control::Own, _) => 1.0 / self.cost(),
+            // the local error goes with the cube of the step, the global one with its square
+            (Control::Fixed | Control::Error | Control::Energy, _) => 2.0,
+        }
+    }
+
     /// What a run of it is asked for, between instants `interval` apart, and first (or all) steps of `step` [s].
     pub(crate) fn overrides(&self, setting: f64, step: f64, interval: f64) -> Method {
         let control = match self.control {

@@ -123,8 +123,6 @@ pub struct Fallback {
     pub cpu_seconds: f64,
 }
 
-/// Candidates that are named beside the chosen one [-]: more make a line too long to read.
-const MAX_NAMED: usize = 3;
 /// Head of the table of candidates.
 const HEAD: [&str; 6] = ["", "candidate", "step or tolerance", "CPU time", "error", "why"];
 
@@ -144,7 +142,7 @@ impl PilotReport {
             "fixed" => format!("steps of {} s", number(c.setting)),
             _ => format!("a tolerance of {}", number(c.setting)),
         };
-        let wanted = match (choice.error, choice.deadline) {
+        let required = match (choice.error, choice.deadline) {
             (Some(error), Some(deadline)) => {
                 format!("for an error of {} in frames of {} s", few(error), few(deadline))
             }
@@ -152,7 +150,7 @@ impl PilotReport {
             _ => "as asked".to_owned(),
         };
         reasons.push(format!(
-            "{wanted}: {} with {} takes about {} of CPU time with an error of {} ({})",
+            "{required}: {} with {} takes about {} of CPU time with an error of {} ({})",
             first.method,
             setting(first),
             seconds(first),
@@ -169,8 +167,9 @@ impl PilotReport {
                 duration(deadline)
             ));
         }
-        let others =
-            placed().skip(1).filter(|c| c.error <= choice.error.map(|e| 1.001 * e)).take(MAX_NAMED);
+        let others = placed()
+            .skip(1)
+            .filter(|c| c.over_chosen < Some(f64::INFINITY) && c.error <= choice.error);
         let others: Vec<String> = others
             .map(|c| format!("{} {:.2} times as long", c.method, c.over_chosen.unwrap_or(f64::NAN)))
             .collect();

@@ -1,0 +1,194 @@
+//! The choice for a scene: what is asked, who may run, the pilot, and its ranked settings.
+
+use super::bench::{Clock, SceneBench};
+use super::candidates::{self, Candidate};
+use super::goal::{Goal, GoalError, Target};
+use super::pilot::{BUDGET, Place, Search};
+use super::structure::{self, Structure};
+use super::{check, report};
+use crate::compare::ladder::Instants;
+use crate::compare::method::{Control, MethodCase};
+use mbs::Names;
+use mbs::inside::AssembledScene;
+use mbs::inside::SceneWork;
+use mbs::record::PilotReport;
+use mbs::{InSpace, Plane};
+use mbs::{IntegratorKind, Precision};
+use mbs::{Method, Settings};
+use mbs_core::Real;
+use mbs_core::scene::Scene;
+
+/// Instants at which errors are taken [-]: steps of a 200th of the run resolve most motions.
+const INSTANTS: f64 = 200.0;
+/// A method and its setting, and what was expected of it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Pick {
+    pub(crate) method: MethodCase,
+    pub(crate) setting: f64,
+}
+
+/// Where a choice is made.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Task<'a> {
+    pub(crate) base: &'a Method,
+    pub(crate) settings: &'a Settings,
+    pub(crate) goal: Goal,
+    pub(crate) instants: Instants,
+}
+
+/// The methods that a caller leaves to choose from, in the order that decides where times are the same.
+pub(crate) fn methods<T>(
+    scene: &Scene<T>,
+    base: &Method,
+    settings: &Settings,
+    goal: &Goal,
+) -> Result<Vec<MethodCase>, GoalError> {
+    let formulations = if settings.asked == "auto" { vec![] } else { vec![settings.formulation] };
+    let asked = base.integrator.as_ref().or(scene.solver.integrator.as_ref());
+    let integrator = asked.map(|_| settings.integrator);
+    let mut methods = MethodCase::all(&formulations, &[settings.precision]);
+    if let Some(integrator) = integrator {
+        methods.retain_mut(|m| {
+            let is_other_rule =
+                !integrator.is_of_first_order() && m.integrator == IntegratorKind::Trapezoidal;
+            if is_other_rule {
+                m.integrator = integrator;
+            }
+            m.integrator == integrator
+        });
+    } else if settings.precision != Precision::DoubleDouble {
+        // rk853 takes less time for every error that these digits resolve: gbs is for references
+        methods.retain(|m| m.integrator != IntegratorKind::Extrapolation);
+    }
+    if goal.deadline.is_some() {
+        if methods.iter().all(|m| m.control == Control::Own) && !methods.is_empty() {
+            return Err(GoalError::OwnSteps);
+        }
+        methods.retain(MethodCase::is_fixed);
+    }
+    if methods.is_empty() { Err(GoalError::NoCandidate) } else { Ok(methods) }
+}
+
+/// Instants for a run of `duration` [s]: whole frames lie between them where there is a deadline.
+pub(crate) fn instants(duration: f64, goal: &Goal) -> Instants {
+    let Some(frame) = goal.deadline else {
+        return Instants::new(duration, &[duration / INSTANTS]);
+    };
+    let frames = (duration / frame * (1.0 + candidates::ROUNDING)).floor().max(1.0);
+    let between = (frames / INSTANTS).ceil();
+    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "from 1 to 200")]
+    let count = (frames / between).floor().max(1.0) as usize;
+    Instants { count, interval: between * frame }
+}
+
+/// The choice for a scene: ranked picks, the first to run, and the evidence.
+pub(crate) struct Pilot<'a> {
+    pub(crate) task: &'a Task<'a>,
+    pub(crate) methods: &'a [MethodCase],
+    pub(crate) clock: &'a mut dyn Clock,
+}
+
+impl SceneWork for Pilot<'_> {
+    type Done = (Vec<Pick>, PilotReport);
+
+    fn done<T: Real, const D: usize>(self, scene: &Scene<T>) -> Self::Done
+    where
+        Plane<D>: InSpace<T>,
+    {
+        chosen::<T, D>(scene, self.task, self.methods, self.clock)
+    }
+}
+
+fn chosen<T: Real, const D: usize>(
+    scene: &Scene<T>,
+    task: &Task<'_>,
+    methods: &[MethodCase],
+    clock: &mut dyn Clock,
+) -> (Vec<Pick>, PilotReport)
+where
+    Plane<D>: InSpace<T>,
+{
+    let begun = clock.seconds();
+    let ready = AssembledScene::<T, D>::new(scene);
+    let mut ready = ready.map_err(|e| Box::new(e.report(0.0, &Names::new(scene))));
+    let structure = structure::structure(scene, task.settings.duration, ready.as_mut().ok());
+    let asked = (task.settings.asked != "auto", task.goal.deadline.is_some());
+    let methods = candidates::select(asked, methods, &structure);
+    let (target, mut instants) = (Target::of(&task.goal), task.instants);
+    let mut spent = clock.seconds() - begun;
+    let mut before = 0.0;
+    loop {
+        let mut bench = SceneBench::new((scene, task.base), &ready, instants, (&mut *clock, spent));
+        let longest = target.deadline.unwrap_or(f64::INFINITY).min(instants.interval);
+        let of = |m: &MethodCase| candidate(m, &structure, (target, longest));
+        let mut search = Search::new(&mut bench, methods.iter().map(of).collect(), target);
+        let places = search.run();
+        let shorter = search.shorter(instants.count);
+        if let Some(count) = shorter.filter(|_| places.is_empty()) {
+            before += search.bench.spent();
+            // a part of the span has half of the time again
+            spent = 0.5 * BUDGET;
+            before -= spent;
+            instants.count = count;
+            continue;
+        }
+        let check = match structure.loops.is_ok() && task.goal.error.is_some() {
+            true => check::check(&mut search, &places, instants.interval),
+            false => None,
+        };
+        let mut choice = report::evidence(&mut search, &places, &structure);
+        match check {
+            Some(Ok(look)) => choice.second_look = Some(look),
+            Some(Err(why)) => choice.notes.push(report::unconfirmed(&why)),
+            None => {}
+        }
+        choice.pilot_seconds += before;
+        let times = task.instants.time(task.instants.count) / instants.time(instants.count);
+        let picks = picks(&search, &places, times);
+        choice.instants = instants.count;
+        choice.span = instants.time(instants.count);
+        report::extend(&mut choice, times);
+        return (picks, choice);
+    }
+}
+
+/// A candidate, out if structure refuses it.
+fn candidate(method: &MethodCase, structure: &Structure, given: (Target, f64)) -> Candidate {
+    let out = structure.refuses(method);
+    Candidate { out, ..Candidate::new(*method, given.0, given.1) }
+}
+
+/// The ranked settings; on a part of the span, errors are taken to grow in proportion to it.
+fn picks(search: &Search<'_>, places: &[Place], times: f64) -> Vec<Pick> {
+    let pick = |place: &Place| {
+        let candidate = &search.candidates[place.candidate];
+        let setting = place.prediction.setting * times.powf(-1.0 / candidate.law().error);
+        Pick { method: candidate.method, setting: candidate.fit(setting) }
+    };
+    places.iter().map(pick).collect()
+}
+
+/// The candidates of a scene, and what structure alone says of them.
+pub(crate) fn candidates<T: Real, const D: usize>(
+    scene: &Scene<T>,
+    settings: &Settings,
+) -> Option<PilotReport>
+where
+    Plane<D>: InSpace<T>,
+{
+    let goal = Goal::default();
+    let methods = methods(scene, &Method::default(), settings, &goal).ok()?;
+    let mut ready = AssembledScene::<T, D>::new(scene).ok();
+    let structure = structure::structure(scene, settings.duration, ready.as_mut());
+    let given = (Target::of(&goal), instants(settings.duration, &goal).interval);
+    let asked = (settings.asked != "auto", false);
+    let entry = |method: &MethodCase| mbs::record::Candidate {
+        basis: "the pilot decides".to_owned(),
+        ..report::entry(&candidate(method, &structure, given))
+    };
+    Some(PilotReport {
+        candidates: candidates::select(asked, &methods, &structure).iter().map(entry).collect(),
+        structure: structure.words(),
+        ..PilotReport::default()
+    })
+}

@@ -1,0 +1,394 @@
+//! The pilot: who gets the next trial, and when enough is known.
+//!
+//! All trials go over the whole span, so that what happens late in the run is seen as well. The candidate with the smallest prediction is
+//! tried next, those without a trial first, until half of no prediction is below the cheapest that reaches the required error.
+
+use super::candidates::{Candidate, Next, Tried};
+use super::estimate::{Point, Prediction, SMALL, error_of_finer};
+use super::goal::Target;
+use super::trial::{Aim, Bench, End, Trial};
+use mbs_scene::format::duration;
+
+/// CPU time of the pilot [s]: what a user does not wait for.
+pub(super) const BUDGET: f64 = 0.2;
+/// CPU time of the pilot, relative to the run that it predicts [-]: a long run may have a longer pilot.
+pub(super) const BUDGET_FRACTION: f64 = 0.05;
+/// A trial is given up where it takes longer than the cheapest by this factor [-]: it cannot win, but its time may be off by half.
+pub(super) const GIVE_UP: f64 = 1.5;
+
+/// A place in the ranking.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Place {
+    pub(crate) candidate: usize,
+    pub(crate) prediction: Prediction,
+    /// Did a trial reach the required error?
+    pub(crate) reaches: bool,
+    /// Its time is that of a run with this setting.
+    pub(crate) is_timed: bool,
+}
+
+/// The most accurate trial so far.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Best {
+    pub(crate) candidate: usize,
+    pub(crate) trial: usize,
+    pub(crate) own: f64,
+}
+
+/// The search for the cheapest.
+pub(crate) struct Search<'a> {
+    pub(crate) bench: &'a mut dyn Bench,
+    pub(crate) candidates: Vec<Candidate>,
+    pub(crate) target: Target,
+    pub(crate) best: Option<Best>,
+    /// The budget ended it.
+    pub(crate) is_cut: bool,
+}
+
+impl<'a> Search<'a> {
+    pub(crate) fn new(
+        bench: &'a mut dyn Bench,
+        candidates: Vec<Candidate>,
+        target: Target,
+    ) -> Self {
+        Self { bench, candidates, target, best: None, is_cut: false }
+    }
+
+    /// Where no candidate got to the end in the time: instants that the fastest passes in half of it.
+    pub(crate) fn shorter(&self, count: usize) -> Option<usize> {
+        let reached = self.candidates.iter().flat_map(|c| c.trials.iter().map(|t| t.trial.reached));
+        let most = reached.fold(0.0, f64::max);
+        #[allow(
+            clippy::cast_possible_truncation,
+            clippy::cast_sign_loss,
+            clippy::cast_precision_loss,
+            reason = "a part of a small count"
+        )]
+        let part = (0.5 * most * count as f64) as usize;
+        (self.is_cut && part > 0).then_some(part)
+    }
+
+    /// Ranks: the cheapest of those that reach the required error first.
+    pub(crate) fn run(&mut self) -> Vec<Place> {
+        while let Some((i, setting, limit)) = self.pick().or_else(|| self.confirming()) {
+            self.attempt(i, setting, limit);
+        }
+        let timed = self.retime();
+        self.ranked(&timed)
+    }
+
+    /// The next trial where errors are not known well enough for a choice.
+    ///
+    /// The best trial has a tenth of the required error: chaotic motion (double-pendulum at 1e-2) and steps that the results hold
+    /// (simple-pendulum at 1e-6) let trials of a method agree better than they are. Another rule agrees with it within the required error:
+    /// trials of rk853 for rssr at 1e-2 agree within a tenth of what they err by.
+    fn confirming(&mut self) -> Option<(usize, f64, f64)> {
+        let (best, left) = (self.best?, self.left());
+        self.cheapest()?;
+        let method = |i: usize| self.candidates[i].method;
+        let is_other = |i: usize| method(i).integrator != method(best.candidate).integrator;
+        let (small, mut all) = (SMALL * self.target.error, 0..self.candidates.len());
+        let is_confirmed = all
+            .clone()
+            .any(|i| is_other(i) && self.candidates[i].seen(self.target.error).is_some());
+        let target = match (best.own > small, is_confirmed) {
+            (true, _) => Target { error: small, ..self.target },
+            (_, false) => self.target,
+            _ => return None,
+        };
+        let (mut pick, mut least) = (None, f64::INFINITY);
+        for i in all.by_ref().filter(|&i| best.own > small || is_other(i)) {
+            let candidate = &self.candidates[i];
+            let Some((finer, p)) = candidate.finer().zip(candidate.predict(target)) else {
+                continue;
+            };
+            let setting = p.setting.max(finer);
+            let is_new = candidate.may_continue() && !candidate.has_tried(setting);
+            if is_new && p.seconds < least && takes(candidate, setting) < 0.5 * left {
+                (pick, least) = (Some((i, setting, left)), p.seconds);
+            }
+        }
+        pick
+    }
+
+    /// Who is tried next, with what, and for how long: the one that promises most.
+    fn pick(&mut self) -> Option<(usize, f64, f64)> {
+        let (cheapest, left) = (self.cheapest(), self.left());
+        let mut pick = None;
+        let mut least = f64::INFINITY;
+        for i in 0..self.candidates.len() {
+            let candidate = &self.candidates[i];
+            if candidate.out.is_some() {
+                continue;
+            }
+            let setting = match candidate.next(self.target) {
+                Next::Try(setting) => setting,
+                Next::Settled => continue,
+                Next::Out(why) => {
+                    self.candidates[i].out = Some(why);
+                    continue;
+                }
+            };
+            let promise = 0.5 * self.promise(i);
+            if promise >= cheapest.unwrap_or(f64::INFINITY) || promise >= least {
+                continue;
+            }
+            let limit = match cheapest {
+                Some(seconds) => (GIVE_UP * seconds).min(left),
+                None => self.patience(i, left),
+            };
+            let takes = takes(&self.candidates[i], setting);
+            if takes > limit || limit <= 0.0 {
+                self.is_cut |= takes > left || left <= 0.0;
+                continue;
+            }
+            (pick, least) = (Some((i, setting, limit)), promise);
+        }
+        pick
+    }
+
+    /// Before any reaches the required error, each first trial has twice its share of half of the budget, and twice the time of the fastest
+    /// trial, at most [s]: the other half is for second trials, without which no error is known (iltis-jump at 1e-2).
+    fn patience(&self, i: usize, left: f64) -> f64 {
+        let is_untried = |c: &&Candidate| c.out.is_none() && c.trials.is_empty();
+        if !is_untried(&&self.candidates[i]) {
+            return left;
+        }
+        #[allow(clippy::cast_precision_loss, reason = "a small count")]
+        let untried = self.candidates.iter().filter(is_untried).count() as f64;
+        let done = self.candidates.iter().flat_map(Candidate::done).map(|t| t.trial.seconds);
+        let fastest = done.fold(f64::INFINITY, f64::min);
+        (2.0 / (untried + 1.0) * (left - 0.5 * self.budget())).min(2.0 * fastest)
+    }
+
+    /// CPU time that a candidate is expected to take for the required error, where it is known; 0 before its first trial [s].
+    fn promise(&self, i: usize) -> f64 {
+        let candidate = &self.candidates[i];
+        let predicted = candidate.predict(self.target).map(|p| p.seconds);
+        let next = || candidate.finer().map(|setting| takes(candidate, setting));
+        predicted.or_else(next).unwrap_or(0.0)
+    }
+
+    /// What the pilot may take [s].
+    pub(crate) fn budget(&self) -> f64 {
+        let tried = |&i: &usize| !self.candidates[i].trials.is_empty();
+        let run = (0..self.candidates.len()).filter(tried).map(|i| self.promise(i));
+        let run = self.cheapest().or_else(|| run.reduce(f64::min));
+        BUDGET.max(BUDGET_FRACTION * run.unwrap_or(0.0))
+    }
+
+    fn left(&mut self) -> f64 {
+        self.budget() - self.bench.spent()
+    }
+
+    /// One more trial of a candidate, for `limit` [s] at most.
+    fn attempt(&mut self, i: usize, setting: f64, limit: f64) {
+        let aim = if self.target.deadline.is_some() { Aim::Steps } else { Aim::Rows };
+        let candidate = &mut self.candidates[i];
+        let trial = self.bench.trial(&candidate.method, setting, aim, limit);
+        if trial.end == End::GivenUp && trial.reached <= 0.0 {
+            let why = format!("it makes no way in {}", duration(trial.seconds));
+            candidate.out.get_or_insert(why);
+        }
+        candidate.take(Tried::new(setting, trial));
+        if let (Some(deadline), Some(slowest)) = (self.target.deadline, candidate.slowest()) {
+            let steps = (0.5 * deadline / slowest).floor();
+            candidate.finest = deadline / steps.max(1.0);
+            if steps < 1.0 {
+                let why = format!(
+                    "its slowest step takes {}, and less than twice that is left for it",
+                    duration(slowest)
+                );
+                candidate.out.get_or_insert(why);
+            }
+        }
+        self.compare(i, setting);
+    }
+
+    /// Takes the distances of a new trial from the others, and the errors of all from the best.
+    fn compare(&mut self, i: usize, setting: f64) {
+        let is_new = |t: &Tried| t.setting.to_bits() == setting.to_bits();
+        let Some(k) = self.candidates[i].trials.iter().position(is_new) else { return };
+        if self.candidates[i].trials[k].trial.end != End::Done {
+            // what was given up before may have been the best
+            self.rate();
+            return;
+        }
+        for (j, l) in self.done() {
+            if (j, l) == (i, k) {
+                continue;
+            }
+            let [a, b] = [(i, k), (j, l)].map(|(j, l)| &self.candidates[j].trials[l].trial);
+            let d = self.distance(&a.rows, &b.rows);
+            let method = self.candidates[i].method;
+            let finer = |fine: &Trial, coarse: &Trial| error_of_finer(&method, fine, coarse, d);
+            // bounds of both, from above and from below
+            let (most, least) = if i != j {
+                // two rules have different errors: where they agree, both are small
+                let is_same = method.integrator == self.candidates[j].method.integrator;
+                let of = |is_held: bool| if is_held && !is_same { d } else { f64::INFINITY };
+                let is_held = [self.candidates[i].is_held(a), self.candidates[j].is_held(b)];
+                (is_held.map(of), [0.0; 2])
+            } else {
+                let own = if k > l { finer(a, b) } else { finer(b, a) };
+                let least = if own.is_finite() { d } else { 0.0 };
+                let none = f64::INFINITY;
+                if k > l { ([own, none], [0.0, least]) } else { ([none, own], [least, 0.0]) }
+            };
+            for (n, (j, l)) in [(i, k), (j, l)].into_iter().enumerate() {
+                let tried = &mut self.candidates[j].trials[l];
+                tried.most = tried.most.min(most[n]);
+                tried.least = tried.least.max(least[n]);
+            }
+        }
+        self.rate();
+    }
+
+    /// Completed trials: candidate and place among its trials.
+    fn done(&self) -> Vec<(usize, usize)> {
+        let of = |(j, c): (usize, &Candidate)| {
+            let is_done = |(l, t): (usize, &Tried)| (t.trial.end == End::Done).then_some((j, l));
+            c.trials.iter().enumerate().filter_map(is_done).collect::<Vec<_>>()
+        };
+        self.candidates.iter().enumerate().flat_map(of).collect()
+    }
+
+    /// Outputs that agree to the last digit differ by it.
+    fn distance(&self, a: &super::trial::Rows, b: &super::trial::Rows) -> f64 {
+        let d = self.bench.distance(a, b);
+        if d.is_nan() { f64::INFINITY } else { d.max(f64::EPSILON) }
+    }
+
+    /// Errors of all trials: their distance from the best, and its own error.
+    fn rate(&mut self) {
+        let done = self.done();
+        let own = |&(j, l): &(usize, usize)| self.candidates[j].trials[l].own();
+        let best = done.iter().min_by(|a, b| own(a).total_cmp(&own(b))).filter(|t| own(t) < 1.0);
+        let best = best.map(|t| Best { candidate: t.0, trial: t.1, own: own(t) });
+        self.best = best;
+        let Some(best) = best else { return };
+        for (j, l) in done {
+            let reference = &self.candidates[best.candidate].trials[best.trial].trial.rows;
+            let is_best = (j, l) == (best.candidate, best.trial);
+            let rows = &self.candidates[j].trials[l].trial.rows;
+            let apart = if is_best { 0.0 } else { self.distance(reference, rows) };
+            self.candidates[j].trials[l].error = Some(apart + best.own);
+        }
+    }
+
+    /// CPU time of the cheapest trial that reached the required error [s]: as measured, since a prediction may be too low.
+    fn cheapest(&self) -> Option<f64> {
+        let left = self.candidates.iter().filter(|c| c.out.is_none());
+        left.filter_map(|c| c.seen(self.target.error)).map(|p| p.seconds).reduce(f64::min)
+    }
+
+    /// What is known of a candidate that is not out.
+    fn place(&self, i: usize) -> Option<Place> {
+        let candidate = &self.candidates[i];
+        let p = candidate.predict(self.target).filter(|_| candidate.out.is_none())?;
+        let seen = candidate.seen(self.target.error);
+        let stops = |t: &Tried| matches!(t.trial.end, End::Stopped(_)) && t.setting <= p.setting;
+        let is_better = |seen: &Point| {
+            let is_untried = candidate.has_missed && !candidate.has_tried(p.setting);
+            is_untried || seen.seconds <= p.seconds || candidate.trials.iter().any(stops)
+        };
+        let prediction = seen.filter(is_better).map_or(p, |point| Prediction::of_trial(&point));
+        let error = if seen.is_some() { prediction.error } else { candidate.expected(p.setting) };
+        let prediction = Prediction { error, ..prediction };
+        Some(Place { candidate: i, prediction, reaches: seen.is_some(), is_timed: false })
+    }
+
+    /// Tries those that are close to the cheapest with their own settings, and times them once more, interleaved, within the budget.
+    fn retime(&mut self) -> Vec<(usize, f64)> {
+        while let Some((i, setting, limit)) = self.untried() {
+            self.attempt(i, setting, limit);
+            let is_seen = |t: &&Tried| t.setting.to_bits() == setting.to_bits();
+            let candidate = &mut self.candidates[i];
+            let error = candidate.trials.iter().find(is_seen).and_then(|t| t.error);
+            candidate.has_missed |= error.is_none_or(|error| error > self.target.error);
+        }
+        let mut timed: Vec<(usize, f64)> = Vec::new();
+        for _ in 0..2 {
+            for Place { candidate: i, prediction: p, .. } in self.finalists() {
+                let (left, method) = (self.left(), self.candidates[i].method);
+                if p.seconds >= left || self.target.deadline.is_some() {
+                    continue;
+                }
+                let trial: Trial = self.bench.trial(&method, p.setting, Aim::Time, left);
+                match timed.iter_mut().find(|(of, _)| *of == i) {
+                    _ if trial.end != End::Done => {}
+                    Some((_, least)) => *least = least.min(trial.seconds),
+                    None => timed.push((i, trial.seconds)),
+                }
+            }
+        }
+        timed
+    }
+
+    /// A finalist that has not run with its setting, if there is time for it: the predicted one, or halfway to what was seen to reach the
+    /// required error where that was missed.
+    fn untried(&mut self) -> Option<(usize, f64, f64)> {
+        let left = self.left();
+        let of = |place: &Place| {
+            let candidate = &self.candidates[place.candidate];
+            let p = candidate.predict(self.target)?;
+            let seen = candidate.seen(self.target.error).map(|seen| seen.setting);
+            let setting = match seen {
+                Some(seen) if candidate.has_missed => candidate.fit((p.setting * seen).sqrt()),
+                _ => p.setting,
+            };
+            // the next finer whole number of steps is that of the last trial
+            let is_known = candidate.has_tried(setting)
+                || candidate.is_settled(self.target) && seen.is_some() && candidate.has_missed;
+            let is_new = !is_known && p.seconds < left && candidate.may_continue();
+            is_new.then_some((place.candidate, setting, left))
+        };
+        self.finalists().iter().find_map(of)
+    }
+
+    /// Those within [`GIVE_UP`] of the cheapest.
+    fn finalists(&self) -> Vec<Place> {
+        let mut places = self.ranked(&[]);
+        let Some(first) = places.first().copied() else { return places };
+        let limit = GIVE_UP * first.prediction.seconds;
+        places.retain(|p| p.reaches == first.reaches && p.prediction.seconds <= limit);
+        places
+    }
+
+    /// Those that reach the required error by their times, then the others by their times, or by their errors where a deadline gives the
+    /// time; at last those that are out and completed a trial.
+    fn ranked(&self, timed: &[(usize, f64)]) -> Vec<Place> {
+        let mut places: Vec<Place> =
+            (0..self.candidates.len()).filter_map(|i| self.place(i)).collect();
+        for place in &mut places {
+            if let Some((_, seconds)) = timed.iter().find(|(i, _)| *i == place.candidate) {
+                place.prediction.seconds = *seconds;
+                place.is_timed = true;
+            }
+        }
+        let has_deadline = self.target.deadline.is_some();
+        let key = |p: &Place| match p.reaches || !has_deadline {
+            true => p.prediction.seconds,
+            false => p.prediction.error,
+        };
+        places.sort_by(|a, b| b.reaches.cmp(&a.reaches).then_with(|| key(a).total_cmp(&key(b))));
+        let out = |(i, c): (usize, &Candidate)| {
+            let points = c.points();
+            let point =
+                points.last().filter(|_| c.out.is_some() && c.finest <= points[0].setting)?;
+            let prediction = Prediction::of_trial(point);
+            Some(Place { candidate: i, prediction, reaches: false, is_timed: false })
+        };
+        let mut rest: Vec<Place> = self.candidates.iter().enumerate().filter_map(out).collect();
+        rest.sort_by(|a, b| a.prediction.error.total_cmp(&b.prediction.error));
+        places.extend(rest);
+        places
+    }
+}
+
+/// CPU time that a trial is expected to take; 0 for the first [s].
+fn takes(candidate: &Candidate, setting: f64) -> f64 {
+    let Some(last) = candidate.trials.last() else { return 0.0 };
+    let ratio = (last.setting / setting).powf(candidate.law().cost);
+    candidate.whole_seconds().unwrap_or(0.0) * ratio
+}
