@@ -118,8 +118,9 @@ impl<T: Real> Rule<T> {
         (dq, v + h * a_aux, a_next)
     }
 
-    /// The prediction of a whole step whose accelerations alone would carry it far, as those of a stiff effect that is let go: at the
-    /// rates that it begins with. It is another point of the same rule. `a` is in units of 1 / `unit`.
+    /// Takes the share of the accelerations out of a prediction, so that it goes at the rates that the step begins with. It is another
+    /// point of the same rule. For a step that [`is_far`] says accelerations alone would carry far, as those of a stiff effect that is
+    /// let go. `a` is in units of 1 / `unit`.
     pub fn hold_back(&self, unit: T, [dq, v, a]: [&mut [T]; 3], a_aux: &[T]) {
         let half_square = self.dt * self.dt * T::HALF;
         for (i, dq) in dq.iter_mut().enumerate() {

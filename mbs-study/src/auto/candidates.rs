@@ -179,8 +179,10 @@ impl Candidate {
             _ => self.coarsest,
         };
         let p = predict(self.law(), &points, target.aim(), coarsest)?;
-        let setting = self.fit(p.setting);
-        if setting <= p.setting || self.finest <= 0.0 {
+        // two trials finer than the last is as far as a law is taken
+        let furthest = SMALL * SMALL * points.last()?.setting;
+        let setting = self.fit(p.setting.max(furthest));
+        if setting <= p.setting || (self.finest <= 0.0 && p.setting >= furthest) {
             return Some(Prediction { setting, ..p });
         }
         Some(extended(points.last()?, self.law(), setting))

@@ -65,6 +65,8 @@ pub(crate) enum Basis {
     Between,
     /// The law beyond the trials: their nearest error over the required one.
     Beyond(f64),
+    /// The order of the method alone.
+    Theory,
 }
 
 /// A setting, and what is expected of it.

@@ -4,9 +4,10 @@
 //! tried next, those without a trial first, until half of no prediction is below the cheapest that reaches the required error.
 
 use super::candidates::{Candidate, Next, Tried};
-use super::estimate::{Point, Prediction, SMALL, error_of_finer};
+use super::estimate::{Basis, Point, Prediction, SMALL, error_of_finer};
 use super::goal::Target;
 use super::trial::{Aim, Bench, End, Trial};
+use crate::compare::method::Control;
 use mbs_scene::format::duration;
 
 /// CPU time of the pilot [s]: what a user does not wait for.
@@ -43,6 +44,8 @@ pub(crate) struct Search<'a> {
     pub(crate) best: Option<Best>,
     /// The budget ended it.
     pub(crate) is_cut: bool,
+    /// CPU time that is kept for second trials [s].
+    reserve: f64,
 }
 
 impl<'a> Search<'a> {
@@ -51,7 +54,8 @@ impl<'a> Search<'a> {
         candidates: Vec<Candidate>,
         target: Target,
     ) -> Self {
-        Self { bench, candidates, target, best: None, is_cut: false }
+        let reserve = 0.5 * (BUDGET - bench.spent());
+        Self { bench, candidates, target, best: None, is_cut: false, reserve }
     }
 
     /// Where no candidate got to the end in the time: instants that the fastest passes in half of it.
@@ -147,8 +151,8 @@ impl<'a> Search<'a> {
         pick
     }
 
-    /// Before any reaches the required error, each first trial has twice its share of half of the budget, and twice the time of the fastest
-    /// trial, at most [s]: the other half is for second trials, without which no error is known (iltis-jump at 1e-2).
+    /// Before any reaches the required error, each first trial has twice its share of the budget without the reserve, and twice the time of the
+    /// fastest trial, at most [s]: the reserve is for second trials, without which no error is known (iltis-jump at 1e-2).
     fn patience(&self, i: usize, left: f64) -> f64 {
         let is_untried = |c: &&Candidate| c.out.is_none() && c.trials.is_empty();
         if !is_untried(&&self.candidates[i]) {
@@ -158,7 +162,7 @@ impl<'a> Search<'a> {
         let untried = self.candidates.iter().filter(is_untried).count() as f64;
         let done = self.candidates.iter().flat_map(Candidate::done).map(|t| t.trial.seconds);
         let fastest = done.fold(f64::INFINITY, f64::min);
-        (2.0 / (untried + 1.0) * (left - 0.5 * self.budget())).min(2.0 * fastest)
+        (2.0 / (untried + 1.0) * (left - self.reserve)).min(2.0 * fastest)
     }
 
     /// CPU time that a candidate is expected to take for the required error, where it is known; 0 before its first trial [s].
@@ -175,6 +179,27 @@ impl<'a> Search<'a> {
         let run = (0..self.candidates.len()).filter(tried).map(|i| self.promise(i));
         let run = self.cheapest().or_else(|| run.reduce(f64::min));
         BUDGET.max(BUDGET_FRACTION * run.unwrap_or(0.0))
+    }
+
+    /// Where no trial came near the required error: a tolerance of a tenth of it, with the integrator of its own control that takes least by its
+    /// order. A law so far beyond its trials asks for any setting (iltis-links at 1e-6, on a machine that is busy).
+    pub(crate) fn by_theory(&self, places: &[Place]) -> Option<Place> {
+        let is_near = |p: &Place| p.reaches || p.prediction.error <= self.target.error / SMALL;
+        if self.target.deadline.is_some() || places.first().is_some_and(is_near) {
+            return None;
+        }
+        let setting = SMALL * self.target.error;
+        let time = |i: &usize| takes(&self.candidates[*i], setting);
+        let is_able = |i: &usize| {
+            let candidate = &self.candidates[*i];
+            let is_own = candidate.method.control == Control::Own;
+            is_own && candidate.out.is_none() && candidate.whole_seconds().is_some()
+        };
+        let able = (0..self.candidates.len()).filter(is_able);
+        let i = able.min_by(|a, b| time(a).total_cmp(&time(b)))?;
+        let error = self.candidates[i].expected(setting);
+        let prediction = Prediction { setting, error, seconds: time(&i), basis: Basis::Theory };
+        Some(Place { candidate: i, prediction, reaches: false, is_timed: false })
     }
 
     fn left(&mut self) -> f64 {

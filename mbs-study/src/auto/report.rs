@@ -25,7 +25,7 @@ pub(super) fn evidence(
             setting: Some(p.setting),
             seconds: Some(p.seconds),
             over_chosen: chosen.map(|seconds| p.seconds / seconds),
-            error: Some(p.error),
+            error: Some(p.error).filter(|error| error.is_finite()),
             basis: basis(place) + missed,
             out: None,
             ..entry(&search.candidates[place.candidate])
@@ -91,6 +91,7 @@ fn basis(place: &Place) -> String {
         (true, _) => "timed with this setting".to_owned(),
         (_, Basis::Tried) => "a trial with this setting".to_owned(),
         (_, Basis::Between) => "between two trials".to_owned(),
+        (_, Basis::Theory) => "by its order alone: no trial came near the error".to_owned(),
         (_, Basis::Beyond(factor)) if factor < 1.0 => {
             format!("beyond its trials, whose least error is {:.1} times smaller", 1.0 / factor)
         }
