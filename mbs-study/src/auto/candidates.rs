@@ -179,7 +179,7 @@ impl Candidate {
             _ => self.coarsest,
         };
         let p = predict(self.law(), &points, target.aim(), coarsest)?;
-        // two trials finer than the last is as far as a law is taken
+        // a law is taken two trials beyond the last
         let furthest = SMALL * SMALL * points.last()?.setting;
         let setting = self.fit(p.setting.max(furthest));
         if setting <= p.setting || (self.finest <= 0.0 && p.setting >= furthest) {
