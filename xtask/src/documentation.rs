@@ -9,7 +9,7 @@ use crate::summary::Outcome;
 use std::process::Stdio;
 
 /// Units of one word; rustdoc does not look at `[N/m]`.
-const UNITS: [&str; 10] = ["m", "m²", "s", "kg", "N", "J", "W", "Hz", "rad", "Pa"];
+const UNITS: [&str; 11] = ["m", "m²", "s", "kg", "N", "J", "W", "Hz", "rad", "Pa", "KiB"];
 
 /// Builds the documentation of the workspace.
 ///
