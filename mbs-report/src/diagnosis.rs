@@ -4,8 +4,7 @@ use crate::report::{Report, Section};
 use core::fmt::Write;
 use mbs::record::Provenance;
 use mbs_core::scene::{Entry, Scene};
-use mbs_scene::format::significant;
-use mbs_scene::format::{counted, few, size};
+use mbs_scene::format::{counted, few, significant, size};
 use mbs_study::doctor::{Checkup, Finding, labels};
 use mbs_study::redundancy::UNCERTAIN;
 

@@ -3,8 +3,7 @@
 use crate::report::{Report, Section};
 use mbs::record::{PilotReport, Provenance};
 use mbs::words::stop_text;
-use mbs_scene::format::significant;
-use mbs_scene::format::{duration, few};
+use mbs_scene::format::{duration, few, significant};
 use mbs_study::explain::{
     ControllerStep, EffectCost, EffectCosts, Explanation, LargestStep, Relative, SearchEnd, Sizes,
 };

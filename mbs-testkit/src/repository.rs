@@ -1,5 +1,6 @@
 //! Scene files of the repository.
 
+use mbs_core::Real;
 use mbs_core::scene::Scene;
 use mbs_scene::SceneFile;
 use std::path::{Path, PathBuf};
@@ -10,13 +11,9 @@ pub fn path(name: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../scenes").join(format!("{name}.toml"))
 }
 
-/// A scene of `scenes`.
-///
-/// # Panics
-/// Where it is not there.
-#[must_use]
-pub fn scene(name: &str) -> Scene<f64> {
-    read(&text_of(&path(name)), name)
+/// The text of a scene of `scenes`, read when it is asked for: a package holds no file from outside its folder.
+pub(crate) fn scene_text(name: &str) -> String {
+    text_of(&path(name))
 }
 
 /// The text of a scene of `mbs/tests/field`, to be changed.
@@ -41,6 +38,11 @@ pub fn field(name: &str) -> Scene<f64> {
 /// With the fault of a text that is no scene.
 #[must_use]
 pub fn read(text: &str, name: &str) -> Scene<f64> {
+    read_in(text, name)
+}
+
+/// A scene from its text, in numbers of a kind.
+pub(crate) fn read_in<T: Real>(text: &str, name: &str) -> Scene<T> {
     let document = SceneFile::parse(text, name).unwrap_or_else(|e| panic!("{}", e.render()));
     document.scene().unwrap_or_else(|e| panic!("{}\n{text}", e.render()))
 }

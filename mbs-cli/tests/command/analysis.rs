@@ -20,11 +20,8 @@ fn every_scene_has_an_equilibrium_that_is_told_in_one_object() {
 fn a_double_pendulum_hangs_and_its_first_joint_carries_all() {
     let value = json(&run("equilibrium", &[&scene("double-pendulum"), "--json"]));
     assert_eq!(value["stable"], true);
-    let weight: f64 = mbs_testkit::repository::scene("double-pendulum")
-        .bodies
-        .iter()
-        .map(|b| b.mass * 9.81)
-        .sum();
+    let weight: f64 =
+        mbs_testkit::file("double-pendulum").bodies.iter().map(|b| b.mass * 9.81).sum();
     let reaction = value["reactions"].as_object().expect("there are joints").values();
     let most = reaction.filter_map(|r| r[1].as_f64()).fold(0.0, f64::max);
     assert!((most - weight).abs() < 1e-9 * weight, "{value}");

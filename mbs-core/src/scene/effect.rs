@@ -69,7 +69,7 @@ pub struct PolynomialPiece<T> {
 
 impl<T> PolynomialPiece<T> {
     /// Most coefficients of a piece: degree 7.
-    pub const MAX_COEFFICIENTS: usize = 8;
+    pub const MAX_COEFFICIENTS: usize = crate::laws::polynomial::MAX_COEFFICIENTS;
 }
 
 pub use crate::laws::calspan::Coefficients as CalspanCoefficients;

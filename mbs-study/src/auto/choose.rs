@@ -8,13 +8,9 @@ use super::structure::{self, Structure};
 use super::{check, report};
 use crate::compare::ladder::Instants;
 use crate::compare::method::{Control, MethodCase};
-use mbs::Names;
-use mbs::inside::AssembledScene;
-use mbs::inside::SceneWork;
+use mbs::inside::{AssembledScene, SceneWork};
 use mbs::record::PilotReport;
-use mbs::{InSpace, Plane};
-use mbs::{IntegratorKind, Precision};
-use mbs::{Method, Settings};
+use mbs::{InSpace, IntegratorKind, Method, Names, Plane, Precision, Settings};
 use mbs_core::Real;
 use mbs_core::scene::Scene;
 

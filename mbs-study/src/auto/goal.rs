@@ -1,8 +1,7 @@
 //! What is required of a run: an error, a deadline, or both; and why that may be refused.
 
 use core::fmt::{self, Display, Formatter};
-use mbs::Method;
-use mbs::Precision;
+use mbs::{Method, Precision};
 
 /// Error that is aimed at, relative to the required one [-]: predictions may be off by as much.
 const AIM: f64 = 0.7;

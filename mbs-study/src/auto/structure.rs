@@ -1,10 +1,8 @@
 //! What a scene's structure says before anything is run: who cannot run it, and what makes it dear.
 
 use crate::compare::method::MethodCase;
-use mbs::Names;
-use mbs::StopError;
 use mbs::inside::AssembledScene;
-use mbs::{InSpace, Plane};
+use mbs::{InSpace, Names, Plane, StopError};
 use mbs_core::Real;
 use mbs_core::effects::Value;
 use mbs_core::scene::{BodyId, Effect, Scene};

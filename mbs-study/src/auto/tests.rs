@@ -7,10 +7,8 @@ use super::goal::{Goal, Target};
 use super::pilot::{BUDGET, BUDGET_FRACTION, Search};
 use super::trial::{Aim, Bench, End, Rows, Trial};
 use crate::compare::method::{Control, MethodCase};
-use mbs::FormulationKind;
-use mbs::Precision;
 use mbs::record::RunError;
-use mbs::{Method, Settings};
+use mbs::{FormulationKind, Method, Precision, Settings};
 
 /// Longest step [s].
 const LONGEST: f64 = 0.05;

@@ -5,9 +5,7 @@ use super::ladder::{Instants, count, work};
 use super::pass::Scenes;
 use super::reference::Known;
 use crate::compare::results::{Cell, ConvergenceMap, Status};
-use mbs::FormulationKind;
-use mbs::Precision;
-use mbs::{Method, Settings};
+use mbs::{FormulationKind, Method, Precision, Settings};
 
 /// Penalties of a map [-]: two decades apart.
 pub(super) const PENALTIES: [f64; 7] = [1e3, 1e5, 1e7, 1e9, 1e11, 1e13, 1e15];

@@ -1,8 +1,6 @@
 //! The methods that are compared: formulation, integrator, what chooses the steps, precision.
 
-use mbs::FormulationKind;
-use mbs::Method;
-use mbs::{IntegratorKind, Precision};
+use mbs::{FormulationKind, IntegratorKind, Method, Precision};
 
 /// What chooses the length of the steps.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

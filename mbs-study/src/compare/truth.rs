@@ -6,9 +6,7 @@ use super::reference::{Known, Pair, Rows};
 use super::store::Store;
 use super::{CompareError, Study, course::Course, table};
 use crate::compare::results::Status;
-use mbs::FormulationKind;
-use mbs::Settings;
-use mbs::{IntegratorKind, Precision};
+use mbs::{FormulationKind, IntegratorKind, Precision, Settings};
 use serde_json::{Value, json};
 
 /// Time limit of a run of the reference, relative to that of others [-]. Chosen, not tuned.

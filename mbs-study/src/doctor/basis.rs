@@ -1,8 +1,7 @@
 //! What the examinations share: how much may be looked at, the start, and why a run stopped.
 
-use mbs::Names;
-use mbs::StopError;
 use mbs::inside::AssembledScene;
+use mbs::{Names, StopError};
 use mbs_core::model::State;
 use mbs_core::natural::NaturalModel;
 use mbs_core::rigid::RigidMotion;

@@ -1,11 +1,8 @@
 //! Which formulations take a step of a scene with dependent equations: tried, not predicted.
 
 use super::finding::{Finding, Severity, Topic};
-use mbs::FormulationKind;
-use mbs::Settings;
-use mbs::StopError;
 use mbs::typed::Simulation;
-use mbs::{IntegratorKind, StepRule};
+use mbs::{FormulationKind, IntegratorKind, Settings, StepRule, StopError};
 use mbs_core::scene::Scene;
 
 /// A first step by one formulation.

@@ -3,8 +3,7 @@
 use super::finding::{Finding, Severity, Topic, body_names, joint_names};
 use crate::redundancy::{Diagnosis, JointChange, Nature, Remedy, Set};
 use mbs_core::scene::Scene;
-use mbs_scene::format::counted;
-use mbs_scene::format::few;
+use mbs_scene::format::{counted, few};
 
 /// One finding per set.
 pub(super) fn findings(

@@ -3,8 +3,7 @@
 use super::finding::{Finding, Severity, Topic, body_names};
 use crate::redundancy::{Diagnosis, Massless, UNCERTAIN};
 use mbs_core::scene::{BodyId, Scene};
-use mbs_scene::format::counted;
-use mbs_scene::format::few;
+use mbs_scene::format::{counted, few};
 
 pub(super) fn findings(
     scene: &Scene<f64>,

@@ -8,8 +8,7 @@ use mbs::inside::rank;
 use mbs_core::Cliques;
 use mbs_core::algebra::rotation_vector;
 use mbs_core::scene::{BodyId, Entry, InitialTarget, Motion, Scene};
-use mbs_scene::format::counted;
-use mbs_scene::format::few;
+use mbs_scene::format::{counted, few};
 
 /// What assembly did.
 #[derive(Debug, Clone, PartialEq)]

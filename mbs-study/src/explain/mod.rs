@@ -18,14 +18,9 @@ pub use explanation::{
 };
 pub use trials::Effort;
 
-use mbs::Names;
-use mbs::PrecisionError;
-use mbs::Settings;
-use mbs::StepRule;
-use mbs::StopError;
 use mbs::inside::{ReadScene, SceneWork};
 use mbs::typed::Simulation;
-use mbs::{InSpace, Plane};
+use mbs::{InSpace, Names, Plane, PrecisionError, Settings, StepRule, StopError};
 use mbs_core::Real;
 use mbs_core::scene::Scene;
 use mbs_scene::SceneFile;

@@ -2,9 +2,8 @@
 
 use super::explanation::{LargestStep, SearchEnd};
 use super::trials::outcome;
-use mbs::Settings;
 use mbs::inside::SAME_LENGTH;
-use mbs::{InSpace, Plane};
+use mbs::{InSpace, Plane, Settings};
 use mbs_core::Real;
 use mbs_core::scene::Scene;
 

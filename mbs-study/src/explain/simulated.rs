@@ -3,13 +3,8 @@
 use super::explanation::{
     ControllerStep, GuideEntry, JointsByKind, Relative, Simulated, Sizes, ThinRod,
 };
-use mbs::FormulationKind;
-use mbs::IntegratorKind;
-use mbs::Names;
-use mbs::Settings;
-use mbs::StopError;
 use mbs::typed::Simulation;
-use mbs::{InSpace, Plane};
+use mbs::{FormulationKind, InSpace, IntegratorKind, Names, Plane, Settings, StopError};
 use mbs_core::Real;
 use mbs_core::natural::NaturalModel;
 use mbs_core::scene::{BodyId, Dimension, Inertia, JointKind, Motion, Scene};

@@ -1,9 +1,8 @@
 //! CPU time per step, the least of several interleaved repeats.
 
 use cpu_time::ThreadTime;
-use mbs::Settings;
 use mbs::typed::Simulation;
-use mbs::{InSpace, Plane};
+use mbs::{InSpace, Plane, Settings};
 use mbs_core::Real;
 use mbs_core::scene::Scene;
 

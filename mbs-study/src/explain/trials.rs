@@ -1,7 +1,6 @@
 //! Runs of a scene for its prices: how much may be measured, and what a run without some effects gives.
 
-use mbs::Settings;
-use mbs::{InSpace, Plane};
+use mbs::{InSpace, Plane, Settings};
 use mbs_core::Real;
 use mbs_core::scene::Scene;
 

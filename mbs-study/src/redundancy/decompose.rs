@@ -11,8 +11,7 @@
 
 use super::linkage::Jacobian;
 use mbs_core::cluster::root;
-use mbs_linear::Matrix;
-use mbs_linear::singular_values;
+use mbs_linear::{Matrix, singular_values};
 
 /// Largest entry of P that is zero [-]: what rounding of σ > 1e-9 leaves.
 pub(crate) const ZERO: f64 = 1e-7;

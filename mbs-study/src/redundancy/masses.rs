@@ -13,8 +13,7 @@ use super::parts::Part;
 use super::rank::Rank;
 use mbs_core::cluster::mass_properties;
 use mbs_core::scene::{Inertia, Scene};
-use mbs_linear::Matrix;
-use mbs_linear::Svd;
+use mbs_linear::{Matrix, Svd};
 
 /// A motion without kinetic energy.
 #[derive(Debug, Clone, PartialEq)]

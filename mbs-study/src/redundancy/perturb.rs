@@ -10,8 +10,7 @@ use super::parts::Part;
 use super::rank::Rank;
 use super::residual::residuals;
 use mbs_core::rigid::RigidMotion;
-use mbs_linear::Matrix;
-use mbs_linear::Svd;
+use mbs_linear::{Matrix, Svd};
 
 /// Where a dependency holds.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -5,8 +5,7 @@
 //! null(Jᵀ): the last m − r columns of U (forces that hold themselves);   null(J): the last n − r of V (motions)
 //! ```
 
-use mbs_linear::Matrix;
-use mbs_linear::Svd;
+use mbs_linear::{Matrix, Svd};
 
 /// Ratio of neighbouring singular values below which a rank is uncertain [-]. Chosen, not tuned.
 pub const UNCERTAIN: f64 = 1e3;

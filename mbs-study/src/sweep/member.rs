@@ -2,11 +2,8 @@
 
 use core::time::Duration;
 use cpu_time::ThreadTime;
-use mbs::Outcome;
-use mbs::inside::Keep;
-use mbs::inside::run_keeping;
-use mbs::inside::{ReadScene, SceneWork};
-use mbs::{Method, Settings};
+use mbs::inside::{Keep, ReadScene, SceneWork, run_keeping};
+use mbs::{Method, Outcome, Settings};
 use mbs_core::Real;
 use mbs_core::scene::Scene;
 use mbs_scene::{SceneFile, SweepFile};

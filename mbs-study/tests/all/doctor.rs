@@ -6,7 +6,7 @@ use mbs::scene_file::SceneFile;
 use mbs::typed::Simulation;
 use mbs::{Method, Settings};
 use mbs_study::doctor::{Checkup, Effort, Severity, examine};
-use mbs_testkit::{random, repository, retell};
+use mbs_testkit::{random, retell};
 
 /// Few positions along the motion.
 const LITTLE: Effort = Effort { positions: 20, seconds: 60.0 };
@@ -59,7 +59,7 @@ const SCENES: [&str; 12] = [
 fn both_levels_count_the_same_freedoms_and_natural_coordinates_hide_redundancies_only() {
     let still = Effort { positions: 0, ..LITTLE };
     for name in SCENES {
-        let c = checkup(&repository::scene(name), &still);
+        let c = checkup(&mbs_testkit::file(name), &still);
         let [rows, columns, rank] = c.joint_level.sizes;
         let [coordinates, constraints, natural_rank] = c.natural.expect("it starts");
         assert_eq!(columns - rank, coordinates - natural_rank, "{name}");
@@ -82,7 +82,7 @@ fn reactions_are_unique_where_the_balance_of_the_bodies_says_so() {
         }
     }
     for name in SCENES {
-        let scene = repository::scene(name);
+        let scene = mbs_testkit::file(name);
         match scene.dimension {
             Dimension::Planar => compare::<2>(&scene),
             Dimension::Spatial => compare::<3>(&scene),
@@ -118,7 +118,7 @@ fn sound_random_mechanisms_have_no_finding_about_their_joints() {
 
 #[test]
 fn the_spatial_four_bar_is_told_with_all_its_joints_its_cure_and_who_runs_it() {
-    let scene = repository::scene("spatial-four-bar");
+    let scene = mbs_testkit::file("spatial-four-bar");
     let c = checkup(&scene, &LITTLE);
     let told = finding(&c, "dependent-set");
     assert_eq!((told.joints.len(), told.severity), (4, Severity::Doubt));
@@ -155,7 +155,7 @@ fn the_spatial_four_bar_is_told_with_all_its_joints_its_cure_and_who_runs_it() {
 
 #[test]
 fn a_checkup_does_not_depend_on_axes_or_the_order_of_bodies() {
-    let scene = repository::scene("spatial-four-bar");
+    let scene = mbs_testkit::file("spatial-four-bar");
     let c = checkup(&scene, &LITTLE);
     for other in [retell::turn_scene(&scene), retell::reorder(&scene)] {
         let o = checkup(&other, &LITTLE);
@@ -174,7 +174,7 @@ fn a_checkup_does_not_depend_on_axes_or_the_order_of_bodies() {
 #[test]
 fn four_bars_in_a_chain_pass_their_singular_position_where_it_is() {
     // Two four-bars of equal bars are a pendulum; they stand singular where all bars lie in a line.
-    let scene = repository::scene("two-four-bars");
+    let scene = mbs_testkit::file("two-four-bars");
     let c = checkup(&scene, &Effort { positions: 400, seconds: 60.0 });
     let told = finding(&c, "passes-singular-position");
     let near = &c.motion.as_ref().expect("watched").nearest[0];
@@ -201,7 +201,7 @@ fn motions_without_mass_and_unlike_masses_are_told() {
     assert_eq!(finding(&c, "massless-motion").bodies, [0]);
     let held = pendulum("[0.0, -9.81]", 1.0, "0.0", "");
     assert!(!codes(&checkup(&held, &LITTLE)).contains(&"massless-motion"), "its mass moves");
-    let mut light = repository::scene("double-pendulum");
+    let mut light = mbs_testkit::file("double-pendulum");
     light.bodies[1].mass *= 1e-8;
     let mut c = checkup(&light, &LITTLE);
     assert!(codes(&c).contains(&"mass-ratio"), "{:?}", codes(&c));
@@ -223,7 +223,7 @@ fn units_are_doubted_where_the_evidence_is_strong() {
     let c = checkup(&pendulum("[0.0, -9.81]", 1.0, "0.1", degrees), &still);
     assert!(finding(&c, "angle-unit").remedy.contains("0.785"), "{:?}", c.findings);
     for name in SCENES {
-        let c = checkup(&repository::scene(name), &still);
+        let c = checkup(&mbs_testkit::file(name), &still);
         assert!(c.findings.iter().all(|f| f.topic != mbs_study::doctor::Topic::Units), "{name}");
     }
 }

@@ -7,7 +7,7 @@ use mbs_core::scene::Scene;
 use mbs_report::explanation as explanation_text;
 use mbs_study::explain::{EffectCost, Explanation, SearchEnd};
 use mbs_study::explain::{Effort, explain};
-use mbs_testkit::repository::{self, path};
+use mbs_testkit::repository::path;
 
 /// Little is timed; everything else is measured in full.
 const LITTLE: Effort = Effort { timed_steps: 20, repeats: 2, seconds: 60.0 };
@@ -103,7 +103,7 @@ axis = [0.0, 1.0, 0.0]
     assert_eq!(rods, [("on-ball", false), ("on-hinge", true)]);
     // Two swings of the ball and one turn of the hinge; relative coordinates carry the spin too.
     assert_eq!((simulated.dof, simulated.relative.map(|r| r.sizes.dof)), (Some(3), Some(4)));
-    let planar = explained(&repository::scene("guided-four-bar")).0;
+    let planar = explained(&mbs_testkit::file("guided-four-bar")).0;
     assert!(planar.simulated.rods.is_empty(), "the plane has no such spin");
 }
 

@@ -1,7 +1,7 @@
 //! Checks of what an entry refers to: its bodies and its joint.
 
 use super::vector::Place;
-use crate::scene::{BodyId, JointId, SceneError, SceneFault, Surroundings};
+use crate::scene::{BodyId, Joint, JointId, SceneError, SceneFault, Surroundings};
 
 /// The entry's two bodies exist and differ.
 pub(crate) fn check_pair<T>(
@@ -32,15 +32,28 @@ pub(crate) fn known_body<T>(
     Err(SceneError { entry: place.entry, field: "body", fault })
 }
 
+/// The joint that an entry is of.
+fn joint<'a, T>(
+    among: &Surroundings<'a, T>,
+    joint: JointId,
+    place: Place,
+) -> Result<&'a Joint<T>, SceneError> {
+    match among.joints.get(joint.index()) {
+        Some(joint) => Ok(joint),
+        None => Err(SceneError {
+            entry: place.entry,
+            field: "joint",
+            fault: SceneFault::UnknownReference,
+        }),
+    }
+}
+
 pub(super) fn single_rotation<T>(
     among: Surroundings<'_, T>,
     joint: JointId,
     place: Place,
 ) -> Result<(), SceneError> {
-    let Some(joint) = among.joints.get(joint.index()) else {
-        return place.fault("joint", SceneFault::UnknownReference);
-    };
-    match joint.kind.n_rotations(among.dimension) {
+    match self::joint(&among, joint, place)?.kind.n_rotations(among.dimension) {
         1 => Ok(()),
         n => place.fault("joint", SceneFault::NoSingleRotation(n)),
     }
@@ -51,10 +64,7 @@ pub(crate) fn single_coordinate<T>(
     joint: JointId,
     place: Place,
 ) -> Result<(), SceneError> {
-    let Some(joint) = among.joints.get(joint.index()) else {
-        return place.fault("joint", SceneFault::UnknownReference);
-    };
-    match joint.kind.n_coordinates(among.dimension) {
+    match self::joint(&among, joint, place)?.kind.n_coordinates(among.dimension) {
         1 => Ok(()),
         n => place.fault("joint", SceneFault::NoSingleCoordinate(n)),
     }

@@ -8,7 +8,7 @@ use mbs::core::natural::Affine;
 use mbs::core::scene::{BodyId, Scene};
 use mbs::typed::Simulation;
 use mbs::{Method, Settings, StopError};
-pub(crate) use mbs_testkit::repository::scene;
+pub(crate) use mbs_testkit::file as scene;
 pub(crate) use mbs_testkit::{allocations, random};
 
 /// The augmented formulations, by name.
