@@ -9,13 +9,11 @@ use super::values::{ContactEvent, Coordinates, StepReport};
 use super::view::View;
 use crate::checkpoint::CheckpointError;
 use crate::names::Names;
+use crate::settings::length::SAME_LENGTH;
 use crate::stop::StopError;
 use mbs_core::model::Owner;
 use mbs_core::scene::{EffectId, GuideId, JointId};
 use std::sync::Arc;
-
-/// Relative difference below which a step is as long as the others, and its end is rounded [-]. Chosen, not tuned.
-const SAME_LENGTH: f64 = 1e-9;
 
 /// Largest difference of a sum of steps and its end, in units of rounding of the time [-]. Chosen, not tuned.
 const TIME_ROUNDINGS: f64 = 4.0;
