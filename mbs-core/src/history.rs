@@ -5,7 +5,7 @@
 //! set_history:  named arrays --the same walk--> remembered numbers
 //! ```
 
-use crate::model::{Measure, Terms};
+use crate::model::{ScalarForce, Terms};
 use alloc::vec::Vec;
 
 /// All that the next step depends on beside the state, in a fixed order.
@@ -269,14 +269,14 @@ impl<'a, T: Copy> Book<'a, T> {
     /// # Errors
     /// As for [`rows`](Self::rows).
     pub fn laws(&mut self, terms: &mut Terms<T>) -> Restored {
-        let numbers = |m: &Measure<T>| {
+        let numbers = |m: &ScalarForce<T>| {
             [m.value, m.rate, m.tension, m.stiffness, m.damping, m.transverse, m.drift]
         };
         let mut all: Vec<[T; 7]> = terms.measures.iter().map(numbers).collect();
         self.reals(("laws", Shape::Rows(7)), all.as_flattened_mut())?;
         for (measure, numbers) in terms.measures.iter_mut().zip(all) {
             let [value, rate, tension, stiffness, damping, transverse, drift] = numbers;
-            *measure = Measure { value, rate, tension, stiffness, damping, transverse, drift };
+            *measure = ScalarForce { value, rate, tension, stiffness, damping, transverse, drift };
         }
         self.vectors("courses", &mut terms.courses)
     }

@@ -9,11 +9,11 @@ pub mod actions;
 #[cfg(feature = "alloc")]
 pub mod cluster;
 pub mod control;
+mod delegate;
 pub mod effects;
 pub mod elements;
 #[cfg(feature = "alloc")]
 pub mod formulation;
-mod forward;
 #[cfg(feature = "alloc")]
 pub mod history;
 #[cfg(feature = "alloc")]

@@ -10,7 +10,7 @@
 use crate::Real;
 use crate::blocks::{BlockSource, Cliques};
 use crate::inputs::Prescribed;
-pub use crate::laws::scalar::Measure;
+pub use crate::laws::scalar::ScalarForce;
 use crate::team::{Alone, Team};
 use alloc::vec::Vec;
 use core::ops::Range;
@@ -29,7 +29,7 @@ pub struct Terms<T> {
     /// Applied forces, element by element (the model's own layout).
     pub force: Vec<T>,
     /// Laws with tangents: one record for each scalar measure (spring length, joint angle).
-    pub measures: Vec<Measure<T>>,
+    pub measures: Vec<ScalarForce<T>>,
     /// Inputs at this instant: value, rate and acceleration of each guide.
     pub guides: Vec<[T; 3]>,
     /// Inputs at this instant: the vector of each force or torque course.
@@ -54,13 +54,13 @@ pub struct Tangent<'a, T> {
 impl<T: Real> Tangent<'_, T> {
     /// What the square of a scalar law's gradient weighs in it.
     #[inline(always)]
-    pub(crate) fn weight(&self, law: &Measure<T>) -> T {
+    pub(crate) fn weight(&self, law: &ScalarForce<T>) -> T {
         self.stiffness * (law.stiffness - law.transverse) + self.damping * law.damping
     }
 
     /// Has a scalar law a part in it?
     #[inline(always)]
-    pub(crate) fn has(&self, law: &Measure<T>) -> bool {
+    pub(crate) fn has(&self, law: &ScalarForce<T>) -> bool {
         self.weight(law) != T::ZERO || self.stiffness * law.transverse != T::ZERO
     }
 }

@@ -5,10 +5,10 @@ use crate::model::Model;
 use mbs_core::Real;
 use mbs_core::effects::bushing;
 use mbs_core::laws::Part;
-use mbs_recursive::link::Kind;
-use mbs_recursive::loads::{Gauge, Load};
-use mbs_recursive::mechanism::Mechanism;
+use mbs_recursive::link::LinkKind;
+use mbs_recursive::loads::{Load, Measure};
 use mbs_recursive::plan::Span;
+use mbs_recursive::slices::TreeSlices;
 use mbs_recursive::space::Space;
 
 /// What keeps a model from being loaded.
@@ -115,7 +115,7 @@ impl Sizes {
 
     /// The sizes of a mechanism.
     #[must_use]
-    pub fn of<T: Real, S: Space<T>>(m: &Mechanism<'_, T, S>) -> Self {
+    pub fn of<T: Real, S: Space<T>>(m: &TreeSlices<'_, T, S>) -> Self {
         let plan = &m.loops.plan;
         let n = |lap: u32| m.loops.loops.get(lap as usize).map_or(0, |lap| lap.n as usize);
         let (mut blocks, mut gains) = (0, 0);
@@ -198,7 +198,7 @@ impl<'a, T: Real, S: Space<T>> Checked<'a, T, S> {
     }
 
     /// The mechanism with the effects that are kept on a rung, and how many rungs there are.
-    pub(crate) fn on_rung(&self, rung: u32) -> (Mechanism<'a, T, S>, u32) {
+    pub(crate) fn on_rung(&self, rung: u32) -> (TreeSlices<'a, T, S>, u32) {
         let mut mechanism = self.model.mechanism;
         let rungs = self.model.rungs;
         if let Some(&kept) = (rung as usize).checked_sub(1).and_then(|i| rungs.get(i)) {
@@ -211,7 +211,7 @@ impl<'a, T: Real, S: Space<T>> Checked<'a, T, S> {
 
 /// What is looked at.
 struct Look<'a, 'b, T: Real, S: Space<T>> {
-    m: &'a Mechanism<'b, T, S>,
+    m: &'a TreeSlices<'b, T, S>,
     sizes: Sizes,
 }
 
@@ -238,7 +238,7 @@ impl<T: Real, S: Space<T>> Look<'_, '_, T, S> {
                 && ends_by(link.z, link.kind.n_coordinates::<T, S>(), self.sizes.coordinates)
                 && ends_by(link.v, link.kind.n_freedoms::<T, S>(), self.sizes.freedoms)
                 && (!link.kind.is_guided() || (link.v as usize) < self.sizes.guides)
-                && (link.kind != Kind::Ball || S::DIMENSION == 3);
+                && (link.kind != LinkKind::Ball || S::DIMENSION == 3);
             ensure(holds, "links", i)?;
         }
         Ok(())
@@ -312,11 +312,11 @@ impl<T: Real, S: Space<T>> Look<'_, '_, T, S> {
             let holds = match load {
                 Load::Between { links, gauge, law } => {
                     let has_angle = match gauge {
-                        Gauge::Turn => S::DIMENSION == 2,
-                        Gauge::Rotation { number } => {
+                        Measure::Turn => S::DIMENSION == 2,
+                        Measure::Rotation { number } => {
                             bushing::IS_BUILT && S::DIMENSION == 3 && *number < 3
                         }
-                        Gauge::Length { .. } | Gauge::Along { .. } => true,
+                        Measure::Length { .. } | Measure::Along { .. } => true,
                     };
                     links.iter().all(|&link| is_link(link))
                         && has_angle
@@ -333,7 +333,7 @@ impl<T: Real, S: Space<T>> Look<'_, '_, T, S> {
                 Load::Force { link, course, .. } | Load::Torque { link, course } => {
                     is_link(*link) && is_course(*course)
                 }
-                Load::OnBody(load) => {
+                Load::BodyLoad(load) => {
                     is_link(load.link) && load.law.fits(&self.m.tables, self.sizes.courses)
                 }
             };

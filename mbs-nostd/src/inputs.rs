@@ -3,7 +3,7 @@
 use mbs_core::Real;
 use mbs_core::laws::{Part, guide};
 use mbs_core::step::InputError;
-use mbs_recursive::mechanism::Inputs;
+use mbs_recursive::slices::Inputs;
 
 /// A guide as a function of time.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -2,14 +2,14 @@
 
 use crate::inputs::Prescriptions;
 use mbs_core::Real;
-use mbs_recursive::mechanism::Mechanism;
+use mbs_recursive::slices::TreeSlices;
 use mbs_recursive::space::Space;
 
 /// A scene as tables, in flash or in memory of the caller's.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Model<'a, T: Real, S: Space<T>> {
     /// Links, loops, effects and gravity.
-    pub mechanism: Mechanism<'a, T, S>,
+    pub mechanism: TreeSlices<'a, T, S>,
     /// Guides and courses as functions of time, or as inputs.
     pub prescriptions: Prescriptions<'a, T>,
     /// The state to start from.

@@ -6,9 +6,9 @@ use crate::ladder::Ladder;
 use mbs_core::Real;
 use mbs_core::step::{InputError, StepError};
 use mbs_recursive::bounded::{self, BoundedReport, Bounds, Watch};
-use mbs_recursive::link::{Condensed, Placed};
+use mbs_recursive::link::{ArticulatedInertia, LinkMotion};
 use mbs_recursive::loops::LoopStore;
-use mbs_recursive::mechanism::{Counts, Inputs, Store};
+use mbs_recursive::slices::{Counts, Inputs, Store};
 use mbs_recursive::space::{Numbers, Space};
 use mbs_recursive::trapezoidal::Start;
 use mbs_recursive::{Options, Outside};
@@ -59,9 +59,9 @@ struct Scratch<
     const G: usize,
     const C: usize,
 > {
-    placed: [Placed<T, S>; L],
-    trial: [Placed<T, S>; L],
-    condensed: [Condensed<T, S>; L],
+    placed: [LinkMotion<T, S>; L],
+    trial: [LinkMotion<T, S>; L],
+    condensed: [ArticulatedInertia<T, S>; L],
     motions: [[S::Motion; L]; 2],
     /// K as it travels, and at its bodies; both sides.
     gradients: [[[S::Motion; R]; 2]; 2],
@@ -122,9 +122,9 @@ impl<
             lambda: [T::ZERO; R],
             inputs: Values::new(&model.model().prescriptions),
             scratch: Scratch {
-                placed: [Placed::ground(); L],
-                trial: [Placed::ground(); L],
-                condensed: [Condensed::empty(); L],
+                placed: [LinkMotion::ground(); L],
+                trial: [LinkMotion::ground(); L],
+                condensed: [ArticulatedInertia::empty(); L],
                 motions: [[zero; L]; 2],
                 gradients: [[[zero; R]; 2]; 2],
                 rows: [[T::ZERO; 3]; R],

@@ -7,13 +7,13 @@ use crate::record::{Axes, Reader, Record};
 use heapless::Vec;
 use mbs_core::Real;
 use mbs_core::laws::entry::Entry;
-use mbs_core::laws::{CurvatureEntry, FeatureEntry, KnotEntry, LawTables, PieceEntry, Supplies};
+use mbs_core::laws::{CurvatureEntry, FeatureEntry, KnotEntry, LawInputs, LawTables, PieceEntry};
 use mbs_recursive::link::Link;
 use mbs_recursive::loads::Load;
 use mbs_recursive::loops::Loops;
-use mbs_recursive::mechanism::Mechanism;
-use mbs_recursive::plan::{Coupling, End, Pair, Pass, Plan, Station, Update};
-use mbs_recursive::rows::{Loop, Row};
+use mbs_recursive::plan::{End, LoopCoupling, Pair, Pass, Plan, Station, Update};
+use mbs_recursive::rows::{ClosedLoop, Row};
+use mbs_recursive::slices::TreeSlices;
 use mbs_recursive::space::Space;
 
 /// What a model's text begins with, and its version.
@@ -39,12 +39,12 @@ pub struct Tables<
     sizes: Sizes,
     links: Vec<Link<T, S>, L>,
     stations: Vec<Station, L>,
-    loops: Vec<Loop<T, S>, K>,
+    loops: Vec<ClosedLoop<T, S>, K>,
     rows: Vec<Row<T, S>, R>,
     passes: Vec<Pass, P>,
     pairs: Vec<Pair, P>,
     ends: Vec<End, K>,
-    couplings: Vec<Coupling, P>,
+    couplings: Vec<LoopCoupling, P>,
     updates: Vec<Update, P>,
     loads: Vec<Load<T, S>, E>,
     pieces: Vec<PieceEntry<T>, X>,
@@ -180,13 +180,13 @@ impl<
             couplings: &self.couplings,
             updates: &self.updates,
         };
-        let tables = Supplies::courses(&[]).with(LawTables {
+        let tables = LawInputs::courses(&[]).with(LawTables {
             pieces: &self.pieces,
             features: &self.features,
             knots: (&self.road.0, &self.road.1),
         });
         Model {
-            mechanism: Mechanism {
+            mechanism: TreeSlices {
                 links: &self.links,
                 loops: Loops { loops: &self.loops, rows: &self.rows, plan, floor: self.floor },
                 loads: &self.loads,

@@ -1,6 +1,6 @@
 //! Joint coordinates with their turns, as the tree has them: nothing of them is measured.
 
-use crate::link::Kind;
+use crate::link::LinkKind;
 use crate::space::Space;
 use crate::state::TreeState;
 use crate::tree::{TreeModel, parts};
@@ -20,20 +20,20 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
             let kind = self.links[seat.link as usize].kind;
             match kind {
                 // The first coordinate of a free link in the plane is its angle against the ground, the last one of its joint.
-                Kind::Free => {
+                LinkKind::Free => {
                     let is_plain = S::DIMENSION == 2 && !seat.branch.is_reversed;
                     if let (true, Some(last)) = (is_plain, links[joint].last_mut()) {
                         *last = Some(seat.link);
                     }
                 }
-                Kind::Revolute
-                | Kind::Prismatic
-                | Kind::Ball
-                | Kind::GuidedRevolute
-                | Kind::GuidedPrismatic => {
+                LinkKind::Revolute
+                | LinkKind::Prismatic
+                | LinkKind::Ball
+                | LinkKind::GuidedRevolute
+                | LinkKind::GuidedPrismatic => {
                     let parts = parts(scene, &seat.branch, kind.is_guided());
                     for (link, part) in (seat.first..).zip(parts) {
-                        let is_known = part.kind != Kind::Ball;
+                        let is_known = part.kind != LinkKind::Ball;
                         links[joint][part.number] = is_known.then_some(link);
                     }
                 }

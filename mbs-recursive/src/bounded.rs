@@ -11,14 +11,14 @@
 //! the projected end, and with one outward pass for both projections. The accelerations that a step starts from are those
 //! of the last evaluation, which differ from the converged ones by O(h²).
 
-use crate::at::{Outside, at_mut, copy};
 use crate::evaluate::{Level, accelerations, accelerations_ahead, respond};
 use crate::fault::{Fault, failure};
+use crate::indexing::{Outside, at_mut, copy};
 use crate::loads::{Reach, check_rotations};
-use crate::mechanism::{Counts, Inputs, Mechanism, Start, Store};
 use crate::options::{Closure, Options};
 use crate::passes::kinematics;
 use crate::project::advance;
+use crate::slices::{Counts, Inputs, Start, Store, TreeSlices};
 use crate::space::Space;
 use crate::trapezoidal::reach_end;
 use mbs_core::Real;
@@ -92,7 +92,7 @@ pub struct BoundedReport<T> {
 /// # Errors
 /// [`StepError::NotFinite`], [`StepError::Singular`], [`StepError::RankLost`], [`StepError::Tables`], [`StepError::BadOption`].
 pub fn step<T: Real, S: Space<T>>(
-    m: &Mechanism<'_, T, S>,
+    m: &TreeSlices<'_, T, S>,
     inputs: &impl Inputs<T>,
     (dt, options, bounds): (T, &Options<T>, Bounds),
     (start, watch): (Start<'_, T>, &mut impl Watch),
@@ -121,7 +121,7 @@ pub fn step<T: Real, S: Space<T>>(
 /// # Errors
 /// As for [`step`].
 pub fn begin<T: Real, S: Space<T>>(
-    m: &Mechanism<'_, T, S>,
+    m: &TreeSlices<'_, T, S>,
     (options, bounds): (&Options<T>, Bounds),
     (z, v): (&[T], &[T]),
     s: &mut Store<'_, T, S>,
@@ -141,7 +141,7 @@ pub fn begin<T: Real, S: Space<T>>(
 
 /// The step at given inputs.
 fn advance_by<T: Real, S: Space<T>>(
-    m: &Mechanism<'_, T, S>,
+    m: &TreeSlices<'_, T, S>,
     (dt, options, bounds): (T, &Options<T>, Bounds),
     (start, watch): (Start<'_, T>, &mut impl Watch),
     s: &mut Store<'_, T, S>,
@@ -195,7 +195,7 @@ fn advance_by<T: Real, S: Space<T>>(
 
 /// One projection of positions and of velocities with the inertias factored last; the largest |Φ| and |Φ̇| that it found.
 fn project<T: Real, S: Space<T>>(
-    m: &Mechanism<'_, T, S>,
+    m: &TreeSlices<'_, T, S>,
     s: &mut Store<'_, T, S>,
 ) -> Result<[T; 2], Outside> {
     kinematics(m.links, (s.z, s.v, s.guides), s.trial)?;

@@ -10,10 +10,10 @@
 //! | link | (p·p − L²)/(2L); hinged: p·a |
 
 use crate::error::TreeError;
-use crate::link::Kind;
-use crate::loads::{Gauge, Load, OnBody};
+use crate::link::LinkKind;
+use crate::loads::{BodyLoad, Load, Measure};
 use crate::loops::index;
-use crate::rows::{Loop, Row};
+use crate::rows::{ClosedLoop, Row};
 use crate::space::{Numbers, Space};
 use crate::tree::TreeModel;
 use alloc::collections::BTreeMap;
@@ -30,7 +30,7 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         let [first, second] = [0, 1].map(|i| self.seat_point(joint.bodies[i], joint.points[i]));
         let start = self.rows.len();
         self.add_rows(scene, joint);
-        self.loops.push(Loop {
+        self.loops.push(ClosedLoop {
             links: [first.0, second.0],
             points: [first.1, second.1],
             first: index(start),
@@ -104,7 +104,7 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         for seat in &self.seats {
             let turns = |&link: &u32| {
                 let kind = self.links[link as usize].kind;
-                matches!(kind, Kind::Revolute | Kind::GuidedRevolute)
+                matches!(kind, LinkKind::Revolute | LinkKind::GuidedRevolute)
             };
             if let (Some(joint), Some(link)) =
                 (seat.branch.joint, (seat.first..=seat.link).find(turns))
@@ -135,7 +135,7 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
             return Ok(None);
         }
         let is_planar_free = joint.kind.is_free() && S::DIMENSION == 2;
-        let load = is_planar_free.then_some(Load::Between { links, gauge: Gauge::Turn, law });
+        let load = is_planar_free.then_some(Load::Between { links, gauge: Measure::Turn, law });
         load.map(Some).ok_or(index)
     }
 
@@ -154,21 +154,21 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
             }
             Action::Length { ends, law } => {
                 let (links, points) = self.ends(ends);
-                Load::Between { links, gauge: Gauge::Length { points }, law: *law }
+                Load::Between { links, gauge: Measure::Length { points }, law: *law }
             }
             Action::Along { ends, direction, offset, law } => {
                 let (links, points) = self.ends(ends);
                 let direction = S::point_from(&Vector::from(*direction));
-                let gauge = Gauge::Along { points, direction, offset: *offset };
+                let gauge = Measure::Along { points, direction, offset: *offset };
                 Load::Between { links, gauge, law: *law }
             }
             Action::Turn { bodies, law } => {
                 let links = bodies.map(|body| self.link(body));
-                Load::Between { links, gauge: Gauge::Turn, law: *law }
+                Load::Between { links, gauge: Measure::Turn, law: *law }
             }
             Action::Rotation { bodies, number, law } => {
                 let links = bodies.map(|body| self.link(body));
-                Load::Between { links, gauge: Gauge::Rotation { number: *number }, law: *law }
+                Load::Between { links, gauge: Measure::Rotation { number: *number }, law: *law }
             }
             Action::Constant { at, force } => {
                 let (link, point) = self.seat_point(BodyId::Body(at.0), at.1);
@@ -181,15 +181,15 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
             Action::Torque { body, course } => {
                 Load::Torque { link: self.link_of_body[*body], course: *course }
             }
-            Action::OnBody { at, axis, law } => {
+            Action::BodyLoad { at, axis, law } => {
                 let (link, point) = self.seat_point(BodyId::Body(at.0), at.1);
-                Load::OnBody(OnBody { link, point, axis: *axis, law: *law })
+                Load::BodyLoad(BodyLoad { link, point, axis: *axis, law: *law })
             }
         }))
     }
 
     /// Links and points of two places.
-    fn ends(&self, ends: &[actions::Seat<T>; 2]) -> ([u32; 2], [S::Point; 2]) {
+    fn ends(&self, ends: &[actions::Attachment<T>; 2]) -> ([u32; 2], [S::Point; 2]) {
         let [first, second] = ends.map(|(body, at)| self.seat_point(body, at));
         ([first.0, second.0], [first.1, second.1])
     }

@@ -1,15 +1,15 @@
 //! Energies, and the power that enters through dampers, courses and guides.
 
-use crate::at::{Outside, at};
+use crate::indexing::{Outside, at};
 use crate::inverse;
-use crate::link::{Link, Placed};
+use crate::link::{Link, LinkMotion};
 use crate::loads::Instant;
-use crate::mechanism::{Mechanism, Store};
+use crate::slices::{Store, TreeSlices};
 use crate::space::{Numbers, Space};
 use mbs_core::Real;
 
 /// Kinetic energy [J]: ½ Σ Zᵀ M Z.
-pub fn kinetic<T: Real, S: Space<T>>(links: &[Link<T, S>], placed: &[Placed<T, S>]) -> T {
+pub fn kinetic<T: Real, S: Space<T>>(links: &[Link<T, S>], placed: &[LinkMotion<T, S>]) -> T {
     let mut twice = T::ZERO;
     for (link, p) in links.iter().zip(placed).skip(1) {
         let inertia = S::body_inertia(link.mass, &p.center, &link.tensor, &p.rotation);
@@ -23,7 +23,7 @@ pub fn kinetic<T: Real, S: Space<T>>(links: &[Link<T, S>], placed: &[Placed<T, S
 /// # Errors
 /// [`Outside`] if the tables do not fit each other.
 pub fn potential<T: Real, S: Space<T>>(
-    m: &Mechanism<'_, T, S>,
+    m: &TreeSlices<'_, T, S>,
     at: &Instant<'_, T, S>,
 ) -> Result<T, Outside> {
     let mut energy = T::ZERO;
@@ -41,7 +41,7 @@ pub fn potential<T: Real, S: Space<T>>(
 /// # Errors
 /// [`Outside`] if the tables do not fit each other.
 pub fn power<T: Real, S: Space<T>>(
-    m: &Mechanism<'_, T, S>,
+    m: &TreeSlices<'_, T, S>,
     s: &mut Store<'_, T, S>,
 ) -> Result<T, Outside> {
     let mut power = T::ZERO;

@@ -10,15 +10,15 @@
 //! The report's own closure is an option: λ = α (Φ̈ + 2 μ Ω Φ̇ + Ω² Φ)   [P3 (39)–(41)]. It is the same elimination with
 //! ε = 1/α, bias + 2 μ Ω Φ̇ + Ω² Φ in place of the bias, and one sweep.
 
-use crate::at::{Outside, at, at_mut, copy};
 use crate::fault::Fault;
+use crate::indexing::{Outside, at, at_mut, copy};
 use crate::inverse;
-use crate::link::Condensed;
+use crate::link::ArticulatedInertia;
 use crate::loads::Reach;
 use crate::loops::{Regularisation, index};
-use crate::mechanism::{Mechanism, Store};
 use crate::options::{Closure, Options};
 use crate::passes;
+use crate::slices::{Store, TreeSlices};
 use crate::space::{Numbers, Space};
 use mbs_core::Real;
 
@@ -54,7 +54,7 @@ pub(crate) enum Level {
 
 /// Evaluates the accelerations `s.zdd` at (`s.z`, `s.v`, `s.guides`, `s.courses`); returns the largest |Φ̈| left.
 pub(crate) fn accelerations<T: Real, S: Space<T>>(
-    m: &Mechanism<'_, T, S>,
+    m: &TreeSlices<'_, T, S>,
     options: &Options<T>,
     level: Level,
     s: &mut Store<'_, T, S>,
@@ -73,7 +73,7 @@ pub(crate) fn accelerations<T: Real, S: Space<T>>(
 ///
 /// Cost: that of [`accelerations`], an outward pass without products, and a square of six numbers for each effect.
 pub(crate) fn accelerations_ahead<T: Real, S: Space<T>>(
-    m: &Mechanism<'_, T, S>,
+    m: &TreeSlices<'_, T, S>,
     options: &Options<T>,
     (level, reach): (Level, Reach<T>),
     s: &mut Store<'_, T, S>,
@@ -91,7 +91,7 @@ pub(crate) fn accelerations_ahead<T: Real, S: Space<T>>(
 /// The same under efforts along the freedoms, and without effects.
 #[cfg(feature = "alloc")]
 pub(crate) fn accelerations_under<T: Real, S: Space<T>>(
-    m: &Mechanism<'_, T, S>,
+    m: &TreeSlices<'_, T, S>,
     options: &Options<T>,
     (level, efforts): (Level, &[T]),
     s: &mut Store<'_, T, S>,
@@ -104,9 +104,9 @@ pub(crate) fn accelerations_under<T: Real, S: Space<T>>(
 
 /// Places and own inertias; the articulated bodies are handed out for the loads.
 fn begin<'b, T: Real, S: Space<T>>(
-    m: &Mechanism<'_, T, S>,
+    m: &TreeSlices<'_, T, S>,
     s: &mut Store<'b, T, S>,
-) -> Result<&'b mut [Condensed<T, S>], Outside> {
+) -> Result<&'b mut [ArticulatedInertia<T, S>], Outside> {
     s.counts.condensations += 1;
     passes::kinematics(m.links, (s.z, s.v, s.guides), s.placed)?;
     passes::inertias(m.links, s.placed, s.condensed);
@@ -115,7 +115,7 @@ fn begin<'b, T: Real, S: Space<T>>(
 
 /// Second and third pass, and the sweeps.
 fn finish<T: Real, S: Space<T>>(
-    m: &Mechanism<'_, T, S>,
+    m: &TreeSlices<'_, T, S>,
     options: &Options<T>,
     level: Level,
     s: &mut Store<'_, T, S>,
@@ -144,7 +144,7 @@ fn finish<T: Real, S: Space<T>>(
 
 /// Evaluates the rows and sets out K, l and Λ = 0; returns ε.
 fn begin_loops<T: Real, S: Space<T>>(
-    m: &Mechanism<'_, T, S>,
+    m: &TreeSlices<'_, T, S>,
     options: &Options<T>,
     s: &mut Store<'_, T, S>,
 ) -> Result<Regularisation<T>, Outside> {
@@ -178,7 +178,7 @@ fn begin_loops<T: Real, S: Space<T>>(
 
 /// J a + bias into l; the largest, the row that has it, and the scale of its parts.
 fn residual<T: Real, S: Space<T>>(
-    m: &Mechanism<'_, T, S>,
+    m: &TreeSlices<'_, T, S>,
     s: &mut Store<'_, T, S>,
 ) -> Result<(T, u32, T), Outside> {
     let n = m.loops.rows.len();
@@ -226,7 +226,7 @@ fn has_pivot_below<T: Real, S: Space<T>>(least: T, s: &Store<'_, T, S>) -> bool 
 
 /// Repeats the affine parts until J a + bias is at its level; returns what is left.
 fn sweep<T: Real, S: Space<T>>(
-    m: &Mechanism<'_, T, S>,
+    m: &TreeSlices<'_, T, S>,
     options: &Options<T>,
     level: Level,
     s: &mut Store<'_, T, S>,
@@ -271,7 +271,7 @@ fn sweep<T: Real, S: Space<T>>(
 /// The acceleration that gravity, the rows' speeds, or their forces alone would make along a row. Rounding is small beside it even where
 /// all accelerations cancel, as in a structure or in free fall. Rates of a rounding each second are rest.
 fn acting<T: Real, S: Space<T>>(
-    m: &Mechanism<'_, T, S>,
+    m: &TreeSlices<'_, T, S>,
     row: u32,
     s: &Store<'_, T, S>,
 ) -> Result<T, Outside> {
@@ -294,7 +294,7 @@ fn acting<T: Real, S: Space<T>>(
 
 /// Adds the response to l = J a + bias to accelerations and multipliers.
 fn improve<T: Real, S: Space<T>>(
-    m: &Mechanism<'_, T, S>,
+    m: &TreeSlices<'_, T, S>,
     s: &mut Store<'_, T, S>,
 ) -> Result<(), Outside> {
     respond(m, s)?;
@@ -312,7 +312,7 @@ fn improve<T: Real, S: Space<T>>(
 
 /// The smallest mass-weighted change of motion x with J x = −l, by one sweep: `s.v_response`, `s.a_response`.
 pub(crate) fn respond<T: Real, S: Space<T>>(
-    m: &Mechanism<'_, T, S>,
+    m: &TreeSlices<'_, T, S>,
     s: &mut Store<'_, T, S>,
 ) -> Result<(), Outside> {
     s.counts.responses += 1;

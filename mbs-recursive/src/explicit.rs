@@ -8,15 +8,15 @@
 //! Positions and velocities are projected on the loops after each accepted step, quaternions made unit at the end. The stages
 //! are those of [`mbs_core::ode`].
 
-use crate::at::Outside;
 use crate::energy_balance;
 use crate::evaluate::{Level, accelerations, is_redundant, is_tight};
 use crate::fault::failure;
-use crate::link::{Kind, Link};
+use crate::indexing::Outside;
+use crate::link::{Link, LinkKind};
 use crate::loads::check_rotations;
-use crate::mechanism::{Counts, Inputs, Mechanism, Start, Store};
 use crate::options::{Closure, Options};
 use crate::project::{self, project};
+use crate::slices::{Counts, Inputs, Start, Store, TreeSlices};
 use crate::space::{Numbers, Space};
 use crate::trapezoidal::violations;
 use mbs_core::Real;
@@ -25,7 +25,7 @@ use mbs_core::step::{StepError, StepReport, Stop};
 
 /// A mechanism as a system of first order.
 struct System<'r, 'a, 'b, T: Real, S: Space<T>, I> {
-    m: &'r Mechanism<'a, T, S>,
+    m: &'r TreeSlices<'a, T, S>,
     inputs: &'r I,
     options: &'r Options<T>,
     s: &'r mut Store<'b, T, S>,
@@ -40,7 +40,7 @@ struct System<'r, 'a, 'b, T: Real, S: Space<T>, I> {
 impl<'r, 'a, 'b, T: Real, S: Space<T>, I: Inputs<T>> System<'r, 'a, 'b, T, S, I> {
     /// Level of accelerations: to rounding with a fixed step, else to the error's.
     fn new(
-        m: &'r Mechanism<'a, T, S>,
+        m: &'r TreeSlices<'a, T, S>,
         inputs: &'r I,
         (options, level): (&'r Options<T>, Level),
         s: &'r mut Store<'b, T, S>,
@@ -155,7 +155,7 @@ impl<T: Real, S: Space<T>, I: Inputs<T>> Rates<T> for System<'_, '_, '_, T, S, I
 
 /// Components of y.
 #[must_use]
-pub fn n_components<T: Real, S: Space<T>>(m: &Mechanism<'_, T, S>) -> usize {
+pub fn n_components<T: Real, S: Space<T>>(m: &TreeSlices<'_, T, S>) -> usize {
     m.n_coordinates + m.n_freedoms + 1
 }
 
@@ -164,16 +164,16 @@ fn coordinate_rates<T: Real, S: Space<T>>(links: &[Link<T, S>], z: &[T], v: &[T]
     for link in links.iter().skip(1) {
         let (at, from) = (link.z as usize, link.v as usize);
         match link.kind {
-            Kind::Revolute | Kind::Prismatic => rates[at] = v[from],
-            Kind::Ball => S::rotation_rate(&z[at..], &v[from..], &mut rates[at..]),
-            Kind::Free => {
+            LinkKind::Revolute | LinkKind::Prismatic => rates[at] = v[from],
+            LinkKind::Ball => S::rotation_rate(&z[at..], &v[from..], &mut rates[at..]),
+            LinkKind::Free => {
                 S::rotation_rate(&z[at..], &v[from..], &mut rates[at..]);
                 let place = at + S::FREE - S::Point::N;
                 for i in 0..S::Point::N {
                     rates[place + i] = v[from + S::Spin::N + i];
                 }
             }
-            Kind::GuidedRevolute | Kind::GuidedPrismatic => {}
+            LinkKind::GuidedRevolute | LinkKind::GuidedPrismatic => {}
         }
     }
 }
@@ -181,14 +181,14 @@ fn coordinate_rates<T: Real, S: Space<T>>(links: &[Link<T, S>], z: &[T], v: &[T]
 /// Makes quaternions unit.
 fn normalise<T: Real, S: Space<T>>(links: &[Link<T, S>], z: &mut [T]) {
     for link in links.iter().skip(1) {
-        if matches!(link.kind, Kind::Ball | Kind::Free) {
+        if matches!(link.kind, LinkKind::Ball | LinkKind::Free) {
             S::normalise_rotation(&mut z[link.z as usize..]);
         }
     }
 }
 
 /// y at the start of a step.
-fn begin<T: Real, S: Space<T>>(m: &Mechanism<'_, T, S>, start: &Start<'_, T>, y: &mut [T]) {
+fn begin<T: Real, S: Space<T>>(m: &TreeSlices<'_, T, S>, start: &Start<'_, T>, y: &mut [T]) {
     let (nz, nv) = (m.n_coordinates, m.n_freedoms);
     y[..nz].copy_from_slice(start.z);
     y[nz..nz + nv].copy_from_slice(start.v);
@@ -204,7 +204,7 @@ fn begin<T: Real, S: Space<T>>(m: &Mechanism<'_, T, S>, start: &Start<'_, T>, y:
 /// # Errors
 /// [`StepError`].
 pub fn rk4<T: Real, S: Space<T>>(
-    m: &Mechanism<'_, T, S>,
+    m: &TreeSlices<'_, T, S>,
     inputs: &impl Inputs<T>,
     (dt, options): (T, &Options<T>),
     (start, y, scratch): (Start<'_, T>, &mut [T], &mut [T]),
@@ -229,7 +229,7 @@ pub fn rk4<T: Real, S: Space<T>>(
 /// # Errors
 /// [`StepError`]; where no step is short enough, what made the last one fail.
 pub fn controlled<T: Real, S: Space<T>, M: Method<T>>(
-    m: &Mechanism<'_, T, S>,
+    m: &TreeSlices<'_, T, S>,
     inputs: &impl Inputs<T>,
     (dt, options, driver): (T, &Options<T>, &mut Adaptive<T, M>),
     (start, y, scratch): (Start<'_, T>, &mut [T], &mut [T]),

@@ -1,9 +1,9 @@
 //! What stops a pass, and the error of a step that it is.
 
-use crate::at::Outside;
+use crate::indexing::Outside;
 use crate::joint::NoInertia;
 use crate::loops::RankLost;
-use crate::mechanism::Mechanism;
+use crate::slices::TreeSlices;
 use crate::space::Space;
 use mbs_core::Real;
 use mbs_core::step::StepError;
@@ -36,7 +36,10 @@ impl<T> From<Outside> for Fault<T> {
 }
 
 /// The fault of a pass as the error of a step.
-pub(crate) fn failure<T: Real, S: Space<T>>(m: &Mechanism<'_, T, S>, fault: Fault<T>) -> StepError {
+pub(crate) fn failure<T: Real, S: Space<T>>(
+    m: &TreeSlices<'_, T, S>,
+    fault: Fault<T>,
+) -> StepError {
     let freedom = |link: u32| m.links.get(link as usize).map_or(u32::MAX, |link| link.v);
     match fault {
         Fault::Outside => StepError::Tables,

@@ -6,11 +6,11 @@
 //! mass      M_z: composite inertias, columns b along the path to the ground
 //! ```
 
-use crate::at::{Outside, at, at_mut};
+use crate::indexing::{Outside, at, at_mut};
 use crate::joint::{read, write};
-use crate::link::{Condensed, Kind, Link, Placed};
-use crate::mechanism::{Mechanism, Store};
+use crate::link::{ArticulatedInertia, Link, LinkKind, LinkMotion};
 use crate::passes;
+use crate::slices::{Store, TreeSlices};
 use crate::space::{Numbers, Space};
 use mbs_core::Real;
 
@@ -20,7 +20,7 @@ use mbs_core::Real;
 /// [`Outside`] if the tables do not fit each other.
 pub fn spread<T: Real, S: Space<T>>(
     links: &[Link<T, S>],
-    placed: &[Placed<T, S>],
+    placed: &[LinkMotion<T, S>],
     zdd: &[T],
     a: &mut [S::Motion],
 ) -> Result<(), Outside> {
@@ -31,7 +31,7 @@ pub fn spread<T: Real, S: Space<T>>(
 #[inline(always)]
 pub(crate) fn spread_each<T: Real, S: Space<T>>(
     links: &[Link<T, S>],
-    (placed, has_bias): (&[Placed<T, S>], bool),
+    (placed, has_bias): (&[LinkMotion<T, S>], bool),
     zdd: &[T],
     a: &mut [S::Motion],
 ) -> Result<(), Outside> {
@@ -40,22 +40,22 @@ pub(crate) fn spread_each<T: Real, S: Space<T>>(
         let (p, first) = (at(placed, i)?, link.v as usize);
         // Ż = Żₚ + b z̈ + d   [P3 (27)]
         let mut carried = match link.kind {
-            Kind::Free => ground,
+            LinkKind::Free => ground,
             _ => S::carried(at(a, link.parent as usize)?, &p.arm),
         };
         if has_bias {
             carried += p.bias;
         }
         let own = match link.kind {
-            Kind::Revolute | Kind::Prismatic => p.freedom * *at(zdd, first)?,
-            Kind::Ball => {
+            LinkKind::Revolute | LinkKind::Prismatic => p.freedom * *at(zdd, first)?,
+            LinkKind::Ball => {
                 S::motion(S::rotate_spin(&p.rotation, &read(zdd, first)?), S::Point::zero())
             }
-            Kind::Free => S::motion(
+            LinkKind::Free => S::motion(
                 S::rotate_spin(&p.rotation, &read(zdd, first)?),
                 read(zdd, first + S::Spin::N)?,
             ),
-            Kind::GuidedRevolute | Kind::GuidedPrismatic => S::Motion::zero(),
+            LinkKind::GuidedRevolute | LinkKind::GuidedPrismatic => S::Motion::zero(),
         };
         *at_mut(a, i)? = carried + own;
     }
@@ -65,7 +65,7 @@ pub(crate) fn spread_each<T: Real, S: Space<T>>(
 /// The force through every joint, on the link about its origin, for the accelerations and multipliers of the store: into the
 /// links' `force`. Effects along the joint are part of it, and are in `effort`; the factors of the links stay.
 pub(crate) fn forces<T: Real, S: Space<T>>(
-    m: &Mechanism<'_, T, S>,
+    m: &TreeSlices<'_, T, S>,
     s: &mut Store<'_, T, S>,
 ) -> Result<(), Outside> {
     let moving = s.placed.iter().zip(&*s.a);
@@ -100,17 +100,20 @@ pub(crate) fn forces<T: Real, S: Space<T>>(
 /// bᵀ f of a link's joint, less what effects apply along it: the effort that the joint itself must give.
 pub(crate) fn effort<T: Real, S: Space<T>>(
     link: &Link<T, S>,
-    p: &Placed<T, S>,
-    c: &Condensed<T, S>,
+    p: &LinkMotion<T, S>,
+    c: &ArticulatedInertia<T, S>,
     out: &mut [T],
 ) -> Result<(), Outside> {
     match link.kind {
-        Kind::Revolute | Kind::Prismatic | Kind::GuidedRevolute | Kind::GuidedPrismatic => {
+        LinkKind::Revolute
+        | LinkKind::Prismatic
+        | LinkKind::GuidedRevolute
+        | LinkKind::GuidedPrismatic => {
             *at_mut(out, 0)? = p.freedom.dot(&c.force) - c.effort;
             Ok(())
         }
-        Kind::Ball => write(&S::unrotate_spin(&p.rotation, &S::spin(&c.force)), out, 0),
-        Kind::Free => {
+        LinkKind::Ball => write(&S::unrotate_spin(&p.rotation, &S::spin(&c.force)), out, 0),
+        LinkKind::Free => {
             write(&S::unrotate_spin(&p.rotation, &S::spin(&c.force)), out, 0)?;
             write(&S::point(&c.force), out, S::Spin::N)
         }
@@ -121,7 +124,7 @@ pub(crate) fn effort<T: Real, S: Space<T>>(
 #[cfg(feature = "alloc")]
 pub(crate) fn add_along<T: Real, S: Space<T>>(
     links: &[Link<T, S>],
-    placed: &[Placed<T, S>],
+    placed: &[LinkMotion<T, S>],
     (mut i, mut force): (usize, S::Motion),
     out: &mut [T],
 ) -> Result<(), Outside> {
@@ -131,7 +134,7 @@ pub(crate) fn add_along<T: Real, S: Space<T>>(
             *at_mut(out, link.v as usize + f)? += direction(link, p, f).dot(&force);
         }
         force = S::gathered(&force, &p.arm);
-        i = if link.kind == Kind::Free { 0 } else { link.parent as usize };
+        i = if link.kind == LinkKind::Free { 0 } else { link.parent as usize };
     }
     Ok(())
 }
@@ -140,22 +143,22 @@ pub(crate) fn add_along<T: Real, S: Space<T>>(
 #[cfg(feature = "alloc")]
 pub(crate) fn add_efforts<T: Real, S: Space<T>>(
     links: &[Link<T, S>],
-    placed: &[Placed<T, S>],
+    placed: &[LinkMotion<T, S>],
     efforts: &[T],
-    condensed: &mut [Condensed<T, S>],
+    condensed: &mut [ArticulatedInertia<T, S>],
 ) -> Result<(), Outside> {
     for (i, link) in links.iter().enumerate().skip(1) {
         let (rotation, first) = (&at(placed, i)?.rotation, link.v as usize);
         let wrench = match link.kind {
-            Kind::Revolute | Kind::Prismatic => {
+            LinkKind::Revolute | LinkKind::Prismatic => {
                 at_mut(condensed, i)?.effort += *at(efforts, first)?;
                 continue;
             }
-            Kind::GuidedRevolute | Kind::GuidedPrismatic => continue,
-            Kind::Ball => {
+            LinkKind::GuidedRevolute | LinkKind::GuidedPrismatic => continue,
+            LinkKind::Ball => {
                 S::motion(S::rotate_spin(rotation, &read(efforts, first)?), S::Point::zero())
             }
-            Kind::Free => S::motion(
+            LinkKind::Free => S::motion(
                 S::rotate_spin(rotation, &read(efforts, first)?),
                 read(efforts, first + S::Spin::N)?,
             ),
@@ -174,8 +177,8 @@ pub(crate) fn add_efforts<T: Real, S: Space<T>>(
 /// Cost: bodies times depth.
 pub fn mass_matrix<T: Real, S: Space<T>>(
     links: &[Link<T, S>],
-    placed: &[Placed<T, S>],
-    composite: &mut [Condensed<T, S>],
+    placed: &[LinkMotion<T, S>],
+    composite: &mut [ArticulatedInertia<T, S>],
     n: usize,
     mass: &mut [T],
 ) {
@@ -198,7 +201,7 @@ pub fn mass_matrix<T: Real, S: Space<T>>(
                     let x = direction(other, q, g).dot(&force);
                     (mass[row * n + column], mass[column * n + row]) = (x, x);
                 }
-                if other.kind == Kind::Free || other.parent == 0 {
+                if other.kind == LinkKind::Free || other.parent == 0 {
                     break;
                 }
                 force = S::gathered(&force, &q.arm);
@@ -209,14 +212,14 @@ pub fn mass_matrix<T: Real, S: Space<T>>(
 }
 
 /// The motion of unit rate of one freedom, about the link's origin.
-fn direction<T: Real, S: Space<T>>(link: &Link<T, S>, p: &Placed<T, S>, f: usize) -> S::Motion {
+fn direction<T: Real, S: Space<T>>(link: &Link<T, S>, p: &LinkMotion<T, S>, f: usize) -> S::Motion {
     match link.kind {
-        Kind::Ball | Kind::Free if f < S::Spin::N => {
+        LinkKind::Ball | LinkKind::Free if f < S::Spin::N => {
             let mut e = S::Spin::zero();
             e[f] = T::ONE;
             S::motion(S::rotate_spin(&p.rotation, &e), S::Point::zero())
         }
-        Kind::Free => {
+        LinkKind::Free => {
             let mut e = S::Motion::zero();
             e[f] = T::ONE;
             e

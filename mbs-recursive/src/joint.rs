@@ -7,8 +7,8 @@
 //! pass       rows K of loops: K ← K − (K b) D⁻¹ Uᵀ
 //! ```
 
-use crate::at::{Outside, at, at_mut, part, part_mut};
-use crate::link::{Condensed, Kind, Link, Placed};
+use crate::indexing::{Outside, at, at_mut, part, part_mut};
+use crate::link::{ArticulatedInertia, Link, LinkKind, LinkMotion};
 use crate::space::{Numbers, Space};
 use mbs_core::Real;
 
@@ -25,11 +25,11 @@ pub struct NoInertia<T> {
 #[inline(always)]
 pub(crate) fn place<T: Real, S: Space<T>>(
     link: &Link<T, S>,
-    parent: &Placed<T, S>,
+    parent: &LinkMotion<T, S>,
     z: &[T],
     v: &[T],
     guides: &[[T; 3]],
-) -> Result<Placed<T, S>, Outside> {
+) -> Result<LinkMotion<T, S>, Outside> {
     let (zi, vi) = (link.z as usize, link.v as usize);
     let still = |freedom, rotation, arm| {
         let velocity = S::carried(&parent.velocity, &arm);
@@ -37,11 +37,11 @@ pub(crate) fn place<T: Real, S: Space<T>>(
         let bias = S::motion(S::Spin::zero(), S::centrifugal(&spin, &arm));
         let center = S::rotate(&rotation, &link.center);
         let position = parent.position + arm;
-        Placed { rotation, position, arm, freedom, velocity, bias, center }
+        LinkMotion { rotation, position, arm, freedom, velocity, bias, center }
     };
     Ok(match link.kind {
-        Kind::Revolute | Kind::GuidedRevolute => {
-            let [angle, rate, second] = if link.kind == Kind::Revolute {
+        LinkKind::Revolute | LinkKind::GuidedRevolute => {
+            let [angle, rate, second] = if link.kind == LinkKind::Revolute {
                 [*at(z, zi)?, *at(v, vi)?, T::ZERO]
             } else {
                 *at(guides, vi)?
@@ -56,8 +56,8 @@ pub(crate) fn place<T: Real, S: Space<T>>(
             p.bias += S::motion(turning, S::Point::zero());
             p
         }
-        Kind::Prismatic | Kind::GuidedPrismatic => {
-            let [slide, rate, second] = if link.kind == Kind::Prismatic {
+        LinkKind::Prismatic | LinkKind::GuidedPrismatic => {
+            let [slide, rate, second] = if link.kind == LinkKind::Prismatic {
                 [*at(z, zi)?, *at(v, vi)?, T::ZERO]
             } else {
                 *at(guides, vi)?
@@ -71,7 +71,7 @@ pub(crate) fn place<T: Real, S: Space<T>>(
             p.bias += S::motion(S::Spin::zero(), turning + along * second);
             p
         }
-        Kind::Ball => {
+        LinkKind::Ball => {
             // ω = ω_p + w, w = R v,   d = (ω_p × w, ω_p × (ω_p × r))
             let arm = S::rotate(&parent.rotation, &link.offset);
             let turn = part(z, zi, S::FREE - S::Point::N)?;
@@ -82,7 +82,7 @@ pub(crate) fn place<T: Real, S: Space<T>>(
             p.bias += S::motion(S::cross_spin(&S::spin(&parent.velocity), &w), S::Point::zero());
             p
         }
-        Kind::Free => {
+        LinkKind::Free => {
             let turn = part(z, zi, S::FREE - S::Point::N)?;
             let rotation = S::turned_by(&S::identity(), turn);
             let position: S::Point = read(z, zi + S::FREE - S::Point::N)?;
@@ -120,17 +120,17 @@ pub(crate) fn write<T: Real, X: Numbers<T>>(
 /// Eliminates the joint: its inertia is factored, and what acts on the parent is returned: (I^a, p^a).
 #[inline(always)]
 pub(crate) fn eliminate<T: Real, S: Space<T>>(
-    kind: Kind,
-    p: &Placed<T, S>,
-    c: &mut Condensed<T, S>,
+    kind: LinkKind,
+    p: &LinkMotion<T, S>,
+    c: &mut ArticulatedInertia<T, S>,
 ) -> Result<(S::Inertia, S::Motion), T> {
     /// Pivot that is no inertia, in units of rounding of the inertia's size [-]. Chosen, not tuned.
     const ROUNDINGS: f64 = 64.0;
     let rounding = T::EPSILON * T::from_f64(ROUNDINGS);
     match kind {
-        Kind::Revolute | Kind::Prismatic => {
+        LinkKind::Revolute | LinkKind::Prismatic => {
             let (turning, moving) = S::size(&c.inertia);
-            let (column, pivot, size) = if kind == Kind::Revolute {
+            let (column, pivot, size) = if kind == LinkKind::Revolute {
                 let n = S::spin(&p.freedom);
                 let column = S::times_spin(&c.inertia, &n);
                 (column, S::spin(&column).dot(&n), turning)
@@ -149,7 +149,7 @@ pub(crate) fn eliminate<T: Real, S: Space<T>>(
             let force = impulse(kind, p, c) + S::times(&left, &p.bias);
             Ok((left, force))
         }
-        Kind::Ball => {
+        LinkKind::Ball => {
             if !S::invert_turning(&mut c.inertia) {
                 return Err(S::size(&c.inertia).0);
             }
@@ -157,13 +157,13 @@ pub(crate) fn eliminate<T: Real, S: Space<T>>(
             let force = impulse(kind, p, c) + S::times(&left, &p.bias);
             Ok((left, force))
         }
-        Kind::Free => {
+        LinkKind::Free => {
             if !S::factor(&mut c.inertia) {
                 return Err(S::size(&c.inertia).0);
             }
             Ok((S::no_inertia(), impulse(kind, p, c)))
         }
-        Kind::GuidedRevolute | Kind::GuidedPrismatic => {
+        LinkKind::GuidedRevolute | LinkKind::GuidedPrismatic => {
             Ok((c.inertia, c.force + S::times(&c.inertia, &p.bias)))
         }
     }
@@ -172,30 +172,30 @@ pub(crate) fn eliminate<T: Real, S: Space<T>>(
 /// u = τ − bᵀ p, and the part of p that acts on the parent without the bias: p + U D⁻¹ u.
 #[inline(always)]
 pub(crate) fn impulse<T: Real, S: Space<T>>(
-    kind: Kind,
-    p: &Placed<T, S>,
-    c: &mut Condensed<T, S>,
+    kind: LinkKind,
+    p: &LinkMotion<T, S>,
+    c: &mut ArticulatedInertia<T, S>,
 ) -> S::Motion {
     match kind {
-        Kind::Revolute => {
+        LinkKind::Revolute => {
             c.drive[0] = c.effort - S::spin(&p.freedom).dot(&S::spin(&c.force));
             c.force + c.column * (c.drive[0] * c.inverse)
         }
-        Kind::Prismatic => {
+        LinkKind::Prismatic => {
             c.drive[0] = c.effort - S::point(&p.freedom).dot(&S::point(&c.force));
             c.force + c.column * (c.drive[0] * c.inverse)
         }
-        Kind::Ball => {
+        LinkKind::Ball => {
             let u = -S::spin(&c.force);
             c.drive = S::motion(u, S::Point::zero());
             let turned = S::ball_solve(&c.inertia, &u);
             S::motion(S::Spin::zero(), S::point(&c.force) + S::ball_column(&c.inertia, &turned))
         }
-        Kind::Free => {
+        LinkKind::Free => {
             c.drive = -c.force;
             S::Motion::zero()
         }
-        Kind::GuidedRevolute | Kind::GuidedPrismatic => c.force,
+        LinkKind::GuidedRevolute | LinkKind::GuidedPrismatic => c.force,
     }
 }
 
@@ -203,48 +203,48 @@ pub(crate) fn impulse<T: Real, S: Space<T>>(
 #[inline(always)]
 pub(crate) fn advance<T: Real, S: Space<T>>(
     link: &Link<T, S>,
-    p: &Placed<T, S>,
-    c: &Condensed<T, S>,
+    p: &LinkMotion<T, S>,
+    c: &ArticulatedInertia<T, S>,
     (carried, held): (S::Motion, &S::Motion),
     zdd: &mut [T],
 ) -> Result<S::Motion, Outside> {
     let first = link.v as usize;
     Ok(match link.kind {
-        Kind::Revolute | Kind::Prismatic => {
+        LinkKind::Revolute | LinkKind::Prismatic => {
             let x = c.inverse * (c.drive[0] - c.column.dot(&carried)) - held[0];
             *at_mut(zdd, first)? = x;
             carried + p.freedom * x
         }
-        Kind::Ball => {
+        LinkKind::Ball => {
             // A⁻¹ (u − A ω'' − H a)
             let rest = S::spin(&c.drive) - S::ball_row(&c.inertia, &S::point(&carried));
             let turn = S::ball_solve(&c.inertia, &rest) - S::spin(&carried) - S::spin(held);
             write(&S::unrotate_spin(&p.rotation, &turn), zdd, first)?;
             carried + S::motion(turn, S::Point::zero())
         }
-        Kind::Free => {
+        LinkKind::Free => {
             let a = S::solve(&c.inertia, &c.drive) - *held;
             let x = a - carried;
             write(&S::unrotate_spin(&p.rotation, &S::spin(&x)), zdd, first)?;
             write(&S::point(&x), zdd, first + S::Spin::N)?;
             a
         }
-        Kind::GuidedRevolute | Kind::GuidedPrismatic => carried,
+        LinkKind::GuidedRevolute | LinkKind::GuidedPrismatic => carried,
     })
 }
 
 /// The row k of a loop before the joint: h = bᵀ k, g = D⁻¹ h, each as long as the joint has freedoms, and k − U g behind it.
 #[inline(always)]
 pub(crate) fn pass<T: Real, S: Space<T>>(
-    kind: Kind,
-    p: &Placed<T, S>,
-    c: &Condensed<T, S>,
+    kind: LinkKind,
+    p: &LinkMotion<T, S>,
+    c: &ArticulatedInertia<T, S>,
     k: &S::Motion,
     (h, g): (&mut [T], &mut [T]),
 ) -> Result<S::Motion, Outside> {
     Ok(match kind {
-        Kind::Revolute | Kind::Prismatic => {
-            let head = if kind == Kind::Revolute {
+        LinkKind::Revolute | LinkKind::Prismatic => {
+            let head = if kind == LinkKind::Revolute {
                 S::spin(&p.freedom).dot(&S::spin(k))
             } else {
                 S::point(&p.freedom).dot(&S::point(k))
@@ -253,18 +253,18 @@ pub(crate) fn pass<T: Real, S: Space<T>>(
             (*at_mut(h, 0)?, *at_mut(g, 0)?) = (head, gain);
             *k - c.column * gain
         }
-        Kind::Ball => {
+        LinkKind::Ball => {
             let spin = S::spin(k);
             let turn = S::ball_solve(&c.inertia, &spin);
             write(&spin, h, 0)?;
             write(&turn, g, 0)?;
             S::motion(S::Spin::zero(), S::point(k) - S::ball_column(&c.inertia, &turn))
         }
-        Kind::Free => {
+        LinkKind::Free => {
             write(k, h, 0)?;
             write(&S::solve(&c.inertia, k), g, 0)?;
             S::Motion::zero()
         }
-        Kind::GuidedRevolute | Kind::GuidedPrismatic => *k,
+        LinkKind::GuidedRevolute | LinkKind::GuidedPrismatic => *k,
     })
 }

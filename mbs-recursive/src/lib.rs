@@ -7,7 +7,6 @@ extern crate alloc;
 pub mod anderson;
 #[cfg(feature = "alloc")]
 mod angles;
-mod at;
 pub mod bounded;
 #[cfg(feature = "alloc")]
 mod cut;
@@ -23,6 +22,7 @@ mod formulation;
 mod graph;
 #[cfg(feature = "alloc")]
 mod history;
+mod indexing;
 pub mod inverse;
 pub mod joint;
 #[cfg(feature = "alloc")]
@@ -32,7 +32,6 @@ mod lanes;
 pub mod link;
 pub mod loads;
 pub mod loops;
-pub mod mechanism;
 mod options;
 #[cfg(feature = "alloc")]
 mod order;
@@ -44,6 +43,7 @@ mod quantities;
 pub mod rows;
 #[cfg(feature = "alloc")]
 mod run;
+pub mod slices;
 pub mod space;
 #[cfg(feature = "alloc")]
 mod start;
@@ -55,13 +55,13 @@ mod tree;
 #[cfg(feature = "alloc")]
 mod turns;
 
-pub use at::Outside;
 #[cfg(feature = "alloc")]
 pub use error::{LanesError, TreeError};
 #[cfg(feature = "alloc")]
 pub use formulation::{Tree, TreeStep};
 #[cfg(feature = "alloc")]
 pub use history::History;
+pub use indexing::Outside;
 pub use mbs_core::step::{OptionError, StepError, StepReport, Stop};
 pub use options::{Closure, Options};
 #[cfg(feature = "alloc")]

@@ -5,7 +5,7 @@ use mbs_core::Real;
 
 /// The joints of the recursion. All others are made of several of these.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Kind {
+pub enum LinkKind {
     /// Turns about an axis fixed in the parent; one freedom.
     Revolute,
     /// Slides along an axis fixed in the parent; one freedom.
@@ -20,7 +20,7 @@ pub enum Kind {
     GuidedPrismatic,
 }
 
-impl Kind {
+impl LinkKind {
     /// Number of freedoms.
     #[must_use]
     pub fn n_freedoms<T: Real, S: Space<T>>(self) -> usize {
@@ -55,7 +55,7 @@ pub struct Link<T: Real, S: Space<T>> {
     /// The link it hangs from.
     pub parent: u32,
     /// Its joint.
-    pub kind: Kind,
+    pub kind: LinkKind,
     /// First of its coordinates in z.
     pub z: u32,
     /// First of its freedoms in v; of a guided joint the number of its guide.
@@ -78,16 +78,16 @@ impl<T: Real, S: Space<T>> Link<T, S> {
     /// The angle against its parent in the plane, at a coordinate; of a free link against the ground [rad].
     pub(crate) fn turn(&self, coordinate: T) -> T {
         match self.kind {
-            Kind::Prismatic | Kind::GuidedPrismatic => T::ZERO,
-            Kind::Revolute | Kind::GuidedRevolute => self.axis[0] * coordinate,
-            Kind::Ball | Kind::Free => coordinate,
+            LinkKind::Prismatic | LinkKind::GuidedPrismatic => T::ZERO,
+            LinkKind::Revolute | LinkKind::GuidedRevolute => self.axis[0] * coordinate,
+            LinkKind::Ball | LinkKind::Free => coordinate,
         }
     }
 }
 
 /// Where a link is and how it moves, world axes, about its own origin.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Placed<T: Real, S: Space<T>> {
+pub struct LinkMotion<T: Real, S: Space<T>> {
     /// Rotation from the reference configuration.
     pub rotation: S::Rotation,
     /// Its origin, from the tree's base [m].
@@ -104,7 +104,7 @@ pub struct Placed<T: Real, S: Space<T>> {
     pub center: S::Point,
 }
 
-impl<T: Real, S: Space<T>> Placed<T, S> {
+impl<T: Real, S: Space<T>> LinkMotion<T, S> {
     /// The ground.
     #[must_use]
     pub fn ground() -> Self {
@@ -122,7 +122,7 @@ impl<T: Real, S: Space<T>> Placed<T, S> {
 
 /// What is left of a link's subtree after condensation.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Condensed<T: Real, S: Space<T>> {
+pub struct ArticulatedInertia<T: Real, S: Space<T>> {
     /// Articulated inertia; after its joint's elimination its factors, where the joint has several freedoms.
     pub inertia: S::Inertia,
     /// Bias force p: minus the condensed force.
@@ -139,7 +139,7 @@ pub struct Condensed<T: Real, S: Space<T>> {
     pub resistance: T,
 }
 
-impl<T: Real, S: Space<T>> Condensed<T, S> {
+impl<T: Real, S: Space<T>> ArticulatedInertia<T, S> {
     /// Nothing.
     #[must_use]
     pub fn empty() -> Self {

@@ -35,7 +35,7 @@ pub(crate) use eliminate::{close, close_again};
 pub(crate) use release::open;
 
 use crate::plan::Plan;
-use crate::rows::{Loop, Row};
+use crate::rows::{ClosedLoop, Row};
 use crate::space::Space;
 use mbs_core::Real;
 
@@ -43,7 +43,7 @@ use mbs_core::Real;
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Loops<'a, T: Real, S: Space<T>> {
     /// The cut joints.
-    pub loops: &'a [Loop<T, S>],
+    pub loops: &'a [ClosedLoop<T, S>],
     /// Their equations.
     pub rows: &'a [Row<T, S>],
     /// Who meets whom.

@@ -5,8 +5,8 @@
 
 use crate::link::Link;
 use crate::loops::index;
-use crate::plan::{Coupling, End, Pair, Pass, Plan, Span, Station, Update};
-use crate::rows::Loop;
+use crate::plan::{End, LoopCoupling, Pair, Pass, Plan, Span, Station, Update};
+use crate::rows::ClosedLoop;
 use crate::space::Space;
 use alloc::collections::{BTreeMap, BTreeSet};
 use alloc::vec;
@@ -20,7 +20,7 @@ pub(crate) struct Order {
     passes: Vec<Pass>,
     pairs: Vec<Pair>,
     ends: Vec<End>,
-    couplings: Vec<Coupling>,
+    couplings: Vec<LoopCoupling>,
     updates: Vec<Update>,
     /// Numbers in all blocks.
     pub(crate) n_blocks: usize,
@@ -43,7 +43,7 @@ impl Order {
     /// Orders the elimination; writes each loop's ancestor and block.
     pub(crate) fn new<T: Real, S: Space<T>>(
         links: &[Link<T, S>],
-        loops: &mut [Loop<T, S>],
+        loops: &mut [ClosedLoop<T, S>],
     ) -> Self {
         let mut order = Self { stations: vec![Station::default(); links.len()], ..Self::default() };
         for lap in loops.iter_mut() {
@@ -88,7 +88,7 @@ impl Order {
     /// Gives every loop, and every two coupled ones, a block.
     fn number_blocks<T: Real, S: Space<T>>(
         &mut self,
-        loops: &mut [Loop<T, S>],
+        loops: &mut [ClosedLoop<T, S>],
         (sequence, later): (&[usize], &[Vec<usize>]),
     ) -> BTreeMap<(usize, usize), u32> {
         let mut blocks = BTreeMap::new();
@@ -107,7 +107,7 @@ impl Order {
     fn add_passes<T: Real, S: Space<T>>(
         &mut self,
         links: &[Link<T, S>],
-        loops: &[Loop<T, S>],
+        loops: &[ClosedLoop<T, S>],
         (i, passes): (usize, &mut [Pass]),
         block: &impl Fn(usize, usize) -> u32,
     ) {
@@ -135,7 +135,7 @@ impl Order {
     fn add_ends<T: Real, S: Space<T>>(
         &mut self,
         links: &[Link<T, S>],
-        loops: &[Loop<T, S>],
+        loops: &[ClosedLoop<T, S>],
         (sequence, later, turn): (&[usize], &[Vec<usize>], &[usize]),
         block: &impl Fn(usize, usize) -> u32,
     ) {
@@ -149,7 +149,7 @@ impl Order {
                 // A loop that ends here too has been gathered on its first side.
                 let ends_here = loops[l].ancestor == at;
                 let side = u32::from(!ends_here && !hangs_from(links, loops[l].links[0], at));
-                self.couplings.push(Coupling { lap: index(l), side, block: block(l, k) });
+                self.couplings.push(LoopCoupling { lap: index(l), side, block: block(l, k) });
                 for (y, &other) in others[..=x].iter().enumerate() {
                     let (row, column) = (index(first + x), index(first + y));
                     self.updates.push(Update { row, column, block: block(l, other) });
@@ -196,7 +196,7 @@ fn ancestor<T: Real, S: Space<T>>(links: &[Link<T, S>], [mut a, mut b]: [u32; 2]
 /// The order of elimination, and for each loop the later ones it is coupled with, fill included.
 fn eliminate<T: Real, S: Space<T>>(
     n_links: usize,
-    loops: &[Loop<T, S>],
+    loops: &[ClosedLoop<T, S>],
     mut meets: Vec<BTreeSet<usize>>,
 ) -> (Vec<usize>, Vec<Vec<usize>>) {
     // Loops that end at each link, those with the fewest couplings first.

@@ -12,9 +12,9 @@
 
 pub use crate::fault::Fault;
 
-use crate::at::{Outside, at, at_mut};
+use crate::indexing::{Outside, at, at_mut};
 use crate::joint::{self, NoInertia};
-use crate::link::{Condensed, Kind, Link, Placed};
+use crate::link::{ArticulatedInertia, Link, LinkKind, LinkMotion};
 use crate::loops::{self, LoopStore, Loops, Regularisation, index};
 use crate::space::{Numbers, Space};
 use mbs_core::Real;
@@ -29,7 +29,7 @@ use mbs_core::Real;
 pub fn kinematics<T: Real, S: Space<T>>(
     links: &[Link<T, S>],
     (z, v, guides): (&[T], &[T], &[[T; 3]]),
-    placed: &mut [Placed<T, S>],
+    placed: &mut [LinkMotion<T, S>],
 ) -> Result<(), Outside> {
     for (i, link) in links.iter().enumerate().skip(1) {
         // Zᵢ = Zₚ + bᵢ żᵢ   [P3 (26)]
@@ -43,7 +43,7 @@ pub fn kinematics<T: Real, S: Space<T>>(
 #[inline(always)]
 pub(crate) fn body<T: Real, S: Space<T>>(
     link: &Link<T, S>,
-    p: &Placed<T, S>,
+    p: &LinkMotion<T, S>,
 ) -> (S::Inertia, S::Motion) {
     let inertia = S::body_inertia(link.mass, &p.center, &link.tensor, &p.rotation);
     let spin = S::spin(&p.velocity);
@@ -56,8 +56,8 @@ pub(crate) fn body<T: Real, S: Space<T>>(
 #[inline]
 pub fn inertias<T: Real, S: Space<T>>(
     links: &[Link<T, S>],
-    placed: &[Placed<T, S>],
-    condensed: &mut [Condensed<T, S>],
+    placed: &[LinkMotion<T, S>],
+    condensed: &mut [ArticulatedInertia<T, S>],
 ) {
     for ((link, p), c) in links.iter().zip(placed).zip(condensed).skip(1) {
         (c.inertia, c.force) = body(link, p);
@@ -72,9 +72,9 @@ pub fn inertias<T: Real, S: Space<T>>(
 #[inline]
 pub fn condense<T: Real, S: Space<T>>(
     links: &[Link<T, S>],
-    placed: &[Placed<T, S>],
+    placed: &[LinkMotion<T, S>],
     (m, regularisation, a_ground): (&Loops<'_, T, S>, Regularisation<T>, &S::Motion),
-    condensed: &mut [Condensed<T, S>],
+    condensed: &mut [ArticulatedInertia<T, S>],
     st: &mut LoopStore<'_, T, S>,
 ) -> Result<(), Fault<T>> {
     let has_loops = !m.loops.is_empty();
@@ -112,9 +112,9 @@ pub fn condense<T: Real, S: Space<T>>(
 #[inline]
 pub fn condense_again<T: Real, S: Space<T>>(
     links: &[Link<T, S>],
-    placed: &[Placed<T, S>],
+    placed: &[LinkMotion<T, S>],
     m: &Loops<'_, T, S>,
-    condensed: &mut [Condensed<T, S>],
+    condensed: &mut [ArticulatedInertia<T, S>],
     st: &mut LoopStore<'_, T, S>,
 ) -> Result<(), Outside> {
     for i in (1..links.len()).rev() {
@@ -132,7 +132,7 @@ pub fn condense_again<T: Real, S: Space<T>>(
 }
 
 /// What the first two passes leave of each link.
-pub type Factors<'a, T, S> = (&'a [Placed<T, S>], &'a [Condensed<T, S>]);
+pub type Factors<'a, T, S> = (&'a [LinkMotion<T, S>], &'a [ArticulatedInertia<T, S>]);
 
 /// Third pass, outward: joint accelerations, links' accelerations, λ. `a[0]` is given: minus gravity, or zero for a response
 /// (`has_bias` false), which has no velocity products.
@@ -157,7 +157,7 @@ pub fn accelerate<T: Real, S: Space<T>>(
         let held = if has_loops { loops::held(m, (i, link.kind), st)? } else { S::Motion::zero() };
         // Ż = Żₚ + b z̈ + d   [P3 (27)],   z̈ as in [P3 (35)]
         let mut carried = match link.kind {
-            Kind::Free => ground,
+            LinkKind::Free => ground,
             _ => S::carried(at(a, link.parent as usize)?, &p.arm),
         };
         if has_bias {

@@ -74,7 +74,7 @@ pub struct End {
 
 /// A later loop that an eliminated one is coupled with.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Coupling {
+pub struct LoopCoupling {
     /// The later loop.
     pub lap: u32,
     /// The side by which it reaches the link of elimination.
@@ -105,8 +105,8 @@ pub struct Plan<'a> {
     pub pairs: &'a [Pair],
     /// See [`End`].
     pub ends: &'a [End],
-    /// See [`Coupling`].
-    pub couplings: &'a [Coupling],
+    /// See [`LoopCoupling`].
+    pub couplings: &'a [LoopCoupling],
     /// See [`Update`].
     pub updates: &'a [Update],
 }

@@ -12,15 +12,15 @@
 //! new state. Inertias are then those of the last iteration: with effects their resistance to accelerations within the step is part of
 //! the weight, so that stiff springs are spared. Cost: an evaluation of the rows and about a fifth of a condensation for each sweep.
 
-use crate::at::{Outside, at, at_mut, part, part_mut};
 use crate::evaluate::{note_rank, respond};
 use crate::fault::Fault;
+use crate::indexing::{Outside, at, at_mut, part, part_mut};
 use crate::inverse::spread_each;
-use crate::link::{Kind, Link};
+use crate::link::{Link, LinkKind};
 use crate::loops::index;
-use crate::mechanism::{Mechanism, Store};
 use crate::options::Options;
 use crate::passes::kinematics;
+use crate::slices::{Store, TreeSlices};
 use crate::space::{Numbers, Space};
 use mbs_core::Real;
 
@@ -34,12 +34,12 @@ pub(crate) fn advance<T: Real, S: Space<T>>(
     for link in links.iter().skip(1) {
         let (first, from) = (link.z as usize, link.v as usize);
         match link.kind {
-            Kind::Revolute | Kind::Prismatic => *at_mut(z, first)? += *at(delta, from)?,
-            Kind::Ball => {
+            LinkKind::Revolute | LinkKind::Prismatic => *at_mut(z, first)? += *at(delta, from)?,
+            LinkKind::Ball => {
                 let delta = part(delta, from, S::Spin::N)?;
                 S::advance_rotation(part_mut(z, first, turn)?, delta);
             }
-            Kind::Free => {
+            LinkKind::Free => {
                 let angles = part(delta, from, S::Spin::N)?;
                 S::advance_rotation(part_mut(z, first, turn)?, angles);
                 let place = part_mut(z, first + turn, S::Point::N)?;
@@ -48,7 +48,7 @@ pub(crate) fn advance<T: Real, S: Space<T>>(
                     *z += way;
                 }
             }
-            Kind::GuidedRevolute | Kind::GuidedPrismatic => {}
+            LinkKind::GuidedRevolute | LinkKind::GuidedPrismatic => {}
         }
     }
     Ok(())
@@ -76,7 +76,7 @@ pub(crate) fn share_of<T: Real>(error: T) -> T {
 /// Projects the positions and velocities of the store until no more than this share of their scales is left; returns the largest
 /// |Φ| and |Φ̇| left.
 pub(crate) fn project<T: Real, S: Space<T>>(
-    m: &Mechanism<'_, T, S>,
+    m: &TreeSlices<'_, T, S>,
     (options, share): (&Options<T>, T),
     s: &mut Store<'_, T, S>,
 ) -> Result<[T; 2], Fault<T>> {
@@ -91,7 +91,7 @@ pub(crate) fn project<T: Real, S: Space<T>>(
 
 /// Sweeps one level until no more than the share is left; `s.trial` is at the state before and after.
 fn settle<T: Real, S: Space<T>>(
-    m: &Mechanism<'_, T, S>,
+    m: &TreeSlices<'_, T, S>,
     (options, share): (&Options<T>, T),
     level: u8,
     s: &mut Store<'_, T, S>,
@@ -133,7 +133,7 @@ fn settle<T: Real, S: Space<T>>(
 /// inertias as they were evaluated last, at `s.z` and `s.v`. Near a singular position a large part of the rounding
 /// is in directions that constraints soon forbid: shorter steps would only go there more often.
 pub(crate) fn keep<T: Real, S: Space<T>>(
-    m: &Mechanism<'_, T, S>,
+    m: &TreeSlices<'_, T, S>,
     delta: &mut [T],
     s: &mut Store<'_, T, S>,
 ) -> Result<(), Outside> {
@@ -169,7 +169,7 @@ struct Violation<T> {
 
 /// Φ or Φ̇ at the trial state into l, and what of it is left.
 fn violation<T: Real, S: Space<T>>(
-    m: &Mechanism<'_, T, S>,
+    m: &TreeSlices<'_, T, S>,
     (level, share): (u8, T),
     s: &mut Store<'_, T, S>,
 ) -> Result<Violation<T>, Outside> {

@@ -6,14 +6,14 @@
 //! rows of J and of Jacobians                      bᵀ w along the path to the ground, for a wrench w on a link
 //! ```
 
-use crate::at::own;
 use crate::evaluate::{Level, accelerations_under};
 use crate::fault::failure;
+use crate::indexing::own;
 use crate::inverse;
 use crate::loops::Loops;
-use crate::mechanism::Mechanism;
 use crate::options::Options;
 use crate::passes::kinematics;
+use crate::slices::TreeSlices;
 use crate::space::{Numbers, Space};
 use crate::state::{TreeState, Workspace};
 use crate::tree::TreeModel;
@@ -78,7 +78,7 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         let none = Loops { loops: &[], rows: &[], ..self.mechanism().loops };
         let has_effects = terms == EffortTerms::WithEffects;
         let loads = if has_effects { &self.loads[..] } else { &[] };
-        let m = Mechanism { loads, loops: none, ..self.mechanism() };
+        let m = TreeSlices { loads, loops: none, ..self.mechanism() };
         let mut s = workspace.store();
         self.place_in(state, &mut s);
         s.a[0] = S::motion(S::Spin::zero(), -m.gravity);
@@ -134,7 +134,7 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         state: &mut TreeState<T>,
         workspace: &mut Workspace<T, S>,
     ) -> Result<(), StepError> {
-        let m = Mechanism { loads: &[], ..self.mechanism() };
+        let m = TreeSlices { loads: &[], ..self.mechanism() };
         let mut s = workspace.store();
         s.z.copy_from_slice(&state.z);
         s.v.copy_from_slice(&state.v);
@@ -197,7 +197,7 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         rows.fill(T::ZERO);
         for lap in &self.loops {
             own(lap.evaluate(&self.rows, s.placed, |k, value| {
-                let row = crate::at::part_mut(rows, k * n, n)?;
+                let row = crate::indexing::part_mut(rows, k * n, n)?;
                 for (&link, &gradient) in lap.links.iter().zip(&value.gradient) {
                     inverse::add_along(&self.links, s.placed, (link as usize, gradient), row)?;
                 }

@@ -10,8 +10,8 @@
 //! length        (g·g − L²)/(2L)                   K₂ = (s₂ × g, g)/L,  K₁ = −(s₁ × g, g)/L
 //! ```
 
-use crate::at::{Outside, at, part};
-use crate::link::Placed;
+use crate::indexing::{Outside, at, part};
+use crate::link::LinkMotion;
 use crate::space::{Numbers, Space};
 use mbs_core::Real;
 
@@ -61,7 +61,7 @@ impl<T: Real, S: Space<T>> Row<T, S> {
 
 /// A cut joint: a loop of the mechanism.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Loop<T: Real, S: Space<T>> {
+pub struct ClosedLoop<T: Real, S: Space<T>> {
     /// Links of its first and second body.
     pub links: [u32; 2],
     /// Its point on each, from the link's origin, reference axes [m].
@@ -91,7 +91,7 @@ pub struct RowValue<T: Real, S: Space<T>> {
     pub bias: T,
 }
 
-impl<T: Real, S: Space<T>> Loop<T, S> {
+impl<T: Real, S: Space<T>> ClosedLoop<T, S> {
     /// The numbers of its rows.
     #[inline(always)]
     #[must_use]
@@ -107,7 +107,7 @@ impl<T: Real, S: Space<T>> Loop<T, S> {
     pub fn evaluate(
         &self,
         rows: &[Row<T, S>],
-        placed: &[Placed<T, S>],
+        placed: &[LinkMotion<T, S>],
         mut take: impl FnMut(usize, RowValue<T, S>) -> Result<(), Outside>,
     ) -> Result<(), Outside> {
         let [first, second] = self.links;

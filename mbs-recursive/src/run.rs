@@ -1,16 +1,16 @@
 //! What a caller asks of a tree: steps, energies, efforts, mass matrix, reactions.
 
-use crate::at::own;
 use crate::bounded::{self, BoundedReport, Bounds, Unwatched};
 use crate::energy_balance;
 use crate::evaluate::{Level, accelerations};
 use crate::explicit;
 use crate::fault::failure;
+use crate::indexing::own;
 use crate::inverse;
-use crate::mechanism::Start;
-use crate::mechanism::{Inputs, Store};
 use crate::options::Options;
 use crate::passes::kinematics;
+use crate::slices::Start;
+use crate::slices::{Inputs, Store};
 use crate::space::{Numbers, Space};
 use crate::state::{Explicit, TreeState, Workspace};
 use crate::trapezoidal;
@@ -369,7 +369,7 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         for seat in &self.seats {
             let Some(joint) = seat.branch.joint else { continue };
             let link = seat.link as usize;
-            if self.links[link].kind == crate::link::Kind::Free {
+            if self.links[link].kind == crate::link::LinkKind::Free {
                 continue;
             }
             let c = &s.condensed[link];

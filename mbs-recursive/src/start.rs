@@ -1,17 +1,17 @@
 //! Joint coordinates read from the motions of the bodies, and the motions written from them.
 
-use crate::at::own;
 use crate::error::TreeError;
 use crate::evaluate::{Level, accelerations};
 use crate::fault::failure;
 use crate::graph::Branch;
+use crate::indexing::own;
 use crate::inverse;
 use crate::joint::write;
-use crate::link::{Kind, Placed};
-use crate::mechanism::Inputs;
+use crate::link::{LinkKind, LinkMotion};
 use crate::options::{Closure, Options};
 use crate::passes::kinematics;
 use crate::project::{project, rounding};
+use crate::slices::Inputs;
 use crate::space::{Numbers, Space};
 use crate::state::{TreeState, Workspace};
 use crate::tree::{Part, TreeModel, TreePlace, parts};
@@ -112,13 +112,13 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         for seat in &self.seats {
             let own = &self.links[seat.link as usize];
             let mut values: Vec<T> = match own.kind {
-                Kind::Free if S::DIMENSION == 2 && seat.branch.is_reversed => {
+                LinkKind::Free if S::DIMENSION == 2 && seat.branch.is_reversed => {
                     vec![-state.z[own.z as usize]]
                 }
-                Kind::Free if S::DIMENSION == 2 => vec![state.z[own.z as usize]],
+                LinkKind::Free if S::DIMENSION == 2 => vec![state.z[own.z as usize]],
                 // A quaternion has no turns to be counted.
-                Kind::Ball | Kind::Free => Vec::new(),
-                Kind::GuidedRevolute | Kind::GuidedPrismatic => continue,
+                LinkKind::Ball | LinkKind::Free => Vec::new(),
+                LinkKind::GuidedRevolute | LinkKind::GuidedPrismatic => continue,
                 _ => {
                     let chain = &self.links[seat.first as usize..=seat.link as usize];
                     chain.iter().map(|link| state.z[link.z as usize]).collect()
@@ -188,7 +188,7 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         let [position, velocity, _] = child.point(origin);
         let link = &self.links[seat.link as usize];
         match link.kind {
-            Kind::Free => {
+            LinkKind::Free => {
                 let (z, v) = (&mut state.z[link.z as usize..], &mut state.v[link.v as usize..]);
                 let rotation = S::rotation_from(&child.rotation);
                 S::write_rotation(&rotation, z);
@@ -202,11 +202,11 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
                 own(write(&S::point_from(&(position - self.base)), z, place));
                 own(write(&S::point_from(&velocity), v, S::Spin::N));
             }
-            Kind::Revolute
-            | Kind::Prismatic
-            | Kind::Ball
-            | Kind::GuidedRevolute
-            | Kind::GuidedPrismatic => {
+            LinkKind::Revolute
+            | LinkKind::Prismatic
+            | LinkKind::Ball
+            | LinkKind::GuidedRevolute
+            | LinkKind::GuidedPrismatic => {
                 let [hold, hold_rate, _] = parent.point(origin);
                 let gap = [position - hold, velocity - hold_rate];
                 let is_guided = link.kind.is_guided();
@@ -230,13 +230,13 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         let mut rotation: Matrix<T, 3> = parent.rotation;
         let turning = child.omega - parent.omega;
         let turns: Vec<usize> =
-            (0..chain.len()).filter(|&k| chain[k].kind == Kind::Revolute).collect();
+            (0..chain.len()).filter(|&k| chain[k].kind == LinkKind::Revolute).collect();
         let mut axes = vec![Vector::<T, 3>::zeros(); chain.len()];
         for (k, part) in chain.iter().enumerate() {
             let at = seat.first as usize + k;
             let z = &mut state.z[self.links[at].z as usize];
             axes[k] = rotation * part.axis;
-            if part.kind == Kind::Revolute {
+            if part.kind == LinkKind::Revolute {
                 // What the next turn leaves fixed, or any direction across the axis, shows the angle.
                 let next = turns.iter().find(|&&j| j > k).map(|&j| chain[j].axis);
                 let shown = next.unwrap_or_else(|| across(&part.axis));
@@ -245,7 +245,7 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
                 let seen = rotation.transpose() * (child.rotation * shown);
                 *z = unwrap(w.dot(&seen).atan2(v.dot(&seen)), values[part.number]);
                 rotation *= mbs_core::algebra::rotation(&(part.axis * *z));
-            } else if part.kind == Kind::Ball {
+            } else if part.kind == LinkKind::Ball {
                 let relative = rotation.transpose() * child.rotation;
                 let z = &mut state.z[self.links[at].z as usize..];
                 S::write_rotation(&S::rotation_from(&relative), z);
@@ -270,14 +270,14 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         let mut spin = parent.omega;
         for (k, part) in chain.iter().enumerate() {
             let v = &mut state.v[self.links[seat.first as usize + k].v as usize..];
-            if part.kind == Kind::Ball {
+            if part.kind == LinkKind::Ball {
                 // A ball stands alone, or with slides.
                 let own = child.rotation.transpose() * turning;
-                crate::at::own(write(&S::spin_from(&own), v, 0));
+                crate::indexing::own(write(&S::spin_from(&own), v, 0));
                 spin = child.omega;
                 continue;
             }
-            if part.kind == Kind::Revolute {
+            if part.kind == LinkKind::Revolute {
                 spin += axes[k] * rates[k];
             } else {
                 rates[k] = (gap_rate - cross(&spin, &gap)).dot(&axes[k]);
@@ -305,7 +305,7 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         own(inverse::spread(&self.links, s.placed, &state.a, s.a));
         for (to, &link) in motions.iter_mut().zip(&self.link_of_body) {
             let link = link as usize;
-            let (p, a): (&Placed<T, S>, _) = (&s.placed[link], &s.a[link]);
+            let (p, a): (&LinkMotion<T, S>, _) = (&s.placed[link], &s.a[link]);
             *to = RigidMotion {
                 origin: self.origins[link],
                 position: S::point_into(&p.position) + lifted::<T, S>(&self.base),

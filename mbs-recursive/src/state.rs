@@ -2,9 +2,9 @@
 
 use crate::anderson::history;
 use crate::explicit::n_components;
-use crate::link::{Condensed, Placed};
+use crate::link::{ArticulatedInertia, LinkMotion};
 use crate::loops::LoopStore;
-use crate::mechanism::{Counts, Store};
+use crate::slices::{Counts, Store};
 use crate::space::{Numbers, Space};
 use crate::tree::TreeModel;
 use alloc::vec;
@@ -98,9 +98,9 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
 /// [`radau5_step`](crate::radau5_step) by the first call of it.
 #[derive(Debug, Clone)]
 pub struct Workspace<T: Real, S: Space<T>> {
-    placed: Vec<Placed<T, S>>,
-    trial: Vec<Placed<T, S>>,
-    condensed: Vec<Condensed<T, S>>,
+    placed: Vec<LinkMotion<T, S>>,
+    trial: Vec<LinkMotion<T, S>>,
+    condensed: Vec<ArticulatedInertia<T, S>>,
     motions: Vec<S::Motion>,
     gradients: Vec<S::Motion>,
     rows: Vec<[T; 3]>,
@@ -145,9 +145,9 @@ impl<T: Real, S: Space<T>> Workspace<T, S> {
         let n_scratch = rk4_scratch(n).max(Tableau::<T, 12>::scratch(n));
         let n_scratch = n_scratch.max(Extrapolation::most_scratch(n));
         Self {
-            placed: vec![Placed::ground(); links],
-            trial: vec![Placed::ground(); links],
-            condensed: vec![Condensed::empty(); links],
+            placed: vec![LinkMotion::ground(); links],
+            trial: vec![LinkMotion::ground(); links],
+            condensed: vec![ArticulatedInertia::empty(); links],
             motions: vec![S::Motion::zero(); 2 * links],
             gradients: vec![S::Motion::zero(); 4 * rows],
             rows: vec![[T::ZERO; 3]; rows],

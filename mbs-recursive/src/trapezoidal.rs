@@ -15,16 +15,16 @@
 //! Differs from the source: increments in place of hats, which round less; rotations are quaternions, q exp(δ). Positions and
 //! velocities are projected on the loops afterwards, and the accelerations are those of the projected state.
 
-pub use crate::mechanism::Start;
+pub use crate::slices::Start;
 
 use crate::anderson::Mixing;
-use crate::at::{Outside, at, at_mut, copy};
 use crate::evaluate::{Level, accelerations, accelerations_ahead, is_redundant, note_rank};
 use crate::fault::failure;
+use crate::indexing::{Outside, at, at_mut, copy};
 use crate::loads::{Reach, check_rotations};
-use crate::mechanism::{Inputs, Mechanism, Store};
 use crate::options::{Closure, Options};
 use crate::project::{advance, project, rounding};
+use crate::slices::{Inputs, Store, TreeSlices};
 use crate::space::Space;
 use mbs_core::Real;
 use mbs_core::algebra::norm_inf;
@@ -53,13 +53,13 @@ const PASSAGE: f64 = 0.1;
 /// # Errors
 /// [`StepError`]; unknowns and rows are numbered as freedoms and rows.
 pub fn step<T: Real, S: Space<T>>(
-    m: &Mechanism<'_, T, S>,
+    m: &TreeSlices<'_, T, S>,
     inputs: &impl Inputs<T>,
     (dt, options): (T, &Options<T>),
     (start, aux): (Start<'_, T>, &[T]),
     s: &mut Store<'_, T, S>,
 ) -> Result<StepReport<T>, StepError> {
-    s.counts = crate::mechanism::Counts::default();
+    s.counts = crate::slices::Counts::default();
     let mut projects = false;
     if options.closure == Closure::Constraints && is_redundant(s) {
         // A factor at the start, to project with.
@@ -95,7 +95,7 @@ pub fn step<T: Real, S: Space<T>>(
 
 /// The fixed-point loop: iterations, last correction, what ended it.
 fn iterate<T: Real, S: Space<T>>(
-    m: &Mechanism<'_, T, S>,
+    m: &TreeSlices<'_, T, S>,
     (dt, options): (T, &Options<T>),
     ((start, aux), projects): ((Start<'_, T>, &[T]), bool),
     s: &mut Store<'_, T, S>,
@@ -175,7 +175,7 @@ fn reach_of<T: Real>(integrator: &Integrator<T>, dt: T) -> Reach<T> {
 
 /// Why an iteration that does not contract may end with this correction, beside what accelerations move in the step, if it may.
 fn given_up<T: Real, S: Space<T>>(
-    m: &Mechanism<'_, T, S>,
+    m: &TreeSlices<'_, T, S>,
     options: &Options<T>,
     ([rest, correction], scale, stalled): ([T; 2], T, u32),
     s: &mut Store<'_, T, S>,
@@ -199,7 +199,7 @@ fn given_up<T: Real, S: Space<T>>(
 /// zₙ₊₁ and żₙ₊₁ from z̈ₙ₊₁, with the auxiliary accelerations at the start and, by `next`, at the end; increments are left in the scratch.
 #[inline]
 pub(crate) fn reach_end<T: Real, S: Space<T>>(
-    m: &Mechanism<'_, T, S>,
+    m: &TreeSlices<'_, T, S>,
     (dt, options): (T, &Options<T>),
     (start, aux, next): (&Start<'_, T>, &[T], impl Fn(usize, T) -> T),
     s: &mut Store<'_, T, S>,
@@ -217,7 +217,7 @@ pub(crate) fn reach_end<T: Real, S: Space<T>>(
 
 /// |Φ|, |Φ̇| and |Φ̈| as last evaluated.
 pub(crate) fn violations<T: Real, S: Space<T>>(
-    m: &Mechanism<'_, T, S>,
+    m: &TreeSlices<'_, T, S>,
     s: &Store<'_, T, S>,
 ) -> [T; 3] {
     let n = m.loops.rows.len();

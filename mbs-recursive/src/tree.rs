@@ -1,18 +1,18 @@
 //! [`TreeModel`]: a scene as a tree of links with cut joints. Built once; constant from then on.
 
-use crate::at::own;
 use crate::error::TreeError;
 use crate::fault::Fault;
 use crate::graph::{Branch, span};
+use crate::indexing::own;
 use crate::joint_facts::JointFacts;
-use crate::link::{Condensed, Kind, Link, Placed};
+use crate::link::{ArticulatedInertia, Link, LinkKind, LinkMotion};
 use crate::loads::Load;
 use crate::loops::{LoopStore, Loops, Regularisation, index};
-use crate::mechanism::{Inputs, Mechanism};
 use crate::order::Order;
 use crate::passes;
 use crate::plan::Plan;
-use crate::rows::{Loop, Row};
+use crate::rows::{ClosedLoop, Row};
+use crate::slices::{Inputs, TreeSlices};
 use crate::space::{Numbers, Space};
 use alloc::vec;
 use alloc::vec::Vec;
@@ -29,7 +29,7 @@ use mbs_core::scene::{BodyId, Freedom, Joint, Scene};
 /// A part of a joint: one link of the recursion.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Part<T: Real> {
-    pub(crate) kind: Kind,
+    pub(crate) kind: LinkKind,
     /// Axis or direction, reference axes.
     pub(crate) axis: Vector<T, 3>,
     /// Its number among the joint's coordinates.
@@ -50,7 +50,7 @@ pub(crate) struct TreePlace {
 #[derive(Debug, Clone)]
 pub struct TreeModel<T: Real, S: Space<T>> {
     pub(crate) links: Vec<Link<T, S>>,
-    pub(crate) loops: Vec<Loop<T, S>>,
+    pub(crate) loops: Vec<ClosedLoop<T, S>>,
     pub(crate) rows: Vec<Row<T, S>>,
     pub(crate) order: Order,
     pub(crate) loads: Vec<Load<T, S>>,
@@ -129,7 +129,7 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         let least = if total > T::ZERO { T::ONE / total } else { T::ONE };
         let ground = Link {
             parent: 0,
-            kind: Kind::GuidedRevolute,
+            kind: LinkKind::GuidedRevolute,
             z: 0,
             v: 0,
             axis: S::Spin::zero(),
@@ -174,7 +174,7 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         let guide = branch.joint.and_then(|joint| facts.guide[joint]);
         let parts = parts(scene, &branch, guide.is_some());
         let joint = branch.joint.map(|j| &scene.joints[j]);
-        let is_free = parts[0].kind == Kind::Free;
+        let is_free = parts[0].kind == LinkKind::Free;
         let place = match joint {
             Some(joint) if !is_free => Vector::from(joint.points[usize::from(!branch.is_reversed)]),
             _ => cluster.center,
@@ -243,8 +243,8 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         self.write_reference(&mut z);
         let v = vec![T::ZERO; self.n_freedoms];
         let guides = vec![[T::ZERO; 3]; self.prescribed.n_guides()];
-        let mut placed = vec![Placed::<T, S>::ground(); n];
-        let mut condensed = vec![Condensed::<T, S>::empty(); n];
+        let mut placed = vec![LinkMotion::<T, S>::ground(); n];
+        let mut condensed = vec![ArticulatedInertia::<T, S>::empty(); n];
         own(passes::kinematics(&self.links, (&z, &v, &guides), &mut placed));
         passes::inertias(&self.links, &placed, &mut condensed);
         let plan = Plan {
@@ -279,10 +279,10 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
     pub(crate) fn write_reference(&self, z: &mut [T]) {
         z.fill(T::ZERO);
         for (link, origin) in self.links.iter().zip(&self.origins).skip(1) {
-            if matches!(link.kind, Kind::Ball | Kind::Free) {
+            if matches!(link.kind, LinkKind::Ball | LinkKind::Free) {
                 S::write_rotation(&S::identity(), &mut z[link.z as usize..]);
             }
-            if link.kind == Kind::Free {
+            if link.kind == LinkKind::Free {
                 let at = link.z as usize + S::FREE - S::Point::N;
                 own(crate::joint::write(&S::point_from(&(origin - self.base)), z, at));
             }
@@ -305,8 +305,8 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
 
     /// The mechanism as slices.
     #[must_use]
-    pub fn mechanism(&self) -> Mechanism<'_, T, S> {
-        Mechanism {
+    pub fn mechanism(&self) -> TreeSlices<'_, T, S> {
+        TreeSlices {
             links: &self.links,
             loops: Loops {
                 loops: &self.loops,
@@ -315,7 +315,7 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
                 floor: self.floor,
             },
             loads: &self.loads,
-            tables: self.tables.supplies(&[]),
+            tables: self.tables.law_inputs(&[]),
             gravity: self.gravity,
             base: S::point_from(&self.base),
             length: self.length,
@@ -421,21 +421,21 @@ fn tensor<T: Real>(cluster: &Cluster<T>, is_idle: bool, at: &Vector<T, 3>) -> Ma
 /// The parts of a branch's joint from the parent to the child.
 pub(crate) fn parts<T: Real>(scene: &Scene<T>, branch: &Branch, is_guided: bool) -> Vec<Part<T>> {
     let zero = Vector::<T, 3>::zeros();
-    let free = Part { kind: Kind::Free, axis: zero, number: 0 };
+    let free = Part { kind: LinkKind::Free, axis: zero, number: 0 };
     let Some(joint) = branch.joint else { return vec![free] };
     let joint: &Joint<T> = &scene.joints[joint];
     if joint.kind.is_free() {
         return vec![free];
     }
     let (turn, slide) = if is_guided {
-        (Kind::GuidedRevolute, Kind::GuidedPrismatic)
+        (LinkKind::GuidedRevolute, LinkKind::GuidedPrismatic)
     } else {
-        (Kind::Revolute, Kind::Prismatic)
+        (LinkKind::Revolute, LinkKind::Prismatic)
     };
     let part = |(number, freedom)| match freedom {
         Freedom::Slide(axis) => Part { kind: slide, axis: joint.direction(axis), number },
         Freedom::Turn(axis) => Part { kind: turn, axis: joint.direction(axis), number },
-        Freedom::Ball => Part { kind: Kind::Ball, axis: zero, number },
+        Freedom::Ball => Part { kind: LinkKind::Ball, axis: zero, number },
     };
     let mut parts: Vec<Part<T>> = joint.kind.numbered(scene.dimension).map(part).collect();
     if branch.is_reversed {

@@ -3,16 +3,16 @@
 //! A coordinate of a joint begins nearest to its given value. A free link has the turns of the matrix alone, within half a turn.
 //! What is between a free link and others may lack whole turns, which the natural state remembers.
 
-use crate::at::own;
-use crate::link::{Kind, Link};
-use crate::loads::{Gauge, Instant, Load};
+use crate::indexing::own;
+use crate::link::{Link, LinkKind};
+use crate::loads::{Instant, Load, Measure};
 use crate::space::{Numbers, Space};
 use crate::state::TreeState;
 use crate::tree::TreeModel;
 use alloc::vec;
 use alloc::vec::Vec;
 use mbs_core::Real;
-use mbs_core::laws::Supplies;
+use mbs_core::laws::LawInputs;
 use mbs_core::model::State;
 use mbs_core::natural::{NaturalModel, unwrap};
 
@@ -53,7 +53,9 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
                     }
                 }
                 Load::Between {
-                    links, gauge: Gauge::Turn | Gauge::Rotation { number: 0 }, ..
+                    links,
+                    gauge: Measure::Turn | Measure::Rotation { number: 0 },
+                    ..
                 } => {
                     let whole = self.missing(state, *links, &from.memory[place..]);
                     let roots = links.map(|link| groups.of(self.root(link)));
@@ -76,7 +78,7 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
 
     /// The free link that a link hangs from; 0 where it hangs from the ground.
     fn root(&self, mut link: u32) -> u32 {
-        while link > 0 && self.links[link as usize].kind != Kind::Free {
+        while link > 0 && self.links[link as usize].kind != LinkKind::Free {
             link = self.links[link as usize].parent;
         }
         link
@@ -105,7 +107,7 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
             links: &self.links,
             placed: &[],
             coordinates: (&state.z, &state.v, &guides),
-            supplies: Supplies::courses(&[]),
+            law_inputs: LawInputs::courses(&[]),
             base: S::Point::zero(),
         })
     }
@@ -115,8 +117,8 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
 fn turn<T: Real, S: Space<T>>(link: &Link<T, S>, whole: T, z: &mut [T]) {
     let first = link.z as usize;
     match (link.kind, S::DIMENSION) {
-        (Kind::Free, 2) => z[first] += whole,
-        (Kind::Free, _) => z[first..][..4].iter_mut().for_each(|x| *x = -*x),
+        (LinkKind::Free, 2) => z[first] += whole,
+        (LinkKind::Free, _) => z[first..][..4].iter_mut().for_each(|x| *x = -*x),
         _ => {}
     }
 }

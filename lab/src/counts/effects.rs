@@ -1,10 +1,10 @@
 //! One effect of each kind: chosen ones, and examples of kinds that have none here.
 
 use mbs_core::effects::{EFFECTS, Places, Row};
-use mbs_core::laws::body::{Action, BodyMotion};
+use mbs_core::laws::body::{BodyMotion, UnitWrench};
 use mbs_core::laws::code::{self, Force as Given, Measured, MeasuredBody, Wrench};
-use mbs_core::laws::own::{ScalarLaw, UserBodyLaw, UserScalarLaw, WrenchLaw};
 use mbs_core::laws::scalar::Measure;
+use mbs_core::laws::user::{ScalarLaw, UserBodyLaw, UserScalarLaw, WrenchLaw};
 use mbs_core::scene::{
     Actuator, AeroDrag, AxisFrame, BodyId, BodyTorque, Bumper, Bushing, CalspanCoefficients,
     Dimension, EffectKind, Force, Friction, JointId, JointTorque, LawOnBody, LawOnJoint, LawOnLine,
@@ -222,8 +222,8 @@ impl ScalarLaw<f64> for Steady {
 }
 
 impl WrenchLaw<f64> for Steady {
-    fn evaluate(motion: &BodyMotion<f64>, input: [f64; 3]) -> Action<f64> {
+    fn evaluate(motion: &BodyMotion<f64>, input: [f64; 3]) -> UnitWrench<f64> {
         let measure = Measure { tension: input[0], ..Measure::default() };
-        Action { force: motion.axis, moment: [0.0; 3], measure }
+        UnitWrench { force: motion.axis, moment: [0.0; 3], measure }
     }
 }

@@ -1,6 +1,6 @@
 //! From the effects of a scene to actions: each kind says what it does by these means.
 
-use super::{Action, Actions, Seat};
+use super::{Action, Actions, Attachment};
 use crate::Real;
 use crate::algebra::{Vector, norm};
 use crate::effects::laws::{CodeBodyLaw, CodeLaw};
@@ -125,18 +125,18 @@ impl<T: Real> Compiler<'_, T> {
     /// A law on a body at a point, with a direction, a unit vector.
     pub(crate) fn on_body(
         &mut self,
-        (body, at): Seat<T>,
+        (body, at): Attachment<T>,
         axis: [T; 3],
         law: impl Into<Option<BodyLaw<T>>>,
     ) {
         if let (Some(body), Some(law)) = (body.index(), law.into()) {
-            self.push(Action::OnBody { at: (body, at), axis, law });
+            self.push(Action::BodyLoad { at: (body, at), axis, law });
         }
     }
 }
 
 /// The places of two points.
-fn ends<T: Copy>(bodies: [BodyId; 2], points: [[T; 3]; 2]) -> [Seat<T>; 2] {
+fn ends<T: Copy>(bodies: [BodyId; 2], points: [[T; 3]; 2]) -> [Attachment<T>; 2] {
     [(bodies[0], points[0]), (bodies[1], points[1])]
 }
 

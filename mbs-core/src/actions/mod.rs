@@ -20,7 +20,7 @@ use crate::scene::{Axis, BodyId};
 use alloc::vec::Vec;
 
 /// A place on a body, reference configuration [m].
-pub type Seat<T> = (BodyId, [T; 3]);
+pub type Attachment<T> = (BodyId, [T; 3]);
 
 /// What one effect, or a part of one, does.
 #[derive(Debug, Clone, PartialEq)]
@@ -28,14 +28,14 @@ pub enum Action<T> {
     /// A law along the line of two places.
     Length {
         /// The places.
-        ends: [Seat<T>; 2],
+        ends: [Attachment<T>; 2],
         /// The law.
         law: Law<T>,
     },
     /// A law of the distance of two places along a direction fixed in the first body (a unit vector): a slide.
     Along {
         /// The places.
-        ends: [Seat<T>; 2],
+        ends: [Attachment<T>; 2],
         /// The direction, reference configuration.
         direction: [T; 3],
         /// What the distance is counted from [m].
@@ -93,7 +93,7 @@ pub enum Action<T> {
         course: u32,
     },
     /// A law on one body.
-    OnBody {
+    BodyLoad {
         /// Where it acts.
         at: (usize, [T; 3]),
         /// Its direction, a unit vector fixed in the body.

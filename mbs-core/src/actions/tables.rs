@@ -1,7 +1,7 @@
 //! Tables that laws refer to by number.
 
 use crate::Real;
-use crate::laws::Supplies;
+use crate::laws::LawInputs;
 use crate::laws::code::Codes;
 use crate::laws::polynomial::Piece;
 use crate::laws::road::Feature;
@@ -36,8 +36,8 @@ impl<T: Real> Tables<T> {
 
     /// What laws ask for, with the courses of this instant.
     #[inline(always)]
-    pub fn supplies<'a>(&'a self, courses: &'a [[T; 3]]) -> Supplies<'a, T> {
-        Supplies {
+    pub fn law_inputs<'a>(&'a self, courses: &'a [[T; 3]]) -> LawInputs<'a, T> {
+        LawInputs {
             courses,
             #[cfg(feature = "polynomial")]
             pieces: &self.pieces,

@@ -1,11 +1,11 @@
 //! A one-sided stop between two points: f = -contact(touch - m, -m'), see [`contact`](crate::laws::bumper).
 
 use crate::Real;
-use crate::laws::Supplies;
+use crate::laws::LawInputs;
 use crate::laws::bumper;
 use crate::laws::entry::entry;
 use crate::laws::operations::Operations;
-use crate::laws::scalar::{Measure, TensionLaw};
+use crate::laws::scalar::{ScalarForce, TensionLaw};
 
 /// Pushes where the value has fallen below `touch`.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -20,15 +20,15 @@ entry!(BumperLaw<T> { law, touch });
 
 impl<T: Real> TensionLaw<T> for BumperLaw<T> {
     #[inline]
-    fn evaluate(&self, value: T, rate: T, _: &Supplies<'_, T>) -> Measure<T> {
+    fn evaluate(&self, value: T, rate: T, _: &LawInputs<'_, T>) -> ScalarForce<T> {
         let contact = bumper::contact(self.law, self.touch - value, -rate);
-        Measure {
+        ScalarForce {
             value,
             rate,
             tension: -contact.force,
             stiffness: contact.stiffness,
             damping: contact.damping,
-            ..Measure::default()
+            ..ScalarForce::default()
         }
     }
 
@@ -37,12 +37,12 @@ impl<T: Real> TensionLaw<T> for BumperLaw<T> {
     }
 
     #[inline]
-    fn energy(&self, value: T, _: &Supplies<'_, T>) -> T {
+    fn energy(&self, value: T, _: &LawInputs<'_, T>) -> T {
         bumper::energy(self.law[0], self.touch - value)
     }
 
     #[inline]
-    fn elastic(&self, value: T, _: &Supplies<'_, T>) -> T {
+    fn elastic(&self, value: T, _: &LawInputs<'_, T>) -> T {
         -self.law[0] * (self.touch - value).max(T::ZERO)
     }
 

@@ -8,11 +8,11 @@
 
 use crate::Real;
 use crate::algebra::{Vector, norm};
-use crate::laws::Supplies;
-use crate::laws::body::{Action, BodyMotion, WrenchesLaw, put};
+use crate::laws::LawInputs;
+use crate::laws::body::{UnitWrench, BodyMotion, WrenchesLaw, put};
 use crate::laws::entry::entry;
 use crate::laws::operations::Operations;
-use crate::laws::scalar::Measure;
+use crate::laws::scalar::ScalarForce;
 
 /// Drag of still air.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -34,17 +34,17 @@ pub fn drag<T: Real>(area_coefficient: T, density: T, speed: T) -> (T, T) {
 
 impl<T: Real> WrenchesLaw<T> for DragLaw<T> {
     /// Without speed there is no drag and no direction.
-    fn evaluate(&self, motion: &BodyMotion<T>, _: &Supplies<'_, T>, out: &mut [Action<T>]) {
+    fn evaluate(&self, motion: &BodyMotion<T>, _: &LawInputs<'_, T>, out: &mut [UnitWrench<T>]) {
         let velocity = Vector::<T, 3>::from(motion.velocity);
         let speed = norm(&velocity);
         let direction =
             if speed > T::ZERO { velocity * (T::ONE / speed) } else { Vector::<T, 3>::zeros() };
         let (tension, damping) = drag(self.area_coefficient, self.density, speed);
-        let measure = Measure { rate: speed, tension, damping, ..Measure::default() };
-        put(out, 0, Action { force: direction.into(), moment: [T::ZERO; 3], measure });
+        let measure = ScalarForce { rate: speed, tension, damping, ..ScalarForce::default() };
+        put(out, 0, UnitWrench { force: direction.into(), moment: [T::ZERO; 3], measure });
     }
 
-    fn operations(&self, _: &Supplies<'_, T>) -> Operations {
+    fn operations(&self, _: &LawInputs<'_, T>) -> Operations {
         Operations::new(12, 2).and(1, 1, 0)
     }
 

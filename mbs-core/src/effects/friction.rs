@@ -9,10 +9,10 @@
 //! rest is zero: what hangs on friction creeps at a rate of about e times load over S. All power is dissipated.
 
 use crate::Real;
-use crate::laws::Supplies;
+use crate::laws::LawInputs;
 use crate::laws::entry::entry;
 use crate::laws::operations::Operations;
-use crate::laws::scalar::{Measure, TensionLaw};
+use crate::laws::scalar::{ScalarForce, TensionLaw};
 
 /// A friction law.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -79,9 +79,9 @@ impl<T: Real> FrictionLaw<T> {
 
 impl<T: Real> TensionLaw<T> for FrictionLaw<T> {
     #[inline]
-    fn evaluate(&self, value: T, rate: T, _: &Supplies<'_, T>) -> Measure<T> {
+    fn evaluate(&self, value: T, rate: T, _: &LawInputs<'_, T>) -> ScalarForce<T> {
         let (tension, damping) = self.force(rate);
-        Measure { value, rate, tension, damping, ..Measure::default() }
+        ScalarForce { value, rate, tension, damping, ..ScalarForce::default() }
     }
 
     fn operations(&self) -> Operations {
@@ -92,7 +92,7 @@ impl<T: Real> TensionLaw<T> for FrictionLaw<T> {
     /// alone, which know nothing of the rise between them, an iteration across rest goes to and fro. An iterate without a rate is
     /// none: the first one of a step has the tangent.
     #[inline]
-    fn look_back(&self, measure: &mut Measure<T>, before: &Measure<T>) {
+    fn look_back(&self, measure: &mut ScalarForce<T>, before: &ScalarForce<T>) {
         if before.rate != T::ZERO {
             let last = (before.rate, before.tension, before.damping);
             let foreseen = self.foreseen(measure.rate, last);

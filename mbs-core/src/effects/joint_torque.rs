@@ -1,10 +1,10 @@
 //! A given torque between the bodies of a joint: power tau(t) m'.
 
 use crate::Real;
-use crate::laws::Supplies;
+use crate::laws::LawInputs;
 use crate::laws::entry::entry;
 use crate::laws::operations::Operations;
-use crate::laws::scalar::{Measure, TensionLaw};
+use crate::laws::scalar::{ScalarForce, TensionLaw};
 
 /// A signal's first component, with the sign of growth.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -17,15 +17,15 @@ entry!(TorqueLaw { course });
 
 impl<T: Real> TensionLaw<T> for TorqueLaw {
     #[inline]
-    fn evaluate(&self, value: T, rate: T, supplies: &Supplies<'_, T>) -> Measure<T> {
-        Measure { value, rate, tension: -supplies.course(self.course)[0], ..Measure::default() }
+    fn evaluate(&self, value: T, rate: T, law_inputs: &LawInputs<'_, T>) -> ScalarForce<T> {
+        ScalarForce { value, rate, tension: -law_inputs.course(self.course)[0], ..ScalarForce::default() }
     }
 
     fn operations(&self) -> Operations {
         Operations::NONE
     }
 
-    fn fits(&self, _: &Supplies<'_, T>, n_courses: usize) -> bool {
+    fn fits(&self, _: &LawInputs<'_, T>, n_courses: usize) -> bool {
         (self.course as usize) < n_courses
     }
 }

@@ -2,11 +2,11 @@
 
 use super::table;
 use crate::Real;
-use crate::laws::Supplies;
-use crate::laws::body::{Action, BodyMotion, NeverLaw, WrenchesLaw};
+use crate::laws::LawInputs;
+use crate::laws::body::{BodyMotion, NeverLaw, UnitWrench, WrenchesLaw};
+use crate::laws::corner::LawCorner;
 use crate::laws::entry::{Entry, EntryReader, EntryWriter};
-use crate::laws::kink::Kink;
 use crate::laws::operations::Operations;
-use crate::laws::scalar::{Measure, TensionLaw};
+use crate::laws::scalar::{ScalarForce, TensionLaw};
 
 super::list::list!(laws);

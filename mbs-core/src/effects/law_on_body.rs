@@ -15,12 +15,12 @@ pub use law::CodeBodyLaw;
 mod law {
     use crate::Real;
     use crate::algebra::Vector;
-    use crate::laws::Supplies;
-    use crate::laws::body::{Action, BodyMotion, WrenchesLaw, put};
+    use crate::laws::LawInputs;
+    use crate::laws::body::{UnitWrench, BodyMotion, WrenchesLaw, put};
     use crate::laws::code::MeasuredBody;
     use crate::laws::entry::{Entry, EntryReader, EntryWriter};
     use crate::laws::operations::Operations;
-    use crate::laws::scalar::Measure;
+    use crate::laws::scalar::ScalarForce;
     use core::marker::PhantomData;
 
     /// A law on a body that is an object, by its number.
@@ -53,10 +53,10 @@ mod law {
         fn evaluate(
             &self,
             motion: &BodyMotion<T>,
-            supplies: &Supplies<'_, T>,
-            out: &mut [Action<T>],
+            law_inputs: &LawInputs<'_, T>,
+            out: &mut [UnitWrench<T>],
         ) {
-            let [input, time] = self.courses.map(|course| supplies.course(course));
+            let [input, time] = self.courses.map(|course| law_inputs.course(course));
             let numbers = |x: [T; 3]| x.map(T::to_f64);
             let at = MeasuredBody {
                 time: time[0].to_f64(),
@@ -66,17 +66,17 @@ mod law {
                 angular_velocity: numbers(motion.spin),
                 input: numbers(input),
             };
-            let wrench = supplies.codes().and_then(|codes| codes.wrench(self.number, &at));
+            let wrench = law_inputs.codes().and_then(|codes| codes.wrench(self.number, &at));
             let [force, moment] = wrench.map_or([[T::from_f64(f64::NAN); 3]; 2], |wrench| {
                 [wrench.force, wrench.moment].map(|x| x.map(T::from_f64))
             });
             let rate = Vector::from(force).dot(&Vector::from(motion.velocity))
                 + Vector::from(moment).dot(&Vector::from(motion.spin));
-            let measure = Measure { rate, tension: -T::ONE, ..Measure::default() };
-            put(out, 0, Action { force, moment, measure });
+            let measure = ScalarForce { rate, tension: -T::ONE, ..ScalarForce::default() };
+            put(out, 0, UnitWrench { force, moment, measure });
         }
 
-        fn operations(&self, _: &Supplies<'_, T>) -> Operations {
+        fn operations(&self, _: &LawInputs<'_, T>) -> Operations {
             Operations::NONE
         }
     }

@@ -14,11 +14,11 @@ pub use law::CodeLaw;
 #[cfg(feature = "alloc")]
 mod law {
     use crate::Real;
-    use crate::laws::Supplies;
+    use crate::laws::LawInputs;
     use crate::laws::code::{Force, Measured};
     use crate::laws::entry::{Entry, EntryReader, EntryWriter};
     use crate::laws::operations::Operations;
-    use crate::laws::scalar::{Measure, TensionLaw};
+    use crate::laws::scalar::{ScalarForce, TensionLaw};
     use core::marker::PhantomData;
 
     /// A law that is an object, by its number.
@@ -50,8 +50,8 @@ mod law {
             Self { number, courses, scalar: PhantomData }
         }
 
-        fn measured(&self, [value, rate]: [T; 2], supplies: &Supplies<'_, T>) -> Measured {
-            let [input, time] = self.courses.map(|course| supplies.course(course));
+        fn measured(&self, [value, rate]: [T; 2], law_inputs: &LawInputs<'_, T>) -> Measured {
+            let [input, time] = self.courses.map(|course| law_inputs.course(course));
             Measured {
                 time: time[0].to_f64(),
                 value: value.to_f64(),
@@ -60,23 +60,23 @@ mod law {
             }
         }
 
-        fn force(&self, at: &Measured, supplies: &Supplies<'_, T>) -> Force {
-            supplies.codes().map_or_else(Force::default, |codes| codes.force(self.number, at))
+        fn force(&self, at: &Measured, law_inputs: &LawInputs<'_, T>) -> Force {
+            law_inputs.codes().map_or_else(Force::default, |codes| codes.force(self.number, at))
         }
     }
 
     impl<T: Real> TensionLaw<T> for CodeLaw<T> {
         #[inline(never)]
-        fn evaluate(&self, value: T, rate: T, supplies: &Supplies<'_, T>) -> Measure<T> {
-            let at = self.measured([value, rate], supplies);
-            let Force { force, stiffness, damping, .. } = self.force(&at, supplies);
-            Measure {
+        fn evaluate(&self, value: T, rate: T, law_inputs: &LawInputs<'_, T>) -> ScalarForce<T> {
+            let at = self.measured([value, rate], law_inputs);
+            let Force { force, stiffness, damping, .. } = self.force(&at, law_inputs);
+            ScalarForce {
                 value,
                 rate,
                 tension: T::from_f64_with(force, &[(stiffness, value), (damping, rate)]),
                 stiffness: T::from_f64(stiffness),
                 damping: T::from_f64(damping),
-                ..Measure::default()
+                ..ScalarForce::default()
             }
         }
 
@@ -85,17 +85,17 @@ mod law {
         }
 
         #[inline(never)]
-        fn energy(&self, value: T, supplies: &Supplies<'_, T>) -> T {
-            let at = self.measured([value, T::ZERO], supplies);
-            T::from_f64(self.force(&at, supplies).energy)
+        fn energy(&self, value: T, law_inputs: &LawInputs<'_, T>) -> T {
+            let at = self.measured([value, T::ZERO], law_inputs);
+            T::from_f64(self.force(&at, law_inputs).energy)
         }
 
         /// What the law does not store, with what its energy changes by time alone; by central differences.
         #[inline(never)]
-        fn power(&self, measure: &Measure<T>, supplies: &Supplies<'_, T>) -> T {
-            let Measure { value, rate, tension, .. } = *measure;
-            let at = self.measured([value, T::ZERO], supplies);
-            let energy = |at| self.force(&at, supplies).energy;
+        fn power(&self, measure: &ScalarForce<T>, law_inputs: &LawInputs<'_, T>) -> T {
+            let ScalarForce { value, rate, tension, .. } = *measure;
+            let at = self.measured([value, T::ZERO], law_inputs);
+            let energy = |at| self.force(&at, law_inputs).energy;
             // Where there is no energy on one side nothing is taken as stored.
             let slope = |more: Measured, less: Measured, by: f64| {
                 Some((energy(more) - energy(less)) / by).filter(|x| x.is_finite()).unwrap_or(0.0)

@@ -5,11 +5,11 @@
 //! ```
 
 use crate::Real;
-use crate::laws::Supplies;
+use crate::laws::LawInputs;
 use crate::laws::bumper::{self, Contact};
 use crate::laws::entry::entry;
 use crate::laws::operations::Operations;
-use crate::laws::scalar::{Measure, TensionLaw};
+use crate::laws::scalar::{ScalarForce, TensionLaw};
 
 /// A range with stops.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -41,15 +41,15 @@ impl<T: Real> LimitLaw<T> {
 
 impl<T: Real> TensionLaw<T> for LimitLaw<T> {
     #[inline]
-    fn evaluate(&self, value: T, rate: T, _: &Supplies<'_, T>) -> Measure<T> {
+    fn evaluate(&self, value: T, rate: T, _: &LawInputs<'_, T>) -> ScalarForce<T> {
         let contact = self.tension(value, rate);
-        Measure {
+        ScalarForce {
             value,
             rate,
             tension: contact.force,
             stiffness: contact.stiffness,
             damping: contact.damping,
-            ..Measure::default()
+            ..ScalarForce::default()
         }
     }
 
@@ -58,12 +58,12 @@ impl<T: Real> TensionLaw<T> for LimitLaw<T> {
     }
 
     #[inline]
-    fn energy(&self, value: T, _: &Supplies<'_, T>) -> T {
+    fn energy(&self, value: T, _: &LawInputs<'_, T>) -> T {
         bumper::energy(self.stiffness, (value - self.upper).max(self.lower - value))
     }
 
     #[inline]
-    fn elastic(&self, value: T, _: &Supplies<'_, T>) -> T {
+    fn elastic(&self, value: T, _: &LawInputs<'_, T>) -> T {
         let above = (value - self.upper).max(T::ZERO);
         self.stiffness * (above - (self.lower - value).max(T::ZERO))
     }
@@ -136,7 +136,7 @@ mod data {
 mod tests {
     use super::*;
 
-    const NONE: Supplies<'_, f64> = Supplies::courses(&[]);
+    const NONE: LawInputs<'_, f64> = LawInputs::courses(&[]);
 
     #[test]
     fn stops_push_back_into_the_range() {

@@ -23,7 +23,7 @@ macro_rules! list {
             AeroDrag in drag (feature = "drag") body Drag(DragLaw<T>) = 0;
             SpeedHold in speed_hold (feature = "speed-hold") body SpeedHold(SpeedHoldLaw<T>) = 1;
             Tire in tire (feature = "tire") body Tire(TireLaw<T>) = 2;
-            Own in own (feature = "own-laws") tension Own(OwnLaw<T>) = 6 body Own(OwnBodyLaw<T>) = 3;
+            Own in user (feature = "own-laws") tension Own(UserScalarEntry<T>) = 6 body Own(UserBodyEntry<T>) = 3;
             LawOnLine in law_on_line (feature = "own-laws") tension Code(CodeLaw<T>) = 7;
             LawOnJoint in law_on_joint (feature = "own-laws");
             LawOnBody in law_on_body (feature = "own-laws") body Code(CodeBodyLaw<T>) = 4;

@@ -2,11 +2,11 @@
 
 use crate::Real;
 use crate::laws::entry::entry;
-use crate::laws::kink::Kink;
+use crate::laws::corner::LawCorner;
 use crate::laws::operations::Operations;
 use crate::laws::polynomial::{energy, kinks, value};
-use crate::laws::scalar::{Measure, TensionLaw};
-use crate::laws::{Part, Supplies};
+use crate::laws::scalar::{ScalarForce, TensionLaw};
+use crate::laws::{Part, LawInputs};
 
 /// A piecewise polynomial of the value or of the rate.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -21,15 +21,15 @@ entry!(PolynomialLaw { pieces, of_rate });
 
 impl<T: Real> TensionLaw<T> for PolynomialLaw {
     #[inline]
-    fn evaluate(&self, at: T, rate: T, supplies: &Supplies<'_, T>) -> Measure<T> {
-        let pieces = self.pieces.of(supplies.pieces());
-        let plain = Measure { value: at, rate, ..Measure::default() };
+    fn evaluate(&self, at: T, rate: T, law_inputs: &LawInputs<'_, T>) -> ScalarForce<T> {
+        let pieces = self.pieces.of(law_inputs.pieces());
+        let plain = ScalarForce { value: at, rate, ..ScalarForce::default() };
         if self.of_rate {
             let (tension, slope) = value(pieces, rate);
-            Measure { tension, damping: slope.max(T::ZERO), ..plain }
+            ScalarForce { tension, damping: slope.max(T::ZERO), ..plain }
         } else {
             let (tension, slope) = value(pieces, at);
-            Measure { tension, stiffness: slope.max(T::ZERO), ..plain }
+            ScalarForce { tension, stiffness: slope.max(T::ZERO), ..plain }
         }
     }
 
@@ -38,12 +38,12 @@ impl<T: Real> TensionLaw<T> for PolynomialLaw {
     }
 
     #[inline]
-    fn energy(&self, value: T, supplies: &Supplies<'_, T>) -> T {
-        if self.of_rate { T::ZERO } else { energy(self.pieces.of(supplies.pieces()), value) }
+    fn energy(&self, value: T, law_inputs: &LawInputs<'_, T>) -> T {
+        if self.of_rate { T::ZERO } else { energy(self.pieces.of(law_inputs.pieces()), value) }
     }
 
     #[inline]
-    fn power(&self, measure: &Measure<T>, _: &Supplies<'_, T>) -> T {
+    fn power(&self, measure: &ScalarForce<T>, _: &LawInputs<'_, T>) -> T {
         if self.of_rate { (T::ZERO - measure.tension) * measure.rate } else { T::ZERO }
     }
 
@@ -55,16 +55,16 @@ impl<T: Real> TensionLaw<T> for PolynomialLaw {
         !self.of_rate && self.pieces.n > 1
     }
 
-    fn kinks(&self, supplies: &Supplies<'_, T>, take: &mut dyn FnMut(Kink<T>)) {
+    fn kinks(&self, law_inputs: &LawInputs<'_, T>, take: &mut dyn FnMut(LawCorner<T>)) {
         if !self.of_rate {
-            kinks(self.pieces.of(supplies.pieces()), |place| {
-                take(Kink { place, height: T::ZERO, slope: T::ZERO });
+            kinks(self.pieces.of(law_inputs.pieces()), |place| {
+                take(LawCorner { place, height: T::ZERO, slope: T::ZERO });
             });
         }
     }
 
-    fn fits(&self, supplies: &Supplies<'_, T>, _: usize) -> bool {
-        self.pieces.is_within(supplies.pieces().len())
+    fn fits(&self, law_inputs: &LawInputs<'_, T>, _: usize) -> bool {
+        self.pieces.is_within(law_inputs.pieces().len())
     }
 }
 

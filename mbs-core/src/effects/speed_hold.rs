@@ -9,11 +9,11 @@
 
 use crate::Real;
 use crate::algebra::Vector;
-use crate::laws::Supplies;
-use crate::laws::body::{Action, BodyMotion, WrenchesLaw, put};
+use crate::laws::LawInputs;
+use crate::laws::body::{UnitWrench, BodyMotion, WrenchesLaw, put};
 use crate::laws::entry::entry;
 use crate::laws::operations::Operations;
-use crate::laws::scalar::Measure;
+use crate::laws::scalar::ScalarForce;
 
 /// A speed hold.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -40,15 +40,15 @@ impl<T: Real> SpeedHoldLaw<T> {
 
 impl<T: Real> WrenchesLaw<T> for SpeedHoldLaw<T> {
     /// The force on a body along the law's direction.
-    fn evaluate(&self, motion: &BodyMotion<T>, _: &Supplies<'_, T>, out: &mut [Action<T>]) {
+    fn evaluate(&self, motion: &BodyMotion<T>, _: &LawInputs<'_, T>, out: &mut [UnitWrench<T>]) {
         let axis = Vector::<T, 3>::from(motion.axis);
         let rate = axis.dot(&Vector::from(motion.velocity));
         let (force, damping) = self.force(rate);
-        let measure = Measure { rate, tension: -force, damping, ..Measure::default() };
-        put(out, 0, Action { force: motion.axis, moment: [T::ZERO; 3], measure });
+        let measure = ScalarForce { rate, tension: -force, damping, ..ScalarForce::default() };
+        put(out, 0, UnitWrench { force: motion.axis, moment: [T::ZERO; 3], measure });
     }
 
-    fn operations(&self, _: &Supplies<'_, T>) -> Operations {
+    fn operations(&self, _: &LawInputs<'_, T>) -> Operations {
         Operations::new(9, 5).and(3, 1, 0)
     }
 }

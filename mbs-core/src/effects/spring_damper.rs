@@ -5,10 +5,10 @@
 //! ```
 
 use crate::Real;
-use crate::laws::Supplies;
+use crate::laws::LawInputs;
 use crate::laws::entry::entry;
 use crate::laws::operations::Operations;
-use crate::laws::scalar::{Measure, TensionLaw};
+use crate::laws::scalar::{ScalarForce, TensionLaw};
 
 /// stiffness (m - free) + damping m'.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -25,14 +25,14 @@ entry!(SpringDamperLaw<T> { stiffness, damping, free });
 
 impl<T: Real> TensionLaw<T> for SpringDamperLaw<T> {
     #[inline]
-    fn evaluate(&self, value: T, rate: T, _: &Supplies<'_, T>) -> Measure<T> {
-        Measure {
+    fn evaluate(&self, value: T, rate: T, _: &LawInputs<'_, T>) -> ScalarForce<T> {
+        ScalarForce {
             value,
             rate,
             tension: self.stiffness * (value - self.free) + self.damping * rate,
             stiffness: self.stiffness,
             damping: self.damping,
-            ..Measure::default()
+            ..ScalarForce::default()
         }
     }
 
@@ -41,13 +41,13 @@ impl<T: Real> TensionLaw<T> for SpringDamperLaw<T> {
     }
 
     #[inline]
-    fn energy(&self, value: T, _: &Supplies<'_, T>) -> T {
+    fn energy(&self, value: T, _: &LawInputs<'_, T>) -> T {
         let stretch = value - self.free;
         self.stiffness * stretch * stretch * T::HALF
     }
 
     #[inline]
-    fn power(&self, measure: &Measure<T>, _: &Supplies<'_, T>) -> T {
+    fn power(&self, measure: &ScalarForce<T>, _: &LawInputs<'_, T>) -> T {
         -self.damping * measure.rate * measure.rate
     }
 }

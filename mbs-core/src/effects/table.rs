@@ -60,19 +60,19 @@ macro_rules! laws {
         table::dispatch! { Law [$($([$gate $Tension $tension_tag])?)*] TensionLaw {
             /// Tension and its tangents at a value and its rate.
             ///
-            /// The line of action does not turn ([`Measure::transverse`] is zero): a law along a length adds that itself.
+            /// The line of action does not turn ([`ScalarForce::transverse`] is zero): a law along a length adds that itself.
             #[inline]
             #[must_use]
-            fn evaluate(value: T, rate: T, supplies: &Supplies<'_, T>) -> Measure<T>;
+            fn evaluate(value: T, rate: T, law_inputs: &LawInputs<'_, T>) -> ScalarForce<T>;
             /// Stored energy [J] of the elastic part at a value.
             #[inline]
-            fn energy(value: T, supplies: &Supplies<'_, T>) -> T;
+            fn energy(value: T, law_inputs: &LawInputs<'_, T>) -> T;
             /// Power that is not stored: dampers take, courses give [W].
             #[inline]
-            fn power(measure: &Measure<T>, supplies: &Supplies<'_, T>) -> T;
+            fn power(measure: &ScalarForce<T>, law_inputs: &LawInputs<'_, T>) -> T;
             /// The slope at an iterate, with the iterate `before`.
             #[inline]
-            fn look_back(measure: &mut Measure<T>, before: &Measure<T>) -> ();
+            fn look_back(measure: &mut ScalarForce<T>, before: &ScalarForce<T>) -> ();
             /// May it stand in the way like a wall, with a force that begins somewhere?
             fn may_push() -> bool;
             /// How many gaps it has; none where it acts always.
@@ -84,9 +84,9 @@ macro_rules! laws {
             /// Can it have kinks besides those of its gaps?
             fn may_have_kinks() -> bool;
             /// Hands out its kinks, in no order.
-            fn kinks(supplies: &Supplies<'_, T>, take: &mut dyn FnMut(Kink<T>)) -> ();
+            fn kinks(law_inputs: &LawInputs<'_, T>, take: &mut dyn FnMut(LawCorner<T>)) -> ();
             /// Is all that it refers to by number there?
-            fn fits(supplies: &Supplies<'_, T>, n_courses: usize) -> bool;
+            fn fits(law_inputs: &LawInputs<'_, T>, n_courses: usize) -> bool;
             /// A bound of the operations of [`evaluate`](Self::evaluate).
             fn operations() -> Operations;
         } }
@@ -124,30 +124,30 @@ macro_rules! laws {
             /// Does the law ask for the body's direction and spin, or give moments?
             fn needs_rotation() -> bool;
             /// Writes the actions at a motion into `out`, [`n_actions`](Self::n_actions) long.
-            fn evaluate(motion: &BodyMotion<T>, supplies: &Supplies<'_, T>, out: &mut [Action<T>]) -> ();
+            fn evaluate(motion: &BodyMotion<T>, law_inputs: &LawInputs<'_, T>, out: &mut [UnitWrench<T>]) -> ();
             /// The slope of an action by the iterate `before`; the first one of a step has no rate.
             #[inline]
-            fn look_back(action: usize, measure: &mut Measure<T>, before: &Measure<T>) -> ();
+            fn look_back(action: usize, measure: &mut ScalarForce<T>, before: &ScalarForce<T>) -> ();
             /// Stored energy of an action [J].
-            fn energy(action: usize, measure: &Measure<T>) -> T;
+            fn energy(action: usize, measure: &ScalarForce<T>) -> T;
             /// Power of an action that is not stored [W].
-            fn power(action: usize, measure: &Measure<T>) -> T;
+            fn power(action: usize, measure: &ScalarForce<T>) -> T;
             /// How many gaps it has; none where it acts always.
             fn n_gaps() -> usize;
             /// Does the damper of its contact fade in over a depth?
             fn has_fade() -> bool;
             /// Its gap with the rate, then where it is over its road and how fast, along and up.
-            fn watch(motion: &BodyMotion<T>, supplies: &Supplies<'_, T>) -> [[T; 2]; 3];
+            fn watch(motion: &BodyMotion<T>, law_inputs: &LawInputs<'_, T>) -> [[T; 2]; 3];
             /// Can it have kinks besides those of its gaps?
             fn may_have_kinks() -> bool;
             /// Hands out its kinks, in no order.
-            fn kinks(supplies: &Supplies<'_, T>, take: &mut dyn FnMut(Kink<T>)) -> ();
+            fn kinks(law_inputs: &LawInputs<'_, T>, take: &mut dyn FnMut(LawCorner<T>)) -> ();
             /// How far from its place a kink may be passed [m].
             fn reach() -> T;
             /// Is all that it refers to by number there?
-            fn fits(supplies: &Supplies<'_, T>, n_courses: usize) -> bool;
+            fn fits(law_inputs: &LawInputs<'_, T>, n_courses: usize) -> bool;
             /// A bound of the operations of [`evaluate`](Self::evaluate).
-            fn operations(supplies: &Supplies<'_, T>) -> Operations;
+            fn operations(law_inputs: &LawInputs<'_, T>) -> Operations;
         } }
     };
 }

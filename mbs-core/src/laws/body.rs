@@ -7,11 +7,11 @@
 
 pub use crate::effects::BodyLaw;
 
-use super::Supplies;
+use super::LawInputs;
+use super::corner::LawCorner;
 use super::entry::{Entry, EntryReader, EntryWriter};
-use super::kink::Kink;
 use super::operations::Operations;
-use super::scalar::Measure;
+use super::scalar::ScalarForce;
 use crate::Real;
 use core::convert::Infallible;
 use core::marker::PhantomData;
@@ -31,18 +31,18 @@ pub struct BodyMotion<T> {
 
 /// A unit wrench on a body with its tension.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Action<T> {
+pub struct UnitWrench<T> {
     /// d, at the law's point [-].
     pub force: [T; 3],
     /// m, about the law's point [m, or - for a pure moment].
     pub moment: [T; 3],
     /// Its tension and tangents; `rate` is d.v + m.w less `drift`.
-    pub measure: Measure<T>,
+    pub measure: ScalarForce<T>,
 }
 
 /// Writes an action to its place, where there is one.
 #[inline(always)]
-pub(crate) fn put<T>(out: &mut [Action<T>], place: usize, action: Action<T>) {
+pub(crate) fn put<T>(out: &mut [UnitWrench<T>], place: usize, action: UnitWrench<T>) {
     if let Some(to) = out.get_mut(place) {
         *to = action;
     }
@@ -54,10 +54,15 @@ pub const MAX_ACTIONS: usize = 4;
 /// A law on one body. [`BodyLaw`] is one of all that there are.
 pub trait WrenchesLaw<T: Real>: Entry<T> + Copy {
     /// Writes the actions at a motion into `out`, [`n_actions`](Self::n_actions) long.
-    fn evaluate(&self, motion: &BodyMotion<T>, supplies: &Supplies<'_, T>, out: &mut [Action<T>]);
+    fn evaluate(
+        &self,
+        motion: &BodyMotion<T>,
+        law_inputs: &LawInputs<'_, T>,
+        out: &mut [UnitWrench<T>],
+    );
 
     /// A bound of the operations of [`evaluate`](Self::evaluate): of the branch that costs most.
-    fn operations(&self, supplies: &Supplies<'_, T>) -> Operations;
+    fn operations(&self, law_inputs: &LawInputs<'_, T>) -> Operations;
 
     /// Number of actions.
     fn n_actions(&self) -> usize {
@@ -71,15 +76,15 @@ pub trait WrenchesLaw<T: Real>: Entry<T> + Copy {
 
     /// The slope of an action by the iterate `before`; the first one of a step has no rate.
     #[inline]
-    fn look_back(&self, _action: usize, _measure: &mut Measure<T>, _before: &Measure<T>) {}
+    fn look_back(&self, _action: usize, _measure: &mut ScalarForce<T>, _before: &ScalarForce<T>) {}
 
     /// Stored energy of an action [J].
-    fn energy(&self, _action: usize, _measure: &Measure<T>) -> T {
+    fn energy(&self, _action: usize, _measure: &ScalarForce<T>) -> T {
         T::ZERO
     }
 
     /// Power of an action that is not stored [W].
-    fn power(&self, _action: usize, measure: &Measure<T>) -> T {
+    fn power(&self, _action: usize, measure: &ScalarForce<T>) -> T {
         -measure.tension * measure.rate
     }
 
@@ -94,7 +99,7 @@ pub trait WrenchesLaw<T: Real>: Entry<T> + Copy {
     }
 
     /// Its gap with the rate, then where it is over its road and how fast, along and up.
-    fn watch(&self, _motion: &BodyMotion<T>, _supplies: &Supplies<'_, T>) -> [[T; 2]; 3] {
+    fn watch(&self, _motion: &BodyMotion<T>, _supplies: &LawInputs<'_, T>) -> [[T; 2]; 3] {
         [[T::ZERO; 2]; 3]
     }
 
@@ -104,7 +109,7 @@ pub trait WrenchesLaw<T: Real>: Entry<T> + Copy {
     }
 
     /// Hands out its kinks, in no order.
-    fn kinks(&self, _supplies: &Supplies<'_, T>, _take: &mut dyn FnMut(Kink<T>)) {}
+    fn kinks(&self, _supplies: &LawInputs<'_, T>, _take: &mut dyn FnMut(LawCorner<T>)) {}
 
     /// How far from its place a kink may be passed [m].
     fn reach(&self) -> T {
@@ -112,7 +117,7 @@ pub trait WrenchesLaw<T: Real>: Entry<T> + Copy {
     }
 
     /// Is all that it refers to by number there?
-    fn fits(&self, _supplies: &Supplies<'_, T>, _n_courses: usize) -> bool {
+    fn fits(&self, _supplies: &LawInputs<'_, T>, _n_courses: usize) -> bool {
         true
     }
 }
@@ -132,7 +137,7 @@ impl<T> Entry<T> for NeverLaw<T> {
 
 #[cfg(not(feature = "alloc"))]
 impl<T: Real> super::scalar::TensionLaw<T> for NeverLaw<T> {
-    fn evaluate(&self, _: T, _: T, _: &Supplies<'_, T>) -> Measure<T> {
+    fn evaluate(&self, _: T, _: T, _: &LawInputs<'_, T>) -> ScalarForce<T> {
         match self.0 {}
     }
     fn operations(&self) -> Operations {
@@ -141,10 +146,10 @@ impl<T: Real> super::scalar::TensionLaw<T> for NeverLaw<T> {
 }
 
 impl<T: Real> WrenchesLaw<T> for NeverLaw<T> {
-    fn evaluate(&self, _: &BodyMotion<T>, _: &Supplies<'_, T>, _: &mut [Action<T>]) {
+    fn evaluate(&self, _: &BodyMotion<T>, _: &LawInputs<'_, T>, _: &mut [UnitWrench<T>]) {
         match self.0 {}
     }
-    fn operations(&self, _: &Supplies<'_, T>) -> Operations {
+    fn operations(&self, _: &LawInputs<'_, T>) -> Operations {
         match self.0 {}
     }
 }

@@ -9,19 +9,19 @@ pub mod bumper;
 pub mod calspan;
 #[cfg(feature = "alloc")]
 pub mod code;
+pub mod corner;
 pub mod entry;
 mod feature;
 pub mod guide;
-pub mod kink;
+mod law_inputs;
 pub mod operations;
-pub mod own;
 mod part;
 pub mod polynomial;
 pub mod road;
 pub mod road_contact;
 pub mod scalar;
-mod supplies;
 pub mod tire;
+pub mod user;
 
+pub use law_inputs::{CurvatureEntry, FeatureEntry, KnotEntry, LawInputs, LawTables, PieceEntry};
 pub use part::Part;
-pub use supplies::{CurvatureEntry, FeatureEntry, KnotEntry, LawTables, PieceEntry, Supplies};

@@ -2,14 +2,14 @@
 
 pub use super::feature::{Feature, Height};
 
-use super::{Part, Supplies};
+use super::{LawInputs, Part};
 use crate::Real;
 
 /// Height of a road at `x`.
-pub fn height<T: Real>(road: Part, supplies: &Supplies<'_, T>, x: T) -> Height<T> {
+pub fn height<T: Real>(road: Part, law_inputs: &LawInputs<'_, T>, x: T) -> Height<T> {
     let mut sum = Height::default();
-    for feature in road.of(supplies.features()) {
-        let h = feature.at(x, supplies.knots());
+    for feature in road.of(law_inputs.features()) {
+        let h = feature.at(x, law_inputs.knots());
         sum.value += h.value;
         sum.slope += h.slope;
         sum.curvature += h.curvature;
@@ -22,12 +22,12 @@ pub fn height<T: Real>(road: Part, supplies: &Supplies<'_, T>, x: T) -> Height<T
 /// Cost: a few operations for each part of the road, and for the knots of a spline that lie there.
 pub fn hollow<T: Real>(
     road: Part,
-    supplies: &Supplies<'_, T>,
+    law_inputs: &LawInputs<'_, T>,
     [lower, upper]: [T; 2],
 ) -> Option<T> {
     let mut sum = None;
-    for feature in road.of(supplies.features()) {
-        if let Some(hollow) = feature.hollow([lower, upper], supplies.knots()) {
+    for feature in road.of(law_inputs.features()) {
+        if let Some(hollow) = feature.hollow([lower, upper], law_inputs.knots()) {
             sum = Some(sum.unwrap_or(T::ZERO) + hollow);
         }
     }
@@ -46,14 +46,14 @@ mod tests {
         Feature::Bump { start: 4.0, length: 3.0, amplitude: 0.05 },
     ];
 
-    fn supplies() -> (Part, Supplies<'static, f64>) {
-        let supplies = Supplies { features: &ROAD, ..Supplies::courses(&[]) };
-        (Part { first: 0, n: 3 }, supplies)
+    fn law_inputs() -> (Part, LawInputs<'static, f64>) {
+        let law_inputs = LawInputs { features: &ROAD, ..LawInputs::courses(&[]) };
+        (Part { first: 0, n: 3 }, law_inputs)
     }
 
     #[test]
     fn slope_and_curvature_are_derivatives_of_the_height() {
-        let (road, s) = supplies();
+        let (road, s) = law_inputs();
         let step = 1e-6;
         for i in 0..90 {
             let x = 0.013 + 0.1 * f64::from(i);
@@ -69,7 +69,7 @@ mod tests {
 
     #[test]
     fn the_bound_of_a_hollow_holds_where_a_road_bends_and_level_parts_have_none() {
-        let (road, s) = supplies();
+        let (road, s) = law_inputs();
         for i in 0..90 {
             let x = 0.013 + 0.1 * f64::from(i);
             match hollow(road, &s, [x - 0.02, x + 0.02]) {

@@ -29,7 +29,7 @@
 //! points to the centre.
 
 use super::road::{self, Height};
-use super::{Part, Supplies};
+use super::{LawInputs, Part};
 use crate::Real;
 
 /// The nearest point of a road, as seen from a centre.
@@ -64,17 +64,17 @@ pub const CELLS: u32 = 16;
 /// slopes; where the point is not surely the nearest, about forty.
 pub fn road_contact<T: Real>(
     road: Part,
-    supplies: &Supplies<'_, T>,
+    law_inputs: &LawInputs<'_, T>,
     [x, z]: [T; 2],
 ) -> RoadContact<T> {
-    let below = road::height(road, supplies, x);
+    let below = road::height(road, law_inputs, x);
     let above = z - below.value;
     let reach = above.abs();
-    let Some(hollow) = road::hollow(road, supplies, [x - reach, x + reach]) else {
+    let Some(hollow) = road::hollow(road, law_inputs, [x - reach, x + reach]) else {
         return RoadContact { distance: above, normal: [T::ZERO, T::ONE], bend: T::ZERO };
     };
     let goal = T::EPSILON * T::from_f64(4.0) * (reach + x.abs() + z.abs());
-    let search = Search { road, supplies, center: [x, z], goal, slack: T::TWO * goal * reach };
+    let search = Search { road, law_inputs, center: [x, z], goal, slack: T::TWO * goal * reach };
     let start = search.spot(x, below);
     let side = if start.slope > T::ZERO { -reach } else { reach };
     let near = search.settle(start, x + side, &mut steps::<T>());
@@ -100,7 +100,7 @@ impl<T: Real> RoadContact<T> {
 /// What stays the same in the searches of one centre.
 struct Search<'a, T> {
     road: Part,
-    supplies: &'a Supplies<'a, T>,
+    law_inputs: &'a LawInputs<'a, T>,
     center: [T; 2],
     /// Rounding of D' [m], and of D [m^2].
     goal: T,
@@ -119,7 +119,7 @@ struct Spot<T> {
 
 impl<T: Real> Search<'_, T> {
     fn at(&self, u: T) -> Spot<T> {
-        self.spot(u, road::height(self.road, self.supplies, u))
+        self.spot(u, road::height(self.road, self.law_inputs, u))
     }
 
     fn spot(&self, u: T, height: Height<T>) -> Spot<T> {
@@ -235,13 +235,13 @@ mod tests {
         Feature::Bump { start, length, amplitude }
     }
 
-    fn with<R>(features: &[Feature<f64>], f: impl FnOnce(Part, &Supplies<'_, f64>) -> R) -> R {
+    fn with<R>(features: &[Feature<f64>], f: impl FnOnce(Part, &LawInputs<'_, f64>) -> R) -> R {
         let n = u32::try_from(features.len()).expect("a short road");
-        f(Part { first: 0, n }, &Supplies { features, ..Supplies::courses(&[]) })
+        f(Part { first: 0, n }, &LawInputs { features, ..LawInputs::courses(&[]) })
     }
 
     /// Least distance over places a ten-thousandth of it apart; too large by 1e-8 of it, times what bends.
-    fn by_search(road: Part, s: &Supplies<'_, f64>, [x, z]: [f64; 2]) -> f64 {
+    fn by_search(road: Part, s: &LawInputs<'_, f64>, [x, z]: [f64; 2]) -> f64 {
         let reach = (z - road::height(road, s, x).value).abs();
         let places = (-10_000..=10_000).map(|i| x + f64::from(i) * 1e-4 * reach);
         let distance = |u: f64| {
@@ -363,10 +363,10 @@ mod tests {
     fn over_the_sharp_end_of_a_table_the_normal_points_to_the_centre() {
         let (knots, curvatures) = ([[0.0, 0.0], [1.0, 0.5]], [0.0, 0.0]);
         let features = [Feature::Spline(Part { first: 0, n: 2 })];
-        let s = Supplies {
+        let s = LawInputs {
             features: &features,
             knots: (&knots, &curvatures),
-            ..Supplies::courses(&[])
+            ..LawInputs::courses(&[])
         };
         let road = Part { first: 0, n: 1 };
         let at = road_contact(road, &s, [0.9, 0.9]);
@@ -391,10 +391,10 @@ mod tests {
             let (mut curvatures, mut scratch) = ([0.0; 4], [0.0; 4]);
             guide::spline_curvatures(&knots, &mut curvatures, &mut scratch);
             let features = [Feature::Spline(Part { first: 0, n: 4 })];
-            let s = Supplies {
+            let s = LawInputs {
                 features: &features,
                 knots: (&knots, &curvatures),
-                ..Supplies::courses(&[])
+                ..LawInputs::courses(&[])
             };
             let road = Part { first: 0, n: 1 };
             for i in 0..80 {

@@ -4,15 +4,15 @@
 
 pub use crate::effects::Law;
 
-use super::Supplies;
+use super::LawInputs;
+use super::corner::LawCorner;
 use super::entry::Entry;
-use super::kink::Kink;
 use super::operations::Operations;
 use crate::Real;
 
 /// The state of one scalar force law: a tension along a measured length or angle.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Measure<T> {
+pub struct ScalarForce<T> {
     /// Length or angle [m, rad].
     pub value: T,
     /// Its rate [m/s, rad/s].
@@ -32,32 +32,32 @@ pub struct Measure<T> {
 /// A law along a length or about an angle. [`Law`] is one of all that there are.
 pub trait TensionLaw<T: Real>: Entry<T> + Copy {
     /// Tension and its tangents at a value and its rate.
-    fn evaluate(&self, value: T, rate: T, supplies: &Supplies<'_, T>) -> Measure<T>;
+    fn evaluate(&self, value: T, rate: T, law_inputs: &LawInputs<'_, T>) -> ScalarForce<T>;
 
     /// A bound of the operations of [`evaluate`](Self::evaluate): of the branch that costs most.
     fn operations(&self) -> Operations;
 
     /// Stored energy [J] of the elastic part at a value.
     #[inline]
-    fn energy(&self, _value: T, _supplies: &Supplies<'_, T>) -> T {
+    fn energy(&self, _value: T, _supplies: &LawInputs<'_, T>) -> T {
         T::ZERO
     }
 
     /// The elastic part of the tension, the derivative of the energy by the value.
     #[inline]
-    fn elastic(&self, _value: T, _supplies: &Supplies<'_, T>) -> T {
+    fn elastic(&self, _value: T, _supplies: &LawInputs<'_, T>) -> T {
         T::ZERO
     }
 
     /// Power that is not stored: dampers take, signals give [W].
     #[inline]
-    fn power(&self, measure: &Measure<T>, supplies: &Supplies<'_, T>) -> T {
-        (self.elastic(measure.value, supplies) - measure.tension) * measure.rate
+    fn power(&self, measure: &ScalarForce<T>, law_inputs: &LawInputs<'_, T>) -> T {
+        (self.elastic(measure.value, law_inputs) - measure.tension) * measure.rate
     }
 
     /// The slope at an iterate, with the iterate `before`; the first one of a step has no rate.
     #[inline]
-    fn look_back(&self, _measure: &mut Measure<T>, _before: &Measure<T>) {}
+    fn look_back(&self, _measure: &mut ScalarForce<T>, _before: &ScalarForce<T>) {}
 
     /// May it stand in the way like a wall, with a force that begins somewhere?
     fn may_push(&self) -> bool {
@@ -85,10 +85,10 @@ pub trait TensionLaw<T: Real>: Entry<T> + Copy {
     }
 
     /// Hands out its kinks, in no order.
-    fn kinks(&self, _supplies: &Supplies<'_, T>, _take: &mut dyn FnMut(Kink<T>)) {}
+    fn kinks(&self, _supplies: &LawInputs<'_, T>, _take: &mut dyn FnMut(LawCorner<T>)) {}
 
     /// Is all that it refers to by number there?
-    fn fits(&self, _supplies: &Supplies<'_, T>, _n_courses: usize) -> bool {
+    fn fits(&self, _supplies: &LawInputs<'_, T>, _n_courses: usize) -> bool {
         true
     }
 }

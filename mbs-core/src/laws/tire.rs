@@ -27,17 +27,17 @@
 //! camber out of the deflection, so that its radial force has no potential, and takes v_y at the centre. With either, its ramp
 //! steers at 10, 20 and 30 m/s end within 0.04 % of the way across.
 
-use super::body::{Action, BodyMotion, WrenchesLaw, put};
+use super::body::{BodyMotion, UnitWrench, WrenchesLaw, put};
 
 use super::bumper;
 use super::calspan::{self, Coefficients};
+use super::corner::{self, LawCorner};
 use super::entry::entry;
-use super::kink::{self, Kink};
 use super::operations::{Operations, count};
 use super::road::Feature;
 use super::road_contact::{CELLS, RoadContact, most_heights, road_contact};
-use super::scalar::Measure;
-use super::{Part, Supplies};
+use super::scalar::ScalarForce;
+use super::{LawInputs, Part};
 use crate::Real;
 use crate::algebra::{Vector, cross, norm};
 
@@ -119,7 +119,7 @@ const ALIGNING: usize = 3;
 /// Sliding has at least the slope of the secant where an iteration went across rest. The tangents alone vanish where sliding is fast: the
 /// iteration would oscillate.
 #[inline]
-fn look_back<T: Real>(action: usize, measure: &mut Measure<T>, before: &Measure<T>) {
+fn look_back<T: Real>(action: usize, measure: &mut ScalarForce<T>, before: &ScalarForce<T>) {
     if (action == ROLLING || action == SIDE) && measure.rate * before.rate < T::ZERO {
         let secant = (measure.tension - before.tension) / (measure.rate - before.rate);
         measure.damping = measure.damping.max(secant);
@@ -130,8 +130,8 @@ entry!(TireLaw<T> { radius, radial, rolling, side, road, travel, up, leans });
 
 impl<T: Real> TireLaw<T> {
     /// How far it is pressed in, and where it is over its road. Cost: that of the nearest point, and no force.
-    pub fn contact(&self, motion: &BodyMotion<T>, supplies: &Supplies<'_, T>) -> TireContact<T> {
-        let Stand { place, velocity, depth, rate, .. } = self.stand(motion, supplies);
+    pub fn contact(&self, motion: &BodyMotion<T>, law_inputs: &LawInputs<'_, T>) -> TireContact<T> {
+        let Stand { place, velocity, depth, rate, .. } = self.stand(motion, law_inputs);
         TireContact {
             deflection: [depth, rate],
             place,
@@ -140,14 +140,14 @@ impl<T: Real> TireLaw<T> {
     }
 
     #[inline]
-    fn stand(&self, motion: &BodyMotion<T>, supplies: &Supplies<'_, T>) -> Stand<T> {
+    fn stand(&self, motion: &BodyMotion<T>, law_inputs: &LawInputs<'_, T>) -> Stand<T> {
         let [way, speed] = self.travel.map_or([T::ZERO; 2], |course| {
-            let [way, speed, _] = supplies.course(course);
+            let [way, speed, _] = law_inputs.course(course);
             [way, speed]
         });
         let center = Vector::<T, 3>::from(motion.position);
         let place = [center[0] + way, self.along_up(&center)];
-        let foot = road_contact(self.road, supplies, place);
+        let foot = road_contact(self.road, law_inputs, place);
         let stance = self.stance(&Vector::from(motion.axis), &foot);
         let depth = self.radius - stance.reach;
         let ground = Vector::<T, 3>::new(-speed, T::ZERO, T::ZERO);
@@ -192,7 +192,7 @@ impl<T: Real> TireLaw<T> {
         &self,
         (load, stance): (T, &Stance<T>),
         (motion, velocity, ground): (&BodyMotion<T>, &Vector<T, 3>, &Vector<T, 3>),
-        out: &mut [Action<T>],
+        out: &mut [UnitWrench<T>],
     ) {
         let (axis, normal) = (Vector::<T, 3>::from(motion.axis), &stance.normal);
         let lean = axis.dot(normal);
@@ -210,10 +210,10 @@ impl<T: Real> TireLaw<T> {
         let resistance = self.rolling * load / effective;
         let line = |direction: Vector<T, 3>, arm: Vector<T, 3>, tension: T, damping: T, rate: T| {
             let drift = direction.dot(ground);
-            Action {
+            UnitWrench {
                 force: direction.into(),
                 moment: cross(&arm, &direction).into(),
-                measure: Measure { rate, tension, damping, drift, ..Measure::default() },
+                measure: ScalarForce { rate, tension, damping, drift, ..ScalarForce::default() },
             }
         };
         let rolling = line(
@@ -236,10 +236,14 @@ impl<T: Real> TireLaw<T> {
         let sideways_force = line(across, arm, -side.force, side.stiffness * by_speed, sideways);
         put(out, SIDE, sideways_force);
         let torque = side.torque * forward / effective;
-        let aligning = Action {
+        let aligning = UnitWrench {
             force: [T::ZERO; 3],
             moment: (*normal).into(),
-            measure: Measure { rate: normal.dot(&spin), tension: -torque, ..Measure::default() },
+            measure: ScalarForce {
+                rate: normal.dot(&spin),
+                tension: -torque,
+                ..ScalarForce::default()
+            },
         };
         put(out, ALIGNING, aligning);
     }
@@ -271,22 +275,27 @@ impl<T: Real> WrenchesLaw<T> for TireLaw<T> {
     }
 
     /// Writes the actions, [`n_actions`](Self::n_actions) of them.
-    fn evaluate(&self, motion: &BodyMotion<T>, supplies: &Supplies<'_, T>, out: &mut [Action<T>]) {
-        out.fill(Action::default());
-        let Stand { stance, velocity, ground, depth, rate, .. } = self.stand(motion, supplies);
+    fn evaluate(
+        &self,
+        motion: &BodyMotion<T>,
+        law_inputs: &LawInputs<'_, T>,
+        out: &mut [UnitWrench<T>],
+    ) {
+        out.fill(UnitWrench::default());
+        let Stand { stance, velocity, ground, depth, rate, .. } = self.stand(motion, law_inputs);
         let [force, moment] = &stance.row;
         let contact = bumper::contact(self.radial, depth, -rate);
-        let radial = Action {
+        let radial = UnitWrench {
             force: (*force).into(),
             moment: (*moment).into(),
-            measure: Measure {
+            measure: ScalarForce {
                 value: depth,
                 rate,
                 tension: -contact.force,
                 stiffness: contact.stiffness,
                 damping: contact.damping,
                 drift: force.dot(&ground),
-                ..Measure::default()
+                ..ScalarForce::default()
             },
         };
         put(out, RADIAL, radial);
@@ -296,12 +305,12 @@ impl<T: Real> WrenchesLaw<T> for TireLaw<T> {
         }
     }
 
-    fn operations(&self, supplies: &Supplies<'_, T>) -> Operations {
+    fn operations(&self, law_inputs: &LawInputs<'_, T>) -> Operations {
         let stance = Operations::new(43, 25).and(2, 1, 0);
         let radial = bumper::OPERATIONS + Operations::new(4, 2);
         let rolling = Operations::new(71, 37).and(6, 3, 2);
         let side = Operations::new(33, 11).and(5, 0, 0);
-        stance + radial + rolling + side + nearest(self.road.of(supplies.features()))
+        stance + radial + rolling + side + nearest(self.road.of(law_inputs.features()))
     }
 
     fn needs_rotation(&self) -> bool {
@@ -309,19 +318,19 @@ impl<T: Real> WrenchesLaw<T> for TireLaw<T> {
     }
 
     #[inline]
-    fn look_back(&self, action: usize, measure: &mut Measure<T>, before: &Measure<T>) {
+    fn look_back(&self, action: usize, measure: &mut ScalarForce<T>, before: &ScalarForce<T>) {
         if before.rate != T::ZERO {
             look_back(action, measure, before);
         }
     }
 
     /// Stored energy of an action [J].
-    fn energy(&self, action: usize, measure: &Measure<T>) -> T {
+    fn energy(&self, action: usize, measure: &ScalarForce<T>) -> T {
         if action == RADIAL { bumper::energy(self.radial[0], measure.value) } else { T::ZERO }
     }
 
     /// Power of an action that is not stored [W].
-    fn power(&self, action: usize, measure: &Measure<T>) -> T {
+    fn power(&self, action: usize, measure: &ScalarForce<T>) -> T {
         let given = -measure.tension * (measure.rate + measure.drift);
         if action == RADIAL && measure.value > T::ZERO {
             // d(k x^2 / 2)/dt = -k x rate
@@ -338,8 +347,8 @@ impl<T: Real> WrenchesLaw<T> for TireLaw<T> {
         self.radial[1] > T::ZERO
     }
 
-    fn watch(&self, motion: &BodyMotion<T>, supplies: &Supplies<'_, T>) -> [[T; 2]; 3] {
-        let TireContact { deflection, place, speed } = self.contact(motion, supplies);
+    fn watch(&self, motion: &BodyMotion<T>, law_inputs: &LawInputs<'_, T>) -> [[T; 2]; 3] {
+        let TireContact { deflection, place, speed } = self.contact(motion, law_inputs);
         let [depth, rate] = deflection;
         [[-depth, rate], [place[0], speed[0]], [place[1], speed[1]]]
     }
@@ -348,8 +357,8 @@ impl<T: Real> WrenchesLaw<T> for TireLaw<T> {
         true
     }
 
-    fn kinks(&self, supplies: &Supplies<'_, T>, take: &mut dyn FnMut(Kink<T>)) {
-        kink::of_road(self.road, supplies, take);
+    fn kinks(&self, law_inputs: &LawInputs<'_, T>, take: &mut dyn FnMut(LawCorner<T>)) {
+        corner::of_road(self.road, law_inputs, take);
     }
 
     /// On a slope a wheel stands off its foot by less than its radius.
@@ -357,8 +366,8 @@ impl<T: Real> WrenchesLaw<T> for TireLaw<T> {
         self.radius
     }
 
-    fn fits(&self, supplies: &Supplies<'_, T>, n_courses: usize) -> bool {
-        let (features, knots) = (supplies.features(), supplies.knots());
+    fn fits(&self, law_inputs: &LawInputs<'_, T>, n_courses: usize) -> bool {
+        let (features, knots) = (law_inputs.features(), law_inputs.knots());
         let are_splines = self.road.of(features).iter().all(|feature| match feature {
             Feature::Spline(part) => part.is_within(knots.0.len()) && part.is_within(knots.1.len()),
             _ => true,

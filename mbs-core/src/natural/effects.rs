@@ -6,7 +6,7 @@ use super::coordinate::{Coordinate, Places};
 use super::error::ModelError;
 use super::row_builder::{EffectDraft, GroupDraft, difference, lifted};
 use crate::Real;
-use crate::actions::{Action, Seat};
+use crate::actions::{Action, Attachment};
 use crate::algebra::{Vector, unit};
 use crate::effects::joint_torque::TorqueLaw;
 use crate::laws::scalar::Law;
@@ -85,7 +85,7 @@ impl<T: Real> Builder<'_, T> {
     ) -> Result<(), ModelError> {
         let (Action::Force { at: (body, _), .. }
         | Action::Torque { body, .. }
-        | Action::OnBody { at: (body, _), .. }) = action
+        | Action::BodyLoad { at: (body, _), .. }) = action
         else {
             return Ok(());
         };
@@ -116,12 +116,12 @@ impl<T: Real> Builder<'_, T> {
                     }
                 }
             }
-            Action::OnBody { at: (_, at), axis, law } => {
+            Action::BodyLoad { at: (_, at), axis, law } => {
                 if law.needs_rotation() {
                     self.needs_rotation(me)?;
                 }
                 let frame = law.needs_rotation().then(|| self.frame(me));
-                EffectDraft::OnBody { point: self.point(me, *at), frame, axis: *axis, law: *law }
+                EffectDraft::BodyLoad { point: self.point(me, *at), frame, axis: *axis, law: *law }
             }
             _ => return Ok(()),
         };
@@ -130,7 +130,7 @@ impl<T: Real> Builder<'_, T> {
     }
 
     /// From the first place to the second.
-    fn between(&mut self, ends: &[Seat<T>; 2]) -> Combination<T> {
+    fn between(&mut self, ends: &[Attachment<T>; 2]) -> Combination<T> {
         let second = self.point(ends[1].0, ends[1].1);
         difference(&second, &self.point(ends[0].0, ends[0].1))
     }

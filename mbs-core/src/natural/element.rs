@@ -2,7 +2,7 @@
 //! curvature parts of its tangent.
 
 use super::coordinate_sets::add_rows;
-use super::forces::Gauge;
+use super::forces::Measure;
 use super::group::{
     Group, add_curvature, add_mass_product, add_multiples, add_squares, write_square,
 };
@@ -10,7 +10,7 @@ use super::model::NaturalModel;
 use crate::Real;
 use crate::algebra::{Vector, cross, raised};
 use crate::elements::{GuidedMotion, combine};
-use crate::model::{Load, Measure, Tangent, Terms};
+use crate::model::{Load, ScalarForce, Tangent, Terms};
 use alloc::vec;
 
 /// Most unknowns of a group whose rows are taken as dense, and of a mechanism whose bodies and joints are one element [-]. The work of a
@@ -230,7 +230,7 @@ impl<T: Real, const D: usize> NaturalModel<T, D> {
             return;
         }
         for m in group.measures.range() {
-            let (Gauge::Length { x }, t) = (self.measures[m].gauge, terms.measures[m].transverse)
+            let (Measure::Length { x }, t) = (self.measures[m].gauge, terms.measures[m].transverse)
             else {
                 continue;
             };
@@ -347,7 +347,7 @@ impl<T: Real, const D: usize> NaturalModel<T, D> {
 fn add_laws<T: Real>(
     tangent: &Tangent<'_, T>,
     (block, k): (&mut [T], usize),
-    laws: &[Measure<T>],
+    laws: &[ScalarForce<T>],
     (mut gradients, width): (&[T], usize),
 ) {
     for law in laws {

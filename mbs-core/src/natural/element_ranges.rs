@@ -11,7 +11,7 @@ use super::group::Group;
 use super::model::{Cursor, NaturalModel};
 use crate::Real;
 use crate::elements::{Distance, Dot, Guided, Linear, Span};
-use crate::laws::scalar::Measure;
+use crate::laws::scalar::ScalarForce;
 use crate::team::Team;
 use alloc::vec::Vec;
 use core::ops::Range;
@@ -33,8 +33,8 @@ pub(super) struct Out<'a, T> {
     pub(super) rows: &'a mut [T],
     pub(super) jacobian: &'a mut [T],
     pub(super) force: &'a mut [T],
-    pub(super) measures: &'a mut [Measure<T>],
-    pub(super) body_measures: &'a mut [Measure<T>],
+    pub(super) measures: &'a mut [ScalarForce<T>],
+    pub(super) body_measures: &'a mut [ScalarForce<T>],
 }
 
 impl<T> Default for Out<'_, T> {

@@ -1,12 +1,12 @@
 //! The numbers of a [`NaturalModel`]: constraints, forces, blocks and residuals, element by element.
 
-use super::forces::Gauge;
+use super::forces::Measure;
 use super::model::NaturalModel;
 use crate::Real;
 use crate::algebra::norm;
 use crate::elements::combine;
 use crate::inputs::Prescribed;
-use crate::model::{Load, Measure, Model, Owner, State, Tangent, Terms};
+use crate::model::{Load, Model, Owner, ScalarForce, State, Tangent, Terms};
 use crate::team::Alone;
 use alloc::vec;
 use core::ops::Range;
@@ -104,7 +104,7 @@ impl<T: Real, const D: usize> Model<T> for NaturalModel<T, D> {
             phi_bias: zeros(self.n_rows),
             jacobian,
             force: self.constant_force.clone(),
-            measures: vec![Measure::default(); self.n_measures],
+            measures: vec![ScalarForce::default(); self.n_measures],
             guides: vec![[T::ZERO; 3]; self.prescribed.n_guides()],
             courses: vec![[T::ZERO; 3]; self.prescribed.n_courses()],
             angles: zeros(self.n_memory),
@@ -121,7 +121,7 @@ impl<T: Real, const D: usize> Model<T> for NaturalModel<T, D> {
 
     fn approaches(&self, q: &[T], to: &[T], mut take: impl FnMut(T)) {
         for element in self.measures.iter().filter(|element| element.law.may_push()) {
-            let Gauge::Length { x } = element.gauge else { continue };
+            let Measure::Length { x } = element.gauge else { continue };
             let [from, to] = [q, to].map(|q| combine::<T, D>(x.of(&self.pool), q));
             // |r + x (r' - r)| is least at x = -r.(r' - r) / |r' - r|^2
             let way = to - from;
@@ -163,11 +163,11 @@ impl<T: Real, const D: usize> Model<T> for NaturalModel<T, D> {
     fn remember(&self, terms: &Terms<T>, memory: &mut [T]) {
         for (element, measure) in self.measures.iter().zip(&terms.measures) {
             match element.gauge {
-                Gauge::Angle { memory: place, .. } => memory[place as usize] = measure.value,
-                Gauge::Rotation { number, memory: place, .. } => {
+                Measure::Angle { memory: place, .. } => memory[place as usize] = measure.value,
+                Measure::Rotation { number, memory: place, .. } => {
                     memory[(place + number) as usize] = measure.value;
                 }
-                Gauge::Length { .. } | Gauge::Along { .. } => {}
+                Measure::Length { .. } | Measure::Along { .. } => {}
             }
         }
     }
@@ -270,9 +270,9 @@ impl<T: Real, const D: usize> Model<T> for NaturalModel<T, D> {
 
     fn power(&self, q: &[T], v: &[T], lambda: &[T], terms: &Terms<T>) -> T {
         let mut power = T::ZERO;
-        let supplies = self.tables.supplies(&terms.courses);
+        let law_inputs = self.tables.law_inputs(&terms.courses);
         for (element, measure) in self.measures.iter().zip(&terms.measures) {
-            power += element.power(measure, &supplies);
+            power += element.power(measure, &law_inputs);
         }
         for element in &self.body_elements {
             power += element.power(&terms.measures);

@@ -10,12 +10,12 @@ use super::rotation::{rotation, unwrap};
 use crate::Real;
 use crate::algebra::{Vector, cross, lowered, norm, raised};
 use crate::elements::{Span, Term, combine};
-use crate::laws::Supplies;
-use crate::laws::scalar::{Law, Measure};
+use crate::laws::LawInputs;
+use crate::laws::scalar::{Law, ScalarForce};
 
 /// What a scalar law measures.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) enum Gauge<T> {
+pub(crate) enum Measure<T> {
     /// Length of a combination.
     Length { x: Span },
     /// Distance of a combination along a direction.
@@ -29,7 +29,7 @@ pub(crate) enum Gauge<T> {
 /// A scalar law along a gauge, with its gradient's place in the Jacobian store.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct MeasureElement<T> {
-    pub(crate) gauge: Gauge<T>,
+    pub(crate) gauge: Measure<T>,
     pub(crate) law: Law<T>,
     pub(crate) place: Span,
 }
@@ -58,45 +58,45 @@ impl<T: Real> MeasureElement<T> {
         &self,
         pool: &[Term<T>],
         (q, v, memory): (&[T], &[T], &[T]),
-        supplies: &Supplies<'_, T>,
+        law_inputs: &LawInputs<'_, T>,
         jacobian: &mut [T],
-    ) -> Measure<T> {
+    ) -> ScalarForce<T> {
         let row = self.place.of_mut(jacobian);
         row.fill(T::ZERO);
         let (value, rate) = match self.gauge {
-            Gauge::Length { x } => length::<T, D>(x.of(pool), q, v, row),
-            Gauge::Along { x, d, offset } => {
+            Measure::Length { x } => length::<T, D>(x.of(pool), q, v, row),
+            Measure::Along { x, d, offset } => {
                 let (value, rate) =
                     product::<T, D>([x, d].map(|x| x.of(pool)), (q, v), T::ONE, row);
                 (value - offset, rate)
             }
-            Gauge::Rotation { frames, number, memory: place } => {
+            Measure::Rotation { frames, number, memory: place } => {
                 let last = &memory[place as usize..][..3];
                 let frames = frames.map(|frame| frame.map(|x| x.of(pool)));
                 rotation::<T, D>(frames, number as usize, (q, v), last, row)
             }
-            Gauge::Angle { x1, x2, y, memory: turn } => {
+            Measure::Angle { x1, x2, y, memory: turn } => {
                 let spans = [x1.of(pool), x2.of(pool), y.of(pool)];
                 angle::<T, D>(spans, q, v, memory[turn as usize], row)
             }
         };
-        let measure = self.law.evaluate(value, rate, supplies);
+        let measure = self.law.evaluate(value, rate, law_inputs);
         match self.gauge {
-            Gauge::Length { .. } if value > T::ZERO && measure.tension > T::ZERO => {
-                Measure { transverse: measure.tension / value, ..measure }
+            Measure::Length { .. } if value > T::ZERO && measure.tension > T::ZERO => {
+                ScalarForce { transverse: measure.tension / value, ..measure }
             }
             _ => measure,
         }
     }
 
     /// Stored energy [J] of the elastic part at the measure's value.
-    pub(crate) fn energy(&self, measure: &Measure<T>, supplies: &Supplies<'_, T>) -> T {
-        self.law.energy(measure.value, supplies)
+    pub(crate) fn energy(&self, measure: &ScalarForce<T>, law_inputs: &LawInputs<'_, T>) -> T {
+        self.law.energy(measure.value, law_inputs)
     }
 
     /// Power that is not stored: dampers take, courses give [W].
-    pub(crate) fn power(&self, measure: &Measure<T>, supplies: &Supplies<'_, T>) -> T {
-        self.law.power(measure, supplies)
+    pub(crate) fn power(&self, measure: &ScalarForce<T>, law_inputs: &LawInputs<'_, T>) -> T {
+        self.law.power(measure, law_inputs)
     }
 }
 

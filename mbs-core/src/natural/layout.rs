@@ -4,7 +4,7 @@ use super::basis::Combination;
 use super::build::Builder;
 use super::coordinate_sets::CoordinateSet;
 use super::element::{DENSE, ROOM};
-use super::forces::{BodyTorque, Gauge, MeasureElement, PointForce};
+use super::forces::{BodyTorque, Measure, MeasureElement, PointForce};
 use super::group::{Group, index, packed};
 use super::incidence::Incidence;
 use super::merge::merged;
@@ -353,7 +353,7 @@ impl<T: Real, const D: usize> Layout<T, D> {
         match effect {
             EffectDraft::Length { x, law } => {
                 let x = self.span(x, columns);
-                self.add_measure(Gauge::Length { x }, *law, group);
+                self.add_measure(Measure::Length { x }, *law, group);
             }
             EffectDraft::Angle { x1, x2, y, law } => {
                 let (x1, x2) = (self.span(x1, columns), self.span(x2, columns));
@@ -361,7 +361,7 @@ impl<T: Real, const D: usize> Layout<T, D> {
                 let memory = index(self.model.n_memory);
                 self.model.n_memory += 1;
                 self.model.angles.push((group.owner, memory));
-                self.add_measure(Gauge::Angle { x1, x2, y, memory }, *law, group);
+                self.add_measure(Measure::Angle { x1, x2, y, memory }, *law, group);
             }
             EffectDraft::Force { point, frame, course } => {
                 let point = self.span(point, columns);
@@ -376,7 +376,7 @@ impl<T: Real, const D: usize> Layout<T, D> {
             }
             EffectDraft::Along { x, d, offset, law } => {
                 let (x, d) = (self.span(x, columns), self.span(d, columns));
-                self.add_measure(Gauge::Along { x, d, offset: *offset }, *law, group);
+                self.add_measure(Measure::Along { x, d, offset: *offset }, *law, group);
             }
             EffectDraft::Rotation { frames, number, law } => {
                 let frames = [0, 1].map(|i| self.frame(&frames[i], columns));
@@ -388,9 +388,13 @@ impl<T: Real, const D: usize> Layout<T, D> {
                     self.model.n_memory += 3;
                 }
                 let memory = index(self.model.n_memory - 3);
-                self.add_measure(Gauge::Rotation { frames, number: *number, memory }, *law, group);
+                self.add_measure(
+                    Measure::Rotation { frames, number: *number, memory },
+                    *law,
+                    group,
+                );
             }
-            EffectDraft::OnBody { point, frame, axis, law } => {
+            EffectDraft::BodyLoad { point, frame, axis, law } => {
                 let point = self.span(point, columns);
                 let frame = frame.as_ref().map_or([Span::default(); 3], |f| self.frame(f, columns));
                 let m = &mut self.model;
@@ -416,7 +420,7 @@ impl<T: Real, const D: usize> Layout<T, D> {
     }
 
     /// A measure's gradient stands after the constraint rows of its group.
-    fn add_measure(&mut self, gauge: Gauge<T>, law: Law<T>, group: &Group) {
+    fn add_measure(&mut self, gauge: Measure<T>, law: Law<T>, group: &Group) {
         let m = &mut self.model;
         let start = m.n_jacobian;
         m.n_jacobian += group.width as usize;

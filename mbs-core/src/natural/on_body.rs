@@ -8,9 +8,9 @@
 use crate::Real;
 use crate::algebra::{Vector, cross, lowered, raised};
 use crate::elements::{Span, Term, add_gradient, combine};
-use crate::laws::Supplies;
-use crate::laws::body::{Action, BodyLaw, BodyMotion, MAX_ACTIONS};
-use crate::laws::scalar::Measure;
+use crate::laws::LawInputs;
+use crate::laws::body::{BodyLaw, BodyMotion, MAX_ACTIONS, UnitWrench};
+use crate::laws::scalar::ScalarForce;
 
 /// A law on a body, with its rows' place in the Jacobian store and its measures' place among the measures.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -31,8 +31,8 @@ impl<T: Real> BodyElement<T> {
         &self,
         pool: &[Term<T>],
         (q, v): (&[T], &[T]),
-        supplies: &Supplies<'_, T>,
-        (jacobian, measures): (&mut [T], &mut [Measure<T>]),
+        law_inputs: &LawInputs<'_, T>,
+        (jacobian, measures): (&mut [T], &mut [ScalarForce<T>]),
     ) {
         let n = self.law.n_actions();
         let rows = self.place.of_mut(jacobian);
@@ -60,8 +60,8 @@ impl<T: Real> BodyElement<T> {
             }
             (motion.axis, motion.spin) = (axis.into(), spin.into());
         }
-        let mut actions = [Action::default(); MAX_ACTIONS];
-        self.law.evaluate(&motion, supplies, &mut actions[..n]);
+        let mut actions = [UnitWrench::default(); MAX_ACTIONS];
+        self.law.evaluate(&motion, law_inputs, &mut actions[..n]);
         let width = rows.len() / n.max(1);
         let measures = &mut measures[self.measures.range()];
         for (k, ((row, action), measure)) in
@@ -81,13 +81,13 @@ impl<T: Real> BodyElement<T> {
     }
 
     /// Stored energy [J].
-    pub(crate) fn energy(&self, measures: &[Measure<T>]) -> T {
+    pub(crate) fn energy(&self, measures: &[ScalarForce<T>]) -> T {
         let own = self.measures.of(measures).iter().enumerate();
         own.fold(T::ZERO, |sum, (k, measure)| sum + self.law.energy(k, measure))
     }
 
     /// Power that is not stored [W].
-    pub(crate) fn power(&self, measures: &[Measure<T>]) -> T {
+    pub(crate) fn power(&self, measures: &[ScalarForce<T>]) -> T {
         let own = self.measures.of(measures).iter().enumerate();
         own.fold(T::ZERO, |sum, (k, measure)| sum + self.law.power(k, measure))
     }

@@ -73,7 +73,7 @@ pub(crate) enum EffectDraft<T: Real> {
         frame: Vec<Combination<T>>,
         course: u32,
     },
-    OnBody {
+    BodyLoad {
         point: Combination<T>,
         frame: Option<Vec<Combination<T>>>,
         axis: [T; 3],
@@ -88,7 +88,7 @@ impl<T: Real> EffectDraft<T> {
             Self::Along { x, d, .. } => alloc::vec![x, d],
             Self::Rotation { frames, .. } => frames.iter().flatten().collect(),
             Self::Angle { x1, x2, y, .. } => alloc::vec![x1, x2, y],
-            Self::Force { point, frame, .. } | Self::OnBody { point, frame, .. } => {
+            Self::Force { point, frame, .. } | Self::BodyLoad { point, frame, .. } => {
                 let mut all = alloc::vec![point];
                 all.extend(frame.iter().flatten());
                 all

@@ -115,7 +115,7 @@ impl<T: Real> ThinRods<T> {
             Action::Force { at: (body, at), turns, .. } => {
                 self.point_turning(*body, at, *turns);
             }
-            Action::OnBody { at: (body, at), law, .. } => {
+            Action::BodyLoad { at: (body, at), law, .. } => {
                 self.point_turning(*body, at, law.needs_rotation());
             }
         }

@@ -76,13 +76,13 @@ impl<T: Real, const D: usize> NaturalModel<T, D> {
         let (measures, body_measures) = measures.split_at_mut(self.measures.len());
         let out = Out { jacobian, force, measures, body_measures, ..Out::default() };
         self.on_parts(team, out, |part, out| {
-            let supplies = self.tables.supplies(courses);
+            let law_inputs = self.tables.law_inputs(courses);
             let Out { jacobian, force, measures, body_measures, .. } = out;
             for (element, measure) in part.measures(&self.measures).iter().zip(measures) {
                 let mut element = *element;
                 element.place = part.place(element.place);
                 let before = *measure;
-                *measure = element.evaluate::<D>(&self.pool, (q, v, angles), &supplies, jacobian);
+                *measure = element.evaluate::<D>(&self.pool, (q, v, angles), &law_inputs, jacobian);
                 element.law.look_back(measure, &before);
             }
             for element in part.body_elements(&self.body_elements) {
@@ -90,7 +90,7 @@ impl<T: Real, const D: usize> NaturalModel<T, D> {
                 element.place = part.place(element.place);
                 element.measures = part.body_measures(element.measures);
                 let out = (&mut jacobian[..], &mut body_measures[..]);
-                element.evaluate::<D>(&self.pool, (q, v), &supplies, out);
+                element.evaluate::<D>(&self.pool, (q, v), &law_inputs, out);
             }
             for effect in part.point_forces(&self.point_forces) {
                 let value = self.point_force(effect, q, courses[effect.course as usize]);
@@ -193,9 +193,9 @@ impl<T: Real, const D: usize> NaturalModel<T, D> {
             let pairs = weight[from..to].iter().zip(&q[from..to]);
             pairs.fold(T::ZERO, |sum, (&w, &x)| sum + w * x)
         });
-        let supplies = self.tables.supplies(&terms.courses);
+        let law_inputs = self.tables.law_inputs(&terms.courses);
         for (element, measure) in self.measures.iter().zip(&terms.measures) {
-            energy += element.energy(measure, &supplies);
+            energy += element.energy(measure, &law_inputs);
         }
         for element in &self.body_elements {
             energy += element.energy(&terms.measures);
@@ -234,11 +234,11 @@ pub struct Threaded<'a, T: Real, const D: usize, W> {
 }
 
 impl<T: Real, const D: usize, W: Team> Cliques for Threaded<'_, T, D, W> {
-    crate::forward_cliques!(model);
+    crate::delegate_cliques!(model);
 }
 
 impl<T: Real, const D: usize, W: Team> Model<T> for Threaded<'_, T, D, W> {
-    crate::forward_model!(T, model);
+    crate::delegate_model!(T, model);
     fn team(&self) -> &impl Team {
         self.team
     }

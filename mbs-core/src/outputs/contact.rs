@@ -59,9 +59,9 @@ impl<T: Real, const D: usize> Contacts<T, D> {
         if self.effects.is_empty() {
             return;
         }
-        let (list, supplies) = self.loads.at(state);
+        let (list, law_inputs) = self.loads.at(state);
         for (load, last) in list.iter().zip(&mut self.last) {
-            *last = load.reading(state, &supplies).gaps;
+            *last = load.reading(state, &law_inputs).gaps;
         }
         self.t = state.t.to_f64();
     }
@@ -75,9 +75,9 @@ impl<T: Real, const D: usize> Contacts<T, D> {
         }
         let (from, to) = (self.t, state.t.to_f64());
         let first = self.instants.len();
-        let (list, supplies) = self.loads.at(state);
+        let (list, law_inputs) = self.loads.at(state);
         for ((load, &effect), last) in list.iter().zip(&self.effects).zip(&mut self.last) {
-            let gaps = load.reading(state, &supplies).gaps;
+            let gaps = load.reading(state, &law_inputs).gaps;
             for (end, (a, b)) in last.iter().zip(&gaps).take(load.n_gaps()).enumerate() {
                 let makes = b.value < T::ZERO;
                 if makes == (a.value < T::ZERO) {

@@ -27,7 +27,7 @@ use super::cubic::Cubic;
 use super::load::{Gap, Load, Loads, N_READING, Reading};
 use crate::Real;
 use crate::control::Event;
-use crate::laws::kink::Kink;
+use crate::laws::corner::LawCorner;
 use crate::model::State;
 use crate::natural::{ModelError, NaturalModel};
 use crate::scene::Scene;
@@ -63,7 +63,7 @@ struct Watched<T> {
     /// The depth over which its damper fades in [m or rad].
     fade: Option<f64>,
     /// In order of their places, on a crest from left to right.
-    kinks: Vec<Kink<T>>,
+    kinks: Vec<LawCorner<T>>,
     reach: T,
     /// Without what the time's rounding adds [m or rad].
     band: f64,
@@ -105,10 +105,10 @@ impl<T: Real, const D: usize> Events<T, D> {
     pub fn new(scene: &Scene<T>, model: &NaturalModel<T, D>) -> Result<Self, ModelError> {
         let (mut loads, effects) = Loads::with_kinks(scene, model)?;
         let start = State::at_rest(model);
-        let (list, supplies) = loads.at(&start);
+        let (list, law_inputs) = loads.at(&start);
         let watch = |(load, &effect): (&Load<T, D>, &usize)| {
             let mut kinks = Vec::new();
-            load.kinks(&supplies, |kink| kinks.push(kink));
+            load.kinks(&law_inputs, |kink| kinks.push(kink));
             let band = BAND.max(BAND_ROUNDINGS * T::EPSILON.to_f64());
             let size = if load.is_angular() { 1.0 } else { model.length().to_f64() };
             let contact = (load.n_gaps(), load.fade());
@@ -184,9 +184,9 @@ impl<T: Real, const D: usize> Events<T, D> {
         if self.watched.is_empty() {
             return;
         }
-        let (list, supplies) = self.loads.at(state);
+        let (list, law_inputs) = self.loads.at(state);
         for (load, watched) in list.iter().zip(&mut self.watched) {
-            watched.end = load.reading(state, &supplies);
+            watched.end = load.reading(state, &law_inputs);
         }
     }
 }
@@ -195,11 +195,11 @@ impl<T: Real> Watched<T> {
     fn new(
         effect: usize,
         (n_gaps, fade): (usize, Option<f64>),
-        (mut kinks, reach): (Vec<Kink<T>>, T),
+        (mut kinks, reach): (Vec<LawCorner<T>>, T),
         band: f64,
     ) -> Self {
         // A wheel that rolls on passes the steeper normal of a crest first.
-        let key = |kink: &Kink<T>| [kink.place.to_f64(), -kink.slope.to_f64()];
+        let key = |kink: &LawCorner<T>| [kink.place.to_f64(), -kink.slope.to_f64()];
         kinks.sort_unstable_by(|a, b| {
             let ([p, s], [q, u]) = (key(a), key(b));
             p.total_cmp(&q).then(s.total_cmp(&u))
@@ -276,7 +276,7 @@ impl<T: Real> Watched<T> {
     }
 
     /// The kinks that may be passed between the two places, and one on either side.
-    fn near(&self) -> &[Kink<T>] {
+    fn near(&self) -> &[LawCorner<T>] {
         let (a, b) = (self.begin.place[0].value, self.end.place[0].value);
         let (lower, upper) = (a.min(b) - self.reach, a.max(b) + self.reach);
         let first = self.kinks.partition_point(|kink| kink.place < lower);
@@ -297,7 +297,7 @@ fn fading(left: f64, (fade, way): (f64, f64)) -> Option<f64> {
 }
 
 /// The value that changes sign at a kink, and its rate.
-fn passage<T: Real>(kink: &Kink<T>, place: &[Gap<T>; 2]) -> Gap<T> {
+fn passage<T: Real>(kink: &LawCorner<T>, place: &[Gap<T>; 2]) -> Gap<T> {
     let [value, rate] = [place.map(|x| x.value), place.map(|x| x.rate)];
     Gap { value: kink.value(value), rate: kink.rate(rate) }
 }

@@ -37,7 +37,7 @@ impl<T: Real, const D: usize> EffectWrenches<T, D> {
     /// Cost: one evaluation of the effect's laws, and one look at each other effect; no allocation.
     pub fn of(&mut self, effect: usize, state: &State<T>) -> Wrench<T> {
         let Self { loads, effects, frames, ground } = self;
-        let (list, supplies) = loads.at(state);
+        let (list, law_inputs) = loads.at(state);
         let mut sum = Wrench::zero();
         for (load, _) in list.iter().zip(effects).filter(|(_, owner)| **owner == effect) {
             let turned = |body| match body {
@@ -46,7 +46,7 @@ impl<T: Real, const D: usize> EffectWrenches<T, D> {
             };
             // the second of two bodies comes last
             let mut last = Wrench::zero();
-            load.apply((state, &supplies), turned, |(_, _, wrench)| last = wrench);
+            load.apply((state, &law_inputs), turned, |(_, _, wrench)| last = wrench);
             sum.add(&last);
         }
         sum

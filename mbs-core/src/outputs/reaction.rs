@@ -158,11 +158,11 @@ impl<T: Real, const D: usize> Reactions<T, D> {
 
     fn apply_loads(&mut self, state: &State<T>) {
         let Self { bodies, loads, .. } = self;
-        let (loads, supplies) = loads.at(state);
+        let (loads, law_inputs) = loads.at(state);
         for load in loads {
             let mut given: [Option<super::load::Applied<T>>; 2] = [None, None];
             let turned = |body| rotation_of(bodies, body);
-            load.apply((state, &supplies), turned, |applied| {
+            load.apply((state, &law_inputs), turned, |applied| {
                 let free = usize::from(given[0].is_some());
                 given[free] = Some(applied);
             });

@@ -1,6 +1,6 @@
 //! What effects are described by: signals, axes, laws of users, polynomials and roads.
 
-use crate::laws::own::{UserBodyLaw, UserScalarLaw};
+use crate::laws::user::{UserBodyLaw, UserScalarLaw};
 use crate::scene::{BodyId, JointId};
 use alloc::vec::Vec;
 

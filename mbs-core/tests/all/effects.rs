@@ -3,7 +3,7 @@
 use crate::codes;
 use mbs_core::Cliques;
 use mbs_core::algebra::{Vector, cross, rotation};
-use mbs_core::model::{Load, Measure, Model, State, Tangent, Terms};
+use mbs_core::model::{Load, Model, ScalarForce, State, Tangent, Terms};
 use mbs_core::natural::NaturalModel;
 use mbs_core::rigid::RigidMotion;
 use mbs_core::scene::{
@@ -179,7 +179,7 @@ fn tangents_of_laws_are_the_derivatives_of_their_tensions() {
                 state.v = plus(&state.v, h, &dv);
             };
             let told = at.terms.measures.clone();
-            let of = |part: fn(&Measure<f64>) -> f64| {
+            let of = |part: fn(&ScalarForce<f64>) -> f64| {
                 move |at: &At<D>| at.terms.measures.iter().map(part).collect::<Vec<f64>>()
             };
             let tension = at.difference(moved, of(|m| m.tension));

@@ -6,7 +6,7 @@ use given::Given;
 use mbs_core::laws::guide::{spline, spline_curvatures};
 use mbs_core::laws::road::Feature;
 use mbs_core::laws::road_contact::road_contact;
-use mbs_core::laws::{Part, Supplies};
+use mbs_core::laws::{LawInputs, Part};
 
 /// One body of a planar scene that slides along x, from zero.
 fn slider(effects: &str) -> String {
@@ -212,8 +212,8 @@ fn foot_of([x, z]: [f64; 2]) -> f64 {
         Feature::Rise { start: 1.0, length: 2.0, height: 0.2, rounding: 0.5 },
         Feature::Bump { start: 4.0, length: 3.0, amplitude: 0.04 },
     ];
-    let supplies = Supplies { features: &features, ..Supplies::courses(&[]) };
-    let at = road_contact(Part { first: 0, n: 2 }, &supplies, [x, z]);
+    let law_inputs = LawInputs { features: &features, ..LawInputs::courses(&[]) };
+    let at = road_contact(Part { first: 0, n: 2 }, &law_inputs, [x, z]);
     x - at.normal[0] * at.distance
 }
 

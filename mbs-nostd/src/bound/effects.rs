@@ -4,8 +4,8 @@ use super::Operations;
 use super::count;
 use crate::inputs::{Motion, Prescriptions, SignalLaw};
 use mbs_core::Real;
-use mbs_recursive::loads::{Gauge, Load};
-use mbs_recursive::mechanism::Mechanism;
+use mbs_recursive::loads::{Load, Measure};
+use mbs_recursive::slices::TreeSlices;
 use mbs_recursive::space::Space;
 
 const fn ops(products: u64, sums: u64) -> Operations {
@@ -76,7 +76,10 @@ impl Parts {
 }
 
 /// An effect in an evaluation, ahead.
-pub(super) fn load<T: Real, S: Space<T>>(m: &Mechanism<'_, T, S>, load: &Load<T, S>) -> Operations {
+pub(super) fn load<T: Real, S: Space<T>>(
+    m: &TreeSlices<'_, T, S>,
+    load: &Load<T, S>,
+) -> Operations {
     let parts = Parts::of::<T, S>();
     // κ, and what it adds to a joint.
     let across = ops(3, 3);
@@ -103,7 +106,7 @@ pub(super) fn load<T: Real, S: Space<T>>(m: &Mechanism<'_, T, S>, load: &Load<T,
             turned + parts.turned + parts.wrench + ops(0, parts.motion)
         }
         Load::Torque { .. } => ops(0, parts.motion),
-        Load::OnBody(load) => {
+        Load::BodyLoad(load) => {
             // Point and arm, its place and velocity, the law's direction; each action on its own.
             let place = parts.turned * 4 + parts.wrench * 2 + ops(0, 4 * parts.point);
             let law = load.law.operations(&m.tables);
@@ -116,17 +119,17 @@ pub(super) fn load<T: Real, S: Space<T>>(m: &Mechanism<'_, T, S>, load: &Load<T,
 /// What a law measures, its wrenches and its rate.
 fn measured<T: Real, S: Space<T>>(
     n_links: usize,
-    gauge: &Gauge<T, S>,
+    gauge: &Measure<T, S>,
     parts: &Parts,
 ) -> Operations {
     let between = parts.turned * 2 + ops(0, 3 * parts.point);
     let rate = parts.motions * 2 + ops(0, 1);
     match gauge {
-        Gauge::Length { .. } => {
+        Measure::Length { .. } => {
             let unit = ops(parts.point, 0).and(1, 1, 0);
             between + parts.points + unit + parts.wrench * 2 + rate
         }
-        Gauge::Along { .. } => {
+        Measure::Along { .. } => {
             between
                 + parts.turned
                 + parts.wrench * 2
@@ -136,13 +139,13 @@ fn measured<T: Real, S: Space<T>>(
                 + rate
         }
         // The half angles of both links, by all that are on the way at most; the rotation vector, its gradient, and the moment.
-        Gauge::Rotation { .. } => {
+        Measure::Rotation { .. } => {
             let joint = ops(20, 12).and(0, 0, 1);
             let vector = ops(24, 14).and(1, 1, 1);
             let gradient = ops(28, 16).and(1, 1, 1);
             joint * (2 * n_links as u64) + vector + gradient + parts.turned + rate
         }
         // The angles of both links, by all that are on the way at most.
-        Gauge::Turn => ops(2 * n_links as u64, 2 * n_links as u64 + 1) + parts.wrench + rate,
+        Measure::Turn => ops(2 * n_links as u64, 2 * n_links as u64 + 1) + parts.wrench + rate,
     }
 }

@@ -2,7 +2,7 @@
 
 use super::Operations;
 use mbs_core::Real;
-use mbs_recursive::link::{Kind, Link};
+use mbs_recursive::link::{Link, LinkKind};
 use mbs_recursive::space::Space;
 
 const fn ops(products: u64, sums: u64) -> Operations {
@@ -15,15 +15,15 @@ const fn is_spatial<T: Real, S: Space<T>>() -> bool {
 }
 
 /// Place, velocity and velocity products.
-pub(super) fn place<T: Real, S: Space<T>>(kind: Kind) -> Operations {
+pub(super) fn place<T: Real, S: Space<T>>(kind: LinkKind) -> Operations {
     match (kind, is_spatial::<T, S>()) {
-        (Kind::Revolute | Kind::GuidedRevolute, true) => ops(99, 79).and(0, 0, 1),
-        (Kind::Revolute | Kind::GuidedRevolute, false) => ops(22, 17).and(0, 0, 1),
-        (Kind::Prismatic | Kind::GuidedPrismatic, true) => ops(64, 54),
-        (Kind::Prismatic | Kind::GuidedPrismatic, false) => ops(29, 20),
-        (Kind::Ball, _) => ops(109, 81).and(1, 0, 0),
-        (Kind::Free, true) => ops(94, 60).and(1, 0, 0),
-        (Kind::Free, false) => ops(15, 8).and(0, 0, 1),
+        (LinkKind::Revolute | LinkKind::GuidedRevolute, true) => ops(99, 79).and(0, 0, 1),
+        (LinkKind::Revolute | LinkKind::GuidedRevolute, false) => ops(22, 17).and(0, 0, 1),
+        (LinkKind::Prismatic | LinkKind::GuidedPrismatic, true) => ops(64, 54),
+        (LinkKind::Prismatic | LinkKind::GuidedPrismatic, false) => ops(29, 20),
+        (LinkKind::Ball, _) => ops(109, 81).and(1, 0, 0),
+        (LinkKind::Free, true) => ops(94, 60).and(1, 0, 0),
+        (LinkKind::Free, false) => ops(15, 8).and(0, 0, 1),
     }
 }
 
@@ -33,29 +33,29 @@ fn inertia<T: Real, S: Space<T>>() -> Operations {
 }
 
 /// The joint's elimination.
-fn eliminate<T: Real, S: Space<T>>(kind: Kind) -> Operations {
+fn eliminate<T: Real, S: Space<T>>(kind: LinkKind) -> Operations {
     match (kind, is_spatial::<T, S>()) {
-        (Kind::Revolute | Kind::Prismatic, true) => ops(96, 81).and(1, 0, 0),
-        (Kind::Revolute, false) => ops(29, 20).and(1, 0, 0),
-        (Kind::Prismatic, false) => ops(34, 25).and(1, 0, 0),
-        (Kind::Ball, _) => ops(127, 95).and(1, 0, 0),
-        (Kind::Free, true) => ops(100, 52).and(2, 0, 0),
-        (Kind::Free, false) => ops(5, 4).and(3, 0, 0),
-        (Kind::GuidedRevolute | Kind::GuidedPrismatic, true) => ops(37, 36),
-        (Kind::GuidedRevolute | Kind::GuidedPrismatic, false) => ops(10, 9),
+        (LinkKind::Revolute | LinkKind::Prismatic, true) => ops(96, 81).and(1, 0, 0),
+        (LinkKind::Revolute, false) => ops(29, 20).and(1, 0, 0),
+        (LinkKind::Prismatic, false) => ops(34, 25).and(1, 0, 0),
+        (LinkKind::Ball, _) => ops(127, 95).and(1, 0, 0),
+        (LinkKind::Free, true) => ops(100, 52).and(2, 0, 0),
+        (LinkKind::Free, false) => ops(5, 4).and(3, 0, 0),
+        (LinkKind::GuidedRevolute | LinkKind::GuidedPrismatic, true) => ops(37, 36),
+        (LinkKind::GuidedRevolute | LinkKind::GuidedPrismatic, false) => ops(10, 9),
     }
 }
 
 /// Joint and link accelerations, without velocity products.
-fn advance<T: Real, S: Space<T>>(kind: Kind) -> Operations {
+fn advance<T: Real, S: Space<T>>(kind: LinkKind) -> Operations {
     match (kind, is_spatial::<T, S>()) {
-        (Kind::Revolute | Kind::Prismatic, true) => ops(19, 19),
-        (Kind::Revolute | Kind::Prismatic, false) => ops(9, 9),
-        (Kind::Ball, _) => ops(33, 39),
-        (Kind::Free, true) => ops(45, 48),
-        (Kind::Free, false) => ops(6, 12).and(3, 0, 0),
-        (Kind::GuidedRevolute | Kind::GuidedPrismatic, true) => ops(6, 6),
-        (Kind::GuidedRevolute | Kind::GuidedPrismatic, false) => ops(2, 2),
+        (LinkKind::Revolute | LinkKind::Prismatic, true) => ops(19, 19),
+        (LinkKind::Revolute | LinkKind::Prismatic, false) => ops(9, 9),
+        (LinkKind::Ball, _) => ops(33, 39),
+        (LinkKind::Free, true) => ops(45, 48),
+        (LinkKind::Free, false) => ops(6, 12).and(3, 0, 0),
+        (LinkKind::GuidedRevolute | LinkKind::GuidedPrismatic, true) => ops(6, 6),
+        (LinkKind::GuidedRevolute | LinkKind::GuidedPrismatic, false) => ops(2, 2),
     }
 }
 
@@ -76,49 +76,51 @@ pub(super) fn evaluation<T: Real, S: Space<T>>(link: &Link<T, S>) -> Operations 
 /// A response to other forces.
 pub(super) fn response<T: Real, S: Space<T>>(link: &Link<T, S>) -> Operations {
     let impulse = match (link.kind, is_spatial::<T, S>()) {
-        (Kind::Revolute | Kind::Prismatic, true) => ops(10, 9),
-        (Kind::Revolute, false) => ops(5, 4),
-        (Kind::Prismatic, false) => ops(6, 5),
-        (Kind::Ball, _) => ops(18, 15),
-        (Kind::Free | Kind::GuidedRevolute | Kind::GuidedPrismatic, _) => Operations::NONE,
+        (LinkKind::Revolute | LinkKind::Prismatic, true) => ops(10, 9),
+        (LinkKind::Revolute, false) => ops(5, 4),
+        (LinkKind::Prismatic, false) => ops(6, 5),
+        (LinkKind::Ball, _) => ops(18, 15),
+        (LinkKind::Free | LinkKind::GuidedRevolute | LinkKind::GuidedPrismatic, _) => {
+            Operations::NONE
+        }
     };
     let sum = impulse + advance::<T, S>(link.kind);
     if link.parent > 0 { sum + shift::<T, S>()[1] } else { sum }
 }
 
 /// Accelerations of the links for those of the joints.
-pub(super) fn spread<T: Real, S: Space<T>>(kind: Kind) -> Operations {
+pub(super) fn spread<T: Real, S: Space<T>>(kind: LinkKind) -> Operations {
     match (kind, is_spatial::<T, S>()) {
-        (Kind::Revolute | Kind::Prismatic, true) => ops(12, 18),
-        (Kind::Revolute | Kind::Prismatic, false) => ops(5, 8),
-        (Kind::Ball, _) => ops(15, 24),
-        (Kind::Free, true) => ops(9, 18),
-        (Kind::Free, false) => ops(0, 6),
-        (Kind::GuidedRevolute | Kind::GuidedPrismatic, true) => ops(6, 18),
-        (Kind::GuidedRevolute | Kind::GuidedPrismatic, false) => ops(2, 8),
+        (LinkKind::Revolute | LinkKind::Prismatic, true) => ops(12, 18),
+        (LinkKind::Revolute | LinkKind::Prismatic, false) => ops(5, 8),
+        (LinkKind::Ball, _) => ops(15, 24),
+        (LinkKind::Free, true) => ops(9, 18),
+        (LinkKind::Free, false) => ops(0, 6),
+        (LinkKind::GuidedRevolute | LinkKind::GuidedPrismatic, true) => ops(6, 18),
+        (LinkKind::GuidedRevolute | LinkKind::GuidedPrismatic, false) => ops(2, 8),
     }
 }
 
 /// Coordinates moved along freedoms.
-pub(super) fn moved<T: Real, S: Space<T>>(kind: Kind) -> Operations {
+pub(super) fn moved<T: Real, S: Space<T>>(kind: LinkKind) -> Operations {
     match (kind, is_spatial::<T, S>()) {
-        (Kind::Revolute | Kind::Prismatic, _) => ops(0, 1),
-        (Kind::Ball, _) => ops(31, 17).and(2, 2, 1),
-        (Kind::Free, true) => ops(31, 20).and(2, 2, 1),
-        (Kind::Free, false) => ops(0, 3),
-        (Kind::GuidedRevolute | Kind::GuidedPrismatic, _) => Operations::NONE,
+        (LinkKind::Revolute | LinkKind::Prismatic, _) => ops(0, 1),
+        (LinkKind::Ball, _) => ops(31, 17).and(2, 2, 1),
+        (LinkKind::Free, true) => ops(31, 20).and(2, 2, 1),
+        (LinkKind::Free, false) => ops(0, 3),
+        (LinkKind::GuidedRevolute | LinkKind::GuidedPrismatic, _) => Operations::NONE,
     }
 }
 
 /// A row of a loop that passes: its head, its gain, and what is behind the joint.
-pub(super) fn pass<T: Real, S: Space<T>>(kind: Kind) -> Operations {
+pub(super) fn pass<T: Real, S: Space<T>>(kind: LinkKind) -> Operations {
     match (kind, is_spatial::<T, S>()) {
-        (Kind::Revolute | Kind::Prismatic, true) => ops(10, 8),
-        (Kind::Revolute, false) => ops(5, 3),
-        (Kind::Prismatic, false) => ops(6, 4),
-        (Kind::Ball, _) => ops(18, 15),
-        (Kind::Free, true) => ops(36, 30),
-        (Kind::Free, false) => ops(6, 6).and(3, 0, 0),
-        (Kind::GuidedRevolute | Kind::GuidedPrismatic, _) => Operations::NONE,
+        (LinkKind::Revolute | LinkKind::Prismatic, true) => ops(10, 8),
+        (LinkKind::Revolute, false) => ops(5, 3),
+        (LinkKind::Prismatic, false) => ops(6, 4),
+        (LinkKind::Ball, _) => ops(18, 15),
+        (LinkKind::Free, true) => ops(36, 30),
+        (LinkKind::Free, false) => ops(6, 6).and(3, 0, 0),
+        (LinkKind::GuidedRevolute | LinkKind::GuidedPrismatic, _) => Operations::NONE,
     }
 }

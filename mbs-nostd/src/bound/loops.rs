@@ -7,8 +7,8 @@
 
 use super::{Operations, count, joints};
 use mbs_core::Real;
-use mbs_recursive::mechanism::Mechanism;
 use mbs_recursive::rows::Row;
+use mbs_recursive::slices::TreeSlices;
 use mbs_recursive::space::{Numbers, Space};
 
 const fn ops(products: u64, sums: u64) -> Operations {
@@ -37,7 +37,7 @@ pub(super) fn residual<T: Real, S: Space<T>>(rows: u64) -> Operations {
 }
 
 /// Values, rates, gradients and biases of all rows.
-pub(super) fn rows<T: Real, S: Space<T>>(m: &Mechanism<'_, T, S>) -> Operations {
+pub(super) fn rows<T: Real, S: Space<T>>(m: &TreeSlices<'_, T, S>) -> Operations {
     let is_spatial = S::DIMENSION == 3;
     let ends = if is_spatial { ops(54, 51) } else { ops(20, 18) };
     let mut sum = ends * count(m.loops.loops.len());
@@ -57,7 +57,7 @@ pub(super) fn rows<T: Real, S: Space<T>>(m: &Mechanism<'_, T, S>) -> Operations 
 }
 
 /// Passing all joints, elimination at the ancestors, and opening.
-pub(super) fn evaluation<T: Real, S: Space<T>>(m: &Mechanism<'_, T, S>) -> Operations {
+pub(super) fn evaluation<T: Real, S: Space<T>>(m: &TreeSlices<'_, T, S>) -> Operations {
     let n = motion::<T, S>();
     let gathered = if S::DIMENSION == 3 { ops(6, 6) } else { ops(2, 2) };
     let square = if S::DIMENSION == 3 { ops(27, 21) } else { ops(9, 6) };
@@ -111,7 +111,7 @@ pub(super) fn evaluation<T: Real, S: Space<T>>(m: &Mechanism<'_, T, S>) -> Opera
 }
 
 /// Passing and elimination of l alone, and opening.
-pub(super) fn response<T: Real, S: Space<T>>(m: &Mechanism<'_, T, S>) -> Operations {
+pub(super) fn response<T: Real, S: Space<T>>(m: &TreeSlices<'_, T, S>) -> Operations {
     let n = motion::<T, S>();
     let lap_rows = |lap: u32| m.loops.loops.get(lap as usize).map_or(0, |lap| u64::from(lap.n));
     let plan = &m.loops.plan;
@@ -136,7 +136,7 @@ pub(super) fn response<T: Real, S: Space<T>>(m: &Mechanism<'_, T, S>) -> Operati
 }
 
 /// λ of all loops, and what joints are held back by.
-fn opening<T: Real, S: Space<T>>(m: &Mechanism<'_, T, S>) -> Operations {
+fn opening<T: Real, S: Space<T>>(m: &TreeSlices<'_, T, S>) -> Operations {
     let n = motion::<T, S>();
     let lap_rows = |lap: u32| m.loops.loops.get(lap as usize).map_or(0, |lap| u64::from(lap.n));
     let plan = &m.loops.plan;

@@ -7,15 +7,15 @@ use mbs_core::Real;
 use mbs_core::inputs::Prescribed;
 use mbs_core::laws::Part;
 use mbs_core::scene::{Motion as SceneLaw, Signal};
-use mbs_recursive::loads::{Gauge, Load};
-use mbs_recursive::mechanism::Mechanism;
+use mbs_recursive::loads::{Load, Measure};
+use mbs_recursive::slices::TreeSlices;
 use mbs_recursive::space::Space;
 use mbs_recursive::{TreeModel, TreeState};
 
 /// A model whose tables are partly those of a tree, partly its own.
 #[derive(Debug, Clone)]
 pub struct Gathered<'a, T: Real, S: Space<T>> {
-    mechanism: Mechanism<'a, T, S>,
+    mechanism: TreeSlices<'a, T, S>,
     loads: Vec<Load<T, S>>,
     state: &'a TreeState<T>,
     guides: Vec<Motion<T>>,
@@ -103,7 +103,7 @@ impl<'a, T: Real, S: Space<T>> Gathered<'a, T, S> {
     #[must_use]
     pub fn model(&self) -> Model<'_, T, S> {
         Model {
-            mechanism: Mechanism { loads: &self.loads, ..self.mechanism },
+            mechanism: TreeSlices { loads: &self.loads, ..self.mechanism },
             prescriptions: Prescriptions {
                 guides: &self.guides,
                 courses: &self.courses,
@@ -127,9 +127,9 @@ pub fn needs<T: Real, S: Space<T>>(model: &Model<'_, T, S>) -> Vec<&'static str>
     let mut needed = Vec::new();
     for load in model.mechanism.loads {
         let feature = match load {
-            Load::Between { gauge: Gauge::Rotation { .. }, .. } => Some("bushing"),
+            Load::Between { gauge: Measure::Rotation { .. }, .. } => Some("bushing"),
             Load::Between { law, .. } | Load::Angle { law, .. } => law.feature(),
-            Load::OnBody(load) => load.law.feature(),
+            Load::BodyLoad(load) => load.law.feature(),
             _ => None,
         };
         needed.extend(feature);

@@ -118,22 +118,22 @@ pub fn source<T: Real + Record, S: Axes<T>>(
         sizes.courses
     );
     lists(model, &mut to);
-    let supplies = supplies(m.tables, &mut to);
-    constant(model, &supplies, &mut to);
+    let law_inputs = law_inputs(m.tables, &mut to);
+    constant(model, &law_inputs, &mut to);
     Ok(to)
 }
 
 /// The constant that holds all tables.
 fn constant<T: Real + Record, S: Axes<T>>(
     model: &Model<'_, T, S>,
-    supplies: &str,
+    law_inputs: &str,
     to: &mut String,
 ) {
     let m = &model.mechanism;
     to.push_str(&format!(
         "/// The model.\n\
          pub static MODEL: Model<'static, Scalar, Axes> = Model {{\n\
-         \x20   mechanism: Mechanism {{\n\
+         \x20   mechanism: TreeSlices {{\n\
          \x20       links: &LINKS,\n\
          \x20       loops: Loops {{\n\
          \x20           loops: &LOOPS,\n\
@@ -149,7 +149,7 @@ fn constant<T: Real + Record, S: Axes<T>>(
          \x20           floor: {},\n\
          \x20       }},\n\
          \x20       loads: &LOADS,\n\
-         \x20       tables: {supplies},\n\
+         \x20       tables: {law_inputs},\n\
          \x20       gravity: {},\n\
          \x20       base: {},\n\
          \x20       length: {},\n\
@@ -180,13 +180,13 @@ fn lists<T: Real + Record, S: Axes<T>>(model: &Model<'_, T, S>, to: &mut String)
     let m = &model.mechanism;
     let (plan, laws, begin) = (&m.loops.plan, &model.prescriptions, &model.beginning);
     table("LINKS", "Link<Scalar, Axes>", m.links, to);
-    table("LOOPS", "Loop<Scalar, Axes>", m.loops.loops, to);
+    table("LOOPS", "ClosedLoop<Scalar, Axes>", m.loops.loops, to);
     table("ROWS", "Row<Scalar, Axes>", m.loops.rows, to);
     table("STATIONS", "Station", plan.stations, to);
     table("PASSES", "Pass", plan.passes, to);
     table("PAIRS", "Pair", plan.pairs, to);
     table("ENDS", "End", plan.ends, to);
-    table("COUPLINGS", "Coupling", plan.couplings, to);
+    table("COUPLINGS", "LoopCoupling", plan.couplings, to);
     table("UPDATES", "Update", plan.updates, to);
     table("LOADS", "Load<Scalar, Axes>", m.loads, to);
     table("GUIDES", "Motion<Scalar>", laws.guides, to);
@@ -201,7 +201,10 @@ fn lists<T: Real + Record, S: Axes<T>>(model: &Model<'_, T, S>, to: &mut String)
 }
 
 /// The tables of laws that are not empty, and the expression that holds them.
-fn supplies<T: Real + Record>(tables: mbs_core::laws::Supplies<'_, T>, to: &mut String) -> String {
+fn law_inputs<T: Real + Record>(
+    tables: mbs_core::laws::LawInputs<'_, T>,
+    to: &mut String,
+) -> String {
     let tables = tables.tables();
     let mut sets = String::new();
     if !tables.pieces.is_empty() {
@@ -217,9 +220,9 @@ fn supplies<T: Real + Record>(tables: mbs_core::laws::Supplies<'_, T>, to: &mut 
         );
     }
     if sets.is_empty() {
-        "Supplies::courses(&[])".into()
+        "LawInputs::courses(&[])".into()
     } else {
-        format!("{{ let mut tables = Supplies::courses(&[]); {sets}tables }}")
+        format!("{{ let mut tables = LawInputs::courses(&[]); {sets}tables }}")
     }
 }
 

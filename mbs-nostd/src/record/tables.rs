@@ -5,12 +5,12 @@ use super::{Axes, Record};
 use crate::inputs::{Motion, SignalLaw};
 use mbs_core::Real;
 use mbs_core::laws::Part;
-use mbs_recursive::link::{Kind, Link};
-use mbs_recursive::loads::{Gauge, Load, OnBody};
-use mbs_recursive::plan::{Coupling, End, Pair, Pass, Span, Station, Update};
-use mbs_recursive::rows::{Loop, Row};
+use mbs_recursive::link::{Link, LinkKind};
+use mbs_recursive::loads::{BodyLoad, Load, Measure};
+use mbs_recursive::plan::{End, LoopCoupling, Pair, Pass, Span, Station, Update};
+use mbs_recursive::rows::{ClosedLoop, Row};
 
-record_enum!([] Kind = Kind {
+record_enum!([] LinkKind = LinkKind {
     0 Revolute {}, 1 Prismatic {}, 2 Ball {}, 3 Free {}, 4 GuidedRevolute {}, 5 GuidedPrismatic {},
 });
 
@@ -18,7 +18,7 @@ record_struct!([T: Real + Record, S: Axes<T>] Link<T, S> = Link {
     parent, kind, z, v, axis, direction, offset, mass, center, tensor,
 });
 
-record_struct!([T: Real + Record, S: Axes<T>] Loop<T, S> = Loop {
+record_struct!([T: Real + Record, S: Axes<T>] ClosedLoop<T, S> = ClosedLoop {
     links, points, first, n, ancestor, block, joint,
 });
 
@@ -34,7 +34,7 @@ record_struct!([] Station = Station { passes, pairs, ends });
 record_struct!([] Pass = Pass { lap, side, gain });
 record_struct!([] Pair = Pair { row, column, block });
 record_struct!([] End = End { lap, couplings, updates });
-record_struct!([] Coupling = Coupling { lap, side, block });
+record_struct!([] LoopCoupling = LoopCoupling { lap, side, block });
 record_struct!([] Update = Update { row, column, block });
 record_struct!([] Part = Part { first, n });
 
@@ -44,17 +44,17 @@ record_enum!([T: Real + Record, S: Axes<T>] Load<T, S> = Load {
     2 Constant { link link, point point, force force },
     3 Force { link link, point point, course course, turns turns },
     4 Torque { link link, course course },
-    5 OnBody { 0 load },
+    5 BodyLoad { 0 load },
 });
 
-record_enum!([T: Real + Record, S: Axes<T>] Gauge<T, S> = Gauge {
+record_enum!([T: Real + Record, S: Axes<T>] Measure<T, S> = Measure {
     0 Length { points points },
     1 Along { points points, direction direction, offset offset },
     2 Rotation { number number },
     3 Turn {},
 });
 
-record_struct!([T: Real + Record, S: Axes<T>] OnBody<T, S> = OnBody { link, point, axis, law });
+record_struct!([T: Real + Record, S: Axes<T>] BodyLoad<T, S> = BodyLoad { link, point, axis, law });
 
 record_enum!([T: Real + Record] Motion<T> = Motion {
     0 Input { 0 motion },

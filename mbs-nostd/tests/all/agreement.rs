@@ -5,7 +5,7 @@ use mbs_core::effects::{bushing, laws::SpringDamperLaw};
 use mbs_core::integrator::Integrator;
 use mbs_core::step::{OptionError, StepError};
 use mbs_nostd::export::{Gathered, bytes, needs};
-use mbs_nostd::table::{Gauge, Law, Load};
+use mbs_nostd::table::{Law, Load, Measure};
 use mbs_nostd::{Bounds, Checked, Options, Solver, Spatial, Tables, Unwatched};
 use mbs_recursive::{TreeModel, TreeState, Workspace, bounded_step, step};
 use mbs_testkit::file;
@@ -109,7 +109,7 @@ fn a_rotation_needs_the_feature_of_bushings_and_is_refused_without_it() {
     let (tree, begin) = vehicle("six-joint-arm");
     let gathered = Gathered::new(&tree, &begin, &[]);
     let law = Law::SpringDamper(SpringDamperLaw { stiffness: 1.0, damping: 0.0, free: 0.0 });
-    let load = Load::Between { links: [1, 2], gauge: Gauge::Rotation { number: 0 }, law };
+    let load = Load::Between { links: [1, 2], gauge: Measure::Rotation { number: 0 }, law };
     let mut model = gathered.model();
     let loads = [load];
     model.mechanism.loads = &loads;

@@ -1,11 +1,11 @@
 //! What loads are evaluated from: places, velocities and inputs of one instant.
 
-use crate::at::{Outside, at};
-use crate::link::{Kind, Link, Placed};
+use crate::indexing::{Outside, at};
+use crate::link::{Link, LinkKind, LinkMotion};
 use crate::space::Space;
 use mbs_core::Real;
 use mbs_core::algebra::Vector;
-use mbs_core::laws::Supplies;
+use mbs_core::laws::LawInputs;
 
 /// What loads are evaluated from.
 #[derive(Debug, Clone, Copy)]
@@ -13,11 +13,11 @@ pub struct Instant<'a, T: Real, S: Space<T>> {
     /// The links.
     pub links: &'a [Link<T, S>],
     /// Where they are.
-    pub placed: &'a [Placed<T, S>],
+    pub placed: &'a [LinkMotion<T, S>],
     /// Coordinates, velocities, guides.
     pub coordinates: (&'a [T], &'a [T], &'a [[T; 3]]),
     /// Vectors of the courses, and tables.
-    pub supplies: Supplies<'a, T>,
+    pub law_inputs: LawInputs<'a, T>,
     /// The point that positions are counted from, global axes [m].
     pub base: S::Point,
 }
@@ -27,7 +27,7 @@ impl<T: Real, S: Space<T>> Instant<'_, T, S> {
     pub(crate) fn coordinate(&self, link: u32) -> Result<[T; 2], Outside> {
         let (link, (z, v, guides)) = (at(self.links, link as usize)?, self.coordinates);
         Ok(match link.kind {
-            Kind::GuidedRevolute | Kind::GuidedPrismatic => {
+            LinkKind::GuidedRevolute | LinkKind::GuidedPrismatic => {
                 let [value, rate, _] = *at(guides, link.v as usize)?;
                 [value, rate]
             }
@@ -42,14 +42,14 @@ impl<T: Real, S: Space<T>> Instant<'_, T, S> {
             let link = at(self.links, number as usize)?;
             sum += link.turn(self.coordinate(number)?[0]);
             // The first coordinate of a free link is its angle against the ground.
-            number = if link.kind == Kind::Free { 0 } else { link.parent };
+            number = if link.kind == LinkKind::Free { 0 } else { link.parent };
         }
         Ok(sum)
     }
 
     /// A link's place.
     #[inline(always)]
-    pub(super) fn placed(&self, link: u32) -> Result<&Placed<T, S>, Outside> {
+    pub(super) fn placed(&self, link: u32) -> Result<&LinkMotion<T, S>, Outside> {
         at(self.placed, link as usize)
     }
 
@@ -70,14 +70,14 @@ impl<T: Real, S: Space<T>> Instant<'_, T, S> {
 
     /// A force of a course, world axes [N].
     pub(super) fn force(&self, link: u32, course: u32, turns: bool) -> Result<S::Point, Outside> {
-        let course = *at(self.supplies.courses, course as usize)?;
+        let course = *at(self.law_inputs.courses, course as usize)?;
         let f = S::point_from(&Vector::from(course));
         Ok(if turns { S::rotate(&self.placed(link)?.rotation, &f) } else { f })
     }
 
     /// A torque of a course, world axes [N m].
     pub(super) fn torque(&self, course: u32) -> Result<S::Spin, Outside> {
-        let c = *at(self.supplies.courses, course as usize)?;
+        let c = *at(self.law_inputs.courses, course as usize)?;
         let c = if S::DIMENSION == 2 { [T::ZERO, T::ZERO, c[0]] } else { c };
         Ok(S::spin_from(&Vector::from(c)))
     }

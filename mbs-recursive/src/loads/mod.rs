@@ -6,21 +6,21 @@
 //! law on one body       its unit wrenches times their tensions
 //! ```
 
-mod gauge;
+mod body_load;
 mod instant;
-mod on_body;
+mod measure;
 mod reach;
 mod rotation;
 mod tangent;
 
-pub use gauge::Gauge;
+pub use body_load::BodyLoad;
 pub use instant::Instant;
-pub use on_body::OnBody;
+pub use measure::Measure;
 pub use reach::Reach;
 pub(crate) use rotation::check_rotations;
 
-use crate::at::{Outside, at_mut};
-use crate::link::Condensed;
+use crate::indexing::{Outside, at_mut};
+use crate::link::ArticulatedInertia;
 use crate::space::{Numbers, Space};
 use mbs_core::Real;
 use mbs_core::laws::scalar::Law;
@@ -33,7 +33,7 @@ pub enum Load<T: Real, S: Space<T>> {
         /// The links.
         links: [u32; 2],
         /// What is measured.
-        gauge: Gauge<T, S>,
+        gauge: Measure<T, S>,
         /// The law.
         law: Law<T>,
     },
@@ -72,7 +72,7 @@ pub enum Load<T: Real, S: Space<T>> {
         course: u32,
     },
     /// A law on one body.
-    OnBody(OnBody<T, S>),
+    BodyLoad(BodyLoad<T, S>),
 }
 
 impl<T: Real, S: Space<T>> Load<T, S> {
@@ -85,7 +85,7 @@ impl<T: Real, S: Space<T>> Load<T, S> {
             | Self::Constant { link, .. }
             | Self::Force { link, .. }
             | Self::Torque { link, .. }
-            | Self::OnBody(OnBody { link, .. }) => *link == 0,
+            | Self::BodyLoad(BodyLoad { link, .. }) => *link == 0,
         }
     }
 
@@ -97,7 +97,7 @@ impl<T: Real, S: Space<T>> Load<T, S> {
     pub fn apply(
         &self,
         at: &Instant<'_, T, S>,
-        condensed: &mut [Condensed<T, S>],
+        condensed: &mut [ArticulatedInertia<T, S>],
     ) -> Result<(), Outside> {
         let mut push = |link: u32, force: S::Motion| {
             at_mut(condensed, link as usize)?.force -= force;
@@ -111,7 +111,7 @@ impl<T: Real, S: Space<T>> Load<T, S> {
             }
             Self::Angle { link, law } => {
                 let [value, rate] = at.coordinate(*link)?;
-                let measure = law.evaluate(value, rate, &at.supplies);
+                let measure = law.evaluate(value, rate, &at.law_inputs);
                 at_mut(condensed, *link as usize)?.effort -= measure.tension;
                 Ok(())
             }
@@ -125,7 +125,7 @@ impl<T: Real, S: Space<T>> Load<T, S> {
             Self::Torque { link, course } => {
                 push(*link, S::motion(at.torque(*course)?, S::Point::zero()))
             }
-            Self::OnBody(load) => push(load.link, load.wrench(at)?),
+            Self::BodyLoad(load) => push(load.link, load.wrench(at)?),
         }
     }
 
@@ -136,12 +136,12 @@ impl<T: Real, S: Space<T>> Load<T, S> {
     pub fn potential(&self, at: &Instant<'_, T, S>) -> Result<T, Outside> {
         Ok(match self {
             Self::Between { links, gauge, law } => {
-                law.energy(gauge.evaluate(at, *links, law)?.0.value, &at.supplies)
+                law.energy(gauge.evaluate(at, *links, law)?.0.value, &at.law_inputs)
             }
-            Self::Angle { link, law } => law.energy(at.coordinate(*link)?[0], &at.supplies),
+            Self::Angle { link, law } => law.energy(at.coordinate(*link)?[0], &at.law_inputs),
             Self::Constant { link, point, force } => -force.dot(&at.place(*link, point)?),
             Self::Force { .. } | Self::Torque { .. } => T::ZERO,
-            Self::OnBody(load) => load.potential(at)?,
+            Self::BodyLoad(load) => load.potential(at)?,
         })
     }
 
@@ -152,11 +152,11 @@ impl<T: Real, S: Space<T>> Load<T, S> {
     pub fn power(&self, at: &Instant<'_, T, S>) -> Result<T, Outside> {
         Ok(match self {
             Self::Between { links, gauge, law } => {
-                law.power(&gauge.evaluate(at, *links, law)?.0, &at.supplies)
+                law.power(&gauge.evaluate(at, *links, law)?.0, &at.law_inputs)
             }
             Self::Angle { link, law } => {
                 let [value, rate] = at.coordinate(*link)?;
-                law.power(&law.evaluate(value, rate, &at.supplies), &at.supplies)
+                law.power(&law.evaluate(value, rate, &at.law_inputs), &at.law_inputs)
             }
             Self::Constant { .. } => T::ZERO,
             Self::Force { link, point, course, turns } => {
@@ -166,7 +166,7 @@ impl<T: Real, S: Space<T>> Load<T, S> {
             Self::Torque { link, course } => {
                 at.torque(*course)?.dot(&S::spin(&at.placed(*link)?.velocity))
             }
-            Self::OnBody(load) => load.power(at)?,
+            Self::BodyLoad(load) => load.power(at)?,
         })
     }
 }

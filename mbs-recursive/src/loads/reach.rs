@@ -1,9 +1,9 @@
 //! Effects that answer to accelerations: how far these reach within a step.
 
-use crate::link::Condensed;
+use crate::link::ArticulatedInertia;
 use crate::space::{Numbers, Space};
 use mbs_core::Real;
-use mbs_core::laws::scalar::Measure;
+use mbs_core::laws::scalar::ScalarForce;
 
 /// How far accelerations reach within a step.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -17,7 +17,7 @@ pub struct Reach<T> {
 impl<T: Real> Reach<T> {
     /// κ, not below zero.
     #[inline]
-    pub(super) fn weight(self, measure: &Measure<T>) -> T {
+    pub(super) fn weight(self, measure: &ScalarForce<T>) -> T {
         (self.place * measure.stiffness + self.speed * measure.damping).max(T::ZERO)
     }
 
@@ -25,9 +25,9 @@ impl<T: Real> Reach<T> {
     #[inline]
     pub(super) fn resist<S: Space<T>>(
         self,
-        c: &mut Condensed<T, S>,
+        c: &mut ArticulatedInertia<T, S>,
         (w, a): (&S::Motion, &S::Motion),
-        measure: &Measure<T>,
+        measure: &ScalarForce<T>,
     ) {
         let weight = self.weight(measure);
         c.force += *w * (measure.tension - weight * w.dot(a));

@@ -2,16 +2,16 @@
 //!
 //! Beyond it the half angles of a tree give the turn the other way round: the rotation vector has changed its sign.
 
-use super::{Gauge, Instant, Load};
-use crate::at::{Outside, at};
+use super::{Instant, Load, Measure};
 use crate::fault::failure;
-use crate::link::Kind;
-use crate::mechanism::{Inputs, Mechanism, Start, Store};
+use crate::indexing::{Outside, at};
+use crate::link::LinkKind;
+use crate::slices::{Inputs, Start, Store, TreeSlices};
 use crate::space::Space;
 use mbs_core::Real;
 use mbs_core::algebra::{Vector, norm};
 use mbs_core::effects::bushing;
-use mbs_core::laws::Supplies;
+use mbs_core::laws::LawInputs;
 use mbs_core::step::StepError;
 
 impl<T: Real, S: Space<T>> Instant<'_, T, S> {
@@ -33,12 +33,12 @@ impl<T: Real, S: Space<T>> Instant<'_, T, S> {
         while number > 0 {
             let link = at(self.links, number as usize)?;
             match link.kind {
-                Kind::Revolute | Kind::GuidedRevolute => {
+                LinkKind::Revolute | LinkKind::GuidedRevolute => {
                     let (s, c) = (self.coordinate(number)?[0] * T::HALF).sin_cos();
                     let n = S::spin_into(&link.axis) * s;
                     sum = product([c, n[0], n[1], n[2]], sum);
                 }
-                Kind::Ball | Kind::Free => {
+                LinkKind::Ball | LinkKind::Free => {
                     let first = link.z as usize;
                     let mut own = sum;
                     for (i, own) in own.iter_mut().enumerate() {
@@ -46,9 +46,9 @@ impl<T: Real, S: Space<T>> Instant<'_, T, S> {
                     }
                     sum = product(own, sum);
                 }
-                Kind::Prismatic | Kind::GuidedPrismatic => {}
+                LinkKind::Prismatic | LinkKind::GuidedPrismatic => {}
             }
-            number = if link.kind == Kind::Free { 0 } else { link.parent };
+            number = if link.kind == LinkKind::Free { 0 } else { link.parent };
         }
         Ok(sum)
     }
@@ -73,13 +73,13 @@ fn product<T: Real>(p: [T; 4], q: [T; 4]) -> [T; 4] {
 /// [`StepError::Overturned`] with the number of the load in place of the effect.
 #[inline(always)]
 pub(crate) fn check_rotations<T: Real, S: Space<T>>(
-    m: &Mechanism<'_, T, S>,
+    m: &TreeSlices<'_, T, S>,
     inputs: &impl Inputs<T>,
     step: (&Start<'_, T>, T),
     s: &mut Store<'_, T, S>,
 ) -> Result<(), StepError> {
     let is_rotation =
-        |load: &Load<T, S>| matches!(load, Load::Between { gauge: Gauge::Rotation { .. }, .. });
+        |load: &Load<T, S>| matches!(load, Load::Between { gauge: Measure::Rotation { .. }, .. });
     if bushing::IS_BUILT && m.loads.iter().any(is_rotation) {
         check(m, inputs, step, s)
     } else {
@@ -88,13 +88,13 @@ pub(crate) fn check_rotations<T: Real, S: Space<T>>(
 }
 
 fn check<T: Real, S: Space<T>>(
-    m: &Mechanism<'_, T, S>,
+    m: &TreeSlices<'_, T, S>,
     inputs: &impl Inputs<T>,
     (start, dt): (&Start<'_, T>, T),
     s: &mut Store<'_, T, S>,
 ) -> Result<(), StepError> {
     for (number, load) in m.loads.iter().enumerate() {
-        let Load::Between { links, gauge: Gauge::Rotation { number: 0 }, .. } = load else {
+        let Load::Between { links, gauge: Measure::Rotation { number: 0 }, .. } = load else {
             continue;
         };
         let failed = |outside: Outside| failure(m, outside.into());
@@ -114,9 +114,15 @@ fn check<T: Real, S: Space<T>>(
 }
 
 fn instant<'a, T: Real, S: Space<T>>(
-    m: &Mechanism<'a, T, S>,
+    m: &TreeSlices<'a, T, S>,
     coordinates: (&'a [T], &'a [T], &'a [[T; 3]]),
-    placed: &'a [crate::link::Placed<T, S>],
+    placed: &'a [crate::link::LinkMotion<T, S>],
 ) -> Instant<'a, T, S> {
-    Instant { links: m.links, placed, coordinates, supplies: Supplies::courses(&[]), base: m.base }
+    Instant {
+        links: m.links,
+        placed,
+        coordinates,
+        law_inputs: LawInputs::courses(&[]),
+        base: m.base,
+    }
 }

@@ -14,8 +14,8 @@
 //! Accelerations that no longer change do not depend on κ: only the iterates do.
 
 use super::{Instant, Load, Reach};
-use crate::at::{Outside, at, at_mut};
-use crate::link::{Condensed, Kind};
+use crate::indexing::{Outside, at, at_mut};
+use crate::link::{ArticulatedInertia, LinkKind};
 use crate::space::{Numbers, Space};
 use mbs_core::Real;
 
@@ -29,7 +29,7 @@ impl<T: Real, S: Space<T>> Load<T, S> {
         &self,
         here: &Instant<'_, T, S>,
         (reach, zdd, a): (Reach<T>, &[T], &[S::Motion]),
-        condensed: &mut [Condensed<T, S>],
+        condensed: &mut [ArticulatedInertia<T, S>],
     ) -> Result<(), Outside> {
         match self {
             Self::Between { links, gauge, law } => {
@@ -50,11 +50,11 @@ impl<T: Real, S: Space<T>> Load<T, S> {
             }
             Self::Angle { link, law } => {
                 let [value, rate] = here.coordinate(*link)?;
-                let measure = law.evaluate(value, rate, &here.supplies);
+                let measure = law.evaluate(value, rate, &here.law_inputs);
                 at_mut(condensed, *link as usize)?.effort -= measure.tension;
                 resist_joint(here, *link, (reach.weight(&measure), zdd), condensed)
             }
-            Self::OnBody(load) => {
+            Self::BodyLoad(load) => {
                 let link = load.link as usize;
                 load.apply_ahead(here, (reach, at(a, link)?), at_mut(condensed, link)?)
             }
@@ -70,10 +70,10 @@ fn resist_joint<T: Real, S: Space<T>>(
     here: &Instant<'_, T, S>,
     link: u32,
     (weight, zdd): (T, &[T]),
-    condensed: &mut [Condensed<T, S>],
+    condensed: &mut [ArticulatedInertia<T, S>],
 ) -> Result<(), Outside> {
     let joint = at(here.links, link as usize)?;
-    if matches!(joint.kind, Kind::Revolute | Kind::Prismatic) {
+    if matches!(joint.kind, LinkKind::Revolute | LinkKind::Prismatic) {
         let c = at_mut(condensed, link as usize)?;
         c.resistance += weight;
         c.effort += weight * *at(zdd, joint.v as usize)?;

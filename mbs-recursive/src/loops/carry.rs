@@ -1,16 +1,16 @@
 //! Rows carried over a joint: inward with their gains, and what they hold back there, outward.
 
 use super::{LoopStore, Loops, inner};
-use crate::at::{Outside, at, at_mut, part, part_mut, range};
+use crate::indexing::{Outside, at, at_mut, part, part_mut, range};
 use crate::joint;
-use crate::link::{Condensed, Kind, Placed};
+use crate::link::{ArticulatedInertia, LinkKind, LinkMotion};
 use crate::plan::{Pair, Pass};
-use crate::rows::Loop;
+use crate::rows::ClosedLoop;
 use crate::space::{Numbers, Space};
 use mbs_core::Real;
 
 /// A joint that is passed: its kind, where it is, and what its elimination left.
-type Joint<'s, T, S> = (Kind, &'s Placed<T, S>, &'s Condensed<T, S>);
+type Joint<'s, T, S> = (LinkKind, &'s LinkMotion<T, S>, &'s ArticulatedInertia<T, S>);
 
 /// Carries all rows over the joint of link `i`.
 #[inline]
@@ -49,7 +49,7 @@ pub(crate) fn pass<T: Real, S: Space<T>>(
 fn carry<T: Real, S: Space<T>>(
     (n, freedoms): (usize, usize),
     n_rows: usize,
-    (lap, pass): (&Loop<T, S>, &Pass),
+    (lap, pass): (&ClosedLoop<T, S>, &Pass),
     (kind, p, c): Joint<'_, T, S>,
     st: &mut LoopStore<'_, T, S>,
 ) -> Result<(), Outside> {
@@ -94,8 +94,8 @@ fn meet<T: Real, S: Space<T>>(
 #[inline]
 pub(crate) fn pass_again<T: Real, S: Space<T>>(
     m: &Loops<'_, T, S>,
-    (i, kind): (usize, Kind),
-    c: &Condensed<T, S>,
+    (i, kind): (usize, LinkKind),
+    c: &ArticulatedInertia<T, S>,
     st: &mut LoopStore<'_, T, S>,
 ) -> Result<(), Outside> {
     let freedoms = kind.n_freedoms::<T, S>();
@@ -109,8 +109,8 @@ pub(crate) fn pass_again<T: Real, S: Space<T>>(
 #[inline(always)]
 fn carry_again<T: Real, S: Space<T>>(
     (n, freedoms): (usize, usize),
-    (lap, pass): (&Loop<T, S>, &Pass),
-    c: &Condensed<T, S>,
+    (lap, pass): (&ClosedLoop<T, S>, &Pass),
+    c: &ArticulatedInertia<T, S>,
     st: &mut LoopStore<'_, T, S>,
 ) -> Result<(), Outside> {
     let l = part_mut(st.l, lap.first as usize, n)?;
@@ -125,7 +125,7 @@ fn carry_again<T: Real, S: Space<T>>(
 #[inline]
 pub(crate) fn held<T: Real, S: Space<T>>(
     m: &Loops<'_, T, S>,
-    (i, kind): (usize, Kind),
+    (i, kind): (usize, LinkKind),
     st: &LoopStore<'_, T, S>,
 ) -> Result<S::Motion, Outside> {
     let freedoms = kind.n_freedoms::<T, S>();
@@ -144,7 +144,7 @@ pub(crate) fn held<T: Real, S: Space<T>>(
 #[inline(always)]
 fn hold<T: Real, S: Space<T>>(
     (n, freedoms): (usize, usize),
-    (lap, pass): (&Loop<T, S>, &Pass),
+    (lap, pass): (&ClosedLoop<T, S>, &Pass),
     st: &LoopStore<'_, T, S>,
     held: &mut S::Motion,
 ) -> Result<(), Outside> {

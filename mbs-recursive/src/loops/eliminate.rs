@@ -1,11 +1,11 @@
 //! Loops eliminated at the link where their two sides meet.
 
 use super::{LoopStore, Loops, RankLost, Regularisation, index, inner};
-use crate::at::{Outside, apart, at, at_mut, part, part_mut, range};
 use crate::fault::Fault;
-use crate::link::Condensed;
-use crate::plan::{Coupling, End, Update};
-use crate::rows::Loop;
+use crate::indexing::{Outside, apart, at, at_mut, part, part_mut, range};
+use crate::link::ArticulatedInertia;
+use crate::plan::{End, LoopCoupling, Update};
+use crate::rows::ClosedLoop;
 use crate::space::{Numbers, Space};
 use mbs_core::Real;
 
@@ -14,7 +14,7 @@ use mbs_core::Real;
 pub(crate) fn close<T: Real, S: Space<T>>(
     m: &Loops<'_, T, S>,
     (i, regularisation, a_ground): (usize, Regularisation<T>, &S::Motion),
-    c: &mut Condensed<T, S>,
+    c: &mut ArticulatedInertia<T, S>,
     st: &mut LoopStore<'_, T, S>,
 ) -> Result<(), Fault<T>> {
     let ends = ends_at(m, i)?;
@@ -35,7 +35,7 @@ fn close_some<T: Real, S: Space<T>>(
     m: &Loops<'_, T, S>,
     ends: &[End],
     (i, regularisation, a_ground): (usize, Regularisation<T>, &S::Motion),
-    c: &mut Condensed<T, S>,
+    c: &mut ArticulatedInertia<T, S>,
     st: &mut LoopStore<'_, T, S>,
 ) -> Result<(), Fault<T>> {
     let ground = if i == 0 { Some(a_ground) } else { None };
@@ -58,7 +58,7 @@ fn close_some<T: Real, S: Space<T>>(
 fn meet<T: Real, S: Space<T>>(
     n: usize,
     n_rows: usize,
-    lap: &Loop<T, S>,
+    lap: &ClosedLoop<T, S>,
     a_ground: Option<&S::Motion>,
     st: &mut LoopStore<'_, T, S>,
 ) -> Result<(), Outside> {
@@ -81,7 +81,7 @@ fn meet<T: Real, S: Space<T>>(
 fn regularise<T: Real, S: Space<T>>(
     n: usize,
     m: &Loops<'_, T, S>,
-    lap: &Loop<T, S>,
+    lap: &ClosedLoop<T, S>,
     regularisation: Regularisation<T>,
     st: &mut LoopStore<'_, T, S>,
 ) -> Result<(), Fault<T>> {
@@ -130,8 +130,8 @@ fn regularise<T: Real, S: Space<T>>(
 #[inline(always)]
 fn eliminate<T: Real, S: Space<T>>(
     n: usize,
-    lap: &Loop<T, S>,
-    body: Option<&mut Condensed<T, S>>,
+    lap: &ClosedLoop<T, S>,
+    body: Option<&mut ArticulatedInertia<T, S>>,
     st: &mut LoopStore<'_, T, S>,
 ) -> Result<(), Outside> {
     let first = lap.first as usize;
@@ -206,8 +206,8 @@ fn couple_all<T: Real, S: Space<T>>(
 fn couple<T: Real, S: Space<T>>(
     (rows, n): (usize, usize),
     (n_rows, has_body): (usize, bool),
-    [lap, later]: [&Loop<T, S>; 2],
-    coupling: &Coupling,
+    [lap, later]: [&ClosedLoop<T, S>; 2],
+    coupling: &LoopCoupling,
     st: &mut LoopStore<'_, T, S>,
 ) -> Result<(), Outside> {
     let (own, block) = (lap.block as usize, coupling.block as usize);
@@ -236,7 +236,7 @@ fn couple<T: Real, S: Space<T>>(
 #[inline(always)]
 fn take<T: Real, S: Space<T>>(
     (rows, columns, n): (usize, usize, usize),
-    [x, y]: [&Coupling; 2],
+    [x, y]: [&LoopCoupling; 2],
     update: &Update,
     st: &mut LoopStore<'_, T, S>,
 ) -> Result<(), Outside> {
@@ -256,7 +256,7 @@ fn take<T: Real, S: Space<T>>(
 pub(crate) fn close_again<T: Real, S: Space<T>>(
     m: &Loops<'_, T, S>,
     i: usize,
-    c: &mut Condensed<T, S>,
+    c: &mut ArticulatedInertia<T, S>,
     st: &mut LoopStore<'_, T, S>,
 ) -> Result<(), Outside> {
     let ends = ends_at(m, i)?;
@@ -266,7 +266,7 @@ pub(crate) fn close_again<T: Real, S: Space<T>>(
 fn close_some_again<T: Real, S: Space<T>>(
     m: &Loops<'_, T, S>,
     (ends, i): (&[End], usize),
-    c: &mut Condensed<T, S>,
+    c: &mut ArticulatedInertia<T, S>,
     st: &mut LoopStore<'_, T, S>,
 ) -> Result<(), Outside> {
     for end in ends {
@@ -289,8 +289,8 @@ fn close_some_again<T: Real, S: Space<T>>(
 #[inline(always)]
 fn eliminate_again<T: Real, S: Space<T>>(
     n: usize,
-    lap: &Loop<T, S>,
-    body: Option<&mut Condensed<T, S>>,
+    lap: &ClosedLoop<T, S>,
+    body: Option<&mut ArticulatedInertia<T, S>>,
     st: &mut LoopStore<'_, T, S>,
 ) -> Result<(), Outside> {
     let first = lap.first as usize;
@@ -307,8 +307,8 @@ fn eliminate_again<T: Real, S: Space<T>>(
 #[inline(always)]
 fn couple_again<T: Real, S: Space<T>>(
     (rows, n): (usize, usize),
-    [lap, later]: [&Loop<T, S>; 2],
-    coupling: &Coupling,
+    [lap, later]: [&ClosedLoop<T, S>; 2],
+    coupling: &LoopCoupling,
     st: &mut LoopStore<'_, T, S>,
 ) -> Result<(), Outside> {
     let w = part(st.blocks, coupling.block as usize, rows * n)?;

@@ -2,9 +2,9 @@
 
 use super::eliminate::ends_at;
 use super::{LoopStore, Loops};
-use crate::at::{Outside, apart, at, at_mut, part, part_mut, range};
-use crate::plan::{Coupling, End};
-use crate::rows::Loop;
+use crate::indexing::{Outside, apart, at, at_mut, part, part_mut, range};
+use crate::plan::{End, LoopCoupling};
+use crate::rows::ClosedLoop;
 use crate::space::{Numbers, Space};
 use mbs_core::Real;
 
@@ -44,7 +44,7 @@ fn open_some<T: Real, S: Space<T>>(
 #[inline(always)]
 fn begin<T: Real, S: Space<T>>(
     n: usize,
-    lap: &Loop<T, S>,
+    lap: &ClosedLoop<T, S>,
     a: Option<&S::Motion>,
     st: &mut LoopStore<'_, T, S>,
 ) -> Result<(), Outside> {
@@ -65,8 +65,8 @@ fn begin<T: Real, S: Space<T>>(
 #[inline(always)]
 fn take<T: Real, S: Space<T>>(
     (rows, n): (usize, usize),
-    [lap, later]: [&Loop<T, S>; 2],
-    coupling: &Coupling,
+    [lap, later]: [&ClosedLoop<T, S>; 2],
+    coupling: &LoopCoupling,
     st: &mut LoopStore<'_, T, S>,
 ) -> Result<(), Outside> {
     let w = part(st.blocks, coupling.block as usize, rows * n)?;
@@ -84,7 +84,7 @@ fn take<T: Real, S: Space<T>>(
 #[inline(always)]
 fn solve_back<T: Real, S: Space<T>>(
     n: usize,
-    lap: &Loop<T, S>,
+    lap: &ClosedLoop<T, S>,
     st: &mut LoopStore<'_, T, S>,
 ) -> Result<(), Outside> {
     let factor = part(st.blocks, lap.block as usize, n * n)?;

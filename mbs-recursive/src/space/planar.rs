@@ -13,7 +13,7 @@ pub struct Planar;
 pub struct PlanarInertia<T> {
     /// Turning block.
     pub a: T,
-    /// Coupling.
+    /// LoopCoupling.
     pub h: [T; 2],
     /// Moving block xx, xy, yy.
     pub m: [T; 3],

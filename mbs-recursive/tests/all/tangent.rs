@@ -1,9 +1,9 @@
 //! The tangents of effects against differences of their forces.
 
 use mbs_core::algebra::Vector;
-use mbs_core::laws::Supplies;
+use mbs_core::laws::LawInputs;
 use mbs_core::scene::Scene;
-use mbs_recursive::link::{Condensed, Placed};
+use mbs_recursive::link::{ArticulatedInertia, LinkMotion};
 use mbs_recursive::loads::{Instant, Load, Reach};
 use mbs_recursive::space::Space;
 use mbs_recursive::{Planar, TreeModel, passes};
@@ -42,28 +42,32 @@ fn spring(first: &str, second: &str, points: [[f64; 2]; 2], free: f64) -> String
 
 struct Bench {
     model: TreeModel<f64, Planar>,
-    placed: Vec<Placed<f64, Planar>>,
+    placed: Vec<LinkMotion<f64, Planar>>,
 }
 
 impl Bench {
     fn new(effect: &str) -> Self {
-        Self { model: chain(effect), placed: vec![Placed::ground(); 4] }
+        Self { model: chain(effect), placed: vec![LinkMotion::ground(); 4] }
     }
 
     /// Forces along the three freedoms from what `fill` puts on the links.
     fn along(
         &mut self,
         (z, v): (&[f64; 3], &[f64; 3]),
-        fill: impl Fn(&Load<f64, Planar>, &Instant<'_, f64, Planar>, &mut [Condensed<f64, Planar>]),
+        fill: impl Fn(
+            &Load<f64, Planar>,
+            &Instant<'_, f64, Planar>,
+            &mut [ArticulatedInertia<f64, Planar>],
+        ),
     ) -> [f64; 3] {
         let m = self.model.mechanism();
         passes::kinematics(m.links, (z, v, &[]), &mut self.placed).expect("tables that fit");
-        let mut condensed = [Condensed::<f64, Planar>::empty(); 4];
+        let mut condensed = [ArticulatedInertia::<f64, Planar>::empty(); 4];
         let at = Instant {
             links: m.links,
             placed: &self.placed,
             coordinates: (z, v, &[]),
-            supplies: Supplies { courses: &[], ..m.tables },
+            law_inputs: LawInputs { courses: &[], ..m.tables },
             base: m.base,
         };
         fill(&m.loads[0], &at, &mut condensed);
@@ -127,7 +131,7 @@ fn slack(first: &str, second: &str, points: [[f64; 2]; 2]) -> String {
         links: m.links,
         placed: &bench.placed,
         coordinates: (&Z, &[0.0; 3], &[]),
-        supplies: Supplies { courses: &[], ..m.tables },
+        law_inputs: LawInputs { courses: &[], ..m.tables },
         base: m.base,
     };
     // V = k L² / 2 without free length.

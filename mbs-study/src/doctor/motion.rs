@@ -75,7 +75,7 @@ pub struct LinearMotion {
     pub changed: Option<f64>,
 }
 
-/// Measure κ below which a position counts as passed through [-]. Chosen, not tuned.
+/// ScalarForce κ below which a position counts as passed through [-]. Chosen, not tuned.
 const SINGULAR: f64 = 1e-3;
 /// Most joints of a part that is watched: decompositions of larger ones take minutes.
 const LARGEST: usize = 200;

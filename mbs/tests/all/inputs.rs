@@ -2,9 +2,9 @@
 
 use crate::common;
 
-use mbs::core::laws::body::{Action, BodyMotion};
-use mbs::core::laws::own::{ScalarLaw, UserBodyLaw, UserScalarLaw, WrenchLaw};
-use mbs::core::laws::scalar::Measure;
+use mbs::core::laws::body::{BodyMotion, UnitWrench};
+use mbs::core::laws::scalar::ScalarForce;
+use mbs::core::laws::user::{ScalarLaw, UserBodyLaw, UserScalarLaw, WrenchLaw};
 use mbs::core::scene::{
     BodyId, Effect, EffectKind, JointId, JointTorque, Motion, Own, Scene, Signal, SpringDamper,
     UserLaw,
@@ -288,9 +288,9 @@ fn an_input_changes_the_motion_from_the_next_step_on() {
 struct Towards;
 
 impl ScalarLaw<f64> for Towards {
-    fn evaluate(value: f64, rate: f64, [length, damping, _]: [f64; 3]) -> Measure<f64> {
+    fn evaluate(value: f64, rate: f64, [length, damping, _]: [f64; 3]) -> ScalarForce<f64> {
         let tension = 200.0 * (value - length) + damping * rate;
-        Measure { tension, stiffness: 200.0, damping, ..Measure::default() }
+        ScalarForce { tension, stiffness: 200.0, damping, ..ScalarForce::default() }
     }
     fn energy(value: f64, [length, ..]: [f64; 3]) -> f64 {
         100.0 * (value - length) * (value - length)
@@ -304,11 +304,11 @@ impl ScalarLaw<f64> for Towards {
 struct Honey;
 
 impl WrenchLaw<f64> for Honey {
-    fn evaluate(motion: &BodyMotion<f64>, [c, ..]: [f64; 3]) -> Action<f64> {
+    fn evaluate(motion: &BodyMotion<f64>, [c, ..]: [f64; 3]) -> UnitWrench<f64> {
         let speed = motion.velocity.iter().map(|v| v * v).sum::<f64>().sqrt();
         let force = motion.velocity.map(|v| if speed > 0.0 { v / speed } else { 0.0 });
-        let measure = Measure { tension: c * speed, damping: c, ..Measure::default() };
-        Action { force, moment: [0.0; 3], measure }
+        let measure = ScalarForce { tension: c * speed, damping: c, ..ScalarForce::default() };
+        UnitWrench { force, moment: [0.0; 3], measure }
     }
 }
 

@@ -44,18 +44,18 @@ fn forces(
     model: &NaturalModel<f64, 3>,
 ) -> BTreeMap<String, f64> {
     let Actions { list, tables, .. } = Actions::new(scene).expect("every law is built");
-    let supplies = tables.supplies(&[]);
+    let law_inputs = tables.law_inputs(&[]);
     let place = |(body, at): (BodyId, [f64; 3])| model.point(body, at).value(state);
     let force = |action: &Action<f64>| match action {
         Action::Length { ends: [first, second], law } => {
-            law.evaluate((place(*second) - place(*first)).norm(), 0.0, &supplies).tension
+            law.evaluate((place(*second) - place(*first)).norm(), 0.0, &law_inputs).tension
         }
         Action::Along { ends: [first, second], direction, offset, law } => {
             let along = model.direction(first.0, *direction).value(state);
             let distance = (place(*second) - place(*first)).dot(&along) - offset;
-            law.evaluate(distance, 0.0, &supplies).tension
+            law.evaluate(distance, 0.0, &law_inputs).tension
         }
-        Action::OnBody { at: (body, at), axis, law: BodyLaw::Tire(tire) } => {
+        Action::BodyLoad { at: (body, at), axis, law: BodyLaw::Tire(tire) } => {
             let motion = BodyMotion {
                 position: place((BodyId::Body(*body), *at)).into(),
                 axis: model.direction(BodyId::Body(*body), *axis).value(state).into(),
@@ -63,7 +63,7 @@ fn forces(
                 spin: [0.0; 3],
             };
             let mut actions = vec![Default::default(); tire.n_actions()];
-            tire.evaluate(&motion, &supplies, &mut actions);
+            tire.evaluate(&motion, &law_inputs, &mut actions);
             -actions[0].measure.tension
         }
         other => panic!("no force of {other:?}"),
@@ -308,23 +308,23 @@ fn wheels_stand_on_the_nearest_point_of_every_stair() {
     for name in ["iltis-stairs", "iltis-stairs-stiff"] {
         let actions = Actions::new(&common::scene(name)).expect("the scene has effects");
         let road = actions.list.iter().find_map(|(_, action)| match action {
-            Action::OnBody { law: BodyLaw::Tire(tire), .. } => Some(tire.road),
+            Action::BodyLoad { law: BodyLaw::Tire(tire), .. } => Some(tire.road),
             _ => None,
         });
         let road = road.expect("the vehicle has tires");
-        let supplies = actions.tables.supplies(&[]);
+        let law_inputs = actions.tables.law_inputs(&[]);
         // The ramp, and the five stairs behind it; wheels pressed in, just touching and a little above.
         for i in 0..=2600 {
             let x = 5.5 + 0.01 * f64::from(i);
-            let h = height(road, &supplies, x);
+            let h = height(road, &law_inputs, x);
             let steep = h.slope.hypot(1.0);
             for distance in [0.30, 0.36, 0.45] {
                 let center = [x - distance * h.slope / steep, h.value + distance / steep];
-                let found = road_contact(road, &supplies, center).distance;
+                let found = road_contact(road, &law_inputs, center).distance;
                 assert!((found - distance).abs() < 1e-12, "{name}, {x}: {found}, not {distance}");
                 let near = (-5000..=5000).step_by(if i % 20 == 0 { 1 } else { 5000 }).map(|k| {
                     let u = x + SEARCHED * f64::from(k);
-                    (center[0] - u).hypot(center[1] - height(road, &supplies, u).value)
+                    (center[0] - u).hypot(center[1] - height(road, &law_inputs, u).value)
                 });
                 let searched = near.fold(f64::INFINITY, f64::min);
                 assert!(found < searched + 1e-12, "{name}, {x}: {found}, there is {searched}");

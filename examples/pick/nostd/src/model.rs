@@ -13,7 +13,7 @@ pub type ModelSolver = Solver<Scalar, Axes, 3, 2, 2, 0, 0, 0, 0, 0>;
 static LINKS: [Link<Scalar, Axes>; 3] = [
     Link {
         parent: 0,
-        kind: Kind::GuidedRevolute,
+        kind: LinkKind::GuidedRevolute,
         z: 0,
         v: 0,
         axis: vector([0.0]),
@@ -25,7 +25,7 @@ static LINKS: [Link<Scalar, Axes>; 3] = [
     },
     Link {
         parent: 0,
-        kind: Kind::Revolute,
+        kind: LinkKind::Revolute,
         z: 0,
         v: 0,
         axis: vector([1.0]),
@@ -37,7 +37,7 @@ static LINKS: [Link<Scalar, Axes>; 3] = [
     },
     Link {
         parent: 1,
-        kind: Kind::Revolute,
+        kind: LinkKind::Revolute,
         z: 1,
         v: 1,
         axis: vector([1.0]),
@@ -48,7 +48,7 @@ static LINKS: [Link<Scalar, Axes>; 3] = [
         tensor: 0.3333333333333333,
     },
 ];
-static LOOPS: [Loop<Scalar, Axes>; 0] = [];
+static LOOPS: [ClosedLoop<Scalar, Axes>; 0] = [];
 static ROWS: [Row<Scalar, Axes>; 0] = [];
 static STATIONS: [Station; 3] = [
     Station {
@@ -70,7 +70,7 @@ static STATIONS: [Station; 3] = [
 static PASSES: [Pass; 0] = [];
 static PAIRS: [Pair; 0] = [];
 static ENDS: [End; 0] = [];
-static COUPLINGS: [Coupling; 0] = [];
+static COUPLINGS: [LoopCoupling; 0] = [];
 static UPDATES: [Update; 0] = [];
 static LOADS: [Load<Scalar, Axes>; 0] = [];
 static GUIDES: [Motion<Scalar>; 0] = [];
@@ -84,7 +84,7 @@ static V: [Scalar; 2] = [0.0, 0.0];
 static A: [Scalar; 2] = [-12.612857142857143, 16.817142857142855];
 /// The model.
 pub static MODEL: Model<'static, Scalar, Axes> = Model {
-    mechanism: Mechanism {
+    mechanism: TreeSlices {
         links: &LINKS,
         loops: Loops {
             loops: &LOOPS,
@@ -100,7 +100,7 @@ pub static MODEL: Model<'static, Scalar, Axes> = Model {
             floor: [0.5, 0.125],
         },
         loads: &LOADS,
-        tables: Supplies::courses(&[]),
+        tables: LawInputs::courses(&[]),
         gravity: vector([0.0, -9.81]),
         base: vector([0.0, 0.0]),
         length: 2.0,

@@ -152,11 +152,11 @@ pub(crate) struct ClockedModel<'a, M, C = Clock> {
 }
 
 impl<M: Cliques, C> Cliques for ClockedModel<'_, M, C> {
-    mbs_core::forward_cliques!(model);
+    mbs_core::delegate_cliques!(model);
 }
 
 impl<T: Real, M: Model<T>, C: Meter> Model<T> for ClockedModel<'_, M, C> {
-    mbs_core::forward_model!(T, model);
+    mbs_core::delegate_model!(T, model);
     fn team(&self) -> &impl Team {
         self.model.team()
     }

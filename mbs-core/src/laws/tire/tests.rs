@@ -31,15 +31,15 @@ fn wheel(leans: bool) -> TireLaw<f64> {
     }
 }
 
-fn supplies() -> Supplies<'static, f64> {
-    Supplies { features: &ROAD, ..Supplies::courses(&[]) }
+fn law_inputs() -> LawInputs<'static, f64> {
+    LawInputs { features: &ROAD, ..LawInputs::courses(&[]) }
 }
 
 /// A wheel pressed in by `depth` with its axis leaning and turned to a side.
 fn motion(x: f64, depth: f64, [camber, steer]: [f64; 2]) -> BodyMotion<f64> {
     let axis = rotation(&(V::z() * steer)) * rotation(&(V::x() * camber)) * V::y();
     let tire = wheel(true);
-    let mut z = super::super::road::height(tire.road, &supplies(), x).value + 0.2;
+    let mut z = super::super::road::height(tire.road, &law_inputs(), x).value + 0.2;
     let mut motion = BodyMotion {
         position: [x, 0.4, z],
         velocity: [3.0, 0.2, -0.1],
@@ -54,13 +54,13 @@ fn motion(x: f64, depth: f64, [camber, steer]: [f64; 2]) -> BodyMotion<f64> {
     motion
 }
 
-fn actions(tire: &TireLaw<f64>, motion: &BodyMotion<f64>) -> [Action<f64>; MAX_ACTIONS] {
-    let mut out = [Action::default(); MAX_ACTIONS];
-    tire.evaluate(motion, &supplies(), &mut out[..tire.n_actions()]);
+fn actions(tire: &TireLaw<f64>, motion: &BodyMotion<f64>) -> [UnitWrench<f64>; MAX_ACTIONS] {
+    let mut out = [UnitWrench::default(); MAX_ACTIONS];
+    tire.evaluate(motion, &law_inputs(), &mut out[..tire.n_actions()]);
     out
 }
 
-fn radial(tire: &TireLaw<f64>, motion: &BodyMotion<f64>) -> Action<f64> {
+fn radial(tire: &TireLaw<f64>, motion: &BodyMotion<f64>) -> UnitWrench<f64> {
     actions(tire, motion)[RADIAL]
 }
 

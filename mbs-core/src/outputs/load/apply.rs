@@ -9,11 +9,11 @@
 //! ```
 
 use super::super::frame::Frame;
-use super::{Gauge, Load, Wrench};
+use super::{Load, Measure, Wrench};
 use crate::Real;
 use crate::algebra::{Matrix, Vector, norm, raised, rotation_gradient, rotation_vector, unit};
-use crate::laws::Supplies;
-use crate::laws::body::{Action, BodyMotion, MAX_ACTIONS};
+use crate::laws::LawInputs;
+use crate::laws::body::{BodyMotion, MAX_ACTIONS, UnitWrench};
 use crate::laws::scalar::Law;
 use crate::model::State;
 use crate::natural::{Affine, unwrap_rotation};
@@ -29,14 +29,14 @@ impl<T: Real, const D: usize> Load<T, D> {
     /// Hands out the wrenches it applies at a state; `turned` gives the rotation of a body.
     pub(in crate::outputs) fn apply(
         &self,
-        (state, supplies): (&State<T>, &Supplies<'_, T>),
+        (state, law_inputs): (&State<T>, &LawInputs<'_, T>),
         turned: impl Fn(BodyId) -> Matrix<T, 3>,
         mut take: impl FnMut(Applied<T>),
     ) {
         match self {
             Self::Between { bodies, gauge, law } => {
                 let axes = turned(bodies[0]);
-                if let Some((at, wrench)) = gauge.pull(law, state, &axes, supplies) {
+                if let Some((at, wrench)) = gauge.pull(law, state, &axes, law_inputs) {
                     take((bodies[0], at[0], wrench));
                     take((bodies[1], at[1], wrench.scaled(-T::ONE)));
                 }
@@ -47,24 +47,24 @@ impl<T: Real, const D: usize> Load<T, D> {
             }
             Self::Force { body, point, course, turns } => {
                 let body = BodyId::Body(*body);
-                let given = Vector::<T, 3>::from(supplies.courses[*course]);
+                let given = Vector::<T, 3>::from(law_inputs.courses[*course]);
                 let force = if *turns { turned(body) * given } else { given };
                 take((body, Some(raised(&point.value(&state.q))), push(force)));
             }
             Self::Torque { body, course } => {
-                let given = supplies.courses[*course];
+                let given = law_inputs.courses[*course];
                 let moment = if D == 2 { unit(2) * given[0] } else { given.into() };
                 take((BodyId::Body(*body), None, twist(moment)));
             }
-            Self::OnBody { body, point, frame, axis, law } => {
+            Self::BodyLoad { body, point, frame, axis, law } => {
                 let body = BodyId::Body(*body);
                 let motion = motion((point, frame), &(turned(body) * axis), state);
                 let at = Vector::from(motion.position);
-                let mut actions = [Action::default(); MAX_ACTIONS];
+                let mut actions = [UnitWrench::default(); MAX_ACTIONS];
                 let actions = &mut actions[..law.n_actions()];
-                law.evaluate(&motion, supplies, actions);
+                law.evaluate(&motion, law_inputs, actions);
                 let mut sum = Wrench::zero();
-                for Action { force, moment, measure } in actions {
+                for UnitWrench { force, moment, measure } in actions {
                     let (force, moment) = ((*force).into(), (*moment).into());
                     sum.add(&Wrench { force, moment }.scaled(-measure.tension));
                 }
@@ -74,17 +74,17 @@ impl<T: Real, const D: usize> Load<T, D> {
     }
 }
 
-impl<T: Real, const D: usize> Gauge<T, D> {
+impl<T: Real, const D: usize> Measure<T, D> {
     /// What a law pulls with at a state; `axes`: the first body's rotation. Nothing at length zero.
     fn pull(
         &self,
         law: &Law<T>,
         state: &State<T>,
         axes: &Matrix<T, 3>,
-        supplies: &Supplies<'_, T>,
+        law_inputs: &LawInputs<'_, T>,
     ) -> Option<Pull<T>> {
         let [value, rate] = self.measure(state);
-        let tension = law.evaluate(value, rate, supplies).tension;
+        let tension = law.evaluate(value, rate, law_inputs).tension;
         Some(match self {
             Self::Length { points } => {
                 let ([p, r], _) = ends(points, state);

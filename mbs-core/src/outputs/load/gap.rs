@@ -8,11 +8,11 @@
 //! ```
 
 use super::apply::motion;
-use super::{Gauge, Load};
+use super::{Load, Measure};
 use crate::Real;
-use crate::laws::Supplies;
+use crate::laws::LawInputs;
 use crate::laws::bumper::FADE;
-use crate::laws::kink::Kink;
+use crate::laws::corner::LawCorner;
 use crate::model::State;
 
 /// A gap [m or rad] and its rate.
@@ -56,7 +56,7 @@ impl<T: Real, const D: usize> Load<T, D> {
     pub(in crate::outputs) fn n_gaps(&self) -> usize {
         match self {
             Self::Between { law, .. } => law.n_gaps(),
-            Self::OnBody { law, .. } => law.n_gaps(),
+            Self::BodyLoad { law, .. } => law.n_gaps(),
             _ => 0,
         }
     }
@@ -65,7 +65,7 @@ impl<T: Real, const D: usize> Load<T, D> {
     pub(in crate::outputs) fn fade(&self) -> Option<f64> {
         let has_fade = match self {
             Self::Between { law, .. } => law.has_fade(),
-            Self::OnBody { law, .. } => law.has_fade(),
+            Self::BodyLoad { law, .. } => law.has_fade(),
             _ => false,
         };
         has_fade.then_some(FADE)
@@ -75,7 +75,7 @@ impl<T: Real, const D: usize> Load<T, D> {
     pub(in crate::outputs) fn may_have_kinks(&self) -> bool {
         match self {
             Self::Between { law, .. } => law.may_have_kinks(),
-            Self::OnBody { law, .. } => law.may_have_kinks(),
+            Self::BodyLoad { law, .. } => law.may_have_kinks(),
             _ => false,
         }
     }
@@ -83,12 +83,12 @@ impl<T: Real, const D: usize> Load<T, D> {
     /// Hands out the kinks of its law, in no order.
     pub(in crate::outputs) fn kinks(
         &self,
-        supplies: &Supplies<'_, T>,
-        mut take: impl FnMut(Kink<T>),
+        law_inputs: &LawInputs<'_, T>,
+        mut take: impl FnMut(LawCorner<T>),
     ) {
         match self {
-            Self::Between { law, .. } => law.kinks(supplies, &mut take),
-            Self::OnBody { law, .. } => law.kinks(supplies, &mut take),
+            Self::Between { law, .. } => law.kinks(law_inputs, &mut take),
+            Self::BodyLoad { law, .. } => law.kinks(law_inputs, &mut take),
             _ => {}
         }
     }
@@ -96,21 +96,21 @@ impl<T: Real, const D: usize> Load<T, D> {
     /// How far from its place a kink may be passed [m]: on a slope, a wheel stands off its foot by less than its radius.
     pub(in crate::outputs) fn reach(&self) -> T {
         match self {
-            Self::OnBody { law, .. } => law.reach(),
+            Self::BodyLoad { law, .. } => law.reach(),
             _ => T::ZERO,
         }
     }
 
     /// Does it measure an angle [rad], not a length [m]?
     pub(in crate::outputs) fn is_angular(&self) -> bool {
-        matches!(self, Self::Between { gauge: Gauge::Angle { .. }, .. })
+        matches!(self, Self::Between { gauge: Measure::Angle { .. }, .. })
     }
 
     /// What of it is watched, at a state. Cost: one length or angle, or one wheel's nearest point of the road.
     pub(in crate::outputs) fn reading(
         &self,
         state: &State<T>,
-        supplies: &Supplies<'_, T>,
+        law_inputs: &LawInputs<'_, T>,
     ) -> Reading<T> {
         let of = |[value, rate]: [T; 2]| Gap { value, rate };
         let mut reading = Reading::default();
@@ -120,12 +120,12 @@ impl<T: Real, const D: usize> Load<T, D> {
                 reading.gaps = law.gaps(value, rate).map(of);
                 reading.place[0] = Gap { value, rate };
             }
-            Self::OnBody { point, frame, axis, law, .. }
+            Self::BodyLoad { point, frame, axis, law, .. }
                 if self.n_gaps() > 0 || self.may_have_kinks() =>
             {
                 let axis = frame.rotation(&state.q) * axis;
                 let [gap, along, up] =
-                    law.watch(&motion((point, frame), &axis, state), supplies).map(of);
+                    law.watch(&motion((point, frame), &axis, state), law_inputs).map(of);
                 reading.gaps[0] = gap;
                 reading.place = [along, up];
             }

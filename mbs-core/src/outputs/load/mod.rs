@@ -10,10 +10,10 @@ use super::coordinate::Coordinate;
 use super::frame::Frame;
 use super::wrench::Wrench;
 use crate::Real;
-use crate::actions::{Action, ActionError, Actions, Seat, Tables};
+use crate::actions::{Action, ActionError, Actions, Attachment, Tables};
 use crate::algebra::{Vector, unit};
 use crate::inputs::Prescribed;
-use crate::laws::Supplies;
+use crate::laws::LawInputs;
 use crate::laws::body::BodyLaw;
 use crate::laws::scalar::Law;
 use crate::model::State;
@@ -37,7 +37,7 @@ pub(super) struct Loads<T: Real, const D: usize> {
 #[derive(Debug, Clone)]
 pub(super) enum Load<T: Real, const D: usize> {
     /// A law of what is measured between two bodies.
-    Between { bodies: [BodyId; 2], gauge: Gauge<T, D>, law: Law<T> },
+    Between { bodies: [BodyId; 2], gauge: Measure<T, D>, law: Law<T> },
     /// A force in fixed directions.
     Constant { body: usize, point: Affine<T, D>, force: Vector<T, 3> },
     /// A force that follows a course.
@@ -45,7 +45,7 @@ pub(super) enum Load<T: Real, const D: usize> {
     /// A torque that follows a course.
     Torque { body: usize, course: usize },
     /// A law on one body.
-    OnBody {
+    BodyLoad {
         body: usize,
         point: Affine<T, D>,
         frame: Frame<T, D>,
@@ -56,7 +56,7 @@ pub(super) enum Load<T: Real, const D: usize> {
 
 /// What a scalar law measures.
 #[derive(Debug, Clone)]
-pub(super) enum Gauge<T: Real, const D: usize> {
+pub(super) enum Measure<T: Real, const D: usize> {
     Length {
         points: [Affine<T, D>; 2],
     },
@@ -130,9 +130,9 @@ impl<T: Real, const D: usize> Loads<T, D> {
     }
 
     /// The effects, and the courses of a state's instant, with the inputs that its accelerations were made with.
-    pub(super) fn at(&mut self, state: &State<T>) -> (&[Load<T, D>], Supplies<'_, T>) {
+    pub(super) fn at(&mut self, state: &State<T>) -> (&[Load<T, D>], LawInputs<'_, T>) {
         self.prescribed.write(state.t, &state.applied, &mut [], &mut self.values);
-        (&self.list, self.tables.supplies(&self.values))
+        (&self.list, self.tables.law_inputs(&self.values))
     }
 }
 
@@ -142,34 +142,34 @@ impl<T: Real, const D: usize> Load<T, D> {
         effect: usize,
         action: &Action<T>,
     ) -> Self {
-        let points = |ends: &[Seat<T>; 2]| [0, 1].map(|i| model.point(ends[i].0, ends[i].1));
+        let points = |ends: &[Attachment<T>; 2]| [0, 1].map(|i| model.point(ends[i].0, ends[i].1));
         let point = |at: &(usize, [T; 3])| model.point(BodyId::Body(at.0), at.1);
         let (bodies, gauge, law) = match action {
             Action::Length { ends, law } => {
-                (ends.map(|e| e.0), Gauge::Length { points: points(ends) }, law)
+                (ends.map(|e| e.0), Measure::Length { points: points(ends) }, law)
             }
             Action::Along { ends, direction, offset, law } => {
                 let direction = model.direction(ends[0].0, *direction);
-                let gauge = Gauge::Along { points: points(ends), direction, offset: *offset };
+                let gauge = Measure::Along { points: points(ends), direction, offset: *offset };
                 (ends.map(|e| e.0), gauge, law)
             }
             Action::Angle { joint, axis, law } => {
                 let joint = &scene.joints[*joint];
                 let angle = Coordinate::of_freedom(scene, model, (joint, Freedom::Turn(*axis)));
                 let axis = joint.direction(*axis);
-                let gauge = Gauge::Angle { axis, angle, memory: model.memory_of_effect(effect) };
+                let gauge = Measure::Angle { axis, angle, memory: model.memory_of_effect(effect) };
                 (joint.bodies, gauge, law)
             }
             Action::Turn { bodies, law } => {
                 let angle = Coordinate::between(model, *bodies);
                 let gauge =
-                    Gauge::Angle { axis: unit(2), angle, memory: model.memory_of_effect(effect) };
+                    Measure::Angle { axis: unit(2), angle, memory: model.memory_of_effect(effect) };
                 (*bodies, gauge, law)
             }
             Action::Rotation { bodies, number, law } => {
                 let frames = Box::new(bodies.map(|body| Frame::new(scene, model, body)));
                 let (number, memory) = (*number as usize, model.memory_of_effect(effect));
-                (*bodies, Gauge::Rotation { frames, number, memory }, law)
+                (*bodies, Measure::Rotation { frames, number, memory }, law)
             }
             Action::Constant { at, force } => {
                 return Self::Constant { body: at.0, point: point(at), force: (*force).into() };
@@ -181,10 +181,10 @@ impl<T: Real, const D: usize> Load<T, D> {
             Action::Torque { body, course } => {
                 return Self::Torque { body: *body, course: *course as usize };
             }
-            Action::OnBody { at, axis, law } => {
+            Action::BodyLoad { at, axis, law } => {
                 let frame = Frame::new(scene, model, BodyId::Body(at.0));
                 let (axis, law) = ((*axis).into(), *law);
-                return Self::OnBody { body: at.0, point: point(at), frame, axis, law };
+                return Self::BodyLoad { body: at.0, point: point(at), frame, axis, law };
             }
         };
         Self::Between { bodies, gauge, law: *law }

@@ -11,7 +11,7 @@ mod run;
 
 use core::ffi::{c_int, c_void};
 use core::fmt::{self, Write};
-use mbs_nostd::table::Kind;
+use mbs_nostd::table::LinkKind;
 use mbs_nostd::{Bounds, bound};
 
 #[link(name = "c")]
@@ -37,19 +37,19 @@ fn write_units() -> fmt::Result {
     // Link 0 is the ground.
     for link in model::MODEL.mechanism.links.iter().skip(1) {
         Out.write_str(match link.kind {
-            Kind::Revolute => " r",
-            Kind::Prismatic => " m",
-            Kind::Ball => " q q q q",
-            Kind::Free if is_planar(link.kind) => " r m m",
-            Kind::Free => " q q q q m m m",
-            Kind::GuidedRevolute | Kind::GuidedPrismatic => "",
+            LinkKind::Revolute => " r",
+            LinkKind::Prismatic => " m",
+            LinkKind::Ball => " q q q q",
+            LinkKind::Free if is_planar(link.kind) => " r m m",
+            LinkKind::Free => " q q q q m m m",
+            LinkKind::GuidedRevolute | LinkKind::GuidedPrismatic => "",
         })?;
     }
     writeln!(Out)
 }
 
 /// Has a free link three coordinates?
-fn is_planar(free: Kind) -> bool {
+fn is_planar(free: LinkKind) -> bool {
     free.n_coordinates::<model::Scalar, model::Axes>() == 3
 }
 

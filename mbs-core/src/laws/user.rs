@@ -8,13 +8,13 @@
 //! u are the three numbers of the effect's course: constant, a table, or set between steps. The output of a
 //! controller, a driver or a machine is set so.
 
-use super::body::{Action, BodyMotion};
-use super::scalar::Measure;
+use super::body::{BodyMotion, UnitWrench};
+use super::scalar::ScalarForce;
 
 /// A law along a length or about an angle.
 pub trait ScalarLaw<T> {
     /// Tension with those derivatives by value and rate that stiffen. Derivatives that are left at zero only cost iterations.
-    fn evaluate(value: T, rate: T, input: [T; 3]) -> Measure<T>;
+    fn evaluate(value: T, rate: T, input: [T; 3]) -> ScalarForce<T>;
 
     /// Stored energy [J]; what is not stored counts as power given or taken.
     fn energy(value: T, input: [T; 3]) -> T;
@@ -26,13 +26,13 @@ pub trait ScalarLaw<T> {
 /// A law on one body.
 pub trait WrenchLaw<T> {
     /// The unit wrench and its tension at a motion; `rate` of its measure is filled in by the caller. No energy is stored.
-    fn evaluate(motion: &BodyMotion<T>, input: [T; 3]) -> Action<T>;
+    fn evaluate(motion: &BodyMotion<T>, input: [T; 3]) -> UnitWrench<T>;
 }
 
 /// A [`ScalarLaw`] as a value.
 #[derive(Clone, Copy)]
 pub struct UserScalarLaw<T> {
-    pub(crate) evaluate: fn(T, T, [T; 3]) -> Measure<T>,
+    pub(crate) evaluate: fn(T, T, [T; 3]) -> ScalarForce<T>,
     pub(crate) energy: fn(T, [T; 3]) -> T,
     pub(crate) elastic: fn(T, [T; 3]) -> T,
 }
@@ -62,7 +62,7 @@ impl<T> core::fmt::Debug for UserScalarLaw<T> {
 /// A [`WrenchLaw`] as a value.
 #[derive(Clone, Copy)]
 pub struct UserBodyLaw<T> {
-    pub(crate) evaluate: fn(&BodyMotion<T>, [T; 3]) -> Action<T>,
+    pub(crate) evaluate: fn(&BodyMotion<T>, [T; 3]) -> UnitWrench<T>,
 }
 
 impl<T> UserBodyLaw<T> {

@@ -14,12 +14,12 @@
 //! passes between the two normals: two kinks. In a hollow it jumps from one side to the other where both are equally near. That
 //! is one kink, on the line that halves the angle. The road beside it is taken as straight, which an end of a spline is but for h'''.
 
-use super::{Part, Supplies, road};
+use super::{LawInputs, Part, road};
 use crate::Real;
 
 /// A place where a law has a kink.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Kink<T> {
+pub struct LawCorner<T> {
     /// x_k, over the road, or m_k [m or rad].
     pub place: T,
     /// h_k; zero where there is no road [m].
@@ -28,7 +28,7 @@ pub struct Kink<T> {
     pub slope: T,
 }
 
-impl<T: Real> Kink<T> {
+impl<T: Real> LawCorner<T> {
     /// g at (x, z), or at (m, 0).
     #[inline]
     pub fn value(&self, [x, z]: [T; 2]) -> T {
@@ -48,29 +48,33 @@ const MAX_JUMP: f64 = 1e-6;
 /// Hands out the places where slope or curvature of a road jump, feature by feature.
 ///
 /// Cost: three heights of the road for each end of a feature; once for a run.
-pub fn of_road<T: Real>(road: Part, supplies: &Supplies<'_, T>, mut take: impl FnMut(Kink<T>)) {
-    for feature in road.of(supplies.features()) {
-        for place in feature.ends(supplies.knots()).into_iter().flatten() {
-            of_place(road, supplies, place, &mut take);
+pub fn of_road<T: Real>(
+    road: Part,
+    law_inputs: &LawInputs<'_, T>,
+    mut take: impl FnMut(LawCorner<T>),
+) {
+    for feature in road.of(law_inputs.features()) {
+        for place in feature.ends(law_inputs.knots()).into_iter().flatten() {
+            of_place(road, law_inputs, place, &mut take);
         }
     }
 }
 
 fn of_place<T: Real>(
     road: Part,
-    supplies: &Supplies<'_, T>,
+    law_inputs: &LawInputs<'_, T>,
     place: T,
-    take: &mut impl FnMut(Kink<T>),
+    take: &mut impl FnMut(LawCorner<T>),
 ) {
     // Both sides, a little more than rounding away.
     let aside = T::EPSILON * T::from_f64(8.0) * (T::ONE + place.abs());
-    let [left, right] = [place - aside, place + aside].map(|x| road::height(road, supplies, x));
+    let [left, right] = [place - aside, place + aside].map(|x| road::height(road, law_inputs, x));
     let level = T::from_f64(MAX_JUMP);
     let bent = (right.curvature - left.curvature).abs() > level;
     let smooth = (left.curvature.abs() + right.curvature.abs()) * aside;
     let turn = right.slope - left.slope;
-    let here = road::height(road, supplies, place);
-    let mut kink = |slope| take(Kink { place, height: here.value, slope });
+    let here = road::height(road, law_inputs, place);
+    let mut kink = |slope| take(LawCorner { place, height: here.value, slope });
     if turn > level + smooth {
         // n_left.(c - k) = n_right.(c - k),   n = (-h', 1) / w
         let [l, r] = [left, right].map(|h| T::ONE / (T::ONE + h.slope * h.slope).sqrt());
@@ -93,11 +97,11 @@ mod tests {
     use super::*;
     use std::vec::Vec;
 
-    fn kinks(features: &[Feature<f64>], knots: (&[[f64; 2]], &[f64])) -> Vec<Kink<f64>> {
-        let supplies = Supplies { features, knots, ..Supplies::courses(&[]) };
+    fn kinks(features: &[Feature<f64>], knots: (&[[f64; 2]], &[f64])) -> Vec<LawCorner<f64>> {
+        let law_inputs = LawInputs { features, knots, ..LawInputs::courses(&[]) };
         let n = u32::try_from(features.len()).expect("a short road");
         let mut all = Vec::new();
-        of_road(Part { first: 0, n }, &supplies, |kink| all.push(kink));
+        of_road(Part { first: 0, n }, &law_inputs, |kink| all.push(kink));
         all
     }
 
@@ -138,20 +142,20 @@ mod tests {
             Feature::Bump { start: 4.0, length: 3.0, amplitude: 0.1 },
             Feature::Spline(Part { first: 0, n: 4 }),
         ];
-        let supplies = Supplies {
+        let law_inputs = LawInputs {
             features: &features,
             knots: (&table, &curvatures),
-            ..Supplies::courses(&[])
+            ..LawInputs::courses(&[])
         };
         let road = Part { first: 0, n: 3 };
-        let all = kinks(&features, supplies.knots());
+        let all = kinks(&features, law_inputs.knots());
         // Six of one slope, a crest where the table begins, a hollow where it ends.
         assert_eq!(all.len(), 9);
         let mut passed = 0;
         for i in 0..2200 {
             let x = 0.003 + 0.005 * f64::from(i);
-            let center = [x, road::height(road, &supplies, x).value + 0.3];
-            let at = road_contact(road, &supplies, center);
+            let center = [x, road::height(road, &law_inputs, x).value + 0.3];
+            let at = road_contact(road, &law_inputs, center);
             let u = x - at.normal[0] * at.distance;
             for kink in &all {
                 // On a crest the foot stays at the corner, up to rounding; in the hollow h''' moves the jump.

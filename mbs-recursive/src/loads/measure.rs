@@ -8,16 +8,16 @@
 //! ```
 
 use super::Instant;
-use crate::at::Outside;
+use crate::indexing::Outside;
 use crate::space::{Numbers, Space};
 use mbs_core::Real;
 use mbs_core::algebra::rotation_gradient;
 use mbs_core::effects::bushing;
-use mbs_core::laws::scalar::{Law, Measure};
+use mbs_core::laws::scalar::{Law, ScalarForce};
 
 /// What a law measures; points from their links' origins, reference axes.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Gauge<T: Real, S: Space<T>> {
+pub enum Measure<T: Real, S: Space<T>> {
     /// The distance of two points.
     Length {
         /// The points.
@@ -42,14 +42,14 @@ pub enum Gauge<T: Real, S: Space<T>> {
     Turn,
 }
 
-impl<T: Real, S: Space<T>> Gauge<T, S> {
+impl<T: Real, S: Space<T>> Measure<T, S> {
     /// The law at what is measured, and the wrenches on both links for unit rate.
     pub(super) fn evaluate(
         &self,
         at: &Instant<'_, T, S>,
         links: [u32; 2],
         law: &Law<T>,
-    ) -> Result<(Measure<T>, [S::Motion; 2]), Outside> {
+    ) -> Result<(ScalarForce<T>, [S::Motion; 2]), Outside> {
         let (value, gradient) = match self {
             Self::Length { points } => {
                 let (arms, gap) = between(at, links, points)?;
@@ -69,7 +69,7 @@ impl<T: Real, S: Space<T>> Gauge<T, S> {
                 let first = S::rotation_into(&at.placed(links[0])?.rotation);
                 let moment = first * rotation_gradient(&w, i.min(2));
                 let g = S::motion(S::spin_from(&moment), S::Point::zero());
-                (*crate::at::at(w.as_slice(), i)?, [-g, g])
+                (*crate::indexing::at(w.as_slice(), i)?, [-g, g])
             }
             Self::Turn if S::DIMENSION == 2 => {
                 let (mut x, mut y) = (S::Point::zero(), S::Point::zero());
@@ -82,7 +82,7 @@ impl<T: Real, S: Space<T>> Gauge<T, S> {
         };
         let rate = gradient[0].dot(&at.placed(links[0])?.velocity)
             + gradient[1].dot(&at.placed(links[1])?.velocity);
-        Ok((law.evaluate(value, rate, &at.supplies), gradient))
+        Ok((law.evaluate(value, rate, &at.law_inputs), gradient))
     }
 }
 

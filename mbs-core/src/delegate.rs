@@ -2,7 +2,7 @@
 
 /// The methods of [`Cliques`](crate::Cliques) by those of the field `$model`.
 #[macro_export]
-macro_rules! forward_cliques {
+macro_rules! delegate_cliques {
     ($model:ident) => {
         fn n_unknowns(&self) -> usize {
             self.$model.n_unknowns()
@@ -23,7 +23,7 @@ macro_rules! forward_cliques {
 /// The methods of [`Model`](crate::model::Model) over numbers `$T` by those of the field `$model`. `team` is not among them, nor are
 /// evaluations, products and energies, which work on the whole model in every step.
 #[macro_export]
-macro_rules! forward_model {
+macro_rules! delegate_model {
     ($T:ty, $model:ident) => {
         fn n_extended(&self) -> usize {
             self.$model.n_extended()

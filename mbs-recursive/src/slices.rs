@@ -1,15 +1,15 @@
 //! A mechanism and its scratch as slices, so that every step runs on memory of the caller's choice.
 
-use crate::link::{Condensed, Link, Placed};
+use crate::link::{ArticulatedInertia, Link, LinkMotion};
 use crate::loads::{Instant, Load};
 use crate::loops::{LoopStore, Loops};
 use crate::space::Space;
 use mbs_core::Real;
-use mbs_core::laws::Supplies;
+use mbs_core::laws::LawInputs;
 
 /// A mechanism in relative coordinates: constant.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Mechanism<'a, T: Real, S: Space<T>> {
+pub struct TreeSlices<'a, T: Real, S: Space<T>> {
     /// The links, parents first; the first is the ground.
     pub links: &'a [Link<T, S>],
     /// The closed loops.
@@ -17,7 +17,7 @@ pub struct Mechanism<'a, T: Real, S: Space<T>> {
     /// The effects.
     pub loads: &'a [Load<T, S>],
     /// Tables of their laws, without courses: these are of an instant.
-    pub tables: Supplies<'a, T>,
+    pub tables: LawInputs<'a, T>,
     /// Acceleration of gravity [m/s^2].
     pub gravity: S::Point,
     /// The point that positions are counted from, global axes [m].
@@ -40,11 +40,11 @@ pub trait Inputs<T> {
 #[derive(Debug)]
 pub struct Store<'a, T: Real, S: Space<T>> {
     /// Links where the inertias were factored; as many as links.
-    pub placed: &'a mut [Placed<T, S>],
+    pub placed: &'a mut [LinkMotion<T, S>],
     /// Links at a trial state; as many as links.
-    pub trial: &'a mut [Placed<T, S>],
+    pub trial: &'a mut [LinkMotion<T, S>],
     /// Articulated bodies; as many as links.
-    pub condensed: &'a mut [Condensed<T, S>],
+    pub condensed: &'a mut [ArticulatedInertia<T, S>],
     /// Accelerations of the links, gravity's taken off.
     pub a: &'a mut [S::Motion],
     /// Responses of the links.
@@ -92,12 +92,12 @@ pub struct Counts {
 impl<'a, T: Real, S: Space<T>> Store<'a, T, S> {
     /// What loads see at the place where inertias were factored.
     #[allow(clippy::needless_update, reason = "with effects compiled there are tables")]
-    pub(crate) fn instant<'b>(&'b self, m: &'b Mechanism<'_, T, S>) -> Instant<'b, T, S> {
+    pub(crate) fn instant<'b>(&'b self, m: &'b TreeSlices<'_, T, S>) -> Instant<'b, T, S> {
         Instant {
             links: m.links,
             placed: self.placed,
             coordinates: (self.z, self.v, self.guides),
-            supplies: Supplies { courses: self.courses, ..m.tables },
+            law_inputs: LawInputs { courses: self.courses, ..m.tables },
             base: m.base,
         }
     }

@@ -1,17 +1,17 @@
-//! A law of a user's own: see [`own`](crate::laws::own).
+//! A law of a user's own: see [`own`](crate::laws::user).
 
 use crate::Real;
 use crate::algebra::Vector;
-use crate::laws::Supplies;
-use crate::laws::body::{Action, BodyMotion, WrenchesLaw, put};
+use crate::laws::LawInputs;
+use crate::laws::body::{UnitWrench, BodyMotion, WrenchesLaw, put};
 use crate::laws::entry::{Entry, EntryReader, EntryWriter};
 use crate::laws::operations::Operations;
-use crate::laws::own::{UserBodyLaw, UserScalarLaw};
-use crate::laws::scalar::{Measure, TensionLaw};
+use crate::laws::user::{UserBodyLaw, UserScalarLaw};
+use crate::laws::scalar::{ScalarForce, TensionLaw};
 
 /// A user's own law of a value and its rate.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct OwnLaw<T> {
+pub struct UserScalarEntry<T> {
     /// The law.
     pub law: UserScalarLaw<T>,
     /// Number of the signal that is its input.
@@ -20,7 +20,7 @@ pub struct OwnLaw<T> {
 
 /// A user's own law on a body.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct OwnBodyLaw<T> {
+pub struct UserBodyEntry<T> {
     /// The law.
     pub law: UserBodyLaw<T>,
     /// Number of the signal that is its input.
@@ -41,14 +41,14 @@ macro_rules! code {
         }
     };
 }
-code!(OwnLaw);
-code!(OwnBodyLaw);
+code!(UserScalarEntry);
+code!(UserBodyEntry);
 
-impl<T: Real> TensionLaw<T> for OwnLaw<T> {
+impl<T: Real> TensionLaw<T> for UserScalarEntry<T> {
     #[inline]
-    fn evaluate(&self, value: T, rate: T, supplies: &Supplies<'_, T>) -> Measure<T> {
-        let given = (self.law.evaluate)(value, rate, supplies.course(self.course));
-        Measure { value, rate, transverse: T::ZERO, drift: T::ZERO, ..given }
+    fn evaluate(&self, value: T, rate: T, law_inputs: &LawInputs<'_, T>) -> ScalarForce<T> {
+        let given = (self.law.evaluate)(value, rate, law_inputs.course(self.course));
+        ScalarForce { value, rate, transverse: T::ZERO, drift: T::ZERO, ..given }
     }
 
     fn operations(&self) -> Operations {
@@ -56,13 +56,13 @@ impl<T: Real> TensionLaw<T> for OwnLaw<T> {
     }
 
     #[inline]
-    fn energy(&self, value: T, supplies: &Supplies<'_, T>) -> T {
-        (self.law.energy)(value, supplies.course(self.course))
+    fn energy(&self, value: T, law_inputs: &LawInputs<'_, T>) -> T {
+        (self.law.energy)(value, law_inputs.course(self.course))
     }
 
     #[inline]
-    fn elastic(&self, value: T, supplies: &Supplies<'_, T>) -> T {
-        (self.law.elastic)(value, supplies.course(self.course))
+    fn elastic(&self, value: T, law_inputs: &LawInputs<'_, T>) -> T {
+        (self.law.elastic)(value, law_inputs.course(self.course))
     }
 
     fn may_push(&self) -> bool {
@@ -70,17 +70,17 @@ impl<T: Real> TensionLaw<T> for OwnLaw<T> {
     }
 }
 
-impl<T: Real> WrenchesLaw<T> for OwnBodyLaw<T> {
+impl<T: Real> WrenchesLaw<T> for UserBodyEntry<T> {
     /// The law at a motion, with the rate of its wrench.
-    fn evaluate(&self, motion: &BodyMotion<T>, supplies: &Supplies<'_, T>, out: &mut [Action<T>]) {
-        let mut action = (self.law.evaluate)(motion, supplies.course(self.course));
+    fn evaluate(&self, motion: &BodyMotion<T>, law_inputs: &LawInputs<'_, T>, out: &mut [UnitWrench<T>]) {
+        let mut action = (self.law.evaluate)(motion, law_inputs.course(self.course));
         let [force, moment] = [action.force, action.moment].map(Vector::<T, 3>::from);
         action.measure.rate =
             force.dot(&Vector::from(motion.velocity)) + moment.dot(&Vector::from(motion.spin));
         put(out, 0, action);
     }
 
-    fn operations(&self, _: &Supplies<'_, T>) -> Operations {
+    fn operations(&self, _: &LawInputs<'_, T>) -> Operations {
         Operations::NONE
     }
 }
@@ -90,7 +90,7 @@ pub use data::Own;
 
 #[cfg(feature = "alloc")]
 mod data {
-    use super::{OwnBodyLaw, OwnLaw};
+    use super::{UserBodyEntry, UserScalarEntry};
     use crate::effects::data::*;
     use crate::effects::{EffectData, Field, Value};
     use crate::scene::UserLaw;
@@ -147,12 +147,12 @@ mod data {
             let course = to.course(&self.course);
             match self.law {
                 UserLaw::Length { bodies, points, law } => {
-                    to.length(bodies, points, OwnLaw { law, course });
+                    to.length(bodies, points, UserScalarEntry { law, course });
                 }
-                UserLaw::Joint { joint, law } => to.on_joint(joint, OwnLaw { law, course }),
+                UserLaw::Joint { joint, law } => to.on_joint(joint, UserScalarEntry { law, course }),
                 UserLaw::Body { body, at, axis, law } => {
                     let axis = crate::actions::direction_of(axis);
-                    to.on_body((body, at), axis, OwnBodyLaw { law, course });
+                    to.on_body((body, at), axis, UserBodyEntry { law, course });
                 }
             }
         }

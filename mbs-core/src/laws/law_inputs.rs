@@ -44,7 +44,7 @@ pub struct LawTables<'a, T> {
 
 /// What laws refer to by number: inputs at this instant, and tables that never change.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Supplies<'a, T> {
+pub struct LawInputs<'a, T> {
     /// The vectors of the courses at this instant.
     pub courses: &'a [[T; 3]],
     /// Pieces of polynomials.
@@ -61,7 +61,7 @@ pub struct Supplies<'a, T> {
     pub codes: Option<&'a super::code::Codes>,
 }
 
-impl<'a, T: Real> Supplies<'a, T> {
+impl<'a, T: Real> LawInputs<'a, T> {
     /// The vector of a course; zero where there is none.
     #[inline(always)]
     #[must_use]

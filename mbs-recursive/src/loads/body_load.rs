@@ -5,16 +5,16 @@
 //! ```
 
 use super::{Instant, Reach};
-use crate::at::{Outside, part_mut};
-use crate::link::Condensed;
+use crate::indexing::{Outside, part_mut};
+use crate::link::ArticulatedInertia;
 use crate::space::{Numbers, Space};
 use mbs_core::Real;
 use mbs_core::algebra::Vector;
-use mbs_core::laws::body::{Action, BodyLaw, BodyMotion, MAX_ACTIONS};
+use mbs_core::laws::body::{BodyLaw, BodyMotion, MAX_ACTIONS, UnitWrench};
 
 /// A law on one body.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct OnBody<T: Real, S: Space<T>> {
+pub struct BodyLoad<T: Real, S: Space<T>> {
     /// The link.
     pub link: u32,
     /// The law's point, from the link's origin, reference axes.
@@ -25,8 +25,8 @@ pub struct OnBody<T: Real, S: Space<T>> {
     pub law: BodyLaw<T>,
 }
 
-impl<T: Real, S: Space<T>> OnBody<T, S> {
-    fn evaluate(&self, at: &Instant<'_, T, S>, out: &mut [Action<T>]) -> Result<(), Outside> {
+impl<T: Real, S: Space<T>> BodyLoad<T, S> {
+    fn evaluate(&self, at: &Instant<'_, T, S>, out: &mut [UnitWrench<T>]) -> Result<(), Outside> {
         let placed = at.placed(self.link)?;
         let speed = at.speed(self.link, &at.arm(self.link, &self.point)?)?;
         let along = S::rotate(&placed.rotation, &S::point_from(&Vector::from(self.axis)));
@@ -41,7 +41,7 @@ impl<T: Real, S: Space<T>> OnBody<T, S> {
             axis: axis.into(),
             spin: S::spin_into(&S::spin(&placed.velocity)).into(),
         };
-        self.law.evaluate(&motion, &at.supplies, out);
+        self.law.evaluate(&motion, &at.law_inputs, out);
         Ok(())
     }
 
@@ -49,9 +49,9 @@ impl<T: Real, S: Space<T>> OnBody<T, S> {
     fn sum(
         &self,
         at: &Instant<'_, T, S>,
-        of: impl Fn(usize, &Action<T>) -> T,
+        of: impl Fn(usize, &UnitWrench<T>) -> T,
     ) -> Result<T, Outside> {
-        let mut actions = [Action::default(); MAX_ACTIONS];
+        let mut actions = [UnitWrench::default(); MAX_ACTIONS];
         let actions = part_mut(&mut actions, 0, self.law.n_actions())?;
         self.evaluate(at, actions)?;
         Ok(actions.iter().enumerate().fold(T::ZERO, |sum, (k, action)| sum + of(k, action)))
@@ -59,11 +59,11 @@ impl<T: Real, S: Space<T>> OnBody<T, S> {
 
     /// What the law does to its link, about the link's origin.
     pub(super) fn wrench(&self, at: &Instant<'_, T, S>) -> Result<S::Motion, Outside> {
-        let mut actions = [Action::default(); MAX_ACTIONS];
+        let mut actions = [UnitWrench::default(); MAX_ACTIONS];
         let actions = part_mut(&mut actions, 0, self.law.n_actions())?;
         self.evaluate(at, actions)?;
         let (mut force, mut moment) = (S::Point::zero(), S::Spin::zero());
-        for Action { force: d, moment: m, measure } in actions.iter() {
+        for UnitWrench { force: d, moment: m, measure } in actions.iter() {
             force -= S::point_from(&Vector::from(*d)) * measure.tension;
             moment -= S::spin_from(&Vector::from(*m)) * measure.tension;
         }
@@ -76,13 +76,13 @@ impl<T: Real, S: Space<T>> OnBody<T, S> {
         &self,
         at: &Instant<'_, T, S>,
         (reach, a): (Reach<T>, &S::Motion),
-        c: &mut Condensed<T, S>,
+        c: &mut ArticulatedInertia<T, S>,
     ) -> Result<(), Outside> {
-        let mut actions = [Action::default(); MAX_ACTIONS];
+        let mut actions = [UnitWrench::default(); MAX_ACTIONS];
         let actions = part_mut(&mut actions, 0, self.law.n_actions())?;
         self.evaluate(at, actions)?;
         let arm = at.arm(self.link, &self.point)?;
-        for Action { force, moment, measure } in actions.iter() {
+        for UnitWrench { force, moment, measure } in actions.iter() {
             let moment = S::spin_from(&Vector::from(*moment));
             let w = S::wrench(&arm, &S::point_from(&Vector::from(*force)))
                 + S::motion(moment, S::Point::zero());
