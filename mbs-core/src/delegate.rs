@@ -63,8 +63,8 @@ macro_rules! delegate_model {
         ) {
             self.$model.set_inputs(t, state, terms);
         }
-        fn remember(&self, terms: &$crate::model::Terms<$T>, memory: &mut [$T]) {
-            self.$model.remember(terms, memory);
+        fn remember(&self, q: &[$T], terms: &$crate::model::Terms<$T>, memory: &mut [$T]) {
+            self.$model.remember(q, terms, memory);
         }
         fn evaluate_phi_t(&self, q: &[$T], terms: &mut $crate::model::Terms<$T>) {
             self.$model.evaluate_phi_t(q, terms);

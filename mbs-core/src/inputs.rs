@@ -2,7 +2,8 @@
 
 use crate::Real;
 use crate::laws::guide;
-use crate::scene::{Guide, Motion, Signal, TableEnds};
+use crate::measure::CouplingInput;
+use crate::scene::{Coupling, Guide, Motion, Signal, TableEnds};
 use crate::step::InputError;
 use alloc::vec;
 use alloc::vec::Vec;
@@ -17,10 +18,11 @@ pub struct Prescribed<T> {
 }
 
 impl<T: Real> Prescribed<T> {
-    /// The guides of a scene, and no course.
-    pub(crate) fn new(guides: &[Guide<T>]) -> Self {
-        let guides = guides.iter().map(|guide| GuideInput::new(&guide.law)).collect();
-        Self { guides, courses: Vec::new() }
+    /// The guides of a scene, then the sums of its couplings that are not always zero; and no course.
+    pub(crate) fn new(guides: &[Guide<T>], couplings: &[Coupling<T>]) -> Self {
+        let of_guides = guides.iter().map(|guide| GuideInput::new(&guide.law));
+        let of_couplings = couplings.iter().filter_map(|coupling| CouplingInput::new(coupling).sum);
+        Self { guides: of_guides.chain(of_couplings).collect(), courses: Vec::new() }
     }
 
     /// Adds a course for `scene.effects[effect]` and returns its number.
@@ -29,7 +31,7 @@ impl<T: Real> Prescribed<T> {
         self.courses.len() - 1
     }
 
-    /// The guides, in the order of the scene.
+    /// The guides, in the order of the scene; then the sums of couplings that are not always zero.
     #[must_use]
     pub fn guides(&self) -> &[GuideInput<T>] {
         &self.guides
@@ -79,7 +81,8 @@ impl<T: Real> Prescribed<T> {
     ) {
         let mut inputs = of_guides.as_chunks().0.iter();
         for (value, guide) in guides.iter_mut().zip(&self.guides) {
-            *value = guide.input().and_then(|_| inputs.next()).map_or_else(|| guide.at(t), |u| *u);
+            let input = guide.input().and_then(|_| inputs.next());
+            *value = input.map_or_else(|| guide.at(t), |u| guide.shifted(*u));
         }
         let mut inputs = of_courses.as_chunks().0.iter();
         for (value, (_, course)) in courses.iter_mut().zip(&self.courses) {
@@ -187,6 +190,8 @@ fn part(first: usize) -> Range<usize> {
 pub struct GuideInput<T> {
     law: Motion<T>,
     curvature: Vec<T>,
+    /// What is added to the value of the law.
+    offset: Option<T>,
 }
 
 impl<T: Real> GuideInput<T> {
@@ -202,7 +207,19 @@ impl<T: Real> GuideInput<T> {
                 TableEnds::Level => guide::level_curvatures(rows, &mut curvature, &mut scratch),
             }
         }
-        Self { law: law.clone(), curvature }
+        Self { law: law.clone(), curvature, offset: None }
+    }
+
+    /// The same law with `offset` added to its value.
+    #[must_use]
+    pub fn shifted_by(mut self, offset: T) -> Self {
+        self.offset = Some(offset);
+        self
+    }
+
+    /// A value, rate and acceleration of the law, with the offset.
+    fn shifted(&self, [value, rate, acceleration]: [T; 3]) -> [T; 3] {
+        [self.offset.map_or(value, |offset| value + offset), rate, acceleration]
     }
 
     /// The law.
@@ -225,9 +242,9 @@ impl<T: Real> GuideInput<T> {
                 guide::sine(*amplitude, *frequency, *phase, t)
             }
             Motion::Ramp { rate } => guide::ramp(*rate, t),
-            Motion::Input(motion) => return *motion,
+            Motion::Input(motion) => return self.shifted(*motion),
         };
-        [m.value, m.rate, m.acceleration]
+        self.shifted([m.value, m.rate, m.acceleration])
     }
 
     /// Value, rate and acceleration that an input begins with; `None` of a law.

@@ -22,6 +22,7 @@ pub mod implicit;
 pub mod inputs;
 pub mod integrator;
 pub mod laws;
+pub mod measure;
 #[cfg(feature = "alloc")]
 pub mod model;
 #[cfg(feature = "alloc")]

@@ -114,8 +114,8 @@ pub trait Model<T: Real>: Cliques + Sync {
     fn advance(&self, q: &[T], dq: &[T], phi_n: &[T], terms: &mut Terms<T>);
     /// Applied forces and their tangents at (`q`, `v`).
     fn evaluate_forces(&self, q: &[T], v: &[T], terms: &mut Terms<T>);
-    /// Writes the measured angles of `terms` into `memory`, at the end of a step.
-    fn remember(&self, terms: &Terms<T>, memory: &mut [T]);
+    /// Writes the measured angles of `terms`, and those of couplings at `q`, into `memory`, at the end of a step.
+    fn remember(&self, q: &[T], terms: &Terms<T>, memory: &mut [T]);
     /// phi_t at `q`. Does nothing without guides.
     fn evaluate_phi_t(&self, q: &[T], terms: &mut Terms<T>);
     /// Bias of phi'' at (`q`, `v`).
@@ -181,6 +181,8 @@ pub enum Owner {
     Joint(usize),
     /// `scene.effects[i]`.
     Effect(usize),
+    /// `scene.couplings[i]`.
+    Coupling(usize),
 }
 
 /// A model at one instant with the weights of a linear system: what a solver takes.

@@ -384,7 +384,7 @@ impl<'a, T: Real, M: Model<T>, S: SymmetricSolver<T>> Search<'a, T, M, S> {
         }
         self.met = self.met.max(self.scale);
         let mut angles = core::mem::take(&mut self.w.terms.angles);
-        self.model.remember(&self.w.terms, &mut angles);
+        self.model.remember(&self.next, &self.w.terms, &mut angles);
         self.w.terms.angles = angles;
         self.q.copy_from_slice(&self.next);
         self.lambda.copy_from_slice(&self.next_lambda);

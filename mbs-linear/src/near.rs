@@ -81,7 +81,7 @@ fn newton<T: Real, M: Model<T>, S: SymmetricSolver<T>>(
     if !(size > T::EPSILON.sqrt()) {
         // The last step, which rounding need not leave the next one shorter for.
         field.displaced(&way).map_err(failed)?;
-        model.remember(&field.w.terms, &mut memory);
+        model.remember(&field.q, &field.w.terms, &mut memory);
         return Ok((if size.is_finite() { field.q } else { q }, memory, T::ZERO));
     }
     let mut ratio = (T::from_f64(LONGEST) / size).min(T::ONE);
@@ -91,7 +91,7 @@ fn newton<T: Real, M: Model<T>, S: SymmetricSolver<T>>(
             let next = field.extent(&matrix.solve(&left));
             if next <= size * (T::ONE - ratio * T::from_f64(PROGRESS)) {
                 way = part;
-                model.remember(&field.w.terms, &mut memory);
+                model.remember(&field.q, &field.w.terms, &mut memory);
                 let size = field.extent(&way);
                 return Ok((field.q, memory, size));
             }

@@ -19,6 +19,7 @@ fn scene<T: Real>(dimension: Dimension) -> Scene<T> {
         joints: Vec::new(),
         initials: Vec::new(),
         guides: Vec::new(),
+        couplings: Vec::new(),
         effects: Vec::new(),
         road: Default::default(),
         start: Default::default(),

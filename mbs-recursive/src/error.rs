@@ -20,6 +20,11 @@ pub enum TreeError {
         /// `scene.joints[joint]`.
         joint: usize,
     },
+    /// A coupling that relative coordinates do not have.
+    Coupling {
+        /// `scene.couplings[coupling]`.
+        coupling: usize,
+    },
     /// An effect gives no actions.
     Effect(ActionError),
     /// A body without mass at the end of a branch: its joint meets no inertia.
@@ -82,6 +87,9 @@ impl core::fmt::Display for TreeError {
                 f,
                 "joint {joint} of effect {effect} would have to be cut, all joints of its loop having effects or guides: try index-3"
             ),
+            Self::Coupling { coupling } => {
+                write!(f, "coupling {coupling} is not built in relative coordinates: try index-3")
+            }
             Self::Effect(error) => write!(f, "{error}"),
             Self::MasslessEnd { body } => write!(
                 f,

@@ -88,6 +88,9 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         if scene.dimension.count() != S::DIMENSION {
             return Err(TreeError::Dimension);
         }
+        if !scene.couplings.is_empty() {
+            return Err(TreeError::Coupling { coupling: 0 });
+        }
         let scene = &*aligned(scene);
         let clusters = Clusters::new(scene);
         let actions = Actions::new(scene)?;

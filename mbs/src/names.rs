@@ -8,6 +8,7 @@ use mbs_core::scene::{BodyId, Scene};
 pub struct Names {
     bodies: Vec<String>,
     joints: Vec<String>,
+    couplings: Vec<String>,
     pub(crate) effects: Vec<String>,
     pub(crate) outputs: Vec<String>,
     /// First joint in the file that touches each body.
@@ -28,6 +29,7 @@ impl Names {
         Self {
             bodies: scene.bodies.iter().map(|b| b.name.clone()).collect(),
             joints: scene.joints.iter().map(|j| j.name.clone()).collect(),
+            couplings: scene.couplings.iter().map(|c| c.name.clone()).collect(),
             effects: scene.effects.iter().map(|e| e.name.clone()).collect(),
             outputs: scene.outputs.iter().map(|o| o.name.clone()).collect(),
             joint_of_body,
@@ -43,6 +45,7 @@ impl Names {
                 (joint.and_then(|j| self.joints.get(j).cloned()), self.bodies.get(b).cloned())
             }
             Owner::Effect(e) => (None, self.effects.get(e).cloned()),
+            Owner::Coupling(c) => (self.couplings.get(c).cloned(), None),
         }
     }
 }

@@ -142,6 +142,7 @@ impl StopError {
                 Some(Owner::Joint(joint))
             }
             TreeError::Effect(ActionError::LeftOut { effect, .. }) => Some(Owner::Effect(effect)),
+            TreeError::Coupling { coupling } => Some(Owner::Coupling(coupling)),
             TreeError::MasslessEnd { body } => Some(Owner::Body(body)),
             TreeError::NoInertia { owner } => Some(owner),
             _ => None,
@@ -174,6 +175,7 @@ impl StopError {
             Owner::Body(b) => Entry::Body(b),
             Owner::Joint(j) => Entry::Joint(j),
             Owner::Effect(e) => Entry::Effect(e),
+            Owner::Coupling(c) => Entry::Coupling(c),
         })
     }
 
@@ -423,6 +425,9 @@ fn write_tree(error: &TreeError, f: &mut core::fmt::Formatter<'_>) -> core::fmt:
         ),
         TreeError::MasslessEnd { .. } => {
             write!(f, "a body without mass ends a branch of the tree: its joint meets no inertia")
+        }
+        TreeError::Coupling { .. } => {
+            write!(f, "relative coordinates do not have this coupling: try index-3")
         }
         TreeError::NoInertia { .. } => write!(f, "nothing beyond a joint resists its motion"),
         other => write!(f, "{other}"),

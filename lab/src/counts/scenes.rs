@@ -66,6 +66,7 @@ fn four_bar(dimension: Dimension) -> Scene<f64> {
             },
         }],
         guides: vec![],
+        couplings: vec![],
         road: Default::default(),
         start: Default::default(),
         effects: vec![],

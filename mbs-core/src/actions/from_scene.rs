@@ -20,7 +20,7 @@ impl<T: Real> Actions<T> {
             clock: None,
             actions: Self {
                 list: Vec::new(),
-                prescribed: Prescribed::new(&scene.guides),
+                prescribed: Prescribed::new(&scene.guides, &scene.couplings),
                 tables: Tables::empty(),
             },
         };

@@ -8,9 +8,11 @@
 //! | [`Distance`] | (d.d - L^2) / 2L | +-d / L | d'.d' / L |
 //! | [`Dot`] | s x.y - c | s (A^T y + B^T x) | 2 s x'.y' |
 //! | [`Linear`] | sum_k a_k e_k - c | constant | 0 |
+//! | [`Coupled`] | (sum_k c_k m_k - s) / c | see there | see there |
 //! | [`Guided`] | (cos f x2 - sin f x1).y, or s x.y - f | as `Dot` | with f', f'' |
 
 mod combination;
+mod coupled;
 mod distance;
 mod dot;
 mod guided;
@@ -19,6 +21,10 @@ mod linear;
 #[cfg(feature = "alloc")]
 pub(crate) use combination::add_gradient;
 pub use combination::{Span, Term, combine};
+pub use coupled::{
+    Coupled, CoupledTables, CoupledTerm, Measurand, NONE, Signed, add_measure_gradient,
+    rate_and_bias, value as measured_value,
+};
 pub use distance::Distance;
 pub use dot::Dot;
 pub use guided::{Guided, GuidedMotion};

@@ -72,12 +72,14 @@ pub fn take_coordinates<T: Real, W: Team>(
 /// Adds the work of the last `dt` [s] to the ledger of a state whose q, v and reaction are final, by the trapezoidal rule in
 /// time; measured angles are remembered.
 pub fn add_work<T: Real, M: Model<T>>(model: &M, dt: T, s: &mut State<T>, terms: &mut Terms<T>) {
-    if !(model.has_forces() || model.has_guides()) {
-        return;
-    }
     if model.has_forces() {
         model.evaluate_forces(&s.q, &s.v, terms);
-        model.remember(terms, &mut s.memory);
+    }
+    if !s.memory.is_empty() {
+        model.remember(&s.q, terms, &mut s.memory);
+    }
+    if !(model.has_forces() || model.has_guides()) {
+        return;
     }
     s.applied.copy_from_slice(&s.inputs);
     let power = model.power(&s.q, &s.v, &s.reaction, terms);

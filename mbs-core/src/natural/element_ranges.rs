@@ -10,7 +10,7 @@
 use super::group::Group;
 use super::model::{Cursor, NaturalModel};
 use crate::Real;
-use crate::elements::{Distance, Dot, Guided, Linear, Span};
+use crate::elements::{Coupled, Distance, Dot, Guided, Linear, Span};
 use crate::laws::scalar::ScalarForce;
 use crate::team::Team;
 use alloc::vec::Vec;
@@ -68,6 +68,9 @@ impl Part {
     pub(super) fn guided<'a, T>(&self, all: &'a [T]) -> &'a [T] {
         &all[self.from.guided..self.to.guided]
     }
+    pub(super) fn coupled<'a, T>(&self, all: &'a [T]) -> &'a [T] {
+        &all[self.from.coupled..self.to.coupled]
+    }
     pub(super) fn measures<'a, T>(&self, all: &'a [T]) -> &'a [T] {
         &all[self.from.measure..self.to.measure]
     }
@@ -111,6 +114,11 @@ impl Part {
     #[inline(always)]
     pub(super) fn linear(&self, row: &Linear) -> Linear {
         Linear { place: self.place(row.place), row: row.row - narrow(self.from.row), ..*row }
+    }
+    /// Likewise.
+    #[inline(always)]
+    pub(super) fn coupling<T: Real>(&self, row: &Coupled<T>) -> Coupled<T> {
+        Coupled { place: self.place(row.place), row: row.row - narrow(self.from.row), ..*row }
     }
     /// Likewise.
     #[inline(always)]
@@ -174,6 +182,7 @@ impl<T: Real, const D: usize> NaturalModel<T, D> {
             dot: self.dots.len(),
             linear: self.linears.len(),
             guided: self.guided.len(),
+            coupled: self.coupled.len(),
             measure: self.measures.len(),
             body_element: self.body_elements.len(),
             body_measure: self.n_measures,
@@ -198,6 +207,7 @@ impl<T: Real, const D: usize> NaturalModel<T, D> {
             dot: group.dots.start as usize,
             linear: self.linears.partition_point(|r| r.row < row),
             guided: self.guided.partition_point(|r| r.row < row),
+            coupled: self.coupled.partition_point(|r| r.row < row),
             measure: self.measures.partition_point(|m| m.place.start < jacobian),
             body_element,
             body_measure,

@@ -4,7 +4,7 @@ use super::forces::Measure;
 use super::model::NaturalModel;
 use crate::Real;
 use crate::algebra::norm;
-use crate::elements::combine;
+use crate::elements::{Measurand, NONE, Span, combine, measured_value};
 use crate::inputs::Prescribed;
 use crate::model::{Load, Model, Owner, ScalarForce, State, Tangent, Terms};
 use crate::team::Alone;
@@ -85,7 +85,7 @@ impl<T: Real, const D: usize> Model<T> for NaturalModel<T, D> {
         self.n_measures > 0 || !(self.point_forces.is_empty() && self.torques.is_empty())
     }
     fn has_guides(&self) -> bool {
-        !self.guided.is_empty()
+        !self.guided.is_empty() || self.coupled.iter().any(|row| row.guide != NONE)
     }
 
     fn inputs(&self) -> Option<&Prescribed<T>> {
@@ -160,7 +160,13 @@ impl<T: Real, const D: usize> Model<T> for NaturalModel<T, D> {
         self.evaluate_forces_on(&Alone, (q, v), terms);
     }
 
-    fn remember(&self, terms: &Terms<T>, memory: &mut [T]) {
+    fn remember(&self, q: &[T], terms: &Terms<T>, memory: &mut [T]) {
+        for measure in &self.coupled_measures {
+            if let Measurand::Angle { memory: place, .. } = measure.of {
+                let at = |x: Span| combine::<T, D>(x.of(&self.pool), q);
+                memory[place as usize] = measured_value(&measure.of, at, &terms.angles);
+            }
+        }
         for (element, measure) in self.measures.iter().zip(&terms.measures) {
             match element.gauge {
                 Measure::Angle { memory: place, .. } => memory[place as usize] = measure.value,
@@ -176,6 +182,9 @@ impl<T: Real, const D: usize> Model<T> for NaturalModel<T, D> {
         for row in &self.guided {
             let f = terms.guides[row.guide as usize];
             terms.phi_t[row.row as usize] = row.phi_t::<T, D>(&self.pool, q, f);
+        }
+        for row in self.coupled.iter().filter(|row| row.guide != NONE) {
+            terms.phi_t[row.row as usize] = row.phi_t(terms.guides[row.guide as usize]);
         }
     }
 
@@ -288,6 +297,9 @@ impl<T: Real, const D: usize> Model<T> for NaturalModel<T, D> {
         }
         // A guide's force on the coordinates is -J^T lambda and J v = -phi_t: its power is lambda phi_t.
         for row in &self.guided {
+            power += lambda[row.row as usize] * terms.phi_t[row.row as usize];
+        }
+        for row in self.coupled.iter().filter(|row| row.guide != NONE) {
             power += lambda[row.row as usize] * terms.phi_t[row.row as usize];
         }
         power

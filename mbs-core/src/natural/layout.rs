@@ -11,13 +11,16 @@ use super::merge::merged;
 use super::model::NaturalModel;
 use super::motion::carriers;
 use super::on_body::BodyElement;
-use super::row_builder::{EffectDraft, GroupDraft, RowDraft};
+use super::row_builder::{CoupledDraft, EffectDraft, GroupDraft, MeasureDraft, RowDraft};
 use super::sharing::Entity;
 use crate::Real;
 use crate::actions::Actions;
 use crate::algebra::{Coef, Vector};
 use crate::cluster::Clusters;
-use crate::elements::{Distance, Dot, Guided, GuidedMotion, Linear, Span, Term};
+use crate::elements::{
+    Coupled, CoupledTerm, Distance, Dot, Guided, GuidedMotion, Linear, Measurand, NONE, Signed,
+    Span, Term,
+};
 use crate::laws::scalar::Law;
 use crate::model::Owner;
 use alloc::vec;
@@ -106,6 +109,11 @@ impl<T: Real, const D: usize> Layout<T, D> {
             dots: Vec::new(),
             linears: Vec::new(),
             guided: Vec::new(),
+            coupled: Vec::new(),
+            coupled_terms: Vec::new(),
+            coupled_measures: Vec::new(),
+            curves: Vec::new(),
+            coupled_angles: Vec::new(),
             groups: Vec::new(),
             slots: Vec::new(),
             cliques: Vec::new(),
@@ -276,6 +284,52 @@ impl<T: Real, const D: usize> Layout<T, D> {
                 let (x, y) = (self.span(x, columns), self.span(y, columns));
                 let motion = GuidedMotion::Slide { x };
                 self.model.guided.push(Guided { motion, y, guide: index(*guide), row, place });
+            }
+            RowDraft::Coupled { terms, inverse, guide, is_linear } => {
+                let terms = self.coupled_terms(terms, columns);
+                let guide = guide.map_or(NONE, index);
+                let (inverse, is_linear) = (*inverse, *is_linear);
+                self.model.coupled.push(Coupled { terms, inverse, guide, is_linear, row, place });
+            }
+        }
+    }
+
+    /// The terms of a coupling with their measures and curves.
+    fn coupled_terms(&mut self, drafts: &[CoupledDraft<T>], columns: &Columns<'_>) -> Span {
+        let mut terms = Vec::with_capacity(drafts.len());
+        for draft in drafts {
+            let measures: Vec<_> =
+                draft.measures.iter().map(|measure| self.signed(measure, columns)).collect();
+            let m = &mut self.model;
+            let curve = if draft.curve.is_identity() {
+                NONE
+            } else {
+                m.curves.push(draft.curve.clone());
+                index(m.curves.len() - 1)
+            };
+            let measures = extend(&mut m.coupled_measures, measures.into_iter());
+            terms.push(CoupledTerm { factor: draft.factor, measures, curve });
+        }
+        extend(&mut self.model.coupled_terms, terms.into_iter())
+    }
+
+    fn signed(&mut self, draft: &MeasureDraft<T>, columns: &Columns<'_>) -> Signed<T> {
+        match draft {
+            MeasureDraft::Angle { x1, x2, y, sign, of } => {
+                let (x1, x2) = (self.span(x1, columns), self.span(x2, columns));
+                let y = self.span(y, columns);
+                let memory = index(self.model.n_memory);
+                self.model.n_memory += 1;
+                self.model.coupled_angles.push((*of, *sign, memory));
+                Signed { sign: *sign, of: Measurand::Angle { x1, x2, y, memory } }
+            }
+            MeasureDraft::Slide { x, y } => {
+                let (x, y) = (self.span(x, columns), self.span(y, columns));
+                Signed { sign: T::ONE, of: Measurand::Slide { x, y } }
+            }
+            MeasureDraft::Length { x, reference } => {
+                let x = self.span(x, columns);
+                Signed { sign: T::ONE, of: Measurand::Length { x, reference: *reference } }
             }
         }
     }

@@ -11,9 +11,10 @@ use crate::actions::Tables;
 use crate::algebra::{Coef, Vector};
 use crate::blocks::Cliques;
 use crate::cluster::Clusters;
-use crate::elements::{Distance, Dot, Guided, Linear, Term};
+use crate::elements::{Coupled, CoupledTerm, Distance, Dot, Guided, Linear, Signed, Term};
 use crate::inputs::Prescribed;
 use crate::laws::code::Codes;
+use crate::measure::PreparedCurve;
 use crate::model::Owner;
 use alloc::vec::Vec;
 
@@ -34,6 +35,12 @@ pub struct NaturalModel<T: Real, const D: usize> {
     pub(super) dots: Vec<Dot<T>>,
     pub(super) linears: Vec<Linear>,
     pub(super) guided: Vec<Guided>,
+    pub(super) coupled: Vec<Coupled<T>>,
+    pub(super) coupled_terms: Vec<CoupledTerm<T>>,
+    pub(super) coupled_measures: Vec<Signed<T>>,
+    pub(super) curves: Vec<PreparedCurve<T>>,
+    /// Joint and coordinate of each angle that couplings remember, with its place.
+    pub(super) coupled_angles: Vec<((usize, usize), T, u32)>,
     pub(super) groups: Vec<Group>,
     pub(super) slots: Vec<u32>,
     pub(super) cliques: Vec<u32>,
@@ -142,6 +149,7 @@ pub(super) struct Cursor {
     pub(super) dot: usize,
     pub(super) linear: usize,
     pub(super) guided: usize,
+    pub(super) coupled: usize,
     pub(super) measure: usize,
     pub(super) body_element: usize,
     pub(super) body_measure: usize,

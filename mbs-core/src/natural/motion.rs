@@ -68,7 +68,7 @@ impl<T: Real, const D: usize> NaturalModel<T, D> {
         if !s.memory.is_empty() {
             self.set_inputs(s.t, s, terms);
             self.evaluate_forces(&s.q, &s.v, terms);
-            self.remember(terms, &mut s.memory);
+            self.remember(&s.q, terms, &mut s.memory);
         }
     }
 

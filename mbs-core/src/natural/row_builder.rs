@@ -6,6 +6,7 @@ use crate::Real;
 use crate::algebra::{Coef, Vector};
 use crate::laws::body::BodyLaw;
 use crate::laws::scalar::Law;
+use crate::measure::PreparedCurve;
 use crate::model::Owner;
 use alloc::collections::BTreeMap;
 use alloc::vec::Vec;
@@ -18,6 +19,33 @@ pub(crate) enum RowDraft<T: Real> {
     Linear { x: Combination<T> },
     GuidedAngle { x1: Combination<T>, x2: Combination<T>, y: Combination<T>, guide: usize },
     GuidedSlide { x: Combination<T>, y: Combination<T>, guide: usize },
+    Coupled { terms: Vec<CoupledDraft<T>>, inverse: T, guide: Option<usize>, is_linear: bool },
+}
+
+/// A term of a coupling in terms of entities.
+#[derive(Debug, Clone)]
+pub(crate) struct CoupledDraft<T: Real> {
+    pub(crate) factor: T,
+    pub(crate) measures: Vec<MeasureDraft<T>>,
+    pub(crate) curve: PreparedCurve<T>,
+}
+
+/// What a term of a coupling measures.
+#[derive(Debug, Clone)]
+pub(crate) enum MeasureDraft<T: Real> {
+    Angle { x1: Combination<T>, x2: Combination<T>, y: Combination<T>, sign: T, of: (usize, usize) },
+    Slide { x: Combination<T>, y: Combination<T> },
+    Length { x: Combination<T>, reference: T },
+}
+
+impl<T: Real> MeasureDraft<T> {
+    fn combinations(&self) -> Vec<&Combination<T>> {
+        match self {
+            Self::Angle { x1, x2, y, .. } => alloc::vec![x1, x2, y],
+            Self::Slide { x, y } => alloc::vec![x, y],
+            Self::Length { x, .. } => alloc::vec![x],
+        }
+    }
 }
 
 impl<T: Real> RowDraft<T> {
@@ -28,6 +56,10 @@ impl<T: Real> RowDraft<T> {
             Self::Dot { x, y, .. } | Self::GuidedSlide { x, y, .. } => alloc::vec![x, y],
             Self::Linear { x } => alloc::vec![x],
             Self::GuidedAngle { x1, x2, y, .. } => alloc::vec![x1, x2, y],
+            Self::Coupled { terms, .. } => {
+                let measures = terms.iter().flat_map(|term| &term.measures);
+                measures.flat_map(MeasureDraft::combinations).collect()
+            }
         }
     }
 

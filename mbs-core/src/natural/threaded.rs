@@ -17,8 +17,8 @@ impl<T: Real, const D: usize> NaturalModel<T, D> {
     }
 
     pub(super) fn evaluate_on<W: Team>(&self, team: &W, q: &[T], terms: &mut Terms<T>) {
-        let Terms { phi, jacobian, guides, .. } = terms;
-        let guides = &guides[..];
+        let Terms { phi, jacobian, guides, angles, .. } = terms;
+        let (guides, angles) = (&guides[..], &angles[..]);
         let out = Out { rows: phi, jacobian, ..Out::default() };
         self.on_parts(team, out, |part, Out { rows: phi, jacobian, .. }| {
             for row in part.distances(&self.distances) {
@@ -34,6 +34,11 @@ impl<T: Real, const D: usize> NaturalModel<T, D> {
                 let f = guides[row.guide as usize][0];
                 part.guide(row).evaluate::<T, D>(&self.pool, q, f, (phi, jacobian));
             }
+            for row in part.coupled(&self.coupled) {
+                let [sum, ..] = Self::sum_of(row.guide, guides);
+                let row = part.coupling(row);
+                row.evaluate::<D>(&self.coupled_tables(), (q, angles), sum, (phi, jacobian));
+            }
         });
     }
 
@@ -44,8 +49,8 @@ impl<T: Real, const D: usize> NaturalModel<T, D> {
         phi_n: &[T],
         terms: &mut Terms<T>,
     ) {
-        let Terms { phi, jacobian, guides, .. } = terms;
-        let guides = &guides[..];
+        let Terms { phi, jacobian, guides, angles, .. } = terms;
+        let (guides, angles) = (&guides[..], &angles[..]);
         let out = Out { rows: phi, jacobian, ..Out::default() };
         self.on_parts(team, out, |part, Out { rows: phi, jacobian, .. }| {
             let phi_n = &phi_n[part.rows()];
@@ -61,6 +66,11 @@ impl<T: Real, const D: usize> NaturalModel<T, D> {
             for row in part.guided(&self.guided) {
                 let f = guides[row.guide as usize][0];
                 part.guide(row).evaluate_at_sum::<T, D>(&self.pool, (q, dq), f, (phi, jacobian));
+            }
+            for row in part.coupled(&self.coupled) {
+                let [sum, ..] = Self::sum_of(row.guide, guides);
+                let (from, out) = ((q, dq, angles), (&mut phi[..], &mut jacobian[..]));
+                part.coupling(row).advance::<D>(&self.coupled_tables(), from, (phi_n, sum), out);
             }
         });
     }
@@ -113,8 +123,8 @@ impl<T: Real, const D: usize> NaturalModel<T, D> {
         (q, v): (&[T], &[T]),
         terms: &mut Terms<T>,
     ) {
-        let Terms { phi_bias, guides, .. } = terms;
-        let guides = &guides[..];
+        let Terms { phi_bias, guides, angles, .. } = terms;
+        let (guides, angles) = (&guides[..], &angles[..]);
         let out = Out { rows: phi_bias, ..Out::default() };
         self.on_parts(team, out, |part, Out { rows: bias, .. }| {
             let first = part.from.row;
@@ -127,6 +137,11 @@ impl<T: Real, const D: usize> NaturalModel<T, D> {
             for row in part.guided(&self.guided) {
                 let f = guides[row.guide as usize];
                 bias[row.row as usize - first] = row.bias::<T, D>(&self.pool, (q, v), f);
+            }
+            for row in part.coupled(&self.coupled) {
+                let sum = Self::sum_of(row.guide, guides);
+                bias[row.row as usize - first] =
+                    row.bias::<D>(&self.coupled_tables(), (q, v, angles), sum);
             }
         });
     }

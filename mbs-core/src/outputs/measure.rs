@@ -4,12 +4,11 @@ use super::coordinate::Coordinate;
 use super::quantity::{Channel, Instant, Maker};
 use super::reaction::Reactions;
 use crate::Real;
-use crate::inputs::GuideInput;
+use crate::measure::given_values;
 use crate::model::State;
 use crate::natural::{ModelError, NaturalModel};
-use crate::scene::{InitialTarget, Joint, Scene};
+use crate::scene::Scene;
 use crate::step::StepError;
-use alloc::vec;
 use alloc::vec::Vec;
 
 /// Largest relative difference of all turns by positions and by rates for which an angle is known [-]: that of the trapezoidal rule at half a
@@ -178,24 +177,12 @@ impl<T: Real, const D: usize> Measures<T, D> {
     }
 }
 
-/// The coordinates of each joint at time zero where the scene gives them (initial values, guides); zero elsewhere.
+/// The coordinates of each joint at time zero where the scene gives them (initial values, guides, couplings with these); zero elsewhere.
 ///
 /// Cost: one pass over joints, guides and initial values.
 #[must_use]
 pub fn start_values<T: Real>(scene: &Scene<T>) -> Vec<Vec<T>> {
-    let zeros = |joint: &Joint<T>| vec![T::ZERO; joint.kind.n_coordinates(scene.dimension)];
-    let mut values: Vec<Vec<T>> = scene.joints.iter().map(zeros).collect();
-    for guide in &scene.guides {
-        if let Some(values) = values.get_mut(guide.joint.index()) {
-            values.fill(GuideInput::new(&guide.law).at(T::ZERO)[0]);
-        }
-    }
-    for initial in &scene.initials {
-        if let InitialTarget::Joint { joint, value: Some(value), .. } = &initial.target
-            && let Some(values) = values.get_mut(joint.index())
-        {
-            values.iter_mut().zip(value).for_each(|(to, from)| *to = *from);
-        }
-    }
-    values
+    let or_zero =
+        |values: Vec<Option<T>>| values.into_iter().map(Option::unwrap_or_default).collect();
+    given_values(scene).into_iter().map(or_zero).collect()
 }

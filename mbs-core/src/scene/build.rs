@@ -4,11 +4,11 @@
 
 use crate::laws::code::{BodyLaw, ForceLaw};
 use crate::scene::{
-    Actuator, AeroDrag, Axis, AxisFrame, Body, BodyId, BodyTorque, Bumper, Bushing, Dimension,
-    Effect, EffectKind, Force, Freedom, Friction, Guide, Inertia, InitialCondition, InitialTarget,
-    Joint, JointId, JointKind, JointTorque, LawOnBody, LawOnJoint, LawOnLine, Limit, Motion,
-    Number, Output, Polynomial, PolynomialPiece, Road, RoadFeature, Rotation, Signal, SpeedHold,
-    SpringDamper, Tire, TorsionSpring, Vector3,
+    Actuator, AeroDrag, Axis, AxisFrame, Body, BodyId, BodyTorque, Bumper, Bushing, Coupling,
+    Dimension, Effect, EffectKind, Force, Freedom, Friction, Guide, Inertia, InitialCondition,
+    InitialTarget, Joint, JointId, JointKind, JointTorque, LawOnBody, LawOnJoint, LawOnLine, Limit,
+    Motion, Number, Output, Polynomial, PolynomialPiece, Road, RoadFeature, Rotation, Signal,
+    SpeedHold, SpringDamper, Tire, TorsionSpring, Vector3,
 };
 use alloc::string::String;
 use alloc::vec::Vec;
@@ -387,7 +387,7 @@ macro_rules! named {
         }
     )*};
 }
-named!(Body, Joint, Effect, Output);
+named!(Body, Coupling, Joint, Effect, Output);
 
 impl Signal<Number> {
     /// A number that is set between steps; this at the start.

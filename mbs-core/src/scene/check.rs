@@ -4,6 +4,7 @@
 //! are written so that a NaN fails them.
 
 mod body;
+mod coupling;
 mod course;
 mod effect;
 mod joint;
@@ -41,6 +42,7 @@ impl<T: Real> Scene<T> {
     ///     joints: Vec::new(),
     ///     initials: Vec::new(),
     ///     guides: Vec::new(),
+    ///     couplings: Vec::new(),
     ///     effects: Vec::new(),
     ///     road: Default::default(),
     ///     start: Default::default(),
@@ -69,7 +71,9 @@ impl<T: Real> Scene<T> {
         }
         body::check_lumps(self)?;
         motion::check_guides(self)?;
+        coupling::check(self)?;
         motion::check_initials(self)?;
+        coupling::check_starts(self)?;
         for (i, effect) in self.effects.iter().enumerate() {
             effect::check(self, &effect.kind, self.place(Entry::Effect(i)))?;
         }
@@ -104,6 +108,7 @@ impl<T: Real> Scene<T> {
     fn check_names(&self) -> Result<(), SceneError> {
         unique(self.bodies.iter().map(|b| b.name.as_str()), Some("ground"), Entry::Body)?;
         unique(self.joints.iter().map(|j| j.name.as_str()), None, Entry::Joint)?;
+        unique(self.couplings.iter().map(|c| c.name.as_str()), None, Entry::Coupling)?;
         unique(self.effects.iter().map(|e| e.name.as_str()), None, Entry::Effect)?;
         unique(self.outputs.iter().map(|o| o.name.as_str()), Some("t"), Entry::Output)
     }

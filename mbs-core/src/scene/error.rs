@@ -16,6 +16,8 @@ pub enum Entry {
     Initial(usize),
     /// `[[guide]]` number i.
     Guide(usize),
+    /// `[[coupling]]` number i.
+    Coupling(usize),
     /// `[[effect]]` number i.
     Effect(usize),
     /// `[[output]]` number i.
@@ -49,6 +51,7 @@ impl Display for Entry {
             Self::Joint(i) => write!(f, "joint {}", i + 1),
             Self::Initial(i) => write!(f, "initial {}", i + 1),
             Self::Guide(i) => write!(f, "guide {}", i + 1),
+            Self::Coupling(i) => write!(f, "coupling {}", i + 1),
             Self::Effect(i) => write!(f, "effect {}", i + 1),
             Self::Output(i) => write!(f, "output {}", i + 1),
             Self::Road => write!(f, "[road]"),

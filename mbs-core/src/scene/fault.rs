@@ -56,6 +56,16 @@ pub enum SceneFault {
     },
     /// The joint has no coordinates to speak about.
     NoCoordinate,
+    /// The coordinate is not there; the number of coordinates that the joint has.
+    UnknownCoordinate(usize),
+    /// The coordinate is a component of a rotation, which is no angle of its own.
+    BallCoordinate,
+    /// There is no term, or every factor is zero.
+    NoTerm,
+    /// A periodic curve has different values at its ends; both.
+    PeriodicEnds([f64; 2]),
+    /// The start values of its joints do not give the sum; what they give, and what is needed.
+    SumAtStart([f64; 2]),
     /// The joint has no single coordinate to guide; the number it has.
     NoSingleCoordinate(usize),
     /// The joint has no single rotation to spring or drive; the number it has.
@@ -157,6 +167,13 @@ impl SceneFault {
             Self::WrongDimension => "planar bodies have one number, spatial bodies six",
             Self::WrongCount { .. } => "write as many numbers as the joint or table needs",
             Self::NoCoordinate => "remove this entry, or name another joint",
+            Self::UnknownCoordinate(_) => "count the joint's coordinates from 0",
+            Self::BallCoordinate => "name a joint that turns about axes, such as a universal joint",
+            Self::NoTerm => "write a term with a factor that is not zero",
+            Self::PeriodicEnds(_) => "end the table with the value that it begins with",
+            Self::SumAtStart(_) => {
+                "change one of the initial values, or leave it out: the others determine it"
+            }
             Self::NoSingleCoordinate(_) => "use a revolute or prismatic joint",
             Self::NoSingleRotation(_) => "use a revolute or cylindrical joint",
             Self::GivenTwice(_) => "remove one of the two",
@@ -215,6 +232,24 @@ impl SceneFault {
                 write!(f, "needs {needed} number{plural}, but has {found}")
             }
             Self::NoCoordinate => write!(f, "is a joint without coordinates"),
+            Self::UnknownCoordinate(n) => {
+                write!(
+                    f,
+                    "is not there: the joint has {n} coordinate{}",
+                    if *n == 1 { "" } else { "s" }
+                )
+            }
+            Self::BallCoordinate => write!(f, "is a component of a rotation, not an angle"),
+            Self::NoTerm => write!(f, "has no term with a factor that is not zero"),
+            Self::PeriodicEnds([first, last]) => {
+                write!(f, "begins with {first} and ends with {last}, but is periodic")
+            }
+            Self::SumAtStart([found, needed]) => {
+                write!(
+                    f,
+                    "is {found} with the values of its joints at the start, but must be {needed}"
+                )
+            }
             Self::NoSingleCoordinate(n) => {
                 write!(f, "is a joint with {n} coordinates; exactly one is needed")
             }

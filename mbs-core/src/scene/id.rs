@@ -59,5 +59,6 @@ macro_rules! handle {
 handle!(/** A joint by its place in `scene.joints`. */ JointId);
 handle!(/** An initial condition by its place in `scene.initials`. */ InitialId);
 handle!(/** A guide by its place in `scene.guides`. */ GuideId);
+handle!(/** A coupling by its place in `scene.couplings`. */ CouplingId);
 handle!(/** An effect by its place in `scene.effects`. */ EffectId);
 handle!(/** An output by its place in `scene.outputs`. */ OutputId);

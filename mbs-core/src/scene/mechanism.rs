@@ -3,8 +3,8 @@
 use crate::effects::EffectKind;
 use crate::outputs::Quantity;
 use crate::scene::{
-    Body, Dimension, EffectId, Guide, GuideId, InitialCondition, InitialId, Joint, JointId,
-    OutputId, Road, SolverTable, Start, Surroundings,
+    Body, Coupling, CouplingId, Dimension, EffectId, Guide, GuideId, InitialCondition, InitialId,
+    Joint, JointId, OutputId, Road, SolverTable, Start, Surroundings,
 };
 use alloc::string::String;
 use alloc::vec::Vec;
@@ -29,6 +29,8 @@ pub struct Scene<T> {
     pub initials: Vec<InitialCondition<T>>,
     /// Kinematic guidance of joint coordinates.
     pub guides: Vec<Guide<T>>,
+    /// Relations of joint coordinates and lengths that hold.
+    pub couplings: Vec<Coupling<T>>,
     /// The road of tires; empty: level ground at height zero.
     pub road: Road<T>,
     /// What the run starts from.
@@ -54,6 +56,7 @@ impl<T: Default> Scene<T> {
             joints: Vec::new(),
             initials: Vec::new(),
             guides: Vec::new(),
+            couplings: Vec::new(),
             road: Road::default(),
             start: Start::default(),
             effects: Vec::new(),
@@ -131,4 +134,4 @@ macro_rules! by_handle {
     )*};
 }
 
-by_handle!(JointId of Joint, InitialId of InitialCondition, GuideId of Guide, EffectId of Effect, OutputId of Output);
+by_handle!(JointId of Joint, InitialId of InitialCondition, GuideId of Guide, CouplingId of Coupling, EffectId of Effect, OutputId of Output);

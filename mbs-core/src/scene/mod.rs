@@ -13,6 +13,8 @@ mod build;
 #[cfg(feature = "alloc")]
 pub(crate) mod check;
 #[cfg(feature = "alloc")]
+mod coupling;
+#[cfg(feature = "alloc")]
 mod data;
 mod dimension;
 #[cfg(feature = "alloc")]
@@ -44,6 +46,8 @@ pub use axes::transverse;
 #[cfg(feature = "alloc")]
 pub use build::StartedJoint;
 #[cfg(feature = "alloc")]
+pub use coupling::{Coupling, CouplingTerm, Curve, Measured};
+#[cfg(feature = "alloc")]
 pub(crate) use data::Surroundings;
 #[cfg(feature = "alloc")]
 pub use data::{
@@ -59,7 +63,7 @@ pub use error::{Entry, SceneError};
 #[cfg(feature = "alloc")]
 pub use fault::SceneFault;
 #[cfg(feature = "alloc")]
-pub use id::{BodyId, EffectId, GROUND, GuideId, InitialId, JointId, OutputId};
+pub use id::{BodyId, CouplingId, EffectId, GROUND, GuideId, InitialId, JointId, OutputId};
 #[cfg(feature = "alloc")]
 pub(crate) use inertia::steiner;
 pub use joint::{Axis, Freedom, JOINTS, JointForm, JointKind, Rotation, Translation};

@@ -39,7 +39,7 @@ impl Scene<Number> {
 }
 
 /// A function of numbers, on all of a list.
-fn all<T, U, const N: usize>(x: &[T; N], f: &mut impl FnMut(&T) -> U) -> [U; N] {
+pub(super) fn all<T, U, const N: usize>(x: &[T; N], f: &mut impl FnMut(&T) -> U) -> [U; N] {
     core::array::from_fn(|i| f(&x[i]))
 }
 
@@ -47,7 +47,7 @@ fn pair<T, U>([a, b]: &[[T; 3]; 2], f: &mut impl FnMut(&T) -> U) -> [[U; 3]; 2] 
     [all(a, f), all(b, f)]
 }
 
-fn rows<T, U, const N: usize>(x: &[[T; N]], f: &mut impl FnMut(&T) -> U) -> Vec<[U; N]> {
+pub(super) fn rows<T, U, const N: usize>(x: &[[T; N]], f: &mut impl FnMut(&T) -> U) -> Vec<[U; N]> {
     x.iter().map(|row| all(row, f)).collect()
 }
 
@@ -73,6 +73,7 @@ impl<T: Clone> Scene<T> {
                 .iter()
                 .map(|guide| Guide { joint: guide.joint, law: guide.law.map(f) })
                 .collect(),
+            couplings: self.couplings.iter().map(|coupling| coupling.map(f)).collect(),
             road: self.road.map(f),
             start: self.start,
             effects: self

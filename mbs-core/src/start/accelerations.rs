@@ -88,7 +88,7 @@ fn keep<T: Real, M: Model<T>>(model: &M, s: &mut State<T>, lambda: &[T], terms: 
         x.copy_from_slice(lambda);
     }
     s.phi.copy_from_slice(&terms.phi);
-    model.remember(terms, &mut s.memory);
+    model.remember(&s.q, terms, &mut s.memory);
     s.applied.copy_from_slice(&s.inputs);
     s.power = model.power(&s.q, &s.v, &s.reaction, terms);
 }

@@ -3,8 +3,9 @@
 use crate::Real;
 use crate::algebra::{Matrix, Vector, rotation};
 use crate::cluster::Clusters;
+use crate::measure::given_values;
 use crate::rigid::RigidMotion;
-use crate::scene::{BodyId, Dimension, Freedom, InitialTarget, Joint, Scene};
+use crate::scene::{BodyId, Dimension, Freedom, Joint, Scene};
 use alloc::vec;
 use alloc::vec::Vec;
 
@@ -28,12 +29,8 @@ pub(super) struct Placement<'a, T: Real> {
 }
 
 impl<'a, T: Real> Placement<'a, T> {
-    /// The tree of a scene with its initial values and those of its guides; `None` where joints close loops.
-    pub(super) fn new(
-        scene: &'a Scene<T>,
-        clusters: &'a Clusters<T>,
-        guides: &[[T; 3]],
-    ) -> Option<Self> {
+    /// The tree of a scene with its initial values, those of its guides, and what couplings make of them; `None` where joints close loops.
+    pub(super) fn new(scene: &'a Scene<T>, clusters: &'a Clusters<T>) -> Option<Self> {
         let ground = clusters.clusters.len();
         let node = |body: BodyId| clusters.of(body).unwrap_or(ground);
         let joints = || scene.joints.iter().enumerate().filter(|(_, j)| !j.kind.is_rigid());
@@ -41,7 +38,8 @@ impl<'a, T: Real> Placement<'a, T> {
         for (j, joint) in joints() {
             joint.bodies.into_iter().for_each(|body| touching[node(body)].push(j));
         }
-        let mut given = given_values(scene, guides);
+        let mut given: Vec<Option<Vec<T>>> =
+            given_values(scene).into_iter().map(|values| values.into_iter().collect()).collect();
         let mut is_placed = vec![false; ground + 1];
         let (mut branches, mut is_complete) = (Vec::new(), true);
         for root in core::iter::once(ground).chain(0..ground) {
@@ -99,20 +97,6 @@ impl<'a, T: Real> Placement<'a, T> {
         let of_body = self.clusters.of_body.iter();
         of_body.map(|c| c.map_or(RigidMotion::at_rest(origin), |c| motions[c])).collect()
     }
-}
-
-/// The values that guides and initial entries give to each joint.
-fn given_values<T: Real>(scene: &Scene<T>, guides: &[[T; 3]]) -> Vec<Option<Vec<T>>> {
-    let mut given = vec![None; scene.joints.len()];
-    for (guide, value) in scene.guides.iter().zip(guides) {
-        given[guide.joint.index()] = Some(vec![value[0]]);
-    }
-    for initial in &scene.initials {
-        if let InitialTarget::Joint { joint, value: Some(value), .. } = &initial.target {
-            given[joint.index()] = Some(value.clone());
-        }
-    }
-    given
 }
 
 /// The coordinates in the reference configuration.

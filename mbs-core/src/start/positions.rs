@@ -15,7 +15,9 @@ use super::sweeps::Assembly;
 use crate::Real;
 use crate::actions::{Action, Actions};
 use crate::blocks::{Cliques, SpdSolver};
+use crate::measure::given_values;
 use crate::model::{Model, Owner, State};
+use crate::natural::NaturalModel;
 use crate::outputs::start_values;
 use crate::scene::Scene;
 use alloc::vec::Vec;
@@ -55,6 +57,7 @@ impl<T: Real, S: SpdSolver<T>, const D: usize> Assembly<'_, T, S, D> {
         scene: &Scene<T>,
         s: &mut State<T>,
     ) -> Result<(T, u32), AssemblyError> {
+        self.turns = given_turns(scene, self.problem.model);
         self.drive(&s.q, T::ONE);
         self.problem.scale_rows();
         let before = self.largest_position();
@@ -63,7 +66,7 @@ impl<T: Real, S: SpdSolver<T>, const D: usize> Assembly<'_, T, S, D> {
             return Ok((before, 1));
         }
         let stages = self.stages();
-        let placement = Placement::new(scene, self.problem.model.clusters(), &self.guides);
+        let placement = Placement::new(scene, self.problem.model.clusters());
         if let Some(placement) = placement
             && self.place(&placement, stages, s)
         {
@@ -120,16 +123,19 @@ impl<T: Real, S: SpdSolver<T>, const D: usize> Assembly<'_, T, S, D> {
                 s.memory[place] = start;
             }
         }
+        for &(place, angle) in &self.turns {
+            s.memory[place] = angle;
+        }
         self.remember(s);
     }
 
     /// Angles are those nearest to the last stage's.
     fn remember(&mut self, s: &mut State<T>) {
         let (model, terms) = (self.problem.model, &mut self.problem.terms);
-        if model.has_forces() {
+        if !s.memory.is_empty() {
             terms.angles.copy_from_slice(&s.memory);
             model.evaluate_forces(&s.q, &s.v, terms);
-            model.remember(terms, &mut s.memory);
+            model.remember(&s.q, terms, &mut s.memory);
         }
     }
 
@@ -337,6 +343,18 @@ impl<T: Real, S: SpdSolver<T>, const D: usize> Assembly<'_, T, S, D> {
         let residual = residual.max(missing);
         AssemblyError::Position { residual, owner, initial, reached }
     }
+}
+
+/// The places of the angles that couplings remember and a scene gives, with these angles.
+fn given_turns<T: Real, const D: usize>(
+    scene: &Scene<T>,
+    model: &NaturalModel<T, D>,
+) -> Vec<(usize, T)> {
+    let given = given_values(scene);
+    let angles = model.coupled_angles().filter_map(|((joint, number), sign, place)| {
+        given[joint][number].map(|value| (place, value * sign))
+    });
+    angles.collect()
 }
 
 /// Why a stage ended before everything was closed.

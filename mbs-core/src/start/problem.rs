@@ -237,8 +237,9 @@ impl<T: Real, const D: usize> BlockSource<T> for Sweep<'_, '_, T, D> {
                 geometric: self.curvature.map(|(_, sigma)| &sigma[..m]),
             };
             p.model.write_block(&p.terms, &tangent, element, block);
-            if let Some((_, sigma)) = self.curvature {
+            if let Some((q, sigma)) = self.curvature {
                 p.model.add_guided_curvature(&p.terms, &sigma[..m], element, block);
+                p.model.add_coupled_curvature((q, &p.terms), &sigma[..m], element, block);
             }
             return;
         };

@@ -34,6 +34,8 @@ pub(super) struct Assembly<'a, T: Real, S, const D: usize> {
     pub(super) rows: Vec<T>,
     pub(super) products: Vec<T>,
     pub(super) length: T,
+    /// Places and angles of turns that the scene gives.
+    pub(super) turns: Vec<(usize, T)>,
 }
 
 impl<'a, T: Real, S: SpdSolver<T>, const D: usize> Assembly<'a, T, S, D> {
@@ -56,6 +58,7 @@ impl<'a, T: Real, S: SpdSolver<T>, const D: usize> Assembly<'a, T, S, D> {
             rows: zeros(rows),
             products: zeros(rows),
             length: model.length(),
+            turns: Vec::new(),
             problem,
         }
     }
@@ -64,6 +67,9 @@ impl<'a, T: Real, S: SpdSolver<T>, const D: usize> Assembly<'a, T, S, D> {
     pub(super) fn drive(&mut self, q: &[T], tau: T) {
         for (value, full) in self.problem.terms.guides.iter_mut().zip(&self.guides) {
             *value = [full[0] * tau, full[1], full[2]];
+        }
+        for &(place, angle) in &self.turns {
+            self.problem.terms.angles[place] = angle * tau;
         }
         let p = &mut self.problem;
         p.evaluate(q, tau);

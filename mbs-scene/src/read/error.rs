@@ -97,6 +97,15 @@ pub enum ReadFault {
         /// The number as written.
         text: String,
     },
+    /// A number that must be larger than zero.
+    NotPositive {
+        /// The number.
+        number: f64,
+    },
+    /// A screw without lead.
+    NoLead,
+    /// Wheels in mesh whose axes are not parallel in the reference configuration.
+    AxesNotParallel,
     /// A number that does not count anything.
     NotACount {
         /// The number as written.
@@ -188,6 +197,14 @@ impl Display for ReadFault {
                 write!(f, "expected {needed} entries, found {found}")
             }
             Self::NotFinite { text } => write!(f, "`{text}` is not a finite number"),
+            Self::NotPositive { number } => write!(f, "must be larger than zero, but is {number}"),
+            Self::NoLead => write!(f, "a screw without lead does not move its slide"),
+            Self::AxesNotParallel => {
+                write!(
+                    f,
+                    "the axes of the two joints are not parallel in the reference configuration"
+                )
+            }
             Self::NotACount { text, .. } => write!(f, "`{text}` does not count anything"),
             Self::Missing { key } => write!(f, "`{key}` is missing"),
             Self::Both { keys: [one, other] } => write!(f, "both `{one}` and `{other}` are given"),
@@ -230,6 +247,11 @@ impl ReadFault {
                 format!("write {needed}, in the order of the format")
             }
             Self::NotFinite { .. } => "write a finite decimal number".to_owned(),
+            Self::NotPositive { .. } => "write a number larger than zero".to_owned(),
+            Self::NoLead => "write how far the slide moves in one turn [m]".to_owned(),
+            Self::AxesNotParallel => {
+                "give `ratio`, the second angle per first, with its sign".to_owned()
+            }
             Self::NotACount { most, .. } => format!("write a whole number from 1 to {most}"),
             Self::Missing { key: "inertia" } => INERTIA.to_owned(),
             Self::Missing { key: OWNER } => OF_WHOM.to_owned(),
@@ -259,6 +281,7 @@ fn numbered(entry: Entry, index: usize) -> Entry {
         Entry::Joint(_) => Entry::Joint(index),
         Entry::Initial(_) => Entry::Initial(index),
         Entry::Guide(_) => Entry::Guide(index),
+        Entry::Coupling(_) => Entry::Coupling(index),
         Entry::Effect(_) => Entry::Effect(index),
         Entry::Output(_) => Entry::Output(index),
         Entry::Scene | Entry::Solver | Entry::Road | Entry::RoadLeft(_) | Entry::RoadRight(_) => {

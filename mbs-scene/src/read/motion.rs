@@ -52,12 +52,26 @@ pub(crate) fn read_guide(fields: &Fields<'_>) -> Read<Guide<Number>> {
         None => &["joint", "table", "sine", "ramp", "input"],
     };
     fields.allow(known, &["ends"])?;
+    let context = fields.context;
+    let joint = context.joint(fields.need("joint")?)?;
+    match read_motion(fields)? {
+        Some(law) => Ok(Guide { joint, law }),
+        None => {
+            context.fault(fields.header, ReadFault::Missing { key: "table, sine, ramp or input" })
+        }
+    }
+}
+
+/// The keys of a function of time.
+pub(crate) const MOTION_KEYS: [&str; 5] = ["table", "ends", "sine", "ramp", "input"];
+
+/// A function of time, where one of its keys is there.
+pub(crate) fn read_motion(fields: &Fields<'_>) -> Read<Option<Motion<Number>>> {
     let laws = ["table", "sine", "ramp", "input"];
     for (i, one) in laws.iter().enumerate() {
         laws[i + 1..].iter().try_for_each(|other| fields.exclusive(one, other))?;
     }
     let context = fields.context;
-    let joint = context.joint(fields.need("joint")?)?;
     let law = if let Some(item) = fields.get("sine") {
         let sine =
             context.table(item, "a table: { amplitude = .., frequency = .., phase = .. }")?;
@@ -80,10 +94,9 @@ pub(crate) fn read_guide(fields: &Fields<'_>) -> Read<Guide<Number>> {
     } else if fields.get("table").is_some() {
         Motion::Table { rows: read_table(fields)?, ends: read_ends(fields)? }
     } else {
-        return context
-            .fault(fields.header, ReadFault::Missing { key: "table, sine, ramp or input" });
+        return Ok(None);
     };
-    Ok(Guide { joint, law })
+    Ok(Some(law))
 }
 
 fn read_ends(fields: &Fields<'_>) -> Read<TableEnds> {

@@ -4,13 +4,16 @@ use crate::read::document::SceneFile;
 use crate::read::fields::{Context, Fields, Read};
 use crate::read::names::Names;
 use crate::read::tree::{Item, Member, Node};
-use crate::read::{Place, ReadError, ReadFault, body, effect, joint, motion, output, road};
+use crate::read::{
+    Place, ReadError, ReadFault, body, coupling, effect, joint, motion, output, road,
+};
 use mbs_core::Real;
 use mbs_core::scene::{Dimension, Entry, Number, Scene, SceneError, SceneFault, Start};
 use std::collections::BTreeMap;
 
-const TABLES: [&str; 9] =
-    ["scene", "body", "joint", "initial", "guide", "effect", "road", "solver", "output"];
+const TABLES: [&str; 10] = [
+    "scene", "body", "joint", "initial", "guide", "coupling", "effect", "road", "solver", "output",
+];
 const SCENE_KEYS: [&str; 5] = ["name", "dimension", "gravity", "duration", "start"];
 
 impl SceneFile {
@@ -43,16 +46,19 @@ impl SceneFile {
         header.allow(&SCENE_KEYS, &[])?;
         let body_data = self.entries(&context, "body", |_, fields| body::read(fields))?;
         let centers: Vec<[Number; 3]> = body_data.iter().map(|body| body.center.clone()).collect();
+        let joints = self.entries(&context, "joint", |_, fields| joint::read(fields, &centers))?;
         Ok(Scene {
             name: self.scene_name(&header)?,
             dimension,
             gravity: header.get("gravity").map(|item| context.vector(item)).transpose()?,
             duration: header.number("duration")?,
             bodies: body_data,
-            joints: self.entries(&context, "joint", |_, fields| joint::read(fields, &centers))?,
             initials: self
                 .entries(&context, "initial", |_, fields| motion::read_initial(fields))?,
             guides: self.entries(&context, "guide", |_, fields| motion::read_guide(fields))?,
+            couplings: self
+                .entries(&context, "coupling", |i, fields| coupling::read(i, fields, &joints))?,
+            joints,
             road: match self.top("road") {
                 Some(item) => road::read(&context.table(item, "a table: [road]")?)?,
                 None => Default::default(),
@@ -90,6 +96,7 @@ impl SceneFile {
             Entry::Joint(i) => entries("joint", i),
             Entry::Initial(i) => entries("initial", i),
             Entry::Guide(i) => entries("guide", i),
+            Entry::Coupling(i) => entries("coupling", i),
             Entry::Effect(i) => entries("effect", i),
             Entry::Output(i) => entries("output", i),
         };

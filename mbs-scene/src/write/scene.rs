@@ -13,8 +13,9 @@ use crate::read::tree::{Item, Member, Node};
 use core::fmt::{self, Display, Formatter};
 use mbs_core::outputs::Target;
 use mbs_core::scene::{
-    Body, BodyId, Dimension, Guide, Inertia, InitialCondition, InitialTarget, Joint, JointId,
-    Motion, Number, Output, Scene, SolverTable, Start, TableEnds,
+    Body, BodyId, Coupling, CouplingTerm, Curve, Dimension, Guide, Inertia, InitialCondition,
+    InitialTarget, Joint, JointId, Measured, Motion, Number, Output, Scene, SolverTable, Start,
+    TableEnds,
 };
 
 /// A scene that has no text.
@@ -122,6 +123,10 @@ fn tables(
         .iter()
         .try_for_each(|x| w.initial(x).map(|keys| visit("initial", true, keys)))?;
     scene.guides.iter().try_for_each(|x| w.guide(x).map(|keys| visit("guide", true, keys)))?;
+    scene
+        .couplings
+        .iter()
+        .try_for_each(|x| w.coupling(x).map(|keys| visit("coupling", true, keys)))?;
     scene.effects.iter().try_for_each(|x| w.effect(x).map(|keys| visit("effect", true, keys)))?;
     if let Some(road) = w.road() {
         visit("road", false, road);
@@ -182,6 +187,35 @@ fn item(node: Node) -> Item {
 
 fn list(nodes: impl IntoIterator<Item = Node>) -> Node {
     Node::List(nodes.into_iter().map(item).collect())
+}
+
+/// The keys of a function of time.
+fn motion(keys: &mut Keys, law: &Motion<Number>) {
+    let mut parts = Keys::default();
+    match law {
+        Motion::Table { rows, ends } => {
+            keys.push("table", list(rows.iter().map(Node::from)));
+            if *ends == TableEnds::Level {
+                keys.push("ends", "level");
+            }
+        }
+        Motion::Sine { amplitude, frequency, phase } => {
+            parts.push("amplitude", amplitude);
+            parts.push("frequency", frequency);
+            parts.push("phase", phase);
+            keys.push("sine", parts);
+        }
+        Motion::Ramp { rate } => {
+            parts.push("rate", rate);
+            keys.push("ramp", parts);
+        }
+        Motion::Input([value, rate, acceleration]) => {
+            parts.push("value", value);
+            parts.push("rate", rate);
+            parts.push("acceleration", acceleration);
+            keys.push("input", parts);
+        }
+    }
 }
 
 /// What the entries refer to.
@@ -317,33 +351,58 @@ impl Writer<'_> {
     }
 
     fn guide(self, guide: &Guide<Number>) -> Result<Keys, WriteError> {
-        let (mut keys, mut law) = (Keys::default(), Keys::default());
+        let mut keys = Keys::default();
         keys.push("joint", self.joint_name(guide.joint)?);
-        match &guide.law {
-            Motion::Table { rows, ends } => {
-                keys.push("table", list(rows.iter().map(Node::from)));
-                if *ends == TableEnds::Level {
-                    keys.push("ends", "level");
-                }
-            }
-            Motion::Sine { amplitude, frequency, phase } => {
-                law.push("amplitude", amplitude);
-                law.push("frequency", frequency);
-                law.push("phase", phase);
-                keys.push("sine", law);
-            }
-            Motion::Ramp { rate } => {
-                law.push("rate", rate);
-                keys.push("ramp", law);
-            }
-            Motion::Input([value, rate, acceleration]) => {
-                law.push("value", value);
-                law.push("rate", rate);
-                law.push("acceleration", acceleration);
-                keys.push("input", law);
-            }
+        motion(&mut keys, &guide.law);
+        Ok(keys)
+    }
+
+    /// Any coupling is written as the sum that it is.
+    fn coupling(self, coupling: &Coupling<Number>) -> Result<Keys, WriteError> {
+        let mut keys = Keys::default();
+        keys.push("name", coupling.name.as_str());
+        keys.push("kind", "linear");
+        let terms: Result<Vec<_>, _> = coupling.terms.iter().map(|term| self.term(term)).collect();
+        keys.push("terms", list(terms?));
+        keys.push("value", &coupling.value);
+        if let Some(law) = &coupling.motion {
+            motion(&mut keys, law);
         }
         Ok(keys)
+    }
+
+    fn term(self, term: &CouplingTerm<Number>) -> Result<Node, WriteError> {
+        let mut keys = Keys::default();
+        match &term.of {
+            Measured::Coordinate { joint, number } => {
+                keys.push("joint", self.joint_name(*joint)?);
+                keys.push("coordinate", Node::Number(number.to_string()));
+            }
+            Measured::Length { points } => {
+                let point = |(body, at): &(BodyId, [Number; 3])| {
+                    let mut keys = Keys::default();
+                    keys.push("body", self.body_name(*body)?);
+                    keys.push("at", self.vector(at));
+                    Ok(Node::from(keys))
+                };
+                let points: Result<Vec<_>, WriteError> = points.iter().map(point).collect();
+                keys.push("points", list(points?));
+            }
+        }
+        keys.push("factor", &term.factor);
+        let rows = |rows: &[[Number; 2]]| list(rows.iter().map(Node::from));
+        match &term.curve {
+            None => {}
+            Some(Curve::Table(table)) => keys.push("table", rows(table)),
+            Some(Curve::Periodic(table)) => {
+                keys.push("table", rows(table));
+                keys.push("periodic", Node::Bool(true));
+            }
+            Some(Curve::Polynomial(coefficients)) => {
+                keys.push("coefficients", list(coefficients.iter().map(Node::from)));
+            }
+        }
+        Ok(keys.into())
     }
 
     fn output(self, output: &Output<Number>) -> Result<Keys, WriteError> {

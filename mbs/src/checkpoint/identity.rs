@@ -9,12 +9,13 @@ use mbs_core::Real;
 use mbs_core::scene::Scene;
 
 /// Parts of a scene, as a file calls them.
-const PARTS: [&str; 9] = [
+const PARTS: [&str; 10] = [
     "[scene]",
     "[[body]]",
     "[[joint]]",
     "[[initial]]",
     "[[guide]]",
+    "[[coupling]]",
     "[road]",
     "[[effect]]",
     "[[output]]",
@@ -142,6 +143,7 @@ fn fingerprints<T: Real>(scene: &Scene<T>) -> [u64; PARTS.len()] {
         joints,
         initials,
         guides,
+        couplings,
         road,
         start,
         effects,
@@ -155,6 +157,7 @@ fn fingerprints<T: Real>(scene: &Scene<T>) -> [u64; PARTS.len()] {
         of(joints),
         of(initials),
         of(guides),
+        of(couplings),
         of(road),
         of(effects),
         of(outputs),

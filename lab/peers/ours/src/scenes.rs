@@ -19,6 +19,7 @@ pub(crate) fn empty<T: Real>(dimension: Dimension, gravity: f64) -> Scene<T> {
         joints: Vec::new(),
         initials: Vec::new(),
         guides: Vec::new(),
+        couplings: Vec::new(),
         effects: Vec::new(),
         road: Default::default(),
         start: Default::default(),

@@ -33,6 +33,7 @@ fn ring(axes: &[[f64; 3]]) -> Scene<f64> {
         joints,
         initials: Vec::new(),
         guides: Vec::new(),
+        couplings: Vec::new(),
         effects: Vec::new(),
         road: Default::default(),
         start: Default::default(),

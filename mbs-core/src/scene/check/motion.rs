@@ -31,7 +31,7 @@ pub(super) fn check_guides<T: Real>(scene: &Scene<T>) -> Result<(), SceneError> 
     Ok(())
 }
 
-fn check_law<T: Real>(law: &Motion<T>, place: Place) -> Result<(), SceneError> {
+pub(super) fn check_law<T: Real>(law: &Motion<T>, place: Place) -> Result<(), SceneError> {
     match law {
         Motion::Table { rows, .. } => {
             for row in rows {

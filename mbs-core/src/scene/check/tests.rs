@@ -31,6 +31,7 @@ fn planar() -> Scene<f64> {
         ],
         initials: Vec::new(),
         guides: Vec::new(),
+        couplings: Vec::new(),
         effects: Vec::new(),
         road: Default::default(),
         start: Default::default(),

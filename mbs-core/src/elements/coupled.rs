@@ -1,0 +1,308 @@
+//! Coupling: a sum of joint coordinates and lengths that holds.
+//!
+//! ```text
+//! phi    = (sum_k c_k f_k(m_k) - s(t)) / c            c: the largest |c_k|;  m_k: a sum of measures
+//! angle    C = x1.y, S = x2.y, r^2 = C^2 + S^2:  grad = (C grad S - S grad C)/r^2
+//!          bias = (C S_b - S C_b)/r^2 - 2 (C C' + S S')/r^2 rate,   S_b = 2 x2'.y', C_b = 2 x1'.y'
+//! slide    x.y                                  bias = 2 x'.y'
+//! length   |x|,  n = x / |x|:  grad = n        bias = (x'.x' - (n.x')^2) / |x|
+//! curve    f' grad,   f' bias + f'' rate^2
+//! ```
+//!
+//! Angles are unwrapped against those of the last step. Where the sum is linear and constant, a step adds to phi what each measure
+//! changes by, so that nothing is lost after many turns.
+
+use super::combination::{Span, Term, add_gradient, combine};
+use crate::Real;
+use crate::algebra::{Vector, norm};
+
+/// Sentinel for "none" in a table of numbers.
+pub const NONE: u32 = u32::MAX;
+
+/// A number that natural coordinates give.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Measurand<T> {
+    /// Angle of y in the frame x1, x2, unwrapped against the number at `memory`.
+    Angle {
+        /// Direction at angle zero.
+        x1: Span,
+        /// Direction a quarter turn further.
+        x2: Span,
+        /// The direction that turns.
+        y: Span,
+        /// Place of the last angle among those remembered.
+        memory: u32,
+    },
+    /// x.y.
+    Slide {
+        /// From the first body's point to the second's.
+        x: Span,
+        /// Direction.
+        y: Span,
+    },
+    /// Length of x, less that in the reference configuration.
+    Length {
+        /// From one point to the next.
+        x: Span,
+        /// The length in the reference configuration [m].
+        reference: T,
+    },
+}
+
+/// A term of the sum.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct CoupledTerm<T> {
+    /// Its factor over the largest one.
+    pub factor: T,
+    /// Its measures, in their table: the term is a function of their sum. Each counts with the factor of its sign.
+    pub measures: Span,
+    /// Its curve, in their table; [`NONE`]: the sum itself.
+    pub curve: u32,
+}
+
+/// A measure with its sign.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Signed<T> {
+    /// Its sign.
+    pub sign: T,
+    /// The measure.
+    pub of: Measurand<T>,
+}
+
+/// The row of a coupling.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Coupled<T> {
+    /// Its terms, in their table.
+    pub terms: Span,
+    /// One over the largest factor: the sum is divided by it.
+    pub inverse: T,
+    /// Number of the guide that is its sum; [`NONE`]: it is zero.
+    pub guide: u32,
+    /// Is the sum constant, and without curves?
+    pub is_linear: bool,
+    /// Row number.
+    pub row: u32,
+    /// The row's place in the Jacobian store.
+    pub place: Span,
+}
+
+/// The tables that couplings refer to.
+#[derive(Debug, Clone, Copy)]
+pub struct CoupledTables<'a, T, F> {
+    /// Terms.
+    pub terms: &'a [CoupledTerm<T>],
+    /// Measures.
+    pub measures: &'a [Signed<T>],
+    /// Combinations.
+    pub pool: &'a [Term<T>],
+    /// f, f' and f'' of a curve by its number.
+    pub curve: F,
+}
+
+impl<T: Real, F: Fn(u32, T) -> [T; 3]> CoupledTables<'_, T, F> {
+    /// f, f' and f'' of a term's curve.
+    pub fn function(&self, curve: u32, x: T) -> [T; 3] {
+        if curve == NONE { [x, T::ONE, T::ZERO] } else { (self.curve)(curve, x) }
+    }
+}
+
+impl<T: Real> Coupled<T> {
+    /// Value and gradient at `q`; angles are those nearest to `memory`.
+    pub fn evaluate<const D: usize>(
+        &self,
+        tables: &CoupledTables<'_, T, impl Fn(u32, T) -> [T; 3]>,
+        (q, memory): (&[T], &[T]),
+        sum: T,
+        (phi, jacobian): (&mut [T], &mut [T]),
+    ) {
+        let at = |x: Span| combine::<T, D>(x.of(tables.pool), q);
+        let value = self.evaluate_with(tables, at, memory, self.place.of_mut(jacobian));
+        phi[self.row as usize] = value - sum * self.inverse;
+    }
+
+    /// The same at `q + dq`, from `phi_n` at `q` where the sum is linear and constant.
+    pub fn advance<const D: usize>(
+        &self,
+        tables: &CoupledTables<'_, T, impl Fn(u32, T) -> [T; 3]>,
+        (q, dq, memory): (&[T], &[T], &[T]),
+        (phi_n, sum): (&[T], T),
+        (phi, jacobian): (&mut [T], &mut [T]),
+    ) {
+        let before = |x: Span| combine::<T, D>(x.of(tables.pool), q);
+        let change = |x: Span| combine::<T, D>(x.of(tables.pool), dq);
+        let at = |x: Span| before(x) + change(x);
+        let value = self.evaluate_with(tables, at, memory, self.place.of_mut(jacobian));
+        let row = self.row as usize;
+        phi[row] = if self.is_linear {
+            let terms = self.terms.of(tables.terms).iter();
+            terms.fold(phi_n[row], |phi, term| {
+                let measures = term.measures.of(tables.measures).iter();
+                measures.fold(phi, |phi, measure| {
+                    phi + term.factor * measure.sign * increment(&measure.of, before, change)
+                })
+            })
+        } else {
+            value - sum * self.inverse
+        };
+    }
+
+    /// The sum, with its gradient in `row`.
+    fn evaluate_with<const D: usize>(
+        &self,
+        tables: &CoupledTables<'_, T, impl Fn(u32, T) -> [T; 3]>,
+        at: impl Fn(Span) -> Vector<T, D> + Copy,
+        memory: &[T],
+        row: &mut [T],
+    ) -> T {
+        row.fill(T::ZERO);
+        self.terms.of(tables.terms).iter().fold(T::ZERO, |sum, term| {
+            let measures = term.measures.of(tables.measures);
+            let m = measures.iter().fold(T::ZERO, |m, x| m + x.sign * value(&x.of, at, memory));
+            let [f, slope, _] = tables.function(term.curve, m);
+            for measure in measures {
+                let weight = term.factor * slope * measure.sign;
+                add_measure_gradient(&measure.of, tables.pool, at, weight, row);
+            }
+            sum + term.factor * f
+        })
+    }
+
+    /// The part of phi'' without accelerations; `sum` is that of the time function.
+    pub fn bias<const D: usize>(
+        &self,
+        tables: &CoupledTables<'_, T, impl Fn(u32, T) -> [T; 3]>,
+        (q, v, memory): (&[T], &[T], &[T]),
+        sum: [T; 3],
+    ) -> T {
+        let at = |x: Span| combine::<T, D>(x.of(tables.pool), q);
+        let rate = |x: Span| combine::<T, D>(x.of(tables.pool), v);
+        let terms = self.terms.of(tables.terms).iter();
+        terms.fold(-sum[2] * self.inverse, |total, term| {
+            let (mut m, mut m_t, mut m_b) = (T::ZERO, T::ZERO, T::ZERO);
+            for measure in term.measures.of(tables.measures) {
+                let [r, b] = rate_and_bias(&measure.of, at, rate);
+                m += measure.sign * value(&measure.of, at, memory);
+                m_t += measure.sign * r;
+                m_b += measure.sign * b;
+            }
+            let [_, slope, bend] = tables.function(term.curve, m);
+            total + term.factor * (slope * m_b + bend * m_t * m_t)
+        })
+    }
+
+    /// The partial derivative of phi with respect to time.
+    pub fn phi_t(&self, sum: [T; 3]) -> T {
+        -sum[1] * self.inverse
+    }
+}
+
+/// The value of a measure, an angle nearest to the remembered one.
+pub fn value<T: Real, const D: usize>(
+    of: &Measurand<T>,
+    at: impl Fn(Span) -> Vector<T, D>,
+    memory: &[T],
+) -> T {
+    match *of {
+        Measurand::Angle { x1, x2, y, memory: place } => {
+            let y = at(y);
+            let (c, s) = (at(x1).dot(&y), at(x2).dot(&y));
+            let last = memory[place as usize];
+            let (sin, cos) = last.sin_cos();
+            last + (s * cos - c * sin).atan2(c * cos + s * sin)
+        }
+        Measurand::Slide { x, y } => at(x).dot(&at(y)),
+        Measurand::Length { x, reference } => norm(&at(x)) - reference,
+    }
+}
+
+/// What a measure changes by when coordinates change from `q` by `dq`, free of cancellation.
+fn increment<T: Real, const D: usize>(
+    of: &Measurand<T>,
+    at: impl Fn(Span) -> Vector<T, D>,
+    change: impl Fn(Span) -> Vector<T, D>,
+) -> T {
+    // the change of x.y
+    let product = |x: Span, y: Span| {
+        let (dx, dy) = (change(x), change(y));
+        dx.dot(&(at(y) + dy)) + at(x).dot(&dy)
+    };
+    match *of {
+        Measurand::Angle { x1, x2, y, .. } => {
+            let (c, s) = (at(x1).dot(&at(y)), at(x2).dot(&at(y)));
+            let (dc, ds) = (product(x1, y), product(x2, y));
+            (ds * c - dc * s).atan2(c * (c + dc) + s * (s + ds))
+        }
+        Measurand::Slide { x, y } => product(x, y),
+        Measurand::Length { x, .. } => {
+            let (before, dx) = (at(x), change(x));
+            let lengths = norm(&before) + norm(&(before + dx));
+            if lengths == T::ZERO { T::ZERO } else { dx.dot(&(before + before + dx)) / lengths }
+        }
+    }
+}
+
+/// row += weight grad m.
+pub fn add_measure_gradient<T: Real, const D: usize>(
+    of: &Measurand<T>,
+    pool: &[Term<T>],
+    at: impl Fn(Span) -> Vector<T, D>,
+    weight: T,
+    row: &mut [T],
+) {
+    match *of {
+        Measurand::Angle { x1, x2, y, .. } => {
+            let (p1, p2, py) = (at(x1), at(x2), at(y));
+            let (c, s) = (p1.dot(&py), p2.dot(&py));
+            let by = weight / (c * c + s * s);
+            let (c, s) = (c * by, s * by);
+            add_gradient(row, x2.of(pool), &(py * c));
+            add_gradient(row, x1.of(pool), &(py * -s));
+            add_gradient(row, y.of(pool), &(p2 * c - p1 * s));
+        }
+        Measurand::Slide { x, y } => {
+            add_gradient(row, x.of(pool), &(at(y) * weight));
+            add_gradient(row, y.of(pool), &(at(x) * weight));
+        }
+        Measurand::Length { x, .. } => {
+            let d = at(x);
+            let length = norm(&d);
+            // without length it has no direction
+            if length > T::ZERO {
+                add_gradient(row, x.of(pool), &(d * (weight / length)));
+            }
+        }
+    }
+}
+
+/// m' and the part of m'' without accelerations.
+pub fn rate_and_bias<T: Real, const D: usize>(
+    of: &Measurand<T>,
+    at: impl Fn(Span) -> Vector<T, D>,
+    rate: impl Fn(Span) -> Vector<T, D>,
+) -> [T; 2] {
+    match *of {
+        Measurand::Angle { x1, x2, y, .. } => {
+            let (p1, p2, py) = (at(x1), at(x2), at(y));
+            let (w1, w2, wy) = (rate(x1), rate(x2), rate(y));
+            let (c, s) = (p1.dot(&py), p2.dot(&py));
+            let (c_t, s_t) = (w1.dot(&py) + p1.dot(&wy), w2.dot(&py) + p2.dot(&wy));
+            let (c_b, s_b) = (T::TWO * w1.dot(&wy), T::TWO * w2.dot(&wy));
+            let inverse = T::ONE / (c * c + s * s);
+            let turn = (c * s_t - s * c_t) * inverse;
+            [turn, ((c * s_b - s * c_b) - T::TWO * (c * c_t + s * s_t) * turn) * inverse]
+        }
+        Measurand::Slide { x, y } => {
+            let (wx, wy) = (rate(x), rate(y));
+            [wx.dot(&at(y)) + at(x).dot(&wy), T::TWO * wx.dot(&wy)]
+        }
+        Measurand::Length { x, .. } => {
+            let (d, w) = (at(x), rate(x));
+            let length = norm(&d);
+            if length == T::ZERO {
+                return [T::ZERO; 2];
+            }
+            let along = d.dot(&w) / length;
+            [along, (w.dot(&w) - along * along) / length]
+        }
+    }
+}

@@ -1,0 +1,60 @@
+//! A coupling with its curves and its function of time prepared.
+
+use super::PreparedCurve;
+use crate::Real;
+use crate::inputs::GuideInput;
+use crate::scene::{Coupling, Measured, Motion};
+use alloc::vec::Vec;
+
+/// A coupling, prepared.
+#[derive(Debug, Clone, PartialEq)]
+pub struct CouplingInput<T> {
+    /// Its terms whose factor is not zero.
+    pub terms: Vec<TermInput<T>>,
+    /// What the sum is in the course of time, where it is not always zero.
+    pub sum: Option<GuideInput<T>>,
+}
+
+/// A term of a coupling, prepared.
+#[derive(Debug, Clone, PartialEq)]
+pub struct TermInput<T> {
+    /// Its factor.
+    pub factor: T,
+    /// What it measures.
+    pub of: Measured<T>,
+    /// Joint and number of a coordinate; `None` of a length.
+    pub coordinate: Option<(usize, usize)>,
+    /// The function of the measured number.
+    pub curve: PreparedCurve<T>,
+}
+
+impl<T: Real> CouplingInput<T> {
+    /// Prepares a coupling.
+    #[must_use]
+    pub fn new(coupling: &Coupling<T>) -> Self {
+        let terms = coupling.terms.iter().filter(|term| !term.factor.is_zero());
+        let terms = terms.map(|term| TermInput {
+            factor: term.factor,
+            of: term.of.clone(),
+            coordinate: term.of.coordinate().map(|(joint, number)| (joint.index(), number)),
+            curve: PreparedCurve::new(term.curve.as_ref()),
+        });
+        let still = Motion::Ramp { rate: T::ZERO };
+        let has_sum = coupling.motion.is_some() || !coupling.value.is_zero();
+        let law = coupling.motion.as_ref().unwrap_or(&still);
+        let sum = has_sum.then(|| GuideInput::new(law).shifted_by(coupling.value));
+        Self { terms: terms.collect(), sum }
+    }
+
+    /// What the sum is at time `t` [s].
+    #[must_use]
+    pub fn sum_at(&self, t: T) -> T {
+        self.sum.as_ref().map_or(T::ZERO, |sum| sum.at(t)[0])
+    }
+
+    /// The largest factor: rows divided by it are of order one.
+    #[must_use]
+    pub fn scale(&self) -> T {
+        self.terms.iter().fold(T::ZERO, |most, term| most.max(term.factor.abs()))
+    }
+}

@@ -1,0 +1,208 @@
+//! Twice differentiable functions of a measured number.
+//!
+//! ```text
+//! spline      cubic through (x_i, f_i), natural, or periodic with x taken into its period
+//! polynomial  c0 + c1 x + c2 x^2 + ...
+//! ```
+
+use crate::Real;
+use crate::laws::guide;
+
+/// f, f' and f'' of a cubic spline at `x`. With a `period` larger than zero x is taken into the period that begins at the first knot;
+/// else the end values are held outside.
+///
+/// Cost: one binary search; no allocation.
+pub fn spline_curve<T: Real>(knots: &[[T; 2]], curvature: &[T], period: T, x: T) -> [T; 3] {
+    let x = match knots {
+        [first, .., last] if period > T::ZERO => {
+            let turns = libm::floor(((x - first[0]) / period).to_f64());
+            // to machine precision it is within
+            (x - T::from_f64(turns) * period).max(first[0]).min(last[0])
+        }
+        _ => x,
+    };
+    let at = guide::spline(knots, curvature, x);
+    [at.value, at.rate, at.acceleration]
+}
+
+/// f, f' and f'' of the polynomial with these coefficients, the constant one first, at `x`.
+pub fn polynomial<T: Real>(coefficients: &[T], x: T) -> [T; 3] {
+    coefficients.iter().rev().fold([T::ZERO; 3], |[f, d, dd], &c| {
+        // Horner's rule, with the derivatives by the product rule
+        [f * x + c, d * x + f, dd * x + d + d]
+    })
+}
+
+#[cfg(feature = "alloc")]
+pub use prepared::PreparedCurve;
+
+#[cfg(feature = "alloc")]
+mod prepared {
+    use super::{polynomial, spline_curve};
+    use crate::Real;
+    use crate::laws::guide;
+    use crate::scene::Curve;
+    use alloc::vec;
+    use alloc::vec::Vec;
+
+    /// A curve with its spline prepared.
+    #[derive(Debug, Clone, PartialEq)]
+    pub enum PreparedCurve<T> {
+        /// f(x) = x.
+        Identity,
+        /// A spline.
+        Spline {
+            /// Its knots (x, f).
+            knots: Vec<[T; 2]>,
+            /// Its second derivatives at the knots.
+            curvature: Vec<T>,
+            /// Its period; zero: it has none.
+            period: T,
+        },
+        /// A polynomial, by its coefficients.
+        Polynomial(Vec<T>),
+    }
+
+    impl<T: Real> PreparedCurve<T> {
+        /// Prepares a curve; `None` is the identity. Cost: one tridiagonal elimination.
+        #[must_use]
+        pub fn new(curve: Option<&Curve<T>>) -> Self {
+            match curve {
+                None => Self::Identity,
+                Some(Curve::Polynomial(coefficients)) => Self::Polynomial(coefficients.clone()),
+                Some(Curve::Table(knots)) => {
+                    let mut curvature = vec![T::ZERO; knots.len()];
+                    let mut scratch = vec![T::ZERO; knots.len()];
+                    guide::spline_curvatures(knots, &mut curvature, &mut scratch);
+                    Self::Spline { knots: knots.clone(), curvature, period: T::ZERO }
+                }
+                Some(Curve::Periodic(knots)) => {
+                    let curvature = periodic_curvatures(knots);
+                    let ends = [knots.first(), knots.last()];
+                    let period = if let [Some(first), Some(last)] = ends {
+                        last[0] - first[0]
+                    } else {
+                        T::ZERO
+                    };
+                    Self::Spline { knots: knots.clone(), curvature, period }
+                }
+            }
+        }
+
+        /// f, f' and f'' at `x`.
+        #[must_use]
+        pub fn at(&self, x: T) -> [T; 3] {
+            match self {
+                Self::Identity => [x, T::ONE, T::ZERO],
+                Self::Spline { knots, curvature, period } => {
+                    spline_curve(knots, curvature, *period, x)
+                }
+                Self::Polynomial(coefficients) => polynomial(coefficients, x),
+            }
+        }
+
+        /// Is it f(x) = x?
+        #[must_use]
+        pub const fn is_identity(&self) -> bool {
+            matches!(self, Self::Identity)
+        }
+    }
+
+    /// The second derivatives of the periodic cubic spline, one for each knot, those of the ends equal.
+    ///
+    /// ```text
+    /// h_(i-1) c_(i-1) + 2 (h_(i-1) + h_i) c_i + h_i c_(i+1) = 6 ((f_(i+1) - f_i)/h_i - (f_i - f_(i-1))/h_(i-1)),   cyclic
+    /// ```
+    ///
+    /// The cyclic matrix is a tridiagonal one and u v^T with u = (-d, 0 .. 0, h), v = (1, 0 .. 0, -h/d): Sherman and Morrison's formula.
+    fn periodic_curvatures<T: Real>(knots: &[[T; 2]]) -> Vec<T> {
+        let n = knots.len().saturating_sub(1);
+        if n < 2 {
+            return vec![T::ZERO; knots.len()];
+        }
+        let six = T::from_f64(6.0);
+        let h: Vec<T> = (0..n).map(|i| knots[i + 1][0] - knots[i][0]).collect();
+        let slope: Vec<T> = (0..n).map(|i| (knots[i + 1][1] - knots[i][1]) / h[i]).collect();
+        let before = |i: usize| if i == 0 { n - 1 } else { i - 1 };
+        let mut diagonal: Vec<T> = (0..n).map(|i| T::TWO * (h[before(i)] + h[i])).collect();
+        let mut right: Vec<T> = (0..n).map(|i| six * (slope[i] - slope[before(i)])).collect();
+        let (corner, d) = (h[n - 1], diagonal[0]);
+        if n == 2 {
+            // both neighbours of a knot are the same one
+            let off = h[0] + h[1];
+            let det = diagonal[0] * diagonal[1] - off * off;
+            let c0 = (right[0] * diagonal[1] - off * right[1]) / det;
+            let c1 = (diagonal[0] * right[1] - off * right[0]) / det;
+            return vec![c0, c1, c0];
+        }
+        diagonal[0] = d + d;
+        diagonal[n - 1] += corner * corner / d;
+        let mut u = vec![T::ZERO; n];
+        (u[0], u[n - 1]) = (-d, corner);
+        for i in 1..n {
+            let m = h[i - 1] / diagonal[i - 1];
+            diagonal[i] -= m * h[i - 1];
+            let (r, w) = (right[i - 1], u[i - 1]);
+            right[i] -= m * r;
+            u[i] -= m * w;
+        }
+        for x in [&mut right, &mut u] {
+            x[n - 1] /= diagonal[n - 1];
+            for i in (0..n - 1).rev() {
+                let next = x[i + 1];
+                x[i] = (x[i] - h[i] * next) / diagonal[i];
+            }
+        }
+        let v = |x: &[T]| x[0] - x[n - 1] * corner / d;
+        let part = v(&right) / (T::ONE + v(&u));
+        let mut curvature: Vec<T> = right.iter().zip(&u).map(|(&r, &u)| r - u * part).collect();
+        curvature.push(curvature[0]);
+        curvature
+    }
+
+    #[cfg(test)]
+    mod tests {
+        use super::*;
+
+        #[test]
+        fn periodic_spline_has_equal_slopes_and_curvatures_where_its_pieces_meet() {
+            let knots = |n: usize| -> Vec<[f64; 2]> {
+                let x = |i: usize| {
+                    0.3 + (i as f64) * 6.0 / n as f64 + 0.1 * ((i % n) as f64 * 0.7).sin()
+                };
+                let f = |i: usize| 0.2 * ((i % n) as f64 * 2.3).sin();
+                (0..=n).map(|i| [x(i), f(i)]).collect()
+            };
+            for n in [2, 3, 4, 7, 20] {
+                let knots = knots(n);
+                let curve = PreparedCurve::new(Some(&Curve::Periodic(knots.clone())));
+                let period = knots[n][0] - knots[0][0];
+                for knot in &knots {
+                    let e = 1e-7;
+                    let [left, right] = [curve.at(knot[0] - e), curve.at(knot[0] + e)];
+                    assert!((left[1] - right[1]).abs() < 1e-5, "{n}: {left:?} {right:?}");
+                    assert!((left[2] - right[2]).abs() < 1e-4, "{n}: {left:?} {right:?}");
+                    assert!((curve.at(knot[0] + 3.0 * period)[0] - knot[1]).abs() < 1e-13);
+                }
+            }
+        }
+
+        #[test]
+        fn derivatives_of_curves_are_their_difference_quotients() {
+            let curves = [
+                Curve::Polynomial(vec![0.3, -1.0, 0.5, 2.0]),
+                Curve::Table(vec![[0.0, 0.0], [1.0, 0.4], [1.5, -0.3], [4.0, 1.0]]),
+                Curve::Periodic(vec![[0.0, 0.0], [1.0, 0.4], [1.5, -0.3], [4.0, 0.0]]),
+            ];
+            for curve in curves.map(|curve| PreparedCurve::new(Some(&curve))) {
+                for x in [0.2, 0.9, 1.2, 2.0, 3.7] {
+                    let e = 1e-5;
+                    let [a, b, at] = [curve.at(x - e), curve.at(x + e), curve.at(x)];
+                    // the error of a central difference is e^2 f''' / 6, and rounding over e
+                    assert!(((b[0] - a[0]) / (2.0 * e) - at[1]).abs() < 1e-8, "{curve:?} at {x}");
+                    assert!(((b[1] - a[1]) / (2.0 * e) - at[2]).abs() < 1e-8, "{curve:?} at {x}");
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,17 @@
+//! Numbers that a mechanism has: joint coordinates and lengths, sums of them, and curves of them.
+//!
+//! Held, such a sum is a [coupling](crate::scene::Coupling).
+
+#[cfg(feature = "alloc")]
+mod coupling;
+mod curve;
+#[cfg(feature = "alloc")]
+mod given;
+
+#[cfg(feature = "alloc")]
+pub use coupling::{CouplingInput, TermInput};
+#[cfg(feature = "alloc")]
+pub use curve::PreparedCurve;
+pub use curve::{polynomial, spline_curve};
+#[cfg(feature = "alloc")]
+pub use given::given_values;

@@ -1,0 +1,165 @@
+//! Couplings as rows: each is a group of its own, over the points and directions of its joints.
+
+use super::build::Builder;
+use super::coordinate::{Coordinate, Places};
+use super::group::{Group, add_squares};
+use super::model::NaturalModel;
+use super::row_builder::{CoupledDraft, GroupDraft, MeasureDraft, RowDraft, difference};
+use crate::Real;
+use crate::algebra::{Vector, norm};
+use crate::elements::{
+    CoupledTables, Measurand, NONE, Span, add_measure_gradient, combine, measured_value,
+};
+use crate::measure::{CouplingInput, TermInput};
+use crate::model::{Owner, Terms};
+use crate::scene::Measured;
+use alloc::vec;
+use alloc::vec::Vec;
+
+impl<T: Real> Builder<'_, T> {
+    /// Adds the rows of the couplings.
+    pub(super) fn add_couplings(&mut self) {
+        let mut guide = self.scene.guides.len();
+        for (i, coupling) in self.scene.couplings.iter().enumerate() {
+            let input = CouplingInput::new(coupling);
+            let scale = input.scale();
+            let terms: Vec<_> =
+                input.terms.iter().map(|term| self.coupled_draft(term, scale)).collect();
+            let number = input.sum.is_some().then_some(guide);
+            guide += usize::from(input.sum.is_some());
+            let is_linear = !coupling.is_driven() && terms.iter().all(|t| t.curve.is_identity());
+            let mut group = GroupDraft::new(Owner::Coupling(i));
+            group.rows.push(RowDraft::Coupled {
+                terms,
+                inverse: T::ONE / scale,
+                guide: number,
+                is_linear,
+            });
+            self.groups.push(group);
+        }
+    }
+
+    fn coupled_draft(&mut self, term: &TermInput<T>, scale: T) -> CoupledDraft<T> {
+        let measures = match (&term.of, term.coordinate) {
+            (Measured::Length { points }, _) => {
+                let parts = points.windows(2).map(|pair| {
+                    let [from, to] = [0, 1].map(|k| self.point(pair[k].0, pair[k].1));
+                    let gap = Vector::<T, 3>::from(pair[1].1) - Vector::from(pair[0].1);
+                    MeasureDraft::Length { x: difference(&to, &from), reference: norm(&gap) }
+                });
+                parts.collect()
+            }
+            (Measured::Coordinate { .. }, Some((joint, number))) => {
+                self.coordinate_measure(joint, number).into_iter().collect()
+            }
+            (Measured::Coordinate { .. }, None) => Vec::new(),
+        };
+        CoupledDraft { factor: term.factor / scale, measures, curve: term.curve.clone() }
+    }
+
+    /// What measures a joint coordinate; the check of a scene refuses those that nothing measures.
+    fn coordinate_measure(&mut self, index: usize, number: usize) -> Option<MeasureDraft<T>> {
+        let scene = self.scene;
+        let joint = &scene.joints[index];
+        let mut freedoms = joint.kind.numbered(scene.dimension);
+        let (_, freedom) = freedoms.find(|(at, _)| *at == number)?;
+        match self.coordinate(joint, scene.dimension, freedom) {
+            Coordinate::Angle { x1, x2, y, sign } => {
+                Some(MeasureDraft::Angle { x1, x2, y, sign, of: (index, number) })
+            }
+            Coordinate::Slide { x, y } => Some(MeasureDraft::Slide { x, y }),
+            Coordinate::Rotation => None,
+        }
+    }
+}
+
+impl<T: Real, const D: usize> NaturalModel<T, D> {
+    /// The tables of the couplings.
+    pub(super) fn coupled_tables(&self) -> CoupledTables<'_, T, impl Fn(u32, T) -> [T; 3] + '_> {
+        CoupledTables {
+            terms: &self.coupled_terms,
+            measures: &self.coupled_measures,
+            pool: &self.pool,
+            curve: |curve: u32, x: T| self.curves[curve as usize].at(x),
+        }
+    }
+
+    /// Adds the second derivatives of the rows of couplings, which the steps leave out, on motions that keep directions of unit length.
+    pub(crate) fn add_coupled_curvature(
+        &self,
+        (q, terms): (&[T], &Terms<T>),
+        lambda: &[T],
+        element: usize,
+        block: &mut [T],
+    ) {
+        let group = &self.groups[element];
+        let (k, rows) = (group.clique.len(), group.rows.range());
+        let at = |x: Span| combine::<T, D>(x.of(&self.pool), q);
+        for row in self.coupled.iter().filter(|row| rows.contains(&(row.row as usize))) {
+            for term in row.terms.of(&self.coupled_terms) {
+                let measures = term.measures.of(&self.coupled_measures);
+                let mut gradient = vec![T::ZERO; group.width as usize];
+                let mut m = T::ZERO;
+                for measure in measures {
+                    m += measure.sign * measured_value(&measure.of, at, &terms.angles);
+                    add_measure_gradient(&measure.of, &self.pool, at, measure.sign, &mut gradient);
+                }
+                let s = lambda[row.row as usize] * term.factor;
+                let [_, slope, bend] = self.coupled_tables().function(term.curve, m);
+                add_squares(block, k, [&gradient], [s * bend]);
+                for measure in measures {
+                    self.add_measure_curvature(
+                        &measure.of,
+                        q,
+                        s * slope * measure.sign,
+                        group,
+                        block,
+                    );
+                }
+            }
+        }
+    }
+
+    fn add_measure_curvature(
+        &self,
+        of: &Measurand<T>,
+        q: &[T],
+        s: T,
+        group: &Group,
+        block: &mut [T],
+    ) {
+        let at = |x: Span| combine::<T, D>(x.of(&self.pool), q);
+        let mut add = |x: Span, y: Span, s: T| {
+            self.add_pairs((x.of(&self.pool), y.of(&self.pool)), s, group, block);
+        };
+        match *of {
+            Measurand::Angle { x1, x2, y, .. } => {
+                let (c, d) = (at(x1).dot(&at(y)), at(x2).dot(&at(y)));
+                let by = s / (c * c + d * d);
+                add(x2, y, by * c);
+                add(x1, y, -by * d);
+            }
+            Measurand::Slide { x, y } => add(x, y, s),
+            Measurand::Length { x, .. } => {
+                let length = norm(&at(x));
+                if length > T::ZERO {
+                    let mut gradient = vec![T::ZERO; group.width as usize];
+                    add_measure_gradient(of, &self.pool, at, T::ONE, &mut gradient);
+                    add(x, x, s / length * T::HALF);
+                    add_squares(block, group.clique.len(), [&gradient], [-s / length]);
+                }
+            }
+        }
+    }
+
+    /// The sum of a coupling in the course of time: value, rate and acceleration.
+    pub(super) fn sum_of(guide: u32, guides: &[[T; 3]]) -> [T; 3] {
+        if guide == NONE { [T::ZERO; 3] } else { guides[guide as usize] }
+    }
+
+    /// Joint, number and place in [`State::memory`](crate::model::State::memory) of each angle that couplings remember, with the sign
+    /// of the joint's coordinate in it.
+    pub(crate) fn coupled_angles(&self) -> impl Iterator<Item = ((usize, usize), T, usize)> + '_ {
+        self.coupled_angles.iter().map(|&(of, sign, place)| (of, sign, place as usize))
+    }
+}

@@ -1,0 +1,134 @@
+//! Couplings: their terms, and whether start values contradict them.
+
+use super::motion::check_law;
+use super::vector::Place;
+use crate::Real;
+use crate::measure::{CouplingInput, given_values};
+use crate::scene::{
+    Coupling, CouplingTerm, Curve, Entry, Freedom, Measured, Scene, SceneError, SceneFault,
+};
+
+pub(super) fn check<T: Real>(scene: &Scene<T>) -> Result<(), SceneError> {
+    for (i, coupling) in scene.couplings.iter().enumerate() {
+        let place = scene.place(Entry::Coupling(i));
+        check_terms(scene, coupling, place)?;
+        place.finite("value", coupling.value)?;
+        if let Some(motion) = &coupling.motion {
+            check_law(motion, place)?;
+        }
+    }
+    Ok(())
+}
+
+fn check_terms<T: Real>(
+    scene: &Scene<T>,
+    coupling: &Coupling<T>,
+    place: Place,
+) -> Result<(), SceneError> {
+    for CouplingTerm { factor, of, curve } in &coupling.terms {
+        place.finite("factor", *factor)?;
+        match of {
+            Measured::Coordinate { joint, number } => {
+                let Some(joint) = scene.joints.get(joint.index()) else {
+                    return place.fault("joint", SceneFault::UnknownReference);
+                };
+                let n = joint.kind.n_coordinates(scene.dimension);
+                if n == 0 {
+                    return place.fault("joint", SceneFault::NoCoordinate);
+                }
+                if *number >= n {
+                    return place.fault("coordinate", SceneFault::UnknownCoordinate(n));
+                }
+                let mut freedoms = joint.kind.numbered(scene.dimension);
+                if !freedoms.any(|(at, freedom)| at == *number && freedom != Freedom::Ball) {
+                    return place.fault("coordinate", SceneFault::BallCoordinate);
+                }
+            }
+            Measured::Length { points } => check_points(scene, points, place)?,
+        }
+        if let Some(curve) = curve {
+            check_curve(curve, place)?;
+        }
+    }
+    if coupling.terms.iter().all(|term| term.factor.is_zero()) {
+        return place.fault("terms", SceneFault::NoTerm);
+    }
+    Ok(())
+}
+
+fn check_points<T: Real>(
+    scene: &Scene<T>,
+    points: &[(crate::scene::BodyId, [T; 3])],
+    place: Place,
+) -> Result<(), SceneError> {
+    if points.len() < 2 {
+        return place.fault("points", SceneFault::WrongCount { needed: 2, found: points.len() });
+    }
+    for (body, at) in points {
+        if body.index().is_some_and(|body| body >= scene.bodies.len()) {
+            return place.fault("points", SceneFault::UnknownReference);
+        }
+        place.vector("points", *at)?;
+    }
+    if points.windows(2).any(|pair| pair[0].1 == pair[1].1) {
+        return place.fault("points", SceneFault::CoincidentPoints);
+    }
+    Ok(())
+}
+
+fn check_curve<T: Real>(curve: &Curve<T>, place: Place) -> Result<(), SceneError> {
+    let rows = match curve {
+        Curve::Polynomial(coefficients) => {
+            if coefficients.is_empty() {
+                return place.fault("coefficients", SceneFault::Missing);
+            }
+            return coefficients.iter().try_for_each(|x| place.finite("coefficients", *x));
+        }
+        Curve::Table(rows) | Curve::Periodic(rows) => rows,
+    };
+    let needed = if matches!(curve, Curve::Periodic(_)) { 3 } else { 2 };
+    if rows.len() < needed {
+        return place.fault("table", SceneFault::WrongCount { needed, found: rows.len() });
+    }
+    rows.iter().flatten().try_for_each(|x| place.finite("table", *x))?;
+    if let Some(i) = rows.windows(2).position(|pair| pair[1][0] <= pair[0][0]) {
+        return place.fault("table", SceneFault::PointOrder(i + 1));
+    }
+    if let (Curve::Periodic(_), [first, .., last]) = (curve, &rows[..])
+        && first[1] != last[1]
+    {
+        let ends = [first[1], last[1]].map(T::to_f64);
+        return place.fault("table", SceneFault::PeriodicEnds(ends));
+    }
+    Ok(())
+}
+
+/// Largest difference of a sum at the start from its value, relative to its terms [-]. Chosen, not tuned.
+const AGREEMENT: f64 = 1e-9;
+
+/// Where all coordinates of a coupling have start values, they give its sum.
+pub(super) fn check_starts<T: Real>(scene: &Scene<T>) -> Result<(), SceneError> {
+    if scene.couplings.is_empty() {
+        return Ok(());
+    }
+    let given = given_values(scene);
+    for (i, coupling) in scene.couplings.iter().enumerate() {
+        let input = CouplingInput::new(coupling);
+        let (mut sum, mut size) = (T::ZERO, T::ONE);
+        let is_known = input.terms.iter().all(|term| {
+            let Some((joint, number)) = term.coordinate else { return false };
+            given[joint].get(number).copied().flatten().is_some_and(|value| {
+                let part = term.factor * term.curve.at(value)[0];
+                (sum, size) = (sum + part, size.max(part.abs()));
+                true
+            })
+        });
+        let needed = input.sum_at(T::ZERO);
+        let tolerance = T::from_f64(AGREEMENT).max(T::from_f64(8.0) * T::EPSILON);
+        if is_known && !((sum - needed).abs() <= tolerance * size) {
+            let numbers = [sum, needed].map(T::to_f64);
+            return scene.place(Entry::Coupling(i)).fault("value", SceneFault::SumAtStart(numbers));
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,169 @@
+//! Couplings: relations of joint coordinates and lengths that hold, such as gears, racks, screws, belts, cams and ropes.
+//!
+//! ```text
+//! sum_k c_k m_k(q) = value + f(t)          m_k: a joint coordinate, unwrapped, or a length; or a curve of one
+//! ```
+//!
+//! Every kind of coupling is such a sum; the constructors below write them. Coordinates and lengths count from the reference
+//! configuration.
+
+use super::resolve::{all, rows};
+use crate::scene::{BodyId, JointId, Motion, Number};
+use alloc::string::String;
+use alloc::vec;
+use alloc::vec::Vec;
+
+/// A relation of joint coordinates and lengths that holds.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Coupling<T> {
+    /// Unique name among the couplings.
+    pub name: String,
+    /// The terms of the sum, at least one.
+    pub terms: Vec<CouplingTerm<T>>,
+    /// What the sum is, from the reference configuration [unit of a factor times its coordinate].
+    pub value: T,
+    /// What is added to the value in the course of time.
+    pub motion: Option<Motion<T>>,
+}
+
+/// A term of a coupling: `factor` times a measured number, or a curve of it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct CouplingTerm<T> {
+    /// Its factor.
+    pub factor: T,
+    /// The number.
+    pub of: Measured<T>,
+    /// The function of the number that is meant; `None`: the number itself.
+    pub curve: Option<Curve<T>>,
+}
+
+/// A number that a mechanism has: zero in the reference configuration.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Measured<T> {
+    /// A coordinate of a joint [rad or m]; angles count their turns.
+    Coordinate {
+        /// The joint.
+        joint: JointId,
+        /// The place of the coordinate among the joint's, from 0.
+        number: usize,
+    },
+    /// The length of a line over points of bodies, less that in the reference configuration [m].
+    Length {
+        /// The points, reference configuration [m].
+        points: Vec<(BodyId, [T; 3])>,
+    },
+}
+
+/// A twice differentiable function.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Curve<T> {
+    /// The natural cubic spline through (x, f); the end values are held outside.
+    Table(Vec<[T; 2]>),
+    /// The periodic cubic spline through (x, f); the last value is the first.
+    Periodic(Vec<[T; 2]>),
+    /// c0 + c1 x + c2 x^2 + ...
+    Polynomial(Vec<T>),
+}
+
+impl<T> Measured<T> {
+    /// The joint and the number of a coordinate; `None` of a length.
+    #[must_use]
+    pub const fn coordinate(&self) -> Option<(JointId, usize)> {
+        match self {
+            Self::Coordinate { joint, number } => Some((*joint, *number)),
+            Self::Length { .. } => None,
+        }
+    }
+}
+
+impl<T> Coupling<T> {
+    /// Does its sum change with time?
+    #[must_use]
+    pub const fn is_driven(&self) -> bool {
+        self.motion.is_some()
+    }
+
+    pub(super) fn map<U>(&self, f: &mut impl FnMut(&T) -> U) -> Coupling<U> {
+        Coupling {
+            name: self.name.clone(),
+            terms: self.terms.iter().map(|term| term.map(f)).collect(),
+            value: f(&self.value),
+            motion: self.motion.as_ref().map(|motion| motion.map(f)),
+        }
+    }
+}
+
+impl<T> CouplingTerm<T> {
+    fn map<U>(&self, f: &mut impl FnMut(&T) -> U) -> CouplingTerm<U> {
+        let curve = self.curve.as_ref().map(|curve| match curve {
+            Curve::Table(table) => Curve::Table(rows(table, f)),
+            Curve::Periodic(table) => Curve::Periodic(rows(table, f)),
+            Curve::Polynomial(list) => Curve::Polynomial(list.iter().map(&mut *f).collect()),
+        });
+        let of = match &self.of {
+            &Measured::Coordinate { joint, number } => Measured::Coordinate { joint, number },
+            Measured::Length { points } => Measured::Length {
+                points: points.iter().map(|(body, at)| (*body, all(at, f))).collect(),
+            },
+        };
+        CouplingTerm { factor: f(&self.factor), of, curve }
+    }
+}
+
+impl CouplingTerm<Number> {
+    /// A factor times the coordinate `number` of a joint.
+    pub fn of_joint(joint: JointId, number: usize, factor: impl Into<Number>) -> Self {
+        let of = Measured::Coordinate { joint, number };
+        Self { factor: factor.into(), of, curve: None }
+    }
+}
+
+impl Coupling<Number> {
+    /// The sum of `factor` times a joint's first coordinate is zero.
+    #[must_use]
+    pub fn linear(terms: impl IntoIterator<Item = (JointId, f64)>) -> Self {
+        let term = |(joint, factor)| CouplingTerm::of_joint(joint, 0, factor);
+        Self::of(terms.into_iter().map(term).collect())
+    }
+
+    /// Any terms, whose sum is zero.
+    #[must_use]
+    pub const fn of(terms: Vec<CouplingTerm<Number>>) -> Self {
+        Self { name: String::new(), terms, value: Number::ZERO, motion: None }
+    }
+
+    /// Two wheels in external mesh about parallel axes: `teeth[0]` of the first turn against `teeth[1]` of the second.
+    #[must_use]
+    pub fn gear(joints: [JointId; 2], teeth: [u32; 2]) -> Self {
+        let [first, second] = teeth.map(f64::from);
+        Self::linear([(joints[0], first), (joints[1], second)])
+    }
+
+    /// A rack: the slide of the second joint is `radius` [m] times the angle of the first.
+    #[must_use]
+    pub fn rack([pinion, rack]: [JointId; 2], radius: f64) -> Self {
+        Self::linear([(rack, 1.0), (pinion, -radius)])
+    }
+
+    /// The second joint's coordinate is a curve of the first's.
+    #[must_use]
+    pub fn cam([shaft, follower]: [JointId; 2], curve: Curve<Number>) -> Self {
+        let of_shaft =
+            CouplingTerm { curve: Some(curve), ..CouplingTerm::of_joint(shaft, 0, -1.0) };
+        Self::of(vec![CouplingTerm::of_joint(follower, 0, 1.0), of_shaft])
+    }
+
+    /// The same coupling whose sum is `value`, from the reference configuration.
+    #[must_use]
+    pub fn holding(mut self, value: impl Into<Number>) -> Self {
+        self.value = value.into();
+        self
+    }
+
+    /// The same coupling whose sum follows a function of time.
+    #[must_use]
+    pub fn driven(mut self, motion: impl Into<Motion<Number>>) -> Self {
+        self.motion = Some(motion.into());
+        self
+    }
+}

@@ -1,0 +1,367 @@
+//! `[[coupling]]`: every kind becomes a sum of joint coordinates and lengths.
+//!
+//! ```text
+//! gear          N1 a1 + N2 a2 = 0   external about axes of the same sense; internal: N1 a1 - N2 a2 = 0
+//! belt          r1 a1 - r2 a2 = 0;  crossed: +
+//! rack          s - r a = 0                 screw         s - lead/(2 pi) a = 0
+//! differential  Na (a - c) + Nb (b - c) = 0  mimic         x - factor y = offset
+//! cam           x - f(y) = 0                rope          length + radius a = value
+//! ```
+
+use crate::read::ReadFault;
+use crate::read::fields::{Context, Fields, Read};
+use crate::read::motion::{MOTION_KEYS, read_motion};
+use crate::read::tree::{Item, Node};
+use mbs_core::scene::{
+    Coupling, CouplingTerm, Curve, Freedom, Joint, JointId, Measured, Motion, Number,
+};
+
+/// The kinds of coupling.
+const KINDS: [&str; 9] =
+    ["gear", "rack", "screw", "belt", "mimic", "differential", "cam", "rope", "linear"];
+
+/// Most teeth of a wheel [-]. Chosen, not tuned: more is no count.
+const MAX_TEETH: u32 = 1_000_000;
+
+/// What is read of a kind: the terms, what their sum is, and what drives it.
+type Sum = (Vec<CouplingTerm<Number>>, Number, Option<Motion<Number>>);
+
+/// Reads a coupling; without a name it is called `coupling-N`, counted from 1.
+pub(crate) fn read(
+    index: usize,
+    fields: &Fields<'_>,
+    joints: &[Joint<Number>],
+) -> Read<Coupling<Number>> {
+    let kind = fields.word("kind")?;
+    let held = |terms| (terms, Number::ZERO, None);
+    let (terms, value, motion) = match kind.0 {
+        "gear" => held(gear(fields, joints)?),
+        "rack" => {
+            allow(fields, &["joints", "radius"])?;
+            let [pinion, rack] = pair(fields)?;
+            held(vec![term(rack, one()), term(pinion, minus(fields.number("radius")?))])
+        }
+        "screw" => held(screw(fields)?),
+        "belt" => {
+            allow(fields, &["joints", "radii", "crossed"])?;
+            let ([first, second], [r1, r2]) = (pair(fields)?, radii(fields)?);
+            let r2 = if fields.flag("crossed", false)? { r2 } else { minus(r2) };
+            held(vec![term(first, r1), term(second, r2)])
+        }
+        "mimic" => {
+            allow(fields, &["joint", "of", "factor", "offset"])?;
+            let joint = fields.context.joint(fields.need("joint")?)?;
+            let of = fields.context.joint(fields.need("of")?)?;
+            let factor = fields.number_or("factor", "1")?;
+            let terms = vec![term(joint, one()), term(of, minus(factor))];
+            (terms, fields.number_or_zero("offset")?, None)
+        }
+        "differential" => held(differential(fields)?),
+        "cam" => {
+            allow(fields, &["joints", "table", "periodic", "coefficients"])?;
+            let [shaft, follower] = pair(fields)?;
+            let curve = Some(need_curve(fields)?);
+            let of_shaft = CouplingTerm { curve, ..term(shaft, minus(one())) };
+            held(vec![term(follower, one()), of_shaft])
+        }
+        "rope" => rope(fields)?,
+        "linear" => {
+            allow(fields, &[&["terms", "value"], &MOTION_KEYS[..]].concat())?;
+            let list = fields.context.list(fields.need("terms")?, TERMS)?;
+            let terms = list.iter().map(|item| read_term(fields, item)).collect::<Read<_>>()?;
+            (terms, fields.number_or_zero("value")?, read_motion(fields)?)
+        }
+        _ => return fields.unknown_word("kind", kind, &KINDS),
+    };
+    let name = match fields.get("name") {
+        Some(_) => fields.name()?,
+        None => format!("coupling-{}", index + 1),
+    };
+    Ok(Coupling { name, terms, value, motion })
+}
+
+const TERMS: &str = "a list of terms like { joint = \"j\", factor = 1.0 }";
+
+/// The keys of all kinds.
+const EVERY_KEY: [&str; 26] = [
+    "joints",
+    "joint",
+    "teeth",
+    "radii",
+    "ratio",
+    "mesh",
+    "radius",
+    "lead",
+    "crossed",
+    "of",
+    "factor",
+    "offset",
+    "table",
+    "periodic",
+    "coefficients",
+    "points",
+    "length",
+    "drum",
+    "terms",
+    "value",
+    "ends",
+    "sine",
+    "ramp",
+    "input",
+    "coordinate",
+    "at",
+];
+
+fn allow(fields: &Fields<'_>, keys: &[&'static str]) -> Read<()> {
+    fields.allow(&[&["name", "kind"], keys].concat(), &EVERY_KEY)
+}
+
+fn one() -> Number {
+    Number::from(1.0)
+}
+
+fn minus(x: Number) -> Number {
+    Number::from(-1.0) * x
+}
+
+fn term(joint: JointId, factor: Number) -> CouplingTerm<Number> {
+    let of = Measured::Coordinate { joint, number: 0 };
+    CouplingTerm { factor, of, curve: None }
+}
+
+fn pair(fields: &Fields<'_>) -> Read<[JointId; 2]> {
+    let context = fields.context;
+    let [first, second] = context.exactly(fields.need("joints")?, "a list of two joint names")?;
+    Ok([context.joint(first)?, context.joint(second)?])
+}
+
+fn radii(fields: &Fields<'_>) -> Read<[Number; 2]> {
+    let item = fields.need("radii")?;
+    let radii: [Number; 2] = fields.context.numbers_of(item, "a list of two radii")?;
+    positive(fields, item, &radii)?;
+    Ok(radii)
+}
+
+fn positive(fields: &Fields<'_>, item: &Item, numbers: &[Number]) -> Read<()> {
+    match numbers.iter().find(|x| !(x.to_f64() > 0.0)) {
+        Some(x) => fields.context.fault(&item.span, ReadFault::NotPositive { number: x.to_f64() }),
+        None => Ok(()),
+    }
+}
+
+/// Two whole numbers from 1.
+fn teeth<'a>(context: &Context<'a>, item: &'a Item) -> Read<[Number; 2]> {
+    let mut teeth = [const { Number::ZERO }; 2];
+    for (to, item) in teeth.iter_mut().zip(context.exactly::<2>(item, "a list of two counts")?) {
+        let count = match &item.node {
+            Node::Number(text) => text.parse().ok().filter(|n| (1..=MAX_TEETH).contains(n)),
+            _ => None,
+        };
+        let Some(count) = count else {
+            let text =
+                if let Node::Number(text) = &item.node { text.clone() } else { "this".into() };
+            return context.fault(&item.span, ReadFault::NotACount { text, most: MAX_TEETH });
+        };
+        *to = Number::from(f64::from(count));
+    }
+    Ok(teeth)
+}
+
+/// Wheels in mesh: by teeth or radii with the sense of the mesh, or by a ratio.
+fn gear(fields: &Fields<'_>, joints: &[Joint<Number>]) -> Read<Vec<CouplingTerm<Number>>> {
+    allow(fields, &["joints", "teeth", "radii", "ratio", "mesh"])?;
+    for [one, other] in
+        [["teeth", "radii"], ["teeth", "ratio"], ["radii", "ratio"], ["mesh", "ratio"]]
+    {
+        fields.exclusive(one, other)?;
+    }
+    let [first, second] = pair(fields)?;
+    if let Some(ratio) = fields.get("ratio") {
+        let ratio = fields.context.number(ratio)?;
+        return Ok(vec![term(second, one()), term(first, minus(ratio))]);
+    }
+    let (item, sizes) = if let Some(item) = fields.get("teeth") {
+        (item, teeth(&fields.context, item)?)
+    } else if let Some(item) = fields.get("radii") {
+        (item, radii(fields)?)
+    } else {
+        return fields
+            .context
+            .fault(fields.header, ReadFault::Missing { key: "teeth, radii or ratio" });
+    };
+    let is_internal = match fields.get("mesh").map(|_| fields.word("mesh")).transpose()? {
+        None | Some(("external", _)) => false,
+        Some(("internal", _)) => true,
+        Some(word) => return fields.unknown_word("mesh", word, &["external", "internal"]),
+    };
+    let Some(sense) = sense(fields, [&joints[first.index()], &joints[second.index()]]) else {
+        return fields.context.fault(&item.span, ReadFault::AxesNotParallel);
+    };
+    let [n1, n2] = sizes;
+    let n2 = if is_internal == (sense > 0.0) { minus(n2) } else { n2 };
+    Ok(vec![term(first, n1), term(second, n2)])
+}
+
+/// Largest sine of the angle of axes that are parallel [-]. Chosen, not tuned: digits of a file.
+const PARALLEL: f64 = 1e-6;
+
+/// The sign of the product of two axes that are parallel; of joints without an axis one, as the check refuses them.
+fn sense(fields: &Fields<'_>, joints: [&Joint<Number>; 2]) -> Option<f64> {
+    let dimension = fields.context.dimension;
+    let is_turn =
+        |joint: &&Joint<Number>| matches!(joint.kind.single(dimension), Some(Freedom::Turn(_)));
+    if fields.context.is_planar() || !joints.iter().all(|joint| is_turn(joint)) {
+        return Some(1.0);
+    }
+    let axes =
+        joints.map(|joint| joint.axes[0].as_ref().map(|axis| axis.each_ref().map(Number::to_f64)));
+    let [Some(a), Some(b)] = axes else { return Some(1.0) };
+    let dot: f64 = a.iter().zip(&b).map(|(x, y)| x * y).sum();
+    let cross: f64 = [(1, 2), (2, 0), (0, 1)]
+        .into_iter()
+        .map(|(i, j)| a[i] * b[j] - a[j] * b[i])
+        .map(|x| x * x)
+        .sum();
+    (cross.sqrt() <= PARALLEL * dot.abs()).then_some(dot.signum())
+}
+
+/// 2 pi to more digits than any precision has.
+const TWO_PI: &str = "6.28318530717958647692528676655900576839433879875021";
+
+/// One cylindrical joint, or a turn and a slide.
+fn screw(fields: &Fields<'_>) -> Read<Vec<CouplingTerm<Number>>> {
+    allow(fields, &["joint", "joints", "lead"])?;
+    fields.exclusive("joint", "joints")?;
+    let item = fields.need("lead")?;
+    let lead = fields.context.number(item)?;
+    if lead.is_zero() {
+        return fields.context.fault(&item.span, ReadFault::NoLead);
+    }
+    // The slide is lead / (2 pi) times the angle; written with one on the angle it has no division.
+    let per_turn = Number::from_decimal(TWO_PI).unwrap_or(Number::ZERO);
+    let (slide, turn) = match fields.get("joint") {
+        Some(joint) => {
+            let joint = fields.context.joint(joint)?;
+            let turn = Measured::Coordinate { joint, number: 1 };
+            (term(joint, per_turn), CouplingTerm { of: turn, ..term(joint, minus(lead)) })
+        }
+        None if fields.get("joints").is_some() => {
+            let [turn, slide] = pair(fields)?;
+            (term(slide, per_turn), term(turn, minus(lead)))
+        }
+        None => {
+            let missing = ReadFault::Missing { key: "joint or joints" };
+            return fields.context.fault(fields.header, missing);
+        }
+    };
+    Ok(vec![slide, turn])
+}
+
+/// Two wheels and the carrier of what runs between them.
+fn differential(fields: &Fields<'_>) -> Read<Vec<CouplingTerm<Number>>> {
+    allow(fields, &["joints", "teeth"])?;
+    let context = fields.context;
+    let [a, b, cage] = context
+        .exactly(fields.need("joints")?, "a list of three joint names: two wheels, the cage")?;
+    let [a, b, cage] = [context.joint(a)?, context.joint(b)?, context.joint(cage)?];
+    let [of_a, of_b] = match fields.get("teeth") {
+        Some(item) => teeth(&context, item)?,
+        None => [one(), one()],
+    };
+    let of_cage = minus(of_a.clone() + of_b.clone());
+    Ok(vec![term(a, of_a), term(b, of_b), term(cage, of_cage)])
+}
+
+/// A line of constant length over points, or one that a drum takes in.
+fn rope(fields: &Fields<'_>) -> Read<Sum> {
+    allow(fields, &[&["points", "length", "drum"], &MOTION_KEYS[..]].concat())?;
+    let context = fields.context;
+    let points = read_points(fields, fields.need("points")?)?;
+    let value = match fields.get("length") {
+        None => Number::ZERO,
+        Some(Item { node: Node::Text(word), .. }) if word == "reference" => Number::ZERO,
+        Some(item) => {
+            let reference: f64 = points
+                .windows(2)
+                .map(|pair| {
+                    let d = |i: usize| pair[1].1[i].to_f64() - pair[0].1[i].to_f64();
+                    (d(0) * d(0) + d(1) * d(1) + d(2) * d(2)).sqrt()
+                })
+                .sum();
+            context.number(item)? + Number::from(-reference)
+        }
+    };
+    let line = CouplingTerm { factor: one(), of: Measured::Length { points }, curve: None };
+    let mut terms = vec![line];
+    if let Some(item) = fields.get("drum") {
+        let drum = context.table(item, "a table: { joint = .., radius = .. }")?;
+        drum.allow(&["joint", "radius"], &[])?;
+        terms.push(term(context.joint(drum.need("joint")?)?, drum.number("radius")?));
+    }
+    Ok((terms, value, read_motion(fields)?))
+}
+
+fn read_points<'a>(
+    fields: &Fields<'a>,
+    item: &'a Item,
+) -> Read<Vec<(mbs_core::scene::BodyId, [Number; 3])>> {
+    let context = fields.context;
+    let form = "a list of points like { body = \"b\", at = [0.0, 0.0] }";
+    let point = |item| {
+        let point = context.table(item, form)?;
+        point.allow(&["body", "at"], &[])?;
+        Ok((context.body(point.need("body")?)?, point.vector("at")?))
+    };
+    context.list(item, form)?.iter().map(point).collect()
+}
+
+/// A term: a coordinate of a joint, or the length over points; a curve of it.
+fn read_term<'a>(fields: &Fields<'a>, item: &'a Item) -> Read<CouplingTerm<Number>> {
+    let context = fields.context;
+    let term = context.table(item, "a term like { joint = \"j\", factor = 1.0 }")?;
+    let keys = ["joint", "coordinate", "points", "factor", "table", "periodic", "coefficients"];
+    term.allow(&keys, &[])?;
+    term.exclusive("joint", "points")?;
+    let of = if let Some(points) = term.get("points") {
+        Measured::Length { points: read_points(fields, points)? }
+    } else {
+        let joint = context.joint(term.need("joint")?)?;
+        Measured::Coordinate { joint, number: coordinate(&term)? }
+    };
+    Ok(CouplingTerm { factor: term.number_or("factor", "1")?, of, curve: read_curve(&term)? })
+}
+
+/// The number of a joint's coordinate, from 0.
+fn coordinate(fields: &Fields<'_>) -> Read<usize> {
+    let Some(item) = fields.get("coordinate") else { return Ok(0) };
+    let text = match &item.node {
+        Node::Number(text) => text.clone(),
+        _ => String::new(),
+    };
+    match text.parse() {
+        Ok(number) => Ok(number),
+        Err(_) => fields.context.fault(&item.span, ReadFault::NotACount { text, most: 5 }),
+    }
+}
+
+fn need_curve(fields: &Fields<'_>) -> Read<Curve<Number>> {
+    match read_curve(fields)? {
+        Some(curve) => Ok(curve),
+        None => {
+            fields.context.fault(fields.header, ReadFault::Missing { key: "table or coefficients" })
+        }
+    }
+}
+
+fn read_curve(fields: &Fields<'_>) -> Read<Option<Curve<Number>>> {
+    fields.exclusive("table", "coefficients")?;
+    let context = fields.context;
+    if let Some(item) = fields.get("coefficients") {
+        return Ok(Some(Curve::Polynomial(context.numbers(item)?)));
+    }
+    let Some(item) = fields.get("table") else { return Ok(None) };
+    let rows = context.list(item, "a list of rows [x, f]")?.iter();
+    let rows = rows.map(|row| context.numbers_of(row, "a row [x, f]")).collect::<Read<_>>()?;
+    let is_periodic = fields.flag("periodic", false)?;
+    Ok(Some(if is_periodic { Curve::Periodic(rows) } else { Curve::Table(rows) }))
+}
