@@ -176,7 +176,7 @@ impl<'a, T: Real, S: Space<T>> Checked<'a, T, S> {
         look.plan()?;
         look.loads()?;
         look.prescriptions(model)?;
-        look.beginning(model)?;
+        look.start(model)?;
         Ok(Self { model: *model, sizes })
     }
 
@@ -357,8 +357,8 @@ impl<T: Real, S: Space<T>> Look<'_, '_, T, S> {
         Ok(())
     }
 
-    fn beginning(&self, model: &Model<'_, T, S>) -> Result<(), LoadError> {
-        let begin = &model.beginning;
+    fn start(&self, model: &Model<'_, T, S>) -> Result<(), LoadError> {
+        let begin = &model.start;
         ensure(begin.z.len() == self.sizes.coordinates, "coordinates", begin.z.len())?;
         ensure(begin.v.len() == self.sizes.freedoms, "velocities", begin.v.len())?;
         ensure(begin.a.len() == self.sizes.freedoms, "accelerations", begin.a.len())?;

@@ -2,7 +2,7 @@
 
 /// Climbs a rung after steps that ran out of time, and comes down after steps that did not.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Ladder {
+pub struct DegradationLadder {
     /// Overruns in a row before an effect is dropped.
     pub patience: u32,
     /// Steps in time in a row before one is taken up again.
@@ -12,14 +12,14 @@ pub struct Ladder {
     in_time: u32,
 }
 
-impl Default for Ladder {
+impl Default for DegradationLadder {
     /// Drops at the second overrun in a row, takes up after a thousand steps in time.
     fn default() -> Self {
         Self::new(2, 1000)
     }
 }
 
-impl Ladder {
+impl DegradationLadder {
     /// On the lowest rung, where all effects are kept. A patience or recovery of zero counts as one.
     #[must_use]
     pub const fn new(patience: u32, recovery: u32) -> Self {
@@ -54,11 +54,11 @@ impl Ladder {
 
 #[cfg(test)]
 mod tests {
-    use super::Ladder;
+    use super::DegradationLadder;
 
     #[test]
     fn a_single_overrun_drops_nothing_and_two_in_a_row_climb_a_rung() {
-        let mut ladder = Ladder::new(2, 3);
+        let mut ladder = DegradationLadder::new(2, 3);
         for has_overrun in [true, false, true, false] {
             ladder.note(has_overrun, 2);
             assert_eq!(ladder.rung(), 0);
@@ -71,7 +71,7 @@ mod tests {
 
     #[test]
     fn steps_in_time_come_down_again_rung_by_rung() {
-        let mut ladder = Ladder::new(1, 3);
+        let mut ladder = DegradationLadder::new(1, 3);
         ladder.note(true, 2);
         ladder.note(true, 2);
         let rungs = [2, 2, 1, 1, 1, 0, 0];

@@ -4,25 +4,25 @@
 #[cfg(feature = "export")]
 extern crate alloc;
 
-pub mod bound;
 mod check;
 #[cfg(feature = "export")]
 pub mod export;
+pub mod format;
 mod inputs;
 mod ladder;
 mod model;
-pub mod record;
+pub mod operation_bound;
 mod solver;
 pub mod table;
 mod tables;
 
 pub use check::{Checked, LoadError, Sizes};
 pub use inputs::{Motion, Prescriptions, SignalLaw, Values};
-pub use ladder::Ladder;
+pub use ladder::DegradationLadder;
 pub use mbs_core::Real;
 pub use mbs_core::step::{InputError, StepError};
 pub use mbs_recursive::bounded::{BoundedReport, Bounds, Unwatched, Watch};
 pub use mbs_recursive::{Options, Planar, Spatial};
-pub use model::{Beginning, Model};
+pub use model::{Model, StartState};
 pub use solver::Solver;
 pub use tables::Tables;

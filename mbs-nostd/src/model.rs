@@ -13,7 +13,7 @@ pub struct Model<'a, T: Real, S: Space<T>> {
     /// Guides and courses as functions of time, or as inputs.
     pub prescriptions: Prescriptions<'a, T>,
     /// The state to start from.
-    pub beginning: Beginning<'a, T>,
+    pub start: StartState<'a, T>,
     /// How many of the effects are kept at each rung of the degrade ladder, fewer on each: the least needed stand last. Empty: all
     /// are always kept.
     pub rungs: &'a [u32],
@@ -21,7 +21,7 @@ pub struct Model<'a, T: Real, S: Space<T>> {
 
 /// A consistent state.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Beginning<'a, T> {
+pub struct StartState<'a, T> {
     /// Time [s].
     pub t: T,
     /// Coordinates.

@@ -2,7 +2,7 @@
 
 use crate::check::{Checked, LoadError, Sizes};
 use crate::inputs::{Values, Written};
-use crate::ladder::Ladder;
+use crate::ladder::DegradationLadder;
 use mbs_core::Real;
 use mbs_core::step::{InputError, StepError};
 use mbs_recursive::bounded::{self, BoundedReport, Bounds, Watch};
@@ -35,7 +35,7 @@ pub struct Solver<
     /// How much work a step may be.
     pub bounds: Bounds,
     /// What is done about overruns.
-    pub ladder: Ladder,
+    pub ladder: DegradationLadder,
     sizes: Sizes,
     t: T,
     z: [T; Z],
@@ -108,12 +108,12 @@ impl<
             courses: C,
         })?;
         let zero = S::Motion::zero();
-        let from = &model.model().beginning;
+        let from = &model.model().start;
         // Made where it is returned: the stack holds no second one.
         Ok(Self {
             options: Options::default(),
             bounds: Bounds::default(),
-            ladder: Ladder::default(),
+            ladder: DegradationLadder::default(),
             sizes,
             t: from.t,
             z: taken(from.z),
@@ -142,7 +142,7 @@ impl<
 
     /// Goes back to the beginning of the model; inputs and choices stay.
     pub fn restart(&mut self, model: &Checked<'_, T, S>) {
-        let from = &model.model().beginning;
+        let from = &model.model().start;
         self.t = from.t;
         (self.z, self.v, self.a) = (taken(from.z), taken(from.v), taken(from.a));
         self.inputs.restart(&model.model().prescriptions);

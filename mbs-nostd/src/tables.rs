@@ -1,9 +1,9 @@
 //! [`Tables`]: a model read from bytes into memory of fixed capacity.
 
 use crate::check::{Checked, LoadError, Sizes};
+use crate::format::{Axes, Reader, Record};
 use crate::inputs::{Motion, Prescriptions, SignalLaw};
-use crate::model::{Beginning, Model};
-use crate::record::{Axes, Reader, Record};
+use crate::model::{Model, StartState};
 use heapless::Vec;
 use mbs_core::Real;
 use mbs_core::laws::entry::Entry;
@@ -203,7 +203,7 @@ impl<
                 knots: (&self.knots.0, &self.knots.1),
                 rows: &self.course_rows,
             },
-            beginning: Beginning { t: self.t, z: &self.z, v: &self.v, a: &self.a },
+            start: StartState { t: self.t, z: &self.z, v: &self.v, a: &self.a },
             rungs: &self.rungs,
         }
     }

@@ -5,8 +5,8 @@ use crate::simulation::Simulation;
 use crate::stop::StopError;
 use crate::tree::{InSpace, Plane};
 use mbs_core::scene::{Dimension, Scene};
-use mbs_nostd::export::{Gathered, bytes, source};
-use mbs_nostd::record::Axes;
+use mbs_nostd::export::{Collected, bytes, source};
+use mbs_nostd::format::Axes;
 use mbs_recursive::{StartError, TreeModel};
 use serde_json::Value;
 
@@ -85,8 +85,8 @@ where
         }
         _ => StopError::tree(mbs_recursive::TreeError::Dimension),
     })?;
-    let gathered = Gathered::new(&tree, &start, ladder);
-    let model = gathered.model();
+    let collected = Collected::new(&tree, &start, ladder);
+    let model = collected.model();
     let in_code = || {
         let mut effects = scene.effects.iter();
         let found = effects.find(|effect| effect.enabled && effect.kind.row().names.is_empty());

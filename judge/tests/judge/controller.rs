@@ -3,7 +3,7 @@
 use judge::random;
 use judge::trial::document;
 use mbs::core::scene::{Dimension, Scene};
-use mbs_nostd::export::Gathered;
+use mbs_nostd::export::Collected;
 use mbs_nostd::{Bounds, Checked, Solver, Unwatched};
 use mbs_recursive::space::Space;
 use mbs_recursive::{Options, Planar, Spatial, TreeError, TreeModel, Workspace, bounded_step};
@@ -19,8 +19,8 @@ fn is_followed<S: Space<f64>, const D: usize>(scene: &Scene<f64>, name: &str, st
     };
     let (natural, begin) = mbs_testkit::start::<D>(scene);
     let start = tree.start(scene, &natural, &begin).unwrap_or_else(|e| panic!("{name}: {e}"));
-    let gathered = Gathered::new(&tree, &start, &[]);
-    let model = Checked::new(&gathered.model()).unwrap_or_else(|e| panic!("{name}: {e}"));
+    let collected = Collected::new(&tree, &start, &[]);
+    let model = Checked::new(&collected.model()).unwrap_or_else(|e| panic!("{name}: {e}"));
     let mut solver = Room::new(&model).unwrap_or_else(|e| panic!("{name}: {e}"));
     let (options, bounds) = (Options::default(), Bounds::default());
     let (mut state, mut workspace) = (start.clone(), Workspace::new(&tree));

@@ -1,7 +1,7 @@
 //! A model as bytes, as `Tables::read` reads them.
 
+use crate::format::{Axes, Bytes, Record};
 use crate::model::Model;
-use crate::record::{Axes, Bytes, Record};
 use crate::tables::HEAD;
 use alloc::vec::Vec;
 use mbs_core::Real;
@@ -26,7 +26,7 @@ pub fn bytes<T: Real + Record, S: Axes<T>>(
     is_single: bool,
 ) -> Option<Vec<u8>> {
     let m = &model.mechanism;
-    let (plan, laws, begin) = (&m.loops.plan, &model.prescriptions, &model.beginning);
+    let (plan, laws, begin) = (&m.loops.plan, &model.prescriptions, &model.start);
     let tables = m.tables.tables();
     let to = &mut Bytes { bytes: Vec::new(), is_single };
     let width = if is_single { 4 } else { 8 };

@@ -1,11 +1,11 @@
-//! Models as tables: gathered from a tree, written as bytes or as Rust. On the host, with the feature `export`.
+//! Models as tables: collected from a tree, written as bytes or as Rust. On the host, with the feature `export`.
 
 mod bytes;
-mod gather;
+mod collect;
 mod source;
 
-pub use crate::record::Bytes;
+pub use crate::format::Bytes;
 pub use bytes::bytes;
-pub use gather::{Gathered, needs};
+pub use collect::{Collected, needs};
 pub use source::source;
 pub(crate) use source::{Source, close, name, open};

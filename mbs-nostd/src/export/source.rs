@@ -1,9 +1,9 @@
 //! A model as a file of Rust: constant tables, and a solver of just their size.
 
-use super::gather::needs;
+use super::collect::needs;
 use crate::check::{Checked, LoadError};
+use crate::format::{Axes, Record};
 use crate::model::Model;
-use crate::record::{Axes, Record};
 use alloc::format;
 use alloc::string::String;
 use mbs_core::Real;
@@ -162,7 +162,7 @@ fn constant<T: Real + Record, S: Axes<T>>(
          \x20       knots: (&KNOTS, &CURVATURES),\n\
          \x20       rows: &COURSE_ROWS,\n\
          \x20   }},\n\
-         \x20   beginning: Beginning {{ t: {}, z: &Z, v: &V, a: &A }},\n\
+         \x20   start: StartState {{ t: {}, z: &Z, v: &V, a: &A }},\n\
          \x20   rungs: &RUNGS,\n\
          }};\n",
         value(&m.loops.floor),
@@ -171,14 +171,14 @@ fn constant<T: Real + Record, S: Axes<T>>(
         value(&m.length),
         m.n_coordinates,
         m.n_freedoms,
-        value(&model.beginning.t),
+        value(&model.start.t),
     ));
 }
 
 /// All tables but those of laws.
 fn lists<T: Real + Record, S: Axes<T>>(model: &Model<'_, T, S>, to: &mut String) {
     let m = &model.mechanism;
-    let (plan, laws, begin) = (&m.loops.plan, &model.prescriptions, &model.beginning);
+    let (plan, laws, begin) = (&m.loops.plan, &model.prescriptions, &model.start);
     table("LINKS", "Link<Scalar, Axes>", m.links, to);
     table("LOOPS", "ClosedLoop<Scalar, Axes>", m.loops.loops, to);
     table("ROWS", "Row<Scalar, Axes>", m.loops.rows, to);

@@ -2,7 +2,7 @@
 
 use crate::support::start;
 use mbs_core::scene::{Effect, EffectKind, JointId, JointTorque, Motion, Scene, Signal, TableEnds};
-use mbs_nostd::export::{Gathered, bytes};
+use mbs_nostd::export::{Collected, bytes};
 use mbs_nostd::{Bounds, Checked, InputError, Options, Planar, Solver, Tables, Unwatched};
 use mbs_recursive::{Workspace, bounded_step};
 use mbs_testkit::file;
@@ -28,10 +28,10 @@ fn a_course_written_for_one_step_acts_in_that_whole_step() {
     scene.initials.clear();
     scene.effects.pop();
     let (tree, begin) = start::<Planar, 2>(&scene);
-    let gathered = Gathered::new(&tree, &begin, &[]);
-    let text = bytes(&gathered.model(), false).expect("a scene without own laws");
+    let collected = Collected::new(&tree, &begin, &[]);
+    let text = bytes(&collected.model(), false).expect("a scene without own laws");
     let tables = RoomTables::read(&text).expect("a model");
-    let flash = Checked::new(&gathered.model()).expect("a model");
+    let flash = Checked::new(&collected.model()).expect("a model");
     let mut mass = [0.0];
     tree.write_mass_matrix(&begin, &mut Workspace::new(&tree), &mut mass);
     let h = 1e-3;
@@ -58,15 +58,15 @@ fn a_solver_of_fixed_capacity_takes_inputs_as_the_recursion_does() {
     scene.initials.clear();
     let (tree, begin) = start::<Planar, 2>(&scene);
     let effect = scene.effects.len() - 2;
-    let gathered = Gathered::new(&tree, &begin, &[]);
-    let course = gathered
+    let collected = Collected::new(&tree, &begin, &[]);
+    let course = collected
         .model()
         .prescriptions
         .courses
         .iter()
         .position(|c| matches!(c, mbs_nostd::SignalLaw::Input(_)))
         .expect("an input");
-    let flash = Checked::new(&gathered.model()).expect("a model");
+    let flash = Checked::new(&collected.model()).expect("a model");
     let mut solver = Room::new(&flash).expect("room");
     let (host, mut state) = start::<Planar, 2>(&scene);
     let mut workspace = Workspace::new(&host);
@@ -94,8 +94,8 @@ fn a_table_with_level_ends_steps_from_bytes_as_it_does_on_the_host() {
     scene.guides[0].law = Motion::Table { rows, ends: TableEnds::Level };
     scene.initials.clear();
     let (host, mut state) = start::<Planar, 2>(&scene);
-    let gathered = Gathered::new(&host, &state, &[]);
-    let text = bytes(&gathered.model(), false).expect("a scene without own laws");
+    let collected = Collected::new(&host, &state, &[]);
+    let text = bytes(&collected.model(), false).expect("a scene without own laws");
     let tables = RoomTables::read(&text).expect("a model");
     let model = tables.model();
     let mut solver = Room::new(&model).expect("room");
@@ -117,8 +117,8 @@ fn a_table_with_level_ends_steps_from_bytes_as_it_does_on_the_host() {
 fn what_is_no_input_or_not_finite_is_refused_and_changes_nothing() {
     let scene = with_torques("double-pendulum");
     let (tree, begin) = start::<Planar, 2>(&scene);
-    let gathered = Gathered::new(&tree, &begin, &[]);
-    let model = Checked::new(&gathered.model()).expect("a model");
+    let collected = Collected::new(&tree, &begin, &[]);
+    let model = Checked::new(&collected.model()).expect("a model");
     let mut solver = Room::new(&model).expect("room");
     let mut other = solver.clone();
     assert_eq!(solver.set_input(1, [1.0; 3]), Err(InputError::NotAnInput { number: 1 }));

@@ -1,7 +1,7 @@
-//! The tests of this crate, in one program: each program would compile the same solvers anew. `cargo test -p mbs-nostd bound::` runs one module.
+//! The tests of this crate, in one program: each program would compile the same solvers anew. `cargo test -p mbs-nostd operation_bound::` runs one module.
 
 mod support;
 
 mod agreement;
-mod bound;
 mod inputs;
+mod operation_bound;

@@ -8,8 +8,8 @@ use mbs::{FormulationKind, InSpace, IntegratorKind, Names, Plane, Settings, Stop
 use mbs_core::Real;
 use mbs_core::natural::NaturalModel;
 use mbs_core::scene::{BodyId, Dimension, Inertia, JointKind, Motion, Scene};
-use mbs_nostd::export::Gathered;
-use mbs_nostd::{Bounds, bound};
+use mbs_nostd::export::Collected;
+use mbs_nostd::{Bounds, operation_bound};
 use mbs_recursive::{TreeModel, TreeState};
 
 /// Takes stock of a scene.
@@ -55,8 +55,8 @@ where
     let cut_joints: Vec<_> =
         tree.cut_joints().map(|joint| scene.joints[joint].name.clone()).collect();
     let rest = TreeState::at_rest(&tree);
-    let gathered = Gathered::new(&tree, &rest, &[]);
-    let bound = bound::step(&gathered.model(), Bounds::default());
+    let collected = Collected::new(&tree, &rest, &[]);
+    let bound = operation_bound::step(&collected.model(), Bounds::default());
     let controller = ControllerStep {
         products: bound.products,
         sums: bound.sums,

@@ -4,7 +4,7 @@
 
 mod model;
 
-use mbs_nostd::{Checked, LoadError, Unwatched, bound};
+use mbs_nostd::{Checked, LoadError, Unwatched, operation_bound};
 use model::{MODEL, ModelSolver};
 
 /// Where the tip is after 1 s, by an extrapolation with 34 digits [m].
@@ -22,7 +22,7 @@ fn main() -> Result<(), LoadError> {
         }
     }
 
-    let bound = bound::step(&MODEL, solver.bounds);
+    let bound = operation_bound::step(&MODEL, solver.bounds);
     // The elbow's angle is that of the lower rod on the upper one.
     let z = solver.coordinates();
     let (upper, lower) = (z[0], z[0] + z[1]);

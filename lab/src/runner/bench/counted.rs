@@ -4,8 +4,8 @@ use core::cell::Cell;
 use core::fmt;
 use core::ops::{Add, AddAssign, Div, DivAssign, Mul, MulAssign, Neg, Sub, SubAssign};
 use mbs_core::Real;
-use mbs_nostd::bound::Operations;
-use mbs_nostd::record::{Reader, Record};
+use mbs_nostd::format::{Reader, Record};
+use mbs_nostd::operation_bound::Operations;
 use num_traits::{One, Zero};
 
 thread_local! {

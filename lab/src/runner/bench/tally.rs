@@ -2,7 +2,7 @@
 
 use crate::bench::clocked::{Meter, NAMES, Phase};
 use crate::bench::counted::done;
-use mbs_nostd::bound::Operations;
+use mbs_nostd::operation_bound::Operations;
 use std::sync::Mutex;
 
 /// Operations of each phase, and of what is beside them.

@@ -12,7 +12,7 @@ mod run;
 use core::ffi::{c_int, c_void};
 use core::fmt::{self, Write};
 use mbs_nostd::table::LinkKind;
-use mbs_nostd::{Bounds, bound};
+use mbs_nostd::{Bounds, operation_bound};
 
 #[link(name = "c")]
 unsafe extern "C" {
@@ -56,7 +56,7 @@ fn is_planar(free: LinkKind) -> bool {
 /// What the C library starts.
 #[unsafe(no_mangle)]
 pub extern "C" fn main() -> c_int {
-    let bound = bound::step(&model::MODEL, Bounds::default());
+    let bound = operation_bound::step(&model::MODEL, Bounds::default());
     let is_double = size_of::<model::Scalar>() == 8;
     let is_sent =
         writeln!(Out, "b {}", bound.instructions(is_double)).is_ok() && write_units().is_ok();

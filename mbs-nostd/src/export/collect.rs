@@ -1,20 +1,20 @@
 //! A tree's tables in the order in which its effects may be dropped.
 
 use crate::inputs::{Motion, Prescriptions, SignalLaw};
-use crate::model::{Beginning, Model};
+use crate::model::{Model, StartState};
 use alloc::vec::Vec;
 use mbs_core::Real;
 use mbs_core::inputs::Prescribed;
 use mbs_core::laws::Part;
 use mbs_core::scene::{Motion as SceneLaw, Signal};
-use mbs_recursive::loads::{Load, Measure};
+use mbs_recursive::loads::{Measure, Load};
 use mbs_recursive::slices::TreeSlices;
 use mbs_recursive::space::Space;
 use mbs_recursive::{TreeModel, TreeState};
 
 /// A model whose tables are partly those of a tree, partly its own.
 #[derive(Debug, Clone)]
-pub struct Gathered<'a, T: Real, S: Space<T>> {
+pub struct Collected<'a, T: Real, S: Space<T>> {
     mechanism: TreeSlices<'a, T, S>,
     loads: Vec<Load<T, S>>,
     state: &'a TreeState<T>,
@@ -30,7 +30,7 @@ fn index(i: usize) -> u32 {
     u32::try_from(i).unwrap_or(u32::MAX)
 }
 
-impl<'a, T: Real, S: Space<T>> Gathered<'a, T, S> {
+impl<'a, T: Real, S: Space<T>> Collected<'a, T, S> {
     /// Gathers a tree's tables and a state to begin from. `ladder` names effects of the scene by index, the one to be dropped first
     /// in front; each has a rung.
     #[must_use]
@@ -110,7 +110,7 @@ impl<'a, T: Real, S: Space<T>> Gathered<'a, T, S> {
                 knots: (&self.knots, &self.curvatures),
                 rows: &self.rows,
             },
-            beginning: Beginning {
+            start: StartState {
                 t: self.state.t,
                 z: &self.state.z,
                 v: &self.state.v,

@@ -3,22 +3,22 @@
 /// A struct, by its fields.
 macro_rules! record_struct {
     ([$($bounds:tt)*] $type:ty = $name:ident { $($field:tt),* $(,)? }) => {
-        impl<$($bounds)*> $crate::record::Record for $type {
+        impl<$($bounds)*> $crate::format::Record for $type {
             fn read(
-                from: &mut $crate::record::Reader<'_>,
+                from: &mut $crate::format::Reader<'_>,
             ) -> Result<Self, $crate::check::LoadError> {
-                Ok($name { $($field: $crate::record::Record::read(from)?),* })
+                Ok($name { $($field: $crate::format::Record::read(from)?),* })
             }
             #[cfg(feature = "export")]
-            fn write(&self, to: &mut $crate::record::Bytes) -> bool {
-                $($crate::record::Record::write(&self.$field, to))&&*
+            fn write(&self, to: &mut $crate::format::Bytes) -> bool {
+                $($crate::format::Record::write(&self.$field, to))&&*
             }
             #[cfg(feature = "export")]
             fn source(&self, to: &mut alloc::string::String) {
                 $crate::export::open(stringify!($name), to);
                 $(
                     $crate::export::name(stringify!($field), to);
-                    $crate::record::Record::source(&self.$field, to);
+                    $crate::format::Record::source(&self.$field, to);
                 )*
                 $crate::export::close(to);
             }
@@ -31,15 +31,15 @@ macro_rules! record_enum {
     ([$($bounds:tt)*] $type:ty = $name:ident {
         $($(#[$meta:meta])* $tag:literal $variant:ident { $($field:tt $own:ident),* }),* $(,)?
     }) => {
-        impl<$($bounds)*> $crate::record::Record for $type {
+        impl<$($bounds)*> $crate::format::Record for $type {
             fn read(
-                from: &mut $crate::record::Reader<'_>,
+                from: &mut $crate::format::Reader<'_>,
             ) -> Result<Self, $crate::check::LoadError> {
                 match u32::read(from)? {
                     $(
                         $(#[$meta])*
                         $tag => Ok($name::$variant {
-                            $($field: $crate::record::Record::read(from)?),*
+                            $($field: $crate::format::Record::read(from)?),*
                         }),
                     )*
                     _ => Err(from.fault(4)),
@@ -47,13 +47,13 @@ macro_rules! record_enum {
             }
             #[cfg(feature = "export")]
             #[allow(unreachable_patterns, unused_variables, reason = "some effects may be left out")]
-            fn write(&self, to: &mut $crate::record::Bytes) -> bool {
+            fn write(&self, to: &mut $crate::format::Bytes) -> bool {
                 match self {
                     $(
                         $(#[$meta])*
                         $name::$variant { $($field: $own),* } => {
                             let tag: u32 = $tag;
-                            tag.write(to) $(&& $crate::record::Record::write($own, to))*
+                            tag.write(to) $(&& $crate::format::Record::write($own, to))*
                         }
                     )*
                     _ => false,
@@ -72,7 +72,7 @@ macro_rules! record_enum {
                             );
                             $(
                                 $crate::export::name(stringify!($field), to);
-                                $crate::record::Record::source($own, to);
+                                $crate::format::Record::source($own, to);
                             )*
                             $crate::export::close(to);
                         }

@@ -3,9 +3,9 @@
 use crate::support::counted::{Counted, done};
 use crate::support::start;
 use mbs_core::scene::Scene;
-use mbs_nostd::bound::{self, Operations};
-use mbs_nostd::export::{Gathered, bytes};
-use mbs_nostd::record::Axes;
+use mbs_nostd::export::{Collected, bytes};
+use mbs_nostd::format::Axes;
+use mbs_nostd::operation_bound::{self, Operations};
 use mbs_nostd::{Bounds, Planar, Solver, Spatial, Tables, Unwatched};
 use mbs_recursive::rows::Row;
 use mbs_testkit::file;
@@ -36,8 +36,8 @@ fn counted_of<S: Axes<Counted> + Axes<f64>, const D: usize>(
 ) -> (Operations, Vec<Operations>) {
     let (tree, begin) = start::<S, D>(scene);
     let name = &scene.name;
-    let gathered = Gathered::new(&tree, &begin, &[]);
-    let text = bytes(&gathered.model(), false).expect("a scene without own laws");
+    let collected = Collected::new(&tree, &begin, &[]);
+    let text = bytes(&collected.model(), false).expect("a scene without own laws");
     // The same numbers again, as counting ones.
     let tables = Box::new(RoomTables::<S>::read(&text).unwrap_or_else(|e| panic!("{name}: {e}")));
     let model = tables.model();
@@ -50,7 +50,7 @@ fn counted_of<S: Axes<Counted> + Axes<f64>, const D: usize>(
         steps.push(done());
         report.unwrap_or_else(|e| panic!("{name}: {e}"));
     }
-    (bound::step(model.model(), bounds), steps)
+    (operation_bound::step(model.model(), bounds), steps)
 }
 
 fn is_exact<S: Axes<Counted> + Axes<f64>, const D: usize>(name: &str) {
