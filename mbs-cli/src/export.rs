@@ -4,7 +4,7 @@ use crate::files;
 use crate::refusal::Refusal;
 use clap::Args;
 use mbs::export::{ExportError, export, ladder};
-use mbs::{Method, Precision, Settings};
+use mbs::{Method, Precision, ResolvedMethod};
 use std::path::PathBuf;
 use std::process::ExitCode;
 
@@ -43,7 +43,7 @@ fn written(arguments: &Arguments) -> Result<(), Refusal> {
         precision: arguments.precision.clone(),
         ..Method::default()
     };
-    let settings = Settings::new(&scene, &overrides);
+    let settings = ResolvedMethod::new(&scene, &overrides);
     let settings = settings.map_err(|error| files::refusal(&error, &document))?;
     let rungs = match &arguments.ladder {
         None => Vec::new(),

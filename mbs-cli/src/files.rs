@@ -7,7 +7,7 @@ use mbs::folder::{Folder, WriteError, id, write_file};
 use mbs::record::{PilotReport, Provenance};
 use mbs::scene_file::SceneFile;
 use mbs::scene_file::format::significant;
-use mbs::{Method, Settings, SettingsError};
+use mbs::{Method, ResolvedMethod, SettingsError};
 use std::fs::File;
 use std::io::{self, Read};
 use std::path::Path;
@@ -29,7 +29,7 @@ pub(crate) fn read_big() {
 pub(crate) struct Begun {
     pub(crate) document: SceneFile,
     pub(crate) scene: Scene<f64>,
-    pub(crate) settings: Settings,
+    pub(crate) settings: ResolvedMethod,
     /// Where the results go.
     pub(crate) folder: Option<Folder>,
 }
@@ -50,7 +50,7 @@ pub(crate) fn begin(
     (out, files): (Option<&Path>, &[&str]),
 ) -> Result<Begun, Refusal> {
     let (document, scene) = scene(path)?;
-    let settings = Settings::new(&scene, overrides)
+    let settings = ResolvedMethod::new(&scene, overrides)
         .and_then(|settings| settings.check_step(&scene, overrides).map(|()| settings))
         .map_err(|e| refusal(&e, &document))?;
     let folder = out.map(|out| folder(out, files)).transpose()?;
@@ -136,9 +136,9 @@ pub(crate) fn refusal(error: &SettingsError, document: &SceneFile) -> Refusal {
 }
 
 /// The id of results of a scene that was run with these settings.
-pub(crate) fn results_id(document: &SceneFile, settings: &Settings) -> String {
+pub(crate) fn results_id(document: &SceneFile, settings: &ResolvedMethod) -> String {
     // what a pilot measured differs from time to time, and threads change no bit
-    let same = Settings { choice: None, threads: 1, ..settings.clone() };
+    let same = ResolvedMethod { choice: None, threads: 1, ..settings.clone() };
     id(&[document.text(), &format!("{same:?}")])
 }
 
@@ -158,7 +158,7 @@ pub(crate) fn object_and_page(
 pub(crate) fn provenance(
     (command, scene): (&str, &Path),
     options: &[(&str, Option<String>)],
-    settings: &Settings,
+    settings: &ResolvedMethod,
 ) -> Provenance {
     let mut command = format!("mbs {command} {}", scene.display());
     for (key, value) in options {

@@ -3,7 +3,9 @@
 use crate::refusal::Refusal;
 use crate::say::warn;
 use clap::Args;
-use mbs::{CHECKPOINT, Checkpoint, CheckpointError, Keeping, Method, Settings, words};
+use mbs::{
+    CHECKPOINT, Checkpoint, CheckpointError, CheckpointWriter, Method, ResolvedMethod, words,
+};
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
@@ -31,16 +33,16 @@ pub(crate) struct Arguments {
 
 /// What a run resumes from, and how it is kept.
 #[derive(Debug, Default)]
-pub(crate) struct Kept {
+pub(crate) struct RunCheckpoints {
     pub(crate) from: Option<Checkpoint>,
-    pub(crate) keeping: Option<Keeping>,
+    pub(crate) writer: Option<CheckpointWriter>,
     /// Where the checkpoint of the directory is.
     checkpoint: Option<PathBuf>,
 }
 
 impl Arguments {
     /// Reads the checkpoint to resume from, where there is one; else the refusal.
-    pub(crate) fn begin(&self, out: Option<&Path>) -> Result<Kept, Refusal> {
+    pub(crate) fn begin(&self, out: Option<&Path>) -> Result<RunCheckpoints, Refusal> {
         if let Some(every) = self.checkpoint
             && !(every > 0.0 && every.is_finite())
         {
@@ -52,10 +54,10 @@ impl Arguments {
         }
         let checkpoint = out.map(|out| out.join(CHECKPOINT));
         let Some(path) = self.resumed(out)? else {
-            return Ok(Kept { checkpoint, ..Kept::default() });
+            return Ok(RunCheckpoints { checkpoint, ..RunCheckpoints::default() });
         };
         let from = Checkpoint::open(&path).map_err(|error| refusal(&path, &error))?;
-        Ok(Kept { from: Some(from), keeping: None, checkpoint })
+        Ok(RunCheckpoints { from: Some(from), writer: None, checkpoint })
     }
 
     /// The file to resume from.
@@ -73,7 +75,11 @@ impl Arguments {
     }
 
     /// Keeps the run in its directory, which no other writes, unless an earlier start left something there; else the refusal.
-    pub(crate) fn keep(&self, out: Option<&Path>, kept: &mut Kept) -> Result<(), Refusal> {
+    pub(crate) fn keep(
+        &self,
+        out: Option<&Path>,
+        kept: &mut RunCheckpoints,
+    ) -> Result<(), Refusal> {
         let Some(out) = out else { return Ok(()) };
         let there = out.join(CHECKPOINT);
         match self.resumed(Some(out))? {
@@ -94,8 +100,8 @@ impl Arguments {
         let stored =
             |from: &Checkpoint| if from.every() > 0.0 { from.every() } else { f64::INFINITY };
         if let Some(every) = self.checkpoint.or(kept.from.as_ref().map(stored)) {
-            let keeping = Keeping::new(out, every);
-            kept.keeping = Some(keeping.map_err(|error| Refusal::checkpoint(&error))?);
+            let writer = CheckpointWriter::new(out, every);
+            kept.writer = Some(writer.map_err(|error| Refusal::checkpoint(&error))?);
         }
         Ok(())
     }
@@ -114,7 +120,7 @@ fn unfinished(out: &Path, hint: &str) -> Refusal {
     Refusal::new("run-unfinished", message, hint)
 }
 
-impl Kept {
+impl RunCheckpoints {
     /// What is given, and the settings of the checkpoint where nothing is; else the refusal.
     pub(crate) fn overrides(&self, given: Method) -> Result<Method, Refusal> {
         let Some(from) = &self.from else { return Ok(given) };
@@ -122,7 +128,7 @@ impl Kept {
     }
 
     /// The settings, where they are those of the checkpoint; else the refusal.
-    pub(crate) fn settle(&self, settings: Settings) -> Result<Settings, Refusal> {
+    pub(crate) fn settle(&self, settings: ResolvedMethod) -> Result<ResolvedMethod, Refusal> {
         let Some(from) = &self.from else { return Ok(settings) };
         from.settle(settings).map_err(|error| Refusal::checkpoint(&error))
     }
@@ -130,16 +136,16 @@ impl Kept {
     /// The run has ended and its results are written: there is nothing to resume, unless it was interrupted. Reports what could not be
     /// written on the way.
     pub(crate) fn end(&self, is_interrupted: bool) {
-        if let Some(keeping) = &self.keeping
-            && let Some(error) = keeping.failure()
+        if let Some(writer) = &self.writer
+            && let Some(error) = writer.failure()
         {
-            let (path, error) = (keeping.path(), crate::say::plain(error));
+            let (path, error) = (writer.path(), crate::say::plain(error));
             warn(&format!(
                 "warning: the last checkpoint could not be written: cannot write to `{}`: {error}",
                 path.display()
             ));
         }
-        if is_interrupted && self.keeping.is_some() {
+        if is_interrupted && self.writer.is_some() {
             return;
         }
         if let Some(checkpoint) = &self.checkpoint {

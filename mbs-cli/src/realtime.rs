@@ -9,7 +9,7 @@ use mbs::realtime::{
 };
 use mbs::record::{RunSummary, write_overruns};
 use mbs::scene_file::SceneFile;
-use mbs::{Outcome, Settings};
+use mbs::{Outcome, ResolvedMethod};
 
 /// Options of a paced run.
 #[derive(Debug, Args)]
@@ -88,7 +88,7 @@ fn policy(text: &str) -> Result<Overrun, String> {
 /// Runs at the pace of the system's clock; else the refusal.
 pub(crate) fn run(
     scene: (&SceneFile, &Scene<f64>),
-    settings: &Settings,
+    settings: &ResolvedMethod,
     pacing: &Pacing,
 ) -> Result<Outcome, Refusal> {
     let run = run_document(scene, settings, pacing, &mut SystemClock::new());

@@ -14,7 +14,9 @@ use mbs::realtime::Pacing;
 use mbs::record::{Provenance, RunError};
 use mbs::scene_file::SceneFile;
 use mbs::scene_file::format::significant;
-use mbs::{CHECKPOINT, Method, Outcome, Precision, Settings, StopError, run_document_kept, words};
+use mbs::{
+    CHECKPOINT, Method, Outcome, Precision, ResolvedMethod, StopError, run_document_kept, words,
+};
 use mbs_study::auto::{Clock, Goal, Plan, PlanError, Processor, plan, run_plan, time};
 use mbs_study::estimate::estimate;
 use std::path::PathBuf;
@@ -146,7 +148,7 @@ impl Arguments {
         }
     }
 
-    fn provenance(&self, o: &Method, settings: &Settings) -> Provenance {
+    fn provenance(&self, o: &Method, settings: &ResolvedMethod) -> Provenance {
         let options = [
             ("formulation", o.formulation.clone()),
             ("step", o.step.map(|x| x.to_string())),
@@ -218,7 +220,7 @@ struct Run {
     plan: Plan,
     overrides: Method,
     pacing: Option<Pacing>,
-    kept: keep::Kept,
+    kept: keep::RunCheckpoints,
 }
 
 /// Files of a run.
@@ -281,7 +283,7 @@ fn outcome(
     arguments: &Arguments,
     run: &mut Run,
     clock: &mut dyn Clock,
-) -> Result<(Outcome, Settings), Refusal> {
+) -> Result<(Outcome, ResolvedMethod), Refusal> {
     let Run { begun, plan, pacing, kept, .. } = run;
     let (document, scene) = (&begun.document, &begun.scene);
     let settings = plan.first();
@@ -296,7 +298,7 @@ fn outcome(
         bar.bar.finish_and_clear();
         return run.map_err(|error| Refusal::scene(&error));
     }
-    let parts = (kept.from.as_ref(), kept.keeping.as_mut());
+    let parts = (kept.from.as_ref(), kept.writer.as_mut());
     let outcome = run_document_kept((document, scene), settings, &mut reached, parts);
     bar.bar.finish_and_clear();
     match outcome {
@@ -317,7 +319,7 @@ fn outcome(
 fn report(
     outcome: &Outcome,
     arguments: &Arguments,
-    (run, settings): (&Run, &Settings),
+    (run, settings): (&Run, &ResolvedMethod),
 ) -> ExitCode {
     let error = outcome.error.as_ref();
     let mut status = if error.is_some() { ExitCode::from(STOPPED) } else { ExitCode::SUCCESS };

@@ -17,7 +17,7 @@ const MOST_NUMBERS: f64 = 1e7;
 
 /// Points of the figure, and the animation they fill.
 #[derive(Debug)]
-pub(crate) struct Figure<T: Real, const D: usize> {
+pub(crate) struct AnimationRecorder<T: Real, const D: usize> {
     points: Vec<Affine<T, D>>,
     pub(crate) animation: Animation,
     /// Time between pictures, and of the next one [s].
@@ -27,7 +27,7 @@ pub(crate) struct Figure<T: Real, const D: usize> {
     spare: Vec<Vec<f64>>,
 }
 
-impl<T: Real, const D: usize> Figure<T, D> {
+impl<T: Real, const D: usize> AnimationRecorder<T, D> {
     /// Lays out the figure of a run of the given duration [s].
     pub(crate) fn new(scene: &Scene<T>, model: &NaturalModel<T, D>, duration: f64) -> Self {
         let mut layout = Layout { scene, model, points: Vec::new(), used: used(scene) };

@@ -1,8 +1,8 @@
 //! Steps of controlled length, whatever the formulation.
 
-use crate::checkpoint::ControlKept;
+use crate::checkpoint::ControlSnapshot;
 use crate::choice::StepRule;
-use crate::settings::Settings;
+use crate::settings::ResolvedMethod;
 use mbs_core::Real;
 use mbs_core::control::{
     Accepted, Driver, EnergyRule, Event, Invariant, LocalError, Rules, Stepper, TrialStep,
@@ -32,7 +32,7 @@ impl<T: Real, const D: usize> Control<T, D> {
     /// [`ModelError`] as for the model.
     pub(crate) fn new(
         scene: &Scene<T>,
-        settings: &Settings,
+        settings: &ResolvedMethod,
         model: &NaturalModel<T, D>,
         state: &State<T>,
     ) -> Result<Option<Self>, ModelError> {
@@ -60,18 +60,18 @@ impl<T: Real, const D: usize> Control<T, D> {
     }
 
     /// State that the next step continues from.
-    pub(crate) fn kept(&self) -> ControlKept<T> {
+    pub(crate) fn snapshot(&self) -> ControlSnapshot<T> {
         let events = self.events.as_ref().map(Events::history);
-        ControlKept { driver: self.driver.history(), events }
+        ControlSnapshot { driver: self.driver.history(), events }
     }
 
     /// Restores what was kept; says whether it is of the same rules and effects.
-    pub(crate) fn restore(&mut self, kept: &ControlKept<T>) -> bool {
-        let is_ours = match (&mut self.events, &kept.events) {
+    pub(crate) fn restore(&mut self, snapshot: &ControlSnapshot<T>) -> bool {
+        let is_ours = match (&mut self.events, &snapshot.events) {
             (Some(events), Some(history)) => events.set_history(history),
             (events, history) => events.is_none() && history.is_none(),
         };
-        is_ours && self.driver.set_history(kept.driver)
+        is_ours && self.driver.set_history(snapshot.driver)
     }
 
     /// The state was set from outside: what steps are watched for begins there.

@@ -1,10 +1,10 @@
 //! A scene document, run in the precision that its settings name.
 
-use crate::checkpoint::{Checkpoint, CheckpointError, Keeping};
+use crate::checkpoint::{Checkpoint, CheckpointError, CheckpointWriter};
 use crate::driver::StepObserver;
 use crate::precision::{PrecisionError, ReadScene, SceneWork};
 use crate::run::{Outcome, run, run_kept};
-use crate::settings::Settings;
+use crate::settings::ResolvedMethod;
 use crate::simulation::Simulation;
 use crate::stop::StopError;
 use core::ops::ControlFlow;
@@ -29,7 +29,7 @@ impl<T: Real, const D: usize> StepObserver<T, D> for Listener<'_> {
 }
 
 /// A run.
-pub(crate) struct Plain<'a>(pub(crate) &'a mut dyn FnMut(f64), pub(crate) &'a Settings);
+pub(crate) struct Plain<'a>(pub(crate) &'a mut dyn FnMut(f64), pub(crate) &'a ResolvedMethod);
 
 impl SceneWork for Plain<'_> {
     type Done = Outcome;
@@ -40,7 +40,12 @@ impl SceneWork for Plain<'_> {
 }
 
 /// A run with checkpoints, or one that is resumed.
-struct InParts<'a>(Listener<'a>, &'a Settings, Option<&'a Checkpoint>, Option<&'a mut Keeping>);
+struct InParts<'a>(
+    Listener<'a>,
+    &'a ResolvedMethod,
+    Option<&'a Checkpoint>,
+    Option<&'a mut CheckpointWriter>,
+);
 
 impl SceneWork for InParts<'_> {
     type Done = Result<Outcome, CheckpointError>;
@@ -59,7 +64,7 @@ impl SceneWork for InParts<'_> {
 /// [`PrecisionError`] where the text is no scene in that precision, though it is one in `f64`, or the build does not have it.
 pub fn run_document(
     document: (&SceneFile, &Scene<f64>),
-    settings: &Settings,
+    settings: &ResolvedMethod,
     reached: &mut dyn FnMut(f64),
 ) -> Result<Outcome, PrecisionError> {
     let read = ReadScene::new(document, settings.precision)?;
@@ -72,10 +77,10 @@ pub fn run_document(
 /// As [`run_document`]; the inner error for a checkpoint of something else.
 pub fn run_document_kept(
     document: (&SceneFile, &Scene<f64>),
-    settings: &Settings,
+    settings: &ResolvedMethod,
     reached: &mut dyn FnMut(f64),
-    (from, keeping): (Option<&Checkpoint>, Option<&mut Keeping>),
+    (from, writer): (Option<&Checkpoint>, Option<&mut CheckpointWriter>),
 ) -> Result<Result<Outcome, CheckpointError>, PrecisionError> {
     let read = ReadScene::new(document, settings.precision)?;
-    Ok(read.work(InParts(Listener(reached), settings, from, keeping)))
+    Ok(read.work(InParts(Listener(reached), settings, from, writer)))
 }

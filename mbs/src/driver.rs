@@ -1,7 +1,7 @@
 //! The one loop that steps: from instant to instant, before observers.
 
-use crate::digits::is_finer;
 use crate::interrupt::Interrupt;
+use crate::precision::is_finer;
 use crate::simulation::Simulation;
 use crate::stop::StopError;
 use core::ops::{ControlFlow, Deref};
@@ -22,7 +22,7 @@ const MAX_SLIVER: f64 = 1e-5;
 /// use core::ops::ControlFlow;
 /// use mbs::core::control::Accepted;
 /// use mbs::typed::{StepObserver, Simulation, run};
-/// use mbs::{Method, Settings, StopError, scene_file::SceneFile};
+/// use mbs::{Method, ResolvedMethod, StopError, scene_file::SceneFile};
 ///
 /// /// Ends a run when the first coordinate falls below zero.
 /// struct Ground;
@@ -50,7 +50,7 @@ const MAX_SLIVER: f64 = 1e-5;
 /// inertia = 0.1
 /// "#;
 /// let scene = SceneFile::parse(text, "stone.toml")?.scene::<f64>()?;
-/// let settings = Settings::new(&scene, &Method::default())?;
+/// let settings = ResolvedMethod::new(&scene, &Method::default())?;
 /// let outcome = run::<f64, 2>(&scene, &settings, &mut Ground);
 /// // a stone falls 1 m in √(2/9.81) s
 /// assert!((outcome.summary.end_time - 0.4515).abs() < 2e-3);

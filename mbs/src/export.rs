@@ -1,6 +1,6 @@
 //! Scenes as tables for controllers: `mbs export`.
 
-use crate::settings::Settings;
+use crate::settings::ResolvedMethod;
 use crate::simulation::Simulation;
 use crate::stop::StopError;
 use crate::tree::{InSpace, Plane};
@@ -57,7 +57,7 @@ impl From<StopError> for ExportError {
 /// [`ExportError`].
 pub fn export(
     scene: &Scene<f64>,
-    settings: &Settings,
+    settings: &ResolvedMethod,
     form: (&[usize], bool),
 ) -> Result<Exported, ExportError> {
     match scene.dimension {
@@ -68,7 +68,7 @@ pub fn export(
 
 fn in_space<const D: usize>(
     scene: &Scene<f64>,
-    settings: &Settings,
+    settings: &ResolvedMethod,
     (ladder, is_single): (&[usize], bool),
 ) -> Result<Exported, ExportError>
 where

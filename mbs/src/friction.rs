@@ -9,7 +9,7 @@
 //! rate that is none of the law's. Implicit methods, and those that control their error, follow the rise.
 
 use crate::choice::IntegratorKind;
-use crate::settings::Settings;
+use crate::settings::ResolvedMethod;
 use crate::simulation::Simulation;
 use crate::stop::StopError;
 use mbs_core::Real;
@@ -39,7 +39,11 @@ pub(crate) struct Frictions<T: Real, const D: usize> {
 
 impl<T: Real, const D: usize> Frictions<T, D> {
     /// Those of a scene; none where the method of the settings follows them.
-    pub(crate) fn new(scene: &Scene<T>, settings: &Settings, model: &NaturalModel<T, D>) -> Self {
+    pub(crate) fn new(
+        scene: &Scene<T>,
+        settings: &ResolvedMethod,
+        model: &NaturalModel<T, D>,
+    ) -> Self {
         let is_explicit = settings.integrator == IntegratorKind::Rk4;
         let friction = |(effect, e): (usize, &Effect<T>)| match &e.kind {
             EffectKind::Friction(law) if e.enabled => {

@@ -137,6 +137,11 @@ where
     }
 }
 
+/// Does this scalar have more digits than `f64`?
+pub(crate) fn is_finer<T: Real>() -> bool {
+    T::EPSILON.to_f64() < f64::EPSILON
+}
+
 impl Precision {
     /// Whether this build has the steps of this precision: `f32` and `dd` are features of the crate, on by default.
     #[must_use]

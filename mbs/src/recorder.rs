@@ -2,7 +2,7 @@
 //! step.
 
 use crate::checkpoint::tape::{Tape, Walked, holds};
-use crate::digits::is_finer;
+use crate::precision::is_finer;
 use crate::record::{
     Channel, ChannelSeries, ControlSummary, EnergySeries, IterationSeries, StepRow, StepSeries,
     ViolationSeries, ViolationSummary,
@@ -49,16 +49,16 @@ pub(crate) struct Recorder {
     max_violation: [f64; 3],
     /// Largest values since the last row, so that thinning hides no peak.
     recent: StepMark,
-    keep: Keep,
+    keep: RecordRows,
     /// Least and largest value of each component over the rows, kept or not.
     ranges: Vec<[f64; 2]>,
 }
 
 /// Which rows of a run stay in memory.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Keep {
+pub enum RecordRows {
     /// All: for files and pages.
-    Rows,
+    All,
     /// The last: for a row in a table of many runs.
     Last,
 }
@@ -112,7 +112,12 @@ impl Recorder {
     }
 
     /// For a run of `n_steps`, where that is known, from the invariant at the start.
-    pub(crate) fn new(channels: Vec<Channel>, n_steps: u64, initial: f64, keep: Keep) -> Self {
+    pub(crate) fn new(
+        channels: Vec<Channel>,
+        n_steps: u64,
+        initial: f64,
+        keep: RecordRows,
+    ) -> Self {
         let n_columns: usize = channels.iter().map(|c| c.components.len()).sum();
         Self {
             channels,
@@ -159,7 +164,7 @@ impl Recorder {
     pub(crate) fn keep<T: Real>(&mut self, step: &StepMark, values: &[T]) {
         // A step that was marked is among the recent ones; a start and a stop are not.
         let is_marked = self.recent.step.length > 0.0 && self.recent.t >= step.t;
-        if self.keep == Keep::Last {
+        if self.keep == RecordRows::Last {
             self.marks.clear();
             self.rows.clear();
             self.rests.clear();
@@ -208,7 +213,7 @@ impl Recorder {
 
     /// Do all rows stay in memory?
     pub(crate) fn keeps_all(&self) -> bool {
-        self.keep == Keep::Rows
+        self.keep == RecordRows::All
     }
 
     /// Least and largest value of each component over the rows.

@@ -1,7 +1,7 @@
 //! A whole run: from a scene to its summary, rows and page.
 
+mod checkpoint;
 mod clock;
-mod kept;
 mod outcome;
 mod paced;
 mod record;
@@ -9,13 +9,13 @@ mod summary;
 
 pub(crate) use paced::{PacedLevel, PacedSchedule, paced};
 
-use crate::checkpoint::{Checkpoint, CheckpointError, Identity, Keeping};
+use crate::checkpoint::{Checkpoint, CheckpointError, CheckpointWriter, Identity};
 use crate::driver::{StepObserver, Stretch, drive, multiple};
 use crate::names::Names;
 use crate::record::{Channel, ControlSummary, Outputs, RunRecord, RunSummary};
-use crate::recorder::Keep;
+use crate::recorder::RecordRows;
 use crate::settings::length::SAME_LENGTH;
-use crate::settings::{Lengths, Settings};
+use crate::settings::{Lengths, ResolvedMethod};
 use crate::simulation::Simulation;
 use crate::stop::StopError;
 use crate::words::{few_threads, notes, stop_text, summary_rows};
@@ -23,7 +23,7 @@ use core::time::Duration;
 use mbs_core::Real;
 use mbs_core::scene::Scene;
 pub(crate) use record::Columns;
-use record::{Kept, Record};
+use record::{Record, RunCheckpoints};
 use summary::{contact, energy_summary, not_started, plain_summary};
 
 pub use outcome::Outcome;
@@ -31,18 +31,18 @@ pub use outcome::Outcome;
 /// Runs a checked scene to its end, or to where it stops, before an observer; `&mut ()` is none.
 pub fn run<T: Real, const D: usize>(
     scene: &Scene<T>,
-    settings: &Settings,
+    settings: &ResolvedMethod,
     observer: &mut dyn StepObserver<T, D>,
 ) -> Outcome {
-    run_keeping(scene, settings, observer, Keep::Rows)
+    run_keeping(scene, settings, observer, RecordRows::All)
 }
 
 /// [`run`], with all rows and pictures, or with the last row and no picture.
 pub fn run_keeping<T: Real, const D: usize>(
     scene: &Scene<T>,
-    settings: &Settings,
+    settings: &ResolvedMethod,
     observer: &mut dyn StepObserver<T, D>,
-    keep: Keep,
+    keep: RecordRows,
 ) -> Outcome {
     match Run::<T, D>::begin(scene, settings, (keep, None)) {
         Ok(run) => run.complete(observer),
@@ -53,11 +53,11 @@ pub fn run_keeping<T: Real, const D: usize>(
 /// [`run`], with more columns.
 pub(crate) fn run_columns<T: Real, const D: usize>(
     scene: &Scene<T>,
-    settings: &Settings,
+    settings: &ResolvedMethod,
     observer: &mut dyn StepObserver<T, D>,
     columns: &mut dyn Columns<T, D>,
 ) -> Outcome {
-    match Run::<T, D>::begin(scene, settings, (Keep::Rows, Some(columns))) {
+    match Run::<T, D>::begin(scene, settings, (RecordRows::All, Some(columns))) {
         Ok(run) => run.complete(observer),
         Err(outcome) => *outcome,
     }
@@ -69,26 +69,26 @@ pub(crate) fn run_columns<T: Real, const D: usize>(
 /// [`CheckpointError`] for a checkpoint of something else.
 pub fn run_kept<T: Real, const D: usize>(
     scene: &Scene<T>,
-    settings: &Settings,
+    settings: &ResolvedMethod,
     observer: &mut dyn StepObserver<T, D>,
-    (from, keeping): (Option<&Checkpoint>, Option<&mut Keeping>),
+    (from, writer): (Option<&Checkpoint>, Option<&mut CheckpointWriter>),
 ) -> Result<Outcome, CheckpointError> {
     let identity = Identity::new(scene, settings);
-    let mut run = match Run::<T, D>::begin(scene, settings, (Keep::Rows, None)) {
+    let mut run = match Run::<T, D>::begin(scene, settings, (RecordRows::All, None)) {
         Ok(run) => run,
         Err(outcome) => return Ok(*outcome),
     };
     if let Some(checkpoint) = from {
         run.resume(checkpoint, &identity)?;
     }
-    run.record.kept = keeping.map(|keeping| Kept { keeping, identity });
+    run.record.checkpoints = writer.map(|writer| RunCheckpoints { writer, identity });
     let Run { simulation, record } = &mut run;
     record.keep(simulation, record.done);
     Ok(run.complete(observer))
 }
 
 /// Step `k` of a run, from 1: of fixed length, or an interval over which lengths are controlled. The last one ends with the run.
-pub fn step<T: Real>(settings: &Settings, lengths: &Lengths<T>, k: u64) -> Stretch<T> {
+pub fn step<T: Real>(settings: &ResolvedMethod, lengths: &Lengths<T>, k: u64) -> Stretch<T> {
     let (h, end) = (settings.step_max, settings.duration);
     let &Lengths { step_max, duration, .. } = lengths;
     let at = |k| multiple((T::ZERO, 0.0), k, (step_max, h));
@@ -111,8 +111,8 @@ impl<'a, T: Real, const D: usize> Run<'a, T, D> {
     /// Builds everything and takes the first row; else the outcome of a run that does not start.
     fn begin(
         scene: &'a Scene<T>,
-        settings: &'a Settings,
-        (keep, columns): (Keep, Option<&'a mut dyn Columns<T, D>>),
+        settings: &'a ResolvedMethod,
+        (keep, columns): (RecordRows, Option<&'a mut dyn Columns<T, D>>),
     ) -> Result<Self, Box<Outcome>> {
         let mut channels = Channel::of_scene(scene);
         channels.extend(columns.iter().flat_map(|columns| columns.channels()));
@@ -124,9 +124,9 @@ impl<'a, T: Real, const D: usize> Run<'a, T, D> {
     /// Everything that a run needs, for rows after steps or intervals; else how it did not start.
     fn new(
         scene: &'a Scene<T>,
-        settings: &'a Settings,
+        settings: &'a ResolvedMethod,
         channels: Vec<Channel>,
-        rows: (u64, Keep),
+        rows: (u64, RecordRows),
     ) -> Result<Self, Box<Outcome>> {
         let simulation = Simulation::<T, D>::new(scene, settings);
         let started = simulation.and_then(|simulation| {
@@ -204,7 +204,7 @@ impl<'a, T: Real, const D: usize> Run<'a, T, D> {
         let record = RunRecord {
             scene: run.scene.name.clone(),
             channels: run.recorder.series(),
-            animation: Some(run.figure.animation),
+            animation: Some(run.animation.animation),
             energy: Some(run.recorder.energy()),
             violation: Some(run.recorder.violation()),
             iterations: Some(run.recorder.iterations()),

@@ -5,9 +5,9 @@ mod method;
 mod way;
 
 use crate::choice::{INTEGRATORS, IntegratorKind, PRECISIONS, Precision, STEP_RULES, StepRule};
-use crate::digits::is_finer;
 use crate::interrupt::Interrupt;
 use crate::methods::{FORMULATIONS, FormulationKind, PenaltyUse};
+use crate::precision::is_finer;
 use crate::precision::{PrecisionError, not_built_hint};
 use crate::record::PilotReport;
 use mbs_core::Real;
@@ -63,7 +63,7 @@ pub struct Method {
 
 /// Everything decided.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Settings {
+pub struct ResolvedMethod {
     /// As asked, `auto` included.
     pub asked: String,
     /// What runs.
@@ -230,7 +230,7 @@ impl core::fmt::Display for SettingsError {
 
 impl core::error::Error for SettingsError {}
 
-impl Settings {
+impl ResolvedMethod {
     /// Decides from a scene and overrides.
     ///
     /// # Errors

@@ -2,11 +2,11 @@
 
 mod carry;
 
-use crate::checkpoint::{Kept, inputs};
+use crate::checkpoint::{SimulationSnapshot, inputs};
 use crate::control::Control;
 use crate::methods::{Demands, Request};
 use crate::ready::AssembledScene;
-use crate::settings::Settings;
+use crate::settings::ResolvedMethod;
 use crate::stop::StopError;
 use mbs_core::Real;
 use mbs_core::control::{Accepted, Invariant, Limit, TrialStep};
@@ -40,7 +40,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     ///
     /// # Errors
     /// [`StopError`] when there is no model, no consistent start, or the formulation cannot run the scene.
-    pub fn new(scene: &Scene<T>, settings: &Settings) -> Result<Self, StopError> {
+    pub fn new(scene: &Scene<T>, settings: &ResolvedMethod) -> Result<Self, StopError> {
         Self::of(scene, settings, AssembledScene::new(scene)?)
     }
 
@@ -48,7 +48,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     #[doc(hidden)]
     pub fn of(
         scene: &Scene<T>,
-        settings: &Settings,
+        settings: &ResolvedMethod,
         mut ready: AssembledScene<T, D>,
     ) -> Result<Self, StopError> {
         let natural = (!settings.formulation.row().relative).then(|| ready.sizes());
@@ -184,19 +184,25 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     }
 
     /// All that the next step continues from.
-    pub(crate) fn kept(&self) -> Kept<T> {
-        Kept {
+    pub(crate) fn snapshot(&self) -> SimulationSnapshot<T> {
+        SimulationSnapshot {
             state: self.state.clone(),
             formulation: self.formulation.history(),
-            control: self.control.as_ref().map(|control| control.kept()),
+            control: self.control.as_ref().map(|control| control.snapshot()),
             invariant: self.invariant.history(),
             inputs: inputs(self.model.prescribed(), &self.state.inputs),
         }
     }
 
     /// Restores what was kept; says whether it is of this simulation.
-    pub(crate) fn restore_kept(&mut self, kept: &Kept<T>) -> bool {
-        let Kept { state, formulation, control, invariant, inputs: [courses, guides] } = kept;
+    pub(crate) fn restore_snapshot(&mut self, snapshot: &SimulationSnapshot<T>) -> bool {
+        let SimulationSnapshot {
+            state,
+            formulation,
+            control,
+            invariant,
+            inputs: [courses, guides],
+        } = snapshot;
         let mut is_ours = match (&mut self.control, control) {
             (Some(present), Some(control)) => present.restore(control),
             (present, control) => present.is_none() && control.is_none(),
@@ -289,7 +295,7 @@ const ROUNDINGS: f64 = 64.0;
 /// length, and of a motion of all masses that the run would not show, or that is rounding of places in a step.
 fn ground<T: Real, const D: usize>(
     scene: &Scene<T>,
-    settings: &Settings,
+    settings: &ResolvedMethod,
     model: &NaturalModel<T, D>,
 ) -> f64 {
     let (length, epsilon) = (model.length().to_f64(), T::EPSILON.to_f64().max(f64::EPSILON));

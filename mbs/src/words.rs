@@ -5,7 +5,7 @@ pub use mbs_scene::format::{duration, few, size};
 use crate::choice::IntegratorKind;
 use crate::methods::ROUNDINGS;
 use crate::record::{Contact, ControlSummary, ErrorEstimate, RunError, RunSummary};
-use crate::settings::Settings;
+use crate::settings::ResolvedMethod;
 use mbs_core::Real;
 use mbs_core::scene::{Body, BodyId, Inertia, Scene};
 use mbs_scene::format::rounded;
@@ -152,7 +152,7 @@ pub fn few_threads(asked: usize, used: usize) -> Option<String> {
 /// What is unusual about a scene, said once.
 pub(crate) fn notes<T: Real>(
     scene: &Scene<T>,
-    settings: &Settings,
+    settings: &ResolvedMethod,
     s: &RunSummary,
     change: f64,
 ) -> Vec<String> {
@@ -205,7 +205,7 @@ pub(crate) fn notes<T: Real>(
 }
 
 /// Says of extrapolation, whose steps are long and err by nearly what they may, what they err by together.
-fn summed<T: Real>(settings: &Settings, s: &RunSummary) -> Option<String> {
+fn summed<T: Real>(settings: &ResolvedMethod, s: &RunSummary) -> Option<String> {
     if settings.integrator != IntegratorKind::Extrapolation || s.steps < 2 {
         return None;
     }

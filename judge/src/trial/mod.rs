@@ -7,7 +7,7 @@ use crate::scene::Quantity;
 use crate::{Mechanism, State};
 use mbs::core::scene::Scene;
 use mbs::scene_file::SceneFile;
-use mbs::{FormulationKind, Method, Settings};
+use mbs::{FormulationKind, Method, ResolvedMethod};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 /// Largest error of a rule, relative to its own error by steps of h and h/2 [-]. Chosen, not tuned.
@@ -166,7 +166,7 @@ pub fn rows(
         message,
     };
     let settings =
-        Settings::new(scene, &overrides).map_err(|e| stops("refused", 0.0, e.to_string()))?;
+        ResolvedMethod::new(scene, &overrides).map_err(|e| stops("refused", 0.0, e.to_string()))?;
     let outcome = catch_unwind(AssertUnwindSafe(|| match scene.dimension {
         mbs::core::scene::Dimension::Planar => mbs::typed::run::<f64, 2>(scene, &settings, &mut ()),
         mbs::core::scene::Dimension::Spatial => {

@@ -9,7 +9,7 @@ use core::ops::ControlFlow;
 use mbs::inside::{Alarm, AssembledScene, Channels, DEFAULT_STEP, continue_if, drive};
 use mbs::record::{Channel, RunError};
 use mbs::typed::{Simulation, StepObserver};
-use mbs::{InSpace, Method, Names, Plane, Settings, SettingsError, StopError};
+use mbs::{InSpace, Method, Names, Plane, ResolvedMethod, SettingsError, StopError};
 use mbs_core::Real;
 use mbs_core::cluster::scene_length;
 use mbs_core::control::Accepted;
@@ -179,7 +179,7 @@ pub(crate) fn settings<T: Real>(
     base: &Method,
     method: &MethodCase,
     (setting, instants): (f64, Instants),
-) -> Result<Settings, SettingsError> {
+) -> Result<ResolvedMethod, SettingsError> {
     let duration = base.duration.unwrap_or(scene.duration.to_f64());
     let of_scene = scene.solver.step.map_or(DEFAULT_STEP, Real::to_f64).min(duration);
     let step = if method.is_fixed() {
@@ -196,7 +196,7 @@ pub(crate) fn settings<T: Real>(
         threads: base.threads.filter(|_| method.formulation.row().threads),
         ..method.overrides(setting, step, instants.interval)
     };
-    Settings::new(scene, &overrides)
+    ResolvedMethod::new(scene, &overrides)
 }
 
 /// Records a trial, and gives it up when its time is over.

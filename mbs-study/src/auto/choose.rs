@@ -10,7 +10,7 @@ use crate::compare::ladder::Instants;
 use crate::compare::method::{Control, MethodCase};
 use mbs::inside::{AssembledScene, SceneWork};
 use mbs::record::PilotReport;
-use mbs::{InSpace, IntegratorKind, Method, Names, Plane, Precision, Settings};
+use mbs::{InSpace, IntegratorKind, Method, Names, Plane, Precision, ResolvedMethod};
 use mbs_core::Real;
 use mbs_core::scene::Scene;
 
@@ -27,7 +27,7 @@ pub(crate) struct Pick {
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Task<'a> {
     pub(crate) base: &'a Method,
-    pub(crate) settings: &'a Settings,
+    pub(crate) settings: &'a ResolvedMethod,
     pub(crate) goal: Goal,
     pub(crate) instants: Instants,
 }
@@ -36,7 +36,7 @@ pub(crate) struct Task<'a> {
 pub(crate) fn methods<T>(
     scene: &Scene<T>,
     base: &Method,
-    settings: &Settings,
+    settings: &ResolvedMethod,
     goal: &Goal,
 ) -> Result<Vec<MethodCase>, GoalError> {
     let formulations = if settings.asked == "auto" { vec![] } else { vec![settings.formulation] };
@@ -171,7 +171,7 @@ fn picks(search: &Search<'_>, places: &[Place], times: f64) -> Vec<Pick> {
 /// The candidates of a scene, and what structure alone says of them.
 pub(crate) fn candidates<T: Real, const D: usize>(
     scene: &Scene<T>,
-    settings: &Settings,
+    settings: &ResolvedMethod,
 ) -> Option<PilotReport>
 where
     Plane<D>: InSpace<T>,

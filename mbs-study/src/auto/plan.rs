@@ -8,7 +8,7 @@ use crate::compare::method::MethodCase;
 use cpu_time::ThreadTime;
 use mbs::inside::ReadScene;
 use mbs::record::{Fallback, PilotReport};
-use mbs::{Method, Names, Outcome, PrecisionError, Settings, StopError, run_document};
+use mbs::{Method, Names, Outcome, PrecisionError, ResolvedMethod, StopError, run_document};
 use mbs_core::scene::Scene;
 use mbs_scene::SceneFile;
 use std::time::Instant;
@@ -17,7 +17,7 @@ use std::time::Instant;
 #[derive(Debug, Clone, PartialEq)]
 pub struct Plan {
     /// The ranking; `≥ 1`.
-    pub ranked: Vec<Settings>,
+    pub ranked: Vec<ResolvedMethod>,
 }
 
 impl Plan {
@@ -26,7 +26,7 @@ impl Plan {
     /// # Panics
     /// Never: a plan has at least one.
     #[must_use]
-    pub fn first(&self) -> &Settings {
+    pub fn first(&self) -> &ResolvedMethod {
         &self.ranked[0]
     }
 }
@@ -84,7 +84,7 @@ impl PlanError {
 /// A goal that cannot be meant beside these options; a scene that is none in the precision asked for.
 pub fn plan(
     (document, scene): (&SceneFile, &Scene<f64>),
-    (base, settings): (&Method, Settings),
+    (base, settings): (&Method, ResolvedMethod),
     goal: Goal,
     clock: &mut dyn Clock,
 ) -> Result<Plan, PlanError> {
@@ -110,11 +110,11 @@ fn ranked(
     task: &Task<'_>,
     (picks, methods): (&[Pick], &[MethodCase]),
     choice: &PilotReport,
-) -> Vec<Settings> {
+) -> Vec<ResolvedMethod> {
     let of = |pick: &Pick| {
         let settings =
             bench::settings(scene, task.base, &pick.method, (pick.setting, task.instants));
-        Some(Settings {
+        Some(ResolvedMethod {
             asked: task.settings.asked.clone(),
             choice: Some(Box::new(choice.clone())),
             duration: task.settings.duration,
@@ -122,10 +122,10 @@ fn ranked(
         })
     };
     let blind = if picks.is_empty() { blind(task, choice, methods) } else { Vec::new() };
-    let mut ranked: Vec<Settings> = picks.iter().chain(&blind).filter_map(of).collect();
+    let mut ranked: Vec<ResolvedMethod> = picks.iter().chain(&blind).filter_map(of).collect();
     if ranked.is_empty() {
         let choice = Some(Box::new(choice.clone()));
-        ranked.push(Settings { choice, ..task.settings.clone() });
+        ranked.push(ResolvedMethod { choice, ..task.settings.clone() });
     }
     ranked
 }
@@ -156,7 +156,7 @@ pub fn run_plan(
     (document, scene): (&SceneFile, &Scene<f64>),
     plan: &Plan,
     reached: &mut dyn FnMut(f64),
-) -> Result<(Outcome, Settings), PrecisionError> {
+) -> Result<(Outcome, ResolvedMethod), PrecisionError> {
     run_ranked(plan, Names::new(scene), |settings| {
         run_document((document, scene), settings, reached)
     })
@@ -166,10 +166,10 @@ pub fn run_plan(
 pub(super) fn run_ranked(
     plan: &Plan,
     names: Names,
-    mut run: impl FnMut(&Settings) -> Result<Outcome, PrecisionError>,
-) -> Result<(Outcome, Settings), PrecisionError> {
+    mut run: impl FnMut(&ResolvedMethod) -> Result<Outcome, PrecisionError>,
+) -> Result<(Outcome, ResolvedMethod), PrecisionError> {
     let mut lost: Vec<Fallback> = Vec::new();
-    let mut furthest: Option<(Outcome, Settings)> = None;
+    let mut furthest: Option<(Outcome, ResolvedMethod)> = None;
     for settings in &plan.ranked {
         let mut settings = settings.clone();
         if let Some(choice) = &mut settings.choice {
@@ -202,7 +202,7 @@ pub(super) fn run_ranked(
     }
 }
 
-fn method_name(settings: &Settings) -> String {
+fn method_name(settings: &ResolvedMethod) -> String {
     match settings.integrator {
         mbs::IntegratorKind::Trapezoidal => settings.formulation.name().to_owned(),
         other => format!("{} {}", settings.formulation.name(), other.name()),

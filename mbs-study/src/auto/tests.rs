@@ -8,7 +8,7 @@ use super::pilot::{BUDGET, BUDGET_FRACTION, Search};
 use super::trial::{Aim, Bench, End, Rows, Trial};
 use crate::compare::method::{Control, MethodCase};
 use mbs::record::RunError;
-use mbs::{FormulationKind, Method, Precision, Settings};
+use mbs::{FormulationKind, Method, Precision, ResolvedMethod};
 
 /// Longest step [s].
 const LONGEST: f64 = 0.05;
@@ -124,7 +124,7 @@ fn extrapolation_is_a_candidate_where_it_is_asked_for_and_in_pairs() {
             precision: Some(precision.to_owned()),
             ..Method::default()
         };
-        let settings = Settings::new(&scene, &base).expect("settings");
+        let settings = ResolvedMethod::new(&scene, &base).expect("settings");
         let methods = super::choose::methods(&scene, &base, &settings, &Goal::default());
         methods.expect("candidates").iter().any(|m| m.integrator.name() == "gbs")
     };

@@ -6,7 +6,7 @@ use super::{CompareError, Study, Watch};
 use crate::auto::{Goal, GoalError, Pick, Pilot, Processor, Task, methods};
 use crate::compare::results::{Comparison, JudgedChoice, MethodRuns, Status};
 use mbs::inside::in_space;
-use mbs::{Method, Settings};
+use mbs::{Method, ResolvedMethod};
 
 /// Timings of a chosen run, of which the least counts. Chosen, not tuned.
 const TURNS: u32 = 9;
@@ -51,7 +51,7 @@ impl Study<'_> {
             interrupt: self.request.interrupt.clone(),
             ..Method::default()
         };
-        let Ok(settings) = Settings::new(scene, &base) else { return judged };
+        let Ok(settings) = ResolvedMethod::new(scene, &base) else { return judged };
         let goal = Goal { error: Some(error), deadline: None };
         let Ok(mut methods) = methods(scene, &base, &settings, &goal) else { return judged };
         methods.retain(|m| self.methods.contains(m));

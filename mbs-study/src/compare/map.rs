@@ -5,7 +5,7 @@ use super::ladder::{Instants, count, work};
 use super::pass::Scenes;
 use super::reference::Known;
 use crate::compare::results::{Cell, ConvergenceMap, Status};
-use mbs::{FormulationKind, Method, Precision, Settings};
+use mbs::{FormulationKind, Method, Precision, ResolvedMethod};
 
 /// Penalties of a map [-]: two decades apart.
 pub(super) const PENALTIES: [f64; 7] = [1e3, 1e5, 1e7, 1e9, 1e11, 1e13, 1e15];
@@ -107,7 +107,7 @@ impl Plan {
             penalty: Some(penalty),
             ..Method::default()
         };
-        let Ok(settings) = Settings::new(&scenes.double, &overrides) else {
+        let Ok(settings) = ResolvedMethod::new(&scenes.double, &overrides) else {
             return Cell { failure: "settings-refused".to_owned(), ..Cell::default() };
         };
         let course = Course { instants: self.instants, between: Some(between) };

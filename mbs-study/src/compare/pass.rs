@@ -11,7 +11,7 @@ use cpu_time::ThreadTime;
 use mbs::inside::{Alarm, Channels, ReadScene, SceneWork, continue_if, drive};
 use mbs::record::Channel;
 use mbs::typed::{Simulation, StepObserver};
-use mbs::{Interrupt, Names, Precision, PrecisionError, Settings, StopError};
+use mbs::{Interrupt, Names, Precision, PrecisionError, ResolvedMethod, StopError};
 use mbs_core::Real;
 use mbs_core::control::Accepted;
 use mbs_core::scene::Scene;
@@ -73,12 +73,17 @@ impl Scenes {
     }
 
     /// Settings of a run that ends with all the others.
-    fn interruptible(&self, settings: &Settings) -> Settings {
-        Settings { interrupt: self.interrupt.clone(), ..settings.clone() }
+    fn interruptible(&self, settings: &ResolvedMethod) -> ResolvedMethod {
+        ResolvedMethod { interrupt: self.interrupt.clone(), ..settings.clone() }
     }
 
     /// Runs and records, for at most `most` seconds of CPU time.
-    pub(super) fn recorded(&self, settings: &Settings, course: &Course, most: f64) -> Recorded {
+    pub(super) fn recorded(
+        &self,
+        settings: &ResolvedMethod,
+        course: &Course,
+        most: f64,
+    ) -> Recorded {
         let Some(scene) = self.of(settings.precision) else {
             return Recorded { is_not_started: true, ..Recorded::default() };
         };
@@ -88,7 +93,12 @@ impl Scenes {
 
     /// CPU time of the steps from a fresh start [s]; the least of several where they take little. Each turn finds other places in
     /// memory.
-    pub(super) fn timed(&self, settings: &Settings, course: &Course, turn: u32) -> Option<f64> {
+    pub(super) fn timed(
+        &self,
+        settings: &ResolvedMethod,
+        course: &Course,
+        turn: u32,
+    ) -> Option<f64> {
         let settings = &self.interruptible(settings);
         self.of(settings.precision)?.work(ToTime { settings, course, turn })
     }
@@ -96,7 +106,7 @@ impl Scenes {
 
 /// A run that is timed.
 struct ToTime<'a> {
-    settings: &'a Settings,
+    settings: &'a ResolvedMethod,
     course: &'a Course,
     turn: u32,
 }
@@ -111,7 +121,7 @@ impl SceneWork for ToTime<'_> {
 
 /// A run that is recorded.
 struct ToRecord<'a> {
-    settings: &'a Settings,
+    settings: &'a ResolvedMethod,
     course: &'a Course,
     n_columns: usize,
     most: f64,
@@ -127,7 +137,7 @@ impl SceneWork for ToRecord<'_> {
 
 fn timed<T: Real, const D: usize>(
     scene: &Scene<T>,
-    settings: &Settings,
+    settings: &ResolvedMethod,
     course: &Course,
     turn: u32,
 ) -> Option<f64> {
@@ -150,7 +160,7 @@ fn timed<T: Real, const D: usize>(
 
 fn recorded<T: Real, const D: usize>(
     scene: &Scene<T>,
-    settings: &Settings,
+    settings: &ResolvedMethod,
     course: &Course,
     (n_columns, most): (usize, f64),
 ) -> Recorded {

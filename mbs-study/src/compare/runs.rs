@@ -143,7 +143,7 @@ impl Study<'_> {
         method: &MethodCase,
         setting: f64,
         known: &Known,
-    ) -> Result<(mbs::Settings, Course), String> {
+    ) -> Result<(mbs::ResolvedMethod, Course), String> {
         let instants = Instants { count: known.rows.len(), ..self.instants };
         let between = method.is_fixed().then(|| instants.steps_between(setting));
         #[allow(clippy::cast_precision_loss, reason = "a count of steps")]

@@ -6,7 +6,7 @@ use super::reference::{Known, Pair, Rows};
 use super::store::Store;
 use super::{CompareError, Study, course::Course, table};
 use crate::compare::results::Status;
-use mbs::{FormulationKind, IntegratorKind, Precision, Settings};
+use mbs::{FormulationKind, IntegratorKind, Precision, ResolvedMethod};
 use serde_json::{Value, json};
 
 /// Time limit of a run of the reference, relative to that of others [-]. Chosen, not tuned.
@@ -189,9 +189,9 @@ impl Study<'_> {
         method: &MethodCase,
         setting: f64,
         step: f64,
-    ) -> Result<Settings, String> {
+    ) -> Result<ResolvedMethod, String> {
         let mut overrides = method.overrides(setting, step, self.instants.interval);
         overrides.duration = Some(self.duration);
-        Settings::new(&self.scenes.double, &overrides).map_err(|error| error.to_string())
+        ResolvedMethod::new(&self.scenes.double, &overrides).map_err(|error| error.to_string())
     }
 }

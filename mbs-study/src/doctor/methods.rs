@@ -2,7 +2,7 @@
 
 use super::finding::{Finding, Severity, Topic};
 use mbs::typed::Simulation;
-use mbs::{FormulationKind, IntegratorKind, Settings, StepRule, StopError};
+use mbs::{FormulationKind, IntegratorKind, ResolvedMethod, StepRule, StopError};
 use mbs_core::scene::Scene;
 
 /// A first step by one formulation.
@@ -17,12 +17,15 @@ pub struct Attempt {
 /// Most bodies of a scene whose methods are tried, for the time that it takes. Chosen, not tuned.
 const LARGEST: usize = 300;
 
-pub(super) fn try_all<const D: usize>(scene: &Scene<f64>, settings: &Settings) -> Vec<Attempt> {
+pub(super) fn try_all<const D: usize>(
+    scene: &Scene<f64>,
+    settings: &ResolvedMethod,
+) -> Vec<Attempt> {
     if scene.bodies.len() > LARGEST {
         return Vec::new();
     }
     let attempt = |formulation: FormulationKind| {
-        let settings = Settings {
+        let settings = ResolvedMethod {
             formulation,
             integrator: IntegratorKind::Trapezoidal,
             rule: StepRule::Fixed,
@@ -37,7 +40,10 @@ pub(super) fn try_all<const D: usize>(scene: &Scene<f64>, settings: &Settings) -
     FormulationKind::ALL.map(attempt).to_vec()
 }
 
-fn first_step<const D: usize>(scene: &Scene<f64>, settings: &Settings) -> Result<(), StopError> {
+fn first_step<const D: usize>(
+    scene: &Scene<f64>,
+    settings: &ResolvedMethod,
+) -> Result<(), StopError> {
     let mut simulation = Simulation::<f64, D>::new(scene, settings)?;
     let step = simulation.advance(settings.step);
     step.map(drop).map_err(|error| simulation.explain(error))

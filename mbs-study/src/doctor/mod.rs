@@ -26,7 +26,7 @@ use crate::redundancy::{
     Diagnosis, Drive, Linkage, Loop, Massless, Rank, diagnose, drives, loops, reference,
 };
 use basis::begin;
-use mbs::Settings;
+use mbs::ResolvedMethod;
 use mbs::inside::rank;
 use mbs::typed::Simulation;
 use mbs_core::Cliques;
@@ -91,14 +91,18 @@ impl Checkup {
 /// Cost: two assemblies, and the run itself. For each part with loops some singular value decompositions of its m equations in n
 /// velocities, 20 m n² operations each, as many as positions along the motion.
 #[must_use]
-pub fn examine(scene: &Scene<f64>, settings: &Settings, effort: &Effort) -> Checkup {
+pub fn examine(scene: &Scene<f64>, settings: &ResolvedMethod, effort: &Effort) -> Checkup {
     match scene.dimension {
         Dimension::Planar => in_space::<2>(scene, settings, effort),
         Dimension::Spatial => in_space::<3>(scene, settings, effort),
     }
 }
 
-fn in_space<const D: usize>(scene: &Scene<f64>, settings: &Settings, effort: &Effort) -> Checkup {
+fn in_space<const D: usize>(
+    scene: &Scene<f64>,
+    settings: &ResolvedMethod,
+    effort: &Effort,
+) -> Checkup {
     let mut findings = Vec::new();
     let begun = begin::<D>(scene);
     let linkage = Linkage::new(scene);

@@ -14,7 +14,7 @@ use crate::redundancy::{Linkage, Loop, Part, Poses, Rank, loops};
 use core::ops::ControlFlow;
 use mbs::inside::{SAME_LENGTH, Stretch, drive, step};
 use mbs::typed::{Simulation, StepObserver};
-use mbs::{Settings, StopError};
+use mbs::{ResolvedMethod, StopError};
 use mbs_core::control::Accepted;
 use mbs_core::scene::{Entry, Scene};
 use mbs_scene::format::few;
@@ -106,7 +106,7 @@ struct Track<'a> {
 /// Runs the scene and looks at positions on the way.
 pub(super) fn watch<const D: usize>(
     scene: &Scene<f64>,
-    settings: &Settings,
+    settings: &ResolvedMethod,
     (linkage, effort): (&Linkage, &Effort),
 ) -> Motion {
     let mut motion = Motion {

@@ -5,7 +5,7 @@ use crate::auto::Clock;
 use core::ops::ControlFlow;
 use mbs::inside::{Alarm, AssembledScene, Channels, Stretch, continue_if, drive};
 use mbs::typed::{Simulation, StepObserver};
-use mbs::{Interrupt, Names, Settings, StopError};
+use mbs::{Interrupt, Names, ResolvedMethod, StopError};
 use mbs_core::scene::Scene;
 use mbs_core::step::StepError;
 use mbs_sparse::Multifrontal;
@@ -84,7 +84,7 @@ impl<const D: usize> Look<'_, D> {
     /// Looks with these settings at these rows, in steps of about `step` [s] where their length is fixed, for no longer than `most` [s].
     pub(super) fn at(
         &self,
-        settings: &Settings,
+        settings: &ResolvedMethod,
         (instants, step): (&[usize], Option<f64>),
         (clock, most): (&mut dyn Clock, f64),
     ) -> Seen {
@@ -121,7 +121,7 @@ impl<const D: usize> Look<'_, D> {
 
     fn start(
         &self,
-        settings: &Settings,
+        settings: &ResolvedMethod,
     ) -> Result<(Simulation<f64, D>, Channels<f64, D>), StopError> {
         let simulation = Simulation::<f64, D>::of(self.scene, settings, self.ready.clone())?;
         let channels = Channels::new(self.scene, simulation.model())?;

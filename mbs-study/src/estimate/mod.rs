@@ -22,7 +22,7 @@ use crate::compare::results::output_scales;
 use look::{End, Look, Pace, Seen};
 use mbs::inside::AssembledScene;
 use mbs::record::{Channel, ErrorEstimate, Outputs};
-use mbs::{FormulationKind, IntegratorKind, Outcome, Precision, Settings, StepRule};
+use mbs::{FormulationKind, IntegratorKind, Outcome, Precision, ResolvedMethod, StepRule};
 use mbs_core::cluster::scene_length;
 use mbs_core::scene::{Dimension, Scene};
 use mbs_scene::format::few;
@@ -67,7 +67,7 @@ const ROUNDINGS: f64 = 8.0;
 /// `scene` is the scene in `f64`, whatever the precision of the run.
 pub fn estimate(
     scene: &Scene<f64>,
-    settings: &Settings,
+    settings: &ResolvedMethod,
     outcome: &mut Outcome,
     (clock, run_seconds): (&mut dyn Clock, f64),
 ) {
@@ -87,7 +87,7 @@ pub fn estimate(
 /// A run, and the time for looks at it [s].
 struct Judge<'a> {
     scene: &'a Scene<f64>,
-    settings: &'a Settings,
+    settings: &'a ResolvedMethod,
     outcome: &'a Outcome,
     most: f64,
 }
@@ -141,7 +141,7 @@ impl Judge<'_> {
     ) -> Result<Found, String> {
         let rows = look.rows;
         let (instants, mut why) = (instants(rows), Vec::new());
-        let mut see = |settings: &Settings, instants: &[usize], step: Option<f64>| {
+        let mut see = |settings: &ResolvedMethod, instants: &[usize], step: Option<f64>| {
             let left = self.most - (clock.seconds() - begun);
             let seen = look.at(settings, (instants, step), (&mut *clock, left.max(0.0)));
             most.take(&seen.pace);
@@ -191,11 +191,11 @@ impl Judge<'_> {
     }
 
     /// The run in relative coordinates by an integrator that controls its own steps.
-    fn relative(&self, integrator: IntegratorKind, tolerance: f64) -> Settings {
+    fn relative(&self, integrator: IntegratorKind, tolerance: f64) -> ResolvedMethod {
         let settings = self.settings;
         let of_run = settings.tolerance.filter(|_| settings.integrator.controls_its_step());
         let finer = of_run.map_or(tolerance, |of_run| tolerance.min(FINER * of_run));
-        Settings {
+        ResolvedMethod {
             formulation: FormulationKind::RELATIVE,
             integrator,
             precision: Precision::F64,
@@ -211,12 +211,12 @@ impl Judge<'_> {
     }
 
     /// The run with longer steps, and their length where it is fixed [s].
-    fn coarser(&self) -> (Settings, Option<f64>) {
+    fn coarser(&self) -> (ResolvedMethod, Option<f64>) {
         let settings = self.settings;
         // the local error of second order grows with the cube
         let grown = COARSER.powi(3);
         let is_fixed = settings.rule == StepRule::Fixed && !settings.integrator.controls_its_step();
-        let coarser = Settings {
+        let coarser = ResolvedMethod {
             precision: Precision::F64,
             step: COARSER * settings.step,
             step_max: COARSER * settings.step_max,

@@ -20,7 +20,7 @@ pub use trials::Effort;
 
 use mbs::inside::{ReadScene, SceneWork};
 use mbs::typed::Simulation;
-use mbs::{InSpace, Names, Plane, PrecisionError, Settings, StepRule, StopError};
+use mbs::{InSpace, Names, Plane, PrecisionError, ResolvedMethod, StepRule, StopError};
 use mbs_core::Real;
 use mbs_core::scene::Scene;
 use mbs_scene::SceneFile;
@@ -34,7 +34,7 @@ use mbs_scene::SceneFile;
 /// [`PrecisionError`] where the scene cannot be had in that precision.
 pub fn explain_document(
     document: (&SceneFile, &Scene<f64>),
-    settings: &Settings,
+    settings: &ResolvedMethod,
     effort: &Effort,
 ) -> Result<Option<Explanation>, PrecisionError> {
     let read = ReadScene::new(document, settings.precision)?;
@@ -43,7 +43,7 @@ pub fn explain_document(
 
 /// An explanation.
 struct Explained<'a> {
-    settings: &'a Settings,
+    settings: &'a ResolvedMethod,
     effort: &'a Effort,
 }
 
@@ -63,7 +63,7 @@ impl SceneWork for Explained<'_> {
 /// Cost: the sizes take two assemblies; the prices about `effort.seconds`, less for small scenes.
 pub fn explain<T: Real, const D: usize>(
     scene: &Scene<T>,
-    settings: &Settings,
+    settings: &ResolvedMethod,
     effort: &Effort,
 ) -> Explanation
 where
@@ -90,14 +90,18 @@ where
         return Explanation { error, ..explanation };
     }
     // Runs are compared row by row: their steps are fixed.
-    let fixed = Settings { rule: StepRule::Fixed, step_max: settings.step, ..settings.clone() };
+    let fixed =
+        ResolvedMethod { rule: StepRule::Fixed, step_max: settings.step, ..settings.clone() };
     let settings = if settings.rule == StepRule::Fixed { settings } else { &fixed };
     let (prices, error) = price::prices::<T, D>(scene, settings, effort);
     Explanation { prices: Some(prices), error, ..explanation }
 }
 
 /// Can the run start, outputs and all?
-fn start<T: Real, const D: usize>(scene: &Scene<T>, settings: &Settings) -> Result<(), StopError>
+fn start<T: Real, const D: usize>(
+    scene: &Scene<T>,
+    settings: &ResolvedMethod,
+) -> Result<(), StopError>
 where
     Plane<D>: InSpace<T>,
 {

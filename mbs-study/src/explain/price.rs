@@ -6,7 +6,7 @@ use super::timing::{Times, count, interleaved, monitor, trial};
 use super::trials::{Effort, outcome, without};
 use mbs::inside::OutputRanges;
 use mbs::record::RunError;
-use mbs::{InSpace, Outcome, Plane, Settings};
+use mbs::{InSpace, Outcome, Plane, ResolvedMethod};
 use mbs_core::Real;
 use mbs_core::scene::Scene;
 use std::time::Instant;
@@ -26,7 +26,7 @@ struct Leave {
 /// All prices, and why the run with all effects stopped, if it did.
 pub(super) fn prices<T: Real, const D: usize>(
     scene: &Scene<T>,
-    settings: &Settings,
+    settings: &ResolvedMethod,
     effort: &Effort,
 ) -> (EffectCosts, Option<RunError>)
 where
@@ -108,7 +108,7 @@ impl Plan {
     /// A third of the time for the clock, a third for the comparison, a third for longer steps.
     fn new<T: Real, const D: usize>(
         scene: &Scene<T>,
-        settings: &Settings,
+        settings: &ResolvedMethod,
         (effort, n_scenes): (&Effort, usize),
     ) -> Self
     where

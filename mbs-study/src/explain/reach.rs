@@ -3,7 +3,7 @@
 use super::explanation::{LargestStep, SearchEnd};
 use super::trials::outcome;
 use mbs::inside::SAME_LENGTH;
-use mbs::{InSpace, Plane, Settings};
+use mbs::{InSpace, Plane, ResolvedMethod};
 use mbs_core::Real;
 use mbs_core::scene::Scene;
 
@@ -15,7 +15,7 @@ const FEWEST_STEPS: f64 = 10.0;
 /// Doubles the step until the run over `duration` stops. `completes` says whether it does with the given step.
 pub(super) fn largest_step<T: Real, const D: usize>(
     scene: &Scene<T>,
-    settings: &Settings,
+    settings: &ResolvedMethod,
     (duration, completes): (f64, bool),
     has_time: &impl Fn() -> bool,
 ) -> LargestStep

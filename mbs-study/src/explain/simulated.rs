@@ -4,7 +4,7 @@ use super::explanation::{
     ControllerStep, GuideEntry, JointsByKind, Relative, Simulated, Sizes, ThinRod,
 };
 use mbs::typed::Simulation;
-use mbs::{FormulationKind, InSpace, IntegratorKind, Names, Plane, Settings, StopError};
+use mbs::{FormulationKind, InSpace, IntegratorKind, Names, Plane, ResolvedMethod, StopError};
 use mbs_core::Real;
 use mbs_core::natural::NaturalModel;
 use mbs_core::scene::{BodyId, Dimension, Inertia, JointKind, Motion, Scene};
@@ -13,12 +13,15 @@ use mbs_nostd::{Bounds, operation_bound};
 use mbs_recursive::{TreeModel, TreeState};
 
 /// Takes stock of a scene.
-pub(super) fn simulated<T: Real, const D: usize>(scene: &Scene<T>, settings: &Settings) -> Simulated
+pub(super) fn simulated<T: Real, const D: usize>(
+    scene: &Scene<T>,
+    settings: &ResolvedMethod,
+) -> Simulated
 where
     Plane<D>: InSpace<T>,
 {
     let sizes = |formulation| {
-        let settings = Settings {
+        let settings = ResolvedMethod {
             formulation,
             integrator: IntegratorKind::Trapezoidal,
             penalty: None,

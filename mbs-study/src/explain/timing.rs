@@ -2,7 +2,7 @@
 
 use cpu_time::ThreadTime;
 use mbs::typed::Simulation;
-use mbs::{InSpace, Plane, Settings};
+use mbs::{InSpace, Plane, ResolvedMethod};
 use mbs_core::Real;
 use mbs_core::scene::Scene;
 
@@ -33,7 +33,7 @@ impl Times {
 /// Times every scene for `n` steps from its start, `repeats` rounds in turn, so that what disturbs a while meets all alike.
 pub(super) fn interleaved<T: Real, const D: usize>(
     scenes: &[Scene<T>],
-    settings: &Settings,
+    settings: &ResolvedMethod,
     (n, repeats): (u64, u32),
 ) -> Vec<Times>
 where
@@ -49,7 +49,7 @@ where
 }
 
 /// CPU time per step; nothing where there is no start or the run stops at once.
-fn once<T: Real, const D: usize>(scene: &Scene<T>, settings: &Settings, n: u64) -> Option<f64>
+fn once<T: Real, const D: usize>(scene: &Scene<T>, settings: &ResolvedMethod, n: u64) -> Option<f64>
 where
     Plane<D>: InSpace<T>,
 {
@@ -64,7 +64,7 @@ where
 /// again.
 pub(super) fn monitor<T: Real, const D: usize>(
     scene: &Scene<T>,
-    settings: &Settings,
+    settings: &ResolvedMethod,
     (n, repeats): (u64, u32),
 ) -> Option<f64>
 where
@@ -88,7 +88,7 @@ where
 /// CPU time that the start takes, and that of a step, roughly [s].
 pub(super) fn trial<T: Real, const D: usize>(
     scene: &Scene<T>,
-    settings: &Settings,
+    settings: &ResolvedMethod,
 ) -> Option<[f64; 2]>
 where
     Plane<D>: InSpace<T>,

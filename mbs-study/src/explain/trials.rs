@@ -1,6 +1,6 @@
 //! Runs of a scene for its prices: how much may be measured, and what a run without some effects gives.
 
-use mbs::{InSpace, Plane, Settings};
+use mbs::{InSpace, Plane, ResolvedMethod};
 use mbs_core::Real;
 use mbs_core::scene::Scene;
 
@@ -33,13 +33,13 @@ pub(super) fn without<T: Real>(scene: &Scene<T>, effects: &[usize]) -> Scene<T> 
 /// The run of a scene as `mbs run` makes it, over another duration or with another step.
 pub(super) fn outcome<T: Real, const D: usize>(
     scene: &Scene<T>,
-    settings: &Settings,
+    settings: &ResolvedMethod,
     (times_step, duration): (f64, f64),
 ) -> mbs::Outcome
 where
     Plane<D>: InSpace<T>,
 {
-    let settings = Settings {
+    let settings = ResolvedMethod {
         step: settings.step * times_step,
         step_max: settings.step_max * times_step,
         duration,

@@ -2,8 +2,8 @@
 
 use core::time::Duration;
 use cpu_time::ThreadTime;
-use mbs::inside::{Keep, ReadScene, SceneWork, run_keeping};
-use mbs::{Method, Outcome, Settings};
+use mbs::inside::{ReadScene, RecordRows, SceneWork, run_keeping};
+use mbs::{Method, Outcome, ResolvedMethod};
 use mbs_core::Real;
 use mbs_core::scene::Scene;
 use mbs_scene::{SceneFile, SweepFile};
@@ -64,7 +64,7 @@ fn run_in(document: &SceneFile, overrides: &Method, member: usize, values: Vec<S
         Ok(scene) => scene,
         Err(error) => return refused(values, "scene-refused", &error),
     };
-    let settings = match Settings::new(&scene, overrides) {
+    let settings = match ResolvedMethod::new(&scene, overrides) {
         Ok(settings) => settings,
         Err(error) => return refused(values, "settings-refused", &error),
     };
@@ -82,13 +82,13 @@ fn run_in(document: &SceneFile, overrides: &Method, member: usize, values: Vec<S
 }
 
 /// A run of which the last row is kept.
-struct Last<'a>(&'a Settings);
+struct Last<'a>(&'a ResolvedMethod);
 
 impl SceneWork for Last<'_> {
     type Done = Outcome;
 
     fn done<T: Real, const D: usize>(self, scene: &Scene<T>) -> Outcome {
-        run_keeping::<T, D>(scene, self.0, &mut (), Keep::Last)
+        run_keeping::<T, D>(scene, self.0, &mut (), RecordRows::Last)
     }
 }
 

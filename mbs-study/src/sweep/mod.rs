@@ -20,7 +20,7 @@ use core::num::NonZeroUsize;
 use core::ops::ControlFlow;
 use mbs::folder::{PART, WriteError, write_whole};
 use mbs::record::Channel;
-use mbs::{Method, Precision, Settings, SettingsError};
+use mbs::{Method, Precision, ResolvedMethod, SettingsError};
 use mbs_parallel::ensemble::{Ensemble, EnsembleError, Panicked, available};
 use mbs_parallel::most_threads;
 use mbs_scene::{ReadError, SceneFile, SweepFile};
@@ -42,7 +42,7 @@ pub struct Study {
     scene: SceneFile,
     sweep: SweepFile,
     overrides: Method,
-    settings: Settings,
+    settings: ResolvedMethod,
     columns: Columns,
     head: Head,
 }
@@ -133,7 +133,7 @@ impl Study {
         overrides: &Method,
     ) -> Result<Self, StudyError> {
         let data = scene.scene::<f64>().map_err(StudyError::Read)?;
-        let settings = Settings::new(&data, overrides).map_err(StudyError::Settings)?;
+        let settings = ResolvedMethod::new(&data, overrides).map_err(StudyError::Settings)?;
         if settings.precision == Precision::DoubleDouble {
             return Err(StudyError::Pairs);
         }
@@ -145,7 +145,7 @@ impl Study {
         if let Some((path, _)) = GIVEN.into_iter().find(|(p, is)| is(overrides) && varied(p)) {
             return Err(StudyError::Varied(path));
         }
-        let check = sweep.check(&scene, |scene| match Settings::new(scene, overrides) {
+        let check = sweep.check(&scene, |scene| match ResolvedMethod::new(scene, overrides) {
             Err(error @ SettingsError::NotPositive { .. }) => {
                 Err((error.to_string(), error.hint()))
             }
@@ -170,7 +170,7 @@ impl Study {
 
     /// The settings of the scene as it is written.
     #[must_use]
-    pub fn settings(&self) -> &Settings {
+    pub fn settings(&self) -> &ResolvedMethod {
         &self.settings
     }
 

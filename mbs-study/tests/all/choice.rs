@@ -2,7 +2,7 @@
 
 use crate::clock::CountedClock;
 use mbs::scene_file::SceneFile;
-use mbs::{Method, Settings};
+use mbs::{Method, ResolvedMethod};
 use mbs_core::scene::Scene;
 use mbs_study::auto::{Goal, Plan, plan, run_plan};
 
@@ -19,7 +19,7 @@ fn read(name: &str) -> (SceneFile, Scene<f64>) {
 
 fn planned(name: &str, base: &Method, goal: Goal) -> Plan {
     let (document, scene) = read(name);
-    let settings = Settings::new(&scene, base).expect("the settings go together");
+    let settings = ResolvedMethod::new(&scene, base).expect("the settings go together");
     plan((&document, &scene), (base, settings), goal, &mut CountedClock::default())
         .expect("the goal can be meant")
 }
@@ -48,7 +48,7 @@ fn the_wanted_error_is_kept_on_the_pendulum_against_its_closed_form() {
     for wanted in [1e-2, 1e-4, 1e-6] {
         let (document, scene) = read("simple-pendulum");
         let base = Method::default();
-        let settings = Settings::new(&scene, &base).unwrap();
+        let settings = ResolvedMethod::new(&scene, &base).unwrap();
         let clock = &mut CountedClock::default();
         let plan = plan((&document, &scene), (&base, settings), error(wanted), clock).unwrap();
         let (outcome, settings) = run_plan((&document, &scene), &plan, &mut |_| {}).unwrap();
@@ -94,7 +94,7 @@ fn where_the_first_stops_the_next_runs_and_the_choice_says_so() {
     // relative coordinates at small steps stop at the four-bar's singular position, index-3 passes it
     let (document, scene) = read("four-bar");
     let base = Method::default();
-    let settings = Settings::new(&scene, &base).unwrap();
+    let settings = ResolvedMethod::new(&scene, &base).unwrap();
     let of = |formulation: &str| {
         let overrides =
             Method { formulation: Some(formulation.into()), step: Some(1e-3), ..base.clone() };
@@ -105,7 +105,7 @@ fn where_the_first_stops_the_next_runs_and_the_choice_says_so() {
             &mut CountedClock::default(),
         );
         let choice = choice.unwrap().first().choice.clone();
-        Settings { choice, ..Settings::new(&scene, &overrides).unwrap() }
+        ResolvedMethod { choice, ..ResolvedMethod::new(&scene, &overrides).unwrap() }
     };
     let plan = Plan { ranked: vec![of("recursive"), of("index-3")] };
     let (outcome, settings) = run_plan((&document, &scene), &plan, &mut |_| {}).unwrap();

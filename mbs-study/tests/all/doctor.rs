@@ -4,7 +4,7 @@ use mbs::core::outputs::Reactions;
 use mbs::core::scene::{Dimension, Scene};
 use mbs::scene_file::SceneFile;
 use mbs::typed::Simulation;
-use mbs::{Method, Settings};
+use mbs::{Method, ResolvedMethod};
 use mbs_study::doctor::{Checkup, Effort, Severity, examine};
 use mbs_testkit::{random, retell};
 
@@ -12,7 +12,7 @@ use mbs_testkit::{random, retell};
 const LITTLE: Effort = Effort { positions: 20, seconds: 60.0 };
 
 fn checkup(scene: &Scene<f64>, effort: &Effort) -> Checkup {
-    let settings = Settings::new(scene, &Method::default()).expect("the defaults are built");
+    let settings = ResolvedMethod::new(scene, &Method::default()).expect("the defaults are built");
     examine(scene, &settings, effort)
 }
 
@@ -71,7 +71,8 @@ fn both_levels_count_the_same_freedoms_and_natural_coordinates_hide_redundancies
 #[test]
 fn reactions_are_unique_where_the_balance_of_the_bodies_says_so() {
     fn compare<const D: usize>(scene: &Scene<f64>) {
-        let settings = Settings::new(scene, &Method::default()).expect("the defaults are built");
+        let settings =
+            ResolvedMethod::new(scene, &Method::default()).expect("the defaults are built");
         let simulation = Simulation::<f64, D>::new(scene, &settings).expect("it starts");
         let mut reactions = Reactions::new(scene, simulation.model()).expect("small");
         reactions.update(simulation.state());
@@ -182,7 +183,7 @@ fn four_bars_in_a_chain_pass_their_singular_position_where_it_is() {
     assert!(near.sigma < 1e-3 && told.message.contains("10 times"), "{}", told.message);
     assert_eq!(told.joints, near.joints);
     // There the state says the same: cranks that stood up in the reference configuration lie down.
-    let settings = Settings::new(&scene, &Method::default()).expect("the defaults are built");
+    let settings = ResolvedMethod::new(&scene, &Method::default()).expect("the defaults are built");
     let mut simulation = Simulation::<f64, 2>::new(&scene, &settings).expect("it starts");
     while simulation.state().t < near.passages[0] {
         simulation.advance(settings.step).expect("a step");

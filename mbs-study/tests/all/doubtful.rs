@@ -2,7 +2,7 @@
 
 use mbs::core::scene::{Inertia, Scene};
 use mbs::scene_file::SceneFile;
-use mbs::{Method, Settings, SettingsError};
+use mbs::{Method, ResolvedMethod, SettingsError};
 use mbs_study::doctor::{Checkup, Effort, Severity, examine};
 use mbs_testkit::repository::{field, read, text, tilted};
 
@@ -12,7 +12,7 @@ const STILL: Effort = Effort { positions: 0, seconds: 60.0 };
 const CLOSE: f64 = 1e-5;
 
 fn checkup(scene: &Scene<f64>) -> Checkup {
-    let settings = Settings::new(scene, &Method::default()).expect("the defaults are built");
+    let settings = ResolvedMethod::new(scene, &Method::default()).expect("the defaults are built");
     examine(scene, &settings, &STILL)
 }
 
@@ -122,7 +122,7 @@ fn a_part_that_no_body_can_have_is_a_note_where_what_it_is_welded_to_can() {
     // the weld is one body: its free fall is that of the scene without the frame
     let outcome = mbs::typed::run::<f64, 3>(
         &scene,
-        &Settings::new(&scene, &Method::default()).unwrap(),
+        &ResolvedMethod::new(&scene, &Method::default()).unwrap(),
         &mut (),
     );
     assert!(outcome.error.is_none());
@@ -142,7 +142,7 @@ fn a_table_that_ends_on_a_slope_within_the_run_is_refused_at_its_row_and_runs_wi
     let text = text("20-guide-table-ends-on-a-slope");
     let document = SceneFile::parse(&text, "table.toml").expect("a scene file");
     let scene: Scene<f64> = document.scene().expect("a scene");
-    let error = Settings::new(&scene, &Method::default()).unwrap_err();
+    let error = ResolvedMethod::new(&scene, &Method::default()).unwrap_err();
     let SettingsError::Scene(fault) = error else { panic!("{error}") };
     let told = document.meaning(fault);
     // the third row of the table
@@ -154,13 +154,13 @@ fn a_table_that_ends_on_a_slope_within_the_run_is_refused_at_its_row_and_runs_wi
     assert!(told.hint().contains("ends = \"level\""));
     // up to its end it runs, and so it does with what the hint says
     let short = Method { duration: Some(0.5), ..Method::default() };
-    assert!(Settings::new(&scene, &short).is_ok());
+    assert!(ResolvedMethod::new(&scene, &short).is_ok());
     let level = text.replace("[0.5, 0.3]]", "[0.5, 0.3]]\nends = \"level\"");
     let scene = read(&level, "level");
     let run = |formulation: &str, step: f64| {
         let formulation = Some(formulation.to_owned());
         let overrides = Method { formulation, step: Some(step), ..Method::default() };
-        let settings = Settings::new(&scene, &overrides).expect("it is taken");
+        let settings = ResolvedMethod::new(&scene, &overrides).expect("it is taken");
         let outcome = mbs::typed::run::<f64, 2>(&scene, &settings, &mut ());
         assert!(outcome.error.is_none(), "{:?}", outcome.error);
         let outputs = outcome.summary.outputs.0;
@@ -180,7 +180,7 @@ fn the_doctor_names_the_axis_that_is_off() {
         [(1e-7, "axis-off", Severity::Note), (1e-4, "almost-dependent", Severity::Fault)]
     {
         let scene = tilted(angle);
-        let settings = Settings::new(&scene, &Method::default()).expect("settings");
+        let settings = ResolvedMethod::new(&scene, &Method::default()).expect("settings");
         let checkup = examine(&scene, &settings, &effort);
         let found = checkup.findings.iter().find(|f| f.code == code && f.severity == severity);
         let found = found.unwrap_or_else(|| panic!("{angle:e}: {:?}", checkup.findings));

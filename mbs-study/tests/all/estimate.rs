@@ -4,7 +4,7 @@ use crate::clock::CountedClock;
 use mbs::core::scene::{Dimension, Scene};
 use mbs::record::ErrorEstimate;
 use mbs::scene_file::SceneFile;
-use mbs::{Method, Outcome, Settings};
+use mbs::{Method, Outcome, ResolvedMethod};
 use mbs_study::auto::{Goal, plan, run_plan};
 use mbs_study::estimate::estimate;
 use mbs_testkit::repository::{field, read, text};
@@ -16,8 +16,8 @@ const MEDIAN: f64 = 10.0;
 /// Rounding of a result in an error-controlled run, relative.
 const CONTROLLED: f64 = 1e-6;
 
-fn run(scene: &Scene<f64>, overrides: &Method) -> (Settings, Outcome) {
-    let settings = Settings::new(scene, overrides).expect("the settings are built");
+fn run(scene: &Scene<f64>, overrides: &Method) -> (ResolvedMethod, Outcome) {
+    let settings = ResolvedMethod::new(scene, overrides).expect("the settings are built");
     let outcome = match scene.dimension {
         Dimension::Planar => mbs::typed::run::<f64, 2>(scene, &settings, &mut ()),
         Dimension::Spatial => mbs::typed::run::<f64, 3>(scene, &settings, &mut ()),
@@ -127,7 +127,7 @@ fn a_spring_too_stiff_for_the_step_is_said() {
 fn a_run_that_stops_has_no_estimate_and_says_why() {
     let scene = field("09-light-wrist");
     let overrides = Method { energy_alarm: Some(1e-9), ..Method::default() };
-    let settings = Settings::new(&scene, &overrides).unwrap();
+    let settings = ResolvedMethod::new(&scene, &overrides).unwrap();
     let mut outcome = mbs::typed::run::<f64, 3>(&scene, &settings, &mut ());
     estimate(&scene, &settings, &mut outcome, (&mut CountedClock::default(), ENOUGH));
     let estimate = outcome.summary.estimate.unwrap();
@@ -217,7 +217,7 @@ fn a_choice_by_measurement_is_right_or_refused_where_coordinates_disagree() {
         let document = SceneFile::parse(&text(name), name).expect("it is a document");
         let scene = document.scene::<f64>().expect("it is a scene");
         let base = Method::default();
-        let settings = Settings::new(&scene, &base).expect("the settings go together");
+        let settings = ResolvedMethod::new(&scene, &base).expect("the settings go together");
         let goal = Goal { error: Some(1e-4), deadline: None };
         let clock = &mut CountedClock::default();
         let Ok(plan) = plan((&document, &scene), (&base, settings), goal, clock) else { continue };
@@ -234,7 +234,7 @@ fn a_choice_for_a_vehicle_that_jumps_sees_its_landing_and_keeps_its_error() {
     let document = SceneFile::parse(&std::fs::read_to_string(path).unwrap(), path).unwrap();
     let scene = document.scene::<f64>().expect("it is a scene");
     let base = Method { formulation: Some("auto".to_owned()), ..Method::default() };
-    let settings = Settings::new(&scene, &base).expect("the settings go together");
+    let settings = ResolvedMethod::new(&scene, &base).expect("the settings go together");
     let goal = Goal { error: Some(1e-2), deadline: None };
     let plan =
         plan((&document, &scene), (&base, settings), goal, &mut CountedClock::default()).unwrap();

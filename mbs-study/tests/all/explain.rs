@@ -2,7 +2,7 @@
 
 use mbs::record::Provenance;
 use mbs::scene_file::SceneFile;
-use mbs::{Method, Settings};
+use mbs::{Method, ResolvedMethod};
 use mbs_core::scene::Scene;
 use mbs_report::explanation as explanation_text;
 use mbs_study::explain::{EffectCost, Explanation, SearchEnd};
@@ -56,9 +56,9 @@ joint = "pivot"
 value = 0.0
 "#;
 
-fn explained(scene: &Scene<f64>) -> (Explanation, Settings) {
+fn explained(scene: &Scene<f64>) -> (Explanation, ResolvedMethod) {
     let overrides = Method { step: Some(1e-2), ..Method::default() };
-    let settings = Settings::new(scene, &overrides).expect("the settings are built");
+    let settings = ResolvedMethod::new(scene, &overrides).expect("the settings are built");
     (explain::<f64, 2>(scene, &settings, &LITTLE), settings)
 }
 
@@ -96,7 +96,7 @@ axis = [0.0, 1.0, 0.0]
 "#;
     let document = SceneFile::parse(text, "rods.toml").expect("TOML");
     let scene: Scene<f64> = document.scene().expect("a scene");
-    let settings = Settings::new(&scene, &Method::default()).expect("the settings are built");
+    let settings = ResolvedMethod::new(&scene, &Method::default()).expect("the settings are built");
     let simulated = explain::<f64, 3>(&scene, &settings, &LITTLE).simulated;
     let rods: Vec<_> =
         simulated.rods.iter().map(|rod| (rod.body.as_str(), rod.idle_spin_carried)).collect();
@@ -191,7 +191,7 @@ fn the_largest_step_completes_and_twice_as_long_a_one_does_not() {
         let mut scene = scene.clone();
         scene.effects[0].enabled = enabled;
         let completes = |step: f64| {
-            let settings = Settings { step, step_max: step, ..settings.clone() };
+            let settings = ResolvedMethod { step, step_max: step, ..settings.clone() };
             mbs::typed::run::<f64, 2>(&scene, &settings, &mut ()).summary.completed
         };
         assert!(completes(step));

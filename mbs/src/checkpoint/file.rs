@@ -4,7 +4,7 @@ use super::CheckpointError;
 use super::identity::Identity;
 use super::tape::{Eye, Pen, Tape, Walked, holds};
 use crate::fingerprint::fingerprint;
-use crate::settings::{Method, Settings};
+use crate::settings::{Method, ResolvedMethod};
 use mbs_core::Real;
 use mbs_core::scene::Scene;
 use std::io::Read;
@@ -102,12 +102,12 @@ impl Checkpoint {
         &self,
         scene: &Scene<T>,
         given: &Method,
-    ) -> Result<Settings, CheckpointError> {
-        let settings = Settings::new(scene, &self.overrides(given)?);
+    ) -> Result<ResolvedMethod, CheckpointError> {
+        let settings = ResolvedMethod::new(scene, &self.overrides(given)?);
         self.settle(settings.map_err(CheckpointError::Settings)?)
     }
 
-    /// What is given, and the settings of the checkpoint's run where nothing is: what [`Settings::new`] makes of it,
+    /// What is given, and the settings of the checkpoint's run where nothing is: what [`ResolvedMethod::new`] makes of it,
     /// [`settle`](Self::settle) compares. The two are the halves of [`settings`](Self::settings).
     ///
     /// # Errors
@@ -120,7 +120,7 @@ impl Checkpoint {
     ///
     /// # Errors
     /// [`CheckpointError::Setting`] for what this run did not have.
-    pub fn settle(&self, settings: Settings) -> Result<Settings, CheckpointError> {
+    pub fn settle(&self, settings: ResolvedMethod) -> Result<ResolvedMethod, CheckpointError> {
         self.identity.settle(settings)
     }
 

@@ -3,7 +3,7 @@
 use super::CheckpointError;
 use super::tape::{Tape, Walked, holds};
 use crate::fingerprint::Fingerprint;
-use crate::settings::{Method, Settings};
+use crate::settings::{Method, ResolvedMethod};
 use core::fmt::{Debug, Write};
 use mbs_core::Real;
 use mbs_core::scene::Scene;
@@ -52,7 +52,7 @@ pub(crate) struct Identity {
 
 impl Identity {
     /// Of a scene in the precision of its run. Comments, the order of keys and the name of the file have no part in it.
-    pub(crate) fn new<T: Real>(scene: &Scene<T>, settings: &Settings) -> Self {
+    pub(crate) fn new<T: Real>(scene: &Scene<T>, settings: &ResolvedMethod) -> Self {
         let (parts, values) = (fingerprints(scene), values(settings));
         Self { parts, values, asked: settings.asked.clone() }
     }
@@ -117,10 +117,13 @@ impl Identity {
     }
 
     /// The settings, where they are those of the checkpoint; what was asked for is what its run was asked for.
-    pub(super) fn settle(&self, settings: Settings) -> Result<Settings, CheckpointError> {
+    pub(super) fn settle(
+        &self,
+        settings: ResolvedMethod,
+    ) -> Result<ResolvedMethod, CheckpointError> {
         let now = Self { values: values(&settings), ..Self::default() };
         now.check_settings(self)?;
-        Ok(Settings { asked: self.asked.clone(), ..settings })
+        Ok(ResolvedMethod { asked: self.asked.clone(), ..settings })
     }
 
     /// Writes it, or reads it back.
@@ -174,8 +177,8 @@ fn of(part: &impl Debug) -> u64 {
 }
 
 /// A text for each of [`KEYS`].
-fn values(settings: &Settings) -> [String; KEYS.len()] {
-    let Settings {
+fn values(settings: &ResolvedMethod) -> [String; KEYS.len()] {
+    let ResolvedMethod {
         asked: _,
         formulation,
         integrator,

@@ -4,7 +4,7 @@
 //! "mbs-ckpt" format | length checksum | mbs version | scene, settings | time | state, formulation, control, invariant | record
 //! ```
 //!
-//! [`Simulation::save`] and [`Simulation::restore`] are for programs that step themselves; [`Keeping`] is how `mbs run` keeps a run,
+//! [`Simulation::save`] and [`Simulation::restore`] are for programs that step themselves; [`CheckpointWriter`] is how `mbs run` keeps a run,
 //! its record among it. docs/CHECKPOINT.md says what is in the file and what is not. The numeric crates give plain histories of
 //! what they remember from step to step; the format is here alone.
 
@@ -12,20 +12,20 @@ mod error;
 mod file;
 mod history;
 mod identity;
-mod keeping;
-mod kept;
 mod rows;
 mod simulation;
+mod snapshot;
 pub(crate) mod tape;
+mod writer;
 
 pub use error::CheckpointError;
 pub use file::Checkpoint;
-pub use keeping::{FILE, Keeping};
+pub use writer::{CheckpointWriter, FILE};
 
 pub(crate) use file::{Kind, whole};
 pub(crate) use identity::Identity;
-pub(crate) use kept::{ControlKept, Kept, inputs};
 pub(crate) use rows::write_rows;
+pub(crate) use snapshot::{ControlSnapshot, SimulationSnapshot, inputs};
 
 #[cfg(doc)]
 use crate::typed::Simulation;

@@ -2,7 +2,7 @@
 
 use super::tape::{Tape, Walked, holds};
 use super::{Checkpoint, CheckpointError, Identity, Kind, whole};
-use crate::settings::Settings;
+use crate::settings::ResolvedMethod;
 use crate::simulation::Simulation;
 use mbs_core::Real;
 use mbs_core::scene::Scene;
@@ -19,7 +19,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     ///
     /// # Examples
     /// ```
-    /// use mbs::{Method, Settings, scene_file::SceneFile};
+    /// use mbs::{Method, ResolvedMethod, scene_file::SceneFile};
     /// use mbs::typed::Simulation;
     /// # let text = r#"
     /// # [scene]
@@ -38,7 +38,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     /// # at = [0.0, 0.0]
     /// # "#;
     /// let scene = SceneFile::parse(text, "pendulum.toml")?.scene::<f64>()?;
-    /// let settings = Settings::new(&scene, &Method::default())?;
+    /// let settings = ResolvedMethod::new(&scene, &Method::default())?;
     /// let mut first = Simulation::<f64, 2>::new(&scene, &settings)?;
     /// first.step(1e-3)?;
     /// let mut bytes = Vec::new();
@@ -53,12 +53,12 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     /// ```
     pub fn save(
         &self,
-        (scene, settings): (&Scene<T>, &Settings),
+        (scene, settings): (&Scene<T>, &ResolvedMethod),
         mut sink: impl Write,
     ) -> Result<(), CheckpointError> {
         let (identity, t) = (Identity::new(scene, settings), self.state().t.to_f64());
-        let mut kept = self.kept();
-        let bytes = whole(&identity, (Kind::Simulation, [t, 0.0]), |pen| kept.walk(pen))?;
+        let mut snapshot = self.snapshot();
+        let bytes = whole(&identity, (Kind::Simulation, [t, 0.0]), |pen| snapshot.walk(pen))?;
         Ok(sink.write_all(&bytes)?)
     }
 
@@ -68,7 +68,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     /// [`CheckpointError`]; the simulation is then as it was, but that a state-space one may choose its coordinates anew.
     pub fn restore(
         &mut self,
-        (scene, settings): (&Scene<T>, &Settings),
+        (scene, settings): (&Scene<T>, &ResolvedMethod),
         source: impl Read,
     ) -> Result<(), CheckpointError> {
         let checkpoint = Checkpoint::read(source)?;
@@ -78,13 +78,13 @@ impl<T: Real, const D: usize> Simulation<T, D> {
 
     /// Restores the state at which a tape is.
     pub(crate) fn restore_from(&mut self, tape: &mut impl Tape) -> Walked {
-        let before = self.kept();
-        let mut kept = before.clone();
-        kept.walk(tape)?;
-        if self.restore_kept(&kept) {
+        let before = self.snapshot();
+        let mut snapshot = before.clone();
+        snapshot.walk(tape)?;
+        if self.restore_snapshot(&snapshot) {
             return Ok(());
         }
-        let _ = self.restore_kept(&before);
+        let _ = self.restore_snapshot(&before);
         holds(false)
     }
 }

@@ -4,7 +4,7 @@
 //! mechanics is finite, and a count has room to grow.
 
 use super::CheckpointError;
-use crate::digits::is_finer;
+use crate::precision::is_finer;
 use core::time::Duration;
 use mbs_core::Real;
 

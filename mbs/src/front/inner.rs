@@ -9,7 +9,7 @@ use crate::checkpoint::CheckpointError;
 use crate::checkpoint::tape::{Eye, Pen, Tape, holds};
 use crate::driver::{StepObserver, Stretch, drive};
 use crate::precision::SceneWork;
-use crate::settings::{Settings, exact};
+use crate::settings::{ResolvedMethod, exact};
 use crate::simulation::Simulation;
 use crate::stop::StopError;
 use core::fmt::Debug;
@@ -53,14 +53,14 @@ pub(crate) trait Inner: Sink + Debug + Send + Sync {
 #[derive(Debug)]
 struct Typed<T: Real, const D: usize> {
     seen: Seen<T, D, Simulation<T, D>>,
-    settings: Settings,
+    settings: ResolvedMethod,
     clock: StepClock<T>,
     /// Where contacts are watched.
     contacts: Option<Contacts<T, D>>,
 }
 
 impl<T: Real, const D: usize> Typed<T, D> {
-    fn new(scene: Scene<T>, settings: &Settings) -> Result<Self, StopError> {
+    fn new(scene: Scene<T>, settings: &ResolvedMethod) -> Result<Self, StopError> {
         let simulation = Simulation::new(&scene, settings)?;
         let readings = Readings::new(&scene, &simulation)?;
         let seen = Seen::new(Arc::new(scene), simulation, readings);
@@ -233,7 +233,7 @@ impl<T: Real, const D: usize> StepObserver<T, D> for Watch<'_, T, D> {
 }
 
 /// Building a simulation in the precision of its settings.
-pub(super) struct Built<'a>(pub(super) &'a Settings);
+pub(super) struct Built<'a>(pub(super) &'a ResolvedMethod);
 
 impl SceneWork for Built<'_> {
     type Done = Result<Box<dyn Inner>, StopError>;

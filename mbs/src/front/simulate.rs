@@ -8,7 +8,7 @@ use super::simulation::Simulation;
 use super::tree::Tree;
 use crate::names::Names;
 use crate::precision::{ReadScene, Source};
-use crate::settings::{Method, Settings};
+use crate::settings::{Method, ResolvedMethod};
 use crate::statics::StaticEquilibrium;
 use mbs_core::Real;
 use mbs_core::scene::Scene;
@@ -47,9 +47,9 @@ impl Mechanism {
     pub(super) fn prepared(
         &self,
         method: &Method,
-    ) -> Result<(ReadScene<'static>, Settings, Scene<f64>), SimulationError> {
+    ) -> Result<(ReadScene<'static>, ResolvedMethod, Scene<f64>), SimulationError> {
         let scene = self.resolve_scene()?;
-        let settings = Settings::new(&scene, method)?;
+        let settings = ResolvedMethod::new(&scene, method)?;
         let read = ReadScene::of(self, Cow::Owned(scene.clone()), settings.precision)?;
         Ok((read, settings, scene))
     }

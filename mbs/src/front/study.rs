@@ -12,7 +12,7 @@ use crate::names::Names;
 use crate::precision::SceneWork;
 use crate::record::RunSummary;
 use crate::run::{Outcome, run_columns};
-use crate::settings::{Method, Settings};
+use crate::settings::{Method, ResolvedMethod};
 use crate::statics::StaticEquilibrium;
 use crate::typed;
 use mbs_core::Real;
@@ -114,7 +114,7 @@ pub fn run_with(
 
 /// A run before observers.
 struct Watched<'a, 'b> {
-    settings: &'a Settings,
+    settings: &'a ResolvedMethod,
     names: &'a Names,
     inputs: Inputs,
     observers: &'a mut [&'b mut dyn Observer],

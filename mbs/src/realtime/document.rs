@@ -5,10 +5,10 @@ use super::ladder::{Sought, listed};
 use super::measure::measured;
 use super::{Degrade, Overrun, Pace, Pacer, Pacing};
 use crate::choice::StepRule;
-use crate::digits::is_finer;
+use crate::precision::is_finer;
 use crate::precision::{ReadScene, SceneWork};
 use crate::run::{Outcome, PacedLevel, PacedSchedule, paced};
-use crate::settings::Settings;
+use crate::settings::ResolvedMethod;
 use crate::settings::length::SAME_LENGTH;
 use core::time::Duration;
 use mbs_core::Real;
@@ -28,7 +28,7 @@ use mbs_scene::SceneFile;
 /// [`PacingError`] for what cannot be paced as it is asked for; a run that stops is an [`Outcome`] with its error.
 pub fn run_document(
     (document, scene): (&SceneFile, &Scene<f64>),
-    settings: &Settings,
+    settings: &ResolvedMethod,
     pacing: &Pacing,
     clock: &mut dyn Clock,
 ) -> Result<Outcome, PacingError> {
@@ -38,7 +38,7 @@ pub fn run_document(
 
 /// A paced run.
 struct Paced<'a> {
-    settings: &'a Settings,
+    settings: &'a ResolvedMethod,
     pacing: &'a Pacing,
     clock: &'a mut dyn Clock,
 }
@@ -53,7 +53,7 @@ impl SceneWork for Paced<'_> {
 
 fn run<T: Real, const D: usize>(
     scene: &Scene<T>,
-    settings: &Settings,
+    settings: &ResolvedMethod,
     pacing: &Pacing,
     clock: &mut dyn Clock,
 ) -> Result<Outcome, PacingError> {
@@ -76,7 +76,7 @@ fn run<T: Real, const D: usize>(
 /// The pace, and how simulated time is cut.
 fn track<T: Real>(
     scene: &Scene<T>,
-    settings: &Settings,
+    settings: &ResolvedMethod,
     pacing: &Pacing,
 ) -> Result<(Pace, PacedSchedule<T>), PacingError> {
     let is_controlled = settings.rule != StepRule::Fixed || settings.integrator.controls_its_step();
@@ -99,7 +99,7 @@ fn track<T: Real>(
         }
         Some(period) => T::from_f64(period),
     };
-    let of_periods = Settings { step_max: period, ..settings.clone() };
+    let of_periods = ResolvedMethod { step_max: period, ..settings.clone() };
     let track = PacedSchedule {
         period: (exact, period),
         periods: of_periods.n_steps(),

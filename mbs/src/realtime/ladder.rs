@@ -3,7 +3,7 @@
 use super::error::PacingError;
 use crate::record::Degraded;
 use crate::run::{PacedLevel, PacedSchedule};
-use crate::settings::Settings;
+use crate::settings::ResolvedMethod;
 use crate::simulation::Simulation;
 use mbs_core::Real;
 use mbs_core::formulation::SwitchError;
@@ -15,7 +15,7 @@ const STEPS: &str = "steps";
 /// The run whose ladder is sought.
 pub(super) struct Sought<'a, T> {
     pub(super) scene: &'a Scene<T>,
-    pub(super) settings: &'a Settings,
+    pub(super) settings: &'a ResolvedMethod,
     pub(super) track: &'a PacedSchedule<T>,
 }
 

@@ -15,7 +15,7 @@ use super::{Pace, Pacer};
 use crate::changes::OutputRanges;
 use crate::record::OutputChange;
 use crate::run::{Outcome, PacedLevel, PacedSchedule, paced};
-use crate::settings::Settings;
+use crate::settings::ResolvedMethod;
 use core::cell::Cell;
 use core::time::Duration;
 use mbs_core::Real;
@@ -206,7 +206,7 @@ fn trial<T: Real, const D: usize>(
     let Sought { settings, track, .. } = *sought;
     let periods = periods.min(track.periods);
     let duration = settings.duration.min(count(usize::try_from(periods).ok()?) * track.period.1);
-    let settings = Settings { duration, ..settings.clone() };
+    let settings = ResolvedMethod { duration, ..settings.clone() };
     let steps = track.steps.map(|steps| rung.steps(steps));
     let track = PacedSchedule { periods, steps, has_level: false, ..*track };
     let scene = rung.scene(sought.scene);

@@ -11,7 +11,7 @@
 //! use core::{cell::Cell, ops::ControlFlow, time::Duration};
 //! use mbs::core::scene::{BodyId, Signal, Effect, EffectKind, JointId, JointTorque};
 //! use mbs::realtime::{Clock, Overrun, Pace, Pacer, Task, Work};
-//! use mbs::{Method, Settings, StopError, scene_file::SceneFile};
+//! use mbs::{Method, ResolvedMethod, StopError, scene_file::SceneFile};
 //! use mbs::typed::Simulation;
 //!
 //! struct Bench<'a> {
@@ -64,7 +64,7 @@
 //! // what the input is at the start, before the first `set_input`: 9.81 N m hold 1 kg at 1 m
 //! let kind = EffectKind::JointTorque(JointTorque { joint: JointId::new(0), course: Signal::Input([9.81, 0.0, 0.0]) });
 //! scene.effects.push(Effect { name: "motor".into(), enabled: true, kind });
-//! let settings = Settings::new(&scene, &Method { step: Some(1e-3), ..Method::default() })?;
+//! let settings = ResolvedMethod::new(&scene, &Method { step: Some(1e-3), ..Method::default() })?;
 //! let simulation = Simulation::new(&scene, &settings).expect("the scene starts");
 //! let mut bench = Bench { simulation, motor: 0, wanted: &|_| 9.81, tip: Vec::with_capacity(500) };
 //!

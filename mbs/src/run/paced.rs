@@ -10,8 +10,8 @@ use crate::driver::{Fixed, Plant, StepObserver, Stretch, drive, multiple};
 use crate::interrupt::Interrupt;
 use crate::realtime::summary;
 use crate::record::{Channel, Degraded};
-use crate::recorder::Keep;
-use crate::settings::Settings;
+use crate::recorder::RecordRows;
+use crate::settings::ResolvedMethod;
 use crate::settings::length::SAME_LENGTH;
 use crate::simulation::Simulation;
 use crate::stop::StopError;
@@ -75,7 +75,7 @@ impl PacedLevel {
 /// [`SwitchError`] where a level cannot take the state over, with the effect that it was the last to leave out.
 pub(crate) fn paced<T: Real, const D: usize>(
     scene: &Scene<T>,
-    settings: &Settings,
+    settings: &ResolvedMethod,
     track: &PacedSchedule<T>,
     (pacer, rungs): (&mut Pacer, &[PacedLevel]),
     clock: &mut impl Clock,
@@ -85,10 +85,11 @@ pub(crate) fn paced<T: Real, const D: usize>(
         let one = Component { label: String::new(), unit: "level".to_owned() };
         channels.push(Channel { name: LEVEL.to_owned(), components: vec![one] });
     }
-    let mut run = match Run::<T, D>::new(scene, settings, channels, (track.periods, Keep::Rows)) {
-        Ok(run) => run,
-        Err(outcome) => return Ok(*outcome),
-    };
+    let mut run =
+        match Run::<T, D>::new(scene, settings, channels, (track.periods, RecordRows::All)) {
+            Ok(run) => run,
+            Err(outcome) => return Ok(*outcome),
+        };
     run.record.level = track.has_level.then_some(0.0);
     run.record.periods = Some(track.periods);
     let levels: Result<Vec<_>, _> =
@@ -99,7 +100,7 @@ pub(crate) fn paced<T: Real, const D: usize>(
         Err(Unready::Stopped(error)) => return Ok(run.finish(Duration::ZERO, Some(*error))),
     };
     run.record.recorder.reserve(track.periods);
-    run.record.figure.reserve(settings.duration);
+    run.record.animation.reserve(settings.duration);
     let Run { simulation, record } = match run.started() {
         Ok(run) => run,
         Err(outcome) => return Ok(*outcome),

@@ -1,15 +1,15 @@
 //! What a run records of its steps: rows, maxima, counts, contacts, and the alarms that end it.
 
 use super::clock::Clock;
-use crate::animation::Figure;
+use crate::animation::AnimationRecorder;
 use crate::channels::Channels;
-use crate::checkpoint::{Identity, Keeping};
+use crate::checkpoint::{CheckpointWriter, Identity};
 use crate::driver::StepObserver;
 use crate::energy_alarm::Alarm;
 use crate::friction::Frictions;
 use crate::record::{Channel, ControlSummary, RealtimeSummary, StepRow};
-use crate::recorder::{Keep, Recorder, StepMark};
-use crate::settings::{Lengths, Settings};
+use crate::recorder::{RecordRows, Recorder, StepMark};
+use crate::settings::{Lengths, ResolvedMethod};
 use crate::simulation::Simulation;
 use crate::stop::StopError;
 use core::ops::ControlFlow;
@@ -50,12 +50,12 @@ pub(crate) trait Columns<T: Real, const D: usize> {
 /// The record of a run.
 pub(super) struct Record<'a, T: Real, const D: usize> {
     pub(super) scene: &'a Scene<T>,
-    pub(super) settings: &'a Settings,
+    pub(super) settings: &'a ResolvedMethod,
     pub(super) lengths: Lengths<T>,
     pub(super) measures: Channels<T, D>,
     pub(super) contacts: Contacts<T, D>,
     pub(super) recorder: Recorder,
-    pub(super) figure: Figure<T, D>,
+    pub(super) animation: AnimationRecorder<T, D>,
     values: Vec<T>,
     /// Where the components of the scene's channels end, and what writes those behind them.
     n_measured: usize,
@@ -72,7 +72,7 @@ pub(super) struct Record<'a, T: Real, const D: usize> {
     pub(super) clock: Clock,
     /// When the step began that is made next.
     begun: Instant,
-    pub(super) kept: Option<Kept<'a>>,
+    pub(super) checkpoints: Option<RunCheckpoints<'a>>,
     /// Of a paced run: its periods, after each of which a row may be due, and how it kept up. Where there is a ladder, also the lowest
     /// level since the last row.
     pub(super) periods: Option<u64>,
@@ -83,10 +83,10 @@ pub(super) struct Record<'a, T: Real, const D: usize> {
 impl<'a, T: Real, const D: usize> Record<'a, T, D> {
     /// For rows after each of `n_rows` steps or intervals.
     pub(super) fn new(
-        (scene, settings): (&'a Scene<T>, &'a Settings),
+        (scene, settings): (&'a Scene<T>, &'a ResolvedMethod),
         simulation: &Simulation<T, D>,
         channels: Vec<Channel>,
-        (n_rows, keep): (u64, Keep),
+        (n_rows, keep): (u64, RecordRows),
     ) -> Result<Self, StopError> {
         let measures = Channels::new(scene, simulation.model())?;
         let contacts = Contacts::new(scene, simulation.model());
@@ -99,7 +99,7 @@ impl<'a, T: Real, const D: usize> Record<'a, T, D> {
             measures,
             contacts: contacts.map_err(|e| StopError::Start(e.into()))?,
             recorder: Recorder::new(channels, n_rows, simulation.invariant().initial(), keep),
-            figure: Figure::new(scene, simulation.model(), settings.duration),
+            animation: AnimationRecorder::new(scene, simulation.model(), settings.duration),
             values: vec![T::ZERO; n],
             others: None,
             mark: StepMark::default(),
@@ -110,7 +110,7 @@ impl<'a, T: Real, const D: usize> Record<'a, T, D> {
             done: 0,
             clock: Clock::new(simulation.threads()),
             begun: Instant::now(),
-            kept: None,
+            checkpoints: None,
             periods: None,
             realtime: None,
             level: None,
@@ -157,7 +157,7 @@ impl<'a, T: Real, const D: usize> Record<'a, T, D> {
             *level = T::from_f64(core::mem::take(lowest));
         }
         if self.recorder.keeps_all() {
-            self.figure.offer(self.mark.t, &state.q, is_last);
+            self.animation.offer(self.mark.t, &state.q, is_last);
         }
         self.recorder.keep(&self.mark, &self.values);
         Ok(())
@@ -267,7 +267,7 @@ impl<T: Real, const D: usize> StepObserver<T, D> for Record<'_, T, D> {
 
 /// How a run is kept, and what it belongs to.
 #[derive(Debug)]
-pub(super) struct Kept<'a> {
-    pub(super) keeping: &'a mut Keeping,
+pub(super) struct RunCheckpoints<'a> {
+    pub(super) writer: &'a mut CheckpointWriter,
     pub(super) identity: Identity,
 }

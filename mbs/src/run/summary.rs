@@ -3,7 +3,7 @@
 use super::Outcome;
 use crate::names::Names;
 use crate::record::{Channel, Contact, EnergySummary, RunRecord, RunSummary, StepSeries};
-use crate::settings::Settings;
+use crate::settings::ResolvedMethod;
 use crate::stop::StopError;
 use crate::words::{stop_text, summary_rows};
 use mbs_core::Real;
@@ -34,7 +34,7 @@ pub(super) fn energy_summary(invariant: &Invariant) -> EnergySummary {
     }
 }
 
-pub(super) fn plain_summary<T: Real>(scene: &Scene<T>, settings: &Settings) -> RunSummary {
+pub(super) fn plain_summary<T: Real>(scene: &Scene<T>, settings: &ResolvedMethod) -> RunSummary {
     RunSummary {
         scene: scene.name.clone(),
         formulation: settings.asked.clone(),
@@ -49,7 +49,7 @@ pub(super) fn plain_summary<T: Real>(scene: &Scene<T>, settings: &Settings) -> R
 
 pub(super) fn not_started<T: Real>(
     scene: &Scene<T>,
-    settings: &Settings,
+    settings: &ResolvedMethod,
     channels: &[Channel],
     error: StopError,
 ) -> Outcome {

@@ -1,14 +1,14 @@
 //! Settings as what runs: a step that goes with the run, and the way in words.
 
 use super::length::{is_controlled, is_too_long};
-use super::{Settings, SettingsError};
+use super::{ResolvedMethod, SettingsError};
 use crate::choice::{IntegratorKind, StepRule};
 use crate::record::MethodChoice;
 use crate::settings::Method;
 use mbs_core::scene::Scene;
 use mbs_scene::format::significant;
 
-impl Settings {
+impl ResolvedMethod {
     /// Refuses a step of fixed length that scene or caller ask for and that is longer than the run: something else was intended. The run
     /// would take one step of its own length.
     ///

@@ -7,8 +7,8 @@ use mbs::record::Provenance;
 use mbs::scene_file::SceneFile;
 use mbs::typed::Simulation;
 use mbs::{
-    CHECKPOINT, Checkpoint, FormulationKind, Keeping, Method, Outcome, Settings, run_document,
-    run_document_kept,
+    CHECKPOINT, Checkpoint, CheckpointWriter, FormulationKind, Method, Outcome, ResolvedMethod,
+    run_document, run_document_kept,
 };
 
 mod bytes;
@@ -45,24 +45,24 @@ fn split(name: &str, overrides: &Method, every: f64) -> Outcome {
     let document = std::fs::read(path(name)).expect("the scene is in the repository");
     let document = SceneFile::from_bytes(&document, name).expect("TOML");
     let scene = document.scene::<f64>().expect("a scene");
-    let settings = Settings::new(&scene, overrides).expect("good settings");
+    let settings = ResolvedMethod::new(&scene, overrides).expect("good settings");
     let both = (&document, &scene);
     let what = format!("{name} {overrides:?}");
     let whole = run_document(both, &settings, &mut |_| {}).expect("a scene");
 
     let out = scratch(&format!("checkpoint-split-{:?}-{name}", std::thread::current().id()));
-    let (mut keeping, mut kept) =
-        (Keeping::new(&out, every).expect("a directory of ours"), Vec::<Vec<u8>>::new());
+    let (mut writer, mut kept) =
+        (CheckpointWriter::new(&out, every).expect("a directory of ours"), Vec::<Vec<u8>>::new());
     let mut look = |_| {
         let now = std::fs::read(out.join(CHECKPOINT)).expect("there is always one");
         if kept.last() != Some(&now) {
             kept.push(now);
         }
     };
-    let outcome = run_document_kept(both, &settings, &mut look, (None, Some(&mut keeping)));
+    let outcome = run_document_kept(both, &settings, &mut look, (None, Some(&mut writer)));
     let outcome = outcome.expect("a scene").expect("no checkpoint to refuse");
     same(&told(&whole), &told(&outcome), &what);
-    assert!(keeping.failure().is_none() && kept.len() >= 3, "{what}: {} kept", kept.len());
+    assert!(writer.failure().is_none() && kept.len() >= 3, "{what}: {} kept", kept.len());
 
     for bytes in &kept {
         let checkpoint = Checkpoint::read(&bytes[..]).expect("it is whole");
@@ -237,7 +237,8 @@ fn a_simulation_that_is_restored_goes_on_with_inputs_as_they_are_set() {
     for formulation in
         FormulationKind::ALL.into_iter().filter(|f| *f != FormulationKind::MultiIndex)
     {
-        let settings = Settings::new(&scene, &with(formulation.name(), 1.0)).expect("settings");
+        let settings =
+            ResolvedMethod::new(&scene, &with(formulation.name(), 1.0)).expect("settings");
         let new = || Simulation::<f64, 2>::new(&scene, &settings).expect("the scene starts");
         let (mut first, mut second) = (new(), new());
         let effect = scene.effects.len() - 1;

@@ -396,7 +396,7 @@ fn an_export_refuses_laws_in_code_by_name() {
         scene.resolve().expect("a scene")
     };
     let method = Method::new(FormulationKind::Recursive);
-    let settings = mbs::Settings::new(&scene, &method).expect("settings");
+    let settings = mbs::ResolvedMethod::new(&scene, &method).expect("settings");
     let error = mbs::export::export(&scene, &settings, (&[], false)).expect_err("code");
     assert!(error.to_string().contains("`brake`"), "{error}");
 }

@@ -12,7 +12,7 @@ use crate::common::Bench;
 use mbs::core::outputs::Contacts;
 use mbs::core::scene::{Dimension, EffectKind, JointId, Limit, Scene};
 use mbs::scene_file::SceneFile;
-use mbs::{Method, Outcome, Settings};
+use mbs::{Method, Outcome, ResolvedMethod};
 
 /// Formulations whose rule is the trapezoidal one.
 const FORMULATIONS: [&str; 4] = ["index-3", "classical", "state-space", "recursive"];
@@ -180,7 +180,8 @@ impl Bounce {
     fn run_with(&self, formulation: &str, step: f64, overrides: Method) -> Outcome {
         let overrides =
             Method { formulation: Some(formulation.to_owned()), step: Some(step), ..overrides };
-        let settings = Settings::new(&self.scene, &overrides).expect("the settings are built");
+        let settings =
+            ResolvedMethod::new(&self.scene, &overrides).expect("the settings are built");
         let outcome = match self.scene.dimension {
             Dimension::Planar => mbs::typed::run::<f64, 2>(&self.scene, &settings, &mut ()),
             Dimension::Spatial => mbs::typed::run::<f64, 3>(&self.scene, &settings, &mut ()),

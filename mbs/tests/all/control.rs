@@ -7,11 +7,11 @@ mod starts;
 
 use crate::common::scene;
 use mbs::core::scene::{Dimension, Quantity, Scene};
-use mbs::{Method, Outcome, Settings};
+use mbs::{Method, Outcome, ResolvedMethod};
 
 /// Runs a scene; what is left out is the scene's.
 fn run(scene: &Scene<f64>, overrides: &Method) -> Outcome {
-    let settings = Settings::new(scene, overrides).expect("the settings are built");
+    let settings = ResolvedMethod::new(scene, overrides).expect("the settings are built");
     match scene.dimension {
         Dimension::Planar => mbs::typed::run::<f64, 2>(scene, &settings, &mut ()),
         Dimension::Spatial => mbs::typed::run::<f64, 3>(scene, &settings, &mut ()),
@@ -281,15 +281,15 @@ fn an_alarm_stops_the_run_with_a_typed_error_before_numbers_are_lost() {
 #[test]
 fn settings_of_the_control_are_taken_from_the_scene_and_refused_where_they_cannot_be() {
     let scene = scene("iltis-suspension-halved");
-    let settings = Settings::new(&scene, &with("multi-index")).expect("it is built");
+    let settings = ResolvedMethod::new(&scene, &with("multi-index")).expect("it is built");
     assert_eq!(settings.rule, mbs::StepRule::Energy);
     assert_eq!((settings.step_max, settings.energy_tolerance), (1e-2, [1e-6, 1e-8]));
-    let settings = Settings::new(&scene, &with("index-3")).expect("it is built");
+    let settings = ResolvedMethod::new(&scene, &with("index-3")).expect("it is built");
     assert_eq!((settings.rule, settings.step_max), (mbs::StepRule::Fixed, settings.step));
     let both = Method { error_tolerance: Some(1e-5), ..with("multi-index") };
-    assert_eq!(Settings::new(&scene, &both).map(|s| s.rule), Ok(mbs::StepRule::Both));
+    assert_eq!(ResolvedMethod::new(&scene, &both).map(|s| s.rule), Ok(mbs::StepRule::Both));
     let refused = |overrides: Method| {
-        let error = Settings::new(&scene, &overrides).expect_err("it cannot be meant");
+        let error = ResolvedMethod::new(&scene, &overrides).expect_err("it cannot be meant");
         format!("{error}; {}", error.hint())
     };
     let reversed = Method { energy_tolerance: Some([1e-8, 1e-6]), ..with("multi-index") };
@@ -316,7 +316,7 @@ fn a_controlled_step_allocates_nothing_even_when_it_is_rejected_or_ends_at_an_ev
             ..multi_index([1e-5, 1e-7], (1e-3, 1e-2))
         };
         let overrides = Method { formulation: Some((*formulation).to_owned()), ..overrides };
-        let settings = Settings::new(&scene, &overrides).expect("the settings are built");
+        let settings = ResolvedMethod::new(&scene, &overrides).expect("the settings are built");
         let mut simulation =
             mbs::typed::Simulation::<f64, 3>::new(&scene, &settings).expect("it starts");
         simulation.advance(1.0).expect("it steps");
@@ -345,7 +345,7 @@ fn runs_in_single_precision_end_where_they_should_and_rows_count_every_trial() {
                 precision: Some("f32".to_owned()),
                 ..multi_index(tolerance, (1e-3, 5e-2))
             };
-            let settings = Settings::new(&scene, &overrides).expect("it is built");
+            let settings = ResolvedMethod::new(&scene, &overrides).expect("it is built");
             let outcome = mbs::typed::run::<f32, 2>(&scene, &settings, &mut ());
             let summary = &outcome.summary;
             assert!(summary.completed, "{duration}: {:?}", summary.error);
@@ -401,7 +401,8 @@ table = [[0, 0, 0], [1, 0, 0], [2, 10, 0]]
 #[test]
 fn a_step_of_a_simulation_ends_exactly_where_it_is_asked_to() {
     let scene = scene("double-pendulum");
-    let settings = Settings::new(&scene, &multi_index([1e-6, 1e-8], (1e-3, 5e-2))).expect("built");
+    let settings =
+        ResolvedMethod::new(&scene, &multi_index([1e-6, 1e-8], (1e-3, 5e-2))).expect("built");
     let mut simulation =
         mbs::typed::Simulation::<f64, 2>::new(&scene, &settings).expect("it starts");
     let mut t = 0.0;

@@ -304,7 +304,7 @@ fn a_change_point_is_passed_in_index3_and_multi_index_wherever_steps_land() {
             tolerance,
             ..mbs::Method::default()
         };
-        let settings = mbs::Settings::new(&scene, &overrides).unwrap();
+        let settings = mbs::ResolvedMethod::new(&scene, &overrides).unwrap();
         let outcome = mbs::typed::run::<f64, 2>(&scene, &settings, &mut ());
         assert!(outcome.summary.completed, "{formulation} {step}: {:?}", outcome.summary.error);
         outcome.summary.outputs.0[0].1[0]

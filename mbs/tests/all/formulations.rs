@@ -5,10 +5,10 @@ use mbs::core::scene::{Dimension, Scene};
 use mbs::core::step::{Step, StepError};
 use mbs::scene_file::{Family, SceneFile, generate};
 use mbs::typed::Simulation;
-use mbs::{FORMULATIONS, FormulationKind, Method, Settings, StopError};
+use mbs::{FORMULATIONS, FormulationKind, Method, ResolvedMethod, StopError};
 
 fn simulation<const D: usize>(scene: &Scene<f64>, overrides: Method) -> Simulation<f64, D> {
-    let settings = Settings::new(scene, &overrides).expect("the settings are built");
+    let settings = ResolvedMethod::new(scene, &overrides).expect("the settings are built");
     Simulation::new(scene, &settings).expect("the scene assembles")
 }
 

@@ -1,7 +1,7 @@
 //! Generated scenes: as many bodies and joints as said, consistent at the start, and sound in motion.
 
 use mbs::scene_file::{Family, GenerateError, SceneFile, generate};
-use mbs::{Method, Outcome, Settings};
+use mbs::{Method, Outcome, ResolvedMethod};
 use mbs_core::scene::{Dimension, Scene};
 
 const COMMAND: &str = "mbs generate";
@@ -37,7 +37,7 @@ fn run(scene: &Scene<f64>) -> Outcome {
         duration: Some(0.1),
         ..Method::default()
     };
-    let settings = Settings::new(scene, &overrides).expect("settings");
+    let settings = ResolvedMethod::new(scene, &overrides).expect("settings");
     let outcome = match scene.dimension {
         Dimension::Planar => mbs::typed::run::<f64, 2>(scene, &settings, &mut ()),
         Dimension::Spatial => mbs::typed::run::<f64, 3>(scene, &settings, &mut ()),

@@ -12,12 +12,12 @@ use mbs::core::scene::{
 use mbs::core::step::InputError;
 use mbs::scene_file::SceneFile;
 use mbs::typed::Simulation;
-use mbs::{FormulationKind, Method, Settings};
+use mbs::{FormulationKind, Method, ResolvedMethod};
 
 fn simulation(scene: &Scene<f64>, formulation: &str) -> Simulation<f64, 2> {
     let formulation = Some(formulation.to_owned());
     let overrides = Method { formulation, step: Some(1e-3), ..Method::default() };
-    let settings = Settings::new(scene, &overrides).expect("the settings are built");
+    let settings = ResolvedMethod::new(scene, &overrides).expect("the settings are built");
     Simulation::new(scene, &settings).expect("the scene starts")
 }
 
@@ -29,7 +29,7 @@ fn with_integrator(
 ) -> Simulation<f64, 2> {
     let [formulation, integrator] = [formulation, integrator].map(|name| Some(name.to_owned()));
     let overrides = Method { formulation, integrator, step: Some(step), ..Method::default() };
-    let settings = Settings::new(scene, &overrides).expect("the settings are built");
+    let settings = ResolvedMethod::new(scene, &overrides).expect("the settings are built");
     Simulation::new(scene, &settings).expect("the scene starts")
 }
 
@@ -111,7 +111,7 @@ fn steps_of_controlled_length_begin_with_the_input_that_is_set() {
             error_tolerance: Some(1e-6),
             ..Method::default()
         };
-        let settings = Settings::new(&scene, &overrides).expect("the settings are built");
+        let settings = ResolvedMethod::new(&scene, &overrides).expect("the settings are built");
         let mut simulation =
             Simulation::<f64, 2>::new(&scene, &settings).expect("the scene starts");
         for k in 0..6 {

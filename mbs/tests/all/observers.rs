@@ -5,7 +5,7 @@ use core::ops::ControlFlow;
 use mbs::core::control::Accepted;
 use mbs::{
     Body, Effect, EffectId, Error, FormulationKind, GROUND, InputId, IntegratorKind, Joint,
-    JointId, Mechanism, Method, Observer, Output, OutputId, Run, RunInputs, Settings, Signal,
+    JointId, Mechanism, Method, Observer, Output, OutputId, ResolvedMethod, Run, RunInputs, Signal,
     SimulationError, StepReport, StopError, View, run, run_with, typed,
 };
 
@@ -260,7 +260,7 @@ fn both<const D: usize>(name: &str, formulation: &str) -> [Vec<(f64, Vec<u64>)>;
     let formulation = Some(formulation.to_owned());
     let method =
         Method { formulation, duration: Some(0.0505), step: Some(STEP), ..Method::default() };
-    let settings = Settings::new(&scene, &method).expect("good settings");
+    let settings = ResolvedMethod::new(&scene, &method).expect("good settings");
     let mut seen = Coordinates::default();
     typed::run::<f64, D>(&scene, &settings, &mut seen);
     let mut simulation = typed::Simulation::<f64, D>::new(&scene, &settings).expect("it starts");

@@ -6,7 +6,7 @@ use crate::retell;
 use crate::common::oracle::{differences, disagreement, everything, methods, rows, tell};
 use mbs::core::scene::{Dimension, Motion, Scene};
 use mbs::typed::Simulation;
-use mbs::{Method, Settings};
+use mbs::{Method, ResolvedMethod};
 
 /// Step and span [s]: at some metres and radians per second a step is a hundredth of what moves.
 const SPAN: (f64, f64) = (1e-3, 0.2);
@@ -80,7 +80,7 @@ fn formulations_agree_on_random_loops_with_a_guided_joint() {
 
 /// Constraints that follow from others.
 fn redundant(scene: &Scene<f64>) -> usize {
-    let settings = Settings::new(scene, &Method::default()).expect("the defaults are built");
+    let settings = ResolvedMethod::new(scene, &Method::default()).expect("the defaults are built");
     let [_, rows, rank] = match scene.dimension {
         Dimension::Planar => Simulation::<f64, 2>::new(scene, &settings).map(|s| s.sizes()),
         Dimension::Spatial => Simulation::<f64, 3>::new(scene, &settings).map(|s| s.sizes()),

@@ -6,7 +6,7 @@ use crate::common::allocations;
 use mbs::realtime::{Clock, Degrade, Overrun, Pacing, PacingError, Recovery, run_document};
 use mbs::scene_file::SceneFile;
 use mbs::typed::Simulation;
-use mbs::{Method, Outcome, Settings, SwitchError};
+use mbs::{Method, Outcome, ResolvedMethod, SwitchError};
 use std::cell::Cell;
 use std::time::Duration;
 
@@ -54,7 +54,7 @@ fn paced(
     clock: &mut Told,
 ) -> Result<Outcome, PacingError> {
     let scene = document.scene::<f64>().expect("a scene");
-    let settings = Settings::new(&scene, overrides).expect("settings");
+    let settings = ResolvedMethod::new(&scene, overrides).expect("settings");
     run_document((document, &scene), &settings, pacing, clock)
 }
 
@@ -81,7 +81,7 @@ fn pacing_changes_no_bit_of_the_results() {
         let step = document.scene::<f64>().expect("a scene").duration / 2000.5;
         let overrides = Method { duration: None, ..asked(formulation, step, 1.0) };
         let scene = document.scene::<f64>().expect("a scene");
-        let settings = Settings::new(&scene, &overrides).expect("settings");
+        let settings = ResolvedMethod::new(&scene, &overrides).expect("settings");
         let plain = mbs::run_document((&document, &scene), &settings, &mut |_| {}).expect("a run");
         let run = paced(&document, &overrides, &Pacing::default(), &mut Told::default());
         let run = run.expect("it is paced");
@@ -97,7 +97,7 @@ fn a_period_of_several_steps_has_the_results_of_these_steps() {
     let document = document("double-pendulum");
     let fine = asked("index-3", 1e-3, 0.5);
     let scene = document.scene::<f64>().expect("a scene");
-    let settings = Settings::new(&scene, &fine).expect("settings");
+    let settings = ResolvedMethod::new(&scene, &fine).expect("settings");
     let plain = mbs::run_document((&document, &scene), &settings, &mut |_| {}).expect("a run");
     let pacing = Pacing { period: Some(5e-3), ..Pacing::default() };
     let run = paced(&document, &fine, &pacing, &mut Told::default()).expect("it is paced");
@@ -168,7 +168,7 @@ const FORMULATIONS: [&str; 4] = ["index-3", "index-1", "multi-index", "recursive
 fn slide(formulation: &str, is_on: bool) -> Simulation<f64, 2> {
     let mut scene = slider().scene::<f64>().expect("a scene");
     scene.effects[0].enabled = is_on;
-    let settings = Settings::new(&scene, &asked(formulation, 1e-3, 2.0)).expect("settings");
+    let settings = ResolvedMethod::new(&scene, &asked(formulation, 1e-3, 2.0)).expect("settings");
     Simulation::new(&scene, &settings).expect("it starts")
 }
 

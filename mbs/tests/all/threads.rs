@@ -6,7 +6,7 @@ use crate::common::{SCENES, scene};
 use mbs::core::scene::{Dimension, Scene};
 use mbs::scene_file::{Family, SceneFile, generate};
 use mbs::typed::Simulation;
-use mbs::{Method, Settings};
+use mbs::{Method, ResolvedMethod};
 
 /// Scenes of the repository that are vehicles, and those with inputs of every kind.
 const OTHERS: [&str; 8] = [
@@ -36,7 +36,7 @@ fn bits_in<const D: usize>(
 ) -> Vec<u64> {
     let formulation = Some(formulation.to_owned());
     let overrides = Method { formulation, threads: Some(threads), ..Method::default() };
-    let settings = Settings::new(scene, &overrides).expect("the settings are built");
+    let settings = ResolvedMethod::new(scene, &overrides).expect("the settings are built");
     let mut simulation = Simulation::<f64, D>::new(scene, &settings).expect("the scene assembles");
     let mut told = Vec::new();
     for _ in 0..steps {

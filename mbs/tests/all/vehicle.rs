@@ -8,7 +8,7 @@ use mbs::core::laws::{road::height, road_contact::road_contact};
 use mbs::core::model::State;
 use mbs::core::natural::NaturalModel;
 use mbs::core::scene::{BodyId, Output, Quantity, Scene};
-use mbs::{Method, Settings, StaticEquilibrium};
+use mbs::{Method, ResolvedMethod, StaticEquilibrium};
 use std::collections::BTreeMap;
 
 /// A number of the published equilibrium (Robotran model of UCLouvain), held to 1e-3 of itself.
@@ -178,7 +178,7 @@ fn run(name: &str, formulation: &str, (step, duration): (f64, f64)) -> (Vec<[f64
         tolerance: Some(1e-12),
         ..Method::default()
     };
-    let settings = Settings::new(&scene, &overrides).expect("the settings are built");
+    let settings = ResolvedMethod::new(&scene, &overrides).expect("the settings are built");
     let outcome = mbs::typed::run::<f64, 3>(&scene, &settings, &mut ());
     assert!(outcome.error.is_none(), "{name} in {formulation}: {:?}", outcome.error);
     let energy = &outcome.summary.energy;
@@ -236,7 +236,7 @@ fn a_vehicle_that_is_the_same_on_both_sides_stays_in_its_plane() {
     for name in ["iltis-stairs", "iltis-jump", "iltis-stairs-stiff"] {
         let scene = common::scene(name);
         let index3 = Method { formulation: Some("index-3".to_owned()), ..Method::default() };
-        let settings = Settings::new(&scene, &index3).expect("the settings are built");
+        let settings = ResolvedMethod::new(&scene, &index3).expect("the settings are built");
         let outcome = mbs::typed::run::<f64, 3>(&scene, &settings, &mut ());
         assert!(outcome.error.is_none(), "{name}: {:?}", outcome.error);
         let off = outcome.rows().iter().fold(0.0_f64, |off, (_, row)| off.max(row[1].abs()));
@@ -276,7 +276,7 @@ fn suspensions_that_come_to_rest_are_stepped_to_the_end() {
     for name in ["iltis-suspension", "iltis-suspension-halved", "iltis-suspension-stiff"] {
         let scene = common::scene(name);
         let overrides = Method { formulation: Some("recursive".to_owned()), ..Method::default() };
-        let settings = Settings::new(&scene, &overrides).expect("the settings are built");
+        let settings = ResolvedMethod::new(&scene, &overrides).expect("the settings are built");
         let outcome = mbs::typed::run::<f64, 3>(&scene, &settings, &mut ());
         assert!(outcome.error.is_none(), "{name}: {:?}", outcome.error);
         let rows = outcome.rows();

@@ -4,7 +4,7 @@ use crate::space::in_space;
 use crate::{Failure, print_line};
 use cpu_time::ProcessTime;
 use mbs::typed::Simulation;
-use mbs::{InSpace, Method, Plane, Settings};
+use mbs::{InSpace, Method, Plane, ResolvedMethod};
 use mbs_core::scene::Scene;
 use mbs_recursive::space::Space;
 use mbs_recursive::{Options, Planar, Spatial, TreeModel, Workspace, rk4_step, step};
@@ -141,7 +141,7 @@ where
         step: Some(dt),
         ..Method::default()
     };
-    Ok(Simulation::new(scene, &Settings::new(scene, &asked)?)?)
+    Ok(Simulation::new(scene, &ResolvedMethod::new(scene, &asked)?)?)
 }
 
 /// A run as `mbs run` makes it: seconds and value.

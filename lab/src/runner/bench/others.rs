@@ -5,7 +5,7 @@ use crate::bench::race::{Runner, Timing, race, timed};
 use crate::bench::request::{Request, merge, say};
 use crate::bench::scenes::steps;
 use mbs::typed::Simulation;
-use mbs::{FormulationKind, Method, Settings};
+use mbs::{FormulationKind, Method, ResolvedMethod};
 use mbs_core::scene::Scene;
 use serde_json::{Value, json};
 
@@ -85,7 +85,7 @@ fn raced<const D: usize>(
             threads: Some(threads),
             ..Method::default()
         };
-        let settings = Settings::new(scene, &asked).map_err(|e| e.to_string())?;
+        let settings = ResolvedMethod::new(scene, &asked).map_err(|e| e.to_string())?;
         let simulation = Simulation::<f64, D>::new(scene, &settings).map_err(|e| e.to_string())?;
         Ok::<_, String>((threads, Steps { simulation, dt, sums: Sums::default() }))
     };

@@ -3,7 +3,7 @@
 use mbs::core::scene::{Dimension, Scene};
 use mbs::scene_file::Dice;
 use mbs::typed::Simulation;
-use mbs::{Method, Settings};
+use mbs::{Method, ResolvedMethod};
 
 /// Steps before a state is saved, and after it is restored.
 const STEPS: [usize; 2] = [3, 3];
@@ -25,7 +25,7 @@ pub(crate) fn torn(
         step: Some(STEP.min(scene.duration)),
         ..Method::default()
     };
-    let Ok(settings) = Settings::new(scene, &overrides) else { return Ok(None) };
+    let Ok(settings) = ResolvedMethod::new(scene, &overrides) else { return Ok(None) };
     match scene.dimension {
         Dimension::Planar => go::<2>(scene, &settings, dice),
         Dimension::Spatial => go::<3>(scene, &settings, dice),
@@ -34,7 +34,7 @@ pub(crate) fn torn(
 
 fn go<const D: usize>(
     scene: &Scene<f64>,
-    settings: &Settings,
+    settings: &ResolvedMethod,
     dice: &mut Dice,
 ) -> Result<Option<bool>, String> {
     let Ok(mut simulation) = Simulation::<f64, D>::new(scene, settings) else { return Ok(None) };

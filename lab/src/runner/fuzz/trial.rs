@@ -5,7 +5,7 @@ use crate::fuzz::torn::torn;
 use mbs::core::scene::Scene;
 use mbs::scene_file::Dice;
 use mbs::scene_file::SceneFile;
-use mbs::{FormulationKind, Method, Settings};
+use mbs::{FormulationKind, Method, ResolvedMethod};
 
 /// Steps of a run.
 const STEPS: f64 = 6.0;
@@ -127,7 +127,7 @@ fn run(
         duration: Some((STEPS * step).min(scene.duration)),
         ..Method::default()
     };
-    let Ok(settings) = Settings::new(scene, &overrides) else { return Ok(None) };
+    let Ok(settings) = ResolvedMethod::new(scene, &overrides) else { return Ok(None) };
     let outcome = match mbs::run_document((document, scene), &settings, &mut |_| {}) {
         Ok(outcome) => outcome,
         Err(error) => match refusal(&error.render()) {

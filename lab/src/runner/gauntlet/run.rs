@@ -2,7 +2,7 @@
 
 use crate::gauntlet::case::Options;
 use mbs::scene_file::SceneFile;
-use mbs::{FormulationKind, Method, Settings};
+use mbs::{FormulationKind, Method, ResolvedMethod};
 use std::cell::RefCell;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
@@ -96,7 +96,7 @@ fn go(scene: &str, overrides: &Method) -> Ran {
         Ok(scene) => scene,
         Err(error) => return Ran::Broken(format!("refused: {}", error.render())),
     };
-    let settings = match Settings::new(&scene, overrides) {
+    let settings = match ResolvedMethod::new(&scene, overrides) {
         Ok(settings) => settings,
         Err(error) => return Ran::Broken(format!("refused: {error}")),
     };

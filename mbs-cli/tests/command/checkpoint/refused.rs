@@ -3,7 +3,7 @@
 use crate::files::{path, scratch};
 use crate::{json, run};
 use mbs::scene_file::SceneFile;
-use mbs::{CHECKPOINT, Keeping, Method, Settings, run_document_kept};
+use mbs::{CHECKPOINT, CheckpointWriter, Method, ResolvedMethod, run_document_kept};
 use std::path::{Path, PathBuf};
 
 /// The command is refused with exit status 1, and says all of these words.
@@ -26,9 +26,9 @@ fn left(name: &str) -> (PathBuf, PathBuf) {
     let document = SceneFile::from_bytes(&read, "scene.toml").expect("TOML");
     let scene = document.scene::<f64>().expect("a scene");
     let overrides = Method { duration: Some(0.2), ..Method::default() };
-    let settings = Settings::new(&scene, &overrides).expect("good settings");
-    let mut keeping = Keeping::new(&out, 0.05).expect("a directory of ours");
-    let parts = (None, Some(&mut keeping));
+    let settings = ResolvedMethod::new(&scene, &overrides).expect("good settings");
+    let mut writer = CheckpointWriter::new(&out, 0.05).expect("a directory of ours");
+    let parts = (None, Some(&mut writer));
     let done = run_document_kept((&document, &scene), &settings, &mut |_| {}, parts);
     assert!(done.expect("a scene").is_ok_and(|outcome| outcome.summary.completed));
     (out, file)

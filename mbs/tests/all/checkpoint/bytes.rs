@@ -5,7 +5,7 @@ use super::layout::{Parts, sealed};
 use super::scratch;
 use mbs::core::scene::Scene;
 use mbs::typed::{Simulation, run_kept};
-use mbs::{Checkpoint, CheckpointError, Keeping, Method, Settings};
+use mbs::{Checkpoint, CheckpointError, CheckpointWriter, Method, ResolvedMethod};
 use proptest::prelude::*;
 use proptest::test_runner::{TestRng, TestRunner};
 
@@ -34,15 +34,15 @@ const TRIED: [Case; 5] = [
 ];
 
 /// A run of 30 steps, kept; the bytes of its checkpoint in the middle.
-fn run_bytes(case: Case) -> (Scene<f64>, Settings, Vec<u8>) {
+fn run_bytes(case: Case) -> (Scene<f64>, ResolvedMethod, Vec<u8>) {
     let scene = case.scene();
     let overrides = Method { duration: Some(0.03), ..case.overrides() };
-    let settings = Settings::new(&scene, &overrides).expect("good settings");
+    let settings = ResolvedMethod::new(&scene, &overrides).expect("good settings");
     let out = scratch("bytes");
-    let mut keeping = Keeping::new(&out, 0.01).expect("a directory of ours");
-    let done = run_kept::<f64, 2>(&scene, &settings, &mut (), (None, Some(&mut keeping)));
+    let mut writer = CheckpointWriter::new(&out, 0.01).expect("a directory of ours");
+    let done = run_kept::<f64, 2>(&scene, &settings, &mut (), (None, Some(&mut writer)));
     assert!(done.is_ok_and(|outcome| outcome.summary.completed));
-    let bytes = std::fs::read(keeping.path()).expect("it is there");
+    let bytes = std::fs::read(writer.path()).expect("it is there");
     std::fs::remove_dir_all(&out).expect("it is ours");
     (scene, settings, bytes)
 }

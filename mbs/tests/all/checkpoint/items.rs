@@ -6,7 +6,7 @@ use mbs::core::scene::{
     BodyId, BodyTorque, Effect, EffectKind, JointId, Scene, Signal, TorsionSpring,
 };
 use mbs::typed::Simulation;
-use mbs::{Method, Settings};
+use mbs::{Method, ResolvedMethod};
 
 /// How a simulation is made and stepped.
 #[derive(Debug, Clone, Copy)]
@@ -66,8 +66,8 @@ impl Case {
         }
     }
 
-    pub(super) fn settings(&self, scene: &Scene<f64>) -> Settings {
-        Settings::new(scene, &self.overrides()).expect("good settings")
+    pub(super) fn settings(&self, scene: &Scene<f64>) -> ResolvedMethod {
+        ResolvedMethod::new(scene, &self.overrides()).expect("good settings")
     }
 
     fn simulation<const D: usize>(&self) -> Simulation<f64, D> {
@@ -120,7 +120,7 @@ impl Case {
 /// The bytes of a simulation's checkpoint.
 pub(super) fn saved<const D: usize>(
     simulation: &Simulation<f64, D>,
-    whose: (&Scene<f64>, &Settings),
+    whose: (&Scene<f64>, &ResolvedMethod),
 ) -> Vec<u8> {
     let mut bytes = Vec::new();
     simulation.save(whose, &mut bytes).expect("memory");

@@ -1,7 +1,7 @@
 //! Where the parts of a checkpoint are among its bytes: a second reader of the format, by docs/CHECKPOINT.md.
 
 use core::ops::Range;
-use mbs::{FormulationKind, Settings};
+use mbs::{FormulationKind, ResolvedMethod};
 
 /// Bytes before those that are counted and summed.
 const N_HEAD: usize = 28;
@@ -21,7 +21,7 @@ pub(super) struct Parts {
 
 impl Parts {
     /// Of the checkpoint of a simulation.
-    pub(super) fn of_simulation(bytes: Vec<u8>, settings: &Settings) -> Self {
+    pub(super) fn of_simulation(bytes: Vec<u8>, settings: &ResolvedMethod) -> Self {
         let mut walk = Walk::new(&bytes);
         walk.simulation(settings).expect("all is there");
         assert_eq!(walk.at, bytes.len(), "nothing else is there");
@@ -30,7 +30,10 @@ impl Parts {
 
     /// Of checkpoints of one run. How many numbers a picture has is not in them: as many as make all end where they do, which a single
     /// picture among zeros leaves open.
-    pub(super) fn of_run<const N: usize>(all: [Vec<u8>; N], settings: &Settings) -> [Self; N] {
+    pub(super) fn of_run<const N: usize>(
+        all: [Vec<u8>; N],
+        settings: &ResolvedMethod,
+    ) -> [Self; N] {
         let places = |bytes: &[u8], n| {
             let mut walk = Walk::new(bytes);
             walk.simulation(settings)?;
@@ -155,7 +158,7 @@ impl<'a> Walk<'a> {
     }
 
     /// From the version to the inputs.
-    fn simulation(&mut self, settings: &Settings) -> Option<()> {
+    fn simulation(&mut self, settings: &ResolvedMethod) -> Option<()> {
         self.identity()?;
         self.named("simulation", |walk| {
             walk.state()?;

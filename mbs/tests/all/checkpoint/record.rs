@@ -5,7 +5,7 @@ use super::{scratch, told};
 use crate::common::scene;
 use mbs::core::scene::Scene;
 use mbs::typed::{StepInputs, StepObserver, run_kept};
-use mbs::{Checkpoint, Keeping, Method, Settings, StopError};
+use mbs::{Checkpoint, CheckpointWriter, Method, ResolvedMethod, StopError};
 use std::path::PathBuf;
 
 /// Takes the checkpoints that stand there before the first step, and before a time.
@@ -32,14 +32,14 @@ impl<const D: usize> StepObserver<f64, D> for Copies {
 
 /// A run that is kept after each step, and its checkpoints: of the start, and before time `at`.
 fn kept<const D: usize>(
-    (scene, settings): (&Scene<f64>, &Settings),
+    (scene, settings): (&Scene<f64>, &ResolvedMethod),
     at: f64,
 ) -> ([String; 4], [Parts; 2]) {
     let out = scratch(&format!("record-{:?}", std::thread::current().id()));
-    let mut keeping = Keeping::new(&out, settings.step).expect("a directory of ours");
+    let mut writer = CheckpointWriter::new(&out, settings.step).expect("a directory of ours");
     let near = at - 2.0 * settings.step_max..at;
-    let mut copies = Copies { near, path: keeping.path(), first: Vec::new(), bytes: Vec::new() };
-    let whole = run_kept::<f64, D>(scene, settings, &mut copies, (None, Some(&mut keeping)));
+    let mut copies = Copies { near, path: writer.path(), first: Vec::new(), bytes: Vec::new() };
+    let whole = run_kept::<f64, D>(scene, settings, &mut copies, (None, Some(&mut writer)));
     let whole = told(&whole.expect("no checkpoint to refuse"));
     std::fs::remove_dir_all(&out).expect("it is ours");
     let Copies { first, bytes, .. } = copies;
@@ -50,7 +50,7 @@ fn kept<const D: usize>(
 /// then as in a run that has made no step.
 fn every_item_matters<const D: usize>(name: &str, overrides: &Method, at: f64, items: &[&str]) {
     let scene = scene(name);
-    let settings = Settings::new(&scene, overrides).expect("good settings");
+    let settings = ResolvedMethod::new(&scene, overrides).expect("good settings");
     let (whole, [first, kept]) = kept::<D>((&scene, &settings), at);
     let read = |bytes: &[u8]| Checkpoint::read(bytes).expect("it is whole");
     assert!(read(first.bytes()).time() <= 0.0);
@@ -112,7 +112,7 @@ fn what_the_alarm_has_heard_matters() {
 #[test]
 fn processor_time_is_that_of_all_starts() {
     let scene = scene("double-pendulum");
-    let settings = Settings::new(&scene, &of(1e-3, 1.0)).expect("good settings");
+    let settings = ResolvedMethod::new(&scene, &of(1e-3, 1.0)).expect("good settings");
     let (_, [first, _]) = kept::<2>((&scene, &settings), 0.5);
     let nanoseconds: u64 = 100_000_000_000;
     let bytes = first.with("CPU time", &nanoseconds.to_le_bytes());

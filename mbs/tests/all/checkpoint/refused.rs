@@ -3,10 +3,10 @@
 use crate::common::scene;
 use mbs::core::scene::{Inertia, Scene};
 use mbs::typed::Simulation;
-use mbs::{Checkpoint, CheckpointError, Method, Settings};
+use mbs::{Checkpoint, CheckpointError, Method, ResolvedMethod};
 
-fn settings(scene: &Scene<f64>, overrides: &Method) -> Settings {
-    Settings::new(scene, overrides).expect("good settings")
+fn settings(scene: &Scene<f64>, overrides: &Method) -> ResolvedMethod {
+    ResolvedMethod::new(scene, overrides).expect("good settings")
 }
 
 /// A checkpoint of the double pendulum after some steps.

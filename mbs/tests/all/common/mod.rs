@@ -7,7 +7,7 @@ use mbs::augmented::StepReport;
 use mbs::core::natural::Affine;
 use mbs::core::scene::{BodyId, Scene};
 use mbs::typed::Simulation;
-use mbs::{Method, Settings, StopError};
+use mbs::{Method, ResolvedMethod, StopError};
 pub(crate) use mbs_testkit::file as scene;
 pub(crate) use mbs_testkit::{allocations, random};
 
@@ -15,10 +15,10 @@ pub(crate) use mbs_testkit::{allocations, random};
 pub(crate) const FORMULATIONS: [&str; 2] = ["index-3", "index-1"];
 
 /// Settings of a scene with formulation and step; without a step, the scene's own.
-pub(crate) fn settings(scene: &Scene<f64>, formulation: &str, step: Option<f64>) -> Settings {
+pub(crate) fn settings(scene: &Scene<f64>, formulation: &str, step: Option<f64>) -> ResolvedMethod {
     let formulation = Some(formulation.to_owned());
     let overrides = Method { formulation, step, ..Method::default() };
-    Settings::new(scene, &overrides).expect("the settings are built")
+    ResolvedMethod::new(scene, &overrides).expect("the settings are built")
 }
 
 /// A simulation that is stepped by hand.

@@ -4,7 +4,7 @@
 //! channel; two methods agree when they differ by at most [`SHARE`] times the larger of their estimates.
 
 use mbs::core::scene::{Dimension, Scene};
-use mbs::{FormulationKind, Method, Settings, StopError};
+use mbs::{FormulationKind, Method, ResolvedMethod, StopError};
 use mbs_testkit::quantities;
 
 /// Times the larger of two methods' own errors that they may differ by.
@@ -53,7 +53,7 @@ pub(crate) fn rows(
         duration: Some(duration),
         ..Method::default()
     };
-    let settings = Settings::new(scene, &overrides).unwrap_or_else(|e| panic!("{e}"));
+    let settings = ResolvedMethod::new(scene, &overrides).unwrap_or_else(|e| panic!("{e}"));
     let outcome = match scene.dimension {
         Dimension::Planar => mbs::typed::run::<f64, 2>(scene, &settings, &mut ()),
         Dimension::Spatial => mbs::typed::run::<f64, 3>(scene, &settings, &mut ()),

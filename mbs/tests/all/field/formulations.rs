@@ -5,7 +5,7 @@ use crate::common::random::tree;
 use crate::common::{Bench, settings};
 use mbs::core::scene::{BodyId, Dimension, Effect, EffectKind, Friction, Inertia, JointId, Scene};
 use mbs::core::step::StepError;
-use mbs::{Method, Settings, StopError};
+use mbs::{Method, ResolvedMethod, StopError};
 
 /// Formulations in natural coordinates with steps of fixed length.
 const NATURAL: [&str; 4] = ["index-3", "index-1", "classical", "state-space"];
@@ -151,7 +151,7 @@ fn explicit_steps_that_pass_over_a_friction_stop_and_name_it() {
     let scene = field("08-friction-holds");
     let [formulation, integrator] = ["recursive", "rk4"].map(|x| Some(x.to_owned()));
     let overrides = Method { formulation, integrator, ..Method::default() };
-    let settings = Settings::new(&scene, &overrides).expect("the settings are built");
+    let settings = ResolvedMethod::new(&scene, &overrides).expect("the settings are built");
     let outcome = mbs::typed::run::<f64, 2>(&scene, &settings, &mut ());
     assert!(matches!(outcome.error, Some(StopError::Friction { effect: 0, .. })));
     let error = outcome.summary.error.expect("an error in the summary");
@@ -191,7 +191,7 @@ fn an_axis_that_is_off_by_more_is_refused_with_the_axis_that_mends_it() {
         assert_eq!((error.code.as_str(), error.joint.as_deref()), ("almost-dependent", Some("C")));
     }
     // What is meant, or holds nothing, is left alone.
-    let outcome = Settings::new(&tilted(1e-2), &Method::default())
+    let outcome = ResolvedMethod::new(&tilted(1e-2), &Method::default())
         .map(|settings| mbs::typed::run::<f64, 3>(&tilted(1e-2), &settings, &mut ()).error);
     assert!(!matches!(outcome, Ok(Some(StopError::AlmostDependent(_)))));
     let mut open = tilted(1e-4);

@@ -3,7 +3,7 @@
 use super::{field, read, text};
 use crate::common::settings;
 use mbs::core::scene::Scene;
-use mbs::{FormulationKind, Method, Names, Outcome, Settings};
+use mbs::{FormulationKind, Method, Names, Outcome, ResolvedMethod};
 
 /// The last value of the first output, or why the run stopped.
 fn last(outcome: &Outcome) -> Result<f64, &'static str> {
@@ -117,7 +117,7 @@ fn rejected_steps_leave_the_turn_of_a_bushing_as_it_was() {
             error_tolerance: Some(1e-9),
             ..Method::default()
         };
-        let settings = Settings::new(&scene, &overrides).expect("the settings are built");
+        let settings = ResolvedMethod::new(&scene, &overrides).expect("the settings are built");
         let found =
             last(&mbs::typed::run::<f64, 2>(&scene, &settings, &mut ())).map(|x| x - LET_GO[1].1);
         assert!(found.is_ok_and(|off| off.abs() < 1e-4), "{formulation}: {found:?}");
@@ -175,7 +175,7 @@ fn a_body_on_a_bushing_alone_turns_far_about_changing_axes_alike_in_every_formul
         step: Some(0.01),
         ..Method::default()
     };
-    let exact = Settings::new(&scene, &overrides).expect("the settings are built");
+    let exact = ResolvedMethod::new(&scene, &overrides).expect("the settings are built");
     let right = last(&mbs::typed::run::<f64, 3>(&scene, &exact, &mut ())).expect("it runs");
     for formulation in formulations() {
         let outcomes = [1e-3, 5e-4].map(|step| {
@@ -198,7 +198,7 @@ fn a_tree_tells_its_angles_with_all_their_turns_whatever_the_step() {
                 step: Some(step),
                 ..Method::default()
             };
-            let settings = Settings::new(&scene, &overrides).expect("the settings are built");
+            let settings = ResolvedMethod::new(&scene, &overrides).expect("the settings are built");
             let found = last(&mbs::typed::run::<f64, 3>(&scene, &settings, &mut ()));
             assert!(found.is_ok_and(|x| (x - 100.0).abs() < 1e-9), "{integrator}: {found:?}");
         }

@@ -7,7 +7,7 @@ use mbs::core::natural::NaturalModel;
 use mbs::core::scene::{InitialCondition, InitialTarget, JointId, Scene};
 use mbs::core::start::AssemblyError;
 use mbs::scene_file::SceneFile;
-use mbs::{Method, Settings};
+use mbs::{Method, ResolvedMethod};
 use mbs_testkit::{invariant, start, start_in};
 
 /// The reference values have so many digits.
@@ -138,7 +138,7 @@ fn loops_and_massless_pieces_of_published_models_start() {
         let _ = start::<3>(&field(name));
     }
     let scene = field("15-massless-slides");
-    let settings = Settings::new(&scene, &Method::default()).expect("settings");
+    let settings = ResolvedMethod::new(&scene, &Method::default()).expect("settings");
     let run = mbs::typed::run::<f64, 3>(&scene, &settings, &mut ());
     assert!(run.error.is_none(), "{:?}", run.error);
     let last = &run.rows().last().expect("rows").1;
@@ -176,7 +176,7 @@ fn a_value_out_of_reach_is_named_with_the_value_that_was_reached() {
     scene.initials.clear();
     let rocker = scene.joints[3].name.clone();
     hold(&mut scene, &rocker, 3.0);
-    let settings = Settings::new(&scene, &Method::default()).expect("settings");
+    let settings = ResolvedMethod::new(&scene, &Method::default()).expect("settings");
     let run = mbs::typed::run::<f64, 2>(&scene, &settings, &mut ());
     match run.error {
         Some(mbs::StopError::Start(AssemblyError::Position {

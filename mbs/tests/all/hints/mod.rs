@@ -7,7 +7,7 @@ mod words;
 
 use mbs::core::scene::{Dimension, Scene};
 use mbs::scene_file::SceneFile;
-use mbs::{Method, Settings};
+use mbs::{Method, ResolvedMethod};
 
 /// What a row changes: passages of its scene, each of which stands once in it.
 type Change = &'static [(&'static str, &'static str)];
@@ -51,7 +51,7 @@ fn run(text: &str) -> Result<(), [String; 2]> {
 fn run_with(text: &str, overrides: &Method) -> Result<(), [String; 2]> {
     let document = SceneFile::parse(text, "scene.toml").map_err(|e| [e.to_string(), e.hint()])?;
     let scene: Scene<f64> = document.scene().map_err(|e| [e.to_string(), e.hint()])?;
-    let settings = Settings::new(&scene, overrides)
+    let settings = ResolvedMethod::new(&scene, overrides)
         .and_then(|settings| settings.check_step(&scene, overrides).map(|()| settings));
     let settings = settings.map_err(|e| [e.to_string(), e.hint()])?;
     let outcome = match scene.dimension {

@@ -2,13 +2,13 @@
 
 use super::super::{field, read, text};
 use mbs::core::scene::{Dimension, Scene};
-use mbs::{Method, Outcome, Settings};
+use mbs::{Method, Outcome, ResolvedMethod};
 
 const ALL: [&str; 6] =
     ["index-3", "index-1", "classical", "state-space", "multi-index", "recursive"];
 
 fn run(scene: &Scene<f64>, overrides: &Method) -> Outcome {
-    let settings = Settings::new(scene, overrides).expect("the settings are built");
+    let settings = ResolvedMethod::new(scene, overrides).expect("the settings are built");
     match scene.dimension {
         Dimension::Planar => mbs::typed::run::<f64, 2>(scene, &settings, &mut ()),
         Dimension::Spatial => mbs::typed::run::<f64, 3>(scene, &settings, &mut ()),

@@ -11,10 +11,10 @@ use mbs_core::outputs::EventHistory;
 
 /// All of it, as plain data.
 #[derive(Debug, Clone)]
-pub(crate) struct Kept<T> {
+pub(crate) struct SimulationSnapshot<T> {
     pub(crate) state: State<T>,
     pub(crate) formulation: History<T>,
-    pub(crate) control: Option<ControlKept<T>>,
+    pub(crate) control: Option<ControlSnapshot<T>>,
     pub(crate) invariant: [f64; Invariant::N_HISTORY],
     /// What is set from outside: courses and guides.
     pub(crate) inputs: [Vec<(usize, [T; 3])>; 2],
@@ -22,12 +22,12 @@ pub(crate) struct Kept<T> {
 
 /// What the control of the step length remembers.
 #[derive(Debug, Clone)]
-pub(crate) struct ControlKept<T> {
+pub(crate) struct ControlSnapshot<T> {
     pub(crate) driver: DriverHistory<T>,
     pub(crate) events: Option<EventHistory<T>>,
 }
 
-impl<T: Real> Kept<T> {
+impl<T: Real> SimulationSnapshot<T> {
     /// Writes it, or reads it back in the same shape.
     pub(crate) fn walk(&mut self, tape: &mut impl Tape) -> Walked {
         let Self { state, formulation, control, invariant, inputs } = self;
@@ -49,7 +49,7 @@ impl<T: Real> Kept<T> {
     }
 }
 
-impl<T: Real> ControlKept<T> {
+impl<T: Real> ControlSnapshot<T> {
     fn walk(&mut self, tape: &mut impl Tape) -> Walked {
         let DriverHistory { next, energy, error, stretch } = &mut self.driver;
         tape.real(next)?;

@@ -1,7 +1,7 @@
 //! A run with checkpoints, and one that is resumed from a checkpoint.
 
 use super::Run;
-use super::record::{Counts, Kept, Record};
+use super::record::{Counts, Record, RunCheckpoints};
 use crate::checkpoint::tape::{Tape, Walked, holds};
 use crate::checkpoint::{Checkpoint, CheckpointError, Identity, Kind, whole};
 use crate::record::ControlSummary;
@@ -39,7 +39,7 @@ impl<T: Real, const D: usize> Record<'_, T, D> {
     /// Writes rows and a checkpoint where they are due after step `k`; says whether it took time.
     pub(super) fn keep(&mut self, simulation: &Simulation<T, D>, k: u64) -> bool {
         self.done = k;
-        let is_due = self.kept.as_ref().is_some_and(|kept| kept.keeping.is_due(self.reached));
+        let is_due = self.checkpoints.as_ref().is_some_and(|c| c.writer.is_due(self.reached));
         self.write(simulation, is_due)
     }
 
@@ -50,15 +50,15 @@ impl<T: Real, const D: usize> Record<'_, T, D> {
 
     /// Writes what waits, and a checkpoint where one is due.
     fn write(&mut self, simulation: &Simulation<T, D>, is_due: bool) -> bool {
-        let Some(kept) = self.kept.take() else { return false };
-        let is_busy = is_due || kept.keeping.is_waiting(&self.recorder);
+        let Some(checkpoints) = self.checkpoints.take() else { return false };
+        let is_busy = is_due || checkpoints.writer.is_waiting(&self.recorder);
         if is_busy {
             let since = self.clock.get();
-            let bytes = is_due.then(|| self.checkpoint(simulation, &kept, since));
-            kept.keeping.write(&self.recorder, bytes.map(|bytes| (self.reached, bytes)));
+            let bytes = is_due.then(|| self.checkpoint(simulation, &checkpoints, since));
+            checkpoints.writer.write(&self.recorder, bytes.map(|bytes| (self.reached, bytes)));
             self.clock.take_off(since);
         }
-        self.kept = Some(kept);
+        self.checkpoints = Some(checkpoints);
         is_busy
     }
 
@@ -66,12 +66,12 @@ impl<T: Real, const D: usize> Record<'_, T, D> {
     fn checkpoint(
         &mut self,
         simulation: &Simulation<T, D>,
-        kept: &Kept<'_>,
+        checkpoints: &RunCheckpoints<'_>,
         cpu: Duration,
     ) -> Result<Vec<u8>, CheckpointError> {
-        let times = [self.reached, kept.keeping.every()];
-        whole(&kept.identity, (Kind::Run, times), |pen| {
-            simulation.kept().walk(pen)?;
+        let times = [self.reached, checkpoints.writer.every()];
+        whole(&checkpoints.identity, (Kind::Run, times), |pen| {
+            simulation.snapshot().walk(pen)?;
             self.walk(simulation, pen, cpu)
         })
     }
@@ -86,7 +86,7 @@ impl<T: Real, const D: usize> Record<'_, T, D> {
         tape.count(&mut self.done)?;
         tape.float(&mut self.reached)?;
         self.recorder.walk(tape)?;
-        self.figure.walk(tape)?;
+        self.animation.walk(tape)?;
         self.measures.walk(tape)?;
         self.walk_contacts(simulation, tape)?;
         self.counts.walk(tape)?;

@@ -26,7 +26,7 @@ type Bytes = Result<Vec<u8>, CheckpointError>;
 /// `run.csv` and `steps.csv` in [`PART`], so that the results of an earlier run stay until there are new ones. A write that fails is
 /// tried again the next time, and reported in the end.
 #[derive(Debug)]
-pub struct Keeping {
+pub struct CheckpointWriter {
     out: PathBuf,
     every: f64,
     /// When the next one is due [s].
@@ -37,7 +37,7 @@ pub struct Keeping {
     _lock: Option<File>,
 }
 
-impl Keeping {
+impl CheckpointWriter {
     /// Into a directory, made if missing, each `every` [s] of simulated time. The directory is locked until this is dropped.
     ///
     /// # Errors
