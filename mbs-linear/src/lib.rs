@@ -3,7 +3,6 @@
 
 extern crate alloc;
 
-mod chart;
 mod eigen;
 mod equilibrium;
 mod error;
@@ -12,6 +11,7 @@ mod matrix;
 mod near;
 mod options;
 mod svd;
+mod tangent_coordinates;
 mod workspace;
 
 pub use eigen::eigenvalues;

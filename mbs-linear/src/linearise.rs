@@ -2,7 +2,7 @@
 //!
 //! ```text
 //! z'' = f(z, z'):   q(z) on the constraints, q'(z, z') with J q' + phi_t = 0,  M q'' + J^T lambda = Q,  J q'' + bias = 0
-//! K_r = -df/dz,   C_r = -df/dz'         (inertia 1, see `chart`)
+//! K_r = -df/dz,   C_r = -df/dz'         (inertia 1, see `tangent_coordinates`)
 //! d/dt (z, z') = A (z, z') + ...,   A = [[0, 1], [-K_r, -C_r]]
 //! ```
 //!
@@ -14,9 +14,9 @@
 //! its eigenvalues belong to the mechanism. Where bodies turn, A changes along the motion and depends on the choice of z:
 //! see [`Linear::turning`].
 
-use crate::chart::Chart;
 use crate::error::LinearError;
 use crate::options::LinearOptions;
+use crate::tangent_coordinates::TangentCoordinates;
 use crate::workspace::Workspace;
 use alloc::vec;
 use alloc::vec::Vec;
@@ -96,7 +96,7 @@ pub fn linearise<T: Real, M: Model<T>, S: SymmetricSolver<T>>(
 ) -> Result<Linear<T>, LinearError> {
     options.validate()?;
     let mut field = Field::new(model, instant, s, w)?;
-    let f = field.chart.n_freedoms();
+    let f = field.tangent.n_freedoms();
     let acceleration = field.at_rest_of(&s.v)?;
     let turning = norm_inf(&field.w.terms.phi_bias);
     let reach = options.step;
@@ -104,12 +104,12 @@ pub fn linearise<T: Real, M: Model<T>, S: SymmetricSolver<T>>(
     field.return_to(&s.q)?;
     let mut damping = Vec::new();
     for j in 0..f {
-        let h = reach / field.w.extent(field.chart.direction(j));
+        let h = reach / field.w.extent(field.tangent.direction(j));
         let slope = difference(h, |z| field.hurried(j, z))?;
         damping.extend(slope.into_iter().map(|x| -x));
     }
     let noise = field.noise(&stiffness, reach);
-    let basis = field.chart.basis;
+    let basis = field.tangent.basis;
     Ok(Linear { n_freedoms: f, stiffness, damping, basis, acceleration, turning, noise })
 }
 
@@ -129,7 +129,7 @@ pub(crate) struct Field<'a, T, M, S> {
     model: &'a M,
     pub(crate) w: &'a mut Workspace<T, S>,
     start: &'a State<T>,
-    pub(crate) chart: Chart<T>,
+    pub(crate) tangent: TangentCoordinates<T>,
     /// Position and velocity at hand, extended.
     pub(crate) q: Vec<T>,
     v: Vec<T>,
@@ -163,7 +163,7 @@ impl<'a, T: Real, M: Model<T>, S: SymmetricSolver<T>> Field<'a, T, M, S> {
             }
         }
         let mut local = Vec::new();
-        let chart = Chart::new(&w.sizes, jacobian, |x| {
+        let tangent = TangentCoordinates::new(&w.sizes, jacobian, |x| {
             unit[..n].copy_from_slice(x);
             let load = Load { mass: Some(&unit), multipliers: None, force: T::ZERO };
             let mut product = vec![T::ZERO; n];
@@ -177,11 +177,11 @@ impl<'a, T: Real, M: Model<T>, S: SymmetricSolver<T>> Field<'a, T, M, S> {
             }
             product
         });
-        let chart = chart.map_err(|unknown| LinearError::NoInertia {
+        let tangent = tangent.map_err(|unknown| LinearError::NoInertia {
             unknown: u32::try_from(unknown).unwrap_or(u32::MAX),
         })?;
         let (q, v) = (s.q.clone(), s.v.clone());
-        let mut field = Self { model, w, start: s, chart, q, v, lively: T::ZERO };
+        let mut field = Self { model, w, start: s, tangent, q, v, lively: T::ZERO };
         // The sizes of the rows come with the factor.
         field.factor()?;
         field.close()?;
@@ -191,11 +191,11 @@ impl<'a, T: Real, M: Model<T>, S: SymmetricSolver<T>> Field<'a, T, M, S> {
 
     /// -dz''/dz by differences that move coordinates by `reach` of their sizes.
     pub(crate) fn stiffness(&mut self, reach: T) -> Result<Vec<T>, LinearError> {
-        let f = self.chart.n_freedoms();
+        let f = self.tangent.n_freedoms();
         let mut stiffness = Vec::with_capacity(f * f);
         let mut change = vec![T::ZERO; f];
         for j in 0..f {
-            let h = reach / self.w.extent(self.chart.direction(j));
+            let h = reach / self.w.extent(self.tangent.direction(j));
             let slope = difference(h, |z| {
                 change[j] = z;
                 self.displaced(&change)
@@ -228,7 +228,7 @@ impl<'a, T: Real, M: Model<T>, S: SymmetricSolver<T>> Field<'a, T, M, S> {
     pub(crate) fn extent(&self, change: &[T]) -> T {
         let mut way = vec![T::ZERO; self.w.n];
         for (j, &z) in change.iter().enumerate() {
-            way.iter_mut().zip(self.chart.direction(j)).for_each(|(way, &b)| *way += b * z);
+            way.iter_mut().zip(self.tangent.direction(j)).for_each(|(way, &b)| *way += b * z);
         }
         self.w.extent(&way)
     }
@@ -238,7 +238,7 @@ impl<'a, T: Real, M: Model<T>, S: SymmetricSolver<T>> Field<'a, T, M, S> {
         self.q.copy_from_slice(&self.start.q);
         self.v.copy_from_slice(&self.start.v);
         for (j, &z) in change.iter().enumerate() {
-            for (q, &b) in self.q.iter_mut().zip(self.chart.direction(j)) {
+            for (q, &b) in self.q.iter_mut().zip(self.tangent.direction(j)) {
                 *q += b * z;
             }
         }
@@ -261,7 +261,7 @@ impl<'a, T: Real, M: Model<T>, S: SymmetricSolver<T>> Field<'a, T, M, S> {
     /// z'' with one z' changed.
     fn hurried(&mut self, freedom: usize, z: T) -> Result<Vec<T>, LinearError> {
         self.v.copy_from_slice(&self.start.v);
-        for (v, &b) in self.v.iter_mut().zip(self.chart.direction(freedom)) {
+        for (v, &b) in self.v.iter_mut().zip(self.tangent.direction(freedom)) {
             *v += b * z;
         }
         self.acceleration()
@@ -279,7 +279,7 @@ impl<'a, T: Real, M: Model<T>, S: SymmetricSolver<T>> Field<'a, T, M, S> {
                 break;
             }
             last = Some(violation);
-            self.chart.correct(&self.w.terms.phi, &mut self.q[..n]);
+            self.tangent.correct(&self.w.terms.phi, &mut self.q[..n]);
         }
         self.model.evaluate(&self.q, &mut self.w.terms);
         if self.w.openness(&self.w.terms.phi) <= floor * T::from_f64(STALLED) {
@@ -308,7 +308,7 @@ impl<'a, T: Real, M: Model<T>, S: SymmetricSolver<T>> Field<'a, T, M, S> {
                 break;
             }
             last = Some(violation);
-            self.chart.correct(&rates, &mut self.v[..n]);
+            self.tangent.correct(&rates, &mut self.v[..n]);
         }
         self.model.evaluate_forces(&self.q, &self.v, &mut self.w.terms);
         self.model.evaluate_bias(&self.q, &self.v, &mut self.w.terms);
@@ -350,6 +350,6 @@ impl<'a, T: Real, M: Model<T>, S: SymmetricSolver<T>> Field<'a, T, M, S> {
         if !(open <= self.lively.max(self.w.extent(&a[..n])) * T::EPSILON.sqrt()) {
             return Err(LinearError::NotSettled { left: left.to_f64() });
         }
-        Ok(self.chart.reduce(&a[..n]))
+        Ok(self.tangent.reduce(&a[..n]))
     }
 }

@@ -66,7 +66,7 @@ fn double(turn: f64, is_reversed: bool) -> String {
 }
 
 #[test]
-fn a_double_pendulum_has_its_two_frequencies_however_it_is_turned_and_told() {
+fn a_double_pendulum_has_its_two_frequencies_however_it_is_turned_and_described() {
     // Equal bobs and bars: omega^2 = (2 -+ sqrt 2) g / l.
     for (turn, is_reversed) in [(0.0, false), (0.0, true), (1.1, false), (2.7, true)] {
         let mut case = Case::<2>::new(&double(turn, is_reversed));

@@ -18,7 +18,7 @@ use mbs_core::Real;
 
 /// The split at one position; matrices are stored column by column.
 #[derive(Debug, Clone)]
-pub(crate) struct Chart<T> {
+pub(crate) struct TangentCoordinates<T> {
     n: usize,
     /// Independent rows in the order of their pivots, and the length of each.
     rows: Vec<usize>,
@@ -38,7 +38,7 @@ pub(crate) struct Chart<T> {
 /// Inertia of a column that has none, relative to the largest [-]: what rounding leaves of it. Chosen, not tuned.
 const NO_INERTIA: f64 = 1e-13;
 
-impl<T: Real> Chart<T> {
+impl<T: Real> TangentCoordinates<T> {
     /// Splits by `jacobian`, row by row (m rows of n); `mass` multiplies a vector of n by M.
     ///
     /// Fails with the index of the freedom without inertia.
@@ -227,21 +227,22 @@ mod tests {
         // x + y = 0 twice and z = 0 in four coordinates, mass diag(1, 3, 1, 4): freedoms x - y with mass 4/2 and w.
         let jacobian = vec![1.0, 1.0, 0.0, 0.0, 2.0, 2.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0];
         let mass = |x: &[f64]| vec![x[0], 3.0 * x[1], x[2], 4.0 * x[3]];
-        let chart = Chart::new(&[1.0; 4], jacobian, mass).expect("every freedom has mass");
-        assert_eq!(chart.n_freedoms(), 2);
+        let tangent =
+            TangentCoordinates::new(&[1.0; 4], jacobian, mass).expect("every freedom has mass");
+        assert_eq!(tangent.n_freedoms(), 2);
         for j in 0..2 {
-            let b = chart.direction(j);
+            let b = tangent.direction(j);
             assert!((b[0] + b[1]).abs() < 1e-15 && b[2].abs() < 1e-15, "{b:?}");
             for k in 0..2 {
-                let product = dot(chart.direction(k), &mass(b));
+                let product = dot(tangent.direction(k), &mass(b));
                 assert!((product - if j == k { 1.0 } else { 0.0 }).abs() < 1e-14);
             }
-            let z = chart.reduce(b);
+            let z = tangent.reduce(b);
             assert!((z[j] - 1.0).abs() < 1e-14 && z[1 - j].abs() < 1e-14, "{z:?}");
         }
         // The smallest change that closes x + y = 0.2 and z = 0.5.
         let mut x = [0.0; 4];
-        chart.correct(&[0.2, 0.4, 0.5], &mut x);
+        tangent.correct(&[0.2, 0.4, 0.5], &mut x);
         let wanted = [-0.1, -0.1, -0.5, 0.0];
         assert!(x.iter().zip(wanted).all(|(a, b)| (a - b).abs() < 1e-15), "{x:?}");
     }
@@ -249,6 +250,6 @@ mod tests {
     #[test]
     fn a_freedom_without_inertia_is_named() {
         let mass = |x: &[f64]| vec![x[0], 0.0];
-        assert!(Chart::new(&[1.0; 2], vec![], mass).is_err());
+        assert!(TangentCoordinates::new(&[1.0; 2], vec![], mass).is_err());
     }
 }
