@@ -221,7 +221,7 @@ mod tests {
     }
 
     #[test]
-    fn what_cannot_be_meant_is_refused() {
+    fn malformed_goals_are_refused() {
         let none = Method::default();
         let error =
             |e: f64| Goal { error: Some(e), deadline: None }.check(&none, (10.0, Precision::F64));

@@ -139,7 +139,7 @@ impl<'a> Search<'a> {
             }
             let limit = match cheapest {
                 Some(seconds) => (GIVE_UP * seconds).min(left),
-                None => self.patience(i, left),
+                None => self.time_limit(i, left),
             };
             let takes = takes(&self.candidates[i], setting);
             if takes > limit || limit <= 0.0 {
@@ -153,7 +153,7 @@ impl<'a> Search<'a> {
 
     /// Before any reaches the required error, each first trial has twice its share of the budget without the reserve, and twice the time of the
     /// fastest trial, at most [s]: the reserve is for second trials, without which no error is known (iltis-jump at 1e-2).
-    fn patience(&self, i: usize, left: f64) -> f64 {
+    fn time_limit(&self, i: usize, left: f64) -> f64 {
         let is_untried = |c: &&Candidate| c.out.is_none() && c.trials.is_empty();
         if !is_untried(&&self.candidates[i]) {
             return left;

@@ -85,7 +85,7 @@ impl Study<'_> {
     fn own_control(
         &self,
         (integrator, precision): (IntegratorKind, Precision),
-        (tolerances, patience): (&[[f64; 2]], f64),
+        (tolerances, times): (&[[f64; 2]], f64),
         store: &mut Store,
         why: &mut String,
     ) -> Result<Option<Pair>, CompareError> {
@@ -97,9 +97,9 @@ impl Study<'_> {
         };
         for &[fine, coarse] in tolerances {
             // The cheaper run first: where it fails, the other is spared.
-            let coarse_rows = self.reference_run(&method, (coarse, patience), store, why)?;
+            let coarse_rows = self.reference_run(&method, (coarse, times), store, why)?;
             let Some(coarse_rows) = coarse_rows else { continue };
-            if let Some(rows) = self.reference_run(&method, (fine, patience), store, why)? {
+            if let Some(rows) = self.reference_run(&method, (fine, times), store, why)? {
                 let method =
                     format!("{}, at tolerances {fine:.0e} and {coarse:.0e}", method.name());
                 return Ok(Some(Pair { method, rows, coarse: coarse_rows }));
@@ -150,12 +150,12 @@ impl Study<'_> {
     fn reference_run(
         &self,
         method: &MethodCase,
-        (setting, patience): (f64, f64),
+        (setting, times): (f64, f64),
         store: &mut Store,
         why: &mut String,
     ) -> Result<Option<Rows>, CompareError> {
         let key = format!("reference {} {setting:e}", method.name());
-        let value = store.get(&key, || self.reference_value(method, setting, patience));
+        let value = store.get(&key, || self.reference_value(method, setting, times));
         let value = value.map_err(CompareError::Journal)?;
         if let Some(text) = value.get("stopped").and_then(Value::as_str) {
             *why = format!("{}, {text}", method.name());
@@ -165,7 +165,7 @@ impl Study<'_> {
         Ok(serde_json::from_value::<Rows>(rows).ok())
     }
 
-    fn reference_value(&self, method: &MethodCase, setting: f64, patience: f64) -> Value {
+    fn reference_value(&self, method: &MethodCase, setting: f64, times: f64) -> Value {
         let step = if method.is_fixed() { setting } else { self.of_scene };
         let settings = match self.settings(method, setting, step) {
             Ok(settings) => settings,
@@ -173,7 +173,7 @@ impl Study<'_> {
         };
         let between = method.is_fixed().then(|| self.instants.steps_between(setting));
         let course = Course { instants: self.instants, between };
-        let recorded = self.scenes.recorded(&settings, &course, patience * self.request.time_limit);
+        let recorded = self.scenes.recorded(&settings, &course, times * self.request.time_limit);
         match (&recorded.entry.failure, recorded.entry.status) {
             (Some(error), _) => {
                 json!({ "stopped": format!("at t = {} s: {}", error.time, error.message) })

@@ -4,6 +4,7 @@
 //! positions of a run; what natural coordinates make of it, and which formulations take a step, is tried.
 
 mod basis;
+mod consistency;
 mod finding;
 mod json;
 mod masses;
@@ -11,7 +12,6 @@ mod methods;
 mod motion;
 mod places;
 mod sets;
-mod sound;
 mod start;
 mod units;
 
@@ -115,7 +115,7 @@ fn in_space<const D: usize>(
         .ok()
         .map(|b| [b.model.n_unknowns(), b.model.n_constraints(), rank(&b.model, &b.start.state)]);
     sets::findings(scene, &joint_level, natural, &mut findings);
-    sound::findings(scene, (&joint_level, natural), massless.as_deref(), &mut findings);
+    consistency::findings(scene, (&joint_level, natural), massless.as_deref(), &mut findings);
     masses::findings(scene, massless.as_deref(), &mut findings);
     units::findings(scene, &mut findings);
     places::findings(scene, &mut findings);

@@ -40,7 +40,7 @@ fn on_a_clock_that_counts_work_a_choice_is_the_same_every_time() {
 }
 
 #[test]
-fn the_wanted_error_is_kept_on_the_pendulum_against_its_closed_form() {
+fn the_required_error_is_kept_on_the_pendulum_against_its_closed_form() {
     let table = std::fs::read_to_string(file("references/simple-pendulum").replace("toml", "csv"));
     let table = table.unwrap();
     let last: Vec<f64> =

@@ -118,7 +118,7 @@ fn sound_random_mechanisms_have_no_finding_about_their_joints() {
 }
 
 #[test]
-fn the_spatial_four_bar_is_told_with_all_its_joints_its_cure_and_who_runs_it() {
+fn the_spatial_four_bar_is_reported_with_all_its_joints_its_remedy_and_who_runs_it() {
     let scene = mbs_testkit::file("spatial-four-bar");
     let c = checkup(&scene, &LITTLE);
     let told = finding(&c, "dependent-set");
@@ -196,7 +196,7 @@ fn four_bars_in_a_chain_pass_their_singular_position_where_it_is() {
 }
 
 #[test]
-fn motions_without_mass_and_unlike_masses_are_told() {
+fn motions_without_mass_and_unlike_masses_are_reported() {
     let spinning = pendulum("[0.0, -9.81]", 0.0, "0.0", "");
     let c = checkup(&spinning, &Effort { positions: 0, ..LITTLE });
     assert_eq!(finding(&c, "massless-motion").bodies, [0]);

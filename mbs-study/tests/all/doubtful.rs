@@ -31,7 +31,7 @@ fn ends_that_miss_the_place_they_belong_to_are_named_with_their_distance() {
 }
 
 #[test]
-fn ends_that_meet_their_place_or_are_meant_elsewhere_are_not_named() {
+fn ends_that_meet_their_place_or_are_intended_elsewhere_are_not_named() {
     let rod = text("12-rod-end-off-its-joint");
     let changed = |from: &str, to: &str| {
         assert!(rod.contains(from));
@@ -73,7 +73,7 @@ fn effects_that_share_a_place_are_named_where_one_of_them_was_moved() {
 }
 
 #[test]
-fn places_that_are_counted_from_the_body_are_told() {
+fn places_that_are_counted_from_the_body_are_reported() {
     let text = "[scene]\ndimension = 2\nduration = 0.1\n\
         [[body]]\nname = \"cart\"\nmass = 1.0\ncenter = [5.0, 0.0]\ninertia = 0.02\n\
         [[joint]]\nname = \"rail\"\nkind = \"prismatic\"\nbodies = [\"ground\", \"cart\"]\nat = [5.0, 0.0]\naxis = [1.0, 0.0]\n\

@@ -68,7 +68,7 @@ fn price<'a>(explanation: &'a Explanation, name: &str) -> &'a EffectCost {
 }
 
 #[test]
-fn an_idle_spin_is_told_where_a_thin_rod_has_one() {
+fn an_idle_spin_is_reported_where_a_thin_rod_has_one() {
     let text = r#"
 [scene]
 dimension = 3

@@ -1,6 +1,6 @@
 //! Mechanisms whose redundancy is known from books: dependent sets, their nature, and what mends them.
 
-use super::support::{Build, GROUND, Point, dof, four_bar, sets, told};
+use super::support::{Build, GROUND, Point, diagnosis, dof, four_bar, sets};
 use mbs_core::scene::{Dimension, JointId, JointKind};
 use mbs_study::redundancy::{Linkage, Nature, diagnose, reference};
 use mbs_testkit::retell;
@@ -11,7 +11,7 @@ const Z: Option<Point> = Some([0.0, 0.0, 1.0]);
 fn a_planar_four_bar_is_sound() {
     let mut b = Build::planar();
     four_bar(&mut b, 0.0);
-    let d = told(&b.0);
+    let d = diagnosis(&b.0);
     assert_eq!((d.sizes, dof(&d), d.sets.len()), ([8, 9, 8], 1, 0));
     assert!(d.gap > 1e6, "{}", d.gap);
 }
@@ -20,7 +20,7 @@ fn a_planar_four_bar_is_sound() {
 fn a_spatial_four_bar_has_three_redundancies_across_its_plane() {
     let mut b = Build::spatial();
     four_bar(&mut b, 0.0);
-    let d = told(&b.0);
+    let d = diagnosis(&b.0);
     assert_eq!((d.sizes, dof(&d)), ([20, 18, 17], 1));
     assert_eq!(sets(&d), [(vec![0, 1, 2, 3], 3, Nature::Structural)]);
     for member in &d.sets[0].members {
@@ -39,7 +39,7 @@ fn a_spatial_four_bar_has_three_redundancies_across_its_plane() {
             joint.axes = [None; 2];
         }
     }
-    let mended = told(&b.0);
+    let mended = diagnosis(&b.0);
     assert_eq!((mended.sets.len(), dof(&mended)), (0, 1), "the change made in the scene itself");
 }
 
@@ -52,7 +52,7 @@ fn two_mechanisms_on_one_ground_are_two_sets() {
     b.pin(GROUND, arm, [5.0, 0.0, 0.0]);
     let expected =
         [vec![0, 1, 2, 3], vec![4, 5, 6, 7]].map(|joints| (joints, 3, Nature::Structural));
-    assert_eq!(sets(&told(&b.0)), expected);
+    assert_eq!(sets(&diagnosis(&b.0)), expected);
 }
 
 #[test]
@@ -65,7 +65,7 @@ fn a_third_crank_makes_all_six_pins_of_a_parallelogram_dependent() {
         b.pin(GROUND, crank, [x, 0.0, 0.0]);
         b.pin(crank, coupler, top(x));
     }
-    let d = told(&b.0);
+    let d = diagnosis(&b.0);
     assert_eq!(dof(&d), 1);
     assert_eq!(sets(&d), [((0..6).collect(), 1, Nature::Structural)]);
     let cure = d.sets[0].remedy.as_ref().expect("one crank may go");
@@ -85,7 +85,7 @@ fn scott_russell_with_both_slides_has_one_redundancy_in_all_joints() {
     b.joint(JointKind::Prismatic, [GROUND, right], x, Some([1.0, 0.0, 0.0]));
     b.pin(coupler, up, y);
     b.joint(JointKind::Prismatic, [GROUND, up], y, Some([0.0, 1.0, 0.0]));
-    let d = told(&b.0);
+    let d = diagnosis(&b.0);
     assert_eq!((d.sizes, dof(&d)), ([12, 12, 11], 1));
     assert_eq!(sets(&d), [((0..6).collect(), 1, Nature::Structural)]);
     // The slides' moments hold nothing: what is open at a slide is the force across it.
@@ -124,14 +124,14 @@ fn a_bennett_linkage_moves_though_it_is_overconstrained_three_times() {
     for i in 0..4 {
         b.joint(JointKind::Revolute, [ends[i], ends[i + 1]], places[i], Some(axes[i]));
     }
-    let d = told(&b.0);
+    let d = diagnosis(&b.0);
     assert_eq!((d.sizes, dof(&d)), ([20, 18, 17], 1));
     assert_eq!(sets(&d), [(vec![0, 1, 2, 3], 3, Nature::Structural)]);
     assert!(d.gap > 1e9, "{}", d.gap);
 }
 
 #[test]
-fn a_linkage_of_four_skew_hinges_is_a_structure_and_one_digit_off_is_told_so() {
+fn a_linkage_of_four_skew_hinges_is_a_structure_and_one_digit_off_is_reported_so() {
     let (places, axes, _) = bennett(0.5, 1.1, 1.3);
     let build = |off: f64| {
         let mut b = Build::spatial();
@@ -141,7 +141,7 @@ fn a_linkage_of_four_skew_hinges_is_a_structure_and_one_digit_off_is_told_so() {
         for i in 0..4 {
             b.joint(JointKind::Revolute, [ends[i], ends[i + 1]], places[i], Some(axes[i]));
         }
-        told(&b.0)
+        diagnosis(&b.0)
     };
     let far = build(0.1);
     assert_eq!((dof(&far), far.sets[0].redundant, far.sets[0].nature), (0, 2, Nature::Rigid));
@@ -167,7 +167,7 @@ fn the_same_joint_twice_is_named_and_one_of_them_may_go() {
         for _ in 0..2 {
             b.link(kind, [first, second], [[1.0, 0.0, 0.0]; 2], axes);
         }
-        let d = told(&b.0);
+        let d = diagnosis(&b.0);
         let found = sets(&d);
         assert_eq!(found, [(vec![1, 2], n, Nature::Structural)], "{kind:?}");
         let cure = d.sets[0].remedy.as_ref().expect("one is enough");
@@ -188,7 +188,7 @@ fn a_dead_point_is_a_position_and_not_a_redundancy() {
     b.pin(crank, coupler, a);
     b.pin(coupler, rocker, c);
     b.pin(rocker, GROUND, d);
-    let flat = told(&b.0);
+    let flat = diagnosis(&b.0);
     assert_eq!((dof(&flat), sets(&flat)), (2, vec![(vec![0, 1, 2, 3], 1, Nature::Singular)]));
     assert!(flat.sets[0].remedy.is_none(), "no joint is to blame");
 }
@@ -202,7 +202,7 @@ fn a_bar_in_line_is_a_singular_position_of_a_structure() {
     b.pin(GROUND, first, o);
     b.pin(first, second, a);
     b.pin(second, GROUND, c);
-    let d = told(&b.0);
+    let d = diagnosis(&b.0);
     let found = sets(&d);
     assert_eq!((dof(&d), &found[0].0, found[0].1), (1, &vec![0, 1, 2], 1));
     assert_eq!(found[0].2, Nature::Untried, "there is no position near by");
@@ -216,7 +216,7 @@ fn guides_that_say_the_same_twice_are_in_the_set() {
     for joint in [0, 3] {
         b.0.guides.push(Guide { joint: JointId::new(joint), law: Motion::Ramp { rate: 1.0 } });
     }
-    let d = told(&b.0);
+    let d = diagnosis(&b.0);
     assert_eq!(
         (d.sizes, sets(&d)[0].0.clone(), d.sets[0].redundant),
         ([10, 9, 9], vec![0, 1, 2, 3], 1)
@@ -231,7 +231,7 @@ fn guides_that_say_the_same_twice_are_in_the_set() {
 fn a_report_does_not_depend_on_axes_units_or_the_order_of_bodies() {
     let mut b = Build::spatial();
     four_bar(&mut b, 0.0);
-    let d = told(&b.0);
+    let d = diagnosis(&b.0);
     let turned = retell::turn_scene(&b.0);
     let reversed = retell::reorder(&b.0);
     let mut small = b.0.clone();
@@ -242,7 +242,7 @@ fn a_report_does_not_depend_on_axes_units_or_the_order_of_bodies() {
         joint.points = joint.points.map(|p| p.map(|x| 1e-3 * x));
     }
     for other in [&turned, &reversed, &small] {
-        let e = told(other);
+        let e = diagnosis(other);
         assert_eq!((sets(&e), e.sizes), (sets(&d), d.sizes));
         assert!((e.least - d.least).abs() < 1e-9, "{} {}", e.least, d.least);
         let open = |d: &mbs_study::redundancy::Diagnosis| {

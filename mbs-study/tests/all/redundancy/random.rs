@@ -1,6 +1,6 @@
 //! Random mechanisms: nothing is found in sound ones, and all that is doubled is found in others.
 
-use super::support::{Build, GROUND, four_bar, sets, told};
+use super::support::{Build, GROUND, diagnosis, four_bar, sets};
 use mbs_core::scene::{Dimension, Scene};
 use mbs_study::redundancy::{Linkage, Nature, UNCERTAIN};
 use mbs_testkit::{random, retell};
@@ -15,7 +15,7 @@ fn sound() -> impl Iterator<Item = Scene<f64>> {
 fn nothing_depends_in_two_hundred_sound_mechanisms() {
     let (mut n_loops, mut n_checked) = (0, 0);
     for scene in sound() {
-        let d = told(&scene);
+        let d = diagnosis(&scene);
         assert!(d.sets.is_empty(), "{}: {:?}", scene.name, d.sets);
         assert!(d.gap > UNCERTAIN, "{}: {}", scene.name, d.gap);
         n_loops += scene.joints.len() - scene.bodies.len();
@@ -26,14 +26,14 @@ fn nothing_depends_in_two_hundred_sound_mechanisms() {
 }
 
 #[test]
-fn a_doubled_joint_and_its_twin_are_the_set_in_each_of_them() {
+fn a_doubled_joint_and_its_copy_are_the_set_in_each_of_them() {
     for (i, mut scene) in sound().enumerate() {
         let joint = (7 * i) % scene.joints.len();
         let mut twin = scene.joints[joint].clone();
         twin.name = "twin".to_owned();
         scene.joints.push(twin);
         let rows = Linkage::new(&scene).n_rows(joint);
-        let found = sets(&told(&scene));
+        let found = sets(&diagnosis(&scene));
         let members = vec![joint, scene.joints.len() - 1];
         assert_eq!(found.len(), 1, "{}: {found:?}", scene.name);
         assert_eq!((&found[0].0, found[0].1), (&members, rows), "{}", scene.name);
@@ -56,7 +56,7 @@ fn two_joints_doubled_are_two_sets_wherever_they_stand() {
         }
         let mut expected = vec![vec![a, n], vec![b, n + 1]];
         expected.sort();
-        let found: Vec<Vec<usize>> = sets(&told(&scene)).into_iter().map(|s| s.0).collect();
+        let found: Vec<Vec<usize>> = sets(&diagnosis(&scene)).into_iter().map(|s| s.0).collect();
         assert_eq!(found, expected, "{}", scene.name);
     }
 }
@@ -72,9 +72,9 @@ fn a_doubled_coupler_names_its_four_pins_and_not_the_cranks() {
     b.pin(twin, rocker, to);
     b.pin(GROUND, twin, from);
     // The last pin holds the crank's end to the ground: that makes a structure; without it the set is the two couplers.
-    let pinned = sets(&told(&b.0));
+    let pinned = sets(&diagnosis(&b.0));
     b.0.joints.pop();
-    assert_eq!(sets(&told(&b.0)), [(vec![1, 2, 4, 5], 1, Nature::Structural)]);
+    assert_eq!(sets(&diagnosis(&b.0)), [(vec![1, 2, 4, 5], 1, Nature::Structural)]);
     let named: Vec<usize> = pinned.iter().flat_map(|s| s.0.clone()).collect();
     assert!([0, 1, 2, 4, 5, 6].iter().all(|j| named.contains(j)), "{pinned:?}");
 }
@@ -86,13 +86,13 @@ fn a_doubled_joint_is_found_whatever_the_axes_and_the_order_of_bodies() {
         let mut twin = scene.joints[joint].clone();
         twin.name = "twin".to_owned();
         scene.joints.push(twin);
-        let expected = told(&scene);
+        let expected = diagnosis(&scene);
         let turned = match scene.dimension {
             Dimension::Planar => retell::turn_by(&scene, retell::turned_in_plane),
             Dimension::Spatial => retell::turn_scene(&scene),
         };
         for other in [turned, retell::reorder(&scene)] {
-            let found = told(&other);
+            let found = diagnosis(&other);
             assert_eq!(sets(&found), sets(&expected), "{}", scene.name);
             let open = |d: &mbs_study::redundancy::Diagnosis| -> Vec<[usize; 3]> {
                 d.sets[0].members.iter().map(|m| m.open).collect()

@@ -64,7 +64,7 @@ impl Build {
 }
 
 /// The diagnosis in the reference configuration.
-pub(crate) fn told(scene: &Scene<f64>) -> Diagnosis {
+pub(crate) fn diagnosis(scene: &Scene<f64>) -> Diagnosis {
     scene.check().expect("a scene that can be meant");
     diagnose(&Linkage::new(scene), &reference(scene))
 }
