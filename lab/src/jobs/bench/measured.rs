@@ -260,7 +260,7 @@ pub(super) mod tests {
     }
 
     #[test]
-    fn lines_that_cannot_be_meant_are_refused() {
+    fn malformed_lines_are_refused() {
         let mut scene = Scene::new("x");
         assert!(scene.read(&[json!({ "kind": "other" })]).is_err());
         assert!(scene.read(&[json!({ "kind": "lane", "formulation": "index-3" })]).is_err());

@@ -107,7 +107,7 @@ fn measure(asked: &Asked) -> Result<Measured, String> {
     let [own, others] = [own, others].map(|lines| lines.into_iter().map(name).collect::<Vec<_>>());
     let threads = threads.sizes().to_vec();
     let mut measured = Measured { machine, threads, formulations, forks, scenes: Vec::new() };
-    for name in wanted(asked) {
+    for name in selected(asked) {
         measured.scenes.push(scene(&program, &name, (&own.join(","), &others))?);
     }
     measured.machine.end();
@@ -132,7 +132,7 @@ pub(crate) fn built(threads: &Threads, quick: bool) -> Result<Program, String> {
 }
 
 /// The scenes that are asked for; a name that is not in the list is the program's to judge.
-fn wanted(asked: &Asked) -> Vec<String> {
+fn selected(asked: &Asked) -> Vec<String> {
     if !asked.scenes.is_empty() {
         return asked.scenes.clone();
     }
@@ -163,7 +163,7 @@ mod tests {
     fn quick_leaves_out_the_largest_scenes() {
         let asked = |quick, scenes: &[&str]| {
             let scenes = scenes.iter().map(|&name| name.to_owned()).collect();
-            wanted(&Asked { threads: None, quick, scenes })
+            selected(&Asked { threads: None, quick, scenes })
         };
         assert_eq!(asked(false, &[]).len(), SCENES.len());
         assert!(LARGEST.iter().all(|name| !asked(true, &[]).contains(&(*name).to_owned())));

@@ -181,7 +181,7 @@ mod tests {
     }
 
     #[test]
-    fn claims_are_judged_by_the_runs() {
+    fn claims_are_compared_with_the_runs() {
         let section = section(&made());
         let holds: Vec<_> = section.claims().map(|claim| claim.holds).collect();
         let (yes, no) = (Some(true), Some(false));

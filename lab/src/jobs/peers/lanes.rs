@@ -162,7 +162,7 @@ fn fastest<'a>(lanes: impl Iterator<Item = &'a Lane>) -> Option<&'a Lane> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::peers::problems::wanted;
+    use crate::peers::problems::selected;
 
     fn line(algorithm: &str, seconds: f64, value: f64) -> Line {
         Line { algorithm: algorithm.into(), seconds, value, reference: "exact".into() }
@@ -170,7 +170,7 @@ mod tests {
 
     #[test]
     fn ratios_are_taken_turn_by_turn_against_the_fastest_peer_that_is_right() {
-        let mut measured = Measured::new(wanted(&["chain".to_owned()])[0]);
+        let mut measured = Measured::new(selected(&["chain".to_owned()])[0]);
         for (ours, peer) in [(1.0, 2.0), (4.0, 5.0), (1.0, 4.0)] {
             let own =
                 [line("reference", 0.0, 3.0), line("planar", ours, 3.0), line("spatial", 9.0, 3.1)];
@@ -185,7 +185,7 @@ mod tests {
 
     #[test]
     fn a_run_may_err_as_much_as_the_peer_and_no_more() {
-        let mut measured = Measured::new(wanted(&["double-pendulum".to_owned()])[0]);
+        let mut measured = Measured::new(selected(&["double-pendulum".to_owned()])[0]);
         let of = |algorithm, seconds, value| Line {
             reference: "zero".into(),
             ..line(algorithm, seconds, value)

@@ -9,7 +9,7 @@ mod tables;
 use crate::bench::Machine;
 use crate::page;
 use lanes::Measured;
-use problems::{Kind, Problem, wanted};
+use problems::{Kind, Problem, selected};
 use programs::{Asked, Who};
 use xtask::process;
 
@@ -35,7 +35,7 @@ const QUICK: Effort = Effort { turns: 3, seconds: 0.05, point: 0.01 };
 #[allow(clippy::print_stdout, reason = "the tables are what is asked for")]
 pub(crate) fn peers(quick: bool, names: &[String]) -> Result<bool, String> {
     let effort = if quick { QUICK } else { FULL };
-    let problems = wanted(names);
+    let problems = selected(names);
     if problems.is_empty() {
         return Err(format!("no problem is named {}", names.join(", ")));
     }

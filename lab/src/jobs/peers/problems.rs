@@ -1,4 +1,4 @@
-//! The problems, who is asked to solve them, and what part of the fastest peer's time is wanted.
+//! The problems, who is asked to solve them, and what part of the fastest peer's time is required.
 
 use super::programs::Who;
 
@@ -56,7 +56,7 @@ pub(super) fn limit_at(digits: u8) -> f64 {
 }
 
 /// The problems that are asked for, or all of them.
-pub(super) fn wanted(names: &[String]) -> Vec<Problem> {
+pub(super) fn selected(names: &[String]) -> Vec<Problem> {
     let is_wanted = |p: &Problem| names.is_empty() || names.iter().any(|name| name == p.name);
     all().into_iter().filter(is_wanted).collect()
 }
@@ -115,9 +115,9 @@ mod tests {
 
     #[test]
     fn problems_are_asked_for_by_name() {
-        let chains = wanted(&["chain".to_owned(), "step".to_owned()]);
+        let chains = selected(&["chain".to_owned(), "step".to_owned()]);
         assert_eq!(chains.iter().map(|p| p.n).collect::<Vec<_>>(), [6, 10, 30, 100, 300, 10]);
-        assert_eq!(wanted(&[]).len(), 20);
-        assert!(wanted(&[]).iter().all(|p| p.limit[1] <= p.limit[0]));
+        assert_eq!(selected(&[]).len(), 20);
+        assert!(selected(&[]).iter().all(|p| p.limit[1] <= p.limit[0]));
     }
 }

@@ -160,7 +160,7 @@ pub(super) fn sections(measured: &[Measured]) -> Vec<Section> {
     sections
 }
 
-/// What is wanted of each problem, and whether it holds.
+/// What is required of each problem, and whether it holds.
 fn claims(section: &mut Section, measured: &[Measured]) {
     for m in measured.iter().filter(|m| m.problem.kind != Kind::Digits) {
         let [limit, aim] = m.problem.limit;
@@ -174,7 +174,7 @@ fn claims(section: &mut Section, measured: &[Measured]) {
     }
 }
 
-/// What is wanted at equal digits, and whether it holds where both reach them.
+/// What is required at equal digits, and whether it holds where both reach them.
 fn claims_at_digits(section: &mut Section, measured: &Measured) {
     let solvers = solvers(measured);
     let mut claim = |digits: u8, name: &str, limit: f64| {
@@ -238,7 +238,7 @@ pub(super) fn csv(measured: &[Measured]) -> Result<Vec<u8>, String> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::peers::problems::wanted;
+    use crate::peers::problems::selected;
     use crate::peers::programs::Line;
 
     fn line(algorithm: &str, seconds: f64, value: f64) -> Line {
@@ -253,7 +253,7 @@ mod tests {
 
     #[test]
     fn a_missed_limit_is_reported_and_a_missing_peer_too() {
-        let mut measured = Measured::new(wanted(&["tree".to_owned()])[0]);
+        let mut measured = Measured::new(selected(&["tree".to_owned()])[0]);
         let own = [line("reference", 0.0, 3.0), line("planar", 1.0, 3.0)];
         measured.take(Who::Ours, own.to_vec());
         let alone = text(&[measured.clone()], "remark");

@@ -232,7 +232,7 @@ mod tests {
     }
 
     #[test]
-    fn what_cannot_be_meant_is_refused() {
+    fn malformed_requests_are_refused() {
         for (text, why) in [
             ("double-pendulum printed f64", "STEP SPAN ALPHA"),
             ("double-pendulum printed f16 1e-3 1 1e7", "no digits `f16`"),

@@ -247,7 +247,7 @@ mod tests {
     }
 
     #[test]
-    fn claims_are_judged_beside_the_cheapest_step_that_reaches_the_error() {
+    fn claims_are_compared_with_the_cheapest_step_that_reaches_the_error() {
         let fixed = |formulation, step, e, s| of(Case::fixed(SCENE, formulation, step), e, s);
         let coarse = fixed("index-3", 1e-3, 2e-3, 0.2);
         let runs = [fixed("index-1", FINE, 1e-3, 1.0), fixed("index-3", FINE, 9e-4, 0.5), coarse];
