@@ -4,7 +4,7 @@ use crate::{files, json, run, scene};
 use serde_json::Value;
 
 #[test]
-fn every_scene_has_an_equilibrium_that_is_told_in_one_object() {
+fn every_scene_has_an_equilibrium_that_is_reported_in_one_object() {
     for name in files::SCENES {
         let output = run("equilibrium", &[&scene(name), "--json"]);
         assert_eq!(output.status.code(), Some(0), "{name}");
@@ -47,7 +47,7 @@ fn modes_are_written_as_a_table_and_as_json_and_to_a_file() {
 }
 
 #[test]
-fn what_cannot_be_done_has_status_two_and_what_cannot_be_meant_one() {
+fn what_cannot_be_done_has_status_two_and_malformed_requests_one() {
     let free = "[scene]\ndimension = 2\ngravity = [0.0, -9.81]\nduration = 1.0\n\n\
         [[body]]\nname = \"stone\"\nmass = 1.0\ncenter = [0.0, 0.0]\ninertia = 0.1\n";
     let file = std::path::Path::new(env!("CARGO_TARGET_TMPDIR")).join("stone.toml");

@@ -36,7 +36,7 @@ fn the_evidence_stands_in_the_json_in_files_and_on_the_page() {
 }
 
 #[test]
-fn goals_that_cannot_be_meant_are_refused_with_what_to_write() {
+fn malformed_goals_are_refused_with_what_to_write() {
     let scene = scene("double-pendulum");
     for (arguments, says) in [
         (&["--error", "0"][..], "more than 0 and less than 1"),
@@ -60,7 +60,7 @@ fn goals_that_cannot_be_meant_are_refused_with_what_to_write() {
 }
 
 #[test]
-fn explain_tells_candidates_by_structure_and_with_an_error_what_each_costs() {
+fn explain_reports_candidates_by_structure_and_with_an_error_what_each_costs() {
     let scene = scene("simple-pendulum");
     let plain = run("explain", &[&scene, "--duration", "0.2"]);
     let text = text(&plain.stdout);

@@ -152,7 +152,7 @@ fn run_text(name: &str, text: &str, arguments: &[&str]) -> (Output, String) {
 }
 
 #[test]
-fn scenes_that_cannot_be_meant_are_refused_with_place_and_hint() {
+fn malformed_scenes_are_refused_with_place_and_hint() {
     let spatial: &[(&str, &str)] = &[
         ("dimension = 2", "dimension = 3"),
         ("[0.0, -9.81]", "[0.0, 0.0, -9.81]"),
@@ -300,7 +300,7 @@ fn wrong_usage_and_missing_files_are_refused() {
 }
 
 #[test]
-fn a_run_that_cannot_go_on_names_time_and_joint_and_keeps_its_rows() {
+fn a_run_that_cannot_continue_names_time_and_joint_and_keeps_its_rows() {
     let out = scratch("stops");
     // A guide that turns the crank of a rocker-rocker on through where the linkage can no longer close.
     let scene = "[scene]\nname = \"locks\"\ndimension = 2\nduration = 2.0\n\n\

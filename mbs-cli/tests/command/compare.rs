@@ -135,7 +135,7 @@ fn results(journal: &str) -> std::collections::BTreeSet<&str> {
 }
 
 #[test]
-fn a_comparison_that_was_killed_goes_on_to_the_same_result() {
+fn a_comparison_that_was_killed_resumes_to_the_same_result() {
     let out = scratch("resume");
     let whole = json(&short(&out, &[]));
     let journal = std::fs::read(out.join("compare.journal")).expect("the journal is there");

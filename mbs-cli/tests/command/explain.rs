@@ -94,7 +94,7 @@ fn loops_are_cut_at_named_joints_and_redundant_equations_are_counted() {
 }
 
 #[test]
-fn guides_are_told_and_leave_no_freedom() {
+fn guides_are_reported_and_leave_no_freedom() {
     let value = json("guided-four-bar", &["--duration", "0.05"]);
     let simulated = &value["simulated"];
     assert_eq!(simulated["guides"], serde_json::json!([{"joint": "crank-pivot", "law": "ramp"}]));

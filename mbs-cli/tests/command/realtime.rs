@@ -49,7 +49,7 @@ fn the_command_has_an_object_realtime_and_a_line_for_each_overrun() {
 }
 
 #[test]
-fn the_command_runs_in_pairs_of_doubles_and_degrades_what_it_is_told_to() {
+fn the_command_runs_in_pairs_of_doubles_and_degrades_what_is_named() {
     let output = run(&[
         &scene("double-pendulum"),
         "--realtime",

@@ -12,7 +12,7 @@ fn refused(arguments: &[&str]) -> String {
 }
 
 #[test]
-fn steps_and_errors_that_cannot_be_meant_are_refused_with_the_true_reason() {
+fn malformed_steps_and_errors_are_refused_with_the_true_reason() {
     for (arguments, reason, hint) in [
         (
             ["--step", "-1e-3"],
@@ -105,7 +105,7 @@ fn compared(name: &str, table: &str) -> (i32, String) {
 }
 
 #[test]
-fn tables_that_cannot_be_meant_are_refused_by_their_line() {
+fn malformed_tables_are_refused_by_their_line() {
     for (name, table, reason) in [
         ("empty", "t,mass.x,mass.y\n", "the reference table has no rows"),
         ("nothing", "", "the first column of the reference table is not `t`"),

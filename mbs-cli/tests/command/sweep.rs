@@ -125,7 +125,7 @@ fn members_that_fail_keep_their_rows_and_leave_the_others() {
 }
 
 #[test]
-fn a_killed_sweep_goes_on_where_it_was() {
+fn a_killed_sweep_resumes_where_it_was() {
     let out = scratch("resume");
     let (_, whole) = table(&out, MASSES, &["--threads", "2"]);
     let journal = std::fs::read(out.join("sweep.journal")).expect("the journal is there");

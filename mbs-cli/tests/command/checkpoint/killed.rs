@@ -73,12 +73,12 @@ fn survives(name: &str, scene: &str, options: &[&str], [first, second]: [f64; 2]
 }
 
 #[test]
-fn a_killed_run_of_fixed_steps_goes_on_to_the_same_files() {
+fn a_killed_run_of_fixed_steps_resumes_to_the_same_files() {
     survives("fixed", "double-pendulum", &["--step", "1e-5"], [2.0, 6.0]);
 }
 
 #[test]
-fn a_killed_run_of_controlled_steps_goes_on_to_the_same_files() {
+fn a_killed_run_of_controlled_steps_resumes_to_the_same_files() {
     let control = ["--formulation", "multi-index", "--step-control", "both"];
     let steps = ["--step", "1e-4", "--step-max", "1e-3", "--duration", "10"];
     let options = [&control[..], &steps].concat();

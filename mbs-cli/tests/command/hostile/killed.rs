@@ -14,7 +14,7 @@ const LATE: usize = 8;
 const LONG: &str = "--step 1e-4 --duration 10 --checkpoint 1";
 
 #[test]
-fn a_run_killed_at_any_time_leaves_the_old_or_the_new_and_goes_on_to_the_same_bits() {
+fn a_run_killed_at_any_time_leaves_the_old_or_the_new_and_resumes_to_the_same_bits() {
     let place = Place::new("killed");
     let made = |arguments: &str| {
         let made = ended(&mut place.run(arguments));

@@ -52,7 +52,7 @@ fn a_run_that_is_interrupted_keeps_its_rows_and_says_so() {
 }
 
 #[test]
-fn a_run_that_was_interrupted_goes_on_to_the_bits_of_one_in_one_go() {
+fn a_run_that_was_interrupted_resumes_to_the_bits_of_one_in_one_go() {
     let place = Place::new("gone-on");
     let long = "--step 1e-4 --duration 40";
     let mut command = place.run(&format!("{long} --out parts --checkpoint 3 --json"));
