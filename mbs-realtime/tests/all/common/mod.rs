@@ -21,13 +21,13 @@ pub(crate) fn at(times: &[u64]) -> Vec<Duration> {
 
 /// A clock that moves when it is told to.
 #[derive(Debug)]
-pub(crate) struct Told {
+pub(crate) struct ScriptedClock {
     time: Rc<Cell<Duration>>,
     /// By how much a sleeper wakes late.
     pub(crate) oversleeps: Duration,
 }
 
-impl Clock for Told {
+impl Clock for ScriptedClock {
     fn now(&self) -> Duration {
         self.time.get()
     }
@@ -68,8 +68,8 @@ impl Script {
     }
 
     /// The clock that it moves.
-    pub(crate) fn clock(&self) -> Told {
-        Told { time: self.time.clone(), oversleeps: Duration::ZERO }
+    pub(crate) fn clock(&self) -> ScriptedClock {
+        ScriptedClock { time: self.time.clone(), oversleeps: Duration::ZERO }
     }
 }
 
