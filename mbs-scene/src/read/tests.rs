@@ -289,7 +289,7 @@ fn types_counts_and_missing_keys_have_places() {
 }
 
 #[test]
-fn scenes_that_cannot_be_meant_are_refused_at_the_value() {
+fn malformed_scenes_are_refused_at_the_value() {
     let e = spoiled("mass = 1.0\ncenter", "mass = -1.0\ncenter");
     refused(&e, "14:8", "`mass` must not be negative, but is -1", "zero or more");
     let e = spoiled("name = \"lower\"", "name = \"upper\"");
