@@ -30,7 +30,7 @@ fn options() -> impl Iterator<Item = Options> {
 }
 
 /// Everything that a factorisation tells.
-struct Told {
+struct Factored {
     /// Residual, solution, null vector and ratio of the weakest pivot.
     numbers: [Vec<f64>; 4],
     weakest: u32,
@@ -39,7 +39,7 @@ struct Told {
     n_tasks: usize,
 }
 
-fn told<W: Team>(team: W, saddle: &Saddle, options: Options) -> Told {
+fn factored<W: Team>(team: W, saddle: &Saddle, options: Options) -> Factored {
     let mut solver = Indefinite::<f64, W>::on(team, saddle, options);
     let mut f = vec![0.0; saddle.sum.n];
     solver.assemble(saddle, &mut f);
@@ -50,7 +50,7 @@ fn told<W: Team>(team: W, saddle: &Saddle, options: Options) -> Told {
     let mut null = vec![f64::NAN; saddle.sum.n];
     solver.null_vector(&mut null, &mut scratch);
     let weakest = solver.weakest();
-    Told {
+    Factored {
         numbers: [f, x, null, vec![weakest.ratio]],
         weakest: weakest.unknown,
         delayed: solver.delays().delayed,
@@ -68,7 +68,7 @@ fn tasks_of_any_size_give_the_solution_and_a_team_its_bits() {
     let mut delayed_between_tasks = 0;
     for (name, saddle) in saddles() {
         for options in options() {
-            let one = told(Alone, &saddle, options);
+            let one = factored(Alone, &saddle, options);
             // A chain without cuts has no forks.
             let is_cut = options.grain == 0 && options.ordering == Ordering::Dissection(3);
             assert!(!is_cut || one.n_tasks > 4, "{name}: {}", one.n_tasks);
@@ -81,7 +81,7 @@ fn tasks_of_any_size_give_the_solution_and_a_team_its_bits() {
                 assert!((b - f).abs() < 1e-11 * size, "{name}, {options:?}");
             }
             for _ in 0..3 {
-                let team = told(Forking, &saddle, options);
+                let team = factored(Forking, &saddle, options);
                 assert!(bits(&one.numbers) == bits(&team.numbers), "{name}, {options:?}");
                 assert_eq!((one.weakest, one.delayed), (team.weakest, team.delayed), "{name}");
             }
