@@ -216,7 +216,7 @@ fn light_columns_become_dependent() {
 }
 
 #[test]
-fn pivots_tell_how_near_a_matrix_is_to_losing_rank() {
+fn pivots_show_how_near_a_matrix_is_to_losing_rank() {
     // [1 1; 1 1+e]: e is what the second row adds.
     let pattern = Pattern { n_columns: 2, starts: vec![0, 2, 4], columns: vec![0, 1, 0, 1] };
     let mut e = Elimination::new(pattern, vec![1.0; 2]);
