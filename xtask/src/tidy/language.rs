@@ -252,7 +252,7 @@ fn public_type_names_occur_once() {
 }
 
 #[test]
-fn text_is_read_as_meant() {
+fn text_is_read_as_intended() {
     let text = "# Title\n\nOne `a b. c` here. Two\nlines; more? Yes.\n\n```sh\ncode. code\n```\n- item one.\n| cell one | cell; two |\n";
     let found: Vec<_> = sentences(text).into_iter().filter(|(_, s)| !s.is_empty()).collect();
     let words: Vec<_> = found.iter().map(|(line, s)| (*line, s.trim_end())).collect();
