@@ -21,7 +21,7 @@ mod refused;
 const CLOCK_ROWS: [&str; 3] = ["CPU time of the steps", "times real time", "slowest step"];
 
 /// Everything that a run gives, but for what clocks say: rows, steps, JSON, and what its page shows.
-fn told(outcome: &Outcome) -> [String; 4] {
+fn results(outcome: &Outcome) -> [String; 4] {
     let (mut rows, mut steps) = (Vec::new(), Vec::new());
     outcome.write_csv(&mut rows).expect("memory");
     outcome.write_steps(&mut steps).expect("memory");
@@ -61,7 +61,7 @@ fn split(name: &str, overrides: &Method, every: f64) -> Outcome {
     };
     let outcome = run_document_kept(both, &settings, &mut look, (None, Some(&mut writer)));
     let outcome = outcome.expect("a scene").expect("no checkpoint to refuse");
-    same(&told(&whole), &told(&outcome), &what);
+    same(&results(&whole), &results(&outcome), &what);
     assert!(writer.failure().is_none() && kept.len() >= 3, "{what}: {} kept", kept.len());
 
     for bytes in &kept {
@@ -70,7 +70,7 @@ fn split(name: &str, overrides: &Method, every: f64) -> Outcome {
         let parts = (Some(&checkpoint), None);
         let outcome = run_document_kept(both, &settings, &mut |_| {}, parts);
         let outcome = outcome.expect("a scene").unwrap_or_else(|e| panic!("{what}: {e}"));
-        same(&told(&whole), &told(&outcome), &format!("{what} from {} s", checkpoint.time()));
+        same(&results(&whole), &results(&outcome), &format!("{what} from {} s", checkpoint.time()));
     }
     let _ = std::fs::remove_dir_all(out);
     whole
@@ -82,7 +82,7 @@ fn with(formulation: &str, duration: f64) -> Method {
 }
 
 #[test]
-fn every_formulation_goes_on_to_the_same_bits() {
+fn every_formulation_resumes_to_the_same_bits() {
     let scenes = [
         ("double-pendulum", 1e-3),
         ("guided-four-bar", 1e-3),
@@ -104,7 +104,7 @@ fn every_formulation_goes_on_to_the_same_bits() {
 }
 
 #[test]
-fn every_integrator_goes_on_to_the_same_bits() {
+fn every_integrator_resumes_to_the_same_bits() {
     let implicit = ["newmark", "generalised-alpha", "hht"];
     let first_order = ["rk4", "rk54", "rk853", "gbs", "radau5"];
     let pairs = implicit.map(|i| ("index-3", i)).into_iter();
@@ -119,7 +119,7 @@ fn every_integrator_goes_on_to_the_same_bits() {
 }
 
 #[test]
-fn every_precision_goes_on_to_the_same_bits() {
+fn every_precision_resumes_to_the_same_bits() {
     for precision in ["f32", "dd"] {
         for formulation in FormulationKind::ALL {
             let overrides = with(formulation.name(), 0.2);
@@ -133,7 +133,7 @@ fn every_precision_goes_on_to_the_same_bits() {
 }
 
 #[test]
-fn steps_of_controlled_length_go_on_to_the_same_bits() {
+fn steps_of_controlled_length_resume_to_the_same_bits() {
     for formulation in FormulationKind::ALL {
         for rule in ["energy", "energy-printed", "error", "both"] {
             let overrides = Method {
@@ -150,7 +150,7 @@ fn steps_of_controlled_length_go_on_to_the_same_bits() {
 }
 
 #[test]
-fn contacts_go_on_to_the_same_bits() {
+fn contacts_resume_to_the_same_bits() {
     for formulation in ["multi-index", "index-1", "recursive"] {
         for rule in ["fixed", "both"] {
             let overrides = Method {
@@ -166,7 +166,7 @@ fn contacts_go_on_to_the_same_bits() {
 }
 
 #[test]
-fn changes_of_index_go_on_to_the_same_bits() {
+fn changes_of_index_resume_to_the_same_bits() {
     let overrides = Method {
         energy_tolerance: Some([1e-8, 1e-10]),
         step: Some(1e-4),
@@ -179,7 +179,7 @@ fn changes_of_index_go_on_to_the_same_bits() {
 }
 
 #[test]
-fn what_is_thinned_goes_on_to_the_same_bits() {
+fn what_is_thinned_resumes_to_the_same_bits() {
     // 30,000 steps of which every third is a row; and some 30,000 steps of lengths that are not known before
     let fixed = Method { step: Some(1e-4), ..with("index-3", 3.0) };
     assert_eq!(split("double-pendulum", &fixed, 0.7501).summary.steps, 30_000);
@@ -195,7 +195,7 @@ fn what_is_thinned_goes_on_to_the_same_bits() {
 }
 
 #[test]
-fn a_run_that_stops_goes_on_to_the_same_stop() {
+fn a_run_that_stops_resumes_to_the_same_stop() {
     // long steps of the double pendulum: the invariant is off by too much of what was turned over, ten times in a row
     let alarm = Method { energy_alarm: Some(1e-3), step: Some(1e-2), ..with("index-3", 10.0) };
     let outcome = split("double-pendulum", &alarm, 0.13);
@@ -230,7 +230,7 @@ fn bits<const D: usize>(simulation: &mut Simulation<f64, D>, steps: usize) -> Ve
 }
 
 #[test]
-fn a_simulation_that_is_restored_goes_on_with_inputs_as_they_are_set() {
+fn a_simulation_that_is_restored_continues_with_inputs_as_they_are_set() {
     let scene = driven();
     assert_eq!(scene.dimension, Dimension::Planar);
     // multi-index steps are controlled: the first of those within a step takes a guide's motion over

@@ -234,8 +234,8 @@ fn every_precision_that_is_built_moves_as_doubles_do() {
 fn the_invariant_stays_with_an_energy_and_without() {
     /// A spring that says it stores nothing, or a tenth too much.
     #[derive(Debug)]
-    struct Told(f64);
-    impl ForceLaw for Told {
+    struct StatedEnergy(f64);
+    impl ForceLaw for StatedEnergy {
         fn evaluate(&self, at: &Measured) -> Force {
             let force = Spring { damping: 0.0, ..SPRING }.evaluate(at);
             Force { energy: self.0 * force.energy, ..force }
@@ -243,7 +243,7 @@ fn the_invariant_stays_with_an_energy_and_without() {
     }
     for method in methods() {
         for share in [0.0, 1.0, 1.1] {
-            let mut sim = simulate(&on_line(Some(Told(share))), &method);
+            let mut sim = simulate(&on_line(Some(StatedEnergy(share))), &method);
             let off = |sim: &Simulation| {
                 let e = sim.energies();
                 e.kinetic + e.potential - e.work
@@ -252,7 +252,7 @@ fn the_invariant_stays_with_an_energy_and_without() {
             let before = off(&sim);
             sim.advance_to(0.3).unwrap_or_else(|e| panic!("{method:?}: {e}"));
             // The rules' own error is some 1e-5 of 100 J, and what Newmark's damping takes 1e-2. What is not stored is work, by the
-            // energy that is told: that of a spring cannot be told wrongly so that it shows.
+            // energy that is stated: that of a spring cannot be stated wrongly so that it shows.
             assert!((off(&sim) - before).abs() < 0.5, "{method:?}: {} J", off(&sim) - before);
         }
     }

@@ -401,7 +401,7 @@ fn a_run_lists_a_thousand_contacts_and_counts_the_others() {
 }
 
 #[test]
-fn a_limit_tells_which_end_was_touched_and_watching_allocates_nothing() {
+fn a_limit_reports_which_end_was_touched_and_watching_allocates_nothing() {
     let mut bounce = bumper(0.0, [0.2, 1.3], 0.0);
     let (stiffness, damping) = (5000.0, 0.0);
     bounce.scene.effects[0].kind = EffectKind::Limit(Limit {

@@ -363,7 +363,7 @@ fn a_wrench_of_one_s_own_takes_what_the_ledger_says() {
 }
 
 #[test]
-fn a_guide_that_is_set_follows_what_it_is_told() {
+fn a_guide_that_is_set_follows_its_input() {
     for formulation in
         FormulationKind::ALL.map(FormulationKind::name).into_iter().filter(|f| *f != "multi-index")
     {

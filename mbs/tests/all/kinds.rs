@@ -1,6 +1,6 @@
 //! Every kind of joint in every formulation: in a tree, in a loop, and beside a chain of massless bodies with one freedom each.
 
-use crate::common::oracle::{Way, disagreement, everything, methods, tell};
+use crate::common::oracle::{Way, disagreement, everything, methods, rows_with_errors};
 use crate::common::random;
 use mbs::core::outputs::Target;
 use mbs::core::scene::{Dimension, JointKind, Quantity, Scene};
@@ -10,10 +10,10 @@ const SPAN: (f64, f64) = (1e-3, 0.2);
 
 /// All methods agree with the first one of them, on what the first scene asks for.
 fn agree(scenes: [&Scene<f64>; 2], others: &[Way], faults: &mut Vec<String>) {
-    let reference = tell(scenes[0], methods()[0], SPAN);
+    let reference = rows_with_errors(scenes[0], methods()[0], SPAN);
     let reference = reference.unwrap_or_else(|e| panic!("{}: {e}", scenes[0].name));
     for method in others {
-        let fault = match tell(scenes[1], *method, SPAN) {
+        let fault = match rows_with_errors(scenes[1], *method, SPAN) {
             Ok(told) => {
                 let (ratio, component) = disagreement(&reference, &told);
                 (!(ratio <= 1.0)).then(|| format!("{ratio:.2}, component {component}"))

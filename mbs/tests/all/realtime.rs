@@ -13,7 +13,7 @@ use std::time::Duration;
 /// A clock that stands still but where it is waited for. Sleepers may wake late once. It notes the allocations between its first
 /// and its last reading.
 #[derive(Default)]
-struct Told {
+struct ScriptedClock {
     time: Cell<Duration>,
     /// The sleep, counted from 1, that is too long, and by how much.
     oversleeps: Option<(u32, Duration)>,
@@ -21,7 +21,7 @@ struct Told {
     allocations: Cell<Option<[u64; 2]>>,
 }
 
-impl Clock for Told {
+impl Clock for ScriptedClock {
     fn now(&self) -> Duration {
         let count = allocations::count();
         let [first, _] = self.allocations.get().unwrap_or([count; 2]);
@@ -51,7 +51,7 @@ fn paced(
     document: &SceneFile,
     overrides: &Method,
     pacing: &Pacing,
-    clock: &mut Told,
+    clock: &mut ScriptedClock,
 ) -> Result<Outcome, PacingError> {
     let scene = document.scene::<f64>().expect("a scene");
     let settings = ResolvedMethod::new(&scene, overrides).expect("settings");
@@ -83,7 +83,7 @@ fn pacing_changes_no_bit_of_the_results() {
         let scene = document.scene::<f64>().expect("a scene");
         let settings = ResolvedMethod::new(&scene, &overrides).expect("settings");
         let plain = mbs::run_document((&document, &scene), &settings, &mut |_| {}).expect("a run");
-        let run = paced(&document, &overrides, &Pacing::default(), &mut Told::default());
+        let run = paced(&document, &overrides, &Pacing::default(), &mut ScriptedClock::default());
         let run = run.expect("it is paced");
         assert!(plain.summary.completed && run.summary.completed, "{name}");
         assert_eq!(plain.rows(), run.rows(), "{name}");
@@ -100,7 +100,7 @@ fn a_period_of_several_steps_has_the_results_of_these_steps() {
     let settings = ResolvedMethod::new(&scene, &fine).expect("settings");
     let plain = mbs::run_document((&document, &scene), &settings, &mut |_| {}).expect("a run");
     let pacing = Pacing { period: Some(5e-3), ..Pacing::default() };
-    let run = paced(&document, &fine, &pacing, &mut Told::default()).expect("it is paced");
+    let run = paced(&document, &fine, &pacing, &mut ScriptedClock::default()).expect("it is paced");
     assert_eq!((run.rows().len(), run.summary.steps), (101, 500));
     // 5e-3 / 5 is not 1e-3 to the last bit; this motion is not chaotic yet.
     for ((t, a), (u, b)) in run.rows().iter().zip(plain.rows().iter().step_by(5)) {
@@ -110,7 +110,8 @@ fn a_period_of_several_steps_has_the_results_of_these_steps() {
     // Lengths of steps may be controlled: each period ends exactly where it should.
     let controlled =
         Method { error_tolerance: Some(1e-6), step_max: Some(0.05), ..asked("index-3", 1e-3, 0.5) };
-    let run = paced(&document, &controlled, &pacing, &mut Told::default()).expect("it is paced");
+    let run =
+        paced(&document, &controlled, &pacing, &mut ScriptedClock::default()).expect("it is paced");
     assert!(run.summary.completed && run.rows().len() == 101);
     for (k, (t, row)) in run.rows().iter().enumerate() {
         assert!((t - k as f64 * 5e-3).abs() < 1e-12, "{t}");
@@ -215,7 +216,7 @@ fn a_spring_that_is_taken_away_leaves_a_mass_that_moves_on_evenly_and_one_that_c
 }
 
 #[test]
-fn a_state_taken_over_with_the_same_effects_goes_on_as_if_it_had_stayed() {
+fn a_state_taken_over_with_the_same_effects_continues_as_if_it_had_stayed() {
     for (name, formulation) in
         [("spinning-top", "index-3"), ("rssr", "index-1"), ("spatial-four-bar", "recursive")]
     {
@@ -241,7 +242,7 @@ fn a_state_taken_over_with_the_same_effects_goes_on_as_if_it_had_stayed() {
 }
 
 /// Degraded by a single sleep that is fifty periods too long: late in a row for longer than the patience.
-fn degraded(document: &SceneFile, overrides: &Method, words: &[&str]) -> (Outcome, Told) {
+fn degraded(document: &SceneFile, overrides: &Method, words: &[&str]) -> (Outcome, ScriptedClock) {
     let pacing = Pacing {
         overrun: Overrun::Degrade,
         degrade: Degrade::Listed(words.iter().map(|&word| word.to_owned()).collect()),
@@ -250,7 +251,7 @@ fn degraded(document: &SceneFile, overrides: &Method, words: &[&str]) -> (Outcom
         ..Pacing::default()
     };
     let late = Duration::from_millis(200);
-    let mut clock = Told { oversleeps: Some((100, late)), ..Told::default() };
+    let mut clock = ScriptedClock { oversleeps: Some((100, late)), ..ScriptedClock::default() };
     let run = paced(document, overrides, &pacing, &mut clock);
     (run.unwrap_or_else(|e| panic!("{}", e.render())), clock)
 }
@@ -313,7 +314,7 @@ fn the_paced_loop_does_not_allocate_even_when_levels_change() {
         assert_eq!(last - first, 0, "{formulation}");
     }
     let run = |name: &str, formulation: &str| {
-        let mut clock = Told::default();
+        let mut clock = ScriptedClock::default();
         let overrides = asked(formulation, 1e-3, 0.3);
         let run = paced(&document(name), &overrides, &Pacing::default(), &mut clock);
         assert!(run.expect("it is paced").summary.completed, "{name} {formulation}");
@@ -331,7 +332,7 @@ fn a_ladder_by_measurement_has_levels_that_were_measured() {
     let document = document("iltis-suspension");
     let pacing = Pacing { overrun: Overrun::Degrade, period: Some(8e-3), ..Pacing::default() };
     let overrides = asked("index-3", 1e-3, 0.4);
-    let run = match paced(&document, &overrides, &pacing, &mut Told::default()) {
+    let run = match paced(&document, &overrides, &pacing, &mut ScriptedClock::default()) {
         Ok(run) => run,
         // A machine may be so busy that half the work cannot be told from all of it.
         Err(error) => return assert_eq!(error, PacingError::NoLadder),
@@ -356,7 +357,7 @@ fn what_cannot_be_left_out_while_a_scene_runs_is_refused() {
             ..Pacing::default()
         };
         let overrides = asked(formulation, 1e-3, 0.1);
-        paced(document, &overrides, &pacing, &mut Told::default()).err()
+        paced(document, &overrides, &pacing, &mut ScriptedClock::default()).err()
     };
     let fixed = |why| Some(PacingError::Fixed { name: "spring".to_owned(), why });
     for formulation in ["classical", "state-space"] {
@@ -384,7 +385,8 @@ fn what_cannot_be_left_out_while_a_scene_runs_is_refused() {
     assert!(unknown.hint().contains("`spring`"), "{}", unknown.render());
     for (period, awake) in [(0.0, 0.0), (-1.0, 0.0), (f64::NAN, 0.0), (1e-3, -1.0), (1e-3, 2.0)] {
         let pacing = Pacing { period: Some(period), awake, ..Pacing::default() };
-        let run = paced(&slider(), &asked("index-3", 1e-3, 0.1), &pacing, &mut Told::default());
+        let run =
+            paced(&slider(), &asked("index-3", 1e-3, 0.1), &pacing, &mut ScriptedClock::default());
         assert!(matches!(run.err(), Some(PacingError::Time { .. })), "{period} {awake}");
     }
 }
@@ -396,7 +398,7 @@ fn a_run_that_stops_keeps_its_rows_and_its_measures() {
         &document("four-bar"),
         &Method { duration: None, ..asked("state-space", 1e-3, 0.0) },
         &Pacing::default(),
-        &mut Told::default(),
+        &mut ScriptedClock::default(),
     );
     let run = run.expect("it is paced");
     assert!(!run.summary.completed);

@@ -1,7 +1,7 @@
 //! That every item of a run's record matters.
 
 use super::layout::Parts;
-use super::{scratch, told};
+use super::{results, scratch};
 use crate::common::scene;
 use mbs::core::scene::Scene;
 use mbs::typed::{StepInputs, StepObserver, run_kept};
@@ -40,7 +40,7 @@ fn kept<const D: usize>(
     let near = at - 2.0 * settings.step_max..at;
     let mut copies = Copies { near, path: writer.path(), first: Vec::new(), bytes: Vec::new() };
     let whole = run_kept::<f64, D>(scene, settings, &mut copies, (None, Some(&mut writer)));
-    let whole = told(&whole.expect("no checkpoint to refuse"));
+    let whole = results(&whole.expect("no checkpoint to refuse"));
     std::fs::remove_dir_all(&out).expect("it is ours");
     let Copies { first, bytes, .. } = copies;
     (whole, Parts::of_run([first, bytes], settings))
@@ -60,7 +60,7 @@ fn every_item_matters<const D: usize>(name: &str, overrides: &Method, at: f64, i
     let again = |bytes: &[u8]| {
         let checkpoint = read(bytes);
         let from = (Some(&checkpoint), None);
-        told(&run_kept::<f64, D>(&scene, &settings, &mut (), from).expect("it is ours"))
+        results(&run_kept::<f64, D>(&scene, &settings, &mut (), from).expect("it is ours"))
     };
     assert!(whole == again(kept.bytes()), "{name}: what is kept is not all");
     for item in items {

@@ -1,4 +1,4 @@
-//! The checker: every formulation that can run a scene must tell of the same motion.
+//! The checker: every formulation that can run a scene must compute the same motion.
 //!
 //! Each method runs at dt and dt/2. Its error is estimated by the largest difference of the two over the run, channel by
 //! channel; two methods agree when they differ by at most [`SHARE`] times the larger of their estimates.
@@ -65,21 +65,21 @@ pub(crate) fn rows(
 }
 
 /// A method's rows at dt/2 with its own error in every component.
-pub(crate) struct Told {
+pub(crate) struct RowsWithErrors {
     pub(crate) rows: Rows,
     pub(crate) errors: Vec<f64>,
 }
 
 /// Runs a method at dt and dt/2.
-pub(crate) fn tell(
+pub(crate) fn rows_with_errors(
     scene: &Scene<f64>,
     method: Way,
     (step, duration): (f64, f64),
-) -> Result<Told, StopError> {
+) -> Result<RowsWithErrors, StopError> {
     let coarse = rows(scene, method, (step, duration), 1)?;
     let fine = rows(scene, method, (0.5 * step, duration), 2)?;
     let errors = differences(&coarse, &fine);
-    Ok(Told { rows: fine, errors })
+    Ok(RowsWithErrors { rows: fine, errors })
 }
 
 /// The largest difference of each component.
@@ -108,7 +108,7 @@ fn sizes(rows: &Rows) -> Vec<f64> {
 }
 
 /// The worst ratio of difference to allowed difference over all components: at most one when two methods agree.
-pub(crate) fn disagreement(a: &Told, b: &Told) -> (f64, usize) {
+pub(crate) fn disagreement(a: &RowsWithErrors, b: &RowsWithErrors) -> (f64, usize) {
     let sizes = sizes(&a.rows);
     let mut worst = (0.0, 0);
     for (i, difference) in differences(&a.rows, &b.rows).into_iter().enumerate() {

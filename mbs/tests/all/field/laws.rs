@@ -188,7 +188,7 @@ fn a_body_on_a_bushing_alone_turns_far_about_changing_axes_alike_in_every_formul
 }
 
 #[test]
-fn a_tree_tells_its_angles_with_all_their_turns_whatever_the_step() {
+fn a_tree_reports_its_angles_with_all_their_turns_whatever_the_step() {
     let scene = field("14-unwrapped-spin");
     for integrator in ["trapezoidal", "newmark", "rk4", "rk54", "rk853", "gbs", "radau5"] {
         for step in [0.05, 0.25] {
