@@ -25,8 +25,8 @@ impl Spline {
         Self { knots: points.iter().zip(second).map(|(p, s)| [p[0], p[1], s]).collect() }
     }
 
-    /// The cubic spline through points of increasing abscissae that is level at both ends: the natural one of the points, and two with
-    /// values zero and a curvature of one at an end, weighed so that both end slopes vanish.
+    /// The cubic spline through points of increasing abscissae that is level at both ends. It is a sum of the natural one of the points and
+    /// two with values zero and a curvature of one at an end. They are weighed so that both end slopes vanish.
     #[must_use]
     pub fn level(points: &[[f64; 2]]) -> Self {
         let n = points.len();

@@ -1,5 +1,5 @@
-//! Every kind of joint x both orders of its bodies x the ground, a body welded to it or a moving one as its first body x every effect that can act on it x plane and space;
-//! likewise guides. All coordinates are given at the start, in numbers by chance.
+//! Every kind of joint x both orders of its bodies x its first body x every effect that can act on it x plane and space. The first body is the
+//! ground, a body welded to it or a moving one. Guides are tried likewise. All coordinates are given at the start, in numbers by chance.
 
 use super::dice::Dice;
 use super::draft::{Draft, GRAVITY};

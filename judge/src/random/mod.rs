@@ -1,5 +1,5 @@
-//! Random scenes by seed, as the text of a scene file: trees, one and two loops, in the plane and in space, every kind of joint and of
-//! effect, guides, starts partly given, from a millimetre to a hundred metres.
+//! Random scenes by seed, as the text of a scene file: trees, one and two loops, in the plane and in space. They have every kind of joint
+//! and of effect, guides, starts partly given, and sizes from a millimetre to a hundred metres.
 //!
 //! A mechanism of the length L is made with the time T = sqrt(L/g) as its own: stiffnesses, rates and forces are drawn in these units.
 //! No seed is drawn again: where a loop would lock the mechanism, or a start cannot be met, that part is left out.

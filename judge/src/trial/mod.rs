@@ -192,7 +192,7 @@ pub fn rows(
 }
 
 /// Holds a method against the judge. A run that stops on its way is tried by quarter steps. What is off is looked at once more with short
-/// steps: the error of a rule across a kink of a law, which two steps may hide, goes with the step. What is wrong stays.
+/// steps. Two steps may hide the error of a rule across a kink of a law, which goes with the step. What is wrong stays.
 #[must_use]
 pub fn trial(judged: &Judged, scene: &Scene<f64>, method: Way, step: f64, steps: u32) -> Verdict {
     let by = |share| by_two(judged, scene, method, (step, steps), share);
