@@ -24,6 +24,6 @@ pub(crate) const REDUCTIONS: [Method; 3] = [
 ];
 
 /// CPU time of ten seconds of motion in the augmented Lagrangian on an ALPHA AXP 4000 with two processors of 466 MHz
-/// [R V]: the report's name, our scene, and seconds.
+/// [R V]. Each row has the report's name, our scene, and seconds.
 pub(crate) const TIMES: [(&str, &str, f64); 2] =
     [("SIMUL1", "iltis-stairs", 12.0), ("SIMUL2", "iltis-jump", 9.0)];

@@ -83,8 +83,8 @@ fn build(profile: &str, with_effects: bool) -> Result<PathBuf, String> {
     command.args(["--no-default-features", "--features"]);
     command.arg(if with_effects { "effects" } else { "counts" });
     command.arg("--target-dir").arg(folder());
-    // Names with their generic arguments; and loops that do not ask at run time which of two buffers comes first in memory,
-    // as vectorised ones do: that is the allocator's affair.
+    // Names with their generic arguments; and loops without vectors. Vectorised ones ask at run time which of two buffers
+    // comes first in memory, which the allocator decides.
     command.env("RUSTFLAGS", "-C symbol-mangling-version=v0 -C no-vectorize-loops");
     process::run(command.current_dir(process::root()))?;
     Ok(folder().join(profile).join("counts"))

@@ -23,8 +23,8 @@ pub(super) struct Ladder {
     pub(super) exponent: fn(i32) -> i32,
 }
 
-/// The report's fixed alpha; as it raises that where it does not converge, to 1e9 at 1e-4 s and 1e11 at 1e-5 s; and raised so
-/// fast that multipliers from zero converge at the singular position.
+/// The report's fixed alpha. The report raises it where it does not converge, to 1e9 at 1e-4 s and 1e11 at 1e-5 s. Or it is raised so fast
+/// that multipliers from zero converge at the singular position.
 pub(super) const LADDERS: [Ladder; 3] = [
     Ladder { name: "1e7", exponent: |_| 7 },
     Ladder { name: "10/dt², 1e7 at least", exponent: |k| (2 * k + 1).max(7) },

@@ -7,7 +7,7 @@ use crate::format::step;
 pub(crate) enum Rule {
     /// They are all the same.
     Fixed,
-    /// The change of the energy invariant within a step: more than this share of the energy turned over is refused, and a step
+    /// The change of the energy invariant within a step, relative to the exchanged energy. A step with more is refused, and a step
     /// with less than a hundredth of it is followed by a longer one.
     Energy(f64),
     /// The same as the report's second publication prints it.

@@ -70,8 +70,8 @@ fn read(mut points: Vec<[f64; 2]>, digits: f64) -> Option<f64> {
     None
 }
 
-/// The fastest of ours in the plane or in space and the fastest of the peers with `name` in their names at so many digits, and the median
-/// of the turns' ratios.
+/// The fastest of ours in the plane or in space and the fastest of the peers with `name` in their names, to that number of digits. The third
+/// is the median of the turns' ratios.
 pub(super) fn against<'a>(
     solvers: &'a [Solver],
     digits: u8,

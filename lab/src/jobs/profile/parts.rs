@@ -1,7 +1,7 @@
 //! The parts of a step, and which part an instruction belongs to.
 //!
-//! A release build inlines most of a step, and a product of two numbers stands in a line of the standard library: an instruction is
-//! known by the whole chain of functions that are inlined there, from the innermost outwards; the first that has a part decides.
+//! A release build inlines most of a step, and a product of two numbers stands in a line of the standard library. An instruction is known by
+//! the whole chain of functions that are inlined there, from the innermost outwards. The first that has a part decides.
 
 use super::callgrind::{Costs, Place};
 use std::collections::BTreeMap;

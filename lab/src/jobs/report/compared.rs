@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 /// Methods with runs that stop before their end. Controlled steps at a tolerance of 1e-3 lose the pendulum's energy. Explicit integrators do not hold the nearly singular leaf springs of the vehicle
-/// on their constraints; f32 ends where a tolerance is finer than its rounding; long steps are the first of every method's range.
+/// on their constraints. Runs in f32 end where a tolerance is finer than their rounding. Long steps are the first of every method's range.
 const STOPPED: [(&str, &[&str]); 4] = [
     (
         "double-pendulum",

@@ -1,4 +1,4 @@
-//! Entries of the tables that do not reach their end, and are known not to: everything else that stops is a surprise, and so is
+//! Entries of the tables that do not reach their end, and are known not to. Everything else that stops is a surprise, and so is
 //! one of these that comes to an end.
 
 use super::rows::Row;
@@ -7,7 +7,7 @@ use crate::mbs::outcome::Outcome;
 /// An entry that stops: table, method, step [s], and the code of its error.
 type Entry = (&'static str, &'static str, f64, &'static str);
 
-/// The entries that stop: the printed penalty, as the report found or where its pivoting helped; and singular positions at steps
+/// The entries that stop. With the printed penalty the report found that, or its pivoting helped. Others are singular positions at steps
 /// that are too large for index-1, or so small that a state is close to one.
 const STOPPED: &[Entry] = &[
     ("T1", "index-3, alpha = 1e7", 1e-4, "not-converged"),

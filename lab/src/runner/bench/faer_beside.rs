@@ -1,5 +1,5 @@
-//! One linear system of the scene, ours and faer's: assemble, factor, solve, interleaved in one run; with blocks that are given, and
-//! with blocks that are written each time, which costs both the same.
+//! One linear system of the scene, ours and faer's: assemble, factor, solve, interleaved in one run. Blocks are given, or written each time,
+//! which costs both the same.
 //!
 //! ```text
 //! T = M + (v'/a') C + (1/a') K + J^T s J,   s = 1e6 effective masses        as the index-3 step has it

@@ -48,7 +48,7 @@ pub(crate) fn quantile(sorted: &[f64], share: f64) -> f64 {
     sorted[below] + (place - place.floor()) * (sorted[above] - sorted[below])
 }
 
-/// Shortest measurement [s], unless one piece of work is longer: much shorter than what a busy system gives a process at a
+/// Shortest measurement [s], unless one piece of work is longer. It is much shorter than what a busy system gives a process at a
 /// time, so that most measurements are not interrupted and the median is one of them.
 const SHORTEST: f64 = 2e-4;
 /// Least and most measurements of each. Chosen, not tuned.

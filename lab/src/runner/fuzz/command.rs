@@ -1,5 +1,5 @@
-//! `runner fuzz SECONDS SEED COUNT CORPUS.. CURRENT`: so many trials of scenes by seed, or for so long; each is written to the file `CURRENT` before it
-//! begins, so that who started this program knows what it was about when it stops or hangs. Exit status 1 where one is wrong.
+//! `runner fuzz SECONDS SEED COUNT CORPUS.. CURRENT`: trials of scenes by seed, up to a number or a time. Each is written to the file `CURRENT`
+//! before it begins. Then a caller knows which trial it was when this program stops or hangs. Exit status 1 where one is wrong.
 
 use super::mechanism::mechanism;
 use super::mutate::mutated;

@@ -1,9 +1,9 @@
 //! Who is right: each method against a reference that is not its own, by the error of the trapezoidal rule at that step.
 //!
-//! A method is *wrong* where its outputs differ from the reference by more than ten times what the rule's own error is at that step
-//! (the lower median of what the other formulations, or those on the twin, are off by), and more than rounding, without a typed
-//! error and without falling with the square of the step. What the others are off by at steps down to half of it counts where it
-//! is more. Or where its energy invariant is off by more than a tenth of the energy turned over.
+//! A method is *wrong* where its outputs differ from the reference by more than ten times the rule's own error at that step and more than
+//! rounding. It is not where it has a typed error, or where the difference falls with the square of the step. The rule's own error is the
+//! lower median of what the other formulations, or those on the twin, are off by. What the others are off by at steps down to half of it
+//! counts where it is more. Or where its energy invariant is off by more than a tenth of the energy turned over.
 
 use crate::gauntlet::case::{Case, Image, Options, Truth};
 use crate::gauntlet::run::{EXTRAPOLATED, Ran, methods, run};
@@ -25,8 +25,8 @@ const ORDER: f64 = 3.0;
 const FINER: f64 = 10.0;
 /// Steps of a second run in one of the case, to see how an error falls. Chosen, not tuned.
 const THIRD: f64 = 3.0;
-/// Fractions of the step at which chance shows in the error of the others at the whole [-]: tenths, so that a reference at a tenth of the
-/// step has rows of the same times. Other references are met at some times and at the end.
+/// Fractions of the step at which chance shows in the error of the others at the whole [-]. They are tenths, so that a reference at a tenth
+/// of the step has rows of the same times. Other references are met at some times and at the end.
 const SMALLER: [f64; 5] = [0.9, 0.8, 0.7, 0.6, 0.5];
 /// Most formulations that references are taken from. Chosen, not tuned.
 const N_REFERENCES: usize = 4;
@@ -155,8 +155,8 @@ fn is_of_the_rule(case: &Case, method: &str, error: f64, reference: &[Row]) -> b
     fine.is_some_and(|(finer, fine)| is_square(error / fine, finer))
 }
 
-/// The same of an error of the size of the motion, where no law holds yet: from a tenth of the step on it falls like that, towards
-/// what the reference says as well as that can with its own steps of a tenth.
+/// The same of an error of the size of the motion, where no law holds yet. From a tenth of the step on it falls like that. Its limit is the
+/// reference, as exact as that can be with its own steps of a tenth.
 fn is_of_the_rule_later(case: &Case, method: &str, error: f64, reference: &[Row]) -> bool {
     let finer = [FINER, FINER * THIRD, FINER * THIRD * THIRD];
     let [Some(tenth), Some(finer), Some(finest)] = finer.map(|f| at_part(case, method, f)) else {

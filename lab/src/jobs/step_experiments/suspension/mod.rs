@@ -1,5 +1,5 @@
-//! The report's own experiment: the front suspension over its bump, with fixed steps and with steps and index of its own
-//! (Figures 6 and 7 of the report, Figures 10 to 12 of its second publication).
+//! The report's own experiment: the front suspension over its bump, with fixed steps and with steps and index of its own. It has
+//! Figures 6 and 7 of the report, Figures 10 to 12 of its second publication.
 
 mod histories;
 
