@@ -7,7 +7,7 @@
 //! T d = -f,   a += d,   q* += d/a',   v* += v' d/a',   lambda <- lambda + alpha phi'' [P1 (7), (34)]
 //! ```
 //!
-//! Differs from the source: positions and velocities are projected within the iteration, in correction form; multipliers start
+//! Differs from the source: positions and velocities are projected within the iteration, in correction form. Multipliers start
 //! from the last step; alpha is in proportion to the mass and does not grow with 1/dt^2. Iterated to convergence with the
 //! projections after the step, as published, the method fails at the first singular position.
 

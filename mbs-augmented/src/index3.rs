@@ -7,11 +7,11 @@
 //! T d = -f,   q += d,   v += v' d,   a += a' d                                       [P3 (8), (4), (5)]
 //! ```
 //!
-//! Differs from the source: unknowns are increments; s is in proportion to the mass, so that conditioning does not depend on the
-//! step; the start value of lambda is filtered, lambda <- s J T^-1 J^T lambda, where the constraints do not determine all of it;
-//! projections are in correction form, by one sweep where nothing but constraints acts; a factor is kept while laws are like those that
-//! were factored, with its own rows J' beside s phi and lambda <- lambda + s (phi + J' d); where effects act a part of the first
-//! correction may be left. docs/INDEX3.md derives these; the published forms are in [`printed`](crate::printed).
+//! Differs from the source: unknowns are increments. s is in proportion to the mass, so that conditioning does not depend on the step. Where
+//! the constraints do not determine all of lambda, its start value is filtered, lambda <- s J T^-1 J^T lambda. Projections are in correction
+//! form, by one sweep where nothing but constraints acts. A factor is reused while laws are like those that were factored, with its own rows
+//! J' beside s phi and lambda <- lambda + s (phi + J' d). Where effects act a part of the first correction may be left. docs/INDEX3.md
+//! derives these; the published forms are in [`printed`](crate::printed).
 
 mod project;
 

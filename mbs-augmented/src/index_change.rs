@@ -1,7 +1,7 @@
 //! Which index a step is made in [P2 4, 5].
 //!
-//! Index-3 for long steps, index-1 for short ones: from 3 to 1 where the step falls below a threshold, or where several
-//! reductions in a row have not helped; back where it grows beyond twice the threshold. Before each change velocities,
+//! Index-3 for long steps, index-1 for short ones. It changes from 3 to 1 where the step falls below a threshold, or where several
+//! reductions in a row have not helped. It changes back where it grows beyond twice the threshold. Before each change velocities,
 //! accelerations and multipliers are made consistent at the present positions [P2 (5)].
 
 use crate::options::Options;

@@ -74,8 +74,8 @@ pub(crate) fn update_multipliers<T: Real, M: Model<T>, S: SpdSolver<T>>(
 /// sigma <- sigma - s J T^-1 (M a + J^T (lambda + sigma) - Q): multipliers in balance with the projected accelerations `a`; `lambda` times
 /// `unit`. Needs T factored. Cost: one solve.
 ///
-/// What the last correction left stands in lambda, and with it in the power of guides; where multipliers grow as published, alpha times the
-/// rounding of phi (4e-4 N for 1 kg at 1 ms).
+/// What the last correction left stands in lambda, and with it in the power of guides. Where multipliers grow as published, it is alpha times
+/// the rounding of phi (4e-4 N for 1 kg at 1 ms).
 pub(crate) fn balance<T: Real, M: Model<T>, S: SpdSolver<T>>(
     model: &M,
     equations: &mut Equations<T, S>,

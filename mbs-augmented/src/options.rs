@@ -4,7 +4,7 @@ use mbs_core::Real;
 use mbs_core::integrator::Integrator;
 use mbs_core::step::OptionError;
 
-/// Penalty c in double precision and finer [effective masses]: a sweep leaves 1e-6 of a violation, and 10 of 16 digits remain beside it;
+/// Penalty c in double precision and finer [effective masses]. A sweep leaves 1e-6 of a violation, and 10 of 16 digits remain beside it;
 /// 1e2 to 1e8 work in regular motion.
 const PENALTY: f64 = 1e6;
 /// The same in coarser scalars: the square root of 1/EPSILON in f32, so that digits are shared between mass and penalty.
@@ -15,7 +15,7 @@ const COARSE: f64 = 1e-12;
 const TOLERANCE: f64 = 1e-10;
 /// The least tolerance [EPSILON]: six binary digits are left to rounding.
 const MIN_TOLERANCE: f64 = 64.0;
-/// What may be left of the first correction where effects act [-]: at 1e-6 the energy error of a vehicle that steers at 30 m/s grows to the
+/// What may be left of the first correction where effects act [-]. At 1e-6 the energy error of a vehicle that steers at 30 m/s grows to the
 /// double, at 3e-7 by a seventh.
 const TRUNCATION_SHARE: f64 = 3e-7;
 /// Iterations of index-3 [-]: passages of singular positions take up to 20.
@@ -36,7 +36,7 @@ pub struct Options<T> {
     pub penalty: Penalty<T>,
     /// Newton tolerance, relative to the displacement per step; in index-1, to the accelerations [-].
     pub tolerance: T,
-    /// Where effects act, the iteration of index-3 also ends where what a correction leaves, at least a tenth of it, is below this times
+    /// Where effects act, the iteration of index-3 also ends by what a correction leaves, at least a tenth of it. It ends below this times
     /// the first correction of the step, which is three times the error of the trapezoidal rule in it. Zero, and with a fixed alpha: the
     /// tolerance alone [-].
     pub truncation_share: T,
@@ -76,8 +76,8 @@ impl<T: Real> Penalty<T> {
 impl<T: Real> Options<T> {
     /// Defaults of index-3.
     ///
-    /// Penalty 1e6 effective masses in double precision (methods: 1e2 to 1e8 work in regular motion), the square root of
-    /// 1/eps in others; tolerance 1e-10, or where effects act, up to double precision, 3e-7 of the first correction; at most 40 iterations: passages of
+    /// Penalty 1e6 effective masses in double precision (methods: 1e2 to 1e8 work in regular motion), the square root of 1/eps in others.
+    /// Tolerance 1e-10, or where effects act, up to double precision, 3e-7 of the first correction. At most 40 iterations: passages of
     /// singular positions take up to 20.
     #[must_use]
     pub fn index3() -> Self {
@@ -99,7 +99,7 @@ impl<T: Real> Options<T> {
     }
 
     /// Defaults of index-1: penalty 1e6 effective masses, at most 4 iterations, since iterating on at a singular position
-    /// leads away from the solution there; eight times as many where what is left is not small.
+    /// leads away from the solution there. Eight times as many where what is left is not small.
     #[must_use]
     pub fn index1() -> Self {
         Self {

@@ -13,7 +13,7 @@ use mbs_core::model::{Model, Terms};
 use mbs_core::team::{Team, add, norm_inf, on_stretches, sum};
 use mbs_core::{FactorError, Real, SpdSolver};
 
-/// Largest part that one correction may leave of the multiplier of the weakest combination of constraints [-]: two corrections then leave
+/// Largest part that one correction may leave of the multiplier of the weakest combination of constraints [-]. Two corrections then leave
 /// 1e-5 of an extrapolated multiplier, below what the rule errs by.
 const MAX_CONTRACTION: f64 = 0.003;
 /// Contraction up to which a combination counts as well determined [-]: a third of the largest, so that others are looked for in time.
@@ -158,7 +158,7 @@ impl<T: Real> PenaltyAdaptation<T> {
     }
 
     /// Makes one power iteration for the weakest combination u of constraints, from the last step's, or where that is well determined from
-    /// it and a part of all; and raises the penalties until a correction leaves at most [`MAX_CONTRACTION`] of it. A combination that no
+    /// it and a part of all. Raises the penalties until a correction leaves at most [`MAX_CONTRACTION`] of it. A combination that no
     /// allowed penalty determines is redundant and left.
     ///
     /// Returns whether the penalties changed, so that T must be factored anew. Needs T factored. Cost: one solve.

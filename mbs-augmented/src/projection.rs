@@ -12,8 +12,8 @@
 //! matrix near W will do: the fixed point does not depend on it.
 //!
 //! Reused are the rows J' of a factor that was made nearby. With J^T on the right d has a part s (J - J')^T r / m along free directions,
-//! which s multiplies and only a second sweep takes back; with J'^T it has none. What is left is r times what the penalties leave and times
-//! the turn of the rows, and d is orthogonal to directions that are off by the turn: the factor has to be from before a small correction.
+//! which s multiplies and only a second sweep takes back. With J'^T it has none. What is left is r times what the penalties leave and times
+//! the turn of the rows, and d is orthogonal to directions that are off by the turn. So the factor has to be from before a small correction.
 
 use crate::equations::Equations;
 use crate::penalty::PenaltyScale;
@@ -25,13 +25,13 @@ use mbs_core::step::StepError;
 use mbs_core::team::{add_product, norm_inf, on_stretches, set_product, set_sum, subtract, sum};
 use mbs_core::{Real, SpdSolver};
 
-/// Violation of velocities, and of accelerations, that a projection within a step may leave [EPSILON of what it is compared with]: 2^13, and
-/// 2^21 for accelerations, which enter the motion times the square of the step.
+/// Violation of velocities, and of accelerations, that a projection within a step may leave [EPSILON of what it is compared with]. It is
+/// 2^13, and 2^21 for accelerations, which enter the motion times the square of the step.
 const LEFT: [f64; 2] = [8_192.0, 2_097_152.0];
-/// Part of a violation up to which a reused sweep is repeated [-]: slower ones are followed by sweeps with the rows of now, which cost a
+/// Part of a violation up to which a reused sweep is repeated [-]. Slower ones are followed by sweeps with the rows of now, which cost a
 /// factorisation's worth of residuals but lose nothing to the turn of the rows.
 const SLOW_REUSED: f64 = 0.01;
-/// Parts of a violation between which what a sweep leaves is shortened by scaling its correction [-]: below the first there is nothing to
+/// Parts of a violation between which what a sweep leaves is shortened by scaling its correction [-]. Below the first there is nothing to
 /// gain; above the second directions differ too much in what is left of them.
 const SCALED: [f64; 2] = [0.01, 0.7];
 /// Part of a violation above which a sweep is slow, so that penalties are raised for it [-]: ten sweeps would make ten digits.
@@ -108,8 +108,8 @@ impl<T: Real, M: Model<T>, S: SpdSolver<T>> Projector<'_, T, M, S> {
         self.continue_from(0, limits, max_sweeps)
     }
 
-    /// Projects x by the rows of the factor, once unless the violation is at most `goal`, then while sweeps of this kind shrink it until it is
-    /// `enough`, else by the rows of now. The multipliers of accelerations are left in `sigma`. Returns the violation left.
+    /// Projects x by the rows of the factor, once unless the violation is at most `goal`. Repeats while sweeps of this kind shrink it until
+    /// it is `enough`, else goes by the rows of now. The multipliers of accelerations are left in `sigma`. Returns the violation left.
     ///
     /// Cost: a solve and three products of the Jacobian for each sweep, of which there is mostly one.
     pub(crate) fn project_reused(
@@ -225,7 +225,7 @@ impl<T: Real, M: Model<T>, S: SpdSolver<T>> Projector<'_, T, M, S> {
         });
     }
 
-    /// x += k d, sigma += k s r for the last sweep by the rows of now: with the factor of W, and in balance before it, they are in balance,
+    /// x += k d, sigma += k s r for the last sweep by the rows of now. With the factor of W, and in balance before it, they are in balance,
     /// M d + J^T s r = 0, and stay so. With a factor from nearby what is off grows by 1 + k in a first sweep, and what a later one found
     /// stays by k. Needs the violation before it in `mu`. Returns the violation left.
     fn scale_last(&mut self) -> T {
@@ -241,7 +241,7 @@ impl<T: Real, M: Model<T>, S: SpdSolver<T>> Projector<'_, T, M, S> {
         self.scale_correction(k)
     }
 
-    /// After the first sweep by the rows of the factor x += k d, sigma += k sigma with the best k: d is short by what the penalties leave,
+    /// After the first sweep by the rows of the factor x += k d, sigma += k sigma with the best k. d is short by what the penalties leave,
     /// much the same part in all rows. Needs the last `f` = -d, of accelerations with J' f in `mu`. Returns the violation left.
     fn scale_first(&mut self) -> T {
         if self.level == ConstraintLevel::Velocity {

@@ -68,8 +68,8 @@ pub(super) fn velocities<T: Real, M: Model<T>, S: SpdSolver<T>>(
 /// W d = -J^T s phi,   q += d: until phi is at rounding.
 ///
 /// Every sweep begins from where the last one ended. The multipliers of all together, as [P1 (8)-(10)] carries them, would make the whole way
-/// orthogonal and not each part of it, which differs by the square of the way; as their rows turn they push light pieces off, the more
-/// the heavier those are that they carry.
+/// orthogonal, not each part of it. That differs by the square of the way. As their rows turn they push light pieces off, the more the
+/// heavier those are that they carry.
 fn positions<T: Real, M: Model<T>, S: SpdSolver<T>>(
     model: &M,
     length: T,

@@ -11,10 +11,10 @@ use mbs_core::step::StepError;
 use mbs_core::team::norm_inf;
 use mbs_core::{Real, SpdSolver};
 
-/// Penalty factor above which penalties are taken back before velocities and accelerations are projected [-]: below it what is almost lost
+/// Penalty factor above which penalties are taken back before velocities and accelerations are projected [-]. Below it what is almost lost
 /// is enforced no more than a hundred times as much as anything else.
 const MAX_FACTOR_OF_PROJECTION: f64 = 100.0;
-/// Corrections since the factor was made up to which a reused projection may use it [scene's length]: rows have turned by 1e-7 then, and
+/// Corrections since the factor was made up to which a reused projection may use it [scene's length]. Rows have turned by 1e-7 then, and
 /// s times a tenth of that of a violation goes along free directions.
 const MAX_TURN_OF_ROWS: f64 = 1e-7;
 
@@ -36,8 +36,8 @@ pub(super) fn project<T: Real, M: Model<T>, S: SpdSolver<T>>(
     if raised > T::from_f64(MAX_FACTOR_OF_PROJECTION) {
         w.scale.scale(T::ONE / raised);
     }
-    // With rows of now and a factor that has others, s times their turn of a violation would go along free directions; with a factor
-    // that has stiffness and damping, what their part of the mass is.
+    // With rows of now and a factor that has others, s times their turn of a violation would go along free directions. With a factor
+    // that has stiffness and damping, their part of the mass would.
     match strategy {
         Exact => w.factor_mass(model)?,
         Reused if since > length * T::from_f64(MAX_TURN_OF_ROWS) => {

@@ -4,11 +4,11 @@
 //! T' d = -(M a + J^T lambda - Q) / a' - J'^T s phi,     T' = M + J'^T s J' + ...
 //! ```
 //!
-//! With a symmetric tangent corrections of a vehicle shrink to a tenth or less each, with a new factor or with the first: a tire's
+//! With a symmetric tangent corrections of a vehicle shrink to a tenth or less each, with a new factor or with the first. A tire's
 //! side force turns with its wheel, and nothing of that is symmetric. That a factor serves on takes two things. s phi goes by the rows
 //! of the factor, which answer it with a correction across the motion alone. And multipliers grow by s (phi + J' d), which is what the
-//! correction is in balance with, and not by s phi after it [P3 (2)]: that has the square of the correction in it, which the next
-//! correction would have to take back while s phi asks for it once more, and once the rows have turned it acts along the motion.
+//! correction is in balance with, and not by s phi after it [P3 (2)]. That has the square of the correction in it. The next
+//! correction would have to take it back while s phi asks for it once more, and once the rows have turned it acts along the motion.
 
 use crate::equations::Equations;
 use mbs_core::implicit::Newton;
@@ -46,7 +46,7 @@ impl<T: Real> FactorReuse<T> {
     }
 
     /// May the next correction be made with the factor there is? It is one of the matrix as it was while laws are like those that were
-    /// factored; rows that have turned since cost little, for its residual takes s phi by the rows that it was made with.
+    /// factored. Rows that have turned since cost little, for its residual takes s phi by the rows that it was made with.
     pub(crate) fn can_reuse<S: SpdSolver<T>>(
         &self,
         newton: &Newton<T>,
