@@ -9,9 +9,9 @@
 //! then J v + phi_t = 0 and J a + bias = 0 with the same matrix                        [P3 (21), (22)]
 //! ```
 //!
-//! Differs from the source: unknowns are increments; the unknown multipliers are lambda/a' and phi is not scaled, so that the
-//! matrix does not depend on the step but for forces; the start value of lambda is extrapolated; projections are in correction
-//! form; the geometric stiffness, which the print neglects, is in W; delta is zero unless regularised.
+//! Differs from the source: unknowns are increments. The unknown multipliers are lambda/a' and phi is not scaled, so that the
+//! matrix does not depend on the step but for forces. The start value of lambda is extrapolated; projections are in correction
+//! form. The geometric stiffness, which the print neglects, is in W; delta is zero unless regularised.
 
 use crate::inputs::take_inputs;
 use crate::options::Options;

@@ -6,7 +6,7 @@
 //! ```
 //!
 //! [P3 (21), (22)] solve for x itself with the weight W; the correction loses no digits to the condition of the matrix. The
-//! first sweep is the published projection; the next ones make it orthogonal in the mass, whatever forces are in W, and remove
+//! first sweep is the published projection. The next ones make it orthogonal in the mass, whatever forces are in W, and remove
 //! what a factor of a near configuration or delta left.
 
 use crate::workspace::{Mass, Workspace};

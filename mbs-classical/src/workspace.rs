@@ -42,11 +42,11 @@ pub struct Workspace<T, S> {
     pub(crate) counts: Counts,
 }
 
-/// Weakest pivot below which a singular position may be near [part of what the pivot is the sum of]: it goes with the square of the
+/// Weakest pivot below which a singular position may be near [part of what the pivot is the sum of]. It goes with the square of the
 /// distance, so that this is within 0.03 rad.
 const MAX_PIVOT_OF_BRANCH: f64 = 1e-3;
-/// Cancellation in J^T mu below which rows are nearly dependent [part of the sum of its parts]: of order one where the tangent is only badly
-/// scaled, as by a fast spin; zero in the singular position.
+/// Cancellation in J^T mu below which rows are nearly dependent [part of the sum of its parts]. It is of order one where the tangent is only
+/// badly scaled, as by a fast spin; zero in the singular position.
 const MAX_CANCELLATION: f64 = 0.1;
 /// Weakest pivot below which lost rank explains why an iteration does not converge [part of what the pivot is the sum of]: within 0.01 rad of
 /// a singular position.
