@@ -15,7 +15,7 @@
 //! - the forces at its end work against it by more than half of what they did for it at its start: it went too far;
 //! - they do so where two points that a law may push apart pass each other on the way: it would go through a stop.
 //!
-//! Work along the step takes the place of the residual's norm in the line search: on the path down from a steep or unstable place
+//! Work along the step takes the place of the residual's norm in the line search. On the path down from a steep or unstable place
 //! forces must be allowed to grow. So the search leaves unstable places unless it starts exactly on one.
 //!
 //! Neutral directions, in which no force acts and K is singular, have the step s (force) / M: rounding alone. s is bounded so

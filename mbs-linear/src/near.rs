@@ -4,7 +4,7 @@
 //! K_r d = z'',   q <- q + x B d, closed,   x = 1, 1/2, 1/4, ...   until |K_r^-1 z''(q)| <= (1 - x/4) |d|
 //! ```
 //!
-//! K_r are differences of the equations of motion, as in [`linearise`](crate::linearise): the tangents of effects leave out what
+//! K_r are differences of the equations of motion, as in [`linearise`](crate::linearise). The tangents of effects leave out what
 //! would make the matrix of a step indefinite, and unstable equilibria depend on just that. The test of a step by its own matrix (P.
 //! Deuflhard, Numer. Math. 22, 1974) depends on no unit. Directions without stiffness keep their place where no force acts. Where one
 //! does, it moves them by a fifth of the scene's size at most, to where it finds a stop.
