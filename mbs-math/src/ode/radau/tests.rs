@@ -88,7 +88,7 @@ fn the_method_is_of_order_5() {
     }
 }
 
-/// Σⱼ aᵢⱼ cⱼ^k = cᵢ^(k+1)/(k+1) for k < 3 says that A is that of the collocation; here of what is made of it: A = T Λ⁻¹ T⁻¹, to
+/// Σⱼ aᵢⱼ cⱼ^k = cᵢ^(k+1)/(k+1) for k < 3 says that A is that of the collocation. Here it is tried of what is made of it: A = T Λ⁻¹ T⁻¹, to
 /// some roundings of pairs.
 #[test]
 fn the_basis_is_that_of_the_collocation_in_32_digits() {
