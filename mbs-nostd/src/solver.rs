@@ -13,8 +13,8 @@ use mbs_recursive::space::{Numbers, Space};
 use mbs_recursive::trapezoidal::Start;
 use mbs_recursive::{Options, Outside};
 
-/// State, scratch and inputs of a model with at most `L` links (the ground among them), `Z` coordinates, `V` freedoms, `R`
-/// rows of loops, `B` numbers in blocks of Λ, `N` gains, `G` guides and `C` courses.
+/// State, scratch and inputs of a model with at most `L` links (the ground among them), `Z` coordinates, `V` freedoms and `R`
+/// rows of loops. It has at most `B` numbers in blocks of Λ, `N` gains, `G` guides and `C` courses.
 ///
 /// Its size is about 130 numbers for each link, 46 for each row, 10 for each freedom, and one for each of the others.
 #[derive(Debug, Clone)]

@@ -19,8 +19,8 @@ use mbs_recursive::space::Space;
 /// What a model's text begins with, and its version.
 pub(crate) const HEAD: [u32; 2] = [u32::from_le_bytes(*b"MBSN"), 1];
 
-/// A model read from bytes: at most `L` links, `K` loops with `R` rows, `P` entries in each list of the plan, `E` effects,
-/// `X` entries in each table of laws, `I` guides and as many courses, `Q` coordinates and as many freedoms.
+/// A model read from bytes: at most `L` links, `K` loops with `R` rows, `P` entries in each list of the plan, `E` effects.
+/// It has at most `X` entries in each table of laws, `I` guides and as many courses, `Q` coordinates and as many freedoms.
 ///
 /// Models in flash need no such memory: `mbs export --rust` writes them as constants.
 #[derive(Debug, Clone)]

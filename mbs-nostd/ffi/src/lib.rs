@@ -1,7 +1,7 @@
 //! mbs-nostd for programs in C; `include/mbs.h` says what each function does.
 //!
-//! This is the file that handles pointers. What callers promise, by the header: a solver pointer is one that `mbs_init` gave and
-//! whose memory is still there, and no two calls use it at once; arrays are as long as they say. Null is looked for.
+//! This is the file that handles pointers. Callers promise by the header: a solver pointer is one that `mbs_init` gave and
+//! whose memory is still there, and no two calls use it at once. Arrays are as long as they say. Null is looked for.
 
 #![no_std]
 
