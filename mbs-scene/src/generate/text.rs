@@ -56,7 +56,7 @@ pub(super) fn vector<const N: usize>(x: [f64; N]) -> [Number; N] {
 /// Width of a bar, relative to its length [-].
 const SLENDER: f64 = 0.2;
 
-/// Inertia of a uniform square bar of mass m [kg] from end to end [m], about its centre, as scene files have it:
+/// Inertia of a uniform square bar of mass m [kg] from end to end [m], about its centre, as scene files have it. It is
 /// It 1 + (Ia - It) u u^T, u along it.
 pub(super) fn bar(mass: f64, d: [f64; 3]) -> [Number; 6] {
     let square: f64 = d.iter().map(|x| x * x).sum();

@@ -89,8 +89,8 @@ impl SweepFile {
         self.replaced(scene, |p| Some(values[p]))
     }
 
-    /// Tries the values one by one in the scene as it is otherwise, those of a list all and those of a range at its ends, and
-    /// refuses one that no other value could mend: a negative mass, a count with decimals. `also` may refuse a scene with a
+    /// Tries the values one by one in the scene as it is otherwise: of a list all, of a range its ends. Refuses one
+    /// that no other value could mend: a negative mass, a count with decimals. `also` may refuse a scene with a
     /// problem and an advice.
     ///
     /// Cost: each trial reads the scene.
