@@ -38,8 +38,8 @@ const ENOUGH: f64 = 1e-6;
 ///
 /// Fails at singular positions with [`StepError::RankLost`], which names a row that takes part.
 ///
-/// Cost: for each iteration one or two evaluations and sparse factorisations of J, three sparse solves, n f entries of R and
-/// a dense factorisation of size f, the number of freedoms. No allocation.
+/// Cost: for each iteration one or two evaluations and sparse factorisations of J, three sparse solves. Besides, n f
+/// entries of R and a dense factorisation of size f, the number of freedoms. No allocation.
 ///
 /// # Errors
 /// [`StepError`]; the state is then unchanged.
