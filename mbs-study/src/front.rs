@@ -130,8 +130,8 @@ pub struct SweepResult {
 }
 
 impl SweepResult {
-    /// Names of the columns: `member`, the paths that were varied, what became of each run, and of each output the last value (`NAME`), the
-    /// least (`NAME.min`) and the largest (`NAME.max`), as in the table of `mbs sweep`.
+    /// Names of the columns: `member`, the paths that were varied, and what became of each run. Then come of each output the last value
+    /// (`NAME`), the least (`NAME.min`) and the largest (`NAME.max`), as in the table of `mbs sweep`.
     #[must_use]
     pub fn names(&self) -> &[String] {
         self.columns.header()

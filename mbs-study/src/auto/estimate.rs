@@ -13,8 +13,9 @@ pub(super) const ERROR_RANGE: [f64; 2] = [0.5, 1.25];
 /// Measured exponents of the CPU time, relative to theory's, are taken within this range [-]: steps may end at the instants of the
 /// results, whatever the tolerance.
 const COST_RANGE: [f64; 2] = [0.25, 1.25];
-/// What is smaller than this fraction is small [-]: the error of a trial beside its distance from a coarser one, which may agree with it
-/// by chance; the steps that it has more; the error of the best trial beside the required one; a tolerance beside that of the trial before.
+/// What is smaller than this fraction is small [-]. It is for the error of a trial beside its distance from a coarser one, which may agree
+/// with it by chance, and for the steps that it has more. It is for the error of the best trial beside the required one, and for a tolerance
+/// beside that of the trial before.
 pub(super) const SMALL: f64 = 0.1;
 
 /// Exponents of a method in its setting: the step, or the tolerance.

@@ -1,6 +1,6 @@
 //! The choice of formulation, integrator and step by measurement: for a required error of the outputs, or for a deadline.
 //!
-//! Structure says who cannot run the scene; a short pilot runs the others over the whole span with coarse settings, takes their
+//! Structure says who cannot run the scene. A short pilot runs the others over the whole span with coarse settings, takes their
 //! errors against the best of them, and predicts what the required error costs each. Time comes from a [`Clock`] that is given.
 
 mod bench;

@@ -83,7 +83,7 @@ impl<'a> Search<'a> {
 
     /// The next trial where errors are not known well enough for a choice.
     ///
-    /// The best trial has a tenth of the required error: chaotic motion (double-pendulum at 1e-2) and steps that the results hold
+    /// The best trial has a tenth of the required error. Chaotic motion (double-pendulum at 1e-2) and steps that the results hold
     /// (simple-pendulum at 1e-6) let trials of a method agree better than they are. Another rule agrees with it within the required error:
     /// trials of rk853 for rssr at 1e-2 agree within a tenth of what they err by.
     fn confirming(&mut self) -> Option<(usize, f64, f64)> {
@@ -152,7 +152,7 @@ impl<'a> Search<'a> {
     }
 
     /// Before any reaches the required error, each first trial has twice its share of the budget without the reserve, and twice the time of the
-    /// fastest trial, at most [s]: the reserve is for second trials, without which no error is known (iltis-jump at 1e-2).
+    /// fastest trial, at most [s]. The reserve is for second trials, without which no error is known (iltis-jump at 1e-2).
     fn time_limit(&self, i: usize, left: f64) -> f64 {
         let is_untried = |c: &&Candidate| c.out.is_none() && c.trials.is_empty();
         if !is_untried(&&self.candidates[i]) {
@@ -350,8 +350,8 @@ impl<'a> Search<'a> {
         timed
     }
 
-    /// A finalist that has not run with its setting, if there is time for it: the predicted one, or halfway to what was seen to reach the
-    /// required error where that was missed.
+    /// A finalist that has not run with its setting, if there is time for it. The setting is the predicted one, or halfway to what was seen
+    /// to reach the required error where that was missed.
     fn untried(&mut self) -> Option<(usize, f64, f64)> {
         let left = self.left();
         let of = |place: &Place| {
@@ -381,7 +381,7 @@ impl<'a> Search<'a> {
     }
 
     /// Those that reach the required error by their times, then the others by their times, or by their errors where a deadline gives the
-    /// time; at last those that are out and completed a trial.
+    /// time. At last come those that are out and completed a trial.
     fn ranked(&self, timed: &[(usize, f64)]) -> Vec<Place> {
         let mut places: Vec<Place> =
             (0..self.candidates.len()).filter_map(|i| self.place(i)).collect();

@@ -130,7 +130,7 @@ fn ranked(
     ranked
 }
 
-/// Where the pilot has got nowhere: every method that starts, in the order of its candidates, with the step of the scene, or a
+/// What runs where the pilot has no result: every method that starts, in the order of its candidates. It has the step of the scene, or a
 /// tolerance of a tenth of the required error.
 fn blind(task: &Task<'_>, choice: &PilotReport, methods: &[MethodCase]) -> Vec<Pick> {
     let starts = |m: &&MethodCase| {

@@ -109,8 +109,8 @@ impl MethodCase {
     pub(crate) fn cost(&self) -> f64 {
         match (self.control, self.integrator) {
             (Control::Fixed, _) => 1.0,
-            // the local error goes with the cube of the step, in rk54 with the fifth power, in rk853 with the eighth, in gbs about
-            // with the tenth, in radau5 with the fourth
+            // the local error goes with the cube of the step. In rk54 it goes with the fifth power, in rk853 with the eighth,
+            // in gbs about with the tenth, in radau5 with the fourth
             (Control::Error | Control::Energy, _) => 1.0 / 3.0,
             (Control::Own, IntegratorKind::Extrapolation) => 0.1,
             (Control::Own, IntegratorKind::Rk853) => 0.125,

@@ -1,7 +1,7 @@
 //! What is wrong or doubtful with a scene, by names, with what would mend it.
 //!
 //! Rank, dependent sets, reactions and loops are looked at on the joint level ([`redundancy`](crate::redundancy)), at the assembled start and at
-//! positions of a run; what natural coordinates make of it, and which formulations take a step, is tried.
+//! positions of a run. What natural coordinates make of it, and which formulations take a step, is tried.
 
 mod basis;
 mod consistency;

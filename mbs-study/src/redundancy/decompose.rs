@@ -5,7 +5,7 @@
 //! ```
 //!
 //! N has orthonormal columns, so P is the orthogonal projector on the null space V and does not depend on the basis. V is a
-//! direct sum of spaces on disjoint sets of joints exactly if P is block diagonal over these sets: then the projector
+//! direct sum of spaces on disjoint sets of joints exactly if P is block diagonal over these sets. Then the projector
 //! on the sum is the sum of the projectors, and the other way round P V = V splits. So the finest such sets are the connected
 //! components of the graph whose edges are the blocks P_ij ≠ 0. Turning or scaling the axes of a joint's rows turns its blocks.
 

@@ -5,7 +5,7 @@
 //! on a body with centre c, unknowns (v, ℓ ω):       ± [f;  (m + (p − c) × f) / ℓ]
 //! ```
 //!
-//! ℓ is the size of the part that the joint belongs to, and moments are unit forces at the lever ℓ, so that all rows and columns
+//! ℓ is the size of the part that the joint belongs to, and moments are unit forces at the lever ℓ. So all rows and columns
 //! are of order one whatever the unit of length. Masses are outside: rank is a matter of geometry, and bodies may have none.
 
 use super::Vector;

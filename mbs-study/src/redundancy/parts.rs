@@ -1,7 +1,7 @@
 //! Parts of a mechanism that share no loop: rows of different parts never depend on each other.
 //!
 //! The graph has a node for each body and one for the ground, an edge for each joint that has rows. Its biconnected components
-//! (Hopcroft and Tarjan 1973) are the parts: joints that hold a force among themselves with all bodies at rest form loops, and a
+//! (Hopcroft and Tarjan 1973) are the parts. Joints that hold a force among themselves with all bodies at rest form loops, and a
 //! loop stays within one component. A part of one joint is a bridge and always sound.
 
 use super::link::{Link, Poses, pose};

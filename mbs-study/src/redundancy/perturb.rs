@@ -1,7 +1,7 @@
 //! Is a dependency there in every position, or only in this one?
 //!
-//! The part is perturbed along a random admissible motion and brought back onto its joints by Levenberg and Marquardt's method with
-//! the damping |r| (Yamashita and Fukushima 2001: quadratic convergence though rows repeat each other). Dependent in every
+//! The part is perturbed along a random admissible motion and brought back onto its joints by Levenberg and Marquardt's method. Its
+//! damping is |r|: convergence is quadratic though rows repeat each other (Yamashita and Fukushima 2001). Dependent in every
 //! position thus reached: structural. Independent there: the first position is singular.
 
 use super::link::Poses;

@@ -34,7 +34,7 @@ impl Comparison {
         self.ranking = levels.iter().map(|level| self.ranked(*level)).collect();
     }
 
-    /// The runs whose times decide the ranking at these errors, by method and run: those beside an error, of methods that are, or
+    /// The runs whose times decide the ranking at these errors, by method and run. They are those beside an error, of methods that are, or
     /// may well be, the fastest of their formulation and integrator.
     #[must_use]
     pub fn decisive(&self, levels: &[f64]) -> Vec<(usize, usize)> {

@@ -6,8 +6,8 @@ use mbs::record::Channel;
 /// Least scale of an output, relative to the largest range of its unit [-]. Chosen, not tuned.
 const FLOOR: f64 = 1e-3;
 
-/// The scales of all channels: the components of one unit of a channel share the largest of their ranges over the reference, but
-/// at least a thousandth of the largest range of an output of that unit; in lengths at least a thousandth of the scene's
+/// The scales of all channels. The components of one unit of a channel share the largest of their ranges over the reference. It is
+/// at least a thousandth of the largest range of an output of that unit. In lengths it is at least a thousandth of the scene's
 /// length [m], in angles of a radian.
 #[must_use]
 pub fn output_scales(channels: &[Channel], rows: &[Vec<f64>], length: f64) -> Vec<OutputScale> {
