@@ -306,7 +306,7 @@ pub fn loops(seed: u64, dimension: Dimension, n: usize, n_loops: usize) -> Scene
     scene
 }
 
-/// A tree with loops that have more freedoms than they lose, no two of them through the same joint: for places and axes drawn at
+/// A tree with loops that have more freedoms than they lose, no two of them through the same joint. For places and axes drawn at
 /// random its equations are independent, by counting alone.
 #[must_use]
 pub fn sound(seed: u64, dimension: Dimension, n: usize) -> Scene<f64> {
