@@ -94,8 +94,8 @@ pub(crate) fn find(target: &str) -> Result<Toolchain, LeftOut> {
     })
 }
 
-/// What the firmware example asks for beside a toolchain: an emulator, installed where that is possible, and for the system's Rust
-/// the linker, that of the Rust which runs this job or one in the path.
+/// What the firmware example asks for beside a toolchain: an emulator, installed where that is possible. For the system's Rust it
+/// asks for the linker too, that of the Rust which runs this job or one in the path.
 ///
 /// # Errors
 ///

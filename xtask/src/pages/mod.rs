@@ -1,4 +1,4 @@
-//! Pages are looked at in a browser without a window, at the widths of a desk and of a phone: labels that lie over each other or are
+//! Pages are looked at in a browser without a window, at the widths of a desk and of a phone. Faults are labels that lie over each other or are
 //! cut off, what does not answer to pointer and buttons, pictures that cannot be exported.
 
 use crate::debian;

@@ -1,7 +1,7 @@
 //! The files of a crate import one way: none needs, over others, what needs itself.
 //!
-//! An import counts for the file that defines the name, through all re-exports, which are no imports themselves. Left out are tests, what
-//! macros define (a name that a module does not show counts for the module's file), and modules that a macro declares, as the kinds of effect.
+//! An import counts for the file that defines the name, through all re-exports, which are no imports themselves. Left out are tests,
+//! what macros define, and modules that a macro declares, as the kinds of effect. A name that a module does not show counts for its file.
 
 use super::{name, read};
 use crate::process::root;

@@ -1,6 +1,6 @@
 //! Rules for the language (docs/NOTATION.md, second part): words that are not used, short sentences, paths and names that exist.
 //!
-//! Scope of words: every line of the Rust files in the `src` folder of each crate, identifiers split at underscores and capitals;
+//! Scope of words: every line of the Rust files in the `src` folder of each crate, identifiers split at underscores and capitals. Besides,
 //! README.md, ARCHITECTURE.md, CONTRIBUTING.md, CHANGELOG.md, the documents in `docs/`, the crates' README.md files, and the help of the
 //! command. This file is left out. Scope of sentences: README.md, the documents in `docs/` and the crates' README.md files.
 
@@ -128,7 +128,7 @@ fn text_in_scope_has_no_banned_word() {
     report_beyond("Words that are banned (docs/NOTATION.md, second part)", "word", &found);
 }
 
-/// The sentences of a Markdown text with the number of their paragraph's first line: code blocks and headings left out, code spans as
+/// The sentences of a Markdown text with the number of their paragraph's first line. Code blocks and headings are left out, code spans are
 /// one word, each cell of a table by itself.
 fn sentences(text: &str) -> Vec<(usize, String)> {
     let (mut found, mut paragraph, mut first, mut is_code) = (Vec::new(), String::new(), 0, false);
