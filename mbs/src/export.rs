@@ -98,8 +98,8 @@ where
     Ok(Exported { rust, bytes })
 }
 
-/// The degrade ladder of a list of effect costs, the JSON of `mbs explain`: effects whose absence the run survives and that cost something,
-/// those in front that change the outputs least.
+/// The degrade ladder of a list of effect costs, the JSON of `mbs explain`. It has effects whose absence the run survives and
+/// that cost something, those in front that change the outputs least.
 ///
 /// # Errors
 /// [`ExportError::Ladder`].

@@ -292,7 +292,7 @@ fn energies_at<T: Real, const D: usize>(
 const ROUNDINGS: f64 = 64.0;
 
 /// The energy that the scene has anyway [J], of which a root of the precision is nothing. It is that of weight and given forces over its
-/// length, and of a motion of all masses that the run would not show, or that is rounding of places in a step.
+/// length. To it comes that of a motion of all masses that the run would not show, or that is rounding of places in a step.
 fn ground<T: Real, const D: usize>(
     scene: &Scene<T>,
     settings: &ResolvedMethod,

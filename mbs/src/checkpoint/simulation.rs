@@ -9,8 +9,8 @@ use mbs_core::scene::Scene;
 use std::io::{Read, Write};
 
 impl<T: Real, const D: usize> Simulation<T, D> {
-    /// Writes a checkpoint of the simulation, which was made of this scene and these settings: all that the next steps depend
-    /// on, so that they have the same bits after [`restore`](Self::restore), inputs that were set among it.
+    /// Writes a checkpoint of the simulation, which was made of this scene and these settings. It has all that the next
+    /// steps depend on, inputs that were set included. They have the same bits after [`restore`](Self::restore).
     ///
     /// Cost: the bytes are gathered in memory, about eight times as many as coordinates and multipliers have places, times eight.
     ///

@@ -1,6 +1,6 @@
 //! One walk over what is kept, that writes it or reads it back: little-endian numbers, lists after their lengths.
 //!
-//! Whatever the bytes, reading ends in an error at worst: a list is never longer than the bytes that are left allow, a number of the
+//! Whatever the bytes, reading ends in an error at worst. A list is never longer than the bytes that are left allow, a number of the
 //! mechanics is finite, and a count has room to grow.
 
 use super::CheckpointError;

@@ -69,7 +69,7 @@ impl Folder {
         &self.path
     }
 
-    /// The first file in it that does not belong to the results of its JSON object, with the name of that object: it was changed, or a
+    /// The first file in it that does not belong to the results of its JSON object, with the name of that object. It was changed, or a
     /// process was killed between two renames.
     #[must_use]
     pub fn mixed(&self) -> Option<[String; 2]> {

@@ -226,8 +226,8 @@ impl Simulation {
     /// anew, and inputs keep their values.
     ///
     /// # Errors
-    /// States that the joints do not allow, a wrong number of numbers, a joint that comes twice, a number that is not finite; after time zero a
-    /// mechanism with guides, whose joints are assembled where guides begin. The simulation is then as it was.
+    /// States that the joints do not allow, a wrong number of numbers, a joint that comes twice, a number that is not finite. After time zero
+    /// also a mechanism with guides, whose joints are assembled where guides begin. The simulation is then as it was.
     pub fn set_state(
         &mut self,
         joints: &[(JointId, Coordinates, Coordinates)],

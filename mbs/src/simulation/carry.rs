@@ -16,8 +16,8 @@ use mbs_core::{Cliques, Real};
 
 impl<T: Real, const D: usize> Simulation<T, D> {
     /// May this simulation [`take_over`](Self::take_over) the state of another? It may where both are of one formulation (index-3,
-    /// index-1, multi-index or recursive) and of scenes that differ in effects that are switched off, other than those that count
-    /// turns (torsion springs and the like), and in nothing else that makes coordinates.
+    /// index-1, multi-index or recursive). The scenes may differ in effects that are switched off, other than those that
+    /// count turns (torsion springs and the like). They differ in nothing else that makes coordinates.
     ///
     /// # Errors
     /// [`SwitchError`].
