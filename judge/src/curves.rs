@@ -1,6 +1,6 @@
 //! Values over time and roads over x.
 
-use crate::scene::{Course, Feature, Law, Spline};
+use crate::scene::{Feature, Law, Signal, Spline};
 use crate::vector::{Vector, add, scale};
 use core::f64::consts::PI;
 
@@ -109,7 +109,7 @@ impl Law {
 }
 
 /// Linear between the rows, held outside.
-pub(crate) fn course(rows: &Course, t: f64) -> Vector {
+pub(crate) fn signal(rows: &Signal, t: f64) -> Vector {
     let i = rows.partition_point(|row| row.0 <= t);
     if i == 0 {
         return rows[0].1;

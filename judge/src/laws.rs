@@ -1,6 +1,6 @@
 //! Forces: gravity, the bodies' own turning, and every effect of the contract.
 
-use crate::curves::course;
+use crate::curves::signal;
 use crate::loads::{Loads, Now, contact};
 use crate::rows::Row;
 use crate::scene::{Carrier, Effect, Line};
@@ -90,7 +90,7 @@ impl Now<'_> {
             }
             Effect::Actuator(line, force) => {
                 let row = self.line(line);
-                loads.along(&row, course(force, self.t)[0]);
+                loads.along(&row, signal(force, self.t)[0]);
             }
             Effect::Bushing(bodies, at, [k, c]) => self.bushing(loads, *bodies, *at, k, c),
             Effect::TorsionSpring(joint, [k, c, free]) => {
@@ -100,10 +100,10 @@ impl Now<'_> {
                 return (0.5 * k * x * x, k * x * rate);
             }
             Effect::JointTorque(joint, torque) => {
-                loads.along(&self.turn(*joint), course(torque, self.t)[0]);
+                loads.along(&self.turn(*joint), signal(torque, self.t)[0]);
             }
             Effect::BodyTorque(body, torque) => {
-                loads.wrench(Some(*body), ZERO, course(torque, self.t));
+                loads.wrench(Some(*body), ZERO, signal(torque, self.t));
             }
             Effect::Limit(joint, [lower, upper, k, c]) => {
                 let row = self.turn(*joint);
@@ -120,7 +120,7 @@ impl Now<'_> {
                 loads.along(&row, -(level * r / (r * r + e * e).sqrt() + viscous * r));
             }
             Effect::Force(body, at, force, turns) => {
-                let mut force = course(force, self.t);
+                let mut force = signal(force, self.t);
                 if *turns {
                     force = p.direction(Some(*body), force);
                 }

@@ -166,7 +166,7 @@ impl Table {
     }
 
     /// `value`, a number or a vector, or `table` with rows of a time and either.
-    pub(crate) fn course(&mut self, vectors: bool) -> Read<Vec<(f64, Vector)>> {
+    pub(crate) fn signal(&mut self, vectors: bool) -> Read<Vec<(f64, Vector)>> {
         let planar = self.planar;
         let read = |numbers: &[f64]| match (vectors, numbers) {
             (false, &[x]) => Ok([x, 0.0, 0.0]),

@@ -4,7 +4,7 @@ use crate::names::Names;
 use crate::node::{Node, Read, Table, fault, parse};
 use crate::read_effect;
 use crate::scene::{
-    Body, Feature, Guide, Initial, Joint, Kind, Law, Output, Quantity, Scene, Spline,
+    Body, Feature, Guide, InitialCondition, Joint, Kind, Law, Output, Quantity, Scene, Spline,
 };
 use crate::vector::{ZERO, across, add, dot, norm, scale, sub, unit};
 
@@ -131,7 +131,7 @@ fn joint(mut table: Table, name: String, names: &Names, all: &[Body]) -> Read<Jo
     Ok(Joint { name, kind, bodies, points, axes, hinged: hinge.is_some() })
 }
 
-fn initial(mut table: Table, names: &Names) -> Read<Initial> {
+fn initial(mut table: Table, names: &Names) -> Read<InitialCondition> {
     let initial = if let Some(Node::Text(name)) = table.take("body") {
         let velocity = match table.vector_or_none("at")? {
             Some(at) => Some([at, table.vector("velocity")?]),
@@ -142,11 +142,11 @@ fn initial(mut table: Table, names: &Names) -> Read<Initial> {
             Some(node) => Some(node.vector(false)?),
             None => None,
         };
-        Initial::Body { body: names.body(&name)?, velocity, angular }
+        InitialCondition::Body { body: names.body(&name)?, velocity, angular }
     } else {
         let joint = names.joint(&table.text("joint")?)?;
         let mut numbers = |key: &str| table.take(key).map(|n| n.numbers()).transpose();
-        Initial::Joint { joint, value: numbers("value")?, rate: numbers("rate")? }
+        InitialCondition::Joint { joint, value: numbers("value")?, rate: numbers("rate")? }
     };
     table.done("initial")?;
     Ok(initial)

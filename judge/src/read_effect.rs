@@ -36,7 +36,7 @@ pub(crate) fn effect(mut table: Table, names: &Names) -> Read<Option<Effect>> {
                 [t.number("stiffness")?, t.number_or("damping", 0.0)?, t.number("clearance")?],
             )
         }
-        "actuator" => Effect::Actuator(line(t, names)?, t.course(false)?),
+        "actuator" => Effect::Actuator(line(t, names)?, t.signal(false)?),
         "bushing" => {
             let stiffness = six(t, "stiffness")?;
             let damping = if t.has("damping") { six(t, "damping")? } else { [0.0; 6] };
@@ -53,13 +53,13 @@ pub(crate) fn effect(mut table: Table, names: &Names) -> Read<Option<Effect>> {
         "torque" => match t.take("body") {
             Some(Node::Text(body)) => {
                 let planar = t.planar;
-                let mut course = t.course(!planar)?;
+                let mut signal = t.signal(!planar)?;
                 if planar {
-                    course.iter_mut().for_each(|(_, v)| *v = [0.0, 0.0, v[0]]);
+                    signal.iter_mut().for_each(|(_, v)| *v = [0.0, 0.0, v[0]]);
                 }
-                Effect::BodyTorque(names.body(&body)?, course)
+                Effect::BodyTorque(names.body(&body)?, signal)
             }
-            _ => Effect::JointTorque(names.joint(&t.text("joint")?)?, t.course(false)?),
+            _ => Effect::JointTorque(names.joint(&t.text("joint")?)?, t.signal(false)?),
         },
         "limit" => {
             let numbers = [
@@ -81,7 +81,7 @@ pub(crate) fn effect(mut table: Table, names: &Names) -> Read<Option<Effect>> {
         }
         "force" => {
             let turns = matches!(t.take("frame"), Some(Node::Text(frame)) if frame == "body");
-            Effect::Force(names.body(&t.text("body")?)?, t.vector("at")?, t.course(true)?, turns)
+            Effect::Force(names.body(&t.text("body")?)?, t.vector("at")?, t.signal(true)?, turns)
         }
         "aero-drag" => {
             let numbers = [t.number("area_coefficient")?, t.number_or("density", 1.2)?];

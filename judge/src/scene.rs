@@ -22,7 +22,7 @@ pub struct Scene {
     /// Guides.
     pub guides: Vec<Guide>,
     /// What is held at the start.
-    pub initials: Vec<Initial>,
+    pub initials: Vec<InitialCondition>,
     /// Effects that are enabled.
     pub effects: Vec<Effect>,
     /// The road's features: left and right.
@@ -133,7 +133,7 @@ pub struct Guide {
 
 /// What is held at the start.
 #[derive(Debug, Clone)]
-pub enum Initial {
+pub enum InitialCondition {
     /// Coordinates and rates of a joint.
     Joint {
         /// The joint.
@@ -155,7 +155,7 @@ pub enum Initial {
 }
 
 /// A vector over time: rows of time and vector, linear between them, held outside; one row is a constant.
-pub type Course = Vec<(f64, Vector)>;
+pub type Signal = Vec<(f64, Vector)>;
 
 /// Two points, one a body.
 #[derive(Debug, Clone)]
@@ -193,21 +193,21 @@ pub enum Effect {
     /// Stiffness, damping, clearance.
     Bumper(Line, [f64; 3]),
     /// A force along the line.
-    Actuator(Line, Course),
+    Actuator(Line, Signal),
     /// Stiffness and damping along and about the axes of the first body.
     Bushing([Carrier; 2], Vector, [[f64; 6]; 2]),
     /// Joint; stiffness, damping, free value.
     TorsionSpring(usize, [f64; 3]),
     /// Torque of a joint's first body on its second.
-    JointTorque(usize, Course),
+    JointTorque(usize, Signal),
     /// Torque on a body.
-    BodyTorque(usize, Course),
+    BodyTorque(usize, Signal),
     /// Joint; lower, upper, stiffness, damping.
     Limit(usize, [f64; 4]),
     /// Joint; coulomb, static, stribeck, viscous, regularisation.
     Friction(usize, [f64; 5]),
     /// Body, point, force; does it turn with the body?
-    Force(usize, Vector, Course, bool),
+    Force(usize, Vector, Signal, bool),
     /// Body, point; area times coefficient, density.
     Drag(usize, Vector, [f64; 2]),
     /// Body, direction; speed, gain, limit.

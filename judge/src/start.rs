@@ -11,7 +11,7 @@
 use crate::dense::Square;
 use crate::motion::{Mechanism, State};
 use crate::rows::{Places, Row, six};
-use crate::scene::Initial;
+use crate::scene::InitialCondition;
 use crate::vector::{
     UNIT, Vector, ZERO, compose, conjugate, cross, exponential, logarithm, product, rotation,
     scale, sub,
@@ -106,7 +106,7 @@ impl Mechanism {
             give(guide.joint, &[guide.law.at(0.0)[0]]);
         }
         for initial in &self.scene.initials {
-            if let Initial::Joint { joint, value: Some(value), .. } = initial {
+            if let InitialCondition::Joint { joint, value: Some(value), .. } = initial {
                 give(*joint, value);
             }
         }
@@ -120,7 +120,7 @@ impl Mechanism {
             largest = largest.max(x.abs() / if slides { length } else { 1.0 });
         };
         for initial in &self.scene.initials {
-            if let Initial::Joint { joint, value: Some(value), .. } = initial {
+            if let InitialCondition::Joint { joint, value: Some(value), .. } = initial {
                 value.iter().enumerate().for_each(|(i, x)| note(*joint, i, *x));
             }
         }
@@ -139,7 +139,9 @@ impl Mechanism {
             row.value += (1.0 - share) * guide.law.at(0.0)[0];
         }
         for initial in &self.scene.initials {
-            let Initial::Joint { joint, value: Some(value), .. } = initial else { continue };
+            let InitialCondition::Joint { joint, value: Some(value), .. } = initial else {
+                continue;
+            };
             let data = &self.scene.joints[*joint];
             let mut coordinates = now.coordinates(*joint);
             let first = data.first_of_ball(self.scene.planar).unwrap_or(coordinates.len());
@@ -285,14 +287,14 @@ impl Mechanism {
         let mut rows = Vec::new();
         for initial in &self.scene.initials {
             match initial {
-                Initial::Joint { joint, rate: Some(rate), .. } => {
+                InitialCondition::Joint { joint, rate: Some(rate), .. } => {
                     for (mut row, x) in now.coordinates(*joint).into_iter().zip(rate) {
                         row.given[0] = *x;
                         rows.push(row);
                     }
                 }
-                Initial::Joint { .. } => {}
-                Initial::Body { body, velocity, angular } => {
+                InitialCondition::Joint { .. } => {}
+                InitialCondition::Body { body, velocity, angular } => {
                     let axes = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
                     let mut hold = |part: [f64; 6], x: f64| {
                         let parts = [(Some(*body), part), (None, [0.0; 6])];

@@ -131,7 +131,7 @@ impl Effects<'_> {
     }
 
     /// A value, or a table over the run's time.
-    fn course(&mut self, mut one: impl FnMut(&mut Self) -> String) -> String {
+    fn signal(&mut self, mut one: impl FnMut(&mut Self) -> String) -> String {
         if self.dice.chance(0.6) {
             let value = one(self);
             return format!("value = {value}");
@@ -159,37 +159,37 @@ impl Effects<'_> {
             }
             "actuator-table" => {
                 let (line, _) = self.line();
-                let course = self.course(|e| format!("{:?}", e.force(-1.0)));
-                Some(format!("kind = \"actuator\"\n{line}{course}"))
+                let signal = self.signal(|e| format!("{:?}", e.force(-1.0)));
+                Some(format!("kind = \"actuator\"\n{line}{signal}"))
             }
             "bushing" => Some(self.bushing()),
             "torsion-spring" => self.torsion_spring(),
             "torque-joint" => {
                 let j = self.joint(&[Kind::Revolute, Kind::Cylindrical, Kind::Planar])?;
                 let length = 0.3 * self.draft.length;
-                let course = self.course(|e| format!("{:?}", e.force(-1.0) * length));
-                Some(format!("kind = \"torque\"\njoint = \"j{j}\"\n{course}"))
+                let signal = self.signal(|e| format!("{:?}", e.force(-1.0) * length));
+                Some(format!("kind = \"torque\"\njoint = \"j{j}\"\n{signal}"))
             }
             "torque-body" => {
                 let (b, length) = (self.body(), 0.3 * self.draft.length);
-                let course = self.course(|e| {
+                let signal = self.signal(|e| {
                     let size = e.force(-1.0) * length;
                     let v = scale(size, e.dice.direction(e.draft.planar));
                     if e.draft.planar { format!("{size:?}") } else { vector(v, false) }
                 });
-                Some(format!("kind = \"torque\"\nbody = \"b{b}\"\n{course}"))
+                Some(format!("kind = \"torque\"\nbody = \"b{b}\"\n{signal}"))
             }
             "limit" => self.limit(),
             "friction" => self.friction(),
             "force" | "force-body" => {
                 let b = self.body();
                 let at = vector(self.draft.point(self.dice, Some(b)), self.draft.planar);
-                let course = self.course(|e| {
+                let signal = self.signal(|e| {
                     let size = e.force(-1.0);
                     vector(scale(size, e.dice.direction(e.draft.planar)), e.draft.planar)
                 });
                 let frame = if kind == "force" { "" } else { "frame = \"body\"\n" };
-                Some(format!("kind = \"force\"\nbody = \"b{b}\"\nat = {at}\n{frame}{course}"))
+                Some(format!("kind = \"force\"\nbody = \"b{b}\"\nat = {at}\n{frame}{signal}"))
             }
             "aero-drag" => {
                 let b = self.body();
