@@ -8,8 +8,7 @@ mod rows;
 mod tables;
 mod threads;
 
-use crate::lab::section::Section;
-use crate::page;
+use crate::lab::section::{self, Section};
 pub(crate) use machine::Machine;
 pub(crate) use machine::{cores, processor};
 use measured::{Measured, Scene};
@@ -62,21 +61,13 @@ pub(crate) struct Asked {
 pub(crate) fn run(asked: &Asked) -> Result<String, String> {
     let measured = measure(asked)?;
     let sections = tables::sections(&measured);
-    let mut remark = String::new();
-    crate::format::paragraph(&mut remark, 0, &tables::remark(&measured));
-    println!("{remark}");
-    for section in &sections {
-        println!("{}", section.text());
-    }
+    let (remark, mut text) = (tables::remark(&measured), String::new());
+    crate::format::paragraph(&mut text, 0, &remark);
+    println!("{text}\n{}", section::text(&sections));
     let folder = process::target_dir().join("bench");
     let json = format!("{:#}\n", rows::json(&measured));
     process::write(&folder.join("bench.json"), json.as_bytes())?;
-    let content: String = sections.iter().map(|section| section.html()).collect();
-    let page = page::page(
-        "What a step costs, and what threads gain",
-        &tables::remark(&measured),
-        &content,
-    );
+    let page = section::page("What a step costs, and what threads gain", &remark, &sections);
     process::write(&folder.join("bench.html"), page.as_bytes())?;
     Ok(page)
 }

@@ -66,32 +66,8 @@ pub(crate) enum Look {
     Dots,
 }
 
-/// Room for a drawing.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) enum Room {
-    /// A page.
-    Wide,
-    /// A phone.
-    Narrow,
-}
-
-impl Room {
-    /// Width and height in the drawing's own units.
-    const fn size(self) -> (u32, u32) {
-        match self {
-            Self::Wide => (960, 340),
-            Self::Narrow => (480, 320),
-        }
-    }
-
-    /// Numbers at the axes at most: x and y.
-    const fn labels(self) -> (usize, usize) {
-        match self {
-            Self::Wide => (11, 8),
-            Self::Narrow => (6, 7),
-        }
-    }
-}
+/// Width and height in the drawing's own units.
+const SIZE: (u32, u32) = (960, 340);
 
 impl Axis {
     /// An axis with its label.
@@ -140,14 +116,14 @@ impl Chart {
     /// # Errors
     ///
     /// That there is nothing to draw, or what the drawing library says.
-    pub(crate) fn svg(&self, room: Room) -> Result<String, String> {
+    pub(crate) fn svg(&self) -> Result<String, String> {
         let shown = |[x, y]: &&[f64; 2]| self.x.shows(*x) && self.y.shows(*y);
         let points = || self.series.iter().flat_map(|s| &s.points).filter(shown);
         let scales = Scale::over(self.x.kind, points().map(|p| p[0]))
             .zip(Scale::over(self.y.kind, points().map(|p| p[1])));
         let (x, y) = scales.ok_or_else(|| format!("nothing to draw of `{}`", self.y.label))?;
         let mut text = String::new();
-        self.draw(&mut text, room, x, y).map_err(|e| e.to_string())?;
+        self.draw(&mut text, x, y).map_err(|e| e.to_string())?;
         let used = self.series.iter().map(|series| Style::of(series.style));
         Ok(style::finish(&text, used))
     }
@@ -155,11 +131,10 @@ impl Chart {
     fn draw(
         &self,
         text: &mut String,
-        room: Room,
         x: Scale,
         y: Scale,
     ) -> Result<(), Box<dyn std::error::Error>> {
-        let area = SVGBackend::with_string(text, room.size()).into_drawing_area();
+        let area = SVGBackend::with_string(text, SIZE).into_drawing_area();
         let mut chart = ChartBuilder::on(&area)
             .margin(6)
             .margin_right(18)
@@ -170,12 +145,11 @@ impl Chart {
             let corners = [(from, y.low()), (to, y.high())];
             chart.draw_series([Rectangle::new(corners, CURRENT.mix(0.14).filled())])?;
         }
-        let (n_x, n_y) = room.labels();
         let font = ("sans-serif", 15).into_font().color(&CURRENT);
         chart
             .configure_mesh()
-            .x_labels(n_x)
-            .y_labels(n_y)
+            .x_labels(11)
+            .y_labels(8)
             .light_line_style(TRANSPARENT)
             .bold_line_style(CURRENT.mix(0.22))
             .axis_style(CURRENT)
@@ -220,16 +194,14 @@ mod tests {
         let (x, y) = axes(Kind::Log, Kind::Linear);
         let mut chart = Chart::new(x, y, vec![series(Look::Both, &points)]);
         chart.shade = Some([1e-4, 2e-4]);
-        for room in [Room::Wide, Room::Narrow] {
-            let text = chart.svg(room).unwrap();
-            for word in ["<svg", "tolerance [-]", "error [m]", "1e-4", "stroke-dasharray"] {
-                assert!(text.contains(word), "{word}");
-            }
-            assert_eq!(text.matches("<polygon").count(), 2, "what is not positive is left out");
-            assert!(text.contains("currentColor"), "ink is that of the page");
+        let text = chart.svg().unwrap();
+        for word in ["<svg", "tolerance [-]", "error [m]", "1e-4", "stroke-dasharray"] {
+            assert!(text.contains(word), "{word}");
         }
+        assert_eq!(text.matches("<polygon").count(), 2, "what is not positive is left out");
+        assert!(text.contains("currentColor"), "ink is that of the page");
         chart.series.clear();
-        assert!(chart.svg(Room::Wide).unwrap_err().contains("error [m]"));
+        assert!(chart.svg().unwrap_err().contains("error [m]"));
     }
 
     #[test]
@@ -237,7 +209,7 @@ mod tests {
         let points: Vec<_> = (0..20_000).map(|i| [f64::from(i), f64::from(i % 2)]).collect();
         let axes = || (Axis::time(), Axis::new("index", Kind::FromZero));
         let (x, y) = axes();
-        let text = Chart::new(x, y, vec![series(Look::Marks, &points)]).svg(Room::Wide).unwrap();
+        let text = Chart::new(x, y, vec![series(Look::Marks, &points)]).svg().unwrap();
         let n = text.matches("<polygon").count();
         assert!((200..2000).contains(&n), "{n}");
     }

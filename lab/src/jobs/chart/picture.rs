@@ -1,6 +1,6 @@
 //! A drawing with its legend as one SVG file, for documents; its ink is readable on light and on dark paper.
 
-use super::{Chart, Room};
+use super::{Chart, SIZE};
 use crate::page::escape;
 use std::fmt::Write;
 
@@ -8,8 +8,6 @@ use std::fmt::Write;
 const INK: &str = "#7D8590";
 /// Height of a line of the legend, and width of an entry; four stand beside each other.
 const ENTRY: [usize; 2] = [22, 230];
-/// Size of the drawing below it.
-const DRAWING: [usize; 2] = [960, 340];
 
 /// The file.
 ///
@@ -17,7 +15,7 @@ const DRAWING: [usize; 2] = [960, 340];
 ///
 /// That there is nothing to draw, or what the drawing library says.
 pub(crate) fn picture(chart: &Chart) -> Result<String, String> {
-    let drawing = chart.svg(Room::Wide)?;
+    let drawing = chart.svg()?;
     let [line, width] = ENTRY;
     let mut legend = String::new();
     let named: Vec<_> = chart.named().collect();
@@ -36,8 +34,8 @@ pub(crate) fn picture(chart: &Chart) -> Result<String, String> {
     let drawing = drawing.replacen("<svg ", &format!("<svg y=\"{top}\" "), 1);
     Ok(format!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {} {}\" color=\"{INK}\">\n{legend}{drawing}</svg>\n",
-        DRAWING[0],
-        DRAWING[1] + top
+        SIZE.0,
+        SIZE.1 as usize + top
     ))
 }
 

@@ -4,8 +4,7 @@
 mod tally;
 mod workers;
 
-use crate::lab::section::Section;
-use crate::page::page;
+use crate::lab::section::{Section, page};
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::{Duration, Instant};
 use tally::Tallies;
@@ -60,7 +59,8 @@ fn run(count: usize, jobs: Option<usize>) -> Result<(Section, bool), String> {
     write(&folder.join("cases.jsonl"), json_lines.as_bytes())?;
     write(&folder.join("gauntlet.txt"), section.text().as_bytes())?;
     let remark = process::commit().map_or_else(String::new, |commit| format!("commit {commit}"));
-    write(&folder.join("gauntlet.html"), page("Gauntlet", &remark, &section.html()).as_bytes())?;
+    let html = page("Gauntlet", &remark, std::slice::from_ref(&section));
+    write(&folder.join("gauntlet.html"), html.as_bytes())?;
     Ok((section, tallies.wrong.is_empty() && tallies.faults.is_empty()))
 }
 

@@ -3,8 +3,11 @@
 use super::Run;
 use crate::chart::Chart;
 use crate::format::paragraph;
-use crate::page::{cell, escape, figure, words};
+use crate::page::{escape, figure, words};
 use std::fmt::Write;
+
+/// Letters of a cell that is never broken.
+const LONG: usize = 16;
 
 /// A claim and what the runs say of it.
 #[derive(Debug, Clone, PartialEq)]
@@ -41,23 +44,11 @@ impl Claim {
 enum Block {
     Heading(String),
     Words(String),
-    Table(Vec<String>, Vec<Vec<String>>),
-    /// A table whose cells lead to rows of another on the page.
-    Leading(Vec<&'static str>, Vec<Vec<Leading>>),
-    /// A table that is on the page alone, behind its title; rows that are led to have names.
-    Behind(String, Vec<&'static str>, Vec<Vec<String>>, Vec<String>),
+    /// A table; with a title it is on the page alone, behind it.
+    Table(Option<String>, Vec<String>, Vec<Vec<String>>),
     Claim(Claim),
     /// A drawing, and its caption.
     Figure(String, String),
-}
-
-/// A cell that leads to a named row of another table on the page.
-#[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Leading {
-    /// What stands in the cell.
-    pub(crate) text: String,
-    /// The name of the row, or empty.
-    pub(crate) to: String,
 }
 
 /// An experiment.
@@ -88,30 +79,15 @@ impl Section {
         self.blocks.push(Block::Words(text.into()));
     }
 
-    /// Adds a table; its first column has names.
+    /// Adds a table; its first column has names. On the page a cell leads to the first row of the next table behind a title that is named
+    /// after its row and its column.
     pub(crate) fn table(&mut self, head: &[&str], rows: Vec<Vec<String>>) {
-        let head = head.iter().map(|&name| name.to_owned()).collect();
-        self.blocks.push(Block::Table(head, rows));
+        self.blocks.push(Block::Table(None, owned(head), rows));
     }
 
     /// Adds a long table that opens on the page at a touch, and is not on a terminal.
-    pub(crate) fn behind(&mut self, title: &str, head: &[&'static str], rows: Vec<Vec<String>>) {
-        self.blocks.push(Block::Behind(title.to_owned(), head.to_vec(), rows, Vec::new()));
-    }
-
-    /// The same with names of the rows that other tables lead to, or empty ones.
-    pub(crate) fn behind_named(
-        &mut self,
-        title: &str,
-        head: &[&'static str],
-        (rows, names): (Vec<Vec<String>>, Vec<String>),
-    ) {
-        self.blocks.push(Block::Behind(title.to_owned(), head.to_vec(), rows, names));
-    }
-
-    /// Adds a table whose cells lead to named rows; its first column has names.
-    pub(crate) fn leading(&mut self, head: &[&'static str], rows: Vec<Vec<Leading>>) {
-        self.blocks.push(Block::Leading(head.to_vec(), rows));
+    pub(crate) fn behind(&mut self, title: &str, head: &[&str], rows: Vec<Vec<String>>) {
+        self.blocks.push(Block::Table(Some(title.to_owned()), owned(head), rows));
     }
 
     /// Adds a claim.
@@ -142,18 +118,14 @@ impl Section {
             match block {
                 Block::Heading(heading) => text.push_str(&format!("\n{heading}\n")),
                 Block::Words(sentences) => paragraph(&mut text, 0, sentences),
-                Block::Table(head, rows) => grid(&mut text, &borrowed(head), rows),
-                Block::Leading(head, rows) => {
-                    let row = |row: &Vec<Leading>| row.iter().map(|c| c.text.clone()).collect();
-                    grid(&mut text, head, &rows.iter().map(row).collect::<Vec<_>>());
-                }
+                Block::Table(None, head, rows) => grid(&mut text, head, rows),
+                Block::Table(Some(_), ..) => {}
                 Block::Claim(claim) => {
                     let sentence =
                         format!("{}: {} ({})", claim.what, claim.measured, claim.verdict());
                     paragraph(&mut text, 2, &sentence);
                 }
                 Block::Figure(_, caption) => paragraph(&mut text, 0, caption),
-                Block::Behind(..) => {}
             }
         }
         text
@@ -166,33 +138,91 @@ impl Section {
             escape(self.name),
             escape(self.title)
         );
-        for block in &self.blocks {
-            match block {
-                Block::Heading(heading) => {
-                    html.push_str(&format!("<h3>{}</h3>\n", escape(heading)));
-                }
-                Block::Words(sentences) => {
-                    html.push_str(&format!("<p>{}</p>\n", words(sentences)));
-                }
-                Block::Table(head, rows) => html.push_str(&table(&borrowed(head), rows, &[])),
-                Block::Leading(head, rows) => html.push_str(&leading(head, rows)),
-                Block::Claim(claim) => {
-                    html.push_str(&format!("<ul class=\"claims\">{}</ul>\n", item(claim)));
-                }
-                Block::Figure(figure, _) => html.push_str(figure),
-                Block::Behind(title, head, rows, names) => html.push_str(&format!(
+        for (at, block) in self.blocks.iter().enumerate() {
+            html.push_str(&match block {
+                Block::Heading(heading) => format!("<h3>{}</h3>\n", escape(heading)),
+                Block::Words(sentences) => format!("<p>{}</p>\n", words(sentences)),
+                Block::Table(None, head, rows) => self.table_at(at, head, rows),
+                Block::Table(Some(title), head, rows) => format!(
                     "<details>\n<summary>{}</summary>\n{}</details>\n",
                     escape(title),
-                    table(head, rows, names)
-                )),
-            }
+                    self.table_at(at, head, rows)
+                ),
+                Block::Claim(claim) => format!("<ul class=\"claims\">{}</ul>\n", item(claim)),
+                Block::Figure(figure, _) => figure.clone(),
+            });
         }
         html + "</section>\n"
     }
+
+    /// A table on the page; a row that is shorter than the head has a sentence instead of numbers.
+    fn table_at(&self, at: usize, head: &[String], rows: &[Vec<String>]) -> String {
+        let (before, from) = self.blocks.split_at(at);
+        let behind = |block: &Block| matches!(block, Block::Table(Some(_), ..));
+        let group = before.iter().filter(|block| behind(block)).count();
+        let id = |name: &str| {
+            let text = format!("{} {group} {name}", self.name);
+            text.replace(|c: char| !c.is_ascii_alphanumeric(), "-")
+        };
+        let next = from.iter().find(|block| behind(block));
+        let named = |name: &str| match next {
+            Some(Block::Table(_, _, rows)) => rows.iter().position(|row| row[0] == name),
+            _ => None,
+        };
+        let heads: String = head.iter().map(|name| format!("<th>{}</th>", words(name))).collect();
+        let mut html = format!("<table>\n<thead><tr>{heads}</tr></thead>\n<tbody>\n");
+        for (i, row) in rows.iter().enumerate() {
+            let is_led_to = behind(&from[0]) && named(&row[0]) == Some(i);
+            let name = if is_led_to { format!(" id=\"{}\"", id(&row[0])) } else { String::new() };
+            html.push_str(&format!("<tr{name}><th scope=\"row\">{}</th>", words(&row[0])));
+            if row.len() < head.len() {
+                let (n, reason) = (head.len() - 1, words(&row[1]));
+                html.push_str(&format!("<td colspan=\"{n}\" class=\"stopped\">{reason}</td>"));
+            } else {
+                html.extend(head.iter().zip(row).skip(1).map(|(label, value)| {
+                    let name = format!("{}, {label}", row[0]);
+                    cell(label, value, named(&name).map(|_| id(&name)))
+                }));
+            }
+            html.push_str("</tr>\n");
+        }
+        html + "</tbody>\n</table>\n"
+    }
+}
+
+/// One cell; its label is shown where the columns do not fit, and it may lead to a row.
+fn cell(label: &str, value: &str, to: Option<String>) -> String {
+    // Words may be broken where the columns do not fit, numbers not.
+    let class = match value {
+        "" => "none",
+        _ if value.len() > LONG && value.contains(' ') => "said",
+        _ => "",
+    };
+    let text = match to {
+        Some(to) => format!("<a href=\"#{to}\">{}</a>", words(value)),
+        None => words(value),
+    };
+    format!("<td data-label=\"{}\" class=\"{class}\">{text}</td>", escape(label))
+}
+
+/// The page of sections.
+pub(crate) fn page(title: &str, remark: &str, sections: &[Section]) -> String {
+    let parts: String = sections.iter().map(Section::html).collect();
+    crate::page::page(title, remark, &parts)
+}
+
+/// Sections on a terminal.
+pub(crate) fn text(sections: &[Section]) -> String {
+    sections.iter().map(|section| section.text() + "\n").collect()
+}
+
+/// Names of columns.
+fn owned(names: &[&str]) -> Vec<String> {
+    names.iter().map(|&name| name.to_owned()).collect()
 }
 
 /// A claim as an item of a list.
-pub(crate) fn item(claim: &Claim) -> String {
+fn item(claim: &Claim) -> String {
     format!(
         "<li class=\"{}\"><b>{}:</b> {}. <span class=\"soft\">{}</span></li>",
         claim.class(),
@@ -202,66 +232,8 @@ pub(crate) fn item(claim: &Claim) -> String {
     )
 }
 
-/// The beginning of a table on a page.
-fn opened(head: &[&str]) -> String {
-    let heads: String = head.iter().map(|name| format!("<th>{}</th>", words(name))).collect();
-    format!("<table>\n<thead><tr>{heads}</tr></thead>\n<tbody>\n")
-}
-
-/// A table on a page whose cells lead elsewhere; in the first column are names.
-fn leading(head: &[&str], rows: &[Vec<Leading>]) -> String {
-    let mut html = opened(head);
-    for row in rows {
-        html.push_str("<tr>");
-        for (i, (label, Leading { text, to })) in head.iter().zip(row).enumerate() {
-            html.push_str(&match (i, to.is_empty()) {
-                (0, _) => format!("<th scope=\"row\">{}</th>", words(text)),
-                (_, true) => cell(label, text, ""),
-                (_, false) => format!(
-                    "<td data-label=\"{}\"><a href=\"#{}\">{}</a></td>",
-                    escape(label),
-                    escape(to),
-                    words(text)
-                ),
-            });
-        }
-        html.push_str("</tr>\n");
-    }
-    html + "</tbody>\n</table>\n"
-}
-
-/// Names as slices.
-fn borrowed(names: &[String]) -> Vec<&str> {
-    names.iter().map(String::as_str).collect()
-}
-
-/// A table on a page; in the first column are names, and rows may have names that are led to.
-fn table(head: &[&str], rows: &[Vec<String>], names: &[String]) -> String {
-    let mut html = opened(head);
-    for (i, row) in rows.iter().enumerate() {
-        html.push_str(&match names.get(i).filter(|name| !name.is_empty()) {
-            Some(name) => format!("<tr id=\"{}\">", escape(name)),
-            None => "<tr>".to_owned(),
-        });
-        for (i, (label, value)) in head.iter().zip(row).enumerate() {
-            html.push_str(&match i {
-                0 => format!("<th scope=\"row\">{}</th>", words(value)),
-                // What came instead of numbers.
-                _ if row.len() < head.len() => format!(
-                    "<td colspan=\"{}\" data-label=\"\" class=\"stopped\">{}</td>",
-                    head.len() - 1,
-                    words(value)
-                ),
-                _ => cell(label, value, ""),
-            });
-        }
-        html.push_str("</tr>\n");
-    }
-    html + "</tbody>\n</table>\n"
-}
-
 /// A table on a terminal; a row that is shorter than the head has a sentence instead of numbers.
-fn grid(text: &mut String, head: &[&str], rows: &[Vec<String>]) {
+fn grid(text: &mut String, head: &[String], rows: &[Vec<String>]) {
     let full = || rows.iter().filter(|row| row.len() == head.len());
     let wide = |i: usize| full().map(|row| row[i].len()).chain([head[i].len()]).max().unwrap_or(0);
     let first = rows.iter().map(|row| row[0].len()).max().unwrap_or(0);
@@ -274,7 +246,7 @@ fn grid(text: &mut String, head: &[&str], rows: &[Vec<String>]) {
     };
     text.push('\n');
     // Writing to a string cannot fail.
-    let _ = writeln!(text, "{}", line(&mut head.iter().copied()).trim_end());
+    let _ = writeln!(text, "{}", line(&mut head.iter().map(String::as_str)).trim_end());
     for row in rows {
         if row.len() < head.len() {
             paragraph(text, 0, &row.join(": "));
@@ -298,7 +270,8 @@ mod tests {
         section.table(&["run", "error [J]", "CPU [s]"], rows);
         section.claim("a fourth of the time", "ratio 0.3".into(), Some(false));
         section.claim("a tenth", "no run".into(), None);
-        section.behind("every run", &["run"], vec![row(&["hidden"])]);
+        let hidden = vec![row(&["hidden"]), row(&["index-3, CPU [s]"])];
+        section.behind("every run", &["run"], hidden);
         let text = section.text();
         assert!(!text.contains("hidden"), "long tables are on the page alone");
         for line in [
@@ -313,6 +286,8 @@ mod tests {
         assert!(html.contains("a word &amp; another") && html.contains("class=\"fails\""));
         assert!(html.contains("colspan=\"2\"") && html.contains("<b>not judged:</b>"));
         assert!(html.contains("<summary>every run</summary>") && html.contains("hidden"));
+        assert!(html.contains("<a href=\"#X-0-index-3--CPU--s-\">0.2</a>"), "{html}");
+        assert!(html.contains("<tr id=\"X-0-index-3--CPU--s-\">"));
         assert_eq!(section.claims().count(), 2);
     }
 }

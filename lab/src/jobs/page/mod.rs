@@ -1,12 +1,9 @@
-//! HTML pages that need nothing else: their frame and style, cells that carry their labels, drawings with their legends.
+//! HTML pages that need nothing else: their frame and style, drawings with their legends.
 
-use crate::chart::{Chart, Room, Series};
+use crate::chart::{Chart, Series};
 
 /// The frame of a page, with its style.
 const PAGE: &str = include_str!("page.html");
-
-/// Letters of a cell that is never broken.
-const LONG: usize = 16;
 
 /// A page.
 pub(crate) fn page(title: &str, remark: &str, content: &str) -> String {
@@ -14,28 +11,16 @@ pub(crate) fn page(title: &str, remark: &str, content: &str) -> String {
     page.replace("{{content}}", content)
 }
 
-/// One cell; its label is shown where the columns do not fit.
-pub(crate) fn cell(label: &str, value: &str, class: &str) -> String {
-    let class = match value {
-        "" => format!("{class} none"),
-        // words may be broken where the columns do not fit, numbers not
-        _ if value.len() > LONG && value.contains(' ') => format!("{class} said"),
-        _ => class.to_owned(),
-    };
-    let (label, value) = (escape(label), words(value));
-    format!("<td data-label=\"{label}\" class=\"{}\">{value}</td>", class.trim())
-}
-
-/// A drawing, for a page and for a phone, with its legend and its caption.
+/// A drawing with its legend and its caption.
 ///
 /// # Errors
 ///
 /// That there is nothing to draw, or what the drawing library says.
 pub(crate) fn figure(chart: &Chart, caption: &str) -> Result<String, String> {
-    let (wide, narrow) = (chart.svg(Room::Wide)?, chart.svg(Room::Narrow)?);
     Ok(format!(
-        "<figure>\n{}<div class=\"wide\">{wide}</div>\n<div class=\"narrow\">{narrow}</div>\n<figcaption class=\"soft\">{}</figcaption>\n</figure>\n",
+        "<figure>\n{}<div class=\"wide\">{}</div>\n<figcaption class=\"soft\">{}</figcaption>\n</figure>\n",
         legend(chart),
+        chart.svg()?,
         words(caption)
     ))
 }
@@ -51,26 +36,21 @@ const UNITS: [&str; 6] = ["s", "J", "m", "rad", "%", "m/s²"];
 
 /// A sentence that is not broken within a number or a name such as index-3, nor between a number and its unit.
 pub(crate) fn words(sentence: &str) -> String {
-    let mut html = String::new();
-    let mut last = "";
-    for (i, word) in sentence.split(' ').enumerate() {
+    let (mut html, mut last) = (String::new(), "");
+    for word in sentence.split(' ') {
         let is_unit = UNITS.contains(&word.trim_end_matches([',', '.', ';', ':', ')']));
         let is_beside = is_unit && last.ends_with(|c: char| c.is_ascii_digit());
-        html.push_str(match (i, is_beside) {
-            (0, _) => "",
-            (_, true) => "&nbsp;",
-            (_, false) => " ",
-        });
+        html.push_str(if is_beside { "&nbsp;" } else { " " });
         let text = escape(word);
-        let parts = word.as_bytes().windows(2);
-        if parts.into_iter().any(|pair| pair[0] == b'-' && pair[1].is_ascii_digit()) {
-            html.push_str(&format!("<span class=\"number\">{text}</span>"));
-        } else {
-            html.push_str(&text);
-        }
+        let mut pairs = word.as_bytes().windows(2);
+        html.push_str(&match pairs.any(|pair| pair[0] == b'-' && pair[1].is_ascii_digit()) {
+            true => format!("<span class=\"number\">{text}</span>"),
+            false => text,
+        });
         last = word;
     }
-    html
+    // before the first word there is a space
+    html.split_off(1)
 }
 
 /// Text as HTML.
@@ -108,6 +88,6 @@ mod tests {
         let chart = Chart::new(Axis::time(), Axis::new("z [m]", Kind::Linear), drawn);
         let figure = figure(&chart, "What it shows.").unwrap();
         assert!(figure.contains("a &lt; b") && !figure.contains("absent"));
-        assert!(figure.contains("What it shows.") && figure.matches("z [m]").count() == 2);
+        assert!(figure.contains("What it shows.") && figure.matches("z [m]").count() == 1);
     }
 }

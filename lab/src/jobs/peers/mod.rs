@@ -7,7 +7,7 @@ mod programs;
 mod tables;
 
 use crate::bench::Machine;
-use crate::page;
+use crate::lab::section::page;
 use lanes::Measured;
 use problems::{Kind, Problem, selected};
 use programs::{Asked, Who};
@@ -90,8 +90,7 @@ fn remark(machine: &Machine, effort: Effort) -> String {
 fn write(measured: &[Measured], machine: &Machine, effort: Effort) -> Result<(), String> {
     let folder = programs::folder();
     let remark = remark(machine, effort);
-    let content: String = tables::sections(measured).iter().map(|s| s.html()).collect();
-    let page = page::page("mbs and its peers", &remark, &content);
+    let page = page("mbs and its peers", &remark, &tables::sections(measured));
     let files = [
         ("peers.txt", tables::text(measured, &remark).into_bytes()),
         ("peers.md", tables::markdown(measured, &remark).into_bytes()),

@@ -5,7 +5,7 @@ use super::lanes::{Lane, Measured};
 use super::problems::{ALGEBRAIC, DIGITS, Kind, LIMIT_ALGEBRAIC, limit_at};
 use super::programs::Who;
 use crate::format::{self, error, paragraph, ratio};
-use crate::lab::section::Section;
+use crate::lab::section::{self, Section};
 
 /// A table: its head and its rows.
 type Table = (Vec<&'static str>, Vec<Vec<String>>);
@@ -195,11 +195,7 @@ fn claims_at_digits(section: &mut Section, measured: &Measured) {
 pub(super) fn text(measured: &[Measured], remark: &str) -> String {
     let mut text = String::new();
     paragraph(&mut text, 0, remark);
-    for section in sections(measured) {
-        text.push('\n');
-        text.push_str(&section.text());
-    }
-    text
+    text + "\n" + &section::text(&sections(measured))
 }
 
 /// For a document.

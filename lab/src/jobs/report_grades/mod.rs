@@ -7,7 +7,7 @@ mod letter;
 mod printed;
 
 use crate::format::{error, ratio, seconds, step};
-use crate::lab::section::{Leading, Section};
+use crate::lab::section::Section;
 use crate::lab::{Lab, Run};
 use column::{Cell, Column};
 use ladder::Ladder;
@@ -148,16 +148,11 @@ fn section(
     head.extend(columns.iter().map(|column| column.name));
     let mut rows = Vec::new();
     for (m, method) in METHODS.iter().enumerate() {
-        let plain = |text: &str| Leading { text: text.to_owned(), to: String::new() };
-        let cell = |column: &Column| Leading {
-            text: cell_text(&column.cells[m]),
-            to: anchor(name, method, column.name),
-        };
-        rows.push([plain(method.name)].into_iter().chain(columns.iter().map(cell)).collect());
+        let cells = columns.iter().map(|column| cell_text(&column.cells[m]));
+        rows.push([method.name.to_owned()].into_iter().chain(cells).collect());
         if let Some([report, publication]) = printed(method) {
             let letters = |source: &str, row: &str| {
-                let letters = row.chars().map(|letter| plain(letter.encode_utf8(&mut [0; 4])));
-                [plain(source)].into_iter().chain(letters).collect()
+                [source.to_owned()].into_iter().chain(row.chars().map(String::from)).collect()
             };
             rows.push(letters("  the report", report));
             if publication != report {
@@ -165,12 +160,12 @@ fn section(
             }
         }
     }
-    section.leading(&head, rows);
+    section.table(&head, rows);
     for column in columns {
         section.words(format!("{}: {}", column.name, column.rule));
     }
     let head = ["method, column", "scene", "step [s]", "share", "CPU [s]", "what came of it"];
-    section.behind_named("Every count and every run", &head, behind(name, columns));
+    section.behind("Every count and every run", &head, behind(columns));
     section.runs = columns.iter().flat_map(|c| &c.cells).flat_map(|c| c.runs.clone()).collect();
     section
 }
@@ -184,29 +179,20 @@ fn cell_text(cell: &Cell) -> String {
     format!("{} {rests}", cell.letter.symbol()).trim_end().to_owned()
 }
 
-/// The name of the first row behind a cell.
-fn anchor(section: &str, method: &Method, column: &str) -> String {
-    let text = format!("{section} {} {column}", method.name);
-    text.chars().map(|c| if c.is_ascii_alphanumeric() { c } else { '-' }).collect()
-}
-
-/// The rows behind the letters, and the names of those that are led to.
-fn behind(section: &str, columns: &[Column]) -> (Vec<Vec<String>>, Vec<String>) {
-    let (mut rows, mut names) = (Vec::new(), Vec::new());
+/// The rows behind the letters, named after their method and their column.
+fn behind(columns: &[Column]) -> Vec<Vec<String>> {
+    let mut rows = Vec::new();
     for column in columns {
         for (method, cell) in METHODS.iter().zip(&column.cells) {
             let name = format!("{}, {}", method.name, column.name);
-            names.push(anchor(section, method, column.name));
             if cell.runs.is_empty() {
                 let none = String::new;
-                rows.push(vec![name, none(), none(), none(), none(), cell.counted.clone()]);
-                continue;
+                rows.push(vec![name.clone(), none(), none(), none(), none(), cell.counted.clone()]);
             }
-            names.extend(cell.runs.iter().skip(1).map(|_| String::new()));
             rows.extend(cell.runs.iter().map(|run| line(&name, run)));
         }
     }
-    (rows, names)
+    rows
 }
 
 /// A run as a row.

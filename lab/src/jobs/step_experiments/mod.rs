@@ -12,10 +12,9 @@ mod sight;
 mod suspension;
 mod tolerance;
 
-use crate::lab::section::{Section, item};
+use crate::lab::section::{self, Section};
 use crate::lab::{self, Lab};
 use crate::mbs::Mbs;
-use crate::page;
 use xtask::process;
 
 /// An experiment.
@@ -31,6 +30,8 @@ const EXPERIMENTS: [(&str, Experiment); 6] = [
     ("H", hammer::run),
 ];
 
+/// The title of the page.
+const TITLE: &str = "Variable steps beside fixed ones";
 /// What holds for all of them.
 const REMARK: &str = "Energy error: largest error of the energy invariant over every step; its share is that of the energy turned \
     over, the largest kinetic energy plus the work done. CPU: of the stepping, the least of several runs in turn.";
@@ -70,9 +71,7 @@ pub(crate) fn run(quick: bool, names: &[String]) -> Result<Steps, String> {
     let lab = Lab { runner: &runner, quick, folder: folder.clone() };
     let sections = perform(&lab, names)?;
     process::progress("");
-    for section in &sections {
-        println!("{}", section.text());
-    }
+    println!("{}", section::text(&sections));
     process::write(&folder.join("steps.csv"), &rows::csv(&sections)?)?;
     let page = html(&sections);
     process::write(&folder.join("steps.html"), page.as_bytes())?;
@@ -90,16 +89,11 @@ fn perform(lab: &Lab<'_>, names: &[String]) -> Result<Vec<Section>, String> {
 
 /// The page: all claims first, then each experiment.
 fn html(sections: &[Section]) -> String {
-    let claims: String = sections.iter().flat_map(Section::claims).map(item).collect();
-    let summary = if claims.is_empty() {
-        claims
-    } else {
-        format!(
-            "<section class=\"card\">\n<h2>What holds</h2>\n<ul class=\"claims\">{claims}</ul>\n</section>\n"
-        )
-    };
-    let parts: String = sections.iter().map(Section::html).collect();
-    page::page("Variable steps beside fixed ones", REMARK, &(summary + &parts))
+    let mut summary = Section::new("claims", "What holds");
+    for claim in sections.iter().flat_map(Section::claims) {
+        summary.claim(&*claim.what, claim.measured.clone(), claim.holds);
+    }
+    section::page(TITLE, REMARK, &[&[summary], sections].concat())
 }
 
 #[cfg(test)]

@@ -10,23 +10,17 @@ pub(crate) const CAPTION: &str =
 /// The history of the first method at its last step.
 const FINEST: usize = 4;
 
-/// One line: what it is, and its points (time, value) as the CSV of a run has them.
-#[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Line {
-    /// Its name in the legend.
-    pub(crate) name: String,
-    /// Its points.
-    pub(crate) points: Vec<[f64; 2]>,
-}
+/// One line: its name in the legend, and its points (time, value) as the CSV of a run has them.
+pub(crate) type Line = (String, Vec<[f64; 2]>);
 
 /// The drawing of all lines, the first one, the finest, below the others.
 pub(crate) fn chart(history: &History, lines: Vec<Line>) -> Chart {
     let scaled = |[t, x]: [f64; 2]| [t, x * history.scale];
-    let series = |(i, line): (usize, Line)| Series {
-        name: line.name,
+    let series = |(i, (name, points)): (usize, Line)| Series {
+        name,
         style: i.checked_sub(1).unwrap_or(FINEST),
         look: Look::Line,
-        points: line.points.into_iter().map(scaled).collect(),
+        points: points.into_iter().map(scaled).collect(),
     };
     let series = lines.into_iter().enumerate().map(series).collect();
     Chart::new(Axis::time(), Axis::new(history.label, Kind::FromZero), series)
@@ -35,17 +29,15 @@ pub(crate) fn chart(history: &History, lines: Vec<Line>) -> Chart {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::chart::Room;
 
     const HISTORY: History = History { column: "a.z", label: "a [g]", scale: 0.5 };
 
     #[test]
     fn a_drawing_scales_its_lines_and_names_its_axes() {
-        let line =
-            |name: &str, x: f64| Line { name: name.into(), points: vec![[0.0, x], [1.0, -x]] };
+        let line = |name: &str, x: f64| (name.to_owned(), vec![[0.0, x], [1.0, -x]]);
         let chart = chart(&HISTORY, vec![line("reference", 1.0), line("index-3", 0.9)]);
         assert_eq!(chart.series[0].points, [[0.0, 0.5], [1.0, -0.5]]);
-        let text = chart.svg(Room::Wide).unwrap();
+        let text = chart.svg().unwrap();
         assert!(text.contains("a [g]") && text.contains("t [s]"));
     }
 }

@@ -2,18 +2,18 @@
 
 mod expected;
 mod history;
-mod html;
 mod precision;
 mod report;
 mod rows;
-mod text;
+mod section;
 
 use crate::chart::picture::picture;
+use crate::format::paragraph;
 use crate::lab::section::Section;
 use crate::lab::{self, Lab};
 use crate::mbs::outcome::Outcome;
 use crate::mbs::{Mbs, columns, scene};
-use crate::{bench, digits, page, report_grades, step_experiments};
+use crate::{bench, digits, report_grades, step_experiments};
 use rows::Row;
 use std::path::Path;
 use xtask::process;
@@ -94,15 +94,14 @@ pub(crate) fn run(quick: bool, wanted: &[String]) -> Result<Tables, String> {
     let mbs = Mbs::build()?;
     let folder = process::target_dir().join("tables");
     let is_wanted = |name: &str| wanted.is_empty() || wanted.iter().any(|n| n == name);
-    let (rows, drawings, pictures) = entries(&mbs, &folder, quick, &is_wanted)?;
-    let sections = sections(&mbs, &folder, quick, &is_wanted)?;
+    let Entries { rows, mut sections, pictures } = entries(&mbs, &folder, quick, &is_wanted)?;
+    sections.extend(made(&mbs, &folder, quick, &is_wanted)?);
     process::progress("");
 
-    println!("{}", text::text(&rows));
-    for section in &sections {
-        println!("{}", section.text());
-    }
-    let html = html::page(&rows, &drawings, &sections);
+    let mut text = lab::section::text(&sections);
+    paragraph(&mut text, 0, section::REMARK);
+    println!("{text}");
+    let html = lab::section::page("The report's tables, run anew", section::REMARK, &sections);
     process::write(&folder.join("tables.csv"), &rows::csv(&rows)?)?;
     process::write(&folder.join("tables.html"), html.as_bytes())?;
     for (name, svg) in &pictures {
@@ -111,10 +110,14 @@ pub(crate) fn run(quick: bool, wanted: &[String]) -> Result<Tables, String> {
     Ok(Tables { html, surprises: expected::surprises(&rows), entries: rows.len() })
 }
 
-/// Drawings, by the names of their tables.
-type Drawings = Vec<(&'static str, String)>;
-/// Rows of the tables on accuracy and time, their drawings for the page, and those that stand alone.
-type Entries = (Vec<Row>, Drawings, Drawings);
+/// The tables on accuracy and time.
+#[derive(Default)]
+struct Entries {
+    rows: Vec<Row>,
+    sections: Vec<Section>,
+    /// Drawings that stand alone, by the names of their tables.
+    pictures: Vec<(&'static str, String)>,
+}
 
 /// Runs the entries of the tables on accuracy and time.
 fn entries(
@@ -124,9 +127,9 @@ fn entries(
     is_wanted: &dyn Fn(&str) -> bool,
 ) -> Result<Entries, String> {
     let runs = folder.join("runs");
-    let (mut rows, mut drawings, mut pictures) = (Vec::new(), Vec::new(), Vec::new());
+    let mut all = Entries::default();
     for table in report::TABLES.iter().filter(|table| is_wanted(table.name)) {
-        let mut lines = Vec::new();
+        let (mut rows, mut lines) = (Vec::new(), Vec::new());
         for (method, step) in
             table.entries().filter(|(_, step)| !quick || table.steps(*step) <= QUICK)
         {
@@ -137,26 +140,27 @@ fn entries(
                 let points = columns::history(&runs.join("run.csv"), history.column)?;
                 // The finest run lies below the others.
                 let at = if table.is_finest(method, step) { 0 } else { lines.len() };
-                lines.insert(
-                    at,
-                    history::Line { name: format!("{}, {step:e} s", method.name), points },
-                );
+                lines.insert(at, (format!("{}, {step:e} s", method.name), points));
             }
             rows.push(Row::new(table, method, step, outcome));
         }
-        if let Some(history) = &table.history {
-            let chart = history::chart(history, lines);
-            drawings.push((table.name, page::figure(&chart, history::CAPTION)?));
-        } else if let Some(chart) = precision::chart(table, &rows) {
-            drawings.push((table.name, page::figure(&chart, precision::CAPTION)?));
-            pictures.push((table.name, picture(&chart)?));
+        let drawn = if let Some(history) = &table.history {
+            Some((history::chart(history, lines), history::CAPTION))
+        } else {
+            precision::chart(table, &rows).map(|chart| (chart, precision::CAPTION))
+        };
+        let drawing = drawn.as_ref().map(|(chart, caption)| (chart, *caption));
+        all.sections.push(section::section(table, &rows, drawing));
+        if let (None, Some((chart, _))) = (&table.history, drawing) {
+            all.pictures.push((table.name, picture(chart)?));
         }
+        all.rows.extend(rows);
     }
-    Ok((rows, drawings, pictures))
+    Ok(all)
 }
 
 /// The tables that are made of sections.
-fn sections(
+fn made(
     mbs: &Mbs,
     folder: &Path,
     quick: bool,

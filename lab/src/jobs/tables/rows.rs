@@ -61,11 +61,6 @@ impl Row {
     }
 }
 
-/// The rows of each table, in order.
-pub(crate) fn by_table(rows: &[Row]) -> impl Iterator<Item = (&'static Table, &[Row])> {
-    rows.chunk_by(|a, b| a.table.name == b.table.name).map(|rows| (rows[0].table, rows))
-}
-
 /// The sizes of the models of a table, ours and the report's; methods with the same ones are in one line.
 pub(crate) fn sizes(table: &Table, rows: &[Row]) -> Vec<String> {
     let mut groups: Vec<(Vec<&str>, String)> = Vec::new();
@@ -191,9 +186,6 @@ pub(crate) mod tests {
         assert_eq!(rows[2].outcome.reason(), "not built");
         assert_eq!(rows[2].report(), ["", ""]);
         assert_eq!(rows[3].report(), ["does not work", ""]);
-        let tables: Vec<_> =
-            by_table(&rows).map(|(table, rows)| (table.name, rows.len())).collect();
-        assert_eq!(tables, [("T1", 2), ("T2", 2)]);
     }
 
     #[test]
