@@ -1,6 +1,8 @@
 //! Mechanisms as plain numbers, which can be turned, scaled and written as scene text.
 
 use crate::gauntlet::vector::{Point, Turn, distance, plus};
+use mbs::core::effects::Value;
+use mbs::{BodyId, Effect, GROUND as FIXED, Vector3};
 
 /// The ground as a body; bodies count from 1.
 pub const GROUND: usize = 0;
@@ -36,25 +38,6 @@ pub struct Joint {
     pub axes: Vec<Point>,
 }
 
-/// An effect.
-#[derive(Debug, Clone, PartialEq)]
-pub enum Effect {
-    /// Spring and damper: bodies, points, stiffness, damping, free length.
-    Spring([usize; 2], [Point; 2], [f64; 3]),
-    /// One-sided contact: bodies, points, stiffness, damping, clearance.
-    Bumper([usize; 2], [Point; 2], [f64; 3]),
-    /// Piecewise polynomial tension by length: bodies, points, pieces.
-    Pieces([usize; 2], [Point; 2], Vec<Vec<f64>>),
-    /// Torsion spring: joint, stiffness, damping, free value.
-    Torsion(usize, [f64; 3]),
-    /// Ends of a joint's range: joint, lower, upper, stiffness, damping.
-    Limit(usize, [f64; 4]),
-    /// Dry friction: joint, force or torque of sliding.
-    Friction(usize, f64),
-    /// A constant torque in a joint.
-    Torque(usize, f64),
-}
-
 /// A mechanism with the start of its motion.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Draft {
@@ -66,10 +49,8 @@ pub struct Draft {
     pub bodies: Vec<Body>,
     /// Joints.
     pub joints: Vec<Joint>,
-    /// Joint, value, rate at the start.
-    pub starts: Vec<(usize, Option<f64>, Option<f64>)>,
-    /// Joint, amplitude, frequency [Hz], phase of a guide.
-    pub guides: Vec<(usize, [f64; 3])>,
+    /// Joint, rate at the start.
+    pub rates: Vec<(usize, f64)>,
     /// Effects.
     pub effects: Vec<Effect>,
     /// Points of bodies whose motion is looked at.
@@ -85,8 +66,7 @@ impl Draft {
             gravity: [0.0, -9.81, 0.0],
             bodies: Vec::new(),
             joints: Vec::new(),
-            starts: Vec::new(),
-            guides: Vec::new(),
+            rates: Vec::new(),
             effects: Vec::new(),
             outputs: Vec::new(),
         }
@@ -132,7 +112,19 @@ impl Draft {
 
     /// A joint starts at rest relative to nothing but this: with a rate [rad/s or m/s].
     pub fn rate(&mut self, joint: usize, rate: f64) {
-        self.starts.push((joint, None, Some(rate)));
+        self.rates.push((joint, rate));
+    }
+
+    /// A point for a scene of its dimension.
+    #[must_use]
+    pub fn vector(&self, x: Point) -> Vector3 {
+        if self.dimension == 2 { [x[0], x[1]].into() } else { x.into() }
+    }
+
+    /// Two ends of an effect.
+    #[must_use]
+    pub fn ends(&self, bodies: [usize; 2], points: [Point; 2]) -> [(BodyId, Vector3); 2] {
+        [0, 1].map(|i| (id(bodies[i]), self.vector(points[i])))
     }
 
     /// The motion of this point of a body is looked at.
@@ -149,10 +141,9 @@ impl Draft {
         };
         let of_joints = self.joints.iter().flat_map(|joint| joint.at.clone());
         let watched = self.outputs.iter().map(|(_, at)| *at);
-        let held = self.effects.iter().flat_map(|effect| match effect {
-            Effect::Spring(_, points, _)
-            | Effect::Bumper(_, points, _)
-            | Effect::Pieces(_, points, _) => points.to_vec(),
+        let values = self.effects.iter().flat_map(|effect| effect.kind.values());
+        let held = values.flat_map(|value| match value {
+            Value::Points(points) => points.map(|p| p.map(|x| x.to_f64())).to_vec(),
             _ => Vec::new(),
         });
         let places = self.bodies.iter().flat_map(of_body).chain(of_joints).chain(watched);
@@ -180,7 +171,7 @@ impl Draft {
         draft
     }
 
-    /// All of it turned about the origin.
+    /// All of it turned about the origin; there are no effects.
     #[must_use]
     pub fn turned(&self, turn: &Turn) -> Self {
         let mut draft = self.clone();
@@ -195,19 +186,10 @@ impl Draft {
             joint.at.iter_mut().chain(&mut joint.axes).for_each(|x| *x = turn.of(*x));
         }
         draft.outputs.iter_mut().for_each(|(_, at)| *at = turn.of(*at));
-        for effect in &mut draft.effects {
-            if let Effect::Spring(_, points, _)
-            | Effect::Bumper(_, points, _)
-            | Effect::Pieces(_, points, _) = effect
-            {
-                *points = points.map(|p| turn.of(p));
-            }
-        }
         draft
     }
 
-    /// The same mechanism in other units of length and mass (1 m is `length` of them); the second stays. Springs between
-    /// points go with it, other effects there must not be.
+    /// The same mechanism in other units of length and mass (1 m is `length` of them); the second stays. There are no effects.
     #[must_use]
     pub fn in_units(&self, length: f64, mass: f64) -> Self {
         let mut draft = self.clone();
@@ -224,15 +206,13 @@ impl Draft {
         }
         draft.joints.iter_mut().flat_map(|joint| &mut joint.at).for_each(|p| *p = scaled(*p));
         draft.outputs.iter_mut().for_each(|(_, at)| *at = scaled(*at));
-        for effect in &mut draft.effects {
-            if let Effect::Spring(_, points, [stiffness, damping, free]) = effect {
-                *points = points.map(scaled);
-                (*stiffness, *damping, *free) =
-                    (*stiffness * mass, *damping * mass, *free * length);
-            }
-        }
         draft
     }
+}
+
+/// The ground is 0, bodies count from 1.
+pub(super) fn id(k: usize) -> BodyId {
+    k.checked_sub(1).map_or(FIXED, BodyId::Body)
 }
 
 /// A bar between two places, a twentieth as thick as long.

@@ -3,9 +3,10 @@
 use super::bases::{chain, four_bar};
 use super::common::{case, decades, others, time, twin};
 use crate::gauntlet::case::{Case, Truth};
-use crate::gauntlet::draft::{Draft, Effect, GROUND};
+use crate::gauntlet::draft::{Draft, GROUND};
 use crate::gauntlet::vector::plus;
 use mbs::scene_file::Dice;
+use mbs::{BodyId, Effect, JointId, Number, PolynomialPiece, Vector3};
 
 /// Steps of the runs, from long to short [s]: half decades.
 const STEPS: [f64; 4] = [3e-3, 1e-3, 3e-4, 1e-4];
@@ -20,7 +21,8 @@ pub(super) fn bouncing(dice: &mut Dice) -> Case {
     let body = slider(&mut draft, [0.0, 1.0 + height, 0.0], mass);
     // the spring's length in the reference position is 1 + height, it begins to push at 1
     let points = [[0.0; 3], [0.0, 1.0 + height, 0.0]];
-    draft.effects.push(Effect::Bumper([GROUND, body], points, [stiffness, 0.0, height]));
+    let ends = draft.ends([GROUND, body], points);
+    draft.effects.push(Effect::bumper(ends, stiffness, 0.0, height));
     draft.watch(body, points[1]);
     let truth =
         Truth::Closed(Box::new(move |t| vec![0.0, 1.0 + bounce(height, stiffness / mass, t)]));
@@ -57,6 +59,17 @@ fn slider(draft: &mut Draft, at: [f64; 3], mass: f64) -> usize {
     body
 }
 
+/// A spring of a stiffness, with a damping and a free length.
+fn spring(ends: [(BodyId, Vector3); 2], [stiffness, damping, free]: [f64; 3]) -> Effect {
+    Effect::spring_damper(ends, stiffness, damping, free)
+}
+
+/// A piece of a tension by length.
+fn piece(lower: f64, upper: f64, coefficients: &[f64]) -> PolynomialPiece<Number> {
+    let coefficients = coefficients.iter().map(|x| Number::from(*x)).collect();
+    PolynomialPiece { lower: lower.into(), upper: upper.into(), coefficients }
+}
+
 /// A quarter of a car that jumps: its wheel leaves the ground and comes down again.
 pub(super) fn wheel(dice: &mut Dice) -> Case {
     let mut draft = Draft::planar();
@@ -64,9 +77,10 @@ pub(super) fn wheel(dice: &mut Dice) -> Case {
     let car = slider(&mut draft, [0.0, 0.8, 0.0], dice.between(200.0, 400.0));
     let points = [[0.0, 0.3, 0.0], [0.0, 0.8, 0.0]];
     let suspension = [decades(dice, 4.0, 4.7), decades(dice, 2.0, 3.3), 0.6];
-    draft.effects.push(Effect::Spring([wheel, car], points, suspension));
+    draft.effects.push(spring(draft.ends([wheel, car], points), suspension));
     let tire = [decades(dice, 5.0, 5.7), dice.between(0.0, 300.0), 0.0];
-    draft.effects.push(Effect::Bumper([GROUND, wheel], [[0.0; 3], points[0]], tire));
+    let ends = draft.ends([GROUND, wheel], [[0.0; 3], points[0]]);
+    draft.effects.push(Effect::bumper(ends, tire[0], tire[1], tire[2]));
     draft.rate(0, dice.between(1.0, 3.0));
     draft.rate(1, dice.between(0.5, 2.0));
     draft.watch(wheel, points[0]);
@@ -80,23 +94,20 @@ pub(super) fn latch(dice: &mut Dice) -> Case {
     let mass = dice.between(0.5, 2.0);
     let body = slider(&mut draft, [0.0, 2.0, 0.0], mass);
     let driver = decades(dice, 1.5, 2.5);
-    draft.effects.push(Effect::Spring(
-        [GROUND, body],
-        [[0.0, 4.0, 0.0], [0.0, 2.0, 0.0]],
-        [driver, dice.between(0.0, 2.0), 2.5],
-    ));
+    let ends = draft.ends([GROUND, body], [[0.0, 4.0, 0.0], [0.0, 2.0, 0.0]]);
+    draft.effects.push(spring(ends, [driver, dice.between(0.0, 2.0), 2.5]));
     // tension by length: nothing, a pull to the middle of the catch, nothing; continuous
     let (at, half, stiffness) = (1.5, 0.05, decades(dice, 2.0, 4.5));
     let line = |slope: f64, zero: f64| [-slope * zero, slope];
-    let piece = |lower: f64, upper: f64, [c0, c1]: [f64; 2]| vec![lower, upper, c0, c1];
     let pieces = vec![
-        vec![0.0, at - 2.0 * half, 0.0],
-        piece(at - 2.0 * half, at - half, line(-stiffness, at - 2.0 * half)),
-        piece(at - half, at + half, line(stiffness, at)),
-        piece(at + half, at + 2.0 * half, line(-stiffness, at + 2.0 * half)),
-        vec![at + 2.0 * half, 9.0, 0.0],
+        piece(0.0, at - 2.0 * half, &[0.0]),
+        piece(at - 2.0 * half, at - half, &line(-stiffness, at - 2.0 * half)),
+        piece(at - half, at + half, &line(stiffness, at)),
+        piece(at + half, at + 2.0 * half, &line(-stiffness, at + 2.0 * half)),
+        piece(at + 2.0 * half, 9.0, &[0.0]),
     ];
-    draft.effects.push(Effect::Pieces([GROUND, body], [[0.0; 3], [0.0, 2.0, 0.0]], pieces));
+    let ends = draft.ends([GROUND, body], [[0.0; 3], [0.0, 2.0, 0.0]]);
+    draft.effects.push(Effect::polynomial_spring(ends, pieces));
     draft.rate(0, dice.between(-2.0, 1.0));
     draft.watch(body, [0.0, 2.0, 0.0]);
     others(&draft, "latch", time(dice, &STEPS, 1.5))
@@ -118,11 +129,12 @@ pub(super) fn breaking(dice: &mut Dice) -> Case {
     let (breaks, gone) = (length + elongation, length + 1.5 * elongation);
     let slope = load / (0.5 * elongation);
     let pieces = vec![
-        vec![0.01, breaks, -stiffness * length, stiffness],
-        vec![breaks, gone, slope * gone, -slope],
-        vec![gone, 90.0, 0.0],
+        piece(0.01, breaks, &[-stiffness * length, stiffness]),
+        piece(breaks, gone, &[slope * gone, -slope]),
+        piece(gone, 90.0, &[0.0]),
     ];
-    draft.effects.push(Effect::Pieces([1, second], [end, from], pieces));
+    let ends = draft.ends([1, second], [end, from]);
+    draft.effects.push(Effect::polynomial_spring(ends, pieces));
     draft.watch(second, plus(from, 1.0, [0.0, -0.8, 0.0]));
     others(&draft, "link", time(dice, &STEPS, 0.5))
 }
@@ -135,7 +147,7 @@ pub(super) fn limits(dice: &mut Dice) -> Case {
         let stiffness = decades(dice, 2.0, 6.0);
         let ends = [-dice.between(0.05, 0.6), dice.between(0.05, 0.6)];
         let damping = if dice.once_in(2) { 0.0 } else { dice.between(0.1, 3.0) };
-        draft.effects.push(Effect::Limit(joint, [ends[0], ends[1], stiffness, damping]));
+        draft.effects.push(Effect::limit(JointId::new(joint), ends, stiffness, damping));
     }
     others(&draft, "ends", time(dice, &STEPS, 0.8))
 }
@@ -146,7 +158,7 @@ pub(super) fn friction(dice: &mut Dice) -> Case {
     let mut draft = chain(dice, n);
     for joint in 0..n {
         let torque = decades(dice, -1.5, 1.0);
-        draft.effects.push(Effect::Friction(joint, torque));
+        draft.effects.push(Effect::friction(JointId::new(joint), torque, 1e-3));
     }
     others(&draft, "friction", time(dice, &STEPS, 0.8))
 }
@@ -166,7 +178,8 @@ pub(super) fn contact(dice: &mut Dice) -> Case {
     draft.rate(1, dice.between(-1.0, 0.5));
     let stiffness = decades(dice, 3.0, 7.0);
     let clearance = 0.5 * apart;
-    draft.effects.push(Effect::Bumper([1, 2], ends, [stiffness, 0.0, clearance]));
+    let ends = draft.ends([1, 2], ends);
+    draft.effects.push(Effect::bumper(ends, stiffness, 0.0, clearance));
     others(&draft, "pendulums that meet", time(dice, &STEPS, 0.6))
 }
 
@@ -181,7 +194,7 @@ pub(super) fn stiff_hinge(dice: &mut Dice) -> Case {
     let mut plain = draft.clone();
     let hinge = draft.pin([body, beam], end);
     let stiffness = decades(dice, 3.0, 10.0);
-    draft.effects.push(Effect::Torsion(hinge, [stiffness, 0.0, 0.0]));
+    draft.effects.push(Effect::torsion_spring(JointId::new(hinge), stiffness, 0.0, 0.0));
     // else the beam would start with a motion of its own
     draft.rate(hinge, 0.0);
     draft.watch(beam, tip);
@@ -204,7 +217,7 @@ pub(super) fn stiff_chain(dice: &mut Dice) -> Case {
         let place = plus(at, 1.0, [0.0, -0.5, 0.0]);
         let body = slider(&mut draft, place, dice.between(0.5, 2.0));
         let stiffness = if k == 0 { decades(dice, 1.0, 3.0) } else { decades(dice, 3.0, 10.0) };
-        draft.effects.push(Effect::Spring([before, body], [at, place], [stiffness, 0.0, 0.5]));
+        draft.effects.push(spring(draft.ends([before, body], [at, place]), [stiffness, 0.0, 0.5]));
         draft.watch(body, place);
         (before, at) = (body, place);
     }
