@@ -1,6 +1,6 @@
 //! A checkup for people: findings in sentences, and the tables behind them.
 
-use crate::report::{Report, Section};
+use crate::report::{Report, Section, row, wrapped};
 use core::fmt::Write;
 use mbs::record::Provenance;
 use mbs_core::scene::{Entry, Scene};
@@ -10,6 +10,9 @@ use mbs_study::redundancy::UNCERTAIN;
 
 /// Largest displacement or turn that is rounding [m or rad]. Chosen, not tuned.
 const ROUNDING: f64 = 1e-12;
+
+/// Letters of a line of findings for a terminal.
+const WIDTH: usize = 110;
 
 /// Where an entry's key stands in the scene file.
 type Line<'a> = &'a dyn Fn(Entry, &str) -> Option<usize>;
@@ -58,29 +61,13 @@ fn sentences(c: &Checkup, line: Line<'_>) -> String {
         let place = place(finding, line).map_or_else(String::new, |l| format!(", line {l}"));
         // Writing into a String has nothing to fail on.
         let _ = writeln!(out, "\n{}: {}{place}", finding.severity.name(), finding.code);
-        wrap(&mut out, &finding.message, "  ");
+        let mut lines = wrapped(&finding.message, WIDTH);
         if !finding.remedy.is_empty() {
-            wrap(&mut out, &format!("mend: {}", finding.remedy), "  ");
+            lines.extend(wrapped(&format!("mend: {}", finding.remedy), WIDTH));
         }
+        lines.iter().for_each(|line| _ = writeln!(out, "  {line}"));
     }
     out
-}
-
-fn wrap(out: &mut String, text: &str, indent: &str) {
-    /// Most letters of a line of the report.
-    const WIDTH: usize = 110;
-    let mut line = String::new();
-    for word in text.split_whitespace() {
-        if !line.is_empty() && line.chars().count() + word.chars().count() >= WIDTH {
-            let _ = writeln!(out, "{indent}{line}");
-            line.clear();
-        }
-        if !line.is_empty() {
-            line.push(' ');
-        }
-        line += word;
-    }
-    let _ = writeln!(out, "{indent}{line}");
 }
 
 fn place(finding: &Finding, line: Line<'_>) -> Option<usize> {
@@ -97,19 +84,9 @@ fn findings(c: &Checkup, line: Line<'_>) -> Section {
             f.remedy.clone(),
         ]
     };
-    Section {
-        title: "Findings".to_owned(),
-        head: ["", "code", "line", "what was found", "what would mend it"]
-            .map(str::to_owned)
-            .to_vec(),
-        rows: c.findings.iter().map(row).collect(),
-        is_detail: true,
-        ..Section::default()
-    }
-}
-
-fn row(label: &str, value: String) -> Vec<String> {
-    vec![label.to_owned(), value]
+    let head = ["", "code", "line", "what was found", "what would mend it"];
+    let rows = c.findings.iter().map(row).collect();
+    Section { is_detail: true, ..Section::new("Findings", &head, rows) }
 }
 
 fn what(c: &Checkup) -> Section {
@@ -124,23 +101,18 @@ fn what(c: &Checkup) -> Section {
         (true, true) => format!("{}, uncertain", few(level.gap)),
     };
     let least = if level.gap.is_finite() { few(level.least) } else { "no loop".to_owned() };
-    Section {
-        title: "What it is".to_owned(),
-        rows: vec![
-            row("degrees of freedom", c.dof().to_string()),
-            row("natural coordinates", natural),
-            row(
-                "whole bodies",
-                format!(
-                    "{columns} velocities, {rows} equations of joints and guides of rank {rank}{}",
-                    redundant(rows - rank)
-                ),
-            ),
-            row("gap of the rank", gap),
-            row("smallest singular value that counts", least),
-        ],
-        ..Section::default()
-    }
+    let whole = format!(
+        "{columns} velocities, {rows} equations of joints and guides of rank {rank}{}",
+        redundant(rows - rank)
+    );
+    let rows = vec![
+        row("degrees of freedom", c.dof().to_string()),
+        row("natural coordinates", natural),
+        row("whole bodies", whole),
+        row("gap of the rank", gap),
+        row("smallest singular value that counts", least),
+    ];
+    Section::new("What it is", &[], rows)
 }
 
 fn redundant(n: usize) -> String {
@@ -153,12 +125,9 @@ fn sets(c: &Checkup) -> Option<Section> {
         let kind = if set.is_exact { set.nature.name() } else { "almost" };
         vec![set.redundant.to_string(), kind.to_owned(), joints.join(", ")]
     };
-    (!c.joint_level.sets.is_empty()).then(|| Section {
-        title: "Dependent sets".to_owned(),
-        head: ["redundant", "holds", "joints"].map(str::to_owned).to_vec(),
-        rows: c.joint_level.sets.iter().map(row).collect(),
-        ..Section::default()
-    })
+    let rows: Vec<_> = c.joint_level.sets.iter().map(row).collect();
+    let head = ["redundant", "holds", "joints"];
+    (!rows.is_empty()).then(|| Section::new("Dependent sets", &head, rows))
 }
 
 fn reactions(c: &Checkup) -> Section {
@@ -188,7 +157,7 @@ fn reactions(c: &Checkup) -> Section {
         "Components in global axes at the start. A run gives the smallest reactions and marks those that are not unique."
             .to_owned()
     };
-    Section { title: "Reactions".to_owned(), rows, caption, ..Section::default() }
+    Section { caption, ..Section::new("Reactions", &[], rows) }
 }
 
 /// Whatever the axes: how many forces and moments of a joint are open.
@@ -228,15 +197,14 @@ fn loops(c: &Checkup) -> Option<Section> {
     let more = c.loops.len().saturating_sub(MAX_ROWS);
     let more =
         if more > 0 { format!(" {more} more loops are in the JSON.") } else { String::new() };
-    (!c.loops.is_empty()).then(|| Section {
-        title: "Loops".to_owned(),
-        head: ["joints", "branch", "nearest to a straight line"].map(str::to_owned).to_vec(),
-        rows: c.loops.iter().take(MAX_ROWS).map(row).collect(),
+    let rows: Vec<_> = c.loops.iter().take(MAX_ROWS).map(row).collect();
+    let head = ["joints", "branch", "nearest to a straight line"];
+    (!rows.is_empty()).then(|| Section {
         caption: format!(
             "A sign for each corner of three places: the side to which the loop turns there about the joint's axis (o: no axis). \
              Two branches meet where a corner is straight.{more}"
         ),
-        ..Section::default()
+        ..Section::new("Loops", &head, rows)
     })
 }
 
@@ -269,12 +237,10 @@ fn motion(c: &Checkup) -> Option<Section> {
         rows.push(row("nearest singular position", "no loop, none".to_owned()));
     }
     Some(Section {
-        title: "Along the motion".to_owned(),
-        rows,
         caption: "Distance to a singular position: the smallest singular value of a part's equations over the largest; zero is singular. \
                   A crank that turns fully changes the side of its corners twice in each turn; a change elsewhere is a change of branch."
             .to_owned(),
-        ..Section::default()
+        ..Section::new("Along the motion", &[], rows)
     })
 }
 
@@ -310,16 +276,11 @@ fn start(scene: &Scene<f64>, c: &Checkup) -> Option<Section> {
     } else {
         "nothing".to_owned()
     };
-    Some(Section {
-        title: "The start".to_owned(),
-        rows: vec![
-            row("left open before assembly", format!("{} m (or rad)", size(s.residual_before))),
-            row("moved by assembly", moved),
-            row(
-                "left open after it",
-                format!("{position} m, {velocity} m/s, {acceleration} m/s^2 (or rad)"),
-            ),
-        ],
-        ..Section::default()
-    })
+    let left = format!("{position} m, {velocity} m/s, {acceleration} m/s^2 (or rad)");
+    let rows = vec![
+        row("left open before assembly", format!("{} m (or rad)", size(s.residual_before))),
+        row("moved by assembly", moved),
+        row("left open after it", left),
+    ];
+    Some(Section::new("The start", &[], rows))
 }

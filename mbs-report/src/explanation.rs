@@ -1,6 +1,6 @@
 //! An explanation as tables for people.
 
-use crate::report::{Report, Section};
+use crate::report::{Report, Section, row};
 use mbs::record::{PilotReport, Provenance};
 use mbs::words::stop_text;
 use mbs_scene::format::{duration, few, significant};
@@ -31,7 +31,6 @@ pub fn report(explanation: &Explanation, provenance: Provenance) -> Report {
 
 fn simulated(e: &Explanation) -> Section {
     let s = &e.simulated;
-    let row = |label: &str, value: String| vec![label.to_owned(), value];
     let kinds = s.joints.iter().map(|group| format!("{} {}", group.names.len(), group.kind));
     let guides = s.guides.iter().map(|guide| format!("{} ({})", guide.joint, guide.law));
     let mut rows = vec![
@@ -72,7 +71,7 @@ fn simulated(e: &Explanation) -> Section {
     rows.push(row("integrator", format!("{}, {}", e.integrator, e.precision)));
     let run = format!("{} s, step {} s", significant(e.duration), significant(e.step));
     rows.push(row("run", run));
-    Section { title: "What is simulated".to_owned(), rows, ..Section::default() }
+    Section::new("What is simulated", &[], rows)
 }
 
 /// Who could run the scene, and what a pilot measured of them.
@@ -85,13 +84,7 @@ fn candidates(choice: &PilotReport) -> Section {
         true => format!(". {}.", choice.reasons().join(". ")),
         false => ". With --error E or --deadline S a pilot measures them and chooses; without them auto means index-3.".to_owned(),
     };
-    Section {
-        title: "Choice of formulation".to_owned(),
-        head,
-        rows: table,
-        caption,
-        ..Section::default()
-    }
+    Section { head, caption, ..Section::new("Choice of formulation", &[], table) }
 }
 
 fn sizes(n: &Sizes) -> String {
@@ -143,45 +136,33 @@ fn effects(e: &Explanation) -> Option<Section> {
         };
         vec![(*kind).to_owned(), of(true), of(false)]
     };
-    (!e.effects.is_empty()).then(|| Section {
-        title: "Effects".to_owned(),
-        head: ["kind", "on", "switched off: costs nothing"].map(str::to_owned).to_vec(),
-        rows: kinds.iter().map(row).collect(),
-        ..Section::default()
-    })
+    let rows: Vec<_> = kinds.iter().map(row).collect();
+    let head = ["kind", "on", "switched off: costs nothing"];
+    (!rows.is_empty()).then(|| Section::new("Effects", &head, rows))
 }
 
 fn absent(e: &Explanation) -> Section {
-    Section {
-        title: "What is not simulated".to_owned(),
-        rows: e.absent.iter().map(|a| vec![a.text.clone(), "costs nothing".to_owned()]).collect(),
-        ..Section::default()
-    }
+    let rows = e.absent.iter().map(|a| row(&a.text, "costs nothing".to_owned()));
+    Section::new("What is not simulated", &[], rows.collect())
 }
 
 fn whole(prices: &EffectCosts) -> Section {
-    let row = |label: &str, value: String| vec![label.to_owned(), value];
     let completes = if prices.completed { "completes" } else { "stops early" };
+    let run = format!("{completes} (over the first {} s)", significant(prices.compared_duration));
+    let time = prices.seconds_per_step.map_or("not measured".into(), duration);
+    let rows = vec![
+        row("CPU time per step", time),
+        row("of it to watch the energy invariant", monitor(prices)),
+        row("run", run),
+        row("largest step", largest_step(&prices.largest_step)),
+    ];
     Section {
-        title: "The run with all effects".to_owned(),
-        rows: vec![
-            row(
-                "CPU time per step",
-                prices.seconds_per_step.map_or("not measured".into(), duration),
-            ),
-            row("of it to watch the energy invariant", monitor(prices)),
-            row(
-                "run",
-                format!("{completes} (over the first {} s)", significant(prices.compared_duration)),
-            ),
-            row("largest step", largest_step(&prices.largest_step)),
-        ],
         caption: format!(
             "Measured: {} steps from the start, least of {} repeats, in turn with those below; the largest step by doubling the \
              given one, up to 64 times or a tenth of the run.",
             prices.timed_steps, prices.repeats
         ),
-        ..Section::default()
+        ..Section::new("The run with all effects", &[], rows)
     }
 }
 
@@ -213,23 +194,20 @@ fn price_list(title: &str, list: &[EffectCost], prices: &EffectCosts) -> Option<
         ]
     });
     let head = ["left out", "kind", "fraction of a step", "iterations", "largest step", "the run"];
-    let head = head.into_iter().chain(["changes most"]);
+    let head = [&head[..], &["changes most"]].concat();
     let lengths = list.iter().map(|p| {
         let is_resolved = p.below_noise == Some(false);
         p.share.filter(|_| is_resolved).unwrap_or(0.0)
     });
     (!list.is_empty()).then(|| Section {
-        title: title.to_owned(),
         caption: format!(
             "Fraction of a step = 1 - CPU time per step without it / with all effects: what leaving it out saves, a changed number of \
              iterations per step (in brackets: with all effects) included. Below noise: not larger than the distance of the two best repeats. Changes: the first {} s, with \
              the given step, in percent of the output's own range.",
             significant(prices.compared_duration)
         ),
-        head: head.map(str::to_owned).collect(),
-        rows: rows.collect(),
         bars: Some((2, lengths.collect())),
-        is_detail: false,
+        ..Section::new(title, &head, rows.collect())
     })
 }
 
@@ -250,13 +228,8 @@ fn changes(prices: &EffectCosts) -> Option<Section> {
     };
     let rows: Vec<_> = prices.effects.iter().chain(&prices.kinds).flat_map(of_price).collect();
     let head = ["left out", "output", "largest difference", "range of the output", "of the range"];
-    (!rows.is_empty()).then(|| Section {
-        title: "What leaving an effect out changes".to_owned(),
-        head: head.map(str::to_owned).to_vec(),
-        rows,
-        is_detail: true,
-        ..Section::default()
-    })
+    let title = "What leaving an effect out changes";
+    (!rows.is_empty()).then(|| Section { is_detail: true, ..Section::new(title, &head, rows) })
 }
 
 fn name(price: &EffectCost) -> String {

@@ -71,19 +71,31 @@ impl Report {
                 writeln!(out, "<p class=\"stopped\" role=\"alert\">The run {}</p>", escape(error));
         }
         out += "</header>\n<main>\n";
-        let made = Section {
-            title: "How this was made".to_owned(),
-            rows: self.provenance.rows().map(|row| row.map(str::to_owned).to_vec()).collect(),
-            ..Section::default()
-        };
-        for section in self.sections.iter().chain([&made]) {
+        for section in self.sections.iter().chain([&Section::made(self.provenance.rows())]) {
             section.write_card(&mut out);
         }
         out + "</main>\n</body>\n</html>\n"
     }
 }
 
+/// A label and its value as a row.
+pub(crate) fn row(label: &str, value: String) -> Vec<String> {
+    vec![label.to_owned(), value]
+}
+
 impl Section {
+    /// A table, with the names of its columns or none.
+    pub(crate) fn new(title: &str, head: &[&str], rows: Vec<Vec<String>>) -> Self {
+        let head = head.iter().map(|&name| name.to_owned()).collect();
+        Self { title: title.to_owned(), head, rows, ..Self::default() }
+    }
+
+    /// How something was made.
+    pub(crate) fn made<'a>(rows: impl Iterator<Item = [&'a str; 2]>) -> Self {
+        let rows = rows.map(|[label, value]| row(label, value.to_owned()));
+        Self::new("How this was made", &[], rows.collect())
+    }
+
     fn write_text(&self, out: &mut String) {
         let head = Some(&self.head).filter(|head| !head.is_empty());
         let rows = || head.into_iter().chain(&self.rows);
@@ -95,7 +107,7 @@ impl Section {
             let line = cells.collect::<Vec<_>>().join("  ");
             let _ = writeln!(out, "  {}", line.trim_end());
         }
-        for line in wrapped(&self.caption) {
+        for line in wrapped(&self.caption, 100) {
             let _ = writeln!(out, "  {line}");
         }
     }
@@ -135,14 +147,12 @@ impl Section {
     }
 }
 
-/// A text in lines of at most 100 characters, where its words allow.
-fn wrapped(text: &str) -> Vec<String> {
-    /// Most letters of a line.
-    const WIDTH: usize = 100;
+/// A text in lines of fewer characters than a width, where its words allow.
+pub(crate) fn wrapped(text: &str, width: usize) -> Vec<String> {
     let mut lines: Vec<String> = Vec::new();
     for word in text.split_whitespace() {
         match lines.last_mut() {
-            Some(line) if line.chars().count() + word.chars().count() < WIDTH => {
+            Some(line) if line.chars().count() + word.chars().count() < width => {
                 line.push(' ');
                 line.push_str(word);
             }
@@ -189,9 +199,9 @@ mod tests {
 
     #[test]
     fn long_captions_are_wrapped_between_words() {
-        let lines = wrapped(&"word ".repeat(50));
+        let lines = wrapped(&"word ".repeat(50), 100);
         assert_eq!((lines.len(), lines[0].len()), (3, 99));
-        assert!(wrapped("").is_empty());
+        assert!(wrapped("", 100).is_empty());
     }
 
     #[test]

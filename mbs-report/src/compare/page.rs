@@ -47,13 +47,8 @@ pub fn comparison_page(comparison: &Comparison) -> String {
         }
         out
     };
-    let made = Section {
-        title: "How this was made".to_owned(),
-        rows: comparison.provenance.rows().map(|row| row.map(str::to_owned).to_vec()).collect(),
-        ..Section::default()
-    };
     let mut origin = String::new();
-    made.write_card(&mut origin);
+    Section::made(comparison.provenance.rows()).write_card(&mut origin);
     let is_rank: fn(&Section) -> bool = |s| s.title.starts_with("Fastest");
     let is_rest: fn(&Section) -> bool = |s| !s.title.starts_with("Fastest");
     fill(

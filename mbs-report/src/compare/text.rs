@@ -1,6 +1,6 @@
 //! A comparison as tables, for the terminal and the page.
 
-use crate::report::{Report, Section};
+use crate::report::{Report, Section, row};
 use mbs::record::Provenance;
 use mbs_scene::format::{rounded, significant};
 use mbs_study::compare::results::{Comparison, MethodRuns, RankLevel, RunEntry, Status};
@@ -42,25 +42,16 @@ impl Tables<'_> {
 
     /// What is compared, against what.
     fn basis(&self) -> Section {
-        let row = |label: &str, value: String| vec![label.to_owned(), value];
         let r = &self.0.reference;
+        let [compared, whole] = [self.0.compared, self.0.duration].map(significant);
+        let interval = significant(rounded(self.0.interval, 4));
+        let error = format!(
+            "largest over the outputs at {} instants, one every {interval} s, each output in its scale",
+            self.0.instants
+        );
         let mut rows = vec![
-            row(
-                "compared",
-                format!(
-                    "the first {} s of {} s",
-                    significant(self.0.compared),
-                    significant(self.0.duration)
-                ),
-            ),
-            row(
-                "error",
-                format!(
-                    "largest over the outputs at {} instants, one every {} s, each output in its scale",
-                    self.0.instants,
-                    significant(rounded(self.0.interval, 4))
-                ),
-            ),
+            row("compared", format!("the first {compared} s of {whole} s")),
+            row("error", error),
         ];
         let scale = |s: &mbs_study::compare::results::OutputScale| match s.scale {
             Some(size) => format!("{} {} {}", s.output, short(size), s.unit),
@@ -92,7 +83,7 @@ impl Tables<'_> {
             ),
         ));
         rows.extend(self.0.notes.iter().map(|note| row("note", note.clone())));
-        Section { title: "What is compared".to_owned(), rows, ..Section::default() }
+        Section::new("What is compared", &[], rows)
     }
 
     fn level(&self, level: &RankLevel) -> Section {
@@ -120,17 +111,12 @@ impl Tables<'_> {
                 level.apart
             ),
         };
-        let head =
-            ["rank", "formulation, integrator", "CPU time", "noise", "by"].map(str::to_owned);
-        Section { title, caption, head: head.to_vec(), rows, ..Section::default() }
+        let head = ["rank", "formulation, integrator", "CPU time", "noise", "by"];
+        Section { caption, ..Section::new(&title, &head, rows) }
     }
 
     fn by_method(&self) -> Section {
-        let mut head: Vec<String> =
-            ["method", "completed", "failed", "not run", "order", "rounding below"]
-                .map(str::to_owned)
-                .to_vec();
-        head.extend(self.0.ranking.iter().map(|level| format!("{:.0e}", level.error)));
+        let levels = self.0.ranking.iter().map(|level| format!("{:.0e}", level.error));
         let row = |m: &MethodRuns| {
             let count = |status| m.runs.iter().filter(|r| r.status == status).count().to_string();
             let fit = m.fit.clone().unwrap_or_default();
@@ -143,14 +129,13 @@ impl Tables<'_> {
             row.extend(m.at_error.iter().map(|t| t.map_or("-".to_owned(), seconds)));
             row
         };
-        Section {
-            title: "Methods".to_owned(),
-            caption: "Order: slope of the error against the mean step, over the runs on one line. Last columns: CPU time at that error."
-                .to_owned(),
-            head,
-            rows: self.0.methods.iter().map(row).collect(),
-            ..Section::default()
-        }
+        let head = ["method", "completed", "failed", "not run", "order", "rounding below"];
+        let rows = self.0.methods.iter().map(row).collect();
+        let mut section = Section::new("Methods", &head, rows);
+        section.head.extend(levels);
+        section.caption = "Order: slope of the error against the mean step, over the runs on one line. Last columns: CPU time at that error."
+            .to_owned();
+        section
     }
 
     /// Failures with their reasons; those of a method that say the same share a row.
@@ -174,10 +159,8 @@ impl Tables<'_> {
                 rows.push(vec![method.name.clone(), code, listed]);
             }
         }
-        let head =
-            ["method", "reason", "step or tolerance: where it stopped"].map(str::to_owned).to_vec();
-        let title = "Failures".to_owned();
-        (!rows.is_empty()).then(|| Section { title, head, rows, ..Section::default() })
+        let head = ["method", "reason", "step or tolerance: where it stopped"];
+        (!rows.is_empty()).then(|| Section::new("Failures", &head, rows))
     }
 
     /// What `auto` chooses.
@@ -208,12 +191,8 @@ impl Tables<'_> {
             "pilot",
             "stopped before",
         ];
-        (!self.0.choices.is_empty()).then(|| Section {
-            title: "Choice by measurement".to_owned(),
-            head: head.map(str::to_owned).to_vec(),
-            rows: self.0.choices.iter().map(row).collect(),
-            ..Section::default()
-        })
+        let rows: Vec<_> = self.0.choices.iter().map(row).collect();
+        (!rows.is_empty()).then(|| Section::new("Choice by measurement", &head, rows))
     }
 
     fn all_runs(&self) -> Section {
@@ -233,13 +212,7 @@ impl Tables<'_> {
         for method in &self.0.methods {
             rows.extend(method.runs.iter().map(|run| run_row(method, run)));
         }
-        Section {
-            title: "All runs".to_owned(),
-            head: head.map(str::to_owned).to_vec(),
-            rows,
-            is_detail: true,
-            ..Section::default()
-        }
+        Section { is_detail: true, ..Section::new("All runs", &head, rows) }
     }
 }
 
