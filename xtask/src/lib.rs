@@ -1,6 +1,7 @@
 //! Jobs of this repository: run a scene, run every check, cross-compile the `no_std` crates; and what the jobs of `lab` share with them.
 
 pub mod check;
+pub mod child;
 pub mod command;
 pub mod debian;
 mod documentation;

@@ -1,6 +1,7 @@
 //! `cargo xtask races`: the teams of mbs-parallel under ThreadSanitizer.
 
 use crate::process::{self, cargo, output, run};
+use crate::summary::{self, Outcome};
 use std::process::{Command, ExitCode};
 
 /// Stack of a thread: instrumented frames are large. In bytes.
@@ -8,16 +9,8 @@ const STACK: &str = "67108864";
 
 /// Runs the tests of the thread team, which has the lock-free part, with every access watched.
 pub fn races() -> ExitCode {
-    match watched() {
-        Ok(()) => {
-            eprintln!("races holds: no data race in the tests of the crew");
-            ExitCode::SUCCESS
-        }
-        Err(why) => {
-            eprintln!("races failed: {why}");
-            ExitCode::FAILURE
-        }
-    }
+    let remark = || Outcome::Passed("no data race in the tests of the crew".to_owned());
+    summary::ended("races", watched().map(|()| remark()))
 }
 
 /// The run. Sanitizers are an unstable option of the compiler, which `RUSTC_BOOTSTRAP` lets a stable one have.

@@ -51,26 +51,13 @@ fn four_bar(dimension: Dimension) -> Scene<f64> {
         joint("c", JointKind::Universal, [coupler, rocker], c, [x, y]),
         joint("d", JointKind::Revolute, [BodyId::Ground, rocker], d, [z, None]),
     ];
+    let joint = JointId::new(0);
+    let target = InitialTarget::Joint { joint, value: None, rate: Some(vec![2.0]) };
     Scene {
-        name: "four-bar".into(),
-        dimension,
         gravity: Some([0.0, -9.81, 0.0]),
-        duration: 1.0,
         bodies: vec![body("crank", [a, b]), body("coupler", [b, c]), body("rocker", [c, d])],
         joints,
-        initials: vec![InitialCondition {
-            target: InitialTarget::Joint {
-                joint: JointId::new(0),
-                value: None,
-                rate: Some(vec![2.0]),
-            },
-        }],
-        guides: vec![],
-        couplings: vec![],
-        road: Default::default(),
-        start: Default::default(),
-        effects: vec![],
-        outputs: vec![],
-        solver: Default::default(),
+        initials: vec![InitialCondition { target }],
+        ..Scene::empty("four-bar", dimension, 1.0)
     }
 }

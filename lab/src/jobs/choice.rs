@@ -1,11 +1,11 @@
 //! `cargo xtask choice`: does `mbs run --error` choose well? Every scene, at three errors, against the best of all methods.
 
-use crate::child::watched;
 use crate::format;
 use serde_json::Value;
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 use std::process::Command;
+use xtask::child::watched;
 use xtask::command::built;
 use xtask::process;
 

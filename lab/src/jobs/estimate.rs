@@ -1,11 +1,11 @@
 //! `cargo xtask estimate`: are the errors that `mbs run` states those that it has? Every scene, against a run of order 8 with a tolerance near rounding.
 
-use crate::child::watched;
 use serde_json::Value;
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 use std::process::Command;
+use xtask::child::watched;
 use xtask::command::built;
 use xtask::process;
 

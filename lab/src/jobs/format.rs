@@ -26,6 +26,18 @@ pub(crate) fn seconds(x: f64) -> String {
     format!("{x:.digits$}")
 }
 
+/// A time with three digits and its unit.
+pub(crate) fn time(seconds: f64) -> String {
+    let (number, unit) = match seconds {
+        x if x < 1e-6 => (x * 1e9, "ns"),
+        x if x < 1e-3 => (x * 1e6, "µs"),
+        x if x < 1.0 => (x * 1e3, "ms"),
+        x => (x, "s"),
+    };
+    let digits = if number < 10.0 { 2 } else { usize::from(number < 100.0) };
+    format!("{number:.digits$} {unit}")
+}
+
 /// A ratio with two or three digits.
 pub(crate) fn ratio(x: f64) -> String {
     match x {
@@ -45,6 +57,13 @@ pub(crate) fn ratios([low, high]: [f64; 2]) -> String {
     } else {
         format!("{} to {} times", ends[0], ends[1])
     }
+}
+
+/// The least and the largest of numbers; `None` where there are none.
+pub(crate) fn span(numbers: impl IntoIterator<Item = f64>) -> Option<[f64; 2]> {
+    let ends = [f64::INFINITY, f64::NEG_INFINITY];
+    let ends = numbers.into_iter().fold(ends, |[low, high], x| [low.min(x), high.max(x)]);
+    (ends[0] <= ends[1]).then_some(ends)
 }
 
 /// A table as Markdown.

@@ -2,7 +2,6 @@
 
 mod bench;
 mod chart;
-mod child;
 mod choice;
 mod counts;
 mod digits;

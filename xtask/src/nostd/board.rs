@@ -2,10 +2,11 @@
 
 use super::image::Image;
 use super::toolchain::Toolchain;
+use crate::child::watched;
 use crate::process::{self, cargo, output, run};
 use std::path::{Path, PathBuf};
-use std::process::{Command, Stdio};
-use std::time::{Duration, Instant};
+use std::process::Command;
+use std::time::Duration;
 
 /// The target of both boards.
 const TARGET: &str = "thumbv7em-none-eabihf";
@@ -62,27 +63,14 @@ pub(super) fn build(
 
 /// Runs an image on its board; what it printed.
 pub(super) fn emulate(board: &Board, elf: &Path) -> Result<String, String> {
-    let file = elf.with_extension("txt");
-    let to = std::fs::File::create(&file).map_err(|e| format!("{}: {e}", file.display()))?;
     let mut command = Command::new("qemu-system-arm");
     command.args(["-machine", board.machine, "-cpu", board.cpu, "-nographic"]);
     command.args(["-semihosting-config", "enable=on,target=native", "-icount", "shift=0"]);
-    command.arg("-kernel").arg(elf).stdin(Stdio::null()).stdout(to);
-    let mut child = command.spawn().map_err(|e| format!("qemu-system-arm: {e}"))?;
-    let begin = Instant::now();
-    let status = loop {
-        if let Some(status) = child.try_wait().map_err(|e| format!("qemu-system-arm: {e}"))? {
-            break status;
-        }
-        if begin.elapsed() > PATIENCE {
-            let _ = child.kill();
-            let _ = child.wait();
-            return Err(format!("{} does not come to its end", elf.display()));
-        }
-        std::thread::sleep(Duration::from_millis(50));
-    };
-    let text = std::fs::read_to_string(&file).map_err(|e| format!("{}: {e}", file.display()))?;
-    if status.success() { Ok(text) } else { Err(format!("{}: {status}\n{text}", elf.display())) }
+    let name = elf.display();
+    let out = watched(command.arg("-kernel").arg(elf), Some(PATIENCE))?;
+    let out = out.ok_or_else(|| format!("{name} does not come to its end"))?;
+    let text = String::from_utf8_lossy(&out.stdout).into_owned();
+    if out.status.success() { Ok(text) } else { Err(format!("{name}: {}\n{text}", out.status)) }
 }
 
 /// The same run on the host, in a program without the standard library.

@@ -3,29 +3,15 @@
 use crate::clock::STATES;
 use crate::exactly;
 use mbs_core::Real;
-use mbs_core::scene::{Body, BodyId, Dimension, Inertia, Joint, JointKind, Scene, SolverTable};
+use mbs_core::scene::{Body, BodyId, Dimension, Inertia, Joint, JointKind, Scene};
 
 /// Gravity in the plane, or none [m/s^2].
 pub(crate) const GRAVITY: f64 = 9.81;
 
 /// A scene without bodies.
 pub(crate) fn empty<T: Real>(dimension: Dimension, gravity: f64) -> Scene<T> {
-    Scene {
-        name: String::new(),
-        dimension,
-        gravity: Some([T::ZERO, exactly(-gravity), T::ZERO]),
-        duration: T::ONE,
-        bodies: Vec::new(),
-        joints: Vec::new(),
-        initials: Vec::new(),
-        guides: Vec::new(),
-        couplings: Vec::new(),
-        effects: Vec::new(),
-        road: Default::default(),
-        start: Default::default(),
-        outputs: Vec::new(),
-        solver: SolverTable::default(),
-    }
+    let gravity = Some([T::ZERO, exactly(-gravity), T::ZERO]);
+    Scene { gravity, ..Scene::empty("", dimension, T::ONE) }
 }
 
 /// Adds a rod from `from` along (c, s), 0.001 kg m² about its own axis; returns the body.

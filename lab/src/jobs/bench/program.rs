@@ -1,10 +1,10 @@
 //! The measuring program, and the lines that it prints.
 
-use crate::child::printed;
 use serde_json::Value;
 use std::path::PathBuf;
 use std::process::Command;
 use std::time::Duration;
+use xtask::child::printed;
 use xtask::process;
 
 /// The program, and the arguments of every run of it.

@@ -46,6 +46,16 @@ pub(crate) struct Series {
 }
 
 impl Series {
+    /// Points with a name, in a style and a look.
+    pub(crate) fn new(
+        name: impl Into<String>,
+        style: usize,
+        look: Look,
+        points: Vec<[f64; 2]>,
+    ) -> Self {
+        Self { name: name.into(), style, look, points }
+    }
+
     /// A piece of it for a legend: its line, its mark, or both.
     pub(crate) fn sample(&self) -> String {
         let has_line = matches!(self.look, Look::Line | Look::Both);
@@ -104,6 +114,11 @@ impl Chart {
     /// A chart without a shaded span.
     pub(crate) fn new(x: Axis, y: Axis, series: Vec<Series>) -> Self {
         Self { x, y, series, shade: None }
+    }
+
+    /// A chart with two logarithmic axes.
+    pub(crate) fn log_log(x: &str, y: &str, series: Vec<Series>) -> Self {
+        Self::new(Axis::new(x, Kind::Log), Axis::new(y, Kind::Log), series)
     }
 
     /// The series that a legend names.
@@ -184,7 +199,7 @@ mod tests {
     use super::*;
 
     fn series(look: Look, points: &[[f64; 2]]) -> Series {
-        Series { name: "a".into(), style: 1, look, points: points.to_vec() }
+        Series::new("a", 1, look, points.to_vec())
     }
 
     #[test]

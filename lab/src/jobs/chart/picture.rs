@@ -42,18 +42,14 @@ pub(crate) fn picture(chart: &Chart) -> Result<String, String> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::chart::{Axis, Kind, Look, Series};
+    use crate::chart::{Look, Series};
 
     #[test]
     fn a_picture_names_its_lines_and_needs_no_page() {
-        let series = |name: &str| Series {
-            name: name.into(),
-            style: 1,
-            look: Look::Both,
-            points: vec![[1.0, 1.0], [2.0, 3.0]],
-        };
-        let axis = || Axis::new("error [J]", Kind::Log);
-        let chart = Chart::new(axis(), axis(), ["a < b", "c", "d", "e", "f"].map(series).into());
+        let points = vec![[1.0, 1.0], [2.0, 3.0]];
+        let series = |name: &str| Series::new(name, 1, Look::Both, points.clone());
+        let series = ["a < b", "c", "d", "e", "f"].map(series);
+        let chart = Chart::log_log("error [J]", "error [J]", series.into());
         let svg = picture(&chart).unwrap();
         assert!(svg.starts_with("<svg xmlns=") && svg.contains("a &lt; b"));
         assert!(svg.contains("viewBox=\"0 0 960 392\"") && svg.contains("<svg y=\"52\" "));

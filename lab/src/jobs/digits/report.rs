@@ -2,7 +2,7 @@
 
 use super::cell::{self, CORRECTION, Cell, LADDERS, OURS, PAIRS, PRINTED, REFINED, SCENES, WAYS};
 use super::outcome::Run;
-use crate::chart::{Axis, Chart, Kind, Look, Series};
+use crate::chart::{Chart, Look, Series};
 use crate::format::{ratio, ratios, step};
 use crate::lab::section::Section;
 
@@ -87,13 +87,11 @@ fn drawing(cells: &[&Cell]) -> Option<(usize, Chart)> {
         let point = |cell: &&Cell| Some([cell.step(), cell.runs[style].completed()?.energy_error]);
         let mut points: Vec<_> = of(ladder).filter_map(point).collect();
         points.sort_by(|a, b| a[0].total_cmp(&b[0]));
-        Series { name: way.name.to_owned(), style, look: Look::Both, points }
+        Series::new(way.name, style, Look::Both, points)
     });
     let series: Vec<_> = series.collect();
-    let axis = |label: &str| Axis::new(label, Kind::Log);
     let n = series.iter().flat_map(|s| &s.points).count();
-    (n > 1)
-        .then(|| (ladder, Chart::new(axis("step [s]"), axis("largest energy error [J]"), series)))
+    (n > 1).then(|| (ladder, Chart::log_log("step [s]", "largest energy error [J]", series)))
 }
 
 /// What the runs of a scene say.

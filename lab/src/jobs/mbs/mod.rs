@@ -3,11 +3,11 @@
 pub(crate) mod columns;
 pub(crate) mod outcome;
 
-use crate::child::watched;
 use outcome::Outcome;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::time::Duration;
+use xtask::child::watched;
 use xtask::command::built;
 use xtask::process;
 

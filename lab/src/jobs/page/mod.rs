@@ -78,12 +78,8 @@ mod tests {
 
     #[test]
     fn a_figure_names_what_it_draws() {
-        let series = |name: &str, points: &[[f64; 2]]| Series {
-            name: name.into(),
-            style: 0,
-            look: Look::Line,
-            points: points.to_vec(),
-        };
+        let series =
+            |name: &str, points: &[[f64; 2]]| Series::new(name, 0, Look::Line, points.to_vec());
         let drawn = vec![series("a < b", &[[0.0, 1.0], [1.0, 2.0]]), series("absent", &[])];
         let chart = Chart::new(Axis::time(), Axis::new("z [m]", Kind::Linear), drawn);
         let figure = figure(&chart, "What it shows.").unwrap();

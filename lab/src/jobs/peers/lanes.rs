@@ -160,11 +160,11 @@ fn fastest<'a>(lanes: impl Iterator<Item = &'a Lane>) -> Option<&'a Lane> {
 }
 
 #[cfg(test)]
-mod tests {
+pub(super) mod tests {
     use super::*;
     use crate::peers::problems::selected;
 
-    fn line(algorithm: &str, seconds: f64, value: f64) -> Line {
+    pub(crate) fn line(algorithm: &str, seconds: f64, value: f64) -> Line {
         Line { algorithm: algorithm.into(), seconds, value, reference: "exact".into() }
     }
 

@@ -1,9 +1,9 @@
 //! The programs under lab/peers: where they are, what they are asked, what they say.
 
-use crate::child::printed;
 use std::path::PathBuf;
 use std::process::Command;
 use std::time::Duration;
+use xtask::child::printed;
 use xtask::process::{self, output};
 
 /// A program of ours or of a peer.

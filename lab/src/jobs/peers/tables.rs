@@ -4,7 +4,7 @@ use super::digits::{against, solvers};
 use super::lanes::{Lane, Measured};
 use super::problems::{ALGEBRAIC, DIGITS, Kind, LIMIT_ALGEBRAIC, limit_at};
 use super::programs::Who;
-use crate::format::{self, error, paragraph, ratio};
+use crate::format::{self, error, paragraph, ratio, time};
 use crate::lab::section::{self, Section};
 
 /// A table: its head and its rows.
@@ -35,16 +35,6 @@ const DIGITS_HEAD: [&str; 10] = [
     "over IDA",
 ];
 const ALL_HEAD: [&str; 5] = ["problem", "program", "time", "error", "right digits"];
-
-/// A time with three digits and its unit.
-fn time(seconds: f64) -> String {
-    let units = [(1e-6, 1e9, "ns"), (1e-3, 1e6, "us"), (1.0, 1e3, "ms"), (f64::INFINITY, 1.0, "s")];
-    let (_, scale, unit) =
-        units.into_iter().find(|(most, _, _)| seconds < *most).unwrap_or(units[3]);
-    let x = scale * seconds;
-    let digits = if x < 10.0 { 2 } else { usize::from(x < 100.0) };
-    format!("{x:.digits$} {unit}")
-}
 
 fn error_cell(lane: &Lane) -> String {
     lane.error.map_or_else(String::new, |[far, _]| error(far))
@@ -160,7 +150,7 @@ pub(super) fn sections(measured: &[Measured]) -> Vec<Section> {
     sections
 }
 
-/// What is required of each problem, and whether it holds.
+/// What is wanted of each problem, and whether it holds.
 fn claims(section: &mut Section, measured: &[Measured]) {
     for m in measured.iter().filter(|m| m.problem.kind != Kind::Digits) {
         let [limit, aim] = m.problem.limit;
@@ -174,7 +164,7 @@ fn claims(section: &mut Section, measured: &[Measured]) {
     }
 }
 
-/// What is required at equal digits, and whether it holds where both reach them.
+/// What is wanted at equal digits, and whether it holds where both reach them.
 fn claims_at_digits(section: &mut Section, measured: &Measured) {
     let solvers = solvers(measured);
     let mut claim = |digits: u8, name: &str, limit: f64| {
@@ -234,22 +224,12 @@ pub(super) fn csv(measured: &[Measured]) -> Result<Vec<u8>, String> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::peers::problems::selected;
-    use crate::peers::programs::Line;
-
-    fn line(algorithm: &str, seconds: f64, value: f64) -> Line {
-        Line { algorithm: algorithm.into(), seconds, value, reference: "exact".into() }
-    }
-
-    #[test]
-    fn times_keep_three_digits() {
-        let texts = [2.347e-7, 1.5e-6, 0.0123, 12.34].map(time);
-        assert_eq!(texts, ["235 ns", "1.50 us", "12.3 ms", "12.3 s"]);
-    }
+    use crate::peers::lanes::tests::line;
+    use crate::peers::problems::wanted;
 
     #[test]
     fn a_missed_limit_is_reported_and_a_missing_peer_too() {
-        let mut measured = Measured::new(selected(&["tree".to_owned()])[0]);
+        let mut measured = Measured::new(wanted(&["tree".to_owned()])[0]);
         let own = [line("reference", 0.0, 3.0), line("planar", 1.0, 3.0)];
         measured.take(Who::Ours, own.to_vec());
         let alone = text(&[measured.clone()], "remark");

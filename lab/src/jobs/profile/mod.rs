@@ -9,7 +9,6 @@ mod parts;
 mod table;
 
 use crate::bench::{Machine, RUNNER};
-use crate::child::printed;
 use crate::counts::missing_valgrind;
 use serde_json::Value;
 use std::fs;
@@ -18,6 +17,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 use std::time::Duration;
 use table::Profile;
+use xtask::child::printed;
 use xtask::process::{self, cargo, line, output};
 
 /// The five scenes of `scenes/` whose steps in index-3 take most time; the vehicle's steering ramps take as long as the last one, which

@@ -1,6 +1,6 @@
 //! Work and precision of a comparison as one picture: for each formulation the runs that no other of its runs beats.
 
-use crate::chart::{Axis, Chart, Kind, Look, Series};
+use crate::chart::{Chart, Look, Series};
 use serde_json::Value;
 
 /// The drawing of a comparison, from its JSON: in double precision, a line for each formulation with its integrator.
@@ -27,15 +27,14 @@ pub(super) fn chart(comparison: &Value) -> Chart {
             Some(line) => line.points.extend(points),
             None => {
                 let (style, points) = (series.len(), points.collect());
-                series.push(Series { name, style, look: Look::Both, points });
+                series.push(Series::new(name, style, Look::Both, points));
             }
         }
     }
     for line in &mut series {
         line.points = unbeaten(std::mem::take(&mut line.points));
     }
-    let axis = |label: &str| Axis::new(label, Kind::Log);
-    Chart::new(axis("true error, in the scale of each output [-]"), axis("CPU [s]"), series)
+    Chart::log_log("true error, in the scale of each output [-]", "CPU [s]", series)
 }
 
 /// The points with both a smaller time and a smaller error than no other, from the largest error.

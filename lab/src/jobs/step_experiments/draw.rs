@@ -27,13 +27,13 @@ pub(crate) fn style(formulation: &str) -> usize {
 
 /// A line.
 pub(crate) fn line(name: impl Into<String>, style: usize, points: Vec<[f64; 2]>) -> Series {
-    Series { name: name.into(), style, look: Look::Line, points }
+    Series::new(name, style, Look::Line, points)
 }
 
 /// A line with marks, its points in the order of x.
 pub(crate) fn curve(name: impl Into<String>, style: usize, mut points: Vec<[f64; 2]>) -> Series {
     points.sort_by(|a, b| a[0].total_cmp(&b[0]));
-    Series { name: name.into(), style, look: Look::Both, points }
+    Series::new(name, style, Look::Both, points)
 }
 
 /// The steps of a run over time; those in index 1 have marks of their own.
@@ -44,23 +44,13 @@ pub(crate) fn steps(record: &Record, name: &str, style: usize) -> Vec<Series> {
     };
     let all = record.points(|step| step.step);
     let index_1 = all.iter().copied().filter(is_index_1).collect();
-    let marks = Series {
-        name: "its steps in index 1".into(),
-        style: INDEX_1,
-        look: Look::Marks,
-        points: index_1,
-    };
+    let marks = Series::new("its steps in index 1", INDEX_1, Look::Marks, index_1);
     vec![line(name, style, all), marks]
 }
 
 /// A chart over time.
 pub(crate) fn over_time(label: &str, kind: Kind, series: Vec<Series>) -> Chart {
     Chart::new(Axis::time(), Axis::new(label, kind), series)
-}
-
-/// A chart with two logarithmic axes.
-pub(crate) fn log_log(x: &str, y: &str, series: Vec<Series>) -> Chart {
-    Chart::new(Axis::new(x, Kind::Log), Axis::new(y, Kind::Log), series)
 }
 
 /// Points of the runs that have both numbers.
@@ -93,7 +83,7 @@ pub(crate) fn work_precision(
         let style = if place == 0 { style(formulation) } else { OTHER + place - 1 };
         curve(format!("{formulation}, {rule}"), style, points(these, Run::seconds, &error))
     });
-    log_log("CPU [s]", label, series.collect())
+    Chart::log_log("CPU [s]", label, series.collect())
 }
 
 #[cfg(test)]

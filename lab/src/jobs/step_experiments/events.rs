@@ -1,9 +1,10 @@
 //! What it buys to end steps at contacts and at kinks of the road.
 
-use super::draw::{INDEX_1, INDEX_3, curve, log_log, points};
+use super::draw::{INDEX_1, INDEX_3, curve, points};
 use super::fit::{between, median, span};
 use super::reference::Watched;
 use super::rows::{HEAD, cell, row_with};
+use crate::chart::Chart;
 use crate::format::{self, error, ratio};
 use crate::lab::case::{Case, Rule};
 use crate::lab::section::Section;
@@ -85,7 +86,7 @@ fn scene(watched: &Watched, runs: &[Run], section: &mut Section) {
             });
             let series = vec![curve("events off", INDEX_1, off), curve("events on", INDEX_3, on)];
             section.figure(
-                &log_log("CPU [s]", label, series),
+                &Chart::log_log("CPU [s]", label, series),
                 &format!("{what} over CPU time.{compared}"),
             );
         };

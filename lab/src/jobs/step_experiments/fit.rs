@@ -1,5 +1,7 @@
 //! What points say: slopes, numbers between points, ranks, and whether errors fall.
 
+pub(crate) use crate::format::span;
+
 /// Slope of log y over log x by least squares; `None` for fewer than two points.
 pub(crate) fn slope(points: &[[f64; 2]]) -> Option<f64> {
     power(points).map(|power| power[0])
@@ -69,13 +71,6 @@ fn ranks(numbers: &[f64]) -> Vec<f64> {
 pub(crate) fn rises(points: &[[f64; 2]], floor: f64) -> Vec<f64> {
     let is_rise = |pair: &&[[f64; 2]]| pair[1][1] > floor && pair[1][1] > 2.0 * pair[0][1];
     points.windows(2).filter(is_rise).map(|pair| pair[1][0]).collect()
-}
-
-/// The least and the largest of numbers; `None` where there are none.
-pub(crate) fn span(numbers: impl IntoIterator<Item = f64>) -> Option<[f64; 2]> {
-    let ends = [f64::INFINITY, f64::NEG_INFINITY];
-    let ends = numbers.into_iter().fold(ends, |[low, high], x| [low.min(x), high.max(x)]);
-    (ends[0] <= ends[1]).then_some(ends)
 }
 
 fn is_positive(point: &&[f64; 2]) -> bool {

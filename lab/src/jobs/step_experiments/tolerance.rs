@@ -1,9 +1,10 @@
 //! What a tolerance buys: true error over tolerance, for the estimate of the error of a step, for the energy, and for both.
 
-use super::draw::{INDEX_1, INDEX_3, MULTI, curve, log_log, points};
+use super::draw::{INDEX_1, INDEX_3, MULTI, curve, points};
 use super::reference::{Reference, Watched};
 use super::rows::{HEAD, cell, row_with};
 use super::sight::{self, Sight};
+use crate::chart::Chart;
 use crate::chart::Series;
 use crate::format::{error, step};
 use crate::lab::case::{Case, Rule};
@@ -151,10 +152,10 @@ fn scene(
     };
     let sentences: Vec<_> = sights.iter().map(Sight::behaviour).collect();
     let caption = format!("True error over tolerance. {}", sentences.join(" "));
-    section.figure(&log_log("tolerance [-]", &label, draw(tolerance)), &caption);
+    section.figure(&Chart::log_log("tolerance [-]", &label, draw(tolerance)), &caption);
     let sentences: Vec<_> = sights[1..].iter().map(Sight::at_equal_time).collect();
     let caption = format!("True error over CPU time. {}", sentences.join(" "));
-    section.figure(&log_log("CPU [s]", &label, draw(Run::seconds)), &caption);
+    section.figure(&Chart::log_log("CPU [s]", &label, draw(Run::seconds)), &caption);
     let head = [&HEAD[..], &["true error"]].concat();
     let row = |run: &Run| row_with(run, [cell(run.true_error, error)]);
     section.behind("Every run", &head, runs.iter().map(row).collect());

@@ -16,11 +16,9 @@ pub(crate) type Line = (String, Vec<[f64; 2]>);
 /// The drawing of all lines, the first one, the finest, below the others.
 pub(crate) fn chart(history: &History, lines: Vec<Line>) -> Chart {
     let scaled = |[t, x]: [f64; 2]| [t, x * history.scale];
-    let series = |(i, (name, points)): (usize, Line)| Series {
-        name,
-        style: i.checked_sub(1).unwrap_or(FINEST),
-        look: Look::Line,
-        points: points.into_iter().map(scaled).collect(),
+    let series = |(i, (name, points)): (usize, Line)| {
+        let points = points.into_iter().map(scaled).collect();
+        Series::new(name, i.checked_sub(1).unwrap_or(FINEST), Look::Line, points)
     };
     let series = lines.into_iter().enumerate().map(series).collect();
     Chart::new(Axis::time(), Axis::new(history.label, Kind::FromZero), series)

@@ -2,7 +2,7 @@
 
 use super::report::Table;
 use super::rows::Row;
-use crate::chart::{Axis, Chart, Kind, Look, Series};
+use crate::chart::{Chart, Look, Series};
 
 /// What stands below the drawing.
 pub(crate) const CAPTION: &str = "Ours, from the rows above: CPU time of the stepping over the largest energy error, a mark for each step; \
@@ -14,16 +14,11 @@ pub(crate) fn chart(table: &Table, rows: &[Row]) -> Option<Chart> {
         let these = rows.iter().filter(|row| row.method.name == name);
         these.filter_map(|row| row.outcome.figures()).map(|f| [f.energy_error, f.seconds]).collect()
     };
-    let series = table.methods.iter().enumerate().map(|(style, method)| Series {
-        name: method.name.to_owned(),
-        style,
-        look: Look::Both,
-        points: points(method.name),
-    });
+    let series = table.methods.iter().enumerate();
+    let series = series.map(|(i, m)| Series::new(m.name, i, Look::Both, points(m.name)));
     let series: Vec<_> = series.collect();
     let n = series.iter().flat_map(|s| &s.points).count();
-    let axis = |label: &str| Axis::new(label, Kind::Log);
-    (n > 1).then(|| Chart::new(axis("largest energy error [J]"), axis("CPU [s]"), series))
+    (n > 1).then(|| Chart::log_log("largest energy error [J]", "CPU [s]", series))
 }
 
 #[cfg(test)]

@@ -2,7 +2,7 @@
 
 use super::super::measured::{Lane, Measured, Scene, number};
 use super::numbers::{average, by_size, count, percent, ratio, span, time};
-use crate::chart::{Axis, Chart, Kind, Look, Series};
+use crate::chart::{Chart, Look, Series};
 use crate::lab::section::Section;
 
 /// Seconds per step with one thread, in each formulation.
@@ -103,10 +103,9 @@ fn chart(measured: &Measured) -> Chart {
         let point = |scene: &&Scene| Some([scene.size("unknowns")?, scene.serial(name)?.seconds?]);
         let scenes = by_size(measured);
         let points = scenes.iter().filter_map(point).collect();
-        Series { name: name.clone(), style, look: Look::Dots, points }
+        Series::new(name, style, Look::Dots, points)
     });
-    let x = Axis::new("unknowns", Kind::Log);
-    Chart::new(x, Axis::new("time of a step [s]", Kind::Log), series.collect())
+    Chart::log_log("unknowns", "time of a step [s]", series.collect())
 }
 
 /// Sizes, and exact counts of a factorisation.

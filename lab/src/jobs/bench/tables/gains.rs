@@ -122,7 +122,7 @@ fn chart(measured: &Measured, several: &[usize]) -> Chart {
             Some([scene.size("unknowns")?, gain])
         };
         let points = by_size(measured).iter().filter_map(point).collect();
-        Series { name: format!("{n} threads"), style, look: Look::Dots, points }
+        Series::new(format!("{n} threads"), style, Look::Dots, points)
     });
     let x = Axis::new("unknowns", Kind::Log);
     Chart::new(x, Axis::new("speed-up", Kind::FromZero), series.collect())

@@ -45,8 +45,8 @@ mod tests {
     #[test]
     fn numbers_are_short() {
         assert_eq!(
-            [1.5e-9, 2.34e-5, 0.456, 12.0].map(time),
-            ["1.50 ns", "23.4 µs", "456 ms", "12.0 s"]
+            [1.5e-9, 2.347e-7, 1.5e-6, 2.34e-5, 0.0123, 0.456, 12.34].map(time),
+            ["1.50 ns", "235 ns", "1.50 µs", "23.4 µs", "12.3 ms", "456 ms", "12.3 s"]
         );
         assert_eq!([Some(1.0), Some(1234567.0), None].map(count), ["1", "1,234,567", ""]);
         assert_eq!([0.254, -0.004].map(percent), ["25 %", "0 %"]);

@@ -1,18 +1,7 @@
 //! Numbers as the tables write them.
 
 use super::super::measured::{Measured, Scene};
-
-/// A time with three digits and its unit.
-pub(super) fn time(seconds: f64) -> String {
-    let (number, unit) = match seconds {
-        x if x < 1e-6 => (x * 1e9, "ns"),
-        x if x < 1e-3 => (x * 1e6, "µs"),
-        x if x < 1.0 => (x * 1e3, "ms"),
-        x => (x, "s"),
-    };
-    let digits = if number < 10.0 { 2 } else { usize::from(number < 100.0) };
-    format!("{number:.digits$} {unit}")
-}
+pub(super) use crate::format::{span, time};
 
 /// A count with its thousands apart.
 pub(super) fn count(x: Option<f64>) -> String {
@@ -42,14 +31,6 @@ pub(super) fn ratio(x: Option<f64>) -> String {
 pub(super) fn percent(x: f64) -> String {
     // Without a minus on zero.
     format!("{:.0} %", (x * 100.0).round() + 0.0)
-}
-
-/// Least and largest of some numbers.
-pub(super) fn span(numbers: impl Iterator<Item = f64>) -> Option<[f64; 2]> {
-    numbers.fold(None, |span, x| {
-        let [low, high] = span.unwrap_or([x, x]);
-        Some([low.min(x), high.max(x)])
-    })
 }
 
 /// Scenes in the order of their unknowns.

@@ -1,10 +1,10 @@
 //! Programs that are started and waited for, and ended where they take too long.
 
+use crate::process;
 use std::io::Read;
 use std::process::{Command, Output, Stdio};
 use std::thread::{self, JoinHandle};
 use std::time::{Duration, Instant};
-use xtask::process;
 
 /// How often a program that may take too long is looked at.
 const PAUSE: Duration = Duration::from_millis(2);
@@ -14,10 +14,7 @@ const PAUSE: Duration = Duration::from_millis(2);
 /// # Errors
 ///
 /// Why it cannot be started or waited for.
-pub(crate) fn watched(
-    command: &mut Command,
-    limit: Option<Duration>,
-) -> Result<Option<Output>, String> {
+pub fn watched(command: &mut Command, limit: Option<Duration>) -> Result<Option<Output>, String> {
     let line = process::line(command);
     let failed = |e: std::io::Error| format!("`{line}`: {e}");
     let child = command.stdin(Stdio::null()).stdout(Stdio::piped()).stderr(Stdio::piped());
@@ -46,7 +43,7 @@ pub(crate) fn watched(
 /// # Errors
 ///
 /// What it says where it fails, or that it has taken longer than `limit`.
-pub(crate) fn printed(command: &mut Command, limit: Duration) -> Result<String, String> {
+pub fn printed(command: &mut Command, limit: Duration) -> Result<String, String> {
     let Some(Output { status, stdout, stderr }) = watched(command, Some(limit))? else {
         return Err(format!("took more than {} s to prepare and to step", limit.as_secs_f64()));
     };
