@@ -5,12 +5,13 @@ use crate::refusal::Refusal;
 use crate::run::stopped;
 use crate::say::{say, warn};
 use crate::status::STOPPED;
-use crate::table::{counted, fixed};
+use crate::table::fixed;
 use clap::{Args, ValueEnum};
 use mbs::core::scene::Scene;
 use mbs::folder::{Folder, WriteError, id};
 use mbs::record::Channel;
 use mbs::scene_file::SceneFile;
+use mbs::scene_file::format::counted;
 use mbs::{LeftOut, Names, Place, Search, StaticEquilibrium, StopError, words};
 use serde_json::{Value, json};
 use std::fmt::Write as _;
@@ -152,7 +153,7 @@ fn still(s: &StaticEquilibrium) -> String {
     let stable = match (s.unstable, s.neutral.unwrap_or(0)) {
         (None, _) => "unknown: it stands in a singular position".to_owned(),
         (Some(0), 0) => "yes".to_owned(),
-        (Some(0), n) => format!("yes; nothing holds it in {}", counted(n as u64, "direction")),
+        (Some(0), n) => format!("yes; nothing holds it in {}", counted(n, "direction")),
         (Some(n), _) => format!("no: {} away from it", grow(n)),
     };
     let mut text = format!("{}: static equilibrium\n", s.scene);
@@ -241,7 +242,7 @@ fn spectrum(m: &mbs::Modes) -> String {
     let mut text = format!(
         "{}: {} about its {}, {stable}\n",
         m.scene,
-        counted(m.dof as u64, "degree of freedom"),
+        counted(m.dof, "degree of freedom"),
         match m.place {
             Place::Equilibrium => "equilibrium",
             Place::Initial => "start",

@@ -145,12 +145,8 @@ impl Arguments {
             ("budget", unusual(self.budget, plain.budget)),
             ("reference", self.reference.as_ref().map(|path| path.display().to_string())),
         ];
-        let mut command = format!("mbs compare {}", self.scene.display());
-        for (key, value) in options {
-            if let Some(value) = value {
-                command.push_str(&format!(" --{key} {value}"));
-            }
-        }
+        let scene = self.scene.display();
+        let command = files::command_line(&format!("compare {scene}"), &options);
         let switches = [(self.no_maps, " --no-maps"), (self.choice, " --choice")];
         switches.into_iter().filter(|(is, _)| *is).fold(command, |text, (_, switch)| text + switch)
     }

@@ -73,7 +73,7 @@ pub(crate) fn main(arguments: &Arguments) -> ExitCode {
 
 /// Files, then JSON or text; the exit status says whether there is a fault.
 fn write_results(begun: &files::Begun, checkup: &Checkup, arguments: &Arguments) -> ExitCode {
-    let files::Begun { document, scene, settings, folder } = begun;
+    let files::Begun { document, scene, settings, .. } = begun;
     let options = [
         ("formulation", arguments.formulation.clone()),
         ("step", arguments.step.map(|x| x.to_string())),
@@ -82,21 +82,12 @@ fn write_results(begun: &files::Begun, checkup: &Checkup, arguments: &Arguments)
     let command = if arguments.still { "doctor --still" } else { "doctor" };
     let provenance = files::provenance((command, &arguments.scene), &options, settings);
     let line = |entry: Entry, key: &str| Some(document.place(entry, key).line);
-    let (page, mut text) = diagnosis(scene, checkup, &line, provenance);
-    let mut object = to_json(checkup, &line).to_string();
+    let (report, text) = diagnosis(scene, checkup, &line, provenance);
     let mut status = match checkup.worst() {
         Some(Severity::Fault) => ExitCode::from(STOPPED),
         _ => ExitCode::SUCCESS,
     };
-    if let Some(folder) = folder {
-        let (id, page) = (files::results_id(document, settings), page.page());
-        let (json, page) = (("doctor.json", &*object), ("doctor.html", &*page));
-        let written = files::object_and_page(folder, &id, json, page);
-        if let Some(whole) = Refusal::unless_lost(written, &mut status) {
-            object = whole;
-            let out = folder.path().display();
-            text.push_str(&format!("\nwrote doctor.json and doctor.html to {out}\n"));
-        }
-    }
-    say(if arguments.json { &object } else { &text }, status)
+    let whole = (to_json(checkup, &line).to_string(), &report);
+    let (object, wrote) = files::write_report(begun, "doctor", whole, &mut status);
+    say(&if arguments.json { object } else { text + &wrote }, status)
 }

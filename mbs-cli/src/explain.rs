@@ -108,18 +108,8 @@ fn write_results(
     let report = mbs_report::explanation(explanation, provenance);
     let error = explanation.error.as_ref();
     let mut status = if error.is_some() { ExitCode::from(STOPPED) } else { ExitCode::SUCCESS };
-    let (mut object, mut wrote) = (explanation.to_json(), String::new());
-    if let Some(folder) = &begun.folder {
-        let id = files::results_id(&begun.document, &begun.settings);
-        let page = report.page();
-        let (json, page) = (("explain.json", &*object), ("explain.html", &*page));
-        let written = files::object_and_page(folder, &id, json, page);
-        if let Some(whole) = Refusal::unless_lost(written, &mut status) {
-            object = whole;
-            let out = folder.path().display();
-            wrote = format!("\nwrote explain.json and explain.html to {out}\n");
-        }
-    }
+    let whole = (explanation.to_json(), &report);
+    let (object, wrote) = files::write_report(begun, "explain", whole, &mut status);
     let text = if arguments.json { object } else { report.text() + &wrote };
     let status = say(&text, status);
     if let Some(error) = error.filter(|_| !arguments.json) {

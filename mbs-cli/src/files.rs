@@ -11,6 +11,7 @@ use mbs::{Method, ResolvedMethod, SettingsError};
 use std::fs::File;
 use std::io::{self, Read};
 use std::path::Path;
+use std::process::ExitCode;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 /// Most bytes of a file that is read, unless larger ones are asked for. Chosen, not tuned.
@@ -142,16 +143,33 @@ pub(crate) fn results_id(document: &SceneFile, settings: &ResolvedMethod) -> Str
     id(&[document.text(), &format!("{same:?}")])
 }
 
-/// Replaces an object and its page.
-pub(crate) fn object_and_page(
-    folder: &Folder,
-    id: &str,
-    (name, object): (&str, &str),
-    (page_name, page): (&str, &str),
-) -> Result<String, WriteError> {
-    let mut part = folder.begin(id)?;
-    part.page(page_name, page)?;
-    part.finish(name, object)
+/// Replaces an object and its page in the directory, where there is one; gives the object as it is there, and what to say of it.
+pub(crate) fn write_report(
+    begun: &Begun,
+    name: &str,
+    (object, report): (String, &mbs_report::Report),
+    status: &mut ExitCode,
+) -> (String, String) {
+    let Some(folder) = &begun.folder else { return (object, String::new()) };
+    let [json, html] = ["json", "html"].map(|ending| format!("{name}.{ending}"));
+    let write = || {
+        let mut part = folder.begin(&results_id(&begun.document, &begun.settings))?;
+        part.page(&html, &report.page())?;
+        part.finish(&json, &object)
+    };
+    let out = folder.path().display();
+    match Refusal::unless_lost(write(), status) {
+        Some(whole) => (whole, format!("\nwrote {json} and {html} to {out}\n")),
+        None => (object, String::new()),
+    }
+}
+
+/// A command line with the options that were given.
+pub(crate) fn command_line(begin: &str, options: &[(&str, Option<String>)]) -> String {
+    let given = options.iter().filter_map(|(key, value)| Some((key, value.as_ref()?)));
+    given.fold(format!("mbs {begin}"), |line, (key, value)| {
+        line + format!(" --{key} {value}").trim_end()
+    })
 }
 
 /// How a result was made: the command with the options that were given.
@@ -160,14 +178,8 @@ pub(crate) fn provenance(
     options: &[(&str, Option<String>)],
     settings: &ResolvedMethod,
 ) -> Provenance {
-    let mut command = format!("mbs {command} {}", scene.display());
-    for (key, value) in options {
-        if let Some(value) = value {
-            command.push_str(format!(" --{key} {value}").trim_end());
-        }
-    }
     Provenance {
-        command,
+        command: command_line(&format!("{command} {}", scene.display()), options),
         precision: settings.precision.name().to_owned(),
         formulation: settings.formulation.name().to_owned(),
         integrator: settings.integrator.name().to_owned(),

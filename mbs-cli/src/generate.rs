@@ -131,13 +131,7 @@ impl Arguments {
             ("of", self.of.as_ref().map(|file| file.display().to_string())),
             ("spacing", self.spacing.map(|x| x.to_string())),
         ];
-        let mut command = format!("mbs generate {}", self.word());
-        for (key, value) in options {
-            if let Some(value) = value {
-                command += &format!(" --{key} {value}");
-            }
-        }
-        command
+        files::command_line(&format!("generate {}", self.word()), &options)
     }
 }
 

@@ -4,10 +4,11 @@ use crate::bar::bar;
 use crate::refusal::Refusal;
 use crate::say::{say, warn};
 use crate::status::STOPPED;
-use crate::{files, signals, table};
+use crate::{files, signals};
 use clap::Args;
 use indicatif::ProgressBar;
 use mbs::scene_file::SceneFile;
+use mbs::scene_file::format::counted;
 use mbs::{Method, words};
 use mbs_study::sweep::{Report, Study, StudyError, SweepError, Watch};
 use serde_json::json;
@@ -159,13 +160,14 @@ fn json(report: &Report, arguments: &Arguments) -> String {
 }
 
 fn text(report: &Report, out: &Path) -> String {
-    let n = |n: usize, what: &str| table::counted(n as u64, what);
-    let mut text = format!("{} of {} completed\n", report.completed, n(report.members, "member"));
+    let mut text =
+        format!("{} of {} completed\n", report.completed, counted(report.members, "member"));
     if report.resumed > 0 {
-        text += &format!("  {} finished by an earlier start\n", n(report.resumed, "member"));
+        text += &format!("  {} finished by an earlier start\n", counted(report.resumed, "member"));
     }
     for (code, (count, first, message)) in &report.failures {
-        text += &format!("  {} ended in {code}, first {first}: {message}\n", n(*count, "member"));
+        text +=
+            &format!("  {} ended in {code}, first {first}: {message}\n", counted(*count, "member"));
     }
     if report.resumed < report.members {
         let (wall, cpu) = (report.wall_seconds, report.cpu_seconds);
@@ -174,7 +176,7 @@ fn text(report: &Report, out: &Path) -> String {
             "  {} in all, {} of CPU time on {}: {share:.2} at a time\n",
             words::duration(wall),
             words::duration(cpu),
-            n(report.threads, "thread"),
+            counted(report.threads, "thread"),
         );
     }
     let names: Vec<_> =

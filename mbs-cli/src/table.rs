@@ -1,7 +1,7 @@
 //! The short table at the end of a run.
 
 use mbs::record::RunSummary;
-use mbs::scene_file::format::significant;
+use mbs::scene_file::format::{counted, significant};
 use mbs::{Outcome, words};
 use std::fmt::Write;
 use std::path::Path;
@@ -54,7 +54,7 @@ fn headline(s: &RunSummary) -> String {
         "{}: {formulation}{integrator}, {}, {} of {lengths} to t = {} s{}",
         s.scene,
         s.precision,
-        counted(s.steps, "step"),
+        counted(usize::try_from(s.steps).unwrap_or(usize::MAX), "step"),
         significant(s.end_time),
         if s.completed { "" } else { " (stopped)" }
     )
@@ -67,8 +67,8 @@ fn rows(s: &RunSummary) -> Vec<(&str, String)> {
             format!(
                 "{} ({}, {} of rank {})",
                 s.dof,
-                counted(s.coordinates as u64, "coordinate"),
-                counted(s.constraints as u64, "constraint"),
+                counted(s.coordinates, "coordinate"),
+                counted(s.constraints, "constraint"),
                 s.constraint_rank
             ),
         ),
@@ -104,13 +104,4 @@ pub(crate) fn fixed(x: f64) -> String {
         return "0.000000000".to_owned();
     }
     text
-}
-
-/// This many of something.
-pub(crate) fn counted(n: u64, what: &str) -> String {
-    match (n, what) {
-        (1, _) => format!("1 {what}"),
-        (_, "degree of freedom") => format!("{n} degrees of freedom"),
-        _ => format!("{n} {what}s"),
-    }
 }

@@ -1,14 +1,12 @@
 //! `mbs equilibrium` and `mbs modes` as their users meet them.
 
-use crate::{files, json, run, scene};
+use crate::{done, files, json, run, run_line, scene, written};
 use serde_json::Value;
 
 #[test]
 fn every_scene_has_an_equilibrium_that_is_reported_in_one_object() {
     for name in files::SCENES {
-        let output = run("equilibrium", &[&scene(name), "--json"]);
-        assert_eq!(output.status.code(), Some(0), "{name}");
-        let value = json(&output);
+        let value = done(&run("equilibrium", &[&scene(name), "--json"]));
         assert!(value["stable"].is_boolean(), "{name}: {value}");
         // Rounding of some ten parts of each force.
         assert!(value["relative_residual"].as_f64().is_some_and(|r| r < 1e-13), "{name}: {value}");
@@ -29,11 +27,9 @@ fn a_double_pendulum_hangs_and_its_first_joint_carries_all() {
 
 #[test]
 fn modes_are_written_as_a_table_and_as_json_and_to_a_file() {
-    let out = std::path::Path::new(env!("CARGO_TARGET_TMPDIR")).join("modes");
+    let out = files::scratch("modes");
     let file = scene("simple-pendulum");
-    let output = run("modes", &[&file, "--json", "--out", out.to_str().expect("a plain path")]);
-    assert_eq!(output.status.code(), Some(0));
-    let value = json(&output);
+    let value = done(&run_line(&format!("modes {file} --json --out {}", out.display())));
     let written = std::fs::read(out.join("modes.json")).expect("it was written");
     assert_eq!(serde_json::from_slice::<Value>(&written).expect("it is JSON"), value);
     assert_eq!((&value["at"], &value["stable"]), (&"equilibrium".into(), &true.into()));
@@ -50,9 +46,7 @@ fn modes_are_written_as_a_table_and_as_json_and_to_a_file() {
 fn what_cannot_be_done_has_status_two_and_malformed_requests_one() {
     let free = "[scene]\ndimension = 2\ngravity = [0.0, -9.81]\nduration = 1.0\n\n\
         [[body]]\nname = \"stone\"\nmass = 1.0\ncenter = [0.0, 0.0]\ninertia = 0.1\n";
-    let file = std::path::Path::new(env!("CARGO_TARGET_TMPDIR")).join("stone.toml");
-    std::fs::write(&file, free).expect("the directory is ours");
-    let file = file.to_str().expect("a plain path");
+    let file = &written("stone.toml", free)[..];
     let output = run("equilibrium", &[file, "--json"]);
     assert_eq!(output.status.code(), Some(2));
     let value = json(&output);
@@ -79,9 +73,7 @@ fn near_its_start_a_pendulum_stands_and_the_text_says_how_far_it_went() {
         [[joint]]\nname = \"pivot\"\nkind = \"revolute\"\nbodies = [\"ground\", \"rod\"]\nat = [0.0, 0.0]\n\n\
         [[effect]]\nname = \"rub\"\nkind = \"friction\"\njoint = \"pivot\"\ncoulomb = 0.5\n\n\
         [[initial]]\njoint = \"pivot\"\nvalue = 3.0\n";
-    let file = std::path::Path::new(env!("CARGO_TARGET_TMPDIR")).join("standing.toml");
-    std::fs::write(&file, pendulum).expect("the directory is ours");
-    let file = file.to_str().expect("a plain path");
+    let file = &written("standing.toml", pendulum)[..];
     let value = json(&run("equilibrium", &[file, "--near", "--json"]));
     assert_eq!((&value["stable"], &value["unstable_modes"]), (&false.into(), &1.into()), "{value}");
     let turn = value["moved"]["turn"]["size"].as_f64().expect("a number");

@@ -16,38 +16,15 @@ fn run(arguments: &[&str]) -> Output {
 }
 
 /// The keys of the contract.
-const KEYS: [&str; 23] = [
-    "scene",
-    "formulation",
-    "integrator",
-    "precision",
-    "dimension",
-    "coordinates",
-    "constraints",
-    "constraint_rank",
-    "dof",
-    "step",
-    "steps",
-    "completed",
-    "error",
-    "end_time",
-    "cpu_seconds",
-    "real_time_factor",
-    "worst_step_seconds",
-    "iterations",
-    "factorizations",
-    "energy",
-    "violation",
-    "outputs",
-    "chosen",
-];
+const KEYS: &str = "scene formulation integrator precision dimension coordinates constraints constraint_rank dof step steps completed \
+    error end_time cpu_seconds real_time_factor worst_step_seconds iterations factorizations energy violation outputs chosen";
 
 #[test]
 fn json_is_one_object_with_the_keys_of_the_contract() {
     let output = run(&[&scene("double-pendulum"), "--json", "--step", "1e-2"]);
     assert_eq!(status(&output), 0);
     let value = json(&output);
-    for key in KEYS {
+    for key in KEYS.split_whitespace() {
         assert!(value.get(key).is_some(), "{key}: {value}");
     }
     for key in ["initial", "max_error", "final_error"] {

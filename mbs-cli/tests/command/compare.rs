@@ -1,7 +1,7 @@
 //! Comparisons as their users meet them: true errors with their orders, failures beside the others, the same runs every time, and
 //! a journal that outlives a kill. Times are never asserted.
 
-use crate::{files, mbs, scene, text};
+use crate::{done as json, files, mbs, scene, text};
 use serde_json::Value;
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
@@ -17,11 +17,6 @@ fn compare(name: &str, arguments: &[&str]) -> Output {
     let mut command = mbs("compare");
     command.arg(scene(name)).args(["--repeats", "2"]).args(arguments);
     command.output().expect("the command is built")
-}
-
-fn json(output: &Output) -> Value {
-    assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
-    crate::json(output)
 }
 
 fn method<'a>(comparison: &'a Value, name: &str) -> &'a Value {

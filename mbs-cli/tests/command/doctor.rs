@@ -1,36 +1,18 @@
 //! `mbs doctor`: what the command says. No time is asserted.
 
-use crate::{json, run, scene, text};
+use crate::{done, files, run, run_line, scene, text, written};
 use serde_json::Value;
-use std::path::Path;
 
 #[test]
 fn the_command_gives_one_object_a_page_and_a_status() {
-    let out = Path::new(env!("CARGO_TARGET_TMPDIR")).join("doctor-out");
-    let _ = std::fs::remove_dir_all(&out);
+    let out = files::scratch("doctor-out");
     let scene = scene("spatial-four-bar");
-    let arguments = [&scene, "--json", "--duration", "0.2", "--out", &out.display().to_string()];
-    let output = run("doctor", &arguments);
-    assert_eq!(output.status.code(), Some(0), "doubts are no faults: {}", text(&output.stderr));
-    let value = json(&output);
-    for key in [
-        "scene",
-        "dimension",
-        "dof",
-        "worst",
-        "findings",
-        "position",
-        "natural",
-        "joint_level",
-        "dependent_sets",
-        "reactions",
-        "loops",
-        "shares_of_the_motion",
-        "massless",
-        "methods",
-        "motion",
-        "start",
-    ] {
+    // Doubts are no faults.
+    let line = format!("doctor {scene} --json --duration 0.2 --out {}", out.display());
+    let value = done(&run_line(&line));
+    let keys = "scene dimension dof worst findings position natural joint_level dependent_sets reactions loops shares_of_the_motion massless \
+                methods motion start";
+    for key in keys.split_whitespace() {
         assert!(value.get(key).is_some(), "{key}");
     }
     let joints = ["crank-pivot", "crank-pin", "rocker-pin", "rocker-pivot"];
@@ -52,12 +34,9 @@ fn the_command_gives_one_object_a_page_and_a_status() {
 
 #[test]
 fn a_scene_without_a_start_is_a_fault_and_one_that_cannot_be_read_is_refused() {
-    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("doctor-faults");
-    std::fs::create_dir_all(&folder).expect("made");
     let four_bar = std::fs::read_to_string(scene("four-bar")).expect("a scene");
-    let file = folder.join("contradicts.toml").display().to_string();
     let more = "\n[[initial]]\njoint = \"pivot-1\"\nrate = 1.0e3\n";
-    std::fs::write(&file, four_bar + more).expect("written");
+    let file = written("contradicts.toml", &(four_bar + more));
     let output = run("doctor", &[&file]);
     assert_eq!(output.status.code(), Some(2), "{}", text(&output.stdout));
     let told = text(&output.stdout);

@@ -1,16 +1,10 @@
 //! `mbs run --precision dd`: digits in, digits out.
 
-use crate::{run, scene, text};
+use crate::{done as json, run, scene, text, written};
 use mbs::core::Real;
 use mbs::core::real::DoubleDouble as Pair;
 use serde_json::Value;
 use std::path::PathBuf;
-use std::process::Output;
-
-fn json(output: &Output) -> Value {
-    assert!(output.status.success(), "{}", text(&output.stderr));
-    crate::json(output)
-}
 
 fn pair(text: &str) -> Pair {
     Pair::from_decimal(text).expect("a number")
@@ -75,9 +69,7 @@ fn andrews() -> String {
     text += &format!(
         "\n[[output]]\nname = \"pull\"\nbody = \"crank\"\n{end}\nquantity = \"acceleration\"\n"
     );
-    let path = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join("andrews-with-rates.toml");
-    std::fs::write(&path, text).expect("a file");
-    path.to_str().expect("a path").to_owned()
+    written("andrews-with-rates.toml", &text)
 }
 
 #[test]

@@ -1,14 +1,11 @@
 //! `mbs explain`: what it says of scenes. No time is asserted.
 
-use crate::{run, scene, text};
+use crate::{files, run, scene, text, written};
 use serde_json::Value;
-use std::path::{Path, PathBuf};
 
 /// The JSON object of a scene of the repository, by the command.
 fn json(name: &str, more: &[&str]) -> Value {
-    let output = run("explain", &[&[scene(name).as_str(), "--json"], more].concat());
-    assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
-    crate::json(&output)
+    crate::done(&run("explain", &[&[scene(name).as_str(), "--json"], more].concat()))
 }
 
 fn absences(value: &Value) -> Vec<&str> {
@@ -21,24 +18,9 @@ fn json_is_one_object_with_its_keys() {
     let value = json("double-pendulum", &["--step", "1e-2"]);
     let keys: Vec<&str> =
         value.as_object().expect("an object").keys().map(String::as_str).collect();
-    let wanted = [
-        "absent",
-        "choice",
-        "chosen",
-        "dimension",
-        "duration",
-        "effect_costs",
-        "effects",
-        "error",
-        "formulation",
-        "integrator",
-        "precision",
-        "prices",
-        "scene",
-        "simulated",
-        "step",
-    ];
-    assert_eq!(keys, wanted);
+    let wanted = "absent choice chosen dimension duration effect_costs effects error formulation integrator precision prices scene \
+                  simulated step";
+    assert_eq!(keys.join(" "), wanted);
     assert_eq!(
         (&value["formulation"], &value["chosen"]["formulation"]),
         (&"auto".into(), &"index-3".into())
@@ -105,8 +87,7 @@ fn guides_are_reported_and_leave_no_freedom() {
 
 #[test]
 fn files_are_written_and_the_page_stands_alone() {
-    let out: PathBuf = Path::new(env!("CARGO_TARGET_TMPDIR")).join("explain-files");
-    let _ = std::fs::remove_dir_all(&out);
+    let out = files::scratch("explain-files");
     let directory = out.to_str().expect("a plain path");
     let output = run("explain", &[&scene("andrews"), "--duration", "1e-3", "--out", directory]);
     assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
@@ -132,12 +113,11 @@ fn refusals_and_scenes_without_a_start_have_their_status() {
     let output = run("explain", &["no-such-scene.toml"]);
     assert_eq!(output.status.code(), Some(1));
 
-    let bad = Path::new(env!("CARGO_TARGET_TMPDIR")).join("explain-open-loop.toml");
     let far = std::fs::read_to_string(scene("guided-four-bar")).expect("it is there");
     // The crank is told to run away from where it is held.
     let start = "[[initial]]\njoint = \"rocker-pivot\"\nvalue = 2.0\n\n[solver]";
-    std::fs::write(&bad, far.replace("[solver]", start)).expect("it can be written");
-    let output = run("explain", &[bad.to_str().expect("a plain path"), "--json"]);
+    let bad = written("explain-open-loop.toml", &far.replace("[solver]", start));
+    let output = run("explain", &[&bad, "--json"]);
     assert_eq!(output.status.code(), Some(2), "{}", text(&output.stderr));
     let value = crate::json(&output);
     assert_eq!(value["error"]["code"], "cannot-assemble");

@@ -39,6 +39,25 @@ fn run(subcommand: &str, arguments: &[&str]) -> Output {
     mbs(subcommand).args(arguments).output().expect("the command is built")
 }
 
+/// The command line after `mbs`, run; no word of it has a space.
+fn run_line(line: &str) -> Output {
+    let words: Vec<&str> = line.split_whitespace().collect();
+    run(words[0], &words[1..])
+}
+
+/// The object of a command that has done what it was asked for.
+fn done(output: &Output) -> Value {
+    assert_eq!(status(output), 0, "{}", text(&output.stderr));
+    json(output)
+}
+
+/// A text of its own as a file of a test.
+fn written(name: &str, text: &str) -> String {
+    let file = std::path::Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
+    std::fs::write(&file, text).expect("the directory is ours");
+    plain(file)
+}
+
 fn status(output: &Output) -> i32 {
     output.status.code().expect("it ended by itself")
 }

@@ -1,32 +1,13 @@
 //! `mbs run --realtime`: files, JSON, exit status, refusals. On the system's clock measures are only looked for.
 
-use crate::{json, scene, status, text};
-use std::path::Path;
-use std::process::Output;
-
-fn run(arguments: &[&str]) -> Output {
-    crate::run("run", arguments)
-}
+use crate::{done, files, run, run_line, scene, status, text};
 
 #[test]
 fn the_command_has_an_object_realtime_and_a_line_for_each_overrun() {
-    let out = Path::new(env!("CARGO_TARGET_TMPDIR")).join("realtime-out");
-    let _ = std::fs::remove_dir_all(&out);
-    let output = run(&[
-        &scene("double-pendulum"),
-        "--realtime",
-        "--overrun",
-        "hold",
-        "--period",
-        "0.005",
-        "--duration",
-        "0.1",
-        "--json",
-        "--out",
-        out.to_str().expect("a path of plain letters"),
-    ]);
-    assert_eq!(status(&output), 0, "{}", text(&output.stderr));
-    let value = json(&output);
+    let out = files::scratch("realtime-out");
+    let pace = "--realtime --overrun hold --period 0.005 --duration 0.1";
+    let line = format!("run {} {pace} --json --out {}", scene("double-pendulum"), out.display());
+    let value = done(&run_line(&line));
     let realtime = &value["realtime"];
     for key in ["jitter", "duration"] {
         for of in ["p50", "p99", "max"] {
@@ -49,36 +30,15 @@ fn the_command_has_an_object_realtime_and_a_line_for_each_overrun() {
 }
 
 #[test]
-fn the_command_runs_in_pairs_of_doubles_and_degrades_what_is_named() {
-    let output = run(&[
-        &scene("double-pendulum"),
-        "--realtime",
-        "--precision",
-        "dd",
-        "--duration",
-        "0.05",
-        "--json",
-    ]);
-    assert_eq!(status(&output), 0, "{}", text(&output.stderr));
-    let value = json(&output);
+fn the_command_runs_in_pairs_of_doubles_and_degrades_what_it_is_told_to() {
+    let run = |name: &str, options: &str| {
+        done(&run_line(&format!("run {} --realtime --json {options}", scene(name))))
+    };
+    let value = run("double-pendulum", "--precision dd --duration 0.05");
     assert!(value["digits"].is_object() && value["realtime"]["periods"].is_number());
-    let output = run(&[
-        &scene("iltis-suspension"),
-        "--realtime",
-        "--overrun",
-        "degrade",
-        "--degrade",
-        "steps,damper",
-        "--step",
-        "1e-3",
-        "--period",
-        "4e-3",
-        "--duration",
-        "0.1",
-        "--json",
-    ]);
-    assert_eq!(status(&output), 0, "{}", text(&output.stderr));
-    let value = json(&output);
+    let degrade =
+        "--overrun degrade --degrade steps,damper --step 1e-3 --period 4e-3 --duration 0.1";
+    let value = run("iltis-suspension", degrade);
     let levels = value["realtime"]["levels"].as_array().expect("a ladder");
     assert_eq!(levels.len(), 3);
     assert_eq!(
@@ -100,9 +60,7 @@ fn the_command_refuses_what_is_no_pace() {
         (&["--realtime", "--overrun", "hold", "--quiet", "9"], "are for --overrun degrade"),
         (&["--realtime", "--overrun", "degrade", "--degrade", "wind"], "no effect `wind`"),
     ] {
-        let all: Vec<&str> =
-            [scene.as_str()].into_iter().chain(arguments.iter().copied()).collect();
-        let output = run(&all);
+        let output = run("run", &[&[scene.as_str()], arguments].concat());
         let text = text(&output.stderr);
         assert_eq!(status(&output), 1, "{arguments:?}: {text}");
         assert!(text.contains(word), "{arguments:?}: {text}");

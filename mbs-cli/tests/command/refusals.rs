@@ -1,7 +1,6 @@
 //! Numbers and tables that cannot be meant are refused with the true reason, and a hint that works.
 
-use crate::{files, run, scene, status, text};
-use std::path::PathBuf;
+use crate::{run, run_line, scene, status, text, written};
 
 /// Runs the double pendulum with some options, which are refused; its message.
 fn refused(arguments: &[&str]) -> String {
@@ -85,22 +84,10 @@ fn the_help_says_what_the_options_of_radau5_mean() {
 
 /// A table for a pendulum, and what `mbs compare` makes of it.
 fn compared(name: &str, table: &str) -> (i32, String) {
-    let out: PathBuf = files::scratch(&format!("tables-{name}"));
-    std::fs::create_dir_all(&out).expect("made");
-    let file = out.join("ref.csv");
-    std::fs::write(&file, table).expect("written");
-    let arguments = [
-        "--reference",
-        file.to_str().expect("UTF-8"),
-        "--duration",
-        "1",
-        "--repeats",
-        "2",
-        "--no-maps",
-    ];
-    let more = ["--formulation", "index-3", "--precision", "f64", "--steps", "1e-2,5e-3"];
-    let output =
-        run("compare", &[&[&scene("simple-pendulum")[..]], &arguments[..], &more[..]].concat());
+    let (scene, file) = (scene("simple-pendulum"), written(&format!("{name}-ref.csv"), table));
+    let output = run_line(&format!(
+        "compare {scene} --reference {file} --duration 1 --repeats 2 --no-maps --formulation index-3 --precision f64 --steps 1e-2,5e-3"
+    ));
     (status(&output), text(&output.stdout) + &text(&output.stderr))
 }
 
@@ -128,6 +115,9 @@ fn a_table_that_no_method_comes_near_is_not_verified_and_nothing_is_ranked() {
     let rows: String = (1..=10).map(|k| format!("0.{k:02},{}.25,-3.5\n", k % 3)).collect();
     let (status, told) = compared("invented", &format!("t,mass.x,mass.y\n{rows}"));
     assert_eq!(status, 2, "{told}");
-    assert!(told.contains("NOT verified") && told.contains("differ from ref.csv by"), "{told}");
+    assert!(
+        told.contains("NOT verified") && told.contains("differ from invented-ref.csv by"),
+        "{told}"
+    );
     assert!(!told.contains("Fastest at"), "{told}");
 }

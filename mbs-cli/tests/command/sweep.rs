@@ -1,7 +1,7 @@
 //! Sweeps as their users meet them: the same table whatever the threads, failures beside the others, and a journal that outlives
 //! a kill.
 
-use crate::{files, json, scene, status};
+use crate::{files, json, plain, run_line, scene, status};
 use serde_json::Value;
 use std::path::{Path, PathBuf};
 use std::process::Output;
@@ -106,14 +106,8 @@ fn members_that_fail_keep_their_rows_and_leave_the_others() {
     );
     assert!(rows[4].contains("false,"), "{}", rows[4]);
     let file = out.join("sweep.toml");
-    let again = sweep(&[
-        &scene("double-pendulum"),
-        file.to_str().unwrap(),
-        "--out",
-        out.to_str().unwrap(),
-        "--duration",
-        "1",
-    ]);
+    let (scene, file) = (scene("double-pendulum"), file.display());
+    let again = run_line(&format!("sweep {scene} {file} --out {} --duration 1", out.display()));
     assert_eq!(status(&again), 2);
     let text = String::from_utf8_lossy(&again.stdout).into_owned();
     assert!(
@@ -150,18 +144,9 @@ fn a_process_that_is_killed_loses_no_finished_member() {
     let text = MASSES.replace("samples = 12", "samples = 400");
     let file = out.join("sweep.toml");
     std::fs::write(&file, &text).unwrap();
-    let scene = scene("double-pendulum");
-    let arguments = [
-        &scene,
-        file.to_str().unwrap(),
-        "--out",
-        out.to_str().unwrap(),
-        "--json",
-        "--duration",
-        "1",
-    ];
+    let [scene, file, place] = [scene("double-pendulum"), plain(file), plain(out.clone())];
     let mut child = crate::mbs("sweep")
-        .args(arguments)
+        .args([&scene, &file, "--out", &place, "--json", "--duration", "1"])
         .stdout(std::process::Stdio::null())
         .spawn()
         .expect("the command is built");
@@ -212,8 +197,7 @@ fn refusal(text: &str, more: &[&str]) -> String {
     std::fs::write(&file, text).expect("the scratch directory is ours");
     let results = out.join("results");
     let scene = scene("double-pendulum");
-    let plain = |path: &Path| path.to_str().expect("UTF-8").to_owned();
-    let (file, directory) = (plain(&file), plain(&results));
+    let (file, directory) = (plain(file), plain(results.clone()));
     let fixed = [scene.as_str(), &file, "--out", &directory];
     let output = sweep(&[&fixed, more].concat());
     let told = String::from_utf8_lossy(&output.stderr).into_owned();
