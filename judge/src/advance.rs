@@ -67,7 +67,7 @@ impl Mechanism {
             // a rotation vector is followed by its nearness alone
             if (1..3).contains(&turning.len()) {
                 let rows = now.coordinates(j);
-                turning.iter().zip(&mut of).for_each(|(&i, x)| *x = rows[i].rate(&places));
+                rows[turning].iter().zip(&mut of).for_each(|(row, x)| *x = row.rate(&places));
             }
             rates.extend(of);
         }

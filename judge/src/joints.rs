@@ -5,6 +5,7 @@ use crate::scene::{Joint, Kind};
 use crate::vector::{
     Vector, across, add, compose, conjugate, cross, dot, logarithm, norm, scale, sub, unit,
 };
+use core::ops::Range;
 
 const EX: Vector = [1.0, 0.0, 0.0];
 const EY: Vector = [0.0, 1.0, 0.0];
@@ -163,49 +164,20 @@ impl Joint {
         }
     }
 
-    /// Which of the coordinates are turns, in the order of `near`.
-    pub(crate) fn turning(&self, planar: bool) -> &'static [usize] {
-        match self.kind {
-            Kind::Revolute => &[0],
-            Kind::Free if planar => &[2],
-            Kind::Cylindrical => &[1],
-            Kind::Universal => &[0, 1],
-            Kind::Planar => &[2],
-            Kind::Spherical => &[0, 1, 2],
-            Kind::Free => &[3, 4, 5],
-            _ => &[],
-        }
+    /// Which of the coordinates are turns, in the order of `near`; those before are translations.
+    pub(crate) fn turning(&self, planar: bool) -> Range<usize> {
+        let [slides, turns] = self.kind.coordinates(planar);
+        slides..slides + turns
     }
 
     /// The number of the one rotation that effects act about.
     pub(crate) fn rotation(&self, planar: bool) -> Option<usize> {
-        match self.kind {
-            Kind::Revolute => Some(0),
-            Kind::Cylindrical => Some(1),
-            Kind::Planar => Some(2),
-            Kind::Free if planar => Some(2),
-            _ => None,
-        }
-    }
-
-    /// Is coordinate `i` a translation?
-    pub(crate) fn slides(&self, planar: bool, i: usize) -> bool {
-        match self.kind {
-            Kind::Prismatic => true,
-            Kind::Cylindrical => i == 0,
-            Kind::Planar => i < 2,
-            Kind::Free => i < if planar { 2 } else { 3 },
-            _ => false,
-        }
+        Some(self.turning(planar)).filter(|turns| turns.len() == 1).map(|turns| turns.start)
     }
 
     /// The first of three coordinates that are a rotation vector.
     pub(crate) fn first_of_ball(&self, planar: bool) -> Option<usize> {
-        match self.kind {
-            Kind::Spherical => Some(0),
-            Kind::Free if !planar => Some(3),
-            _ => None,
-        }
+        Some(self.turning(planar)).filter(|turns| turns.len() == 3).map(|turns| turns.start)
     }
 
     /// Where its reaction acts: its point in the second body.

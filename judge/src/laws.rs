@@ -185,7 +185,7 @@ impl Now<'_> {
             if !turning.is_empty() {
                 let rows = self.coordinates(j);
                 // the coordinates are nearest to those of before already
-                turning.iter().zip(&mut turns).for_each(|(&i, t)| *t = rows[i].value);
+                rows[turning].iter().zip(&mut turns).for_each(|(row, t)| *t = row.value);
             }
             turns
         };

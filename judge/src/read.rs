@@ -59,7 +59,8 @@ pub fn read(text: &str) -> Read<Scene> {
     let outputs = root.tables("output")?;
     scene.outputs = outputs.into_iter().map(|t| output(t, &names)).collect::<Read<_>>()?;
     if scene.outputs.is_empty() {
-        let shown = (0..scene.joints.len()).filter(|&j| scene.joints[j].n_coordinates(planar) > 0);
+        let is_shown = |j: &usize| scene.joints[*j].kind.coordinates(planar) != [0, 0];
+        let shown = (0..scene.joints.len()).filter(is_shown);
         let channel =
             |j: usize| Output { name: scene.joints[j].name.clone(), quantity: Quantity::Value(j) };
         scene.outputs = shown.map(channel).collect();
@@ -94,17 +95,9 @@ fn body(mut table: Table) -> Read<Body> {
 }
 
 fn joint(mut table: Table, name: String, names: &Names, all: &[Body]) -> Read<Joint> {
-    let kind = match table.text("kind")?.as_str() {
-        "revolute" => Kind::Revolute,
-        "spherical" => Kind::Spherical,
-        "universal" => Kind::Universal,
-        "prismatic" => Kind::Prismatic,
-        "cylindrical" => Kind::Cylindrical,
-        "planar" => Kind::Planar,
-        "weld" => Kind::Weld,
-        "free" => Kind::Free,
-        "distance" => Kind::Distance,
-        other => return fault(format!("no kind of joint `{other}`")),
+    let word = table.text("kind")?;
+    let Some((kind, _)) = Kind::NAMES.into_iter().find(|(_, name)| *name == word) else {
+        return fault(format!("no kind of joint `{word}`"));
     };
     let bodies = names.pair(&mut table)?;
     let points = match kind {

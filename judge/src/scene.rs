@@ -89,17 +89,33 @@ pub struct Joint {
     pub hinged: bool,
 }
 
-impl Joint {
-    /// How many coordinates it has.
+impl Kind {
+    /// All of them, by their names in scene files.
+    pub const NAMES: [(Self, &'static str); 9] = [
+        (Self::Revolute, "revolute"),
+        (Self::Spherical, "spherical"),
+        (Self::Universal, "universal"),
+        (Self::Prismatic, "prismatic"),
+        (Self::Cylindrical, "cylindrical"),
+        (Self::Planar, "planar"),
+        (Self::Weld, "weld"),
+        (Self::Free, "free"),
+        (Self::Distance, "distance"),
+    ];
+
+    /// How many of its coordinates are translations, which come first, and how many rotations.
     #[must_use]
-    pub fn n_coordinates(&self, planar: bool) -> usize {
-        match self.kind {
-            Kind::Revolute | Kind::Prismatic => 1,
-            Kind::Cylindrical | Kind::Universal => 2,
-            Kind::Spherical | Kind::Planar => 3,
-            Kind::Free if planar => 3,
-            Kind::Free => 6,
-            Kind::Weld | Kind::Distance => 0,
+    pub fn coordinates(self, planar: bool) -> [usize; 2] {
+        match self {
+            Self::Revolute => [0, 1],
+            Self::Prismatic => [1, 0],
+            Self::Cylindrical => [1, 1],
+            Self::Universal => [0, 2],
+            Self::Spherical => [0, 3],
+            Self::Planar => [2, 1],
+            Self::Free if planar => [2, 1],
+            Self::Free => [3, 3],
+            Self::Weld | Self::Distance => [0, 0],
         }
     }
 }

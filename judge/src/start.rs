@@ -98,7 +98,7 @@ impl Mechanism {
         let mut turns = vec![[0.0; 3]; self.scene.joints.len()];
         let mut give = |joint: usize, value: &[f64]| {
             let turning = self.scene.joints[joint].turning(self.scene.planar);
-            for (to, &i) in turns[joint].iter_mut().zip(turning) {
+            for (to, i) in turns[joint].iter_mut().zip(turning) {
                 *to = value.get(i).copied().unwrap_or(0.0);
             }
         };
@@ -116,7 +116,7 @@ impl Mechanism {
     fn largest_value(&self) -> f64 {
         let (mut largest, length) = (0.0_f64, self.length());
         let mut note = |joint: usize, i: usize, x: f64| {
-            let slides = self.scene.joints[joint].slides(self.scene.planar, i);
+            let slides = i < self.scene.joints[joint].turning(self.scene.planar).start;
             largest = largest.max(x.abs() / if slides { length } else { 1.0 });
         };
         for initial in &self.scene.initials {

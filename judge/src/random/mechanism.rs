@@ -238,17 +238,7 @@ impl Draft {
 
     /// As many numbers as the kind has coordinates: turns, and slides in lengths of the mechanism.
     pub(crate) fn numbers(&self, dice: &mut Dice, kind: Kind, turn: f64, slide: f64) -> Vec<f64> {
-        let (slides, turns) = match kind {
-            Kind::Revolute => (0, 1),
-            Kind::Prismatic => (1, 0),
-            Kind::Cylindrical => (1, 1),
-            Kind::Universal => (0, 2),
-            Kind::Spherical => (0, 3),
-            Kind::Planar => (2, 1),
-            Kind::Free if self.planar => (2, 1),
-            Kind::Free => (3, 3),
-            Kind::Weld | Kind::Distance => (0, 0),
-        };
+        let [slides, turns] = kind.coordinates(self.planar);
         let slide = slide * self.length;
         let mut some = |n: usize, most: f64| -> Vec<f64> {
             (0..n).map(|_| dice.between(-most, most)).collect()

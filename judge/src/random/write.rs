@@ -32,17 +32,7 @@ pub(crate) fn pair(bodies: [Option<usize>; 2]) -> String {
 }
 
 fn kind(kind: Kind) -> &'static str {
-    match kind {
-        Kind::Revolute => "revolute",
-        Kind::Spherical => "spherical",
-        Kind::Universal => "universal",
-        Kind::Prismatic => "prismatic",
-        Kind::Cylindrical => "cylindrical",
-        Kind::Planar => "planar",
-        Kind::Weld => "weld",
-        Kind::Free => "free",
-        Kind::Distance => "distance",
-    }
+    Kind::NAMES.into_iter().find(|(known, _)| *known == kind).map_or("", |(_, name)| name)
 }
 
 impl Draft {
