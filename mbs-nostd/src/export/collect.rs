@@ -7,7 +7,7 @@ use mbs_core::Real;
 use mbs_core::inputs::Prescribed;
 use mbs_core::laws::Part;
 use mbs_core::scene::{Motion as SceneLaw, Signal};
-use mbs_recursive::loads::{Measure, Load};
+use mbs_recursive::loads::{Load, Measure};
 use mbs_recursive::slices::TreeSlices;
 use mbs_recursive::space::Space;
 use mbs_recursive::{TreeModel, TreeState};

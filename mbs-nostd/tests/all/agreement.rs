@@ -5,7 +5,7 @@ use mbs_core::effects::{bushing, laws::SpringDamperLaw};
 use mbs_core::integrator::Integrator;
 use mbs_core::step::{OptionError, StepError};
 use mbs_nostd::export::{Collected, bytes, needs};
-use mbs_nostd::table::{Measure, Law, Load};
+use mbs_nostd::table::{Law, Load, Measure};
 use mbs_nostd::{Bounds, Checked, Options, Solver, Spatial, Tables, Unwatched};
 use mbs_recursive::{TreeModel, TreeState, Workspace, bounded_step, step};
 use mbs_testkit::file;
