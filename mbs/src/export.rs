@@ -3,11 +3,10 @@
 use crate::settings::ResolvedMethod;
 use crate::simulation::Simulation;
 use crate::stop::StopError;
-use crate::tree::{InSpace, Plane};
 use mbs_core::scene::{Dimension, Scene};
-use mbs_nostd::export::{Collected, bytes, source};
-use mbs_nostd::format::Axes;
-use mbs_recursive::{StartError, TreeModel};
+use mbs_nostd::export::{Gathered, bytes, source};
+use mbs_nostd::record::Axes;
+use mbs_recursive::{Planar, Spatial, StartError, TreeModel};
 use serde_json::Value;
 
 /// A scene as tables.
@@ -61,21 +60,18 @@ pub fn export(
     form: (&[usize], bool),
 ) -> Result<Exported, ExportError> {
     match scene.dimension {
-        Dimension::Planar => in_space::<2>(scene, settings, form),
-        Dimension::Spatial => in_space::<3>(scene, settings, form),
+        Dimension::Planar => in_space::<Planar, 2>(scene, settings, form),
+        Dimension::Spatial => in_space::<Spatial, 3>(scene, settings, form),
     }
 }
 
-fn in_space<const D: usize>(
+fn in_space<S: Axes<f64>, const D: usize>(
     scene: &Scene<f64>,
     settings: &ResolvedMethod,
     (ladder, is_single): (&[usize], bool),
-) -> Result<Exported, ExportError>
-where
-    Plane<D>: InSpace<f64, Space: Axes<f64>>,
-{
+) -> Result<Exported, ExportError> {
     let simulation = Simulation::<f64, D>::new(scene, settings)?;
-    let tree = TreeModel::<f64, <Plane<D> as InSpace<f64>>::Space>::new(scene);
+    let tree = TreeModel::<f64, S>::new(scene);
     let tree = tree.map_err(StopError::tree)?;
     let start = tree.start(scene, simulation.model(), simulation.state());
     let start = start.map_err(|error| match error {

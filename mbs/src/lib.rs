@@ -31,7 +31,6 @@ mod simulation;
 mod statics;
 mod stop;
 mod tilt;
-mod tree;
 pub mod words;
 
 pub use mbs_augmented as augmented;
@@ -74,7 +73,6 @@ pub use settings::{Method, ResolvedMethod, SettingsError};
 pub use statics::{Moved, StaticEquilibrium};
 pub use stop::{INTERRUPTED, StopError};
 pub use tilt::AlmostDependent;
-pub use tree::{InSpace, Plane};
 
 /// What the studies of mbs-study share with this crate; no part of its interface.
 #[doc(hidden)]

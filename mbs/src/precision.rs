@@ -4,7 +4,6 @@
 //! build without them compiles half as much, and refuses what asks for them by [`PrecisionError::NotBuilt`].
 
 use crate::choice::Precision;
-use crate::tree::{InSpace, Plane};
 use core::fmt::{self, Display, Formatter};
 use mbs_core::Real;
 #[cfg(feature = "dd")]
@@ -19,9 +18,7 @@ pub trait SceneWork {
     type Done;
 
     /// Does it.
-    fn done<T: Real, const D: usize>(self, scene: &Scene<T>) -> Self::Done
-    where
-        Plane<D>: InSpace<T>;
+    fn done<T: Real, const D: usize>(self, scene: &Scene<T>) -> Self::Done;
 }
 
 /// What has a scene in every precision.
@@ -126,11 +123,7 @@ impl<'a> ReadScene<'a> {
 }
 
 /// Does the work in the dimension of the scene.
-pub fn in_space<T: Real, W: SceneWork>(scene: &Scene<T>, work: W) -> W::Done
-where
-    Plane<2>: InSpace<T>,
-    Plane<3>: InSpace<T>,
-{
+pub fn in_space<T: Real, W: SceneWork>(scene: &Scene<T>, work: W) -> W::Done {
     match scene.dimension {
         Dimension::Planar => work.done::<T, 2>(scene),
         Dimension::Spatial => work.done::<T, 3>(scene),

@@ -9,7 +9,7 @@ use core::ops::ControlFlow;
 use mbs::inside::{Alarm, AssembledScene, Channels, DEFAULT_STEP, continue_if, drive};
 use mbs::record::{Channel, RunError};
 use mbs::typed::{Simulation, StepObserver};
-use mbs::{InSpace, Method, Names, Plane, ResolvedMethod, SettingsError, StopError};
+use mbs::{Method, Names, Settings, SettingsError, StopError};
 use mbs_core::Real;
 use mbs_core::cluster::scene_length;
 use mbs_core::control::Accepted;
@@ -45,10 +45,7 @@ pub(crate) struct SceneBench<'a, T: Real, const D: usize> {
     begun: f64,
 }
 
-impl<'a, T: Real, const D: usize> SceneBench<'a, T, D>
-where
-    Plane<D>: InSpace<T>,
-{
+impl<'a, T: Real, const D: usize> SceneBench<'a, T, D> {
     /// A bench on which so many seconds were spent before.
     pub(crate) fn new(
         (scene, base): (&'a Scene<T>, &'a Method),
@@ -139,10 +136,7 @@ where
     }
 }
 
-impl<T: Real, const D: usize> Bench for SceneBench<'_, T, D>
-where
-    Plane<D>: InSpace<T>,
-{
+impl<T: Real, const D: usize> Bench for SceneBench<'_, T, D> {
     fn trial(&mut self, method: &MethodCase, setting: f64, aim: Aim, limit: f64) -> Trial {
         self.run(method, setting, aim, limit)
     }
@@ -232,10 +226,7 @@ impl<T: Real, const D: usize> Recorder<'_, T, D> {
     }
 }
 
-impl<T: Real, const D: usize> StepObserver<T, D> for Recorder<'_, T, D>
-where
-    Plane<D>: InSpace<T>,
-{
+impl<T: Real, const D: usize> StepObserver<T, D> for Recorder<'_, T, D> {
     fn step(
         &mut self,
         simulation: &Simulation<T, D>,

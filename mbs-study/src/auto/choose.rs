@@ -10,7 +10,7 @@ use crate::compare::ladder::Instants;
 use crate::compare::method::{Control, MethodCase};
 use mbs::inside::{AssembledScene, SceneWork};
 use mbs::record::PilotReport;
-use mbs::{InSpace, IntegratorKind, Method, Names, Plane, Precision, ResolvedMethod};
+use mbs::{IntegratorKind, Method, Names, Precision, Settings};
 use mbs_core::Real;
 use mbs_core::scene::Scene;
 
@@ -87,10 +87,7 @@ pub(crate) struct Pilot<'a> {
 impl SceneWork for Pilot<'_> {
     type Done = (Vec<Pick>, PilotReport);
 
-    fn done<T: Real, const D: usize>(self, scene: &Scene<T>) -> Self::Done
-    where
-        Plane<D>: InSpace<T>,
-    {
+    fn done<T: Real, const D: usize>(self, scene: &Scene<T>) -> Self::Done {
         chosen::<T, D>(scene, self.task, self.methods, self.clock)
     }
 }
@@ -100,10 +97,7 @@ fn chosen<T: Real, const D: usize>(
     task: &Task<'_>,
     methods: &[MethodCase],
     clock: &mut dyn Clock,
-) -> (Vec<Pick>, PilotReport)
-where
-    Plane<D>: InSpace<T>,
-{
+) -> (Vec<Pick>, PilotReport) {
     let begun = clock.seconds();
     let ready = AssembledScene::<T, D>::new(scene);
     let mut ready = ready.map_err(|e| Box::new(e.report(0.0, &Names::new(scene))));
@@ -171,11 +165,8 @@ fn picks(search: &Search<'_>, places: &[Place], times: f64) -> Vec<Pick> {
 /// The candidates of a scene, and what structure alone says of them.
 pub(crate) fn candidates<T: Real, const D: usize>(
     scene: &Scene<T>,
-    settings: &ResolvedMethod,
-) -> Option<PilotReport>
-where
-    Plane<D>: InSpace<T>,
-{
+    settings: &Settings,
+) -> Option<PilotReport> {
     let goal = Goal::default();
     let methods = methods(scene, &Method::default(), settings, &goal).ok()?;
     let mut ready = AssembledScene::<T, D>::new(scene).ok();

@@ -2,11 +2,12 @@
 
 use crate::compare::method::MethodCase;
 use mbs::inside::AssembledScene;
-use mbs::{InSpace, Names, Plane, StopError};
+use mbs::{Names, StopError};
 use mbs_core::Real;
 use mbs_core::effects::Value;
 use mbs_core::scene::{BodyId, Effect, Scene};
-use mbs_recursive::TreeModel;
+use mbs_recursive::space::Space;
+use mbs_recursive::{Planar, Spatial, TreeError, TreeModel};
 
 /// What is known of a scene without a step.
 #[derive(Debug, Clone, PartialEq)]
@@ -30,13 +31,10 @@ pub(crate) fn structure<T: Real, const D: usize>(
     scene: &Scene<T>,
     duration: f64,
     ready: Option<&mut AssembledScene<T, D>>,
-) -> Structure
-where
-    Plane<D>: InSpace<T>,
-{
+) -> Structure {
     let natural = ready.map(AssembledScene::sizes);
-    let tree = TreeModel::<T, <Plane<D> as InSpace<T>>::Space>::new(scene);
-    let loops = tree.map(|tree| tree.cut_joints().count());
+    let loops =
+        if const { D == 2 } { loops::<T, Planar>(scene) } else { loops::<T, Spatial>(scene) };
     let enabled = || scene.effects.iter().filter(|effect| effect.enabled);
     let is_contact = |effect: &&Effect<T>| effect.kind.row().is_one_sided;
     Structure {
@@ -49,6 +47,11 @@ where
         frequency: enabled().map(|effect| frequency(scene, effect)).fold(0.0, f64::max),
         duration,
     }
+}
+
+/// Cut joints of a scene's tree.
+fn loops<T: Real, S: Space<T>>(scene: &Scene<T>) -> Result<usize, TreeError> {
+    Ok(TreeModel::<T, S>::new(scene)?.cut_joints().count())
 }
 
 /// omega = sqrt(k (1/m1 + 1/m2)) of a spring along a line [rad/s].

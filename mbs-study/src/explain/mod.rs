@@ -20,7 +20,7 @@ pub use trials::Effort;
 
 use mbs::inside::{ReadScene, SceneWork};
 use mbs::typed::Simulation;
-use mbs::{InSpace, Names, Plane, PrecisionError, ResolvedMethod, StepRule, StopError};
+use mbs::{Names, PrecisionError, Settings, StepRule, StopError};
 use mbs_core::Real;
 use mbs_core::scene::Scene;
 use mbs_scene::SceneFile;
@@ -50,10 +50,7 @@ struct Explained<'a> {
 impl SceneWork for Explained<'_> {
     type Done = Explanation;
 
-    fn done<T: Real, const D: usize>(self, scene: &Scene<T>) -> Explanation
-    where
-        Plane<D>: InSpace<T>,
-    {
+    fn done<T: Real, const D: usize>(self, scene: &Scene<T>) -> Explanation {
         explain::<T, D>(scene, self.settings, self.effort)
     }
 }
@@ -65,10 +62,7 @@ pub fn explain<T: Real, const D: usize>(
     scene: &Scene<T>,
     settings: &ResolvedMethod,
     effort: &Effort,
-) -> Explanation
-where
-    Plane<D>: InSpace<T>,
-{
+) -> Explanation {
     let explanation = Explanation {
         scene: scene.name.clone(),
         formulation: settings.asked.clone(),
@@ -98,13 +92,7 @@ where
 }
 
 /// Can the run start, outputs and all?
-fn start<T: Real, const D: usize>(
-    scene: &Scene<T>,
-    settings: &ResolvedMethod,
-) -> Result<(), StopError>
-where
-    Plane<D>: InSpace<T>,
-{
+fn start<T: Real, const D: usize>(scene: &Scene<T>, settings: &Settings) -> Result<(), StopError> {
     let simulation = Simulation::<T, D>::new(scene, settings)?;
     mbs::inside::Channels::new(scene, simulation.model()).map(drop)
 }

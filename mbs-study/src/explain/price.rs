@@ -6,7 +6,7 @@ use super::timing::{Times, count, interleaved, monitor, trial};
 use super::trials::{Effort, outcome, without};
 use mbs::inside::OutputRanges;
 use mbs::record::RunError;
-use mbs::{InSpace, Outcome, Plane, ResolvedMethod};
+use mbs::{Outcome, Settings};
 use mbs_core::Real;
 use mbs_core::scene::Scene;
 use std::time::Instant;
@@ -28,10 +28,7 @@ pub(super) fn prices<T: Real, const D: usize>(
     scene: &Scene<T>,
     settings: &ResolvedMethod,
     effort: &Effort,
-) -> (EffectCosts, Option<RunError>)
-where
-    Plane<D>: InSpace<T>,
-{
+) -> (EffectCosts, Option<RunError>) {
     let clock = Instant::now();
     let has_time = || clock.elapsed().as_secs_f64() < effort.seconds;
     let leaves = leaves(scene);
@@ -110,10 +107,7 @@ impl Plan {
         scene: &Scene<T>,
         settings: &ResolvedMethod,
         (effort, n_scenes): (&Effort, usize),
-    ) -> Self
-    where
-        Plane<D>: InSpace<T>,
-    {
+    ) -> Self {
         let n_steps = settings.n_steps();
         let [start, step] = trial::<T, D>(scene, settings).unwrap_or([0.0; 2]);
         let each = effort.seconds / 3.0 / count(n_scenes as u64);

@@ -2,8 +2,8 @@
 
 use super::explanation::{LargestStep, SearchEnd};
 use super::trials::outcome;
+use mbs::Settings;
 use mbs::inside::SAME_LENGTH;
-use mbs::{InSpace, Plane, ResolvedMethod};
 use mbs_core::Real;
 use mbs_core::scene::Scene;
 
@@ -18,10 +18,7 @@ pub(super) fn largest_step<T: Real, const D: usize>(
     settings: &ResolvedMethod,
     (duration, completes): (f64, bool),
     has_time: &impl Fn() -> bool,
-) -> LargestStep
-where
-    Plane<D>: InSpace<T>,
-{
+) -> LargestStep {
     if !completes {
         return LargestStep { step: None, end: SearchEnd::Stops };
     }

@@ -4,22 +4,20 @@ use super::explanation::{
     ControllerStep, GuideEntry, JointsByKind, Relative, Simulated, Sizes, ThinRod,
 };
 use mbs::typed::Simulation;
-use mbs::{FormulationKind, InSpace, IntegratorKind, Names, Plane, ResolvedMethod, StopError};
+use mbs::{FormulationKind, IntegratorKind, Names, Settings, StopError};
 use mbs_core::Real;
 use mbs_core::natural::NaturalModel;
 use mbs_core::scene::{BodyId, Dimension, Inertia, JointKind, Motion, Scene};
-use mbs_nostd::export::Collected;
-use mbs_nostd::{Bounds, operation_bound};
-use mbs_recursive::{TreeModel, TreeState};
+use mbs_nostd::export::Gathered;
+use mbs_nostd::{Bounds, bound};
+use mbs_recursive::space::Space;
+use mbs_recursive::{Planar, Spatial, TreeModel, TreeState};
 
 /// Takes stock of a scene.
 pub(super) fn simulated<T: Real, const D: usize>(
     scene: &Scene<T>,
-    settings: &ResolvedMethod,
-) -> Simulated
-where
-    Plane<D>: InSpace<T>,
-{
+    settings: &Settings,
+) -> Simulated {
     let sizes = |formulation| {
         let settings = ResolvedMethod {
             formulation,
@@ -30,8 +28,8 @@ where
         Simulation::<T, D>::new(scene, &settings).map(|simulation| Sizes::new(simulation.sizes()))
     };
     let natural = sizes(FormulationKind::DEFAULT).ok();
-    let relative =
-        sizes(FormulationKind::RELATIVE).and_then(|sizes| relative::<T, D>(scene, sizes));
+    let of_tree = if const { D == 2 } { relative::<T, Planar> } else { relative::<T, Spatial> };
+    let relative = sizes(FormulationKind::RELATIVE).and_then(|sizes| of_tree(scene, sizes));
     let (relative, relative_error) = match relative {
         Ok(relative) => (Some(relative), None),
         Err(error) => (None, Some(error.report(0.0, &Names::new(scene)))),
@@ -49,12 +47,8 @@ where
     }
 }
 
-fn relative<T: Real, const D: usize>(scene: &Scene<T>, sizes: Sizes) -> Result<Relative, StopError>
-where
-    Plane<D>: InSpace<T>,
-{
-    let tree = TreeModel::<T, <Plane<D> as InSpace<T>>::Space>::new(scene);
-    let tree = tree.map_err(StopError::tree)?;
+fn relative<T: Real, S: Space<T>>(scene: &Scene<T>, sizes: Sizes) -> Result<Relative, StopError> {
+    let tree = TreeModel::<T, S>::new(scene).map_err(StopError::tree)?;
     let cut_joints: Vec<_> =
         tree.cut_joints().map(|joint| scene.joints[joint].name.clone()).collect();
     let rest = TreeState::at_rest(&tree);

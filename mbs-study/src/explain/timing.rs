@@ -1,8 +1,8 @@
 //! CPU time per step, the least of several interleaved repeats.
 
 use cpu_time::ThreadTime;
+use mbs::Settings;
 use mbs::typed::Simulation;
-use mbs::{InSpace, Plane, ResolvedMethod};
 use mbs_core::Real;
 use mbs_core::scene::Scene;
 
@@ -35,10 +35,7 @@ pub(super) fn interleaved<T: Real, const D: usize>(
     scenes: &[Scene<T>],
     settings: &ResolvedMethod,
     (n, repeats): (u64, u32),
-) -> Vec<Times>
-where
-    Plane<D>: InSpace<T>,
-{
+) -> Vec<Times> {
     let mut times = vec![Times::default(); scenes.len()];
     for _ in 0..repeats {
         for (scene, times) in scenes.iter().zip(&mut times) {
@@ -49,10 +46,7 @@ where
 }
 
 /// CPU time per step; nothing where there is no start or the run stops at once.
-fn once<T: Real, const D: usize>(scene: &Scene<T>, settings: &ResolvedMethod, n: u64) -> Option<f64>
-where
-    Plane<D>: InSpace<T>,
-{
+fn once<T: Real, const D: usize>(scene: &Scene<T>, settings: &Settings, n: u64) -> Option<f64> {
     let mut simulation = Simulation::<T, D>::new(scene, settings).ok()?;
     let clock = ThreadTime::now();
     let done = steps(&mut simulation, settings.step_max, n, || true);
@@ -66,10 +60,7 @@ pub(super) fn monitor<T: Real, const D: usize>(
     scene: &Scene<T>,
     settings: &ResolvedMethod,
     (n, repeats): (u64, u32),
-) -> Option<f64>
-where
-    Plane<D>: InSpace<T>,
-{
+) -> Option<f64> {
     let mut simulation = Simulation::<T, D>::new(scene, settings).ok()?;
     simulation.advance(T::from_f64(settings.step)).ok()?;
     let mut invariant = *simulation.invariant();
@@ -88,11 +79,8 @@ where
 /// CPU time that the start takes, and that of a step, roughly [s].
 pub(super) fn trial<T: Real, const D: usize>(
     scene: &Scene<T>,
-    settings: &ResolvedMethod,
-) -> Option<[f64; 2]>
-where
-    Plane<D>: InSpace<T>,
-{
+    settings: &Settings,
+) -> Option<[f64; 2]> {
     let clock = ThreadTime::now();
     let mut simulation = Simulation::<T, D>::new(scene, settings).ok()?;
     let start = clock.elapsed().as_secs_f64();
@@ -109,10 +97,7 @@ fn steps<T: Real, const D: usize>(
     h: f64,
     n: u64,
     has_time: impl Fn() -> bool,
-) -> u64
-where
-    Plane<D>: InSpace<T>,
-{
+) -> u64 {
     let dt = T::from_f64(h);
     for k in 0..n {
         if !has_time() || simulation.step(dt).is_err() {

@@ -1,6 +1,6 @@
 //! Runs of a scene for its prices: how much may be measured, and what a run without some effects gives.
 
-use mbs::{InSpace, Plane, ResolvedMethod};
+use mbs::Settings;
 use mbs_core::Real;
 use mbs_core::scene::Scene;
 
@@ -35,11 +35,8 @@ pub(super) fn outcome<T: Real, const D: usize>(
     scene: &Scene<T>,
     settings: &ResolvedMethod,
     (times_step, duration): (f64, f64),
-) -> mbs::Outcome
-where
-    Plane<D>: InSpace<T>,
-{
-    let settings = ResolvedMethod {
+) -> mbs::Outcome {
+    let settings = Settings {
         step: settings.step * times_step,
         step_max: settings.step_max * times_step,
         duration,

@@ -5,7 +5,6 @@ use crate::retell::{reorder, turn_by, turn_scene, turned_in_plane};
 use mbs::Error as _;
 use mbs::core::scene::{BodyId, Dimension, InitialTarget, JointId, JointKind, Scene};
 use mbs::typed::Simulation;
-use mbs::{InSpace, Plane};
 use mbs::{Matrix, Tree, TreeError, TreeRange};
 use mbs_testkit::random::{self, Random};
 use mbs_testkit::{allocations, close, dot, file, plus, scene};
@@ -144,10 +143,7 @@ fn a_double_pendulum_has_the_matrices_of_its_closed_form() {
 }
 
 /// Positions, velocities and accelerations of the bodies, and kinetic energy, as the simulation has them after some steps.
-fn follows<const D: usize>(scene: &Scene<f64>, formulation: &str)
-where
-    Plane<D>: InSpace<f64>,
-{
+fn follows<const D: usize>(scene: &Scene<f64>, formulation: &str) {
     let name = format!("{} {formulation}", scene.name);
     let mut sim = Simulation::<f64, D>::new(scene, &settings(scene, formulation, Some(1e-3)))
         .unwrap_or_else(|e| panic!("{name}: {e}"));
@@ -280,10 +276,7 @@ fn coordinates_have_the_sense_of_the_joints_whichever_body_comes_first() {
 }
 
 /// The tree of a start has the values and rates that were asked for; rates of a ball were in global axes.
-fn starts<const D: usize>(mut scene: Scene<f64>)
-where
-    Plane<D>: InSpace<f64>,
-{
+fn starts<const D: usize>(mut scene: Scene<f64>) {
     let mut given = Vec::new();
     for initial in &mut scene.initials {
         if let InitialTarget::Joint { joint, value, rate: Some(rate) } = &mut initial.target {

@@ -4,7 +4,7 @@ use crate::space::in_space;
 use crate::{Failure, print_line};
 use cpu_time::ProcessTime;
 use mbs::typed::Simulation;
-use mbs::{InSpace, Method, Plane, ResolvedMethod};
+use mbs::{Method, Settings};
 use mbs_core::scene::Scene;
 use mbs_recursive::space::Space;
 use mbs_recursive::{Options, Planar, Spatial, TreeModel, Workspace, rk4_step, step};
@@ -99,10 +99,7 @@ fn kernel<S: Space<f64>, const D: usize>(
     (dt, n): (f64, usize),
     is_explicit: bool,
     (judge, is_watched): (Judge, bool),
-) -> Result<[f64; 2], Failure>
-where
-    Plane<D>: InSpace<f64>,
-{
+) -> Result<[f64; 2], Failure> {
     let model = TreeModel::<f64, S>::new(scene)?;
     let (options, mut workspace) = (Options::default(), Workspace::new(&model));
     let start = assembled::<D>(scene, dt, METHODS[0])?;
@@ -131,10 +128,7 @@ fn assembled<const D: usize>(
     scene: &Scene<f64>,
     dt: f64,
     [formulation, integrator]: [&str; 2],
-) -> Result<Simulation<f64, D>, Failure>
-where
-    Plane<D>: InSpace<f64>,
-{
+) -> Result<Simulation<f64, D>, Failure> {
     let asked = Method {
         formulation: Some(formulation.to_owned()),
         integrator: Some(integrator.to_owned()),
@@ -150,10 +144,7 @@ fn simulated<const D: usize>(
     (dt, n): (f64, usize),
     method: [&str; 2],
     (judge, is_watched): (Judge, bool),
-) -> Result<[f64; 2], Failure>
-where
-    Plane<D>: InSpace<f64>,
-{
+) -> Result<[f64; 2], Failure> {
     let mut simulation = assembled::<D>(scene, dt, method)?;
     let start: f64 = simulation.initial_energies().iter().sum();
     let (clock, mut worst) = (ProcessTime::now(), 0.0_f64);
