@@ -7,7 +7,8 @@ mod starts;
 
 use crate::common::scene;
 use mbs::core::scene::{Dimension, Quantity, Scene};
-use mbs::{Method, Outcome, ResolvedMethod};
+use mbs::typed::Simulation;
+use mbs::{Method, Outcome, Settings};
 
 /// Runs a scene; what is left out is the scene's.
 fn run(scene: &Scene<f64>, overrides: &Method) -> Outcome {
@@ -316,9 +317,8 @@ fn a_controlled_step_allocates_nothing_even_when_it_is_rejected_or_ends_at_an_ev
             ..multi_index([1e-5, 1e-7], (1e-3, 1e-2))
         };
         let overrides = Method { formulation: Some((*formulation).to_owned()), ..overrides };
-        let settings = ResolvedMethod::new(&scene, &overrides).expect("the settings are built");
-        let mut simulation =
-            mbs::typed::Simulation::<f64, 3>::new(&scene, &settings).expect("it starts");
+        let settings = Settings::new(&scene, &overrides).expect("the settings are built");
+        let mut simulation = Simulation::<f64, 3>::new(&scene, &settings).expect("it starts");
         simulation.advance(1.0).expect("it steps");
         let (mut rejected, mut landed) = (0, 0);
         let before = allocations::count();
@@ -398,13 +398,48 @@ table = [[0, 0, 0], [1, 0, 0], [2, 10, 0]]
     }
 }
 
+/// The double pendulum, to be stepped by a method.
+fn double_pendulum(method: &Method) -> Simulation<f64, 2> {
+    let scene = scene("double-pendulum");
+    let settings = Settings::new(&scene, method).expect("the settings are built");
+    Simulation::new(&scene, &settings).expect("it starts")
+}
+
+#[test]
+fn rejected_trials_leave_no_trace_to_the_last_bit() {
+    // The printed form runs into its upper limit again and again.
+    let step_control = Some("energy-printed".to_owned());
+    let printed = Method { step_control, ..multi_index([1e-7, 6e-8], (2e-2, 2e-2)) };
+    let [mut tried, mut replay] = [printed, fixed("index-3", 1e-3)].map(|m| double_pendulum(&m));
+    let mut rejected = 0;
+    while tried.state().t < 1.0 {
+        let accepted = tried.advance(1.0).expect("it steps");
+        rejected += accepted.rejected;
+        replay.step(accepted.step).expect("it steps");
+    }
+    assert!(rejected > 10);
+    assert_eq!(tried.index(), Some((3, 0)), "all in index-3");
+    assert_eq!(replay.state(), tried.state());
+}
+
+#[test]
+fn the_motion_does_not_feel_the_changes_of_index() {
+    // Steps about the threshold, so that the index changes many times; the exact tip at 1 s by extrapolation in 34 digits.
+    let often = multi_index([1e-10, 1e-12], (1e-4, 1e-3));
+    let outcome = completed(&scene("double-pendulum"), &Method { duration: Some(1.0), ..often });
+    let changes = outcome.summary.control.as_ref().map_or(0, |control| control.index_changes);
+    assert!(changes > 2, "{changes} changes");
+    let tip = output(&outcome, "tip");
+    let error = (tip[0] + 1.662_115_135_816_127_6).hypot(tip[1] + 1.041_466_667_193_224_7);
+    // Order two at 1e-4: fixed index-3 has 2e-7.
+    assert!(error < 2e-6, "{error}");
+    let energy = outcome.summary.energy.max_error;
+    assert!(energy < 1e-5, "{energy}");
+}
+
 #[test]
 fn a_step_of_a_simulation_ends_exactly_where_it_is_asked_to() {
-    let scene = scene("double-pendulum");
-    let settings =
-        ResolvedMethod::new(&scene, &multi_index([1e-6, 1e-8], (1e-3, 5e-2))).expect("built");
-    let mut simulation =
-        mbs::typed::Simulation::<f64, 2>::new(&scene, &settings).expect("it starts");
+    let mut simulation = double_pendulum(&multi_index([1e-6, 1e-8], (1e-3, 5e-2)));
     let mut t = 0.0;
     for k in 1..=30 {
         let dt = 0.013 * f64::from(k % 5 + 1);
