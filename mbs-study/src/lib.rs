@@ -1,4 +1,5 @@
 #![doc = include_str!("../README.md")]
+#![allow(clippy::cast_precision_loss, reason = "counts stay far below 2^53")]
 
 pub mod auto;
 pub mod compare;

@@ -18,6 +18,7 @@ mod front;
 mod interrupt;
 mod methods;
 mod modes;
+mod named;
 mod names;
 mod precision;
 mod ready;

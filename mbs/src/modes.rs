@@ -13,26 +13,15 @@ use mbs_core::scene::{Dimension, Scene};
 use mbs_linear::{Equilibrium, Instant, Linear, LinearOptions, Matrix, linearise, singular_values};
 use serde_json::{Value, json};
 
-/// About which state.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Place {
-    /// The static equilibrium near the start, at rest.
-    Equilibrium,
-    /// The start as assembled, with its velocities and the guides' rates.
-    Initial,
-    /// The positions of the static equilibrium with the scene's initial velocities: a vehicle that drives straight.
-    Moving,
-}
-
-impl Place {
-    /// Its name.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Equilibrium => "equilibrium",
-            Self::Initial => "initial",
-            Self::Moving => "moving",
-        }
+crate::named! {
+    /// About which state.
+    pub enum Place {
+        /// The static equilibrium near the start, at rest.
+        Equilibrium = "equilibrium",
+        /// The start as assembled, with its velocities and the guides' rates.
+        Initial = "initial",
+        /// The positions of the static equilibrium with the scene's initial velocities: a vehicle that drives straight.
+        Moving = "moving",
     }
 }
 

@@ -2,7 +2,7 @@
 
 use super::trial::{Aim, Bench, End, Rows, Trial};
 use crate::compare::course::Course;
-use crate::compare::ladder::{Instants, count, work};
+use crate::compare::ladder::{Instants, work};
 use crate::compare::method::{Control, MethodCase};
 use crate::compare::results::{output_scales, row_distance};
 use core::ops::ControlFlow;
@@ -177,7 +177,7 @@ pub(crate) fn settings<T: Real>(
     let duration = base.duration.unwrap_or(scene.duration.to_f64());
     let of_scene = scene.solver.step.map_or(DEFAULT_STEP, Real::to_f64).min(duration);
     let step = if method.is_fixed() {
-        instants.interval / count(instants.steps_between(setting) as usize)
+        instants.interval / instants.steps_between(setting) as f64
     } else {
         of_scene
     };
@@ -215,12 +215,7 @@ struct Recorder<'a, T: Real, const D: usize> {
 
 impl<T: Real, const D: usize> Recorder<'_, T, D> {
     /// Steps that are made in a time, as fast as those so far.
-    #[allow(
-        clippy::cast_precision_loss,
-        clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        reason = "a rough count"
-    )]
+    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a rough count")]
     fn steps_in(&mut self, limit: f64) -> u32 {
         (self.steps as f64 * limit / (self.clock.seconds() - self.begun)) as u32
     }

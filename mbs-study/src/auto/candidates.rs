@@ -196,7 +196,6 @@ impl Candidate {
 
     /// Do the instants of the results hold the steps of a trial whose steps are controlled?
     pub(crate) fn is_held(&self, trial: &Trial) -> bool {
-        #[allow(clippy::cast_precision_loss, reason = "counts stay far below 2^53")]
         let [steps, rows] = [trial.steps, trial.rows.len() as u64].map(|n| n as f64);
         !self.method.is_fixed() && steps * (1.0 - SMALL) <= rows
     }

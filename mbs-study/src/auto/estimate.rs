@@ -139,7 +139,6 @@ fn interpolated(coarse: &Point, fine: &Point, error: f64) -> Prediction {
 ///
 /// Infinite where the other made hardly fewer: the instants of the results then held the steps of both.
 pub(crate) fn error_of_finer(method: &MethodCase, fine: &Trial, coarse: &Trial, d: f64) -> f64 {
-    #[allow(clippy::cast_precision_loss, reason = "counts stay far below 2^53")]
     let steps = coarse.steps as f64 / fine.steps as f64;
     let r = steps.powf(method.order());
     if steps > 1.0 - SMALL { f64::INFINITY } else { d * (r / (1.0 - r)).max(SMALL) }

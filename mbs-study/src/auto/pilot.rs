@@ -65,7 +65,6 @@ impl<'a> Search<'a> {
         #[allow(
             clippy::cast_possible_truncation,
             clippy::cast_sign_loss,
-            clippy::cast_precision_loss,
             reason = "a part of a small count"
         )]
         let part = (0.5 * most * count as f64) as usize;
@@ -158,7 +157,6 @@ impl<'a> Search<'a> {
         if !is_untried(&&self.candidates[i]) {
             return left;
         }
-        #[allow(clippy::cast_precision_loss, reason = "a small count")]
         let untried = self.candidates.iter().filter(is_untried).count() as f64;
         let done = self.candidates.iter().flat_map(Candidate::done).map(|t| t.trial.seconds);
         let fastest = done.fold(f64::INFINITY, f64::min);

@@ -19,7 +19,6 @@ impl Course {
         (0..instants.count).map(move |k| {
             let [from, to] = [k, k + 1].map(|k| instants.time(k));
             let fixed = between.map(|n| {
-                #[allow(clippy::cast_precision_loss, reason = "counts stay far below 2^53")]
                 let h = instants.interval / n as f64;
                 Fixed { n, from: (T::from_f64(from), from), dt: (T::from_f64(h), h) }
             });

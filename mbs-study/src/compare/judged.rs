@@ -29,12 +29,8 @@ impl Study<'_> {
             watch.doing(DONE, "choice by measurement");
             let best = Rival::new(comparison, level);
             let key = format!("choice {error:e}");
-            let run = || {
-                let choice = self.choice(error, known, best.as_ref());
-                serde_json::to_value(choice).unwrap_or_default()
-            };
-            let value = store.get(&key, run).map_err(CompareError::Journal)?;
-            comparison.choices.push(serde_json::from_value(value).unwrap_or_default());
+            let run = || self.choice(error, known, best.as_ref());
+            comparison.choices.push(store.get(&key, run)?);
         }
         Ok(())
     }

@@ -53,8 +53,8 @@ impl Instants {
     pub(crate) fn new(duration: f64, steps: &[f64]) -> Self {
         let longest = steps.iter().copied().fold(0.0, f64::max);
         #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "from 1 to 200")]
-        let most = (duration / longest * (1.0 + FITS)).floor().clamp(1.0, count(INSTANTS)) as usize;
-        let of = |count_: usize| Self { count: count_, interval: duration / count(count_) };
+        let most = (duration / longest * (1.0 + FITS)).floor().clamp(1.0, INSTANTS as f64) as usize;
+        let of = |count: usize| Self { count, interval: duration / count as f64 };
         let fits = |instants: &Self| {
             steps.iter().all(|h| {
                 let n = instants.interval / h;
@@ -73,19 +73,13 @@ impl Instants {
 
     /// Time of an instant, from 0 for the start [s].
     pub(crate) fn time(&self, k: usize) -> f64 {
-        count(k) * self.interval
+        k as f64 * self.interval
     }
 }
 
 /// The work of iterations of a model with `unknowns` coordinates and constraints [s, nominal].
-#[allow(clippy::cast_precision_loss, reason = "a rough number")]
 pub(crate) fn work(iterations: u64, unknowns: usize) -> f64 {
     iterations as f64 * (PER_ITERATION + PER_UNKNOWN * unknowns as f64)
-}
-
-#[allow(clippy::cast_precision_loss, reason = "counts stay far below 2^53")]
-pub(crate) fn count(n: usize) -> f64 {
-    n as f64
 }
 
 #[cfg(test)]

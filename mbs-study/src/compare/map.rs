@@ -1,7 +1,7 @@
 //! Where index-3 and index-1 converge: short runs over step and fixed penalty.
 
 use super::course::Course;
-use super::ladder::{Instants, count, work};
+use super::ladder::{Instants, work};
 use super::pass::Scenes;
 use super::reference::Known;
 use crate::compare::results::{Cell, ConvergenceMap, Status};
@@ -38,14 +38,14 @@ impl Plan {
         let mut between: Vec<u64> =
             STEPS.iter().map(|factor| instants.steps_between(factor * of_scene)).collect();
         between.dedup();
-        let longest = instants.interval / float(between[0]);
+        let longest = instants.interval / between[0] as f64;
         let wanted = (LONGEST_STEPS * longest / instants.interval).ceil().max(1.0);
         #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a small count")]
         let mut n = (wanted as usize).min(instants.count);
-        let maps = count(formulations.len() * precisions.len() * PENALTIES.len());
+        let maps = (formulations.len() * precisions.len() * PENALTIES.len()) as f64;
         let cost = |n: usize, between: &[u64]| {
             let steps: u64 = between.iter().sum();
-            work(steps, unknowns) * ITERATIONS * count(n) * maps
+            work(steps, unknowns) * ITERATIONS * n as f64 * maps
         };
         while cost(n, &between) > most && n > 1 {
             n = n.div_ceil(2);
@@ -58,7 +58,7 @@ impl Plan {
 
     /// Steps [s].
     pub(super) fn steps(&self) -> Vec<f64> {
-        self.between.iter().map(|n| self.instants.interval / float(*n)).collect()
+        self.between.iter().map(|n| self.instants.interval / *n as f64).collect()
     }
 
     /// The formulations and precisions, each with a map.
@@ -96,7 +96,7 @@ impl Plan {
         (between, penalty): (u64, f64),
         most: f64,
     ) -> Cell {
-        let step = self.instants.interval / float(between);
+        let step = self.instants.interval / between as f64;
         let overrides = Method {
             formulation: Some(formulation.name().to_owned()),
             integrator: Some("trapezoidal".to_owned()),
@@ -121,15 +121,9 @@ impl Plan {
         let known = Known { rows: known.rows[..self.instants.count].to_vec(), ..known.clone() };
         let is_done = entry.status == Status::Completed && failure.is_empty();
         let error = known.errors(&recorded.rows).filter(|_| is_done).map(|[most, _]| most);
-        #[allow(clippy::cast_precision_loss, reason = "a mean")]
         let iterations = entry.iterations as f64 / entry.steps.max(1) as f64;
         Cell { error, iterations, failure }
     }
-}
-
-#[allow(clippy::cast_precision_loss, reason = "counts stay far below 2^53")]
-fn float(n: u64) -> f64 {
-    n as f64
 }
 
 #[cfg(test)]

@@ -24,7 +24,7 @@ pub use crate::journal::JournalError;
 pub use store::Earlier;
 pub use table::TableError;
 
-use crate::compare::results::{Cell, Comparison, ConvergenceMap};
+use crate::compare::results::{Comparison, ConvergenceMap};
 use crate::journal::{Head, Kind, hash};
 use core::fmt::{self, Display, Formatter};
 use ladder::Instants;
@@ -189,8 +189,7 @@ pub fn compare(
     scenes.interrupt = request.interrupt.clone();
     let options = format!("{request:?}");
     let head = Head::new(KIND, &[document.text(), &options, table.map_or("", |(_, text)| text)]);
-    let store = Store::open(out, &head, earlier).map_err(CompareError::Journal)?;
-    let mut store = store.ok_or(CompareError::Unfinished)?;
+    let mut store = Store::open(out, &head, earlier)?.ok_or(CompareError::Unfinished)?;
     store.interrupt = request.interrupt.clone();
     let study = Study::new(&scenes, request);
     let longest = request.steps.iter().copied().fold(0.0, f64::max);
@@ -266,7 +265,7 @@ impl<'a> Study<'a> {
         // a recorded run, the repeats, and about as many where the ranking is decided; the settings before the last take about as
         // much as it does
         let passes = 2.0 * f64::from(request.repeats) + 1.0;
-        let most_work = request.budget / (ladder::count(methods.len().max(1)) * passes * 2.0);
+        let most_work = request.budget / (methods.len().max(1) as f64 * passes * 2.0);
         Self {
             channels: Channel::of_scene(scene),
             tolerances: ladder::tolerances(&request.tolerances),
@@ -284,13 +283,8 @@ impl<'a> Study<'a> {
     /// What is going to be done, in words.
     fn plan(&self, resumed: usize) -> String {
         let list = |numbers: &[f64]| {
-            let first = numbers.first().copied().unwrap_or_default();
-            let last = numbers.last().copied().unwrap_or_default();
-            format!(
-                "{} to {}",
-                mbs_scene::format::significant(first),
-                mbs_scene::format::significant(last)
-            )
+            let ends = [numbers.first(), numbers.last()].map(|x| x.copied().unwrap_or_default());
+            ends.map(significant).join(" to ")
         };
         let mut text = format!(
             "{} methods, steps {} s, tolerances {}, each run timed {} times or more; work for about {:.0} s, runs of at most {:.2} s \
@@ -349,13 +343,8 @@ impl<'a> Study<'a> {
             let map = plan.map(which, |between, penalty| {
                 let (formulation, precision) = (which.0.name(), which.1.name());
                 let key = format!("map {formulation} {precision} {penalty:e} {between}");
-                let run = || {
-                    let most = self.request.time_limit;
-                    let cell = plan.cell(self.scenes, known, which, (between, penalty), most);
-                    serde_json::to_value(cell).unwrap_or_default()
-                };
-                let value = store.get(&key, run).map_err(CompareError::Journal)?;
-                Ok(serde_json::from_value::<Cell>(value).unwrap_or_default())
+                let (most, at) = (self.request.time_limit, (between, penalty));
+                store.get(&key, || plan.cell(self.scenes, known, which, at, most))
             })?;
             maps.push(map);
         }
@@ -409,3 +398,9 @@ impl Display for CompareError {
 }
 
 impl core::error::Error for CompareError {}
+
+impl From<JournalError> for CompareError {
+    fn from(error: JournalError) -> Self {
+        Self::Journal(error)
+    }
+}

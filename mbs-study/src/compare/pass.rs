@@ -256,7 +256,6 @@ impl<T: Real, const D: usize> Recorder<T, D> {
         let invariant = simulation.invariant();
         let finite = |x: f64| x.is_finite().then_some(x);
         let [coordinates, constraints, _] = simulation.sizes();
-        #[allow(clippy::cast_precision_loss, reason = "a mean")]
         let mean_step = if self.steps > 0 { self.reached / self.steps as f64 } else { 0.0 };
         let entry = RunEntry {
             status: if stop.is_some() { Status::Failed } else { Status::Completed },

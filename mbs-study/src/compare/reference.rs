@@ -1,6 +1,6 @@
 //! What errors are taken against: a run that is not under test, in two accuracies, beside another formulation.
 
-use super::ladder::{Instants, count};
+use super::ladder::Instants;
 use super::table::Table;
 use crate::compare::results::{CrossCheck, OutputScale, Reference, output_scales, row_distance};
 use mbs::record::Channel;
@@ -226,7 +226,7 @@ impl Known {
             squares += rms * rms;
             n += 1;
         }
-        Some([largest, (squares / count(n.max(1))).sqrt()])
+        Some([largest, (squares / n.max(1) as f64).sqrt()])
     }
 }
 
@@ -266,7 +266,7 @@ fn known(parted: &[f64], bound: f64) -> usize {
         clippy::cast_sign_loss,
         reason = "a share of a count"
     )]
-    let least = ((count(all) * LEAST_SHARE).ceil() as usize).max(1);
+    let least = ((all as f64 * LEAST_SHARE).ceil() as usize).max(1);
     let mut bound = bound;
     while within(bound) < least && bound < 1.0 {
         bound *= 10.0;

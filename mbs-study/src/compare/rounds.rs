@@ -37,7 +37,7 @@ impl Study<'_> {
                 jobs.reverse();
             }
             for (n, &(m, r)) in jobs.iter().enumerate() {
-                let part = super::ladder::count(n) / super::ladder::count(jobs.len());
+                let part = n as f64 / jobs.len() as f64;
                 let usual = repeats * ROUNDS[0];
                 let share = ((f64::from(round) + part) / f64::from(usual)).min(1.0);
                 let doing = format!("timing, round {} of {usual}", round + 1);
@@ -47,13 +47,10 @@ impl Study<'_> {
                 let key = format!("time {round} {} {:e}", method.name(), run.setting);
                 let setting = run.setting;
                 let time = || {
-                    let course = self.course(method, setting, known).ok();
-                    course
-                        .and_then(|(settings, course)| self.scenes.timed(&settings, &course, round))
-                        .into()
+                    let (settings, course) = self.course(method, setting, known).ok()?;
+                    self.scenes.timed(&settings, &course, round)
                 };
-                let value = store.get(&key, time).map_err(CompareError::Journal)?;
-                run.cpu_seconds.extend(value.as_f64());
+                run.cpu_seconds.extend(store.get(&key, time)?);
             }
         }
         Ok(())

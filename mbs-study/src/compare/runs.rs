@@ -8,7 +8,7 @@ use super::store::Store;
 use super::{CompareError, Study, Watch};
 use crate::compare::results::{MethodRuns, RunEntry, Status};
 use mbs::FormulationKind;
-use serde_json::{Value, json};
+use serde::{Deserialize, Serialize};
 
 /// Error below which a finer setting can be no better for rounding, relative to the outputs' ranges [-]. Chosen, not tuned.
 const GOOD: f64 = 1e-2;
@@ -31,6 +31,15 @@ struct Refined {
     over: Option<String>,
 }
 
+/// A run as the journal keeps it.
+#[derive(Debug, Default, Serialize, Deserialize)]
+#[serde(default)]
+struct Made {
+    entry: RunEntry,
+    work: f64,
+    is_not_started: bool,
+}
+
 impl Study<'_> {
     pub(super) fn runs(
         &self,
@@ -40,7 +49,7 @@ impl Study<'_> {
     ) -> Result<Vec<MethodRuns>, CompareError> {
         let mut all = Vec::new();
         for (i, method) in self.methods.iter().enumerate() {
-            let share = super::ladder::count(i) / super::ladder::count(self.methods.len());
+            let share = i as f64 / self.methods.len() as f64;
             watch.doing(RECORDING[0] + RECORDING[1] * share, &method.name());
             let settings = if method.is_fixed() { &self.steps } else { &self.tolerances };
             let mut refined = Refined::default();
@@ -77,12 +86,9 @@ impl Study<'_> {
             return Ok(RunEntry { setting, not_run: Some(why.clone()), ..RunEntry::default() });
         }
         let key = format!("run {} {setting:e}", method.name());
-        let value = store.get(&key, || self.recorded(method, setting, known));
-        let value = value.map_err(CompareError::Journal)?;
-        let entry = value.get("entry").cloned().unwrap_or_default();
-        let entry = serde_json::from_value::<RunEntry>(entry).unwrap_or_default();
-        let work = value.get("work").and_then(Value::as_f64).unwrap_or_default();
-        if value.get("is_not_started").and_then(Value::as_bool) == Some(true) {
+        let Made { entry, work, is_not_started } =
+            store.get(&key, || self.recorded(method, setting, known))?;
+        if is_not_started {
             refined.over = Some("it does not start with any setting".to_owned());
         }
         if entry.not_run.is_some() {
@@ -110,12 +116,13 @@ impl Study<'_> {
         (is_long || is_much).then(|| would(seconds))
     }
 
-    fn recorded(&self, method: &MethodCase, setting: f64, known: &Known) -> Value {
+    fn recorded(&self, method: &MethodCase, setting: f64, known: &Known) -> Made {
         let (settings, course) = match self.course(method, setting, known) {
             Ok(both) => both,
             Err(text) => {
                 let not_run = Some(format!("refused: {text}"));
-                return json!({ "entry": RunEntry { setting, not_run, ..RunEntry::default() } });
+                let entry = RunEntry { setting, not_run, ..RunEntry::default() };
+                return Made { entry, ..Made::default() };
             }
         };
         let limit = self.request.time_limit;
@@ -130,11 +137,7 @@ impl Study<'_> {
             entry.error = errors.map(|[largest, _]| largest);
             entry.error_rms = errors.map(|[_, rms]| rms);
         }
-        json!({
-            "entry": entry,
-            "work": recorded.work,
-            "is_not_started": recorded.is_not_started,
-        })
+        Made { entry, work: recorded.work, is_not_started: recorded.is_not_started }
     }
 
     /// Settings and course of a run over what is compared.
@@ -146,7 +149,6 @@ impl Study<'_> {
     ) -> Result<(mbs::ResolvedMethod, Course), String> {
         let instants = Instants { count: known.rows.len(), ..self.instants };
         let between = method.is_fixed().then(|| instants.steps_between(setting));
-        #[allow(clippy::cast_precision_loss, reason = "a count of steps")]
         let step = between.map_or(self.of_scene, |n| instants.interval / n as f64);
         let settings = self.settings(method, setting, step)?;
         Ok((settings, Course { instants, between }))

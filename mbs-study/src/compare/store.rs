@@ -2,6 +2,7 @@
 
 use crate::journal::{Head, Journal, JournalError};
 use mbs::Interrupt;
+use serde::{Serialize, de::DeserializeOwned};
 use serde_json::Value;
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -52,16 +53,17 @@ impl Store {
         Ok(Some(Self { journal: Some(journal), done, resumed, interrupt: Interrupt::default() }))
     }
 
-    /// The result of an earlier start, or that of `job`, kept.
-    pub(super) fn get(
+    /// The result of an earlier start, or that of `job`, kept; as the journal has it.
+    pub(super) fn get<R: Serialize + DeserializeOwned + Default>(
         &mut self,
         key: &str,
-        job: impl FnOnce() -> Value,
-    ) -> Result<Value, JournalError> {
+        job: impl FnOnce() -> R,
+    ) -> Result<R, JournalError> {
+        let known = |value: &Value| R::deserialize(value).unwrap_or_default();
         if let Some(value) = self.done.get(key) {
-            return Ok(value.clone());
+            return Ok(known(value));
         }
-        let value = job();
+        let value = serde_json::to_value(job()).unwrap_or_default();
         // what was cut short is no result
         if self.interrupt.is_set() {
             return Err(JournalError::Interrupted);
@@ -69,8 +71,7 @@ impl Store {
         if let Some(journal) = &mut self.journal {
             journal.append(&[key, &value.to_string()])?;
         }
-        self.done.insert(key.to_owned(), value.clone());
-        Ok(value)
+        Ok(known(self.done.entry(key.to_owned()).or_insert(value)))
     }
 }
 
@@ -92,21 +93,19 @@ mod tests {
         let numbers: [f64; 4] = [0.1 + 0.2, 1.0 / 3.0, 5e-324, -2.5e300];
         let open = |earlier| Store::open(Some(&out), &head, earlier).unwrap();
         let mut store = open(Earlier::Refuse).unwrap();
-        store.get("run 1", || numbers.to_vec().into()).unwrap();
+        store.get("run 1", || numbers.to_vec()).unwrap();
         drop(store);
         assert!(open(Earlier::Refuse).is_none(), "finished runs are not lost by mistake");
         let mut store = open(Earlier::Resume).unwrap();
         assert_eq!(store.resumed, 1);
-        let value = store.get("run 1", || panic!("it is there")).unwrap();
-        for (x, y) in numbers.iter().zip(value.as_array().unwrap()) {
-            assert_eq!(x.to_bits(), y.as_f64().unwrap().to_bits());
-        }
+        let value: Vec<f64> = store.get("run 1", || panic!("it is there")).unwrap();
+        assert_eq!(value, numbers);
         // what is cut short is no result
         let flag = Arc::new(AtomicBool::new(false));
         store.interrupt = Interrupt::new(flag.clone());
         let cut = store.get("run 2", || {
             flag.store(true, Ordering::Relaxed);
-            0.into()
+            0
         });
         assert!(matches!(cut, Err(JournalError::Interrupted)));
         drop(store);

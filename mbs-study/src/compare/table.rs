@@ -118,7 +118,7 @@ pub(super) fn read(
 )]
 fn instant(t: f64, instants: &Instants) -> Option<usize> {
     let k = (t / instants.interval).round();
-    if !(k >= 1.0 && k <= super::ladder::count(instants.count)) {
+    if !(k >= 1.0 && k <= instants.count as f64) {
         return None;
     }
     let end = instants.time(instants.count);

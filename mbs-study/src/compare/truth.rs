@@ -1,13 +1,12 @@
 //! Makes the reference: by candidates, the best first.
 
-use super::ladder::count;
 use super::method::{Control, MethodCase};
 use super::reference::{Known, Pair, Rows};
 use super::store::Store;
 use super::{CompareError, Study, course::Course, table};
 use crate::compare::results::Status;
-use mbs::{FormulationKind, IntegratorKind, Precision, ResolvedMethod};
-use serde_json::{Value, json};
+use mbs::{FormulationKind, IntegratorKind, Precision, Settings};
+use serde::{Deserialize, Serialize};
 
 /// Time limit of a run of the reference, relative to that of others [-]. Chosen, not tuned.
 const TIME_LIMIT: f64 = 10.0;
@@ -24,6 +23,13 @@ const CHECK_BUDGETS: f64 = 20.0;
 /// An integrator that controls its error, in a precision; the tolerances of its two runs, and how long they may take.
 type Way<'a> = ((IntegratorKind, Precision), (&'a [[f64; 2]], f64));
 const ORDINARY: (IntegratorKind, Precision) = (IntegratorKind::Rk54, Precision::F64);
+
+/// A run of the reference as the journal keeps it: its rows, or why there are none.
+#[derive(Debug, Default, Serialize, Deserialize)]
+struct Made {
+    rows: Option<Rows>,
+    stopped: Option<String>,
+}
 
 impl Study<'_> {
     /// The reference: a table where one is given; else runs.
@@ -131,13 +137,13 @@ impl Study<'_> {
         let between = self.instants.steps_between(self.of_scene * factor);
         let mut runs: Vec<Rows> = Vec::new();
         for halvings in 0..3 {
-            let step = self.instants.interval / count((between as usize) << halvings);
+            let step = self.instants.interval / (between << halvings) as f64;
             match self.reference_run(&method, (step, TIME_LIMIT), store, why)? {
                 Some(rows) => runs.push(rows),
                 None => return Ok(None),
             }
         }
-        let h = mbs_scene::format::significant(self.instants.interval / count(between as usize));
+        let h = mbs_scene::format::significant(self.instants.interval / between as f64);
         let name = format!(
             "{}, f64, extrapolated from steps of {h} s, a half and a quarter",
             formulation.name()
@@ -155,31 +161,32 @@ impl Study<'_> {
         why: &mut String,
     ) -> Result<Option<Rows>, CompareError> {
         let key = format!("reference {} {setting:e}", method.name());
-        let value = store.get(&key, || self.reference_value(method, setting, times));
-        let value = value.map_err(CompareError::Journal)?;
-        if let Some(text) = value.get("stopped").and_then(Value::as_str) {
+        let made = store.get(&key, || match self.reference_rows(method, setting, patience) {
+            Ok(rows) => Made { rows: Some(rows), stopped: None },
+            Err(why) => Made { rows: None, stopped: Some(why) },
+        })?;
+        if let Some(text) = made.stopped {
             *why = format!("{}, {text}", method.name());
-            return Ok(None);
         }
-        let rows = value.get("rows").cloned().unwrap_or_default();
-        Ok(serde_json::from_value::<Rows>(rows).ok())
+        Ok(made.rows)
     }
 
-    fn reference_value(&self, method: &MethodCase, setting: f64, times: f64) -> Value {
+    /// The rows, or why there are none.
+    fn reference_rows(
+        &self,
+        method: &MethodCase,
+        setting: f64,
+        patience: f64,
+    ) -> Result<Rows, String> {
         let step = if method.is_fixed() { setting } else { self.of_scene };
-        let settings = match self.settings(method, setting, step) {
-            Ok(settings) => settings,
-            Err(text) => return json!({ "stopped": text }),
-        };
+        let settings = self.settings(method, setting, step)?;
         let between = method.is_fixed().then(|| self.instants.steps_between(setting));
         let course = Course { instants: self.instants, between };
         let recorded = self.scenes.recorded(&settings, &course, times * self.request.time_limit);
         match (&recorded.entry.failure, recorded.entry.status) {
-            (Some(error), _) => {
-                json!({ "stopped": format!("at t = {} s: {}", error.time, error.message) })
-            }
-            (None, Status::Completed) if !recorded.is_given_up => json!({ "rows": recorded.rows }),
-            _ => json!({ "stopped": "it took longer than the reference may" }),
+            (Some(error), _) => Err(format!("at t = {} s: {}", error.time, error.message)),
+            (None, Status::Completed) if !recorded.is_given_up => Ok(recorded.rows),
+            _ => Err("it took longer than the reference may".to_owned()),
         }
     }
 

@@ -2,61 +2,35 @@
 
 use mbs_core::scene::{Entry, Scene};
 
-/// How bad a finding is.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Severity {
-    /// Worth knowing: nothing is wrong with it.
-    Note,
-    /// Perhaps not what was meant, or a matter of rounding; the scene runs.
-    Doubt,
-    /// The scene has no start, or its run stops.
-    Fault,
-}
-
-impl Severity {
-    /// The word in JSON and text.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Note => "note",
-            Self::Doubt => "doubt",
-            Self::Fault => "fault",
-        }
+mbs::named! {
+    /// How bad a finding is.
+    pub enum Severity {
+        /// Worth knowing: nothing is wrong with it.
+        Note = "note",
+        /// Perhaps not what was meant, or a matter of rounding; the scene runs.
+        Doubt = "doubt",
+        /// The scene has no start, or its run stops.
+        Fault = "fault",
     }
 }
 
-/// What a finding is about, in the order of the report.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Topic {
-    /// Rank and freedoms.
-    Rank,
-    /// Dependent sets of constraints.
-    Dependence,
-    /// Branches and singular positions.
-    Motion,
-    /// Masses and inertias.
-    Masses,
-    /// Units.
-    Units,
-    /// Places.
-    Places,
-    /// The start.
-    Start,
-}
-
-impl Topic {
-    /// The word in JSON.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Rank => "rank",
-            Self::Dependence => "dependence",
-            Self::Motion => "motion",
-            Self::Masses => "masses",
-            Self::Units => "units",
-            Self::Places => "places",
-            Self::Start => "start",
-        }
+mbs::named! {
+    /// What a finding is about, in the order of the report.
+    pub enum Topic {
+        /// Rank and freedoms.
+        Rank = "rank",
+        /// Dependent sets of constraints.
+        Dependence = "dependence",
+        /// Branches and singular positions.
+        Motion = "motion",
+        /// Masses and inertias.
+        Masses = "masses",
+        /// Units.
+        Units = "units",
+        /// Places.
+        Places = "places",
+        /// The start.
+        Start = "start",
     }
 }
 

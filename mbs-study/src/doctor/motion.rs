@@ -182,7 +182,6 @@ impl<const D: usize> StepObserver<f64, D> for Look<'_, '_> {
 }
 
 /// How many positions are decomposed.
-#[allow(clippy::cast_precision_loss, reason = "counts stay far below 2^53")]
 fn positions(linkage: &Linkage, effort: &Effort) -> f64 {
     let watched = linkage.parts.iter().filter(|p| is_watched(p));
     let work =

@@ -192,7 +192,6 @@ impl<const D: usize> Eye<'_, D> {
         if self.step.is_none() {
             self.simulation.formulation_mut().set_max_steps(most);
         }
-        #[allow(clippy::cast_precision_loss, reason = "a small count")]
         let end = |j: u64| if j == count { to } else { from + rest * (j as f64 / pieces) };
         let piece = |j| Stretch { is_last: is_last && j == count, ..Stretch::to(end(j)) };
         let Self { look, simulation, channels, alarm, step, .. } = self;

@@ -17,7 +17,6 @@ mod look;
 mod stiffness;
 
 use crate::auto::Clock;
-use crate::compare::ladder::count;
 use crate::compare::results::output_scales;
 use look::{End, Look, Pace, Seen};
 use mbs::inside::AssembledScene;
@@ -114,7 +113,6 @@ impl Judge<'_> {
             scene: self.scene,
             ready: &ready,
             rows: self.outcome.rows(),
-            #[allow(clippy::cast_precision_loss, reason = "step counts stay far below 2^53")]
             n_steps: self.outcome.summary.steps as f64,
             step_at: &step_at,
         };
@@ -181,7 +179,7 @@ impl Judge<'_> {
         // where longer steps fail, those of the run are near what the motion bears: its rows say little of it
         let is_late = seen.end == End::Late;
         why.push(reason(&format!("{} times the step", few(COARSER)), seen));
-        let has_all_rows = look.n_steps + 1.0 <= count(rows.len());
+        let has_all_rows = look.n_steps + 1.0 <= rows.len() as f64;
         if is_late && self.is_second_order() && has_all_rows {
             let basis = "the differences of its rows, roughly: no other look fits in the time";
             let errors = differences::errors(rows);
@@ -235,9 +233,9 @@ impl Judge<'_> {
 
     /// Rows that are whole long steps apart, where the rows allow it.
     fn spaced(&self, n_rows: usize) -> Vec<usize> {
-        let a_row = self.settings.duration / count(n_rows.max(2) - 1);
+        let a_row = self.settings.duration / (n_rows.max(2) - 1) as f64;
         let long = (COARSER * self.settings.step / a_row).round().max(1.0);
-        let every = long * (count(n_rows) / long / count(MANY)).ceil().max(1.0);
+        let every = long * (n_rows as f64 / long / MANY as f64).ceil().max(1.0);
         #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "at least one")]
         let every = every as usize;
         (every..n_rows).step_by(every).filter(|i| i + 1 < n_rows).chain([n_rows - 1]).collect()
@@ -341,7 +339,7 @@ fn instants(rows: &[(f64, Vec<f64>)]) -> Vec<usize> {
     let end = rows[last].0;
     let at = |t: f64| rows.partition_point(|(time, _)| *time < t).clamp(1, last);
     let mut places: BTreeSet<usize> =
-        (1..=EVENLY).map(|k| at(end * count(k) / count(EVENLY))).collect();
+        (1..=EVENLY).map(|k| at(end * k as f64 / EVENLY as f64)).collect();
     places.insert(last);
     let n_columns = rows[0].1.len();
     let most = STEEP.min(n_columns);

@@ -49,8 +49,7 @@ pub(super) fn shortest_period<const D: usize>(
     let size = forces.iter().fold(0.0, |most: f64, f| most.max(f.abs()));
     let mut scratch = vec![0.0; solver.n_scratch()];
     // numbers without a pattern of their own: the fractional parts of multiples of the golden ratio
-    let mut x: Vec<f64> =
-        (1..=n).map(|i| (crate::compare::ladder::count(i) * 0.618_034).fract() - 0.5).collect();
+    let mut x: Vec<f64> = (1..=n).map(|i| (i as f64 * 0.618_034).fract() - 0.5).collect();
     let (mut q, mut moved, mut lambda) = (state.q.clone(), vec![0.0; n], 0.0);
     let mut extended = vec![0.0; state.q.len()];
     for _ in 0..ITERATIONS {

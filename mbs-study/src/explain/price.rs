@@ -2,7 +2,7 @@
 
 use super::explanation::{EffectCost, EffectCosts};
 use super::reach::largest_step;
-use super::timing::{Times, count, interleaved, monitor, trial};
+use super::timing::{Times, interleaved, monitor, trial};
 use super::trials::{Effort, outcome, without};
 use mbs::inside::OutputRanges;
 use mbs::record::RunError;
@@ -110,7 +110,7 @@ impl Plan {
     ) -> Self {
         let n_steps = settings.n_steps();
         let [start, step] = trial::<T, D>(scene, settings).unwrap_or([0.0; 2]);
-        let each = effort.seconds / 3.0 / count(n_scenes as u64);
+        let each = effort.seconds / 3.0 / n_scenes as f64;
         // The wanted number of steps is halved until it fits; halves keep the lengths the same from run to run.
         let fit = |mut n: u64, takes: &dyn Fn(u64) -> f64| {
             while n > FEWEST_STEPS && takes(n) > each {
@@ -119,12 +119,12 @@ impl Plan {
             n
         };
         let repeats = f64::from(effort.repeats);
-        let timed = fit(n_steps.min(effort.timed_steps), &|n| repeats * (start + count(n) * step));
-        let compared = fit(n_steps, &|n| start + RECORDED * count(n) * step);
+        let timed = fit(n_steps.min(effort.timed_steps), &|n| repeats * (start + n as f64 * step));
+        let compared = fit(n_steps, &|n| start + RECORDED * n as f64 * step);
         let duration = if compared == n_steps {
             settings.duration
         } else {
-            settings.duration.min(count(compared) * settings.step_max)
+            settings.duration.min(compared as f64 * settings.step_max)
         };
         Self { timed_steps: timed, duration }
     }
@@ -145,5 +145,5 @@ fn share(with_all: &Times, without: &Times) -> EffectCost {
 
 /// Iterations per step.
 fn iterations(outcome: &Outcome) -> f64 {
-    count(outcome.summary.iterations) / count(outcome.summary.steps.max(1))
+    outcome.summary.iterations as f64 / outcome.summary.steps.max(1) as f64
 }

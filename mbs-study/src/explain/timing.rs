@@ -51,7 +51,7 @@ fn once<T: Real, const D: usize>(scene: &Scene<T>, settings: &Settings, n: u64) 
     let clock = ThreadTime::now();
     let done = steps(&mut simulation, settings.step_max, n, || true);
     let seconds = clock.elapsed().as_secs_f64();
-    (done >= FEWEST_STEPS.min(n)).then(|| seconds / count(done))
+    (done >= FEWEST_STEPS.min(n)).then(|| seconds / done as f64)
 }
 
 /// CPU time per step of watching the energy invariant, the least of the repeats: the energies of one state, taken again and
@@ -69,9 +69,9 @@ pub(super) fn monitor<T: Real, const D: usize>(
         for k in 0..n {
             let energies = core::hint::black_box(&mut simulation).watched_energies();
             core::hint::black_box(invariant.change(energies));
-            invariant.mark(count(k), energies);
+            invariant.mark(k as f64, energies);
         }
-        clock.elapsed().as_secs_f64() / count(n.max(1))
+        clock.elapsed().as_secs_f64() / n.max(1) as f64
     };
     (0..repeats).map(once).min_by(f64::total_cmp)
 }
@@ -88,7 +88,7 @@ pub(super) fn trial<T: Real, const D: usize>(
     let has_time = || clock.elapsed().as_secs_f64() < TRIAL.1;
     let n = TRIAL.0.min(settings.n_steps());
     let done = steps(&mut simulation, settings.step_max, n, has_time);
-    Some([start, clock.elapsed().as_secs_f64() / count(done.max(1))])
+    Some([start, clock.elapsed().as_secs_f64() / done.max(1) as f64])
 }
 
 /// Steps until `n`, a failure or a word; gives the number of those made.
@@ -103,14 +103,9 @@ fn steps<T: Real, const D: usize>(
         if !has_time() || simulation.step(dt).is_err() {
             return k;
         }
-        simulation.set_time(T::from_f64(count(k + 1) * h));
+        simulation.set_time(T::from_f64((k + 1) as f64 * h));
     }
     n
-}
-
-#[allow(clippy::cast_precision_loss, reason = "step counts stay far below 2^53")]
-pub(super) fn count(n: u64) -> f64 {
-    n as f64
 }
 
 #[cfg(test)]

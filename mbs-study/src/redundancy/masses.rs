@@ -83,7 +83,6 @@ fn roots(scene: &Scene<f64>, body: usize, at: &Poses) -> Matrix {
 fn mean(scene: &Scene<f64>) -> [f64; 2] {
     let bodies: Vec<_> = (0..scene.bodies.len()).map(|b| mass_properties(scene, b)).collect();
     let mean = |values: Vec<f64>| {
-        #[allow(clippy::cast_precision_loss, reason = "a count")]
         let n = values.len() as f64;
         if values.is_empty() { 1.0 } else { values.iter().sum::<f64>() / n }
     };

@@ -12,32 +12,19 @@ use super::residual::residuals;
 use mbs_core::rigid::RigidMotion;
 use mbs_linear::{Matrix, Svd};
 
-/// Where a dependency holds.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Nature {
-    /// In every position near by: the mechanism is built so.
-    Structural,
-    /// In this position alone: it is singular.
-    Singular,
-    /// Some of it in every position, more in this one.
-    Both,
-    /// It is not known: nothing can move.
-    Rigid,
-    /// It was not tried: too large, or no position near by was found.
-    Untried,
-}
-
-impl Nature {
-    /// The word in JSON.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Structural => "structural",
-            Self::Singular => "singular-position",
-            Self::Both => "both",
-            Self::Rigid => "rigid",
-            Self::Untried => "untried",
-        }
+mbs::named! {
+    /// Where a dependency holds.
+    pub enum Nature {
+        /// In every position near by: the mechanism is built so.
+        Structural = "structural",
+        /// In this position alone: it is singular.
+        Singular = "singular-position",
+        /// Some of it in every position, more in this one.
+        Both = "both",
+        /// It is not known: nothing can move.
+        Rigid = "rigid",
+        /// It was not tried: too large, or no position near by was found.
+        Untried = "untried",
     }
 }
 
@@ -144,7 +131,6 @@ fn draw(state: &mut u64) -> f64 {
     *state ^= *state >> 12;
     *state ^= *state << 25;
     *state ^= *state >> 27;
-    #[allow(clippy::cast_precision_loss, reason = "53 bits")]
     let x = (state.wrapping_mul(0x2545_F491_4F6C_DD1D) >> 11) as f64;
     x / (1_u64 << 52) as f64 - 1.0
 }

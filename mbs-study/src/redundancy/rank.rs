@@ -93,7 +93,6 @@ impl Rank {
 }
 
 fn threshold(m: usize, n: usize) -> f64 {
-    #[allow(clippy::cast_precision_loss, reason = "sizes stay far below 2^53")]
     let size = m.max(n) as f64;
     size * f64::EPSILON.powf(2.0 / 3.0)
 }

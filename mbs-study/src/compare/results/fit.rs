@@ -45,7 +45,6 @@ fn is_line(points: &[(f64, f64)]) -> bool {
     if !(first.0 / last.0 >= SPAN && order > 0.0 && order <= MOST_ORDER) {
         return false;
     }
-    #[allow(clippy::cast_precision_loss, reason = "a few points")]
     let n = points.len() as f64;
     let rest = |&(h, e): &(f64, f64)| libm::log10(e) - order * libm::log10(h);
     let mean = points.iter().map(rest).sum::<f64>() / n;
@@ -75,7 +74,6 @@ fn straight(points: &[(f64, f64)]) -> &[(f64, f64)] {
 
 /// Slope of the straight line through the logarithms, by least squares.
 fn slope(points: &[(f64, f64)]) -> f64 {
-    #[allow(clippy::cast_precision_loss, reason = "a few points")]
     let n = points.len() as f64;
     let logs = || points.iter().map(|&(h, e)| (libm::log(h), libm::log(e)));
     let (x, y) = logs().fold((0.0, 0.0), |(x, y), (a, b)| (x + a / n, y + b / n));

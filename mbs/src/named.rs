@@ -1,0 +1,25 @@
+//! Enums whose values have names.
+
+/// An enum with `ALL` of its values, their `NAMES` in the same order, and `name`.
+#[doc(hidden)]
+#[macro_export]
+macro_rules! named {
+    ($(#[$of:meta])* pub enum $kind:ident { $($(#[$about:meta])* $value:ident = $name:literal,)* }) => {
+        $(#[$of])*
+        #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+        pub enum $kind { $($(#[$about])* $value,)* }
+
+        impl $kind {
+            /// All of them.
+            pub const ALL: [Self; [$($name),*].len()] = [$(Self::$value),*];
+            /// Their names, in the same order.
+            pub const NAMES: [&str; Self::ALL.len()] = [$($name),*];
+
+            /// Its name.
+            #[must_use]
+            pub fn name(self) -> &'static str {
+                Self::NAMES[self as usize]
+            }
+        }
+    };
+}
