@@ -5,8 +5,7 @@
     reason = "what is measured is shown with --nocapture; references keep their digits"
 )]
 
-use crate::common::{FORMULATIONS, distance, scene, settings, worst};
-use mbs::FormulationKind;
+use crate::common::{FORMULATIONS, distance, run_in, scene, with_fixed_steps, worst};
 
 /// Names of the angles, as channels of the scene.
 const ANGLES: [&str; 7] = ["beta", "theta", "gamma", "phi", "delta", "omega", "epsilon"];
@@ -36,8 +35,7 @@ const END_F: [f64; 2] = [-0.006_963_039_427_046_851_51, -0.000_718_388_430_719_1
 /// Errors of the angles, then of the point F, at the end of a run.
 fn errors(formulation: &str, step: f64) -> [f64; 8] {
     let scene = scene("andrews");
-    let outcome =
-        mbs::typed::run::<f64, 2>(&scene, &settings(&scene, formulation, Some(step)), &mut ());
+    let outcome = run_in(&scene, formulation, Some(step));
     assert!(outcome.error.is_none(), "{formulation} {step}: {:?}", outcome.error);
     assert_eq!(scene.outputs.len(), 8, "seven angles and a point");
     for (output, name) in scene.outputs.iter().zip(ANGLES) {
@@ -83,8 +81,7 @@ fn andrews_keeps_its_energy_with_order_2_and_its_symmetry() {
     let scene = scene("andrews");
     for formulation in FORMULATIONS {
         let energy = [1e-4, 1e-5, 1e-6].map(|step| {
-            let settings = settings(&scene, formulation, Some(step));
-            let outcome = mbs::typed::run::<f64, 2>(&scene, &settings, &mut ());
+            let outcome = run_in(&scene, formulation, Some(step));
             assert!(outcome.error.is_none(), "{formulation} {step}: {:?}", outcome.error);
             // omega = -phi: channels are changes from starts that have the same symmetry.
             let mut asymmetry = 0.0;
@@ -110,12 +107,9 @@ const BETA_AT_1E_6: f64 = 5e-6;
 #[test]
 fn every_formulation_ends_at_the_reference_and_loses_energy_with_order_2() {
     let scene = scene("andrews");
-    for formulation in
-        FormulationKind::ALL.map(FormulationKind::name).into_iter().filter(|f| *f != "multi-index")
-    {
+    for formulation in with_fixed_steps() {
         let energy = [1e-4, 1e-5, 1e-6].map(|step| {
-            let settings = settings(&scene, formulation, Some(step));
-            let outcome = mbs::typed::run::<f64, 2>(&scene, &settings, &mut ());
+            let outcome = run_in(&scene, formulation, Some(step));
             assert!(outcome.error.is_none(), "{formulation} {step}: {:?}", outcome.error);
             outcome.summary.energy.max_error
         });

@@ -12,7 +12,7 @@ use crate::common::Bench;
 use mbs::core::outputs::Contacts;
 use mbs::core::scene::{Dimension, EffectKind, JointId, Limit, Scene};
 use mbs::scene_file::SceneFile;
-use mbs::{Method, Outcome, ResolvedMethod};
+use mbs::{Method, Outcome};
 
 /// Formulations whose rule is the trapezoidal one.
 const FORMULATIONS: [&str; 4] = ["index-3", "classical", "state-space", "recursive"];
@@ -180,12 +180,7 @@ impl Bounce {
     fn run_with(&self, formulation: &str, step: f64, overrides: Method) -> Outcome {
         let overrides =
             Method { formulation: Some(formulation.to_owned()), step: Some(step), ..overrides };
-        let settings =
-            ResolvedMethod::new(&self.scene, &overrides).expect("the settings are built");
-        let outcome = match self.scene.dimension {
-            Dimension::Planar => mbs::typed::run::<f64, 2>(&self.scene, &settings, &mut ()),
-            Dimension::Spatial => mbs::typed::run::<f64, 3>(&self.scene, &settings, &mut ()),
-        };
+        let outcome = common::run(&self.scene, &overrides);
         assert!(outcome.error.is_none(), "{formulation} {step}: {:?}", outcome.error);
         outcome
     }
@@ -370,8 +365,7 @@ fn a_wheel_goes_through_standstill_on_a_path_that_does_not_depend_on_the_step() 
     let scene = parsed(STANDSTILL);
     for formulation in FORMULATIONS {
         let run = |step: f64| {
-            let settings = common::settings(&scene, formulation, Some(step));
-            let outcome = mbs::typed::run::<f64, 3>(&scene, &settings, &mut ());
+            let outcome = common::run_in(&scene, formulation, Some(step));
             assert!(outcome.error.is_none(), "{formulation} {step}: {:?}", outcome.error);
             let rows = outcome.rows();
             assert!(rows[0].1[6] > 0.5 && rows[rows.len() - 1].1[6] < -0.1, "it turns back");

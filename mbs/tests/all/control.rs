@@ -5,19 +5,10 @@ use crate::common;
 use crate::common::allocations;
 mod starts;
 
-use crate::common::scene;
-use mbs::core::scene::{Dimension, Quantity, Scene};
+use crate::common::{by, run, scene};
+use mbs::core::scene::{Quantity, Scene};
 use mbs::typed::Simulation;
 use mbs::{Method, Outcome, Settings};
-
-/// Runs a scene; what is left out is the scene's.
-fn run(scene: &Scene<f64>, overrides: &Method) -> Outcome {
-    let settings = ResolvedMethod::new(scene, overrides).expect("the settings are built");
-    match scene.dimension {
-        Dimension::Planar => mbs::typed::run::<f64, 2>(scene, &settings, &mut ()),
-        Dimension::Spatial => mbs::typed::run::<f64, 3>(scene, &settings, &mut ()),
-    }
-}
 
 fn completed(scene: &Scene<f64>, overrides: &Method) -> Outcome {
     let outcome = run(scene, overrides);
@@ -25,13 +16,9 @@ fn completed(scene: &Scene<f64>, overrides: &Method) -> Outcome {
     outcome
 }
 
-fn with(formulation: &str) -> Method {
-    Method { formulation: Some(formulation.to_owned()), ..Method::default() }
-}
-
 fn fixed(formulation: &str, step: f64) -> Method {
     let step_control = Some("fixed".to_owned());
-    Method { step: Some(step), step_control, ..with(formulation) }
+    Method { step: Some(step), step_control, ..by(formulation) }
 }
 
 fn multi_index(limits: [f64; 2], (step, step_max): (f64, f64)) -> Method {
@@ -39,7 +26,7 @@ fn multi_index(limits: [f64; 2], (step, step_max): (f64, f64)) -> Method {
         step: Some(step),
         step_max: Some(step_max),
         energy_tolerance: Some(limits),
-        ..with("multi-index")
+        ..by("multi-index")
     }
 }
 
@@ -153,7 +140,7 @@ fn a_blow_in_a_calm_motion_costs_a_tenth_of_the_fixed_step_that_works_everywhere
     let to = |overrides: Method| Method { duration: Some(7.5), ..overrides };
     let exact = hammer(0.8);
     let error = |outcome: &Outcome| (output(outcome, "angle")[0] - exact).abs();
-    let multi = completed(&scene, &to(with("multi-index")));
+    let multi = completed(&scene, &to(by("multi-index")));
     // The largest fixed step, by halves, that is as near to the exact answer.
     let wanted = error(&multi).max(1e-4);
     let steps = (0..14).map(|k| 2e-2 / f64::powi(2.0, k));
@@ -208,7 +195,7 @@ fn reference((name, end, names, digits): Reference) -> Vec<f64> {
         integrator: Some("rk54".to_owned()),
         tolerance: Some(1e-13),
         step: Some(1e-5),
-        ..with("recursive")
+        ..by("recursive")
     };
     outputs(&completed(&scene(name), &overrides), names)
 }
@@ -224,7 +211,7 @@ fn true_errors_fall_with_the_tolerance_of_the_estimate_over_four_decades() {
                 step: Some(end / 1000.0),
                 step_max: Some(end / 50.0),
                 error_tolerance: Some(f64::powi(10.0, -k)),
-                ..with("index-3")
+                ..by("index-3")
             };
             largest_difference(&outputs(&completed(&scene, &overrides), names), &exact)
         };
@@ -251,7 +238,7 @@ fn every_formulation_takes_controlled_steps_and_tighter_tolerances_give_better_a
                     step_control: Some((*rule).to_owned()),
                     error_tolerance: Some(tolerance),
                     energy_tolerance: Some([tolerance, tolerance / 100.0]),
-                    ..with(formulation)
+                    ..by(formulation)
                 };
                 largest_difference(&outputs(&completed(&scene, &overrides), &names), &exact)
             };
@@ -282,28 +269,28 @@ fn an_alarm_stops_the_run_with_a_typed_error_before_numbers_are_lost() {
 #[test]
 fn settings_of_the_control_are_taken_from_the_scene_and_refused_where_they_cannot_be() {
     let scene = scene("iltis-suspension-halved");
-    let settings = ResolvedMethod::new(&scene, &with("multi-index")).expect("it is built");
+    let settings = Settings::new(&scene, &by("multi-index")).expect("it is built");
     assert_eq!(settings.rule, mbs::StepRule::Energy);
     assert_eq!((settings.step_max, settings.energy_tolerance), (1e-2, [1e-6, 1e-8]));
-    let settings = ResolvedMethod::new(&scene, &with("index-3")).expect("it is built");
+    let settings = Settings::new(&scene, &by("index-3")).expect("it is built");
     assert_eq!((settings.rule, settings.step_max), (mbs::StepRule::Fixed, settings.step));
-    let both = Method { error_tolerance: Some(1e-5), ..with("multi-index") };
-    assert_eq!(ResolvedMethod::new(&scene, &both).map(|s| s.rule), Ok(mbs::StepRule::Both));
+    let both = Method { error_tolerance: Some(1e-5), ..by("multi-index") };
+    assert_eq!(Settings::new(&scene, &both).map(|s| s.rule), Ok(mbs::StepRule::Both));
     let refused = |overrides: Method| {
         let error = ResolvedMethod::new(&scene, &overrides).expect_err("it cannot be meant");
         format!("{error}; {}", error.hint())
     };
-    let reversed = Method { energy_tolerance: Some([1e-8, 1e-6]), ..with("multi-index") };
+    let reversed = Method { energy_tolerance: Some([1e-8, 1e-6]), ..by("multi-index") };
     assert!(refused(reversed).contains("U must be larger than L"));
     let explicit = Method {
         integrator: Some("rk4".to_owned()),
         step_control: Some("energy".to_owned()),
-        ..with("recursive")
+        ..by("recursive")
     };
     assert!(refused(explicit).contains("implicit"));
-    let unknown = Method { step_control: Some("enrgy".to_owned()), ..with("index-3") };
+    let unknown = Method { step_control: Some("enrgy".to_owned()), ..by("index-3") };
     assert!(refused(unknown).contains("energy"));
-    assert!(refused(Method { step_max: Some(0.0), ..with("multi-index") }).contains("step_max"));
+    assert!(refused(Method { step_max: Some(0.0), ..by("multi-index") }).contains("step_max"));
 }
 
 #[test]
@@ -388,7 +375,7 @@ table = [[0, 0, 0], [1, 0, 0], [2, 10, 0]]
         let overrides = Method {
             step_max: Some(2e-2),
             energy_tolerance: Some([1e-5, 1e-7]),
-            ..with(formulation)
+            ..by(formulation)
         };
         let outcome = completed(&scene, &overrides);
         let x = outcome.summary.outputs.0[0].1[0];

@@ -1,6 +1,6 @@
 //! Energy books: how far the invariant may drift, step by step, and that no run drifts far in silence.
 
-use crate::common::{Bench, FORMULATIONS, SCENES, scene, settings, worst};
+use crate::common::{Bench, FORMULATIONS, SCENES, run, run_in, scene, settings, worst};
 use mbs::core::scene::Dimension;
 
 /// Steps of the tables [s].
@@ -124,11 +124,7 @@ fn no_run_drifts_by_a_tenth_of_its_energy_in_silence() {
         let scene = scene(name);
         for formulation in FORMULATIONS {
             for step in LARGE_STEPS {
-                let settings = settings(&scene, formulation, Some(step));
-                let outcome = match scene.dimension {
-                    Dimension::Planar => mbs::typed::run::<f64, 2>(&scene, &settings, &mut ()),
-                    Dimension::Spatial => mbs::typed::run::<f64, 3>(&scene, &settings, &mut ()),
-                };
+                let outcome = run_in(&scene, formulation, Some(step));
                 let s = &outcome.summary;
                 let case = format!("{name} {formulation} {step}");
                 println!(
@@ -304,8 +300,7 @@ fn a_change_point_is_passed_in_index3_and_multi_index_wherever_steps_land() {
             tolerance,
             ..mbs::Method::default()
         };
-        let settings = mbs::ResolvedMethod::new(&scene, &overrides).unwrap();
-        let outcome = mbs::typed::run::<f64, 2>(&scene, &settings, &mut ());
+        let outcome = run(&scene, &overrides);
         assert!(outcome.summary.completed, "{formulation} {step}: {:?}", outcome.summary.error);
         outcome.summary.outputs.0[0].1[0]
     };

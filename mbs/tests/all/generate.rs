@@ -1,8 +1,8 @@
 //! Generated scenes: as many bodies and joints as said, consistent at the start, and sound in motion.
 
 use mbs::scene_file::{Family, GenerateError, SceneFile, generate};
-use mbs::{Method, Outcome, ResolvedMethod};
-use mbs_core::scene::{Dimension, Scene};
+use mbs::{Method, Outcome};
+use mbs_core::scene::Scene;
 
 const COMMAND: &str = "mbs generate";
 
@@ -37,11 +37,7 @@ fn run(scene: &Scene<f64>) -> Outcome {
         duration: Some(0.1),
         ..Method::default()
     };
-    let settings = ResolvedMethod::new(scene, &overrides).expect("settings");
-    let outcome = match scene.dimension {
-        Dimension::Planar => mbs::typed::run::<f64, 2>(scene, &settings, &mut ()),
-        Dimension::Spatial => mbs::typed::run::<f64, 3>(scene, &settings, &mut ()),
-    };
+    let outcome = crate::common::run(scene, &overrides);
     let summary = &outcome.summary;
     assert!(summary.completed, "{}: {:?}", summary.scene, summary.error);
     let position = summary.violation.position;

@@ -237,9 +237,7 @@ fn close(a: [f64; 2], b: [f64; 2], allowed: f64, what: &str) {
 
 #[test]
 fn an_input_that_is_set_to_a_constant_is_that_constant() {
-    for formulation in
-        FormulationKind::ALL.map(FormulationKind::name).into_iter().filter(|f| *f != "multi-index")
-    {
+    for formulation in common::with_fixed_steps() {
         let torque =
             |course| EffectKind::JointTorque(JointTorque { joint: JointId::new(0), course });
         let mut plain = simulation(&with(torque(Signal::Constant([3.0, 0.0, 0.0]))), formulation);
@@ -262,9 +260,7 @@ fn an_input_that_is_set_to_a_constant_is_that_constant() {
 
 #[test]
 fn an_input_changes_the_motion_from_the_next_step_on() {
-    for formulation in
-        FormulationKind::ALL.map(FormulationKind::name).into_iter().filter(|f| *f != "multi-index")
-    {
+    for formulation in common::with_fixed_steps() {
         let scene = with(EffectKind::JointTorque(JointTorque {
             joint: JointId::new(0),
             course: Signal::Input([0.0; 3]),
@@ -320,9 +316,7 @@ fn a_spring_of_one_s_own_is_the_spring_of_the_library() {
         EffectKind::SpringDamper(SpringDamper { bodies, points, stiffness, damping, free_length });
     let law = UserLaw::Length { bodies, points, law: UserScalarLaw::of::<Towards>() };
     let own = EffectKind::Own(Own { law, course: Signal::Constant([0.7, 3.0, 0.0]) });
-    for formulation in
-        FormulationKind::ALL.map(FormulationKind::name).into_iter().filter(|f| *f != "multi-index")
-    {
+    for formulation in common::with_fixed_steps() {
         let (mut a, mut b) = (
             simulation(&with(kind.clone()), formulation),
             simulation(&with(own.clone()), formulation),
@@ -348,9 +342,7 @@ fn a_wrench_of_one_s_own_takes_what_the_ledger_says() {
         law: UserBodyLaw::of::<Honey>(),
     };
     let scene = with(EffectKind::Own(Own { law, course: Signal::Input([0.5, 0.0, 0.0]) }));
-    for formulation in
-        FormulationKind::ALL.map(FormulationKind::name).into_iter().filter(|f| *f != "multi-index")
-    {
+    for formulation in common::with_fixed_steps() {
         let mut simulation = simulation(&scene, formulation);
         for _ in 0..500 {
             simulation.step(1e-3).expect("a regular step");
@@ -363,10 +355,8 @@ fn a_wrench_of_one_s_own_takes_what_the_ledger_says() {
 }
 
 #[test]
-fn a_guide_that_is_set_follows_its_input() {
-    for formulation in
-        FormulationKind::ALL.map(FormulationKind::name).into_iter().filter(|f| *f != "multi-index")
-    {
+fn a_guide_that_is_set_follows_what_it_is_told() {
+    for formulation in common::with_fixed_steps() {
         let mut scene = common::scene("guided-four-bar");
         scene.outputs.clear();
         // At rest, then at 2 rad/s^2.

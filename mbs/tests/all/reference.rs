@@ -168,8 +168,7 @@ fn rocker(crank: f64) -> f64 {
 fn rssr_rocker_follows_the_crank_in_closed_form() {
     let scene = common::scene("rssr");
     for formulation in FORMULATIONS {
-        let settings = common::settings(&scene, formulation, None);
-        let outcome = mbs::typed::run::<f64, 3>(&scene, &settings, &mut ());
+        let outcome = common::run_in(&scene, formulation, None);
         assert!(outcome.error.is_none(), "{formulation}: {:?}", outcome.error);
         let (mut off, mut reach) = (0.0, 0.0_f64);
         for (_, row) in outcome.rows() {
@@ -274,8 +273,7 @@ fn guided_four_bar_follows_its_closed_form_kinematics_and_inverse_dynamics() {
 fn guided_four_bar_crank_reaction_carries_the_torque_of_inverse_dynamics() {
     let scene = common::scene("guided-four-bar");
     for formulation in FORMULATIONS {
-        let settings = common::settings(&scene, formulation, None);
-        let outcome = mbs::typed::run::<f64, 2>(&scene, &settings, &mut ());
+        let outcome = common::run_in(&scene, formulation, None);
         assert!(outcome.error.is_none());
         let fixed = |at| [at, [0.0; 2], [0.0; 2]];
         let mut off = 0.0;

@@ -8,7 +8,7 @@ use mbs::core::laws::{road::height, road_contact::road_contact};
 use mbs::core::model::State;
 use mbs::core::natural::NaturalModel;
 use mbs::core::scene::{BodyId, Output, Quantity, Scene};
-use mbs::{Method, ResolvedMethod, StaticEquilibrium};
+use mbs::{Method, StaticEquilibrium};
 use std::collections::BTreeMap;
 
 /// A number of the published equilibrium (Robotran model of UCLouvain), held to 1e-3 of itself.
@@ -135,8 +135,7 @@ fn steering_ramps_end_where_those_of_an_independent_program_do() {
             .map(|(i, quantity)| Output { name: format!("{i}"), quantity })
             .collect();
         for formulation in ["index-3", "recursive"] {
-            let settings = common::settings(&scene, formulation, None);
-            let outcome = mbs::typed::run::<f64, 3>(&scene, &settings, &mut ());
+            let outcome = common::run_in(&scene, formulation, None);
             let (_, row) = outcome.rows().last().expect("there are rows");
             let vector = |i: usize| [row[3 * i], row[3 * i + 1], row[3 * i + 2]];
             let minus = |a: [f64; 3], b: [f64; 3]| [a[0] - b[0], a[1] - b[1], a[2] - b[2]];
@@ -178,8 +177,7 @@ fn run(name: &str, formulation: &str, (step, duration): (f64, f64)) -> (Vec<[f64
         tolerance: Some(1e-12),
         ..Method::default()
     };
-    let settings = ResolvedMethod::new(&scene, &overrides).expect("the settings are built");
-    let outcome = mbs::typed::run::<f64, 3>(&scene, &settings, &mut ());
+    let outcome = common::run(&scene, &overrides);
     assert!(outcome.error.is_none(), "{name} in {formulation}: {:?}", outcome.error);
     let energy = &outcome.summary.energy;
     let rows = outcome.rows().iter().map(|(_, row)| [row[0], row[1], row[2], row[5]]).collect();
@@ -235,9 +233,8 @@ fn formulations_agree_on_the_ramp_of_the_stairs() {
 fn a_vehicle_that_is_the_same_on_both_sides_stays_in_its_plane() {
     for name in ["iltis-stairs", "iltis-jump", "iltis-stairs-stiff"] {
         let scene = common::scene(name);
-        let index3 = Method { formulation: Some("index-3".to_owned()), ..Method::default() };
-        let settings = ResolvedMethod::new(&scene, &index3).expect("the settings are built");
-        let outcome = mbs::typed::run::<f64, 3>(&scene, &settings, &mut ());
+        let index3 = common::by("index-3");
+        let outcome = common::run(&scene, &index3);
         assert!(outcome.error.is_none(), "{name}: {:?}", outcome.error);
         let off = outcome.rows().iter().fold(0.0_f64, |off, (_, row)| off.max(row[1].abs()));
         println!("{name}: {off:.1e} m off its plane");
@@ -275,9 +272,8 @@ fn relative_coordinates_take_the_report_s_steps() {
 fn suspensions_that_come_to_rest_are_stepped_to_the_end() {
     for name in ["iltis-suspension", "iltis-suspension-halved", "iltis-suspension-stiff"] {
         let scene = common::scene(name);
-        let overrides = Method { formulation: Some("recursive".to_owned()), ..Method::default() };
-        let settings = ResolvedMethod::new(&scene, &overrides).expect("the settings are built");
-        let outcome = mbs::typed::run::<f64, 3>(&scene, &settings, &mut ());
+        let overrides = common::by("recursive");
+        let outcome = common::run(&scene, &overrides);
         assert!(outcome.error.is_none(), "{name}: {:?}", outcome.error);
         let rows = outcome.rows();
         let velocity = &rows[rows.len() - 1].1[3..6];

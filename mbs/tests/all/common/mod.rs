@@ -5,9 +5,9 @@ pub(crate) mod oracle;
 pub(crate) use files::{SCENES, path};
 use mbs::augmented::StepReport;
 use mbs::core::natural::Affine;
-use mbs::core::scene::{BodyId, Scene};
+use mbs::core::scene::{BodyId, Dimension, Scene};
 use mbs::typed::Simulation;
-use mbs::{Method, ResolvedMethod, StopError};
+use mbs::{FormulationKind, Method, Outcome, Settings, StopError};
 pub(crate) use mbs_testkit::file as scene;
 pub(crate) use mbs_testkit::{allocations, random};
 
@@ -19,6 +19,34 @@ pub(crate) fn settings(scene: &Scene<f64>, formulation: &str, step: Option<f64>)
     let formulation = Some(formulation.to_owned());
     let overrides = Method { formulation, step, ..Method::default() };
     ResolvedMethod::new(scene, &overrides).expect("the settings are built")
+}
+
+/// Runs a scene by settings.
+pub(crate) fn run_by(scene: &Scene<f64>, settings: &Settings) -> Outcome {
+    match scene.dimension {
+        Dimension::Planar => mbs::typed::run::<f64, 2>(scene, settings, &mut ()),
+        Dimension::Spatial => mbs::typed::run::<f64, 3>(scene, settings, &mut ()),
+    }
+}
+
+/// Runs a scene by a method; what is left out is the scene's.
+pub(crate) fn run(scene: &Scene<f64>, method: &Method) -> Outcome {
+    run_by(scene, &Settings::new(scene, method).expect("the settings are built"))
+}
+
+/// Runs a scene with formulation and step; without a step, the scene's own.
+pub(crate) fn run_in(scene: &Scene<f64>, formulation: &str, step: Option<f64>) -> Outcome {
+    run_by(scene, &settings(scene, formulation, step))
+}
+
+/// A formulation; what is left out is the scene's.
+pub(crate) fn by(formulation: &str) -> Method {
+    Method { formulation: Some(formulation.to_owned()), ..Method::default() }
+}
+
+/// Formulations whose steps are as long as asked for.
+pub(crate) fn with_fixed_steps() -> impl Iterator<Item = &'static str> {
+    FormulationKind::ALL.map(FormulationKind::name).into_iter().filter(|f| *f != "multi-index")
 }
 
 /// A simulation that is stepped by hand.

@@ -3,8 +3,8 @@
 //! Each method runs at dt and dt/2. Its error is estimated by the largest difference of the two over the run, channel by
 //! channel; two methods agree when they differ by at most [`SHARE`] times the larger of their estimates.
 
-use mbs::core::scene::{Dimension, Scene};
-use mbs::{FormulationKind, Method, ResolvedMethod, StopError};
+use mbs::core::scene::Scene;
+use mbs::{FormulationKind, Method, StopError};
 use mbs_testkit::quantities;
 
 /// Times the larger of two methods' own errors that they may differ by.
@@ -53,11 +53,7 @@ pub(crate) fn rows(
         duration: Some(duration),
         ..Method::default()
     };
-    let settings = ResolvedMethod::new(scene, &overrides).unwrap_or_else(|e| panic!("{e}"));
-    let outcome = match scene.dimension {
-        Dimension::Planar => mbs::typed::run::<f64, 2>(scene, &settings, &mut ()),
-        Dimension::Spatial => mbs::typed::run::<f64, 3>(scene, &settings, &mut ()),
-    };
+    let outcome = crate::common::run(scene, &overrides);
     match outcome.error {
         Some(error) => Err(error),
         None => Ok(outcome.rows().iter().step_by(every).cloned().collect()),

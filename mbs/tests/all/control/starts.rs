@@ -74,7 +74,7 @@ fn a_hundred_starts_pass_with_redundant_constraints() {
             integrator: Some("rk54".to_owned()),
             tolerance: Some(1e-10),
             duration: Some(2.0),
-            ..with("recursive")
+            ..by("recursive")
         };
         let exact = outputs(&completed(&start, &exact), &names);
         let multi = Method { duration: Some(2.0), ..multi_index([1e-7, 1e-9], (1e-3, 2e-2)) };
@@ -116,7 +116,7 @@ fn a_hundred_starts_pass_with_a_wheel_that_leaves_the_road() {
                 integrator: Some("rk54".to_owned()),
                 tolerance: Some(1e-9),
                 step_max: Some(1e-2),
-                ..with("recursive")
+                ..by("recursive")
             }),
         );
         let error = largest_difference(&output(&multi, "wheel"), &output(&exact, "wheel"));

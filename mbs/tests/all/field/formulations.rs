@@ -2,7 +2,7 @@
 
 use super::{field, tilted};
 use crate::common::random::tree;
-use crate::common::{Bench, settings};
+use crate::common::{Bench, run_in};
 use mbs::core::scene::{BodyId, Dimension, Effect, EffectKind, Friction, Inertia, JointId, Scene};
 use mbs::core::step::StepError;
 use mbs::{Method, ResolvedMethod, StopError};
@@ -56,8 +56,7 @@ fn sized(scene: &Scene<f64>, size: f64) -> Scene<f64> {
 fn index_1_runs_a_sprung_leg_as_the_others_do() {
     let scene = field("13-leg-index-1");
     let run = |formulation| {
-        let outcome =
-            mbs::typed::run::<f64, 3>(&scene, &settings(&scene, formulation, None), &mut ());
+        let outcome = run_in(&scene, formulation, None);
         assert_eq!(outcome.error, None, "{formulation}");
         outcome.rows().last().expect("a row").1[..4].to_vec()
     };
@@ -99,8 +98,7 @@ fn a_motion_from_rest_does_not_depend_on_the_size() {
 #[test]
 fn classical_does_not_take_thin_legs_for_dependent_constraints() {
     let scene = field("10-hexapod-thin-legs");
-    let settings = settings(&scene, "classical", None);
-    let outcome = mbs::typed::run::<f64, 3>(&scene, &settings, &mut ());
+    let outcome = run_in(&scene, "classical", None);
     let is_true = match outcome.error {
         None => true,
         Some(StopError::Step(error, _)) => matches!(error, StepError::Singular(_)),
@@ -151,8 +149,7 @@ fn explicit_steps_that_pass_over_a_friction_stop_and_name_it() {
     let scene = field("08-friction-holds");
     let [formulation, integrator] = ["recursive", "rk4"].map(|x| Some(x.to_owned()));
     let overrides = Method { formulation, integrator, ..Method::default() };
-    let settings = ResolvedMethod::new(&scene, &overrides).expect("the settings are built");
-    let outcome = mbs::typed::run::<f64, 2>(&scene, &settings, &mut ());
+    let outcome = crate::common::run(&scene, &overrides);
     assert!(matches!(outcome.error, Some(StopError::Friction { effect: 0, .. })));
     let error = outcome.summary.error.expect("an error in the summary");
     assert_eq!(error.code, "friction-not-resolved");
@@ -165,8 +162,7 @@ fn an_axis_that_is_off_by_a_millionth_runs_as_the_parallel_one_with_a_note() {
     for angle in [1e-9, 1e-7, 9e-7] {
         let scene = tilted(angle);
         for formulation in ["index-3", "recursive"] {
-            let settings = settings(&scene, formulation, None);
-            let outcome = mbs::typed::run::<f64, 3>(&scene, &settings, &mut ());
+            let outcome = run_in(&scene, formulation, None);
             assert_eq!(outcome.error, None, "{formulation}, {angle:e}");
             let is_named = outcome.notes().iter().any(|note| note.contains("`C`"));
             assert!(is_named, "{angle:e}: {:?}", outcome.notes());
@@ -180,8 +176,7 @@ fn an_axis_that_is_off_by_a_millionth_runs_as_the_parallel_one_with_a_note() {
 fn an_axis_that_is_off_by_more_is_refused_with_the_axis_that_mends_it() {
     for angle in [1e-5, 1e-4, 9e-4] {
         let scene = tilted(angle);
-        let outcome =
-            mbs::typed::run::<f64, 3>(&scene, &settings(&scene, "index-3", None), &mut ());
+        let outcome = run_in(&scene, "index-3", None);
         let Some(StopError::AlmostDependent(tilt)) = outcome.error else {
             panic!("{angle:e}: {:?}", outcome.error)
         };

@@ -1,7 +1,7 @@
 //! Laws outside the range in which they hold, and turns beyond one.
 
 use super::{field, read, text};
-use crate::common::settings;
+use crate::common::{run, run_in};
 use mbs::core::scene::Scene;
 use mbs::{FormulationKind, Method, Names, Outcome, ResolvedMethod};
 
@@ -60,8 +60,7 @@ fn in_space(angle: &str, rate: &str) -> Scene<f64> {
 }
 
 fn value<const D: usize>(scene: &Scene<f64>, formulation: &str, step: f64) -> f64 {
-    let outcome =
-        mbs::typed::run::<f64, D>(scene, &settings(scene, formulation, Some(step)), &mut ());
+    let outcome = run_in(scene, formulation, Some(step));
     last(&outcome).unwrap_or_else(|code| panic!("{formulation}: {code}"))
 }
 
@@ -117,9 +116,7 @@ fn rejected_steps_leave_the_turn_of_a_bushing_as_it_was() {
             error_tolerance: Some(1e-9),
             ..Method::default()
         };
-        let settings = ResolvedMethod::new(&scene, &overrides).expect("the settings are built");
-        let found =
-            last(&mbs::typed::run::<f64, 2>(&scene, &settings, &mut ())).map(|x| x - LET_GO[1].1);
+        let found = last(&run(&scene, &overrides)).map(|x| x - LET_GO[1].1);
         assert!(found.is_ok_and(|off| off.abs() < 1e-4), "{formulation}: {found:?}");
     }
 }
@@ -129,8 +126,7 @@ fn a_bushing_in_space_stops_a_run_at_a_whole_turn_and_names_itself() {
     // 40 rad/s against 9 N m/rad: a turn takes 0.16 s
     let scene = in_space("0.0", "40.0");
     for formulation in formulations() {
-        let settings = settings(&scene, formulation, Some(1e-3));
-        let outcome = mbs::typed::run::<f64, 3>(&scene, &settings, &mut ());
+        let outcome = run_in(&scene, formulation, Some(1e-3));
         let error = outcome.error.as_ref().unwrap_or_else(|| panic!("{formulation} runs on"));
         assert_eq!(error.code(), "overturned", "{formulation}: {error}");
         let report = error.report(0.0, &Names::new(&scene));
@@ -178,9 +174,7 @@ fn a_body_on_a_bushing_alone_turns_far_about_changing_axes_alike_in_every_formul
     let exact = ResolvedMethod::new(&scene, &overrides).expect("the settings are built");
     let right = last(&mbs::typed::run::<f64, 3>(&scene, &exact, &mut ())).expect("it runs");
     for formulation in formulations() {
-        let outcomes = [1e-3, 5e-4].map(|step| {
-            mbs::typed::run::<f64, 3>(&scene, &settings(&scene, formulation, Some(step)), &mut ())
-        });
+        let outcomes = [1e-3, 5e-4].map(|step| run_in(&scene, formulation, Some(step)));
         let found = outcomes.each_ref().map(|outcome| last(outcome).expect("it runs"));
         let extrapolated = found[1] + (found[1] - found[0]) / 3.0;
         assert!((extrapolated - right).abs() < 1e-6, "{formulation}: {extrapolated} {right}");
@@ -198,8 +192,7 @@ fn a_tree_reports_its_angles_with_all_their_turns_whatever_the_step() {
                 step: Some(step),
                 ..Method::default()
             };
-            let settings = ResolvedMethod::new(&scene, &overrides).expect("the settings are built");
-            let found = last(&mbs::typed::run::<f64, 3>(&scene, &settings, &mut ()));
+            let found = last(&run(&scene, &overrides));
             assert!(found.is_ok_and(|x| (x - 100.0).abs() < 1e-9), "{integrator}: {found:?}");
         }
     }
@@ -210,8 +203,7 @@ fn natural_coordinates_follow_turns_or_say_that_they_cannot() {
     let scene = field("14-unwrapped-spin");
     for formulation in formulations().filter(|formulation| *formulation != "recursive") {
         for step in [0.1, 0.05, 0.03, 0.02, 0.011, 0.005, 0.001] {
-            let settings = settings(&scene, formulation, Some(step));
-            let outcome = mbs::typed::run::<f64, 3>(&scene, &settings, &mut ());
+            let outcome = run_in(&scene, formulation, Some(step));
             match last(&outcome) {
                 // The rule itself turns by 2 % less at half a radian a step.
                 Ok(found) => {

@@ -1,13 +1,13 @@
 //! Starts that were wrong, or refused.
 
 use super::{field, read, text};
+use mbs::Method;
 use mbs::core::Real;
 use mbs::core::model::State;
 use mbs::core::natural::NaturalModel;
 use mbs::core::scene::{InitialCondition, InitialTarget, JointId, Scene};
 use mbs::core::start::AssemblyError;
 use mbs::scene_file::SceneFile;
-use mbs::{Method, ResolvedMethod};
 use mbs_testkit::{invariant, start, start_in};
 
 /// The reference values have so many digits.
@@ -138,8 +138,7 @@ fn loops_and_massless_pieces_of_published_models_start() {
         let _ = start::<3>(&field(name));
     }
     let scene = field("15-massless-slides");
-    let settings = ResolvedMethod::new(&scene, &Method::default()).expect("settings");
-    let run = mbs::typed::run::<f64, 3>(&scene, &settings, &mut ());
+    let run = crate::common::run(&scene, &Method::default());
     assert!(run.error.is_none(), "{:?}", run.error);
     let last = &run.rows().last().expect("rows").1;
     let expected = [0.02, -0.03 - 9.81 * 0.01 / 2.0, 0.5];
@@ -176,8 +175,7 @@ fn a_value_out_of_reach_is_named_with_the_value_that_was_reached() {
     scene.initials.clear();
     let rocker = scene.joints[3].name.clone();
     hold(&mut scene, &rocker, 3.0);
-    let settings = ResolvedMethod::new(&scene, &Method::default()).expect("settings");
-    let run = mbs::typed::run::<f64, 2>(&scene, &settings, &mut ());
+    let run = crate::common::run(&scene, &Method::default());
     match run.error {
         Some(mbs::StopError::Start(AssemblyError::Position {
             reached: Some([reached, value]),

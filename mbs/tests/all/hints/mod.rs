@@ -5,7 +5,7 @@ mod scenes;
 mod values;
 mod words;
 
-use mbs::core::scene::{Dimension, Scene};
+use mbs::core::scene::Scene;
 use mbs::scene_file::SceneFile;
 use mbs::{Method, ResolvedMethod};
 
@@ -54,10 +54,7 @@ fn run_with(text: &str, overrides: &Method) -> Result<(), [String; 2]> {
     let settings = ResolvedMethod::new(&scene, overrides)
         .and_then(|settings| settings.check_step(&scene, overrides).map(|()| settings));
     let settings = settings.map_err(|e| [e.to_string(), e.hint()])?;
-    let outcome = match scene.dimension {
-        Dimension::Planar => mbs::typed::run::<f64, 2>(&scene, &settings, &mut ()),
-        Dimension::Spatial => mbs::typed::run::<f64, 3>(&scene, &settings, &mut ()),
-    };
+    let outcome = crate::common::run_by(&scene, &settings);
     match &outcome.error {
         None => Ok(()),
         Some(error) => Err([error.to_string(), error.hint().to_owned()]),

@@ -1,23 +1,11 @@
 //! What the alarm of the energy, and limits of residuals, let pass and what they stop.
 
 use super::super::{field, read, text};
-use mbs::core::scene::{Dimension, Scene};
-use mbs::{Method, Outcome, ResolvedMethod};
+use crate::common::{by, run};
+use mbs::{Method, Outcome};
 
 const ALL: [&str; 6] =
     ["index-3", "index-1", "classical", "state-space", "multi-index", "recursive"];
-
-fn run(scene: &Scene<f64>, overrides: &Method) -> Outcome {
-    let settings = ResolvedMethod::new(scene, overrides).expect("the settings are built");
-    match scene.dimension {
-        Dimension::Planar => mbs::typed::run::<f64, 2>(scene, &settings, &mut ()),
-        Dimension::Spatial => mbs::typed::run::<f64, 3>(scene, &settings, &mut ()),
-    }
-}
-
-fn by(formulation: &str) -> Method {
-    Method { formulation: Some(formulation.to_owned()), ..Method::default() }
-}
 
 /// The values of an output at the end of a run that reaches it.
 fn last(outcome: &Outcome, name: &str, what: &str) -> Vec<f64> {
