@@ -232,7 +232,9 @@ fn public_type_names_occur_once() {
     let mut owners: BTreeMap<String, BTreeSet<String>> = BTreeMap::new();
     for folder in published() {
         for path in files(&folder.join("src"), "rs") {
-            for line in read(&path).lines() {
+            let text = read(&path);
+            let indent = if text.contains("named! {\n") { "    " } else { "" };
+            for line in text.lines().map(|line| line.strip_prefix(indent).unwrap_or(line)) {
                 let rest = ["pub struct ", "pub enum ", "pub trait ", "pub type "]
                     .iter()
                     .find_map(|kind| line.strip_prefix(kind));
