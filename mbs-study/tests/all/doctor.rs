@@ -2,7 +2,6 @@
 
 use mbs::core::outputs::Reactions;
 use mbs::core::scene::{Dimension, Scene};
-use mbs::scene_file::SceneFile;
 use mbs::typed::Simulation;
 use mbs::{Method, ResolvedMethod};
 use mbs_study::doctor::{Checkup, Effort, Severity, examine};
@@ -25,15 +24,9 @@ fn finding<'a>(checkup: &'a Checkup, code: &str) -> &'a mbs_study::doctor::Findi
     found.unwrap_or_else(|| panic!("no {code} in {:?}", codes(checkup)))
 }
 
-/// A scene in text.
-fn read(text: &str) -> Scene<f64> {
-    let document = SceneFile::parse(text, "scene.toml").unwrap_or_else(|e| panic!("{e}"));
-    document.scene().unwrap_or_else(|e| panic!("{}", e.render()))
-}
-
 /// A pendulum in the plane with some numbers of your own.
 fn pendulum(gravity: &str, length: f64, inertia: &str, more: &str) -> Scene<f64> {
-    read(&format!(
+    mbs_testkit::scene(&format!(
         "[scene]\nname = \"pendulum\"\ndimension = 2\nduration = 0.1\ngravity = {gravity}\n\
          [[body]]\nname = \"bob\"\nmass = 1.0\ncenter = [{length}, 0.0]\ninertia = {inertia}\n\
          [[joint]]\nname = \"pivot\"\nkind = \"revolute\"\nbodies = [\"ground\", \"bob\"]\nat = [0.0, 0.0]\n{more}\n"

@@ -1,8 +1,7 @@
 //! An explanation: what it says of scenes, and what leaving an effect out changes. No time is asserted.
 
 use mbs::record::Provenance;
-use mbs::scene_file::SceneFile;
-use mbs::{Method, ResolvedMethod};
+use mbs::{Method, Settings};
 use mbs_core::scene::Scene;
 use mbs_report::explanation as explanation_text;
 use mbs_study::explain::{EffectCost, Explanation, SearchEnd};
@@ -14,7 +13,7 @@ const LITTLE: Effort = Effort { timed_steps: 20, repeats: 2, seconds: 60.0 };
 
 /// A pendulum of 1 kg and 1 m that hangs at rest 60 degrees off, with effects.
 fn pendulum(effects: &str) -> Scene<f64> {
-    let text = format!(
+    mbs_testkit::scene(&format!(
         r#"
 [scene]
 name = "pendulum"
@@ -33,9 +32,7 @@ bodies = ["ground", "bob"]
 at = [0.0, 0.0]
 {effects}
 "#
-    );
-    let document = SceneFile::parse(&text, "pendulum.toml").unwrap_or_else(|e| panic!("{e}"));
-    document.scene().unwrap_or_else(|e| panic!("{}", e.render()))
+    ))
 }
 
 const DAMPER: &str = r#"
@@ -94,9 +91,8 @@ bodies = ["ground", "on-hinge"]
 at = [0.0, 3.0, 0.0]
 axis = [0.0, 1.0, 0.0]
 "#;
-    let document = SceneFile::parse(text, "rods.toml").expect("TOML");
-    let scene: Scene<f64> = document.scene().expect("a scene");
-    let settings = ResolvedMethod::new(&scene, &Method::default()).expect("the settings are built");
+    let scene = mbs_testkit::scene(text);
+    let settings = Settings::new(&scene, &Method::default()).expect("the settings are built");
     let simulated = explain::<f64, 3>(&scene, &settings, &LITTLE).simulated;
     let rods: Vec<_> =
         simulated.rods.iter().map(|rod| (rod.body.as_str(), rod.idle_spin_carried)).collect();
@@ -151,8 +147,7 @@ fn what_is_rounding_beside_the_scene_is_no_change() {
     // The guided joint follows its guide whatever acts elsewhere.
     let text = std::fs::read_to_string(path("guided-four-bar")).expect("it is there");
     let effect = DAMPER.replace("pivot", "rocker-pivot");
-    let document = SceneFile::parse(&format!("{text}\n{effect}"), "guided.toml").expect("TOML");
-    let (explanation, _) = explained(&document.scene().expect("a scene"));
+    let (explanation, _) = explained(&mbs_testkit::scene(&format!("{text}\n{effect}")));
     let changes = &price(&explanation, "damper").changes;
     let of = |output: &str, unit: &str| {
         let mut found = changes.iter().filter(|c| c.output == output && c.unit == unit);

@@ -1,14 +1,8 @@
 //! Effects about the axis of a joint: every kind of joint that has one, in both orders of its bodies, on the ground and on a body that
 //! moves, in every formulation; and guides on every joint of a chain.
 
-use crate::common::oracle::{Way, disagreement, everything, methods, rows, rows_with_errors};
-use mbs::core::scene::Scene;
-use mbs::scene_file::SceneFile;
-
-fn read(text: &str) -> Scene<f64> {
-    let document = SceneFile::parse(text, "axes.toml").unwrap_or_else(|e| panic!("{}", e.render()));
-    document.scene().unwrap_or_else(|e| panic!("{}\n{text}", e.render()))
-}
+use crate::common::oracle::{Way, disagreement, everything, methods, rows, tell};
+use mbs_testkit::scene;
 
 /// A body that hangs on the ground, or on a body that swings itself, by a joint with an effect.
 fn hung(is_planar: bool, kind: &str, [is_on_body, is_reversed]: [bool; 2], effect: &str) -> String {
@@ -76,8 +70,8 @@ fn effects_about_an_axis_are_the_same_in_every_formulation() {
         for effect in ON_ONE_ROTATION.iter().chain(others) {
             for place in [[false, false], [false, true], [true, false], [true, true]] {
                 let text = hung(is_planar, kind, place, effect);
-                let scene = everything(&read(&text));
-                let case = |method: Way| rows_with_errors(&scene, method, (1e-3, 0.1));
+                let scene = everything(&scene(&text));
+                let case = |method: Way| tell(&scene, method, (1e-3, 0.1));
                 let reference = case(methods()[0]).unwrap_or_else(|e| panic!("{e}\n{text}"));
                 for &method in &methods()[1..] {
                     n += 1;
@@ -106,7 +100,7 @@ fn effects_about_an_axis_are_the_same_in_every_formulation() {
 fn a_torque_on_a_free_joint_turns_its_body_by_closed_form() {
     // a body on nothing:   α = M / J,   rate of the second body in the first after 0.6 s: 0.6 · 0.7 / 0.05
     for place in [[false, false], [false, true]] {
-        let scene = read(&hung(true, "free", place, ON_ONE_ROTATION[0]));
+        let scene = scene(&hung(true, "free", place, ON_ONE_ROTATION[0]));
         for method in methods().iter().filter(|method| method.0 == "recursive") {
             let rows = rows(&everything(&scene), *method, (1e-3, 0.6), 600);
             let rows = rows.unwrap_or_else(|e| panic!("{method:?}: {e}"));
@@ -127,7 +121,7 @@ fn chains_that_are_guided_at_every_joint_run_in_relative_coordinates() {
         [[guide]]\njoint = \"j1\"\nsine = { amplitude = 0.5, frequency = 1.0 }\n\
         [[guide]]\njoint = \"j2\"\nsine = { amplitude = 0.3, frequency = 1.0 }\n\
         [[output]]\nname = \"ground\"\njoint = \"j1\"\nquantity = \"reaction\"\n";
-    let scene = read(text);
+    let scene = scene(text);
     // centres at 0.5 m and 1.5 m:   m a = −(0.5 + 1) π² − 0.5 (1.6 π)²,   and the weight of both
     let pi = core::f64::consts::PI;
     let x = -(1.5 * pi * pi + 0.5 * (1.6 * pi) * (1.6 * pi));

@@ -11,7 +11,6 @@ use crate::common::allocations;
 use crate::common::Bench;
 use mbs::core::outputs::Contacts;
 use mbs::core::scene::{Dimension, EffectKind, JointId, Limit, Scene};
-use mbs::scene_file::SceneFile;
 use mbs::{Method, Outcome};
 
 /// Formulations whose rule is the trapezoidal one.
@@ -27,14 +26,9 @@ struct Bounce {
     start: [f64; 2],
 }
 
-fn parsed(text: &str) -> Scene<f64> {
-    let document = SceneFile::parse(text, "contact").unwrap_or_else(|e| panic!("{}", e.render()));
-    document.scene().unwrap_or_else(|e| panic!("{}", e.render()))
-}
-
 /// A mass of 2 kg on a bumper, planar.
 fn bumper(gravity: f64, [height, velocity]: [f64; 2], damping: f64) -> Bounce {
-    let scene = parsed(&format!(
+    let scene = mbs_testkit::scene(&format!(
         r#"
 [scene]
 name = "bumper"
@@ -91,7 +85,7 @@ fn wheel(dimension: Dimension, height: f64, damping: f64) -> Bounce {
     let (gravity, at, axis) = (vector(-9.81), vector(z), vector(1.0));
     let (n, inertia) = if is_planar { (2, "0.5") } else { (3, "[0.5, 0.8, 0.5, 0.0, 0.0, 0.0]") };
     let lean = if is_planar { String::new() } else { format!("axis = [0.0, {cos:?}, {sin:?}]") };
-    let scene = parsed(&format!(
+    let scene = mbs_testkit::scene(&format!(
         r#"
 [scene]
 name = "wheel"
@@ -362,7 +356,7 @@ quantity = "velocity"
 
 #[test]
 fn a_wheel_goes_through_standstill_on_a_path_that_does_not_depend_on_the_step() {
-    let scene = parsed(STANDSTILL);
+    let scene = mbs_testkit::scene(STANDSTILL);
     for formulation in FORMULATIONS {
         let run = |step: f64| {
             let outcome = common::run_in(&scene, formulation, Some(step));

@@ -322,8 +322,7 @@ fn a_controlled_step_allocates_nothing_even_when_it_is_rejected_or_ends_at_an_ev
 #[test]
 fn runs_in_single_precision_end_where_they_should_and_rows_count_every_trial() {
     let text = std::fs::read_to_string(common::path("double-pendulum")).expect("it is there");
-    let document = mbs::scene_file::SceneFile::parse(&text, "double-pendulum").expect("it is read");
-    let scene: Scene<f32> = document.scene().expect("it is a scene");
+    let scene: Scene<f32> = mbs_testkit::scene_in(&text);
     // Ends that are no numbers of single precision, above and below what is.
     for duration in [0.0101, 0.0107, 0.3, 1.1, 2.0] {
         for tolerance in [[1e-4, 1e-6], [1e-3, 1e-5]] {
@@ -369,8 +368,7 @@ body = "mass"
 at = [0.0, 0.0]
 table = [[0, 0, 0], [1, 0, 0], [2, 10, 0]]
 "#;
-    let document = mbs::scene_file::SceneFile::parse(text, "push").expect("it is read");
-    let scene: Scene<f64> = document.scene().expect("it is a scene");
+    let scene = mbs_testkit::scene(text);
     for formulation in ["multi-index", "recursive"] {
         let overrides = Method {
             step_max: Some(2e-2),

@@ -290,8 +290,7 @@ const CHANGE_POINT_ERROR: f64 = 46.2;
 
 #[test]
 fn a_change_point_is_passed_in_index3_and_multi_index_wherever_steps_land() {
-    let document = mbs::scene_file::SceneFile::from_bytes(CHANGE_POINT.as_bytes(), "change.toml");
-    let scene = document.unwrap().scene::<f64>().unwrap();
+    let scene = mbs_testkit::scene(CHANGE_POINT);
     let end = |formulation: &str, integrator: &str, (step, tolerance): (f64, Option<f64>)| {
         let overrides = mbs::Method {
             formulation: Some(formulation.to_owned()),

@@ -3,7 +3,7 @@
 use crate::common::{scene, settings};
 use mbs::core::scene::{Dimension, Scene};
 use mbs::core::step::{Step, StepError};
-use mbs::scene_file::{Family, SceneFile, generate};
+use mbs::scene_file::{Family, generate};
 use mbs::typed::Simulation;
 use mbs::{FORMULATIONS, FormulationKind, Method, ResolvedMethod, StopError};
 
@@ -109,7 +109,7 @@ fn clones<const D: usize>(scene: &Scene<f64>, formulation: FormulationKind) {
 fn clones_that_share_threads_step_at_the_same_time() {
     fn travels<S: Clone + Send + Sync>(_: &S) {}
     let text = generate(&Family::Chain { bodies: 300 }, "chain").expect("generated");
-    let scene = SceneFile::parse(&text, "chain.toml").expect("parsed").scene().expect("sound");
+    let scene = mbs_testkit::scene(&text);
     for formulation in FormulationKind::ALL.into_iter().filter(|f| f.row().threads) {
         let of = |threads| Method {
             formulation: Some(formulation.name().to_owned()),

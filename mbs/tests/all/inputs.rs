@@ -10,7 +10,6 @@ use mbs::core::scene::{
     UserLaw,
 };
 use mbs::core::step::InputError;
-use mbs::scene_file::SceneFile;
 use mbs::typed::Simulation;
 use mbs::{FormulationKind, Method, ResolvedMethod};
 
@@ -68,8 +67,7 @@ fn wheel() -> Scene<f64> {
         joint = "axle"
         quantity = "value"
     "#;
-    let document = SceneFile::parse(TEXT, "wheel").unwrap_or_else(|e| panic!("{}", e.render()));
-    let mut scene = document.scene().unwrap_or_else(|e| panic!("{}", e.render()));
+    let mut scene = mbs_testkit::scene(TEXT);
     let kind = EffectKind::JointTorque(JointTorque {
         joint: JointId::new(0),
         course: Signal::Input([0.0; 3]),
