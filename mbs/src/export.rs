@@ -4,8 +4,8 @@ use crate::settings::ResolvedMethod;
 use crate::simulation::Simulation;
 use crate::stop::StopError;
 use mbs_core::scene::{Dimension, Scene};
-use mbs_nostd::export::{Gathered, bytes, source};
-use mbs_nostd::record::Axes;
+use mbs_nostd::export::{Collected, bytes, source};
+use mbs_nostd::format::Axes;
 use mbs_recursive::{Planar, Spatial, StartError, TreeModel};
 use serde_json::Value;
 

@@ -9,7 +9,7 @@ use core::ops::ControlFlow;
 use mbs::inside::{Alarm, AssembledScene, Channels, DEFAULT_STEP, continue_if, drive};
 use mbs::record::{Channel, RunError};
 use mbs::typed::{Simulation, StepObserver};
-use mbs::{Method, Names, Settings, SettingsError, StopError};
+use mbs::{Method, Names, ResolvedMethod, SettingsError, StopError};
 use mbs_core::Real;
 use mbs_core::cluster::scene_length;
 use mbs_core::control::Accepted;
@@ -167,7 +167,7 @@ fn refused(error: &SettingsError) -> RunError {
     }
 }
 
-/// Settings of a run with a method, beside what the caller asks for.
+/// ResolvedMethod of a run with a method, beside what the caller asks for.
 pub(crate) fn settings<T: Real>(
     scene: &Scene<T>,
     base: &Method,

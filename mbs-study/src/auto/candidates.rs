@@ -13,7 +13,7 @@ const FINER_STEP: f64 = 4.0;
 const FIRST_ERROR_TOLERANCE: f64 = 1e-3;
 /// No tolerance is larger [-]: rssr and iltis-stairs-stiff stop with 0.1, and steps are a third shorter only.
 const LOOSEST: f64 = 0.01;
-/// Settings that differ by no more than this, relative, are the same [-]: a quotient and its inverse round.
+/// ResolvedMethod that differ by no more than this, relative, are the same [-]: a quotient and its inverse round.
 pub(super) const ROUNDING: f64 = 2.0 * f64::EPSILON;
 
 /// A trial, and its error where it is known.

@@ -10,7 +10,7 @@ use crate::compare::ladder::Instants;
 use crate::compare::method::{Control, MethodCase};
 use mbs::inside::{AssembledScene, SceneWork};
 use mbs::record::PilotReport;
-use mbs::{IntegratorKind, Method, Names, Precision, Settings};
+use mbs::{IntegratorKind, Method, Names, Precision, ResolvedMethod};
 use mbs_core::Real;
 use mbs_core::scene::Scene;
 
@@ -165,7 +165,7 @@ fn picks(search: &Search<'_>, places: &[Place], times: f64) -> Vec<Pick> {
 /// The candidates of a scene, and what structure alone says of them.
 pub(crate) fn candidates<T: Real, const D: usize>(
     scene: &Scene<T>,
-    settings: &Settings,
+    settings: &ResolvedMethod,
 ) -> Option<PilotReport> {
     let goal = Goal::default();
     let methods = methods(scene, &Method::default(), settings, &goal).ok()?;

@@ -72,7 +72,7 @@ impl Scenes {
         self.read.iter().find(|(of, _)| *of == precision).map(|(_, scene)| scene)
     }
 
-    /// Settings of a run that ends with all the others.
+    /// ResolvedMethod of a run that ends with all the others.
     fn interruptible(&self, settings: &ResolvedMethod) -> ResolvedMethod {
         ResolvedMethod { interrupt: self.interrupt.clone(), ..settings.clone() }
     }

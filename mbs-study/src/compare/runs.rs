@@ -140,7 +140,7 @@ impl Study<'_> {
         Made { entry, work: recorded.work, is_not_started: recorded.is_not_started }
     }
 
-    /// Settings and course of a run over what is compared.
+    /// ResolvedMethod and course of a run over what is compared.
     pub(super) fn course(
         &self,
         method: &MethodCase,

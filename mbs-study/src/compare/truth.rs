@@ -5,7 +5,7 @@ use super::reference::{Known, Pair, Rows};
 use super::store::Store;
 use super::{CompareError, Study, course::Course, table};
 use crate::compare::results::Status;
-use mbs::{FormulationKind, IntegratorKind, Precision, Settings};
+use mbs::{FormulationKind, IntegratorKind, Precision, ResolvedMethod};
 use serde::{Deserialize, Serialize};
 
 /// Time limit of a run of the reference, relative to that of others [-]. Chosen, not tuned.
@@ -161,7 +161,7 @@ impl Study<'_> {
         why: &mut String,
     ) -> Result<Option<Rows>, CompareError> {
         let key = format!("reference {} {setting:e}", method.name());
-        let made = store.get(&key, || match self.reference_rows(method, setting, patience) {
+        let made = store.get(&key, || match self.reference_rows(method, setting, times) {
             Ok(rows) => Made { rows: Some(rows), stopped: None },
             Err(why) => Made { rows: None, stopped: Some(why) },
         })?;
@@ -176,7 +176,7 @@ impl Study<'_> {
         &self,
         method: &MethodCase,
         setting: f64,
-        patience: f64,
+        times: f64,
     ) -> Result<Rows, String> {
         let step = if method.is_fixed() { setting } else { self.of_scene };
         let settings = self.settings(method, setting, step)?;

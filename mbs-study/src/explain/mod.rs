@@ -20,7 +20,7 @@ pub use trials::Effort;
 
 use mbs::inside::{ReadScene, SceneWork};
 use mbs::typed::Simulation;
-use mbs::{Names, PrecisionError, Settings, StepRule, StopError};
+use mbs::{Names, PrecisionError, ResolvedMethod, StepRule, StopError};
 use mbs_core::Real;
 use mbs_core::scene::Scene;
 use mbs_scene::SceneFile;
@@ -92,7 +92,10 @@ pub fn explain<T: Real, const D: usize>(
 }
 
 /// Can the run start, outputs and all?
-fn start<T: Real, const D: usize>(scene: &Scene<T>, settings: &Settings) -> Result<(), StopError> {
+fn start<T: Real, const D: usize>(
+    scene: &Scene<T>,
+    settings: &ResolvedMethod,
+) -> Result<(), StopError> {
     let simulation = Simulation::<T, D>::new(scene, settings)?;
     mbs::inside::Channels::new(scene, simulation.model()).map(drop)
 }

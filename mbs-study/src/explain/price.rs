@@ -6,7 +6,7 @@ use super::timing::{Times, interleaved, monitor, trial};
 use super::trials::{Effort, outcome, without};
 use mbs::inside::OutputRanges;
 use mbs::record::RunError;
-use mbs::{Outcome, Settings};
+use mbs::{Outcome, ResolvedMethod};
 use mbs_core::Real;
 use mbs_core::scene::Scene;
 use std::time::Instant;

@@ -2,7 +2,7 @@
 
 use super::explanation::{LargestStep, SearchEnd};
 use super::trials::outcome;
-use mbs::Settings;
+use mbs::ResolvedMethod;
 use mbs::inside::SAME_LENGTH;
 use mbs_core::Real;
 use mbs_core::scene::Scene;

@@ -4,19 +4,19 @@ use super::explanation::{
     ControllerStep, GuideEntry, JointsByKind, Relative, Simulated, Sizes, ThinRod,
 };
 use mbs::typed::Simulation;
-use mbs::{FormulationKind, IntegratorKind, Names, Settings, StopError};
+use mbs::{FormulationKind, IntegratorKind, Names, ResolvedMethod, StopError};
 use mbs_core::Real;
 use mbs_core::natural::NaturalModel;
 use mbs_core::scene::{BodyId, Dimension, Inertia, JointKind, Motion, Scene};
-use mbs_nostd::export::Gathered;
-use mbs_nostd::{Bounds, bound};
+use mbs_nostd::export::Collected;
+use mbs_nostd::{Bounds, operation_bound};
 use mbs_recursive::space::Space;
 use mbs_recursive::{Planar, Spatial, TreeModel, TreeState};
 
 /// Takes stock of a scene.
 pub(super) fn simulated<T: Real, const D: usize>(
     scene: &Scene<T>,
-    settings: &Settings,
+    settings: &ResolvedMethod,
 ) -> Simulated {
     let sizes = |formulation| {
         let settings = ResolvedMethod {

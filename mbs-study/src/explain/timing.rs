@@ -1,7 +1,7 @@
 //! CPU time per step, the least of several interleaved repeats.
 
 use cpu_time::ThreadTime;
-use mbs::Settings;
+use mbs::ResolvedMethod;
 use mbs::typed::Simulation;
 use mbs_core::Real;
 use mbs_core::scene::Scene;
@@ -46,7 +46,11 @@ pub(super) fn interleaved<T: Real, const D: usize>(
 }
 
 /// CPU time per step; nothing where there is no start or the run stops at once.
-fn once<T: Real, const D: usize>(scene: &Scene<T>, settings: &Settings, n: u64) -> Option<f64> {
+fn once<T: Real, const D: usize>(
+    scene: &Scene<T>,
+    settings: &ResolvedMethod,
+    n: u64,
+) -> Option<f64> {
     let mut simulation = Simulation::<T, D>::new(scene, settings).ok()?;
     let clock = ThreadTime::now();
     let done = steps(&mut simulation, settings.step_max, n, || true);
@@ -79,7 +83,7 @@ pub(super) fn monitor<T: Real, const D: usize>(
 /// CPU time that the start takes, and that of a step, roughly [s].
 pub(super) fn trial<T: Real, const D: usize>(
     scene: &Scene<T>,
-    settings: &Settings,
+    settings: &ResolvedMethod,
 ) -> Option<[f64; 2]> {
     let clock = ThreadTime::now();
     let mut simulation = Simulation::<T, D>::new(scene, settings).ok()?;

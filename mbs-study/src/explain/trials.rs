@@ -1,6 +1,6 @@
 //! Runs of a scene for its prices: how much may be measured, and what a run without some effects gives.
 
-use mbs::Settings;
+use mbs::ResolvedMethod;
 use mbs_core::Real;
 use mbs_core::scene::Scene;
 
@@ -36,7 +36,7 @@ pub(super) fn outcome<T: Real, const D: usize>(
     settings: &ResolvedMethod,
     (times_step, duration): (f64, f64),
 ) -> mbs::Outcome {
-    let settings = Settings {
+    let settings = ResolvedMethod {
         step: settings.step * times_step,
         step_max: settings.step_max * times_step,
         duration,

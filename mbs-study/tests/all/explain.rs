@@ -1,7 +1,7 @@
 //! An explanation: what it says of scenes, and what leaving an effect out changes. No time is asserted.
 
 use mbs::record::Provenance;
-use mbs::{Method, Settings};
+use mbs::{Method, ResolvedMethod};
 use mbs_core::scene::Scene;
 use mbs_report::explanation as explanation_text;
 use mbs_study::explain::{EffectCost, Explanation, SearchEnd};
@@ -92,7 +92,7 @@ at = [0.0, 3.0, 0.0]
 axis = [0.0, 1.0, 0.0]
 "#;
     let scene = mbs_testkit::scene(text);
-    let settings = Settings::new(&scene, &Method::default()).expect("the settings are built");
+    let settings = ResolvedMethod::new(&scene, &Method::default()).expect("the settings are built");
     let simulated = explain::<f64, 3>(&scene, &settings, &LITTLE).simulated;
     let rods: Vec<_> =
         simulated.rods.iter().map(|rod| (rod.body.as_str(), rod.idle_spin_carried)).collect();

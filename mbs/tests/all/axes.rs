@@ -1,7 +1,7 @@
 //! Effects about the axis of a joint: every kind of joint that has one, in both orders of its bodies, on the ground and on a body that
 //! moves, in every formulation; and guides on every joint of a chain.
 
-use crate::common::oracle::{Way, disagreement, everything, methods, rows, tell};
+use crate::common::oracle::{Way, disagreement, everything, methods, rows, rows_with_errors};
 use mbs_testkit::scene;
 
 /// A body that hangs on the ground, or on a body that swings itself, by a joint with an effect.
@@ -71,7 +71,7 @@ fn effects_about_an_axis_are_the_same_in_every_formulation() {
             for place in [[false, false], [false, true], [true, false], [true, true]] {
                 let text = hung(is_planar, kind, place, effect);
                 let scene = everything(&scene(&text));
-                let case = |method: Way| tell(&scene, method, (1e-3, 0.1));
+                let case = |method: Way| rows_with_errors(&scene, method, (1e-3, 0.1));
                 let reference = case(methods()[0]).unwrap_or_else(|e| panic!("{e}\n{text}"));
                 for &method in &methods()[1..] {
                     n += 1;

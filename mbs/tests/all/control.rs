@@ -8,7 +8,7 @@ mod starts;
 use crate::common::{by, run, scene};
 use mbs::core::scene::{Quantity, Scene};
 use mbs::typed::Simulation;
-use mbs::{Method, Outcome, Settings};
+use mbs::{Method, Outcome, ResolvedMethod};
 
 fn completed(scene: &Scene<f64>, overrides: &Method) -> Outcome {
     let outcome = run(scene, overrides);
@@ -269,13 +269,13 @@ fn an_alarm_stops_the_run_with_a_typed_error_before_numbers_are_lost() {
 #[test]
 fn settings_of_the_control_are_taken_from_the_scene_and_refused_where_they_cannot_be() {
     let scene = scene("iltis-suspension-halved");
-    let settings = Settings::new(&scene, &by("multi-index")).expect("it is built");
+    let settings = ResolvedMethod::new(&scene, &by("multi-index")).expect("it is built");
     assert_eq!(settings.rule, mbs::StepRule::Energy);
     assert_eq!((settings.step_max, settings.energy_tolerance), (1e-2, [1e-6, 1e-8]));
-    let settings = Settings::new(&scene, &by("index-3")).expect("it is built");
+    let settings = ResolvedMethod::new(&scene, &by("index-3")).expect("it is built");
     assert_eq!((settings.rule, settings.step_max), (mbs::StepRule::Fixed, settings.step));
     let both = Method { error_tolerance: Some(1e-5), ..by("multi-index") };
-    assert_eq!(Settings::new(&scene, &both).map(|s| s.rule), Ok(mbs::StepRule::Both));
+    assert_eq!(ResolvedMethod::new(&scene, &both).map(|s| s.rule), Ok(mbs::StepRule::Both));
     let refused = |overrides: Method| {
         let error = ResolvedMethod::new(&scene, &overrides).expect_err("it cannot be meant");
         format!("{error}; {}", error.hint())
@@ -304,7 +304,7 @@ fn a_controlled_step_allocates_nothing_even_when_it_is_rejected_or_ends_at_an_ev
             ..multi_index([1e-5, 1e-7], (1e-3, 1e-2))
         };
         let overrides = Method { formulation: Some((*formulation).to_owned()), ..overrides };
-        let settings = Settings::new(&scene, &overrides).expect("the settings are built");
+        let settings = ResolvedMethod::new(&scene, &overrides).expect("the settings are built");
         let mut simulation = Simulation::<f64, 3>::new(&scene, &settings).expect("it starts");
         simulation.advance(1.0).expect("it steps");
         let (mut rejected, mut landed) = (0, 0);
@@ -386,7 +386,7 @@ table = [[0, 0, 0], [1, 0, 0], [2, 10, 0]]
 /// The double pendulum, to be stepped by a method.
 fn double_pendulum(method: &Method) -> Simulation<f64, 2> {
     let scene = scene("double-pendulum");
-    let settings = Settings::new(&scene, method).expect("the settings are built");
+    let settings = ResolvedMethod::new(&scene, method).expect("the settings are built");
     Simulation::new(&scene, &settings).expect("it starts")
 }
 

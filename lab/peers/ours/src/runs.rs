@@ -4,7 +4,7 @@ use crate::space::in_space;
 use crate::{Failure, print_line};
 use cpu_time::ProcessTime;
 use mbs::typed::Simulation;
-use mbs::{Method, Settings};
+use mbs::{Method, ResolvedMethod};
 use mbs_core::scene::Scene;
 use mbs_recursive::space::Space;
 use mbs_recursive::{Options, Planar, Spatial, TreeModel, Workspace, rk4_step, step};

@@ -7,14 +7,14 @@ use mbs::augmented::StepReport;
 use mbs::core::natural::Affine;
 use mbs::core::scene::{BodyId, Dimension, Scene};
 use mbs::typed::Simulation;
-use mbs::{FormulationKind, Method, Outcome, Settings, StopError};
+use mbs::{FormulationKind, Method, Outcome, ResolvedMethod, StopError};
 pub(crate) use mbs_testkit::file as scene;
 pub(crate) use mbs_testkit::{allocations, random};
 
 /// The augmented formulations, by name.
 pub(crate) const FORMULATIONS: [&str; 2] = ["index-3", "index-1"];
 
-/// Settings of a scene with formulation and step; without a step, the scene's own.
+/// ResolvedMethod of a scene with formulation and step; without a step, the scene's own.
 pub(crate) fn settings(scene: &Scene<f64>, formulation: &str, step: Option<f64>) -> ResolvedMethod {
     let formulation = Some(formulation.to_owned());
     let overrides = Method { formulation, step, ..Method::default() };
@@ -22,7 +22,7 @@ pub(crate) fn settings(scene: &Scene<f64>, formulation: &str, step: Option<f64>)
 }
 
 /// Runs a scene by settings.
-pub(crate) fn run_by(scene: &Scene<f64>, settings: &Settings) -> Outcome {
+pub(crate) fn run_by(scene: &Scene<f64>, settings: &ResolvedMethod) -> Outcome {
     match scene.dimension {
         Dimension::Planar => mbs::typed::run::<f64, 2>(scene, settings, &mut ()),
         Dimension::Spatial => mbs::typed::run::<f64, 3>(scene, settings, &mut ()),
@@ -31,7 +31,7 @@ pub(crate) fn run_by(scene: &Scene<f64>, settings: &Settings) -> Outcome {
 
 /// Runs a scene by a method; what is left out is the scene's.
 pub(crate) fn run(scene: &Scene<f64>, method: &Method) -> Outcome {
-    run_by(scene, &Settings::new(scene, method).expect("the settings are built"))
+    run_by(scene, &ResolvedMethod::new(scene, method).expect("the settings are built"))
 }
 
 /// Runs a scene with formulation and step; without a step, the scene's own.
