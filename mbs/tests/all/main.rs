@@ -12,6 +12,7 @@ mod checkpoint;
 mod codes;
 mod contact;
 mod control;
+mod couplings;
 mod energy;
 mod field;
 mod formulations;
