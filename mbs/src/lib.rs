@@ -50,18 +50,19 @@ pub use document::{run_document, run_document_kept};
 pub use equilibrium::{Search, equilibrium_start, find_equilibrium};
 pub use front::tree::{Matrix, Tree, TreeError, TreeErrorKind, TreeRange};
 pub use front::{
-    Body, BodyMotion, Components, ContactEvent, Coordinates, Effect, Energies, EquilibriumOptions,
-    Error, FunctionId, Guide, Id, InitialCondition, InputId, InputInfo, InputOwner, Joint,
-    Mechanism, Observer, Output, OutputFunction, Part, PathError, PointMotion, Pose, Run,
-    RunInputs, RunResult, SceneError, Simulation, SimulationError, Sizes, Snapshot, StepReport,
-    Table, UnknownName, View, Wrench, equilibrium, modes, run, run_with,
+    Body, BodyMotion, Components, ContactEvent, Coordinates, Coupling, Effect, Energies,
+    EquilibriumOptions, Error, FunctionId, Guide, Id, InitialCondition, InputId, InputInfo,
+    InputOwner, Joint, Mechanism, Observer, Output, OutputFunction, Part, PathError, PointMotion,
+    Pose, Run, RunInputs, RunResult, SceneError, Simulation, SimulationError, Sizes, Snapshot,
+    StepReport, Table, UnknownName, View, Wrench, equilibrium, modes, run, run_with,
 };
 pub use interrupt::Interrupt;
 pub use mbs_core::formulation::{Formulation, SwitchError};
 pub use mbs_core::laws::code::{BodyLaw, Force, ForceLaw, Measured, MeasuredBody};
 pub use mbs_core::scene::{
-    BodyId, EffectId, EffectKind, GROUND, GuideId, InitialId, JointId, Motion, Number, OutputId,
-    PolynomialPiece, Road, RoadFeature, Signal, TableEnds, Vector3,
+    BodyId, CouplingId, CouplingTerm, Curve, EffectId, EffectKind, GROUND, GuideId, InitialId,
+    JointId, Measured, Motion, Number, OutputId, PolynomialPiece, Road, RoadFeature, Signal,
+    TableEnds, Vector3,
 };
 pub use mbs_scene::{ReadError, WriteError};
 pub use methods::{FORMULATIONS, FormulationKind, PenaltyUse, Row};

@@ -40,9 +40,8 @@ impl<T: Real> CouplingInput<T> {
             curve: PreparedCurve::new(term.curve.as_ref()),
         });
         let still = Motion::Ramp { rate: T::ZERO };
-        let has_sum = coupling.motion.is_some() || !coupling.value.is_zero();
         let law = coupling.motion.as_ref().unwrap_or(&still);
-        let sum = has_sum.then(|| GuideInput::new(law).shifted_by(coupling.value));
+        let sum = coupling.has_sum().then(|| GuideInput::new(law).shifted_by(coupling.value));
         Self { terms: terms.collect(), sum }
     }
 

@@ -8,6 +8,7 @@
 //! configuration.
 
 use super::resolve::{all, rows};
+use crate::Real;
 use crate::scene::{BodyId, JointId, Motion, Number};
 use alloc::string::String;
 use alloc::vec;
@@ -81,6 +82,15 @@ impl<T> Coupling<T> {
     #[must_use]
     pub const fn is_driven(&self) -> bool {
         self.motion.is_some()
+    }
+
+    /// Is its sum not always zero? It then has a place behind the [guides](crate::inputs::Prescribed::guides).
+    #[must_use]
+    pub fn has_sum(&self) -> bool
+    where
+        T: Real,
+    {
+        self.is_driven() || !self.value.is_zero()
     }
 
     pub(super) fn map<U>(&self, f: &mut impl FnMut(&T) -> U) -> Coupling<U> {

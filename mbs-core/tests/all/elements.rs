@@ -74,7 +74,44 @@ impl<M: Model<f64>> At<M> {
     }
 }
 
-/// Calls a check for both scenes at every spread.
+/// Couplings of every kind of term: angles and slides about axes of either body, a curve, a length, a sum that moves.
+const PLANAR_COUPLINGS: &str = r#"
+[[coupling]]
+kind = "linear"
+terms = [{ joint = "pivot", factor = 3.0 }, { joint = "slot", factor = -0.5 }, { joint = "floating", coordinate = 2, factor = 1.5 }]
+sine = { amplitude = 0.3, frequency = 0.7 }
+[[coupling]]
+kind = "cam"
+joints = ["ankle", "rail"]
+table = [[-4.0, 0.1], [-1.0, 0.4], [0.0, 0.0], [1.2, -0.3], [4.0, 0.1]]
+periodic = true
+[[coupling]]
+kind = "linear"
+value = 0.2
+terms = [{ points = [{ body = "ground", at = [2.0, 3.0] }, { body = "BODY", at = [-1.0, -2.0] }, { body = "ground", at = [-3.0, 0.5] }], factor = 2.0 }, { joint = "pin", factor = 0.7, coefficients = [0.0, 0.2, 0.1, -0.3] }]
+"#;
+const SPATIAL_COUPLINGS: &str = r#"
+[[coupling]]
+kind = "linear"
+terms = [{ joint = "cross", factor = 3.0 }, { joint = "cross", coordinate = 1, factor = -2.0 }, { joint = "slide", factor = 0.5 }]
+ramp = { rate = 0.4 }
+[[coupling]]
+kind = "screw"
+joint = "sleeve"
+lead = 0.3
+[[coupling]]
+kind = "linear"
+value = 0.2
+terms = [{ joint = "table", coordinate = 2, factor = 1.5, coefficients = [0.0, 0.2, 0.1, -0.3] }, { points = [{ body = "ground", at = [2.0, 3.0, 1.0] }, { body = "BODY", at = [-1.0, -2.0, 4.0] }], factor = -2.0 }, { joint = "floating", coordinate = 1, factor = 0.3 }]
+"#;
+
+/// A scene with couplings of its first body.
+fn coupled(text: &str, couplings: &str) -> Scene<f64> {
+    let name = scene(text).bodies[0].name.clone();
+    scene(&(text.to_owned() + &couplings.replace("BODY", &name)))
+}
+
+/// Calls a check for both scenes, with couplings and without, at every spread.
 macro_rules! at_random {
     ($check:expr) => {
         for seed in 1..4 {
@@ -82,6 +119,10 @@ macro_rules! at_random {
                 let random = &mut Random(seed);
                 $check(&mut At::new(model::<2>(&scene(PLANAR)), random, spread), random);
                 $check(&mut At::new(model::<3>(&scene(SPATIAL)), random, spread), random);
+                let [planar, spatial] = [(PLANAR, PLANAR_COUPLINGS), (SPATIAL, SPATIAL_COUPLINGS)]
+                    .map(|(s, c)| coupled(s, c));
+                $check(&mut At::new(model::<2>(&planar), random, spread), random);
+                $check(&mut At::new(model::<3>(&spatial), random, spread), random);
             }
         }
     };

@@ -2,7 +2,9 @@
 
 use super::failure::SimulationError;
 use mbs_core::effects::{Form, Value};
-use mbs_core::scene::{Dimension, EffectId, EffectKind, GuideId, Motion, Scene, Signal};
+use mbs_core::scene::{
+    Coupling, CouplingId, Dimension, EffectId, EffectKind, GuideId, Motion, Scene, Signal,
+};
 use mbs_core::step::InputError;
 use std::sync::Arc;
 
@@ -38,13 +40,21 @@ pub enum InputOwner {
     Effect(EffectId),
     /// The prescribed motion of a guide.
     Guide(GuideId),
+    /// The sum of a coupling.
+    Coupling {
+        /// The coupling.
+        coupling: CouplingId,
+        /// Its place behind the guides of the scene.
+        sum: GuideId,
+    },
 }
 
 /// One input.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct InputInfo {
-    /// `NAME` of its effect, or `NAME.x` of a vector; `JOINT`, `JOINT.rate` and `JOINT.acceleration` of a guide.
+    /// `NAME` of its effect, or `NAME.x` of a vector; `JOINT`, `JOINT.rate` and `JOINT.acceleration` of a guide, likewise of a
+    /// coupling by its name.
     pub name: String,
     /// Its unit; empty for the input of a user's law.
     pub unit: &'static str,
@@ -80,17 +90,27 @@ impl Inputs {
                 list.push(InputInfo { name, unit, owner, component, start });
             }
         }
+        let mut motion =
+            |name: &str, owner: InputOwner, units: [&'static str; 3], start: [f64; 3]| {
+                for (component, suffix) in ["", ".rate", ".acceleration"].into_iter().enumerate() {
+                    let (name, unit) = (format!("{name}{suffix}"), units[component]);
+                    let start = start[component];
+                    list.push(InputInfo { name, unit, owner, component, start });
+                }
+            };
         for (g, guide) in scene.guides.iter().enumerate() {
             let Motion::Input(start) = guide.law else { continue };
             let joint = &scene.joints[guide.joint.index()];
             let is_angle = joint.kind.n_rotations(scene.dimension) > 0;
             let units = if is_angle { ["rad", "rad/s", "rad/s^2"] } else { ["m", "m/s", "m/s^2"] };
-            for (component, suffix) in ["", ".rate", ".acceleration"].into_iter().enumerate() {
-                let (name, owner) =
-                    (format!("{}{suffix}", joint.name), InputOwner::Guide(GuideId::new(g)));
-                let (unit, start) = (units[component], start[component]);
-                list.push(InputInfo { name, unit, owner, component, start });
-            }
+            motion(&joint.name, InputOwner::Guide(GuideId::new(g)), units, start);
+        }
+        let has_sum = |(_, coupling): &(usize, &Coupling<f64>)| coupling.has_sum();
+        let with_sum = scene.couplings.iter().enumerate().filter(has_sum);
+        for (sum, (c, coupling)) in (scene.guides.len()..).zip(with_sum) {
+            let Some(Motion::Input(start)) = coupling.motion else { continue };
+            let (coupling, sum, name) = (CouplingId::new(c), GuideId::new(sum), &coupling.name);
+            motion(name, InputOwner::Coupling { coupling, sum }, [""; 3], start);
         }
         let values = list.iter().map(|input| input.start).collect();
         Self { list: list.into(), values }
@@ -207,7 +227,9 @@ impl Inputs {
         }
         match owner {
             InputOwner::Effect(effect) => inner.set_effect_input(effect.index(), numbers)?,
-            InputOwner::Guide(guide) => inner.set_guide_input(guide.index(), numbers)?,
+            InputOwner::Guide(guide) | InputOwner::Coupling { sum: guide, .. } => {
+                inner.set_guide_input(guide.index(), numbers)?;
+            }
         }
         Ok(())
     }

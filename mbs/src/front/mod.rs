@@ -47,6 +47,8 @@ pub type Joint = scene::Joint<Number>;
 pub type InitialCondition = scene::InitialCondition<Number>;
 /// Prescribed motion of a joint coordinate.
 pub type Guide = scene::Guide<Number>;
+/// A coupling: a sum of joint coordinates and lengths that holds.
+pub type Coupling = scene::Coupling<Number>;
 /// A force, a spring, friction, a tire, ...
 pub type Effect = scene::Effect<Number>;
 /// A quantity that is recorded.

@@ -1,12 +1,13 @@
 //! Parts of a mechanism and their handles.
 
-use super::{Body, Effect, Guide, InitialCondition, Joint, Output};
+use super::{Body, Coupling, Effect, Guide, InitialCondition, Joint, Output};
 use mbs_core::scene::{
-    BodyId, EffectId, GuideId, InitialId, InitialTarget, JointId, Number, OutputId, Scene,
-    StartedJoint,
+    BodyId, CouplingId, EffectId, GuideId, InitialId, InitialTarget, JointId, Number, OutputId,
+    Scene, StartedJoint,
 };
 
-/// What [`Mechanism::add`](crate::Mechanism::add) takes: a body, joint, initial condition, guide, effect or output.
+/// What [`Mechanism::add`](crate::Mechanism::add) takes: a body, joint, initial condition, guide, coupling, effect or
+/// output.
 pub trait Part: sealed::Part {
     /// The handle of such a part.
     type Id: Id;
@@ -85,6 +86,9 @@ part!(Effect, EffectId, "effect", effects, |p, _| &p.name, |p, n| p.name = n, |i
     id.index()
 ));
 part!(Output, OutputId, "output", outputs, |p, _| &p.name, |p, n| p.name = n, |id| Some(
+    id.index()
+));
+part!(Coupling, CouplingId, "coupling", couplings, |p, _| &p.name, |p, n| p.name = n, |id| Some(
     id.index()
 ));
 part!(Guide, GuideId, "guide", guides, |p, s| of_joint(p.joint, s), |_, _| {}, |id| Some(

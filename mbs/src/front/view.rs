@@ -180,7 +180,9 @@ impl Pending {
             let numbers = numbers.map(T::from_f64);
             match owner {
                 InputOwner::Effect(effect) => to.set_input(effect.index(), numbers)?,
-                InputOwner::Guide(guide) => to.set_guide(guide.index(), numbers)?,
+                InputOwner::Guide(guide) | InputOwner::Coupling { sum: guide, .. } => {
+                    to.set_guide(guide.index(), numbers)?;
+                }
             }
         }
         Ok(())

@@ -144,7 +144,10 @@ fn elements_between_two_coordinates_share_their_inertia() {
         (lead, "kind = \"screw\"\njoints = [\"a\", \"s\"]\nlead = 0.4\n"),
         (-0.25, "kind = \"mimic\"\njoint = \"s\"\nof = \"a\"\nfactor = -0.25\n"),
         (0.2, "kind = \"cam\"\njoints = [\"a\", \"s\"]\ncoefficients = [0.0, 0.2]\n"),
-        (0.5, "kind = \"linear\"\nterms = [{ joint = \"s\", factor = 2.0 }, { joint = \"a\", factor = -1.0 }]\n"),
+        (
+            0.5,
+            "kind = \"linear\"\nterms = [{ joint = \"s\", factor = 2.0 }, { joint = \"a\", factor = -1.0 }]\n",
+        ),
     ] {
         let text = turn_and_slide(&format!("[[coupling]]\n{coupling}"));
         has_accelerations(coupling, &text, &expected(r));
@@ -213,7 +216,12 @@ fn ropes_over_points_share_their_tension() {
         head.to_owned(),
         hanging("m", 3.0, [0.0, -1.0]),
         hanging("n", 2.0, [1.0, -2.0]),
-        rope(&[("m", [0.0, -1.0]), ("ground", [0.0, 1.0]), ("ground", [1.0, 1.0]), ("n", [1.0, -2.0])]),
+        rope(&[
+            ("m", [0.0, -1.0]),
+            ("ground", [0.0, 1.0]),
+            ("ground", [1.0, 1.0]),
+            ("n", [1.0, -2.0]),
+        ]),
         rates(&["m-s", "n-s"]),
     ];
     natural_has_accelerations("Atwood", &atwood.concat(), &[-1.962, 1.962]);
