@@ -60,9 +60,9 @@ pub use interrupt::Interrupt;
 pub use mbs_core::formulation::{Formulation, SwitchError};
 pub use mbs_core::laws::code::{BodyLaw, Force, ForceLaw, Measured, MeasuredBody};
 pub use mbs_core::scene::{
-    BodyId, CouplingId, CouplingTerm, Curve, EffectId, EffectKind, GROUND, GuideId, InitialId,
-    JointId, Measured, Motion, Number, OutputId, PolynomialPiece, Road, RoadFeature, Signal,
-    TableEnds, Vector3,
+    BodyId, CouplingId, CouplingMeasure, CouplingTerm, Curve, EffectId, EffectKind, GROUND,
+    GuideId, InitialId, JointId, Motion, Number, OutputId, PolynomialPiece, Road, RoadFeature,
+    Signal, TableEnds, Vector3,
 };
 pub use mbs_scene::{ReadError, WriteError};
 pub use methods::{FORMULATIONS, FormulationKind, PenaltyUse, Row};

@@ -3,7 +3,7 @@
 use super::PreparedCurve;
 use crate::Real;
 use crate::inputs::GuideInput;
-use crate::scene::{Coupling, Measured, Motion};
+use crate::scene::{Coupling, CouplingMeasure, Motion};
 use alloc::vec::Vec;
 
 /// A coupling, prepared.
@@ -21,7 +21,7 @@ pub struct TermInput<T> {
     /// Its factor.
     pub factor: T,
     /// What it measures.
-    pub of: Measured<T>,
+    pub of: CouplingMeasure<T>,
     /// Joint and number of a coordinate; `None` of a length.
     pub coordinate: Option<(usize, usize)>,
     /// The function of the measured number.

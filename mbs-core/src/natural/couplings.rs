@@ -12,7 +12,7 @@ use crate::elements::{
 };
 use crate::measure::{CouplingInput, TermInput};
 use crate::model::{Owner, Terms};
-use crate::scene::Measured;
+use crate::scene::CouplingMeasure;
 use alloc::vec;
 use alloc::vec::Vec;
 
@@ -41,7 +41,7 @@ impl<T: Real> Builder<'_, T> {
 
     fn coupled_draft(&mut self, term: &TermInput<T>, scale: T) -> CoupledDraft<T> {
         let measures = match (&term.of, term.coordinate) {
-            (Measured::Length { points }, _) => {
+            (CouplingMeasure::Length { points }, _) => {
                 let parts = points.windows(2).map(|pair| {
                     let [from, to] = [0, 1].map(|k| self.point(pair[k].0, pair[k].1));
                     let gap = Vector::<T, 3>::from(pair[1].1) - Vector::from(pair[0].1);
@@ -49,10 +49,10 @@ impl<T: Real> Builder<'_, T> {
                 });
                 parts.collect()
             }
-            (Measured::Coordinate { .. }, Some((joint, number))) => {
+            (CouplingMeasure::Coordinate { .. }, Some((joint, number))) => {
                 self.coordinate_measure(joint, number).into_iter().collect()
             }
-            (Measured::Coordinate { .. }, None) => Vec::new(),
+            (CouplingMeasure::Coordinate { .. }, None) => Vec::new(),
         };
         CoupledDraft { factor: term.factor / scale, measures, curve: term.curve.clone() }
     }

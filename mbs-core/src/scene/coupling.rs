@@ -33,14 +33,14 @@ pub struct CouplingTerm<T> {
     /// Its factor.
     pub factor: T,
     /// The number.
-    pub of: Measured<T>,
+    pub of: CouplingMeasure<T>,
     /// The function of the number that is meant; `None`: the number itself.
     pub curve: Option<Curve<T>>,
 }
 
 /// A number that a mechanism has: zero in the reference configuration.
 #[derive(Debug, Clone, PartialEq)]
-pub enum Measured<T> {
+pub enum CouplingMeasure<T> {
     /// A coordinate of a joint [rad or m]; angles count their turns.
     Coordinate {
         /// The joint.
@@ -66,7 +66,7 @@ pub enum Curve<T> {
     Polynomial(Vec<T>),
 }
 
-impl<T> Measured<T> {
+impl<T> CouplingMeasure<T> {
     /// The joint and the number of a coordinate; `None` of a length.
     #[must_use]
     pub const fn coordinate(&self) -> Option<(JointId, usize)> {
@@ -111,8 +111,10 @@ impl<T> CouplingTerm<T> {
             Curve::Polynomial(list) => Curve::Polynomial(list.iter().map(&mut *f).collect()),
         });
         let of = match &self.of {
-            &Measured::Coordinate { joint, number } => Measured::Coordinate { joint, number },
-            Measured::Length { points } => Measured::Length {
+            &CouplingMeasure::Coordinate { joint, number } => {
+                CouplingMeasure::Coordinate { joint, number }
+            }
+            CouplingMeasure::Length { points } => CouplingMeasure::Length {
                 points: points.iter().map(|(body, at)| (*body, all(at, f))).collect(),
             },
         };
@@ -123,7 +125,7 @@ impl<T> CouplingTerm<T> {
 impl CouplingTerm<Number> {
     /// A factor times the coordinate `number` of a joint.
     pub fn of_joint(joint: JointId, number: usize, factor: impl Into<Number>) -> Self {
-        let of = Measured::Coordinate { joint, number };
+        let of = CouplingMeasure::Coordinate { joint, number };
         Self { factor: factor.into(), of, curve: None }
     }
 }

@@ -46,7 +46,7 @@ pub use axes::transverse;
 #[cfg(feature = "alloc")]
 pub use build::StartedJoint;
 #[cfg(feature = "alloc")]
-pub use coupling::{Coupling, CouplingTerm, Curve, Measured};
+pub use coupling::{Coupling, CouplingMeasure, CouplingTerm, Curve};
 #[cfg(feature = "alloc")]
 pub(crate) use data::Surroundings;
 #[cfg(feature = "alloc")]

@@ -13,7 +13,7 @@ use crate::read::fields::{Context, Fields, Read};
 use crate::read::motion::{MOTION_KEYS, read_motion};
 use crate::read::tree::{Item, Node};
 use mbs_core::scene::{
-    Coupling, CouplingTerm, Curve, Freedom, Joint, JointId, Measured, Motion, Number,
+    Coupling, CouplingMeasure, CouplingTerm, Curve, Freedom, Joint, JointId, Motion, Number,
 };
 
 /// The kinds of coupling.
@@ -125,7 +125,7 @@ fn minus(x: Number) -> Number {
 }
 
 fn term(joint: JointId, factor: Number) -> CouplingTerm<Number> {
-    let of = Measured::Coordinate { joint, number: 0 };
+    let of = CouplingMeasure::Coordinate { joint, number: 0 };
     CouplingTerm { factor, of, curve: None }
 }
 
@@ -242,7 +242,7 @@ fn screw(fields: &Fields<'_>) -> Read<Vec<CouplingTerm<Number>>> {
     let (slide, turn) = match fields.get("joint") {
         Some(joint) => {
             let joint = fields.context.joint(joint)?;
-            let turn = Measured::Coordinate { joint, number: 1 };
+            let turn = CouplingMeasure::Coordinate { joint, number: 1 };
             (term(joint, per_turn), CouplingTerm { of: turn, ..term(joint, minus(lead)) })
         }
         None if fields.get("joints").is_some() => {
@@ -291,7 +291,7 @@ fn rope(fields: &Fields<'_>) -> Read<Sum> {
             context.number(item)? + Number::from(-reference)
         }
     };
-    let line = CouplingTerm { factor: one(), of: Measured::Length { points }, curve: None };
+    let line = CouplingTerm { factor: one(), of: CouplingMeasure::Length { points }, curve: None };
     let mut terms = vec![line];
     if let Some(item) = fields.get("drum") {
         let drum = context.table(item, "a table: { joint = .., radius = .. }")?;
@@ -323,10 +323,10 @@ fn read_term<'a>(fields: &Fields<'a>, item: &'a Item) -> Read<CouplingTerm<Numbe
     term.allow(&keys, &[])?;
     term.exclusive("joint", "points")?;
     let of = if let Some(points) = term.get("points") {
-        Measured::Length { points: read_points(fields, points)? }
+        CouplingMeasure::Length { points: read_points(fields, points)? }
     } else {
         let joint = context.joint(term.need("joint")?)?;
-        Measured::Coordinate { joint, number: coordinate(&term)? }
+        CouplingMeasure::Coordinate { joint, number: coordinate(&term)? }
     };
     Ok(CouplingTerm { factor: term.number_or("factor", "1")?, of, curve: read_curve(&term)? })
 }

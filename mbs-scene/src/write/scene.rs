@@ -13,9 +13,9 @@ use crate::read::tree::{Item, Member, Node};
 use core::fmt::{self, Display, Formatter};
 use mbs_core::outputs::Target;
 use mbs_core::scene::{
-    Body, BodyId, Coupling, CouplingTerm, Curve, Dimension, Guide, Inertia, InitialCondition,
-    InitialTarget, Joint, JointId, Measured, Motion, Number, Output, Scene, SolverTable, Start,
-    TableEnds,
+    Body, BodyId, Coupling, CouplingMeasure, CouplingTerm, Curve, Dimension, Guide, Inertia,
+    InitialCondition, InitialTarget, Joint, JointId, Motion, Number, Output, Scene, SolverTable,
+    Start, TableEnds,
 };
 
 /// A scene that has no text.
@@ -374,11 +374,11 @@ impl Writer<'_> {
     fn term(self, term: &CouplingTerm<Number>) -> Result<Node, WriteError> {
         let mut keys = Keys::default();
         match &term.of {
-            Measured::Coordinate { joint, number } => {
+            CouplingMeasure::Coordinate { joint, number } => {
                 keys.push("joint", self.joint_name(*joint)?);
                 keys.push("coordinate", Node::Number(number.to_string()));
             }
-            Measured::Length { points } => {
+            CouplingMeasure::Length { points } => {
                 let point = |(body, at): &(BodyId, [Number; 3])| {
                     let mut keys = Keys::default();
                     keys.push("body", self.body_name(*body)?);

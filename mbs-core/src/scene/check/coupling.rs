@@ -5,7 +5,7 @@ use super::vector::Place;
 use crate::Real;
 use crate::measure::{CouplingInput, given_values};
 use crate::scene::{
-    Coupling, CouplingTerm, Curve, Entry, Freedom, Measured, Scene, SceneError, SceneFault,
+    Coupling, CouplingMeasure, CouplingTerm, Curve, Entry, Freedom, Scene, SceneError, SceneFault,
 };
 
 pub(super) fn check<T: Real>(scene: &Scene<T>) -> Result<(), SceneError> {
@@ -28,7 +28,7 @@ fn check_terms<T: Real>(
     for CouplingTerm { factor, of, curve } in &coupling.terms {
         place.finite("factor", *factor)?;
         match of {
-            Measured::Coordinate { joint, number } => {
+            CouplingMeasure::Coordinate { joint, number } => {
                 let Some(joint) = scene.joints.get(joint.index()) else {
                     return place.fault("joint", SceneFault::UnknownReference);
                 };
@@ -44,7 +44,7 @@ fn check_terms<T: Real>(
                     return place.fault("coordinate", SceneFault::BallCoordinate);
                 }
             }
-            Measured::Length { points } => check_points(scene, points, place)?,
+            CouplingMeasure::Length { points } => check_points(scene, points, place)?,
         }
         if let Some(curve) = curve {
             check_curve(curve, place)?;
