@@ -95,14 +95,30 @@ pub struct CoupledTables<'a, T, F> {
     pub measures: &'a [Signed<T>],
     /// Combinations.
     pub pool: &'a [Term<T>],
-    /// f, f' and f'' of a curve by its number.
-    pub curve: F,
+    /// The curves by number.
+    pub curves: &'a F,
 }
 
-impl<T: Real, F: Fn(u32, T) -> [T; 3]> CoupledTables<'_, T, F> {
+/// The curves of couplings by number.
+pub trait Curves<T> {
+    /// f, f' and f'' of a curve at `x`.
+    fn at(&self, curve: u32, x: T) -> [T; 3];
+    /// f(x + dx) - f(x), free of cancellation.
+    fn change(&self, curve: u32, x: T, dx: T) -> T;
+}
+
+impl<T: Real, F: Curves<T>> CoupledTables<'_, T, F> {
     /// f, f' and f'' of a term's curve.
     pub fn function(&self, curve: u32, x: T) -> [T; 3] {
-        if curve == NONE { [x, T::ONE, T::ZERO] } else { (self.curve)(curve, x) }
+        if curve == NONE { [x, T::ONE, T::ZERO] } else { self.curves.at(curve, x) }
+    }
+
+    /// f(x), and f(x + dx) - f(x).
+    fn parts(&self, curve: u32, x: T, dx: T) -> [T; 2] {
+        if curve == NONE {
+            return [x, dx];
+        }
+        [self.curves.at(curve, x)[0], self.curves.change(curve, x, dx)]
     }
 }
 
@@ -110,20 +126,20 @@ impl<T: Real> Coupled<T> {
     /// Value and gradient at `q`; angles are those nearest to `memory`.
     pub fn evaluate<const D: usize>(
         &self,
-        tables: &CoupledTables<'_, T, impl Fn(u32, T) -> [T; 3]>,
+        tables: &CoupledTables<'_, T, impl Curves<T>>,
         (q, memory): (&[T], &[T]),
         sum: T,
         (phi, jacobian): (&mut [T], &mut [T]),
     ) {
         let at = |x: Span| combine::<T, D>(x.of(tables.pool), q);
-        let value = self.evaluate_with(tables, at, memory, self.place.of_mut(jacobian));
-        phi[self.row as usize] = value - sum * self.inverse;
+        let value = self.evaluate_with(tables, at, (memory, sum), self.place.of_mut(jacobian));
+        phi[self.row as usize] = value;
     }
 
     /// The same at `q + dq`, from `phi_n` at `q` where the sum is linear and constant.
     pub fn advance<const D: usize>(
         &self,
-        tables: &CoupledTables<'_, T, impl Fn(u32, T) -> [T; 3]>,
+        tables: &CoupledTables<'_, T, impl Curves<T>>,
         (q, dq, memory): (&[T], &[T], &[T]),
         (phi_n, sum): (&[T], T),
         (phi, jacobian): (&mut [T], &mut [T]),
@@ -131,7 +147,7 @@ impl<T: Real> Coupled<T> {
         let before = |x: Span| combine::<T, D>(x.of(tables.pool), q);
         let change = |x: Span| combine::<T, D>(x.of(tables.pool), dq);
         let at = |x: Span| before(x) + change(x);
-        let value = self.evaluate_with(tables, at, memory, self.place.of_mut(jacobian));
+        let value = self.evaluate_with(tables, at, (memory, sum), self.place.of_mut(jacobian));
         let row = self.row as usize;
         phi[row] = if self.is_linear {
             let terms = self.terms.of(tables.terms).iter();
@@ -142,35 +158,45 @@ impl<T: Real> Coupled<T> {
                 })
             })
         } else {
-            value - sum * self.inverse
+            value
         };
     }
 
-    /// The sum, with its gradient in `row`.
+    /// phi, with its gradient in `row`. What does not change in a step, the terms of the remembered angles and the sum, is one number;
+    /// what does is added to it, so that iterations see no rounding of turns.
     fn evaluate_with<const D: usize>(
         &self,
-        tables: &CoupledTables<'_, T, impl Fn(u32, T) -> [T; 3]>,
+        tables: &CoupledTables<'_, T, impl Curves<T>>,
         at: impl Fn(Span) -> Vector<T, D> + Copy,
-        memory: &[T],
+        (memory, sum): (&[T], T),
         row: &mut [T],
     ) -> T {
         row.fill(T::ZERO);
-        self.terms.of(tables.terms).iter().fold(T::ZERO, |sum, term| {
+        let (mut kept, mut change) = (-sum * self.inverse, T::ZERO);
+        for term in self.terms.of(tables.terms) {
             let measures = term.measures.of(tables.measures);
-            let m = measures.iter().fold(T::ZERO, |m, x| m + x.sign * value(&x.of, at, memory));
-            let [f, slope, _] = tables.function(term.curve, m);
+            let (mut m, mut dm) = (T::ZERO, T::ZERO);
+            for measure in measures {
+                let [base, more] = base_and_change(&measure.of, at, memory);
+                m += measure.sign * base;
+                dm += measure.sign * more;
+            }
+            let [f, df] = tables.parts(term.curve, m, dm);
+            kept += term.factor * f;
+            change += term.factor * df;
+            let [_, slope, _] = tables.function(term.curve, m + dm);
             for measure in measures {
                 let weight = term.factor * slope * measure.sign;
                 add_measure_gradient(&measure.of, tables.pool, at, weight, row);
             }
-            sum + term.factor * f
-        })
+        }
+        kept + change
     }
 
     /// The part of phi'' without accelerations; `sum` is that of the time function.
     pub fn bias<const D: usize>(
         &self,
-        tables: &CoupledTables<'_, T, impl Fn(u32, T) -> [T; 3]>,
+        tables: &CoupledTables<'_, T, impl Curves<T>>,
         (q, v, memory): (&[T], &[T], &[T]),
         sum: [T; 3],
     ) -> T {
@@ -202,16 +228,26 @@ pub fn value<T: Real, const D: usize>(
     at: impl Fn(Span) -> Vector<T, D>,
     memory: &[T],
 ) -> T {
+    let [base, change] = base_and_change(of, at, memory);
+    base + change
+}
+
+/// The remembered angle, and how far the angle is from it; of other measures zero and the value.
+fn base_and_change<T: Real, const D: usize>(
+    of: &Measurand<T>,
+    at: impl Fn(Span) -> Vector<T, D>,
+    memory: &[T],
+) -> [T; 2] {
     match *of {
         Measurand::Angle { x1, x2, y, memory: place } => {
             let y = at(y);
             let (c, s) = (at(x1).dot(&y), at(x2).dot(&y));
             let last = memory[place as usize];
             let (sin, cos) = last.sin_cos();
-            last + (s * cos - c * sin).atan2(c * cos + s * sin)
+            [last, (s * cos - c * sin).atan2(c * cos + s * sin)]
         }
-        Measurand::Slide { x, y } => at(x).dot(&at(y)),
-        Measurand::Length { x, reference } => norm(&at(x)) - reference,
+        Measurand::Slide { x, y } => [T::ZERO, at(x).dot(&at(y))],
+        Measurand::Length { x, reference } => [T::ZERO, norm(&at(x)) - reference],
     }
 }
 

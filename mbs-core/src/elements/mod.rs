@@ -22,7 +22,7 @@ mod linear;
 pub(crate) use combination::add_gradient;
 pub use combination::{Span, Term, combine};
 pub use coupled::{
-    Coupled, CoupledTables, CoupledTerm, Measurand, NONE, Signed, add_measure_gradient,
+    Coupled, CoupledTables, CoupledTerm, Curves, Measurand, NONE, Signed, add_measure_gradient,
     rate_and_bias, value as measured_value,
 };
 pub use distance::Distance;

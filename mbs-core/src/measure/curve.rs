@@ -15,9 +15,8 @@ use crate::laws::guide;
 pub fn spline_curve<T: Real>(knots: &[[T; 2]], curvature: &[T], period: T, x: T) -> [T; 3] {
     let x = match knots {
         [first, .., last] if period > T::ZERO => {
-            let turns = libm::floor(((x - first[0]) / period).to_f64());
             // to machine precision it is within
-            (x - T::from_f64(turns) * period).max(first[0]).min(last[0])
+            within(x, first[0], period).max(first[0]).min(last[0])
         }
         _ => x,
     };
@@ -33,12 +32,83 @@ pub fn polynomial<T: Real>(coefficients: &[T], x: T) -> [T; 3] {
     })
 }
 
+/// f(x + dx) - f(x) of a polynomial by its divided difference, free of cancellation.
+pub fn polynomial_change<T: Real>(coefficients: &[T], x: T, dx: T) -> T {
+    let start = (T::ZERO, T::ZERO);
+    let (_, quotient) = coefficients
+        .iter()
+        .rev()
+        .fold(start, |(value, quotient), &c| (value * x + c, quotient * (x + dx) + value));
+    quotient * dx
+}
+
+/// f(x + dx) - f(x) of a [`spline_curve`], free of cancellation: piece by piece from x to x + dx.
+///
+/// Cost: one binary search for each piece on the way; no allocation.
+pub fn spline_change<T: Real>((knots, curvature): (&[[T; 2]], &[T]), period: T, x: T, dx: T) -> T {
+    let [first, .., last] = knots else { return T::ZERO };
+    let (ends, is_periodic) = ([first[0], last[0]], period > T::ZERO);
+    let (mut at, mut left, mut sum) = (x, dx, T::ZERO);
+    if is_periodic {
+        at = within(x, ends[0], period);
+    }
+    // Each pass ends a piece; a way of more periods than there are pieces is no step.
+    for _ in 0..=2 * knots.len() {
+        let is_forward = left > T::ZERO;
+        if left == T::ZERO {
+            break;
+        }
+        if is_periodic && is_forward && at >= ends[1] {
+            at -= period;
+        } else if is_periodic && !is_forward && at <= ends[0] {
+            at += period;
+        }
+        let above =
+            knots.partition_point(|knot| if is_forward { knot[0] <= at } else { knot[0] < at });
+        let Some(i) = above.checked_sub(1).filter(|&i| i + 1 < knots.len()) else {
+            // Outside the value is held, up to the end that the way leads to.
+            let end = if is_forward { ends[0] } else { ends[1] };
+            let gap = end - at;
+            let is_towards = (gap > T::ZERO) == is_forward && gap != T::ZERO;
+            if is_periodic || !is_towards || gap.abs() >= left.abs() {
+                break;
+            }
+            (at, left) = (end, left - gap);
+            continue;
+        };
+        let ([t0, g0], [t1, g1]) = (knots[i], knots[i + 1]);
+        let bend = |i: usize| curvature.get(i).copied().unwrap_or(T::ZERO);
+        let (c0, c1, h) = (bend(i), bend(i + 1), t1 - t0);
+        let gap = if is_forward { t1 - at } else { t0 - at };
+        let is_last = left.abs() <= gap.abs();
+        let d = if is_last { left } else { gap };
+        let s = at - t0;
+        let sixth = T::ONE / T::from_f64(6.0);
+        let three = T::from_f64(3.0);
+        let slope = (g1 - g0) / h - h * (T::TWO * c0 + c1) * sixth;
+        let (square, cube) = (c0 * T::HALF, (c1 - c0) * sixth / h);
+        sum += d
+            * (slope + square * (T::TWO * s + d) + cube * (three * s * s + three * s * d + d * d));
+        if is_last {
+            break;
+        }
+        (at, left) = (if is_forward { t1 } else { t0 }, left - d);
+    }
+    sum
+}
+
+/// x in the period that begins at `first`.
+fn within<T: Real>(x: T, first: T, period: T) -> T {
+    let turns = libm::floor(((x - first) / period).to_f64());
+    x - T::from_f64(turns) * period
+}
+
 #[cfg(feature = "alloc")]
 pub use prepared::PreparedCurve;
 
 #[cfg(feature = "alloc")]
 mod prepared {
-    use super::{polynomial, spline_curve};
+    use super::{polynomial, polynomial_change, spline_change, spline_curve};
     use crate::Real;
     use crate::laws::guide;
     use crate::scene::Curve;
@@ -98,6 +168,18 @@ mod prepared {
                     spline_curve(knots, curvature, *period, x)
                 }
                 Self::Polynomial(coefficients) => polynomial(coefficients, x),
+            }
+        }
+
+        /// f(x + dx) - f(x), free of cancellation.
+        #[must_use]
+        pub fn change(&self, x: T, dx: T) -> T {
+            match self {
+                Self::Identity => dx,
+                Self::Spline { knots, curvature, period } => {
+                    spline_change((knots, curvature), *period, x, dx)
+                }
+                Self::Polynomial(coefficients) => polynomial_change(coefficients, x, dx),
             }
         }
 
@@ -183,6 +265,32 @@ mod prepared {
                     assert!((left[1] - right[1]).abs() < 1e-5, "{n}: {left:?} {right:?}");
                     assert!((left[2] - right[2]).abs() < 1e-4, "{n}: {left:?} {right:?}");
                     assert!((curve.at(knot[0] + 3.0 * period)[0] - knot[1]).abs() < 1e-13);
+                }
+            }
+        }
+
+        #[test]
+        fn changes_of_curves_are_differences_of_their_values() {
+            let curves = [
+                Curve::Polynomial(vec![0.3, -1.0, 0.5, 2.0]),
+                Curve::Table(vec![[0.0, 0.0], [1.0, 0.4], [1.5, -0.3], [4.0, 1.0]]),
+                Curve::Periodic(vec![[0.0, 0.0], [1.0, 0.4], [1.5, -0.3], [4.0, 0.0]]),
+            ];
+            for curve in curves.map(|curve| PreparedCurve::new(Some(&curve))) {
+                for i in -40..60 {
+                    let x = 0.11 * f64::from(i);
+                    for dx in [-3.7, -0.6, -1e-3, 0.0, 1e-3, 0.5, 2.9, 4.0] {
+                        let expected = curve.at(x + dx)[0] - curve.at(x)[0];
+                        let found = curve.change(x, dx);
+                        // values of order ten, a hundred for the polynomial
+                        let size = curve.at(x)[0].abs().max(curve.at(x + dx)[0].abs()).max(1.0);
+                        assert!((found - expected).abs() < 1e-13 * size, "{curve:?}: {x} {dx}");
+                    }
+                    let slope = curve.at(x + 1e-20)[1];
+                    let is_held = slope == 0.0;
+                    // far below the rounding of x itself
+                    let found = curve.change(x, 1e-20);
+                    assert!(is_held || (found / 1e-20 - slope).abs() < 1e-9 * slope.abs().max(1.0));
                 }
             }
         }

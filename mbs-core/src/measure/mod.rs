@@ -12,6 +12,6 @@ mod given;
 pub use coupling::{CouplingInput, TermInput};
 #[cfg(feature = "alloc")]
 pub use curve::PreparedCurve;
-pub use curve::{polynomial, spline_curve};
+pub use curve::{polynomial, polynomial_change, spline_change, spline_curve};
 #[cfg(feature = "alloc")]
 pub use given::given_values;

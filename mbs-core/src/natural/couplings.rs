@@ -8,9 +8,9 @@ use super::row_builder::{CoupledDraft, GroupDraft, MeasureDraft, RowDraft, diffe
 use crate::Real;
 use crate::algebra::{Vector, norm};
 use crate::elements::{
-    CoupledTables, Measurand, NONE, Span, add_measure_gradient, combine, measured_value,
+    CoupledTables, Curves, Measurand, NONE, Span, add_measure_gradient, combine, measured_value,
 };
-use crate::measure::{CouplingInput, TermInput};
+use crate::measure::{CouplingInput, PreparedCurve, TermInput};
 use crate::model::{Owner, Terms};
 use crate::scene::CouplingMeasure;
 use alloc::vec;
@@ -73,14 +73,24 @@ impl<T: Real> Builder<'_, T> {
     }
 }
 
+impl<T: Real> Curves<T> for Vec<PreparedCurve<T>> {
+    fn at(&self, curve: u32, x: T) -> [T; 3] {
+        self[curve as usize].at(x)
+    }
+
+    fn change(&self, curve: u32, x: T, dx: T) -> T {
+        self[curve as usize].change(x, dx)
+    }
+}
+
 impl<T: Real, const D: usize> NaturalModel<T, D> {
     /// The tables of the couplings.
-    pub(super) fn coupled_tables(&self) -> CoupledTables<'_, T, impl Fn(u32, T) -> [T; 3] + '_> {
+    pub(super) fn coupled_tables(&self) -> CoupledTables<'_, T, Vec<PreparedCurve<T>>> {
         CoupledTables {
             terms: &self.coupled_terms,
             measures: &self.coupled_measures,
             pool: &self.pool,
-            curve: |curve: u32, x: T| self.curves[curve as usize].at(x),
+            curves: &self.curves,
         }
     }
 
