@@ -383,7 +383,7 @@ impl<'a, T: Real, M: Model<T>, S: SymmetricSolver<T>> Search<'a, T, M, S> {
             self.bound = T::ONE / (T::from_f64(NEUTRAL) * T::EPSILON.sqrt() * lively);
         }
         self.met = self.met.max(self.scale);
-        let mut angles = core::mem::take(&mut self.w.terms.angles);
+        let mut angles = self.w.terms.angles.clone();
         self.model.remember(&self.next, &self.w.terms, &mut angles);
         self.w.terms.angles = angles;
         self.q.copy_from_slice(&self.next);

@@ -41,6 +41,9 @@ fn simulated(e: &Explanation) -> Section {
     if !s.guides.is_empty() {
         rows.push(row("guided joints", guides.collect::<Vec<_>>().join(", ")));
     }
+    if !s.couplings.is_empty() {
+        rows.push(row("couplings", counted(&s.couplings)));
+    }
     if let Some(gravity) = &s.gravity {
         let g: Vec<String> = gravity.iter().map(|x| significant(*x)).collect();
         rows.push(row("gravity", format!("[{}] m/s^2", g.join(", "))));

@@ -312,7 +312,12 @@ fn read_points<'a>(
         point.allow(&["body", "at"], &[])?;
         Ok((context.body(point.need("body")?)?, point.vector("at")?))
     };
-    context.list(item, form)?.iter().map(point).collect()
+    let points = context.list(item, form)?;
+    if points.len() < 2 {
+        let fault = ReadFault::WrongCount { needed: 2, found: points.len() };
+        return context.fault(&item.span, fault);
+    }
+    points.iter().map(point).collect()
 }
 
 /// A term: a coordinate of a joint, or the length over points; a curve of it.

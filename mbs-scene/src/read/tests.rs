@@ -4,6 +4,7 @@
 use crate::{ReadError, ReadFault, SceneFile};
 use mbs_core::scene::*;
 
+mod couplings;
 mod effects;
 mod random;
 mod road;

@@ -7,7 +7,7 @@ use mbs_scene::format::{counted, few};
 
 pub(super) fn findings(
     scene: &Scene<f64>,
-    (diagnosis, natural): (&Diagnosis, Option<[usize; 3]>),
+    (diagnosis, natural, taken): (&Diagnosis, Option<[usize; 3]>, Option<usize>),
     massless: Option<&[Massless]>,
     findings: &mut Vec<Finding>,
 ) {
@@ -29,7 +29,9 @@ pub(super) fn findings(
         findings.push(Finding::new(Severity::Note, code, message, "").joints(vec![joint]));
     }
     if let Some([coordinates, _, rank]) = natural {
-        differs(diagnosis, coordinates - rank, massless, findings);
+        if let Some(taken) = taken {
+            differs(diagnosis, coordinates - rank + taken, massless, findings);
+        }
         if coordinates == rank && scene.guides.is_empty() && !scene.bodies.is_empty() {
             let [_, velocities, held] = diagnosis.sizes;
             let message = format!(

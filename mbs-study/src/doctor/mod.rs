@@ -5,6 +5,7 @@
 
 mod basis;
 mod consistency;
+mod couplings;
 mod finding;
 mod json;
 mod masses;
@@ -115,7 +116,11 @@ fn in_space<const D: usize>(
         .ok()
         .map(|b| [b.model.n_unknowns(), b.model.n_constraints(), rank(&b.model, &b.start.state)]);
     sets::findings(scene, &joint_level, natural, &mut findings);
-    consistency::findings(scene, (&joint_level, natural), massless.as_deref(), &mut findings);
+    let taken = begun
+        .as_ref()
+        .map_or(Some(0), |b| couplings::findings(scene, &b.model, &b.start.state, &mut findings));
+    let freedoms = (&joint_level, natural, taken);
+    consistency::findings(scene, freedoms, massless.as_deref(), &mut findings);
     masses::findings(scene, massless.as_deref(), &mut findings);
     units::findings(scene, &mut findings);
     places::findings(scene, &mut findings);

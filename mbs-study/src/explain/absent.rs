@@ -17,6 +17,7 @@ pub(super) fn absent<T: Real>(scene: &Scene<T>) -> Vec<MissingEffect> {
             "third-dimension",
             "no third dimension: a body has two translations and one rotation",
         ),
+        (!scene.couplings.is_empty(), "couplings", "no couplings: no gears, racks, cams or ropes"),
         (!scene.guides.is_empty(), "guides", "no guided joints: no constraint depends on time"),
         (
             any(&EffectKind::stores_energy),

@@ -48,6 +48,9 @@ pub struct Simulated {
     pub joints: Vec<JointsByKind>,
     /// Guided joints.
     pub guides: Vec<GuideEntry>,
+    /// Names of the couplings; the key is left out where there are none.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub couplings: Vec<String>,
     /// Acceleration of gravity [m/s^2], where it acts.
     pub gravity: Option<Vec<f64>>,
     /// Coordinates minus rank in natural coordinates, at the start.

@@ -38,6 +38,7 @@ pub(super) fn simulated<T: Real, const D: usize>(
         bodies: scene.bodies.iter().map(|body| body.name.clone()).collect(),
         joints: joints(scene),
         guides: guides(scene),
+        couplings: scene.couplings.iter().map(|coupling| coupling.name.clone()).collect(),
         gravity: scene.gravity.map(|g| g[..D].iter().map(|x| x.to_f64()).collect()),
         dof: natural.map(|sizes| sizes.dof),
         natural,
