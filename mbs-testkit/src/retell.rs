@@ -1,7 +1,10 @@
 //! The same mechanism written in another way: turned as a whole, its bodies in another order.
 
 use mbs_core::effects::{Field, Form, SignalForm, Value};
-use mbs_core::scene::{Axis, BodyId, Dimension, Freedom, Inertia, InitialTarget, Joint, Scene};
+use mbs_core::scene::{
+    Axis, BodyId, Coupling, CouplingMeasure, Dimension, Freedom, Inertia, InitialTarget, Joint,
+    Scene,
+};
 
 type Vector = [f64; 3];
 
@@ -63,6 +66,9 @@ pub fn turn_by(scene: &Scene<f64>, turn: impl Fn(Vector) -> Vector + Copy) -> Sc
         joint.points = joint.points.map(turn);
         joint.axes = joint.axes.map(|a| a.map(turn));
     }
+    for (_, at) in s.couplings.iter_mut().flat_map(points) {
+        *at = turn(*at);
+    }
     for initial in &mut s.initials {
         turn_initial(&mut initial.target, (&scene.joints, scene.dimension), turn);
     }
@@ -86,6 +92,14 @@ pub fn turn_by(scene: &Scene<f64>, turn: impl Fn(Vector) -> Vector + Copy) -> Sc
     }
     s.outputs.clear();
     s
+}
+
+/// The points of the lengths of a coupling.
+fn points(coupling: &mut Coupling<f64>) -> impl Iterator<Item = &mut (BodyId, Vector)> {
+    coupling.terms.iter_mut().flat_map(|term| match &mut term.of {
+        CouplingMeasure::Length { points } => points.as_mut_slice(),
+        CouplingMeasure::Coordinate { .. } => &mut [],
+    })
 }
 
 fn turn_initial(
@@ -129,6 +143,7 @@ pub fn reorder(scene: &Scene<f64>) -> Scene<f64> {
         }
     };
     s.joints.iter_mut().flat_map(|j| &mut j.bodies).for_each(renumber);
+    s.couplings.iter_mut().flat_map(points).for_each(|(body, _)| renumber(body));
     for initial in &mut s.initials {
         if let InitialTarget::Body { body, .. } = &mut initial.target {
             renumber(body);
