@@ -2,8 +2,7 @@
 
 use crate::Real;
 use crate::laws::guide;
-use crate::measure::CouplingInput;
-use crate::scene::{Coupling, Guide, Motion, Signal, TableEnds};
+use crate::scene::{Guide, Motion, Signal, TableEnds};
 use crate::step::InputError;
 use alloc::vec;
 use alloc::vec::Vec;
@@ -19,10 +18,9 @@ pub struct Prescribed<T> {
 
 impl<T: Real> Prescribed<T> {
     /// The guides of a scene, then the sums of its couplings that are not always zero; and no course.
-    pub(crate) fn new(guides: &[Guide<T>], couplings: &[Coupling<T>]) -> Self {
+    pub(crate) fn new(guides: &[Guide<T>], sums: impl Iterator<Item = GuideInput<T>>) -> Self {
         let of_guides = guides.iter().map(|guide| GuideInput::new(&guide.law));
-        let of_couplings = couplings.iter().filter_map(|coupling| CouplingInput::new(coupling).sum);
-        Self { guides: of_guides.chain(of_couplings).collect(), courses: Vec::new() }
+        Self { guides: of_guides.chain(sums).collect(), courses: Vec::new() }
     }
 
     /// Adds a course for `scene.effects[effect]` and returns its number.

@@ -4,6 +4,7 @@ use super::compile::Compiler;
 use super::{ActionError, Actions, Tables};
 use crate::Real;
 use crate::inputs::Prescribed;
+use crate::measure::CouplingInput;
 use crate::scene::Scene;
 use alloc::vec::Vec;
 
@@ -20,7 +21,10 @@ impl<T: Real> Actions<T> {
             clock: None,
             actions: Self {
                 list: Vec::new(),
-                prescribed: Prescribed::new(&scene.guides, &scene.couplings),
+                prescribed: Prescribed::new(
+                    &scene.guides,
+                    scene.couplings.iter().filter_map(|coupling| CouplingInput::new(coupling).sum),
+                ),
                 tables: Tables::empty(),
             },
         };

@@ -11,16 +11,13 @@ use super::merge::merged;
 use super::model::NaturalModel;
 use super::motion::carriers;
 use super::on_body::BodyElement;
-use super::row_builder::{CoupledDraft, EffectDraft, GroupDraft, MeasureDraft, RowDraft};
+use super::row_builder::{EffectDraft, GroupDraft, RowDraft};
 use super::sharing::Entity;
 use crate::Real;
 use crate::actions::Actions;
 use crate::algebra::{Coef, Vector};
 use crate::cluster::Clusters;
-use crate::elements::{
-    Coupled, CoupledTerm, Distance, Dot, Guided, GuidedMotion, Linear, Measurand, NONE, Signed,
-    Span, Term,
-};
+use crate::elements::{Coupled, Distance, Dot, Guided, GuidedMotion, Linear, NONE, Span, Term};
 use crate::laws::scalar::Law;
 use crate::model::Owner;
 use alloc::vec;
@@ -51,8 +48,8 @@ pub(super) fn layout<T: Real, const D: usize>(
     model
 }
 
-struct Layout<T: Real, const D: usize> {
-    model: NaturalModel<T, D>,
+pub(super) struct Layout<T: Real, const D: usize> {
+    pub(super) model: NaturalModel<T, D>,
     entities: Vec<Entity<T>>,
     /// The different masses and blocks so far.
     masses: Vec<(Span, Span)>,
@@ -62,7 +59,7 @@ struct Layout<T: Real, const D: usize> {
 const RECENT: usize = 16;
 
 /// Where a combination's columns are in the group at hand.
-struct Columns<'a> {
+pub(super) struct Columns<'a> {
     slots: &'a [usize],
 }
 
@@ -224,7 +221,7 @@ impl<T: Real, const D: usize> Layout<T, D> {
         row.entities().iter().any(|&e| !self.entities[e].is_constant)
     }
 
-    fn span(&mut self, x: &Combination<T>, columns: &Columns<'_>) -> Span {
+    pub(super) fn span(&mut self, x: &Combination<T>, columns: &Columns<'_>) -> Span {
         let m = &mut self.model;
         extend(
             &mut m.pool,
@@ -290,46 +287,6 @@ impl<T: Real, const D: usize> Layout<T, D> {
                 let guide = guide.map_or(NONE, index);
                 let (inverse, is_linear) = (*inverse, *is_linear);
                 self.model.coupled.push(Coupled { terms, inverse, guide, is_linear, row, place });
-            }
-        }
-    }
-
-    /// The terms of a coupling with their measures and curves.
-    fn coupled_terms(&mut self, drafts: &[CoupledDraft<T>], columns: &Columns<'_>) -> Span {
-        let mut terms = Vec::with_capacity(drafts.len());
-        for draft in drafts {
-            let measures: Vec<_> =
-                draft.measures.iter().map(|measure| self.signed(measure, columns)).collect();
-            let m = &mut self.model;
-            let curve = if draft.curve.is_identity() {
-                NONE
-            } else {
-                m.curves.push(draft.curve.clone());
-                index(m.curves.len() - 1)
-            };
-            let measures = extend(&mut m.coupled_measures, measures.into_iter());
-            terms.push(CoupledTerm { factor: draft.factor, measures, curve });
-        }
-        extend(&mut self.model.coupled_terms, terms.into_iter())
-    }
-
-    fn signed(&mut self, draft: &MeasureDraft<T>, columns: &Columns<'_>) -> Signed<T> {
-        match draft {
-            MeasureDraft::Angle { x1, x2, y, sign, of } => {
-                let (x1, x2) = (self.span(x1, columns), self.span(x2, columns));
-                let y = self.span(y, columns);
-                let memory = index(self.model.n_memory);
-                self.model.n_memory += 1;
-                self.model.coupled_angles.push((*of, *sign, memory));
-                Signed { sign: *sign, of: Measurand::Angle { x1, x2, y, memory } }
-            }
-            MeasureDraft::Slide { x, y } => {
-                let (x, y) = (self.span(x, columns), self.span(y, columns));
-                Signed { sign: T::ONE, of: Measurand::Slide { x, y } }
-            }
-            MeasureDraft::Length { x, reference } => {
-                let x = self.span(x, columns);
-                Signed { sign: T::ONE, of: Measurand::Length { x, reference: *reference } }
             }
         }
     }
@@ -536,7 +493,7 @@ fn empty(at: usize) -> Span {
     Span { start: index(at), end: index(at) }
 }
 
-fn extend<U>(table: &mut Vec<U>, items: impl Iterator<Item = U>) -> Span {
+pub(super) fn extend<U>(table: &mut Vec<U>, items: impl Iterator<Item = U>) -> Span {
     let start = index(table.len());
     table.extend(items);
     Span { start, end: index(table.len()) }

@@ -9,6 +9,7 @@ mod basis;
 mod build;
 mod coordinate;
 mod coordinate_sets;
+mod coupled_layout;
 mod couplings;
 mod effects;
 mod element;

@@ -7,7 +7,6 @@
 //! Every kind of coupling is such a sum; the constructors below write them. Coordinates and lengths count from the reference
 //! configuration.
 
-use super::resolve::{all, rows};
 use crate::Real;
 use crate::scene::{BodyId, JointId, Motion, Number};
 use alloc::string::String;
@@ -91,34 +90,6 @@ impl<T> Coupling<T> {
         T: Real,
     {
         self.is_driven() || !self.value.is_zero()
-    }
-
-    pub(super) fn map<U>(&self, f: &mut impl FnMut(&T) -> U) -> Coupling<U> {
-        Coupling {
-            name: self.name.clone(),
-            terms: self.terms.iter().map(|term| term.map(f)).collect(),
-            value: f(&self.value),
-            motion: self.motion.as_ref().map(|motion| motion.map(f)),
-        }
-    }
-}
-
-impl<T> CouplingTerm<T> {
-    fn map<U>(&self, f: &mut impl FnMut(&T) -> U) -> CouplingTerm<U> {
-        let curve = self.curve.as_ref().map(|curve| match curve {
-            Curve::Table(table) => Curve::Table(rows(table, f)),
-            Curve::Periodic(table) => Curve::Periodic(rows(table, f)),
-            Curve::Polynomial(list) => Curve::Polynomial(list.iter().map(&mut *f).collect()),
-        });
-        let of = match &self.of {
-            &CouplingMeasure::Coordinate { joint, number } => {
-                CouplingMeasure::Coordinate { joint, number }
-            }
-            CouplingMeasure::Length { points } => CouplingMeasure::Length {
-                points: points.iter().map(|(body, at)| (*body, all(at, f))).collect(),
-            },
-        };
-        CouplingTerm { factor: f(&self.factor), of, curve }
     }
 }
 

@@ -2,9 +2,9 @@
 
 use crate::Real;
 use crate::scene::{
-    Body, CalspanCoefficients, Dimension, Effect, Entry, Guide, Inertia, InitialCondition,
-    InitialTarget, Joint, Motion, Number, Output, Road, RoadFeature, Scene, SceneError, SceneFault,
-    SolverTable,
+    Body, CalspanCoefficients, Coupling, CouplingMeasure, CouplingTerm, Curve, Dimension, Effect,
+    Entry, Guide, Inertia, InitialCondition, InitialTarget, Joint, Motion, Number, Output, Road,
+    RoadFeature, Scene, SceneError, SceneFault, SolverTable,
 };
 use alloc::vec::Vec;
 
@@ -39,7 +39,7 @@ impl Scene<Number> {
 }
 
 /// A function of numbers, on all of a list.
-pub(super) fn all<T, U, const N: usize>(x: &[T; N], f: &mut impl FnMut(&T) -> U) -> [U; N] {
+fn all<T, U, const N: usize>(x: &[T; N], f: &mut impl FnMut(&T) -> U) -> [U; N] {
     core::array::from_fn(|i| f(&x[i]))
 }
 
@@ -47,7 +47,7 @@ fn pair<T, U>([a, b]: &[[T; 3]; 2], f: &mut impl FnMut(&T) -> U) -> [[U; 3]; 2] 
     [all(a, f), all(b, f)]
 }
 
-pub(super) fn rows<T, U, const N: usize>(x: &[[T; N]], f: &mut impl FnMut(&T) -> U) -> Vec<[U; N]> {
+fn rows<T, U, const N: usize>(x: &[[T; N]], f: &mut impl FnMut(&T) -> U) -> Vec<[U; N]> {
     x.iter().map(|row| all(row, f)).collect()
 }
 
@@ -142,6 +142,36 @@ impl<T> Motion<T> {
             Self::Input(motion) => Motion::Input(all(motion, f)),
             Self::Ramp { rate } => Motion::Ramp { rate: f(rate) },
         }
+    }
+}
+
+impl<T> Coupling<T> {
+    fn map<U>(&self, f: &mut impl FnMut(&T) -> U) -> Coupling<U> {
+        Coupling {
+            name: self.name.clone(),
+            terms: self.terms.iter().map(|term| term.map(f)).collect(),
+            value: f(&self.value),
+            motion: self.motion.as_ref().map(|motion| motion.map(f)),
+        }
+    }
+}
+
+impl<T> CouplingTerm<T> {
+    fn map<U>(&self, f: &mut impl FnMut(&T) -> U) -> CouplingTerm<U> {
+        let curve = self.curve.as_ref().map(|curve| match curve {
+            Curve::Table(table) => Curve::Table(rows(table, f)),
+            Curve::Periodic(table) => Curve::Periodic(rows(table, f)),
+            Curve::Polynomial(list) => Curve::Polynomial(list.iter().map(&mut *f).collect()),
+        });
+        let of = match &self.of {
+            &CouplingMeasure::Coordinate { joint, number } => {
+                CouplingMeasure::Coordinate { joint, number }
+            }
+            CouplingMeasure::Length { points } => CouplingMeasure::Length {
+                points: points.iter().map(|(body, at)| (*body, all(at, f))).collect(),
+            },
+        };
+        CouplingTerm { factor: f(&self.factor), of, curve }
     }
 }
 
