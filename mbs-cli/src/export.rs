@@ -69,6 +69,7 @@ fn refusal(error: &ExportError) -> Refusal {
         ExportError::Stop(_) => {
             "`mbs run SCENE --formulation recursive` says more: controllers step in relative coordinates"
         }
+        ExportError::Coupling(_) => "leave the coupling out",
         ExportError::Effect(_) => "leave user-defined laws out: a table cannot hold code",
         ExportError::Ladder(_) => {
             "make the list of effect costs from this scene: `mbs explain SCENE --json`"

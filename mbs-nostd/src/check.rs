@@ -8,6 +8,7 @@ use mbs_core::laws::Part;
 use mbs_recursive::link::LinkKind;
 use mbs_recursive::loads::{Load, Measure};
 use mbs_recursive::plan::Span;
+use mbs_recursive::rows::Row;
 use mbs_recursive::slices::TreeSlices;
 use mbs_recursive::space::Space;
 
@@ -30,6 +31,11 @@ pub enum LoadError {
         table: &'static str,
         /// The entry.
         entry: usize,
+    },
+    /// A coupling, which no controller holds.
+    Coupling {
+        /// `scene.couplings[coupling]`.
+        coupling: usize,
     },
     /// The text is not a model of this version and dimension.
     Format,
@@ -54,6 +60,9 @@ impl core::fmt::Display for LoadError {
                     "entry {entry} of the table of {table} points outside of the model, or has an effect whose feature is off in \
                      this build"
                 )
+            }
+            Self::Coupling { coupling } => {
+                write!(f, "coupling {coupling} cannot be written for a controller")
             }
             Self::Format => {
                 write!(f, "not a model of this version, or of the other dimension")
@@ -251,9 +260,12 @@ impl<T: Real, S: Space<T>> Look<'_, '_, T, S> {
                 && (lap.ancestor as usize) < links
                 && ends_by(lap.first, lap.n as usize, self.sizes.rows);
             ensure(holds, "loops", i)?;
+            if let Some(Row::Coupled(_)) = self.m.loops.rows.get(lap.first as usize) {
+                return Err(LoadError::Coupling { coupling: lap.joint as usize });
+            }
         }
         for (i, row) in self.m.loops.rows.iter().enumerate() {
-            let mbs_recursive::rows::Row::Coincidence { axis } = row else { continue };
+            let Row::Coincidence { axis } = row else { continue };
             ensure((*axis as usize) < S::DIMENSION, "rows", i)?;
         }
         Ok(())

@@ -288,6 +288,7 @@ impl<
             v_response: first(v_response, n.freedoms)?,
             loops: LoopStore {
                 k: first(k.as_flattened_mut(), 2 * n.rows)?,
+                slopes: &mut [],
                 l: first(l, n.rows)?,
                 lambda: first(lambda_response, n.rows)?,
                 blocks: first(&mut self.blocks, n.blocks)?,

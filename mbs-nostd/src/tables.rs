@@ -8,6 +8,7 @@ use heapless::Vec;
 use mbs_core::Real;
 use mbs_core::laws::entry::Entry;
 use mbs_core::laws::{CurvatureEntry, FeatureEntry, KnotEntry, LawInputs, LawTables, PieceEntry};
+use mbs_recursive::coupled::Couplings;
 use mbs_recursive::link::Link;
 use mbs_recursive::loads::Load;
 use mbs_recursive::loops::Loops;
@@ -188,7 +189,13 @@ impl<
         Model {
             mechanism: TreeSlices {
                 links: &self.links,
-                loops: Loops { loops: &self.loops, rows: &self.rows, plan, floor: self.floor },
+                loops: Loops {
+                    loops: &self.loops,
+                    rows: &self.rows,
+                    plan,
+                    floor: self.floor,
+                    couplings: Couplings::none(),
+                },
                 loads: &self.loads,
                 tables,
                 gravity: self.gravity,

@@ -200,13 +200,20 @@ fn project<T: Real, S: Space<T>>(
 ) -> Result<[T; 2], Outside> {
     kinematics(m.links, (s.z, s.v, s.guides), s.trial)?;
     let mut largest = [T::ZERO; 2];
-    for lap in m.loops.loops {
+    for lap in m.loops.cut() {
         lap.evaluate(m.loops.rows, s.trial, |k, values| {
             *at_mut(s.loops.l, k)? = values.value;
             at_mut(s.rows, k)?[1] = values.rate;
             largest = [largest[0].max(values.value.abs()), largest[1].max(values.rate.abs())];
             Ok(())
         })?;
+    }
+    for row in m.loops.coupled() {
+        let here = (m.links, &*s.trial, (&*s.z, &*s.v, &*s.guides));
+        let [value, rate, _] = m.loops.couplings.evaluate(row, here, None)?.row;
+        *at_mut(s.loops.l, row.1)? = value;
+        at_mut(s.rows, row.1)?[1] = rate;
+        largest = [largest[0].max(value.abs()), largest[1].max(rate.abs())];
     }
     respond(m, s)?;
     advance(m.links, s.v_response, s.z)?;

@@ -58,5 +58,11 @@ pub fn power<T: Real, S: Space<T>>(
             }
         }
     }
+    // -Jᵀ λ on motions with J v = s'
+    for (row, k, _) in m.loops.coupled() {
+        if let Some([_, rate, _]) = s.guides.get(row.guide as usize) {
+            power -= *at(s.lambda, k)? * *rate * row.inverse;
+        }
+    }
     Ok(power)
 }

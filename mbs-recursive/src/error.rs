@@ -20,8 +20,14 @@ pub enum TreeError {
         /// `scene.joints[joint]`.
         joint: usize,
     },
-    /// A coupling that relative coordinates do not have.
+    /// A coupling that relative coordinates do not have: a joint of it closes a loop in which every joint is guided or has an effect or a
+    /// coupling, is free, or holds parts of one body together.
     Coupling {
+        /// `scene.couplings[coupling]`.
+        coupling: usize,
+    },
+    /// A coupling of guided joints alone, which their guides do not hold.
+    CouplingGuided {
         /// `scene.couplings[coupling]`.
         coupling: usize,
     },
@@ -90,6 +96,10 @@ impl core::fmt::Display for TreeError {
             Self::Coupling { coupling } => {
                 write!(f, "coupling {coupling} is not built in relative coordinates: try index-3")
             }
+            Self::CouplingGuided { coupling } => write!(
+                f,
+                "the joints of coupling {coupling} are all guided, and their guides do not hold it: leave one of them out"
+            ),
             Self::Effect(error) => write!(f, "{error}"),
             Self::MasslessEnd { body } => write!(
                 f,

@@ -148,16 +148,7 @@ fn begin_loops<T: Real, S: Space<T>>(
     options: &Options<T>,
     s: &mut Store<'_, T, S>,
 ) -> Result<Regularisation<T>, Outside> {
-    let n = m.loops.rows.len();
-    for lap in m.loops.loops {
-        lap.evaluate(m.loops.rows, s.placed, |k, row| {
-            let [first, second] = row.gradient;
-            *at_mut(s.gradient, k)? = first;
-            *at_mut(s.gradient, n + k)? = second;
-            *at_mut(s.rows, k)? = [row.value, row.rate, row.bias];
-            Ok(())
-        })?;
-    }
+    evaluate_rows(m, s)?;
     copy(s.gradient, s.loops.k)?;
     s.loops.blocks.fill(T::ZERO);
     s.loops.scales.fill(T::ZERO);
@@ -176,6 +167,29 @@ fn begin_loops<T: Real, S: Space<T>>(
     })
 }
 
+/// Φ, Φ̇, the bias of Φ̈ and the gradients of all rows where the links are placed.
+pub(crate) fn evaluate_rows<T: Real, S: Space<T>>(
+    m: &TreeSlices<'_, T, S>,
+    s: &mut Store<'_, T, S>,
+) -> Result<(), Outside> {
+    let n = m.loops.rows.len();
+    for lap in m.loops.cut() {
+        lap.evaluate(m.loops.rows, s.placed, |k, row| {
+            let [first, second] = row.gradient;
+            *at_mut(s.gradient, k)? = first;
+            *at_mut(s.gradient, n + k)? = second;
+            *at_mut(s.rows, k)? = [row.value, row.rate, row.bias];
+            Ok(())
+        })?;
+    }
+    for row in m.loops.coupled() {
+        let here = (m.links, &*s.placed, (&*s.z, &*s.v, &*s.guides));
+        let out = (&mut *s.gradient, &mut *s.loops.slopes);
+        *at_mut(s.rows, row.1)? = m.loops.couplings.evaluate(row, here, Some(out))?.row;
+    }
+    Ok(())
+}
+
 /// J a + bias into l; the largest, the row that has it, and the scale of its parts.
 fn residual<T: Real, S: Space<T>>(
     m: &TreeSlices<'_, T, S>,
@@ -183,19 +197,29 @@ fn residual<T: Real, S: Space<T>>(
 ) -> Result<(T, u32, T), Outside> {
     let n = m.loops.rows.len();
     let (mut worst, mut row, mut scale) = (T::ZERO, 0, T::ZERO);
-    for lap in m.loops.loops {
+    let mut note = |k: usize, l: &mut [T], left: T, parts: T| {
+        scale = scale.max(parts);
+        *at_mut(l, k)? = left;
+        if !(left.abs() <= worst) {
+            (worst, row) = (left.abs(), index(k));
+        }
+        Ok(())
+    };
+    for lap in m.loops.cut() {
         let [a, b] = lap.links;
         let (a, b) = (at(s.a, a as usize)?, at(s.a, b as usize)?);
         for k in lap.range() {
             let (first, second) = (at(s.gradient, k)?, at(s.gradient, n + k)?);
             let bias = at(s.rows, k)?[2];
             let left = first.dot(a) + second.dot(b) + bias;
-            scale = scale.max(first.parts(a) + second.parts(b) + bias.abs());
-            *at_mut(s.loops.l, k)? = left;
-            if !(left.abs() <= worst) {
-                (worst, row) = (left.abs(), index(k));
-            }
+            note(k, s.loops.l, left, first.parts(a) + second.parts(b) + bias.abs())?;
         }
+    }
+    for row in m.loops.coupled() {
+        let gradients = (&*s.gradient, &*s.loops.slopes);
+        let [left, parts] = m.loops.couplings.along(row, m.links, gradients, (s.a, s.zdd))?;
+        let bias = at(s.rows, row.1)?[2];
+        note(row.1, s.loops.l, left + bias, parts + bias.abs())?;
     }
     Ok((worst, row, scale))
 }
@@ -279,15 +303,20 @@ fn acting<T: Real, S: Space<T>>(
     let n = m.loops.rows.len();
     // Squares of rates, whatever the row [1/s^2].
     let mut acting = T::EPSILON.max(m.gravity.dot(&m.gravity).sqrt() / m.length);
-    for lap in m.loops.loops {
+    let forced = |k: usize| Ok(at(s.lambda, k)?.abs() * *at(s.loops.scales, k)? / size(k)?);
+    for lap in m.loops.cut() {
         let [a, b] = lap.links;
         let speeds = [at(s.placed, a as usize)?.velocity, at(s.placed, b as usize)?.velocity];
         for k in lap.range() {
             let (first, second) = (at(s.gradient, k)?, at(s.gradient, n + k)?);
             let rate = (first.parts(&speeds[0]) + second.parts(&speeds[1])) / size(k)?;
-            let forced = at(s.lambda, k)?.abs() * *at(s.loops.scales, k)? / size(k)?;
-            acting = acting.max(rate * rate).max(forced);
+            acting = acting.max(rate * rate).max(forced(k)?);
         }
+    }
+    for row in m.loops.coupled() {
+        let here = (m.links, &*s.placed, (&*s.z, &*s.v, &*s.guides));
+        let rate = m.loops.couplings.evaluate(row, here, None)?.parts[1] / size(row.1)?;
+        acting = acting.max(rate * rate).max(forced(row.1)?);
     }
     Ok(acting * size(row as usize)?)
 }

@@ -32,11 +32,13 @@ pub type TreeStep<T, S> = fn(
 enum Angle {
     /// A link's coordinate.
     Of(u32),
+    /// Minus a link's coordinate.
+    Against(u32),
     /// Of the second body against the first, in the plane.
     Between([BodyId; 2]),
 }
 
-/// The angles that effects measure, by the place where the natural state remembers each: of a joint that is not cut, or in the plane.
+/// The angles that effects and couplings measure, by the place where the natural state remembers each: of a joint that is not cut, or in the plane.
 fn angles<T: Real, const D: usize>(
     scene: &Scene<T>,
     natural: &NaturalModel<T, D>,
@@ -59,7 +61,11 @@ fn angles<T: Real, const D: usize>(
         };
         Some((natural.memory_of_effect(*effect)?, angle))
     };
-    list.iter().filter_map(angle).collect()
+    let coupled = natural.coupled_angles().filter_map(|((joint, number), sign, place)| {
+        let link = coordinates[joint][number]?;
+        Some((place, if sign > T::ZERO { Angle::Of(link) } else { Angle::Against(link) }))
+    });
+    list.iter().filter_map(angle).chain(coupled).collect()
 }
 
 /// A scene in relative coordinates: the tree and its state.
@@ -137,6 +143,7 @@ impl<T: Real, S: Space<T>> Tree<T, S> {
         for &(place, angle) in &self.angles {
             state.memory[place] = match angle {
                 Angle::Of(link) => self.model.coordinate(&self.state, link),
+                Angle::Against(link) => -self.model.coordinate(&self.state, link),
                 Angle::Between(bodies) => self.model.turn_between(&self.state, bodies),
             };
         }

@@ -4,7 +4,7 @@
 //! joint that comes first in this order (Prim), so that it depends on the scene alone:
 //!
 //! 1. guided joints, since their motion is prescribed;
-//! 2. revolute joints with an effect about their axis, since it acts along a coordinate;
+//! 2. revolute joints with an effect about their axis, since it acts along a coordinate; joints of couplings, which are sums of coordinates;
 //! 3. joints of bodies without mass, so that these end no branch where that can be avoided;
 //! 4. joints with few freedoms, so that few equations are left where the others are cut;
 //! 5. balls off the line of a thin rod, about which it has inertia in every direction;
@@ -94,6 +94,9 @@ pub(crate) fn span<T: Real>(
         if is_inner || joint.kind.is_free() || joint.kind.is_rigid() {
             continue;
         }
+        if let Some(coupling) = demands.coupling[j] {
+            return Err(TreeError::Coupling { coupling });
+        }
         if let Some(effect) = demands.effect[j] {
             return Err(TreeError::EffectCut { effect, joint: j });
         }
@@ -107,14 +110,23 @@ struct Demands {
     is_guided: Vec<bool>,
     /// The first effect that acts along it.
     effect: Vec<Option<usize>>,
+    /// The first coupling that has a coordinate of it.
+    coupling: Vec<Option<usize>>,
 }
 
 impl Demands {
     fn new<T: Real>(scene: &Scene<T>, actions: &Actions<T>) -> Self {
         let n = scene.joints.len();
-        let mut new = Self { is_guided: vec![false; n], effect: vec![None; n] };
+        let (effect, coupling) = (vec![None; n], vec![None; n]);
+        let mut new = Self { is_guided: vec![false; n], effect, coupling };
         for guide in &scene.guides {
             new.is_guided[guide.joint.index()] = true;
+        }
+        for (i, coupling) in scene.couplings.iter().enumerate() {
+            let terms = coupling.terms.iter().filter(|term| !term.factor.is_zero());
+            for (joint, _) in terms.filter_map(|term| term.of.coordinate()) {
+                new.coupling[joint.index()].get_or_insert(i);
+            }
         }
         for (effect, action) in &actions.list {
             if let Action::Angle { joint, .. } = action {
@@ -147,7 +159,7 @@ fn edges<T: Real>(
             });
         let rank = (
             !demands.is_guided[j],
-            demands.effect[j].is_none(),
+            demands.effect[j].is_none() && demands.coupling[j].is_none(),
             is_massive,
             n_coordinates,
             is_on_line,

@@ -79,13 +79,23 @@ pub(crate) fn forces<T: Real, S: Space<T>>(
     }
     core::mem::swap(&mut s.condensed, &mut condensed);
     let n = m.loops.rows.len();
-    for lap in m.loops.loops {
+    for lap in m.loops.cut() {
         for k in lap.range() {
             // p += Kᵀ λ
             for (side, &link) in lap.links.iter().enumerate() {
                 let push = *at(s.gradient, side * n + k)? * *at(s.lambda, k)?;
                 at_mut(s.condensed, link as usize)?.force += push;
             }
+        }
+    }
+    for (row, k, n) in m.loops.coupled() {
+        let lambda = *at(s.lambda, k)?;
+        for start in m.loops.couplings.starts_of(row)? {
+            let push = *at(s.gradient, start.side as usize * n + k)? * lambda;
+            at_mut(s.condensed, start.link as usize)?.force += push;
+        }
+        for (link, _, slope) in m.loops.couplings.joints_of(row, s.loops.slopes)? {
+            at_mut(s.condensed, link as usize)?.effort -= slope * lambda;
         }
     }
     for (i, link) in m.links.iter().enumerate().skip(1).rev() {

@@ -8,6 +8,11 @@ pub mod anderson;
 #[cfg(feature = "alloc")]
 mod angles;
 pub mod bounded;
+pub mod coupled;
+#[cfg(feature = "alloc")]
+mod coupling_tables;
+#[cfg(feature = "alloc")]
+mod couplings;
 #[cfg(feature = "alloc")]
 mod cut;
 pub mod energy_balance;

@@ -2,6 +2,7 @@
 //!
 //! ```text
 //! passing a joint     K ← K − (K b) D⁻¹ Uᵀ,   l += K d + (K b) D⁻¹ u,   Λₖₗ += (Kₖ b) D⁻¹ (Kₗ b)ᵀ
+//! that is coupled     the same with K b + g in place of K b
 //! at the ancestor     Λ = C Cᵀ,   K̃ = C⁻¹ K,   l̃ = C⁻¹ l,   I += K̃ᵀ K̃,   p += K̃ᵀ l̃,   W = Λₗₖ C⁻ᵀ
 //!                     Kₗ −= W K̃,   lₗ −= W l̃,   Λₗₗ' −= W W'ᵀ
 //! outward             λ = C⁻ᵀ (K̃ a + l̃ − Σ Wᵀ λₗ),   z'' −= D⁻¹ (K b)ᵀ λ
@@ -34,6 +35,7 @@ pub(crate) use carry::{held, pass, pass_again};
 pub(crate) use eliminate::{close, close_again};
 pub(crate) use release::open;
 
+use crate::coupled::{CoupledRow, Couplings};
 use crate::plan::Plan;
 use crate::rows::{ClosedLoop, Row};
 use crate::space::Space;
@@ -50,13 +52,40 @@ pub struct Loops<'a, T: Real, S: Space<T>> {
     pub plan: Plan<'a>,
     /// The least scale of a row's mobility: of lengths [1/kg], of angles [1/(kg m^2)].
     pub floor: [T; 2],
+    /// What the rows of couplings refer to.
+    pub couplings: Couplings<'a, T, S>,
+}
+
+impl<'a, T: Real, S: Space<T>> Loops<'a, T, S> {
+    /// The loops that are cut joints, and those behind them that are couplings.
+    fn parts(&self) -> (&'a [ClosedLoop<T, S>], &'a [ClosedLoop<T, S>]) {
+        let n_cut = self.couplings.n_cut as usize;
+        self.loops.split_at_checked(n_cut).unwrap_or((self.loops, &[]))
+    }
+
+    /// The loops that are cut joints.
+    pub(crate) fn cut(&self) -> &'a [ClosedLoop<T, S>] {
+        self.parts().0
+    }
+
+    /// The rows of couplings: each with its number and the number of rows.
+    pub(crate) fn coupled(&self) -> impl Iterator<Item = (&'a CoupledRow<T>, usize, usize)> + 'a {
+        let rows = self.rows;
+        self.parts().1.iter().filter_map(move |lap| {
+            let k = lap.first as usize;
+            let Some(Row::Coupled(row)) = rows.get(k) else { return None };
+            Some((row, k, rows.len()))
+        })
+    }
 }
 
 /// What the loops need to remember during an evaluation.
 #[derive(Debug)]
 pub struct LoopStore<'a, T: Real, S: Space<T>> {
-    /// K of both sides as they travel: all first sides, then all second ones.
+    /// K of all sides as they travel: all first sides, then all second ones, and so on.
     pub k: &'a mut [S::Motion],
+    /// The slopes of the terms of couplings.
+    pub slopes: &'a mut [T],
     /// l, later l̃.
     pub l: &'a mut [T],
     /// λ.

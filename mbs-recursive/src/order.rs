@@ -3,10 +3,11 @@
 //! Ancestors are taken from the outside in. At the same ancestor the loop with the fewest couplings left comes first
 //! (minimum degree), so that many loops through the ground stay sparse.
 
+use crate::coupling_tables::{Begin, CouplingTables};
 use crate::link::Link;
 use crate::loops::index;
 use crate::plan::{End, LoopCoupling, Pair, Pass, Plan, Span, Station, Update};
-use crate::rows::ClosedLoop;
+use crate::rows::{ClosedLoop, Row};
 use crate::space::Space;
 use alloc::collections::{BTreeMap, BTreeSet};
 use alloc::vec;
@@ -26,6 +27,8 @@ pub(crate) struct Order {
     pub(crate) n_blocks: usize,
     /// Numbers in all gains.
     pub(crate) n_gains: usize,
+    /// Most sides that a loop has.
+    pub(crate) n_sides: usize,
 }
 
 impl Order {
@@ -44,21 +47,23 @@ impl Order {
     pub(crate) fn new<T: Real, S: Space<T>>(
         links: &[Link<T, S>],
         loops: &mut [ClosedLoop<T, S>],
+        (rows, couplings): (&[Row<T, S>], &mut CouplingTables<T, S>),
     ) -> Self {
-        let mut order = Self { stations: vec![Station::default(); links.len()], ..Self::default() };
-        for lap in loops.iter_mut() {
-            lap.ancestor = ancestor(links, lap.links);
-        }
+        let stations = vec![Station::default(); links.len()];
+        let mut order = Self { stations, n_sides: 2, ..Self::default() };
         let mut alive: Vec<Vec<Pass>> = vec![Vec::new(); links.len()];
         let mut meets: Vec<BTreeSet<usize>> = vec![BTreeSet::new(); loops.len()];
-        for (l, lap) in loops.iter().enumerate() {
-            for side in 0..2 {
-                let mut i = lap.links[side];
-                while i != lap.ancestor {
-                    alive[i as usize].push(Pass { lap: index(l), side: index(side), gain: 0 });
-                    i = links[i as usize].parent;
-                }
-            }
+        for (l, lap) in loops.iter_mut().enumerate() {
+            let mut starts: Vec<Begin<'_>> = match rows.get(lap.first as usize) {
+                Some(Row::Coupled(row)) => couplings.begins(row),
+                _ => lap
+                    .links
+                    .iter()
+                    .map(|&link| Begin { link, at_joint: false, side: None })
+                    .collect(),
+            };
+            let n_sides = travel(links, (index(l), lap), &mut starts, &mut alive);
+            order.n_sides = order.n_sides.max(n_sides);
         }
         for passes in &alive {
             for x in passes {
@@ -81,7 +86,7 @@ impl Order {
             passes.sort_by_key(|pass| turn[pass.lap as usize]);
             order.add_passes(links, loops, (i, &mut passes), &block);
         }
-        order.add_ends(links, loops, (&sequence, &later, &turn), &block);
+        order.add_ends(loops, (&sequence, &later, &turn), &block);
         order
     }
 
@@ -125,6 +130,10 @@ impl Order {
                     let block = block(passes[x].lap as usize, passes[y].lap as usize);
                     let (row, column) = (index(first + x), index(first + y));
                     self.pairs.push(Pair { row, column, block });
+                    // Two sides of a coupling on one way meet twice in the same number.
+                    if x != y && passes[x].lap == passes[y].lap {
+                        self.pairs.push(Pair { row: column, column: row, block });
+                    }
                 }
             }
         }
@@ -134,7 +143,6 @@ impl Order {
 
     fn add_ends<T: Real, S: Space<T>>(
         &mut self,
-        links: &[Link<T, S>],
         loops: &[ClosedLoop<T, S>],
         (sequence, later, turn): (&[usize], &[Vec<usize>], &[usize]),
         block: &impl Fn(usize, usize) -> u32,
@@ -147,8 +155,9 @@ impl Order {
             let (first, first_update) = (self.couplings.len(), self.updates.len());
             for (x, &l) in others.iter().enumerate() {
                 // A loop that ends here too has been gathered on its first side.
-                let ends_here = loops[l].ancestor == at;
-                let side = u32::from(!ends_here && !hangs_from(links, loops[l].links[0], at));
+                let passes = &self.passes[self.stations[at as usize].passes.range()];
+                let pass = passes.iter().find(|pass| pass.lap as usize == l);
+                let side = pass.map_or(0, |pass| pass.side);
                 self.couplings.push(LoopCoupling { lap: index(l), side, block: block(l, k) });
                 for (y, &other) in others[..=x].iter().enumerate() {
                     let (row, column) = (index(first + x), index(first + y));
@@ -173,12 +182,40 @@ fn span(first: usize, end: usize) -> Span {
     Span { first: index(first), end: index(end) }
 }
 
-fn hangs_from<T: Real, S: Space<T>>(links: &[Link<T, S>], mut i: u32, from: u32) -> bool {
-    // Parents have smaller numbers.
-    while i > from {
-        i = links[i as usize].parent;
+/// Writes the ancestor of a loop, and the passes of its sides on the way there; returns how many sides it has. A joint that another
+/// side passes has none of its own.
+fn travel<T: Real, S: Space<T>>(
+    links: &[Link<T, S>],
+    (l, lap): (u32, &mut ClosedLoop<T, S>),
+    starts: &mut [Begin<'_>],
+    alive: &mut [Vec<Pass>],
+) -> usize {
+    let parent = |i: u32| links[i as usize].parent;
+    let holds =
+        starts.iter().map(|start| if start.at_joint { parent(start.link) } else { start.link });
+    lap.ancestor = holds.reduce(|a, b| ancestor(links, [a, b])).unwrap_or(0);
+    if starts.iter().any(|start| start.side.is_some()) {
+        // From the outside in, so that a joint is met by those outside of it.
+        starts.sort_by_key(|start| (core::cmp::Reverse(start.link), start.at_joint));
     }
-    i == from
+    let mut n_sides = 0;
+    for start in starts {
+        let met = alive[start.link as usize].iter().find(|pass| start.at_joint && pass.lap == l);
+        let side = met.map_or(n_sides, |pass| pass.side);
+        if let Some(place) = &mut start.side {
+            **place = side;
+        }
+        if met.is_some() {
+            continue;
+        }
+        let mut i = start.link;
+        while i != lap.ancestor {
+            alive[i as usize].push(Pass { lap: l, side, gain: 0 });
+            i = parent(i);
+        }
+        n_sides += 1;
+    }
+    n_sides as usize
 }
 
 /// The nearest link from which both hang.

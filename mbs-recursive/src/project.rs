@@ -63,6 +63,9 @@ const STALLED: f64 = 0.1;
 /// The same near a singular position, where a combination of rows moves nothing [-]. Chosen, not tuned.
 const STALLED_SINGULAR: f64 = 1e2;
 
+/// Violation of a coupling that is rounding of its sum, in units of rounding of its terms [-]. Chosen, not tuned.
+const SUM_ROUNDINGS: f64 = 4.0;
+
 /// What may be left of Φ and Φ̇ beside their scales: rounding.
 pub(crate) fn rounding<T: Real>() -> T {
     T::EPSILON * T::from_f64(ROUNDINGS)
@@ -140,13 +143,18 @@ pub(crate) fn keep<T: Real, S: Space<T>>(
     *at_mut(s.a_response, 0)? = S::Motion::zero();
     spread_each(m.links, (s.placed, false), delta, s.a_response)?;
     let n = m.loops.rows.len();
-    for lap in m.loops.loops {
+    for lap in m.loops.cut() {
         let [a, b] = lap.links;
         let (a, b) = (at(s.a_response, a as usize)?, at(s.a_response, b as usize)?);
         for k in lap.range() {
             let (first, second) = (at(s.gradient, k)?, at(s.gradient, n + k)?);
             *at_mut(s.loops.l, k)? = first.dot(a) + second.dot(b);
         }
+    }
+    for row in m.loops.coupled() {
+        let gradients = (&*s.gradient, &*s.loops.slopes);
+        let motions = (&*s.a_response, &*delta);
+        *at_mut(s.loops.l, row.1)? = m.loops.couplings.along(row, m.links, gradients, motions)?[0];
     }
     respond(m, s)?;
     for (delta, &response) in delta.iter_mut().zip(&*s.v_response) {
@@ -176,7 +184,7 @@ fn violation<T: Real, S: Space<T>>(
     let (mut worst, mut row, mut is_within) = (T::ZERO, 0, true);
     // Speeds of a rounding of the length each second are rest.
     let mut scale = if level == 0 { m.length } else { m.length * T::EPSILON };
-    for lap in m.loops.loops {
+    for lap in m.loops.cut() {
         let [a, b] = lap.links;
         let speeds = [at(s.trial, a as usize)?.velocity, at(s.trial, b as usize)?.velocity];
         lap.evaluate(m.loops.rows, s.trial, |k, values| {
@@ -195,6 +203,24 @@ fn violation<T: Real, S: Space<T>>(
             }
             Ok(())
         })?;
+    }
+    for coupled in m.loops.coupled() {
+        let here = (m.links, &*s.trial, (&*s.z, &*s.v, &*s.guides));
+        let values = m.loops.couplings.evaluate(coupled, here, None)?;
+        let (x, parts) = (values.row[usize::from(level > 0)], values.parts);
+        let mut own = T::ONE;
+        if level > 0 {
+            (scale, own) = (scale.max(parts[1]), own.max(parts[1]));
+        }
+        *at_mut(s.loops.l, coupled.1)? = x;
+        // Angles grow with every turn, and rounding of their sum with them.
+        if level == 0 && x.abs() <= parts[0] * T::EPSILON * T::from_f64(SUM_ROUNDINGS) {
+            continue;
+        }
+        is_within &= x.abs() <= share * own;
+        if !(x.abs() <= worst) {
+            (worst, row) = (x.abs(), index(coupled.1));
+        }
     }
     is_within = (is_within && worst <= share * scale) || worst <= rounding::<T>() * scale;
     Ok(Violation { worst, row, scale, is_within })

@@ -6,14 +6,14 @@
 //! rows of J and of Jacobians                      bᵀ w along the path to the ground, for a wrench w on a link
 //! ```
 
-use crate::evaluate::{Level, accelerations_under};
+use crate::evaluate::{Level, accelerations_under, evaluate_rows};
 use crate::fault::failure;
-use crate::indexing::own;
+use crate::indexing::{Outside, at, at_mut, own, part_mut};
 use crate::inverse;
 use crate::loops::Loops;
 use crate::options::Options;
 use crate::passes::kinematics;
-use crate::slices::TreeSlices;
+use crate::slices::{Store, TreeSlices};
 use crate::space::{Numbers, Space};
 use crate::state::{TreeState, Workspace};
 use crate::tree::TreeModel;
@@ -195,14 +195,36 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         self.place_in(state, &mut s);
         let n = self.n_freedoms;
         rows.fill(T::ZERO);
-        for lap in &self.loops {
+        for lap in self.mechanism().loops.cut() {
             own(lap.evaluate(&self.rows, s.placed, |k, value| {
-                let row = crate::indexing::part_mut(rows, k * n, n)?;
+                let row = part_mut(rows, k * n, n)?;
                 for (&link, &gradient) in lap.links.iter().zip(&value.gradient) {
                     inverse::add_along(&self.links, s.placed, (link as usize, gradient), row)?;
                 }
                 Ok(())
             }));
         }
+        own(self.write_coupled_rows(&mut s, rows));
+    }
+
+    /// Writes the rows of couplings.
+    fn write_coupled_rows(&self, s: &mut Store<'_, T, S>, rows: &mut [T]) -> Result<(), Outside> {
+        let m = self.mechanism();
+        evaluate_rows(&m, s)?;
+        for (row, k, n_rows) in m.loops.coupled() {
+            let out = part_mut(rows, k * self.n_freedoms, self.n_freedoms)?;
+            for start in m.loops.couplings.starts_of(row)? {
+                let gradient = *at(s.gradient, start.side as usize * n_rows + k)?;
+                let wrench = (start.link as usize, gradient);
+                inverse::add_along(&self.links, s.placed, wrench, out)?;
+            }
+            for (link, _, slope) in m.loops.couplings.joints_of(row, s.loops.slopes)? {
+                let link = at(&self.links, link as usize)?;
+                if !link.kind.is_guided() {
+                    *at_mut(out, link.v as usize)? += slope;
+                }
+            }
+        }
+        Ok(())
     }
 }

@@ -10,6 +10,7 @@
 //! length        (g·g − L²)/(2L)                   K₂ = (s₂ × g, g)/L,  K₁ = −(s₁ × g, g)/L
 //! ```
 
+use crate::coupled::CoupledRow;
 use crate::indexing::{Outside, at, part};
 use crate::link::LinkMotion;
 use crate::space::{Numbers, Space};
@@ -44,13 +45,18 @@ pub enum Row<T: Real, S: Space<T>> {
         /// The distance [m].
         length: T,
     },
+    /// A coupling, which is a loop of one row.
+    Coupled(CoupledRow<T>),
 }
 
 impl<T: Real, S: Space<T>> Row<T, S> {
     /// Is its value an angle (otherwise a length)?
     #[must_use]
     pub fn is_angle(&self) -> bool {
-        matches!(self, Self::Dot { .. })
+        match self {
+            Self::Coupled(row) => row.is_angle,
+            _ => matches!(self, Self::Dot { .. }),
+        }
     }
 
     /// Does it hold points together along this world axis?
@@ -59,7 +65,7 @@ impl<T: Real, S: Space<T>> Row<T, S> {
     }
 }
 
-/// A cut joint: a loop of the mechanism.
+/// A cut joint, which is a loop of the mechanism; or a coupling, whose links and points are those of its row.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ClosedLoop<T: Real, S: Space<T>> {
     /// Links of its first and second body.
@@ -74,7 +80,7 @@ pub struct ClosedLoop<T: Real, S: Space<T>> {
     pub ancestor: u32,
     /// Place of its block of Λ.
     pub block: u32,
-    /// Index of the joint in the scene.
+    /// Index of the joint or of the coupling in the scene.
     pub joint: u32,
 }
 
@@ -140,6 +146,7 @@ impl<T: Real, S: Space<T>> ClosedLoop<T, S> {
         for (k, row) in self.range().zip(own) {
             let (value, bias, gradient) = match row {
                 Row::Coincidence { axis } if *axis as usize >= S::Point::N => return Err(Outside),
+                Row::Coupled(_) => return Err(Outside),
                 Row::Coincidence { axis } => coincidence(*axis as usize),
                 Row::Gap { direction, constant } => {
                     // Φ̈: g̈·d + 2 ġ·ḋ + g·d̈

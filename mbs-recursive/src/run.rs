@@ -2,7 +2,7 @@
 
 use crate::bounded::{self, BoundedReport, Bounds, Unwatched};
 use crate::energy_balance;
-use crate::evaluate::{Level, accelerations};
+use crate::evaluate::{Level, accelerations, evaluate_rows};
 use crate::explicit;
 use crate::fault::failure;
 use crate::indexing::own;
@@ -339,13 +339,7 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         self.place_in(state, s);
         s.a[0] = S::motion(S::Spin::zero(), -m.gravity);
         own(inverse::spread(m.links, s.placed, &state.a, s.a));
-        let n = m.loops.rows.len();
-        for lap in m.loops.loops {
-            own(lap.evaluate(m.loops.rows, s.placed, |k, row| {
-                (s.gradient[k], s.gradient[n + k]) = (row.gradient[0], row.gradient[1]);
-                Ok(())
-            }));
-        }
+        own(evaluate_rows(&m, s));
         own(inverse::forces(&m, s));
     }
 
@@ -386,7 +380,7 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
             };
         }
         let n = self.rows.len();
-        for lap in &self.loops {
+        for lap in self.mechanism().loops.cut() {
             let (joint, second) = (lap.joint as usize, lap.links[1] as usize);
             let mut total = S::Motion::zero();
             for k in lap.first as usize..(lap.first + lap.n) as usize {

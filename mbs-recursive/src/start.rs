@@ -75,7 +75,7 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
             (0..scene.bodies.len()).map(|body| natural.motion(scene, body, state)).collect();
         let mut start = self.read(scene, state.t, &motions);
         start.inputs.copy_from_slice(&state.inputs);
-        self.take_turns(natural, state, &mut start);
+        self.take_turns(scene, natural, state, &mut start);
         self.settle(&mut start, &mut Workspace::new(self))?;
         Ok(start)
     }

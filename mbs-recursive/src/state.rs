@@ -102,7 +102,9 @@ pub struct Workspace<T: Real, S: Space<T>> {
     trial: Vec<LinkMotion<T, S>>,
     condensed: Vec<ArticulatedInertia<T, S>>,
     motions: Vec<S::Motion>,
+    /// K as they are, and as they travel.
     gradients: Vec<S::Motion>,
+    slopes: Vec<T>,
     rows: Vec<[T; 3]>,
     /// l, λ, scales, pivots, summed λ.
     multipliers: Vec<T>,
@@ -149,7 +151,8 @@ impl<T: Real, S: Space<T>> Workspace<T, S> {
             trial: vec![LinkMotion::ground(); links],
             condensed: vec![ArticulatedInertia::empty(); links],
             motions: vec![S::Motion::zero(); 2 * links],
-            gradients: vec![S::Motion::zero(); 4 * rows],
+            gradients: vec![S::Motion::zero(); 2 * model.order.n_sides * rows],
+            slopes: vec![T::ZERO; model.couplings.n_terms()],
             rows: vec![[T::ZERO; 3]; rows],
             multipliers: vec![T::ZERO; 5 * rows],
             blocks: vec![T::ZERO; model.order.n_blocks],
@@ -189,7 +192,10 @@ impl<T: Real, S: Space<T>> Workspace<T, S> {
     pub(crate) fn parts(&mut self) -> (Store<'_, T, S>, &mut Explicit<T>) {
         let (links, rows) = (self.placed.len(), self.rows.len());
         let (a, a_response) = self.motions.split_at_mut(links);
-        let (k, gradient) = self.gradients.split_at_mut(2 * rows);
+        let (k, gradient) = {
+            let half = self.gradients.len() / 2;
+            self.gradients.split_at_mut(half)
+        };
         let (l, rest) = self.multipliers.split_at_mut(rows);
         let (lambda_response, rest) = rest.split_at_mut(rows);
         let (scales, rest) = rest.split_at_mut(rows);
@@ -210,6 +216,7 @@ impl<T: Real, S: Space<T>> Workspace<T, S> {
             v_response,
             loops: LoopStore {
                 k,
+                slopes: &mut self.slopes,
                 l,
                 lambda: lambda_response,
                 blocks: &mut self.blocks,

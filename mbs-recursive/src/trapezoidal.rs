@@ -222,16 +222,23 @@ pub(crate) fn violations<T: Real, S: Space<T>>(
 ) -> [T; 3] {
     let n = m.loops.rows.len();
     let mut largest = [T::ZERO; 3];
-    for lap in m.loops.loops {
+    let mut note = |k: usize, along: T| {
+        let [phi, phi_d, bias] = s.rows[k];
+        for (most, x) in largest.iter_mut().zip([phi, phi_d, along + bias]) {
+            *most = most.max(x.abs());
+        }
+    };
+    for lap in m.loops.cut() {
         let [a, b] = lap.links.map(|i| &s.a[i as usize]);
         for k in lap.first as usize..(lap.first + lap.n) as usize {
             use crate::space::Numbers;
-            let [phi, phi_d, bias] = s.rows[k];
-            let phi_dd = s.gradient[k].dot(a) + s.gradient[n + k].dot(b) + bias;
-            for (most, x) in largest.iter_mut().zip([phi, phi_d, phi_dd]) {
-                *most = most.max(x.abs());
-            }
+            note(k, s.gradient[k].dot(a) + s.gradient[n + k].dot(b));
         }
+    }
+    for row in m.loops.coupled() {
+        let gradients = (&*s.gradient, &*s.loops.slopes);
+        let along = m.loops.couplings.along(row, m.links, gradients, (s.a, s.zdd));
+        note(row.1, along.map_or(T::ZERO, |[x, _]| x));
     }
     largest
 }

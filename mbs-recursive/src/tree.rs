@@ -1,5 +1,7 @@
 //! [`TreeModel`]: a scene as a tree of links with cut joints. Built once; constant from then on.
 
+use crate::coupled::Couplings;
+use crate::coupling_tables::CouplingTables;
 use crate::error::TreeError;
 use crate::fault::Fault;
 use crate::graph::{Branch, span};
@@ -52,6 +54,7 @@ pub struct TreeModel<T: Real, S: Space<T>> {
     pub(crate) links: Vec<Link<T, S>>,
     pub(crate) loops: Vec<ClosedLoop<T, S>>,
     pub(crate) rows: Vec<Row<T, S>>,
+    pub(crate) couplings: CouplingTables<T, S>,
     pub(crate) order: Order,
     pub(crate) loads: Vec<Load<T, S>>,
     /// The effect of the scene that each load comes from.
@@ -88,9 +91,6 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         if scene.dimension.count() != S::DIMENSION {
             return Err(TreeError::Dimension);
         }
-        if !scene.couplings.is_empty() {
-            return Err(TreeError::Coupling { coupling: 0 });
-        }
         let scene = &*aligned(scene);
         let clusters = Clusters::new(scene);
         let actions = Actions::new(scene)?;
@@ -106,8 +106,9 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         for &cut in &graph.cuts {
             tree.add_loop(scene, cut);
         }
-        let Self { links, loops, .. } = &mut tree;
-        tree.order = Order::new(links, loops);
+        tree.add_couplings(scene)?;
+        let Self { links, loops, rows, couplings, .. } = &mut tree;
+        tree.order = Order::new(links, loops, (rows, couplings));
         tree.add_loads(scene, &list)?;
         Ok(tree)
     }
@@ -146,6 +147,7 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
             links: vec![ground],
             loops: Vec::new(),
             rows: Vec::new(),
+            couplings: CouplingTables::default(),
             order: Order::default(),
             loads: Vec::new(),
             effects: Vec::new(),
@@ -258,9 +260,11 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
             couplings: &[],
             updates: &[],
         };
-        let none = Loops { loops: &[], rows: &[], plan, floor: self.floor };
+        let couplings = Couplings::none();
+        let none = Loops { loops: &[], rows: &[], plan, floor: self.floor, couplings };
         let mut store = LoopStore {
             k: &mut [],
+            slopes: &mut [],
             l: &mut [],
             lambda: &mut [],
             blocks: &mut [],
@@ -316,6 +320,7 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
                 rows: &self.rows,
                 plan: self.order.plan(),
                 floor: self.floor,
+                couplings: self.couplings.slices(),
             },
             loads: &self.loads,
             tables: self.tables.law_inputs(&[]),
@@ -376,7 +381,7 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
 
     /// Joints that are cut, one for each loop.
     pub fn cut_joints(&self) -> impl Iterator<Item = usize> + '_ {
-        self.loops.iter().map(|lap| lap.joint as usize)
+        self.mechanism().loops.cut().iter().map(|lap| lap.joint as usize)
     }
 
     /// The scene's length [m].
@@ -399,7 +404,11 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
     #[must_use]
     pub fn owner_of_row(&self, row: usize) -> Owner {
         let lap = self.loops.iter().find(|l| (l.first..l.first + l.n).contains(&index(row)));
-        Owner::Joint(lap.map_or(0, |lap| lap.joint as usize))
+        let number = lap.map_or(0, |lap| lap.joint as usize);
+        match self.rows.get(row) {
+            Some(Row::Coupled(_)) => Owner::Coupling(number),
+            _ => Owner::Joint(number),
+        }
     }
 }
 

@@ -15,6 +15,7 @@ use mbs_core::Real;
 use mbs_core::laws::LawInputs;
 use mbs_core::model::State;
 use mbs_core::natural::{NaturalModel, unwrap};
+use mbs_core::scene::Scene;
 
 /// Links whose turns are known against each other: the free link that each hangs from, 0 for the ground.
 struct Groups {
@@ -34,13 +35,15 @@ impl Groups {
 }
 
 impl<T: Real, S: Space<T>> TreeModel<T, S> {
-    /// Gives coordinates the whole turns that the natural state remembers of the effects.
+    /// Gives coordinates the whole turns that the natural state remembers of couplings and effects.
     pub(crate) fn take_turns<const D: usize>(
         &self,
+        scene: &Scene<T>,
         natural: &NaturalModel<T, D>,
         from: &State<T>,
         state: &mut TreeState<T>,
     ) {
+        self.take_coupled_turns(scene, natural, from, state);
         #[allow(clippy::cast_possible_truncation, reason = "links are numbered by u32")]
         let mut groups = Groups { of: (0..self.links.len() as u32).collect() };
         for (load, &effect) in self.loads.iter().zip(&self.effects) {
@@ -72,6 +75,26 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
                     groups.join(roots);
                 }
                 _ => {}
+            }
+        }
+    }
+
+    fn take_coupled_turns<const D: usize>(
+        &self,
+        scene: &Scene<T>,
+        natural: &NaturalModel<T, D>,
+        from: &State<T>,
+        state: &mut TreeState<T>,
+    ) {
+        if scene.couplings.is_empty() {
+            return;
+        }
+        let links = self.coordinate_links(scene);
+        for ((joint, number), sign, place) in natural.coupled_angles() {
+            let link = links[joint][number].filter(|&i| !self.links[i as usize].kind.is_guided());
+            if let Some(link) = link {
+                let last = from.memory[place] * sign - self.coordinate(state, link);
+                state.z[self.links[link as usize].z as usize] += unwrap(T::ZERO, last);
             }
         }
     }

@@ -4,6 +4,7 @@ use crate::settings::ResolvedMethod;
 use crate::simulation::Simulation;
 use crate::stop::StopError;
 use mbs_core::scene::{Dimension, Scene};
+use mbs_nostd::LoadError;
 use mbs_nostd::export::{Collected, bytes, source};
 use mbs_nostd::format::Axes;
 use mbs_recursive::{Planar, Spatial, StartError, TreeModel};
@@ -25,6 +26,8 @@ pub enum ExportError {
     Stop(StopError),
     /// An effect of this name is code, which no table has.
     Effect(String),
+    /// A coupling of this name is not written for controllers.
+    Coupling(String),
     /// A ladder names what the scene has not, or is no price list.
     Ladder(String),
 }
@@ -35,6 +38,9 @@ impl core::fmt::Display for ExportError {
             Self::Stop(error) => write!(f, "{error}"),
             Self::Effect(name) => {
                 write!(f, "effect `{name}` is a law in code, which cannot be written as a table")
+            }
+            Self::Coupling(name) => {
+                write!(f, "coupling `{name}` cannot be written for a controller")
             }
             Self::Ladder(what) => write!(f, "{what}"),
         }
@@ -88,9 +94,14 @@ fn in_space<S: Axes<f64>, const D: usize>(
         let found = effects.find(|effect| effect.enabled && effect.kind.row().names.is_empty());
         ExportError::Effect(found.map(|effect| effect.name.clone()).unwrap_or_default())
     };
-    let bytes = bytes(&model, is_single).ok_or_else(in_code)?;
     let title = format!("The scene \"{}\"", scene.name.escape_default());
-    let rust = source(&model, (&title, is_single)).map_err(|_| in_code())?;
+    let rust = source(&model, (&title, is_single)).map_err(|error| match error {
+        LoadError::Coupling { coupling } => {
+            ExportError::Coupling(scene.couplings[coupling].name.clone())
+        }
+        _ => in_code(),
+    })?;
+    let bytes = bytes(&model, is_single).ok_or_else(in_code)?;
     Ok(Exported { rust, bytes })
 }
 

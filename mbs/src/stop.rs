@@ -142,7 +142,9 @@ impl StopError {
                 Some(Owner::Joint(joint))
             }
             TreeError::Effect(ActionError::LeftOut { effect, .. }) => Some(Owner::Effect(effect)),
-            TreeError::Coupling { coupling } => Some(Owner::Coupling(coupling)),
+            TreeError::Coupling { coupling } | TreeError::CouplingGuided { coupling } => {
+                Some(Owner::Coupling(coupling))
+            }
             TreeError::MasslessEnd { body } => Some(Owner::Body(body)),
             TreeError::NoInertia { owner } => Some(owner),
             _ => None,
@@ -428,6 +430,12 @@ fn write_tree(error: &TreeError, f: &mut core::fmt::Formatter<'_>) -> core::fmt:
         }
         TreeError::Coupling { .. } => {
             write!(f, "relative coordinates do not have this coupling: try index-3")
+        }
+        TreeError::CouplingGuided { .. } => {
+            write!(
+                f,
+                "its joints are all guided, and their guides do not hold it: leave one of them out"
+            )
         }
         TreeError::NoInertia { .. } => write!(f, "nothing beyond a joint resists its motion"),
         other => write!(f, "{other}"),

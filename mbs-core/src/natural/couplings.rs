@@ -169,7 +169,7 @@ impl<T: Real, const D: usize> NaturalModel<T, D> {
 
     /// Joint, number and place in [`State::memory`](crate::model::State::memory) of each angle that couplings remember, with the sign
     /// of the joint's coordinate in it.
-    pub(crate) fn coupled_angles(&self) -> impl Iterator<Item = ((usize, usize), T, usize)> + '_ {
+    pub fn coupled_angles(&self) -> impl Iterator<Item = ((usize, usize), T, usize)> + '_ {
         self.coupled_angles.iter().map(|&(of, sign, place)| (of, sign, place as usize))
     }
 }

@@ -147,6 +147,7 @@ fn constant<T: Real + Record, S: Axes<T>>(
          \x20               updates: &UPDATES,\n\
          \x20           }},\n\
          \x20           floor: {},\n\
+         \x20           couplings: Couplings::none(),\n\
          \x20       }},\n\
          \x20       loads: &LOADS,\n\
          \x20       tables: {law_inputs},\n\

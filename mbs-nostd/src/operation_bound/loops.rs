@@ -50,6 +50,8 @@ pub(super) fn rows<T: Real, S: Space<T>>(m: &TreeSlices<'_, T, S>) -> Operations
             (Row::Dot { .. }, true) => ops(85, 55),
             (Row::Dot { .. }, false) => ops(37, 17),
             (Row::Length { .. }, true) => ops(40, 25).and(1, 0, 0),
+            // No controller holds one.
+            (Row::Coupled(_), _) => ops(0, 0),
             (Row::Length { .. }, false) => ops(22, 12).and(1, 0, 0),
         };
     }

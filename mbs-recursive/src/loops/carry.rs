@@ -5,7 +5,7 @@ use crate::indexing::{Outside, at, at_mut, part, part_mut, range};
 use crate::joint;
 use crate::link::{ArticulatedInertia, LinkKind, LinkMotion};
 use crate::plan::{Pair, Pass};
-use crate::rows::ClosedLoop;
+use crate::rows::{ClosedLoop, Row};
 use crate::space::{Numbers, Space};
 use mbs_core::Real;
 
@@ -24,11 +24,13 @@ pub(crate) fn pass<T: Real, S: Space<T>>(
     let freedoms = joint.0.n_freedoms::<T, S>();
     for pass in range(m.plan.passes, station.passes.range())? {
         let lap = at(m.loops, pass.lap as usize)?;
-        sized!(
-            (lap.n as usize, freedoms),
-            often(S::Point::N, 1),
-            carry(n_rows, (lap, pass), joint, st)
-        )?;
+        if (lap.n as usize, freedoms) == (S::Point::N, 1) {
+            carry((S::Point::N, 1), n_rows, (lap, pass), joint, st)?;
+        } else if let Some(slope) = slope(m, (i, lap, pass), st)? {
+            carry_coupled((n_rows, slope), (lap, pass), joint, st)?;
+        } else {
+            carry((lap.n as usize, freedoms), n_rows, (lap, pass), joint, st)?;
+        }
     }
     for pair in range(m.plan.pairs, station.pairs.range())? {
         let x = at(m.plan.passes, pair.row as usize)?;
@@ -67,6 +69,35 @@ fn carry<T: Real, S: Space<T>>(
         *k = S::gathered(&passed, &p.arm);
         *at_mut(scales, r)? += inner(h, g);
     }
+    Ok(())
+}
+
+/// g of a coupling at the joint of link `i`, if it has one there.
+fn slope<T: Real, S: Space<T>>(
+    m: &Loops<'_, T, S>,
+    (i, lap, pass): (usize, &ClosedLoop<T, S>, &Pass),
+    st: &LoopStore<'_, T, S>,
+) -> Result<Option<T>, Outside> {
+    let Row::Coupled(row) = at(m.rows, lap.first as usize)? else { return Ok(None) };
+    m.couplings.slope(row, (i, pass.side), st.slopes)
+}
+
+/// Carries the row of a coupling over a joint of one freedom whose coordinate it has: K b + g in place of K b.
+fn carry_coupled<T: Real, S: Space<T>>(
+    (n_rows, slope): (usize, T),
+    (lap, pass): (&ClosedLoop<T, S>, &Pass),
+    (_, p, c): Joint<'_, T, S>,
+    st: &mut LoopStore<'_, T, S>,
+) -> Result<(), Outside> {
+    let (first, gain) = (lap.first as usize, pass.gain as usize);
+    let k = at_mut(st.k, pass.side as usize * n_rows + first)?;
+    let head = p.freedom.dot(k) + slope;
+    let own = c.inverse * head;
+    (*at_mut(st.heads, gain)?, *at_mut(st.gains, gain)?) = (head, own);
+    let passed = *k - c.column * own;
+    *at_mut(st.l, first)? += passed.dot(&p.bias) + own * c.drive[0];
+    *k = S::gathered(&passed, &p.arm);
+    *at_mut(st.scales, first)? += head * own;
     Ok(())
 }
 

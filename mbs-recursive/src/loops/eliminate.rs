@@ -41,6 +41,9 @@ fn close_some<T: Real, S: Space<T>>(
     let ground = if i == 0 { Some(a_ground) } else { None };
     for end in ends {
         let lap = at(m.loops, end.lap as usize)?;
+        if st.k.len() > 2 * m.rows.len() {
+            join(m.rows.len(), lap, st)?;
+        }
         sized!(lap.n as usize, often S::Point::N, meet(m.rows.len(), lap, ground, st))?;
     }
     for end in ends {
@@ -49,6 +52,22 @@ fn close_some<T: Real, S: Space<T>>(
         sized!(lap.n as usize, often S::Point::N, regularise(m, lap, regularisation, st))?;
         sized!(lap.n as usize, often S::Point::N, eliminate(lap, body, st))?;
         couple_all(m, end, i > 0, st)?;
+    }
+    Ok(())
+}
+
+/// K of all sides behind the second one are added to it.
+fn join<T: Real, S: Space<T>>(
+    n_rows: usize,
+    lap: &ClosedLoop<T, S>,
+    st: &mut LoopStore<'_, T, S>,
+) -> Result<(), Outside> {
+    let (before, further) = st.k.split_at_mut_checked(2 * n_rows).ok_or(Outside)?;
+    let seconds = before.get_mut(n_rows..).ok_or(Outside)?;
+    for k in lap.range() {
+        for further in further.iter().skip(k).step_by(n_rows.max(1)) {
+            *at_mut(seconds, k)? += *further;
+        }
     }
     Ok(())
 }

@@ -3,6 +3,7 @@
 mod support;
 
 mod agreement;
+mod couplings;
 mod double_double;
 mod effects;
 mod inverse;

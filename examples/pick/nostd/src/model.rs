@@ -98,6 +98,7 @@ pub static MODEL: Model<'static, Scalar, Axes> = Model {
                 updates: &UPDATES,
             },
             floor: [0.5, 0.125],
+            couplings: Couplings::none(),
         },
         loads: &LOADS,
         tables: LawInputs::courses(&[]),

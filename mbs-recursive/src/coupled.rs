@@ -1,0 +1,333 @@
+//! Couplings: rows over joint coordinates and lengths, such as gears, racks, cams and ropes.
+//!
+//! ```text
+//! Φ = (Σ cₖ fₖ(mₖ) − s(t)) / c          c: the largest |cₖ|
+//! Φ̇ = Σ gᵢ żᵢ + Σ K V,   Φ̈ = Σ gᵢ z̈ᵢ + Σ K a + bias
+//!
+//! joint coordinate    m = z                  g = c f',   bias = c f'' ż²;  a guided joint: bias + c f' z̈
+//! line over points    m = Σ |d| − L          n = d/|d|,   K = (s × n, n) at the end of a part, its opposite at the beginning
+//!                                            bias = Σ (n·s̈ + (ḋ·ḋ − (n·ḋ)²)/|d|)
+//! ```
+
+use crate::indexing::{Outside, at, at_mut, part, range};
+use crate::link::{Link, LinkMotion};
+use crate::plan::Span;
+use crate::space::{Numbers, Space};
+use mbs_core::Real;
+use mbs_core::measure::{polynomial, spline_curve};
+
+/// Sentinel for "none" in a table of numbers.
+pub const NONE: u32 = u32::MAX;
+
+/// The row of a coupling.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct CoupledRow<T> {
+    /// Its terms.
+    pub terms: Span,
+    /// The links on which its lines have points.
+    pub starts: Span,
+    /// Number of the guide that is its sum; [`NONE`]: it is zero.
+    pub guide: u32,
+    /// One over the largest factor: the sum is divided by it.
+    pub inverse: T,
+    /// Is its value an angle (otherwise a length)?
+    pub is_angle: bool,
+}
+
+/// A term of a coupling.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SumTerm<T> {
+    /// Its factor over the largest one.
+    pub factor: T,
+    /// Its curve; [`NONE`]: the measured number itself.
+    pub curve: u32,
+    /// What is measured.
+    pub of: SumMeasure<T>,
+}
+
+/// A number that a coupling measures.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum SumMeasure<T> {
+    /// The coordinate of a link whose joint has one freedom, or is guided.
+    Joint {
+        /// The link.
+        link: u32,
+        /// The side by which its part of the row travels inward; [`NONE`]: its joint is guided.
+        side: u32,
+    },
+    /// The length of a line, less that in the reference configuration.
+    Line {
+        /// Its points.
+        points: Span,
+        /// The length in the reference configuration [m].
+        reference: T,
+    },
+}
+
+/// A point of a line.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct LinePoint<T: Real, S: Space<T>> {
+    /// Its link, among those of its row.
+    pub start: u32,
+    /// The point, from the link's origin, reference axes [m].
+    pub point: S::Point,
+}
+
+/// A link at which a row begins.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct LinkStart {
+    /// The link.
+    pub link: u32,
+    /// The side by which it travels inward.
+    pub side: u32,
+}
+
+/// A twice differentiable function.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum CurveTable<T> {
+    /// A cubic spline.
+    Spline {
+        /// Its knots.
+        knots: Span,
+        /// The first of its second derivatives, as many as knots.
+        first: u32,
+        /// Its period; zero: it has none.
+        period: T,
+    },
+    /// A polynomial.
+    Polynomial {
+        /// Its coefficients, the constant one first.
+        coefficients: Span,
+    },
+}
+
+/// What the rows of couplings refer to: constant.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Couplings<'a, T: Real, S: Space<T>> {
+    /// Number of loops that are cut joints; those behind them are couplings. More than there are: all are.
+    pub n_cut: u32,
+    /// Terms.
+    pub terms: &'a [SumTerm<T>],
+    /// Points of lines.
+    pub points: &'a [LinePoint<T, S>],
+    /// Links of lines.
+    pub starts: &'a [LinkStart],
+    /// Curves.
+    pub curves: &'a [CurveTable<T>],
+    /// Knots of splines.
+    pub knots: &'a [[T; 2]],
+    /// Second derivatives of splines at their knots, and coefficients of polynomials.
+    pub numbers: &'a [T],
+}
+
+/// A mechanism at an instant: its links and where they are, and its coordinates, velocities and guides.
+pub(crate) type Here<'a, T, S> =
+    (&'a [Link<T, S>], &'a [LinkMotion<T, S>], (&'a [T], &'a [T], &'a [[T; 3]]));
+
+/// The gradients of all rows: K of all sides, those of the first in front; and one slope for each term.
+pub(crate) type Gradients<'a, T, S> = (&'a mut [<S as Space<T>>::Motion], &'a mut [T]);
+
+/// What the row of a coupling is at an instant.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct CoupledValue<T> {
+    /// Φ, Φ̇, and Φ̈ without accelerations.
+    pub(crate) row: [T; 3],
+    /// The sizes of the parts of Φ and of Φ̇.
+    pub(crate) parts: [T; 2],
+}
+
+impl<T: Real, S: Space<T>> Couplings<'_, T, S> {
+    /// Of a mechanism without couplings.
+    #[must_use]
+    pub const fn none() -> Self {
+        let n_cut = u32::MAX;
+        Self { n_cut, terms: &[], points: &[], starts: &[], curves: &[], knots: &[], numbers: &[] }
+    }
+
+    /// f, f' and f'' of a term's curve.
+    fn function(&self, curve: u32, x: T) -> Result<[T; 3], Outside> {
+        if curve == NONE {
+            return Ok([x, T::ONE, T::ZERO]);
+        }
+        Ok(match *at(self.curves, curve as usize)? {
+            CurveTable::Spline { knots, first, period } => {
+                let knots = range(self.knots, knots.range())?;
+                let curvature = part(self.numbers, first as usize, knots.len())?;
+                spline_curve(knots, curvature, period, x)
+            }
+            CurveTable::Polynomial { coefficients } => {
+                polynomial(range(self.numbers, coefficients.range())?, x)
+            }
+        })
+    }
+
+    /// Value, rate and the part of the acceleration that is known, of what a term measures.
+    fn measure(
+        &self,
+        (of, starts): (&SumMeasure<T>, Span),
+        here: Here<'_, T, S>,
+    ) -> Result<[T; 3], Outside> {
+        match *of {
+            SumMeasure::Joint { link, .. } => {
+                let (links, _, (z, v, guides)) = here;
+                let link = at(links, link as usize)?;
+                if link.kind.is_guided() {
+                    return at(guides, link.v as usize).copied();
+                }
+                Ok([*at(z, link.z as usize)?, *at(v, link.v as usize)?, T::ZERO])
+            }
+            SumMeasure::Line { points, reference } => {
+                let mut sum = [-reference, T::ZERO, T::ZERO];
+                self.each_part((points, starts), here.1, |part| {
+                    let along = part.direction.dot(&part.rate);
+                    let turning = (part.rate.dot(&part.rate) - along * along) / part.length;
+                    let known = [part.length, along, part.direction.dot(&part.bias) + turning];
+                    sum.iter_mut().zip(known).for_each(|(sum, x)| *sum += x);
+                    Ok(())
+                })?;
+                Ok(sum)
+            }
+        }
+    }
+
+    /// Hands out the parts of a line that have a length.
+    fn each_part(
+        &self,
+        (points, starts): (Span, Span),
+        placed: &[LinkMotion<T, S>],
+        mut take: impl FnMut(LinePart<T, S>) -> Result<(), Outside>,
+    ) -> Result<(), Outside> {
+        let starts = range(self.starts, starts.range())?;
+        let end = |of: &LinePoint<T, S>| {
+            let start = *at(starts, of.start as usize)?;
+            let p = at(placed, start.link as usize)?;
+            let arm = S::rotate(&p.rotation, &of.point);
+            let spin = S::spin(&p.velocity);
+            let rate = S::point(&p.velocity) + S::cross(&spin, &arm);
+            Ok((start, arm, [p.position + arm, rate, S::centrifugal(&spin, &arm)]))
+        };
+        for pair in range(self.points, points.range())?.windows(2) {
+            let [first, second] = pair else { continue };
+            let ((from, arm, a), (to, arm_to, b)) = (end(first)?, end(second)?);
+            let gap = b[0] - a[0];
+            let length = gap.dot(&gap).sqrt();
+            if length > T::ZERO {
+                take(LinePart {
+                    ends: [(from, arm), (to, arm_to)],
+                    direction: gap * (T::ONE / length),
+                    length,
+                    rate: b[1] - a[1],
+                    bias: b[2] - a[2],
+                })?;
+            }
+        }
+        Ok(())
+    }
+
+    /// Evaluates row `k` of a coupling; its gradients are written where they are wanted, of `n_rows` rows.
+    pub(crate) fn evaluate(
+        &self,
+        (row, k, n_rows): (&CoupledRow<T>, usize, usize),
+        here: Here<'_, T, S>,
+        mut out: Option<Gradients<'_, T, S>>,
+    ) -> Result<CoupledValue<T>, Outside> {
+        let mut sum = [T::ZERO; 3];
+        let mut parts = [T::ZERO; 2];
+        let mut add = |x: [T; 3]| {
+            sum.iter_mut().zip(x).for_each(|(sum, x)| *sum += x);
+            parts.iter_mut().zip(x).for_each(|(parts, x)| *parts += x.abs());
+        };
+        if let Some((gradient, _)) = &mut out {
+            gradient.iter_mut().skip(k).step_by(n_rows.max(1)).for_each(|k| *k = S::Motion::zero());
+        }
+        for (i, term) in row.terms.range().zip(range(self.terms, row.terms.range())?) {
+            let [m, rate, known] = self.measure((&term.of, row.starts), here)?;
+            let [f, slope, bend] = self.function(term.curve, m)?;
+            let slope = term.factor * slope;
+            add([term.factor * f, slope * rate, slope * known + term.factor * bend * rate * rate]);
+            let Some((gradient, slopes)) = &mut out else { continue };
+            *at_mut(slopes, i)? = slope;
+            let SumMeasure::Line { points, .. } = term.of else { continue };
+            self.each_part((points, row.starts), here.1, |part| {
+                for ((start, arm), n) in part.ends.iter().zip([-part.direction, part.direction]) {
+                    let place = start.side as usize * n_rows + k;
+                    *at_mut(gradient, place)? += S::wrench(arm, &n) * slope;
+                }
+                Ok(())
+            })?;
+        }
+        if row.guide != NONE {
+            let (_, _, (_, _, guides)) = here;
+            add(at(guides, row.guide as usize)?.map(|s| -s * row.inverse));
+        }
+        Ok(CoupledValue { row: sum, parts })
+    }
+
+    /// The links at which a row begins.
+    pub(crate) fn starts_of(&self, row: &CoupledRow<T>) -> Result<&[LinkStart], Outside> {
+        range(self.starts, row.starts.range())
+    }
+
+    /// The links whose coordinates a row has: each with the side by which it travels inward, and g.
+    pub(crate) fn joints_of<'s>(
+        &'s self,
+        row: &CoupledRow<T>,
+        slopes: &'s [T],
+    ) -> Result<impl Iterator<Item = (u32, u32, T)> + 's, Outside> {
+        let slopes = range(slopes, row.terms.range())?;
+        let terms = range(self.terms, row.terms.range())?.iter().zip(slopes);
+        Ok(terms.filter_map(|(term, &slope)| match term.of {
+            SumMeasure::Joint { link, side } => Some((link, side, slope)),
+            SumMeasure::Line { .. } => None,
+        }))
+    }
+
+    /// Σ K a + Σ g x of row `k` for motions `a` of the links and `x` of the freedoms, and the size of its parts.
+    pub(crate) fn along(
+        &self,
+        (row, k, n_rows): (&CoupledRow<T>, usize, usize),
+        links: &[Link<T, S>],
+        (gradient, slopes): (&[S::Motion], &[T]),
+        (a, x): (&[S::Motion], &[T]),
+    ) -> Result<[T; 2], Outside> {
+        let mut sum = [T::ZERO; 2];
+        for start in self.starts_of(row)? {
+            let k = at(gradient, start.side as usize * n_rows + k)?;
+            let a = at(a, start.link as usize)?;
+            sum = [sum[0] + k.dot(a), sum[1] + k.parts(a)];
+        }
+        for (link, _, slope) in self.joints_of(row, slopes)? {
+            let link = at(links, link as usize)?;
+            if !link.kind.is_guided() {
+                let x = slope * *at(x, link.v as usize)?;
+                sum = [sum[0] + x, sum[1] + x.abs()];
+            }
+        }
+        Ok(sum)
+    }
+
+    /// g of the joint of link `i` where a row passes it by this side.
+    pub(crate) fn slope(
+        &self,
+        row: &CoupledRow<T>,
+        (i, by): (usize, u32),
+        slopes: &[T],
+    ) -> Result<Option<T>, Outside> {
+        let here = self.joints_of(row, slopes)?;
+        let here = here.filter(|&(link, side, _)| (link as usize, side) == (i, by));
+        Ok(here.map(|(_, _, slope)| slope).reduce(|sum, slope| sum + slope))
+    }
+}
+
+/// A part of a line.
+struct LinePart<T: Real, S: Space<T>> {
+    /// The links of its ends, and its points from their origins.
+    ends: [(LinkStart, S::Point); 2],
+    /// From the first to the second.
+    direction: S::Point,
+    length: T,
+    /// How fast the gap between its ends grows.
+    rate: S::Point,
+    /// How that grows without accelerations.
+    bias: S::Point,
+}

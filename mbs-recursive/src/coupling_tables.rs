@@ -1,0 +1,102 @@
+//! The tables of couplings, filled while a tree is built.
+
+use crate::coupled::{
+    CoupledRow, Couplings, CurveTable, LinePoint, LinkStart, NONE, SumMeasure, SumTerm,
+};
+use crate::loops::index;
+use crate::plan::Span;
+use crate::space::Space;
+use alloc::vec::Vec;
+use mbs_core::Real;
+use mbs_core::measure::PreparedCurve;
+
+/// Where a row begins: at a link with K, or at the joint of a link with g.
+pub(crate) struct Begin<'a> {
+    pub(crate) link: u32,
+    pub(crate) at_joint: bool,
+    /// Where its side is written.
+    pub(crate) side: Option<&'a mut u32>,
+}
+
+/// The owner of [`Couplings`].
+#[derive(Debug, Clone)]
+pub(crate) struct CouplingTables<T: Real, S: Space<T>> {
+    pub(crate) n_cut: u32,
+    pub(crate) terms: Vec<SumTerm<T>>,
+    pub(crate) points: Vec<LinePoint<T, S>>,
+    pub(crate) starts: Vec<LinkStart>,
+    pub(crate) curves: Vec<CurveTable<T>>,
+    pub(crate) knots: Vec<[T; 2]>,
+    pub(crate) numbers: Vec<T>,
+}
+
+impl<T: Real, S: Space<T>> Default for CouplingTables<T, S> {
+    fn default() -> Self {
+        Self {
+            n_cut: NONE,
+            terms: Vec::new(),
+            points: Vec::new(),
+            starts: Vec::new(),
+            curves: Vec::new(),
+            knots: Vec::new(),
+            numbers: Vec::new(),
+        }
+    }
+}
+
+impl<T: Real, S: Space<T>> CouplingTables<T, S> {
+    pub(crate) fn slices(&self) -> Couplings<'_, T, S> {
+        Couplings {
+            n_cut: self.n_cut,
+            terms: &self.terms,
+            points: &self.points,
+            starts: &self.starts,
+            curves: &self.curves,
+            knots: &self.knots,
+            numbers: &self.numbers,
+        }
+    }
+
+    pub(crate) fn n_terms(&self) -> usize {
+        self.terms.len()
+    }
+
+    /// Where a row begins: at the links of its lines, and at the joints whose coordinates it has.
+    pub(crate) fn begins(&mut self, row: &CoupledRow<T>) -> Vec<Begin<'_>> {
+        let starts = self.starts[row.starts.range()].iter_mut();
+        let starts =
+            starts.map(|s| Begin { link: s.link, at_joint: false, side: Some(&mut s.side) });
+        let terms = self.terms[row.terms.range()].iter_mut();
+        let joints = terms.filter_map(|term| match &mut term.of {
+            SumMeasure::Joint { link, side } if *side != NONE => {
+                Some(Begin { link: *link, at_joint: true, side: Some(side) })
+            }
+            _ => None,
+        });
+        starts.chain(joints).collect()
+    }
+
+    /// The number of a curve that is added.
+    pub(crate) fn add_curve(&mut self, curve: &PreparedCurve<T>) -> u32 {
+        let table = match curve {
+            PreparedCurve::Identity => return NONE,
+            PreparedCurve::Spline { knots, curvature, period } => CurveTable::Spline {
+                knots: extend(&mut self.knots, knots),
+                first: extend(&mut self.numbers, curvature).first,
+                period: *period,
+            },
+            PreparedCurve::Polynomial(coefficients) => {
+                CurveTable::Polynomial { coefficients: extend(&mut self.numbers, coefficients) }
+            }
+        };
+        self.curves.push(table);
+        index(self.curves.len() - 1)
+    }
+}
+
+/// Adds a list to another; where it stands there.
+fn extend<X: Copy>(to: &mut Vec<X>, list: &[X]) -> Span {
+    let first = index(to.len());
+    to.extend_from_slice(list);
+    Span { first, end: index(to.len()) }
+}

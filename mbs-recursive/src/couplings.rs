@@ -1,0 +1,161 @@
+//! The rows of couplings, from the scene.
+
+use crate::coupled::{CoupledRow, LinePoint, LinkStart, NONE, SumMeasure, SumTerm};
+use crate::error::TreeError;
+use crate::link::LinkKind;
+use crate::loops::index;
+use crate::plan::Span;
+use crate::rows::{ClosedLoop, Row};
+use crate::space::{Numbers, Space};
+use crate::state::TreeState;
+use crate::tree::TreeModel;
+use mbs_core::Real;
+use mbs_core::algebra::{Vector, norm};
+use mbs_core::measure::CouplingInput;
+use mbs_core::scene::{BodyId, Scene};
+
+impl<T: Real, S: Space<T>> TreeModel<T, S> {
+    /// Adds the rows of couplings behind those of cut joints.
+    ///
+    /// # Errors
+    /// [`TreeError::Coupling`], [`TreeError::CouplingGuided`].
+    pub(crate) fn add_couplings(&mut self, scene: &Scene<T>) -> Result<(), TreeError> {
+        if scene.couplings.is_empty() {
+            return Ok(());
+        }
+        self.couplings.n_cut = index(self.loops.len());
+        let links = self.coordinate_links(scene);
+        let mut guide = scene.guides.len();
+        for (i, coupling) in scene.couplings.iter().enumerate() {
+            let input = CouplingInput::new(coupling);
+            let sum = input.sum.is_some().then_some(guide);
+            guide += usize::from(sum.is_some());
+            let (first_term, first_start) =
+                (self.couplings.terms.len(), self.couplings.starts.len());
+            for term in &input.terms {
+                let of = match (&term.of, term.coordinate) {
+                    (_, Some((joint, number))) => {
+                        let link = links[joint].get(number).copied().flatten();
+                        let link = link.filter(|&link| self.has_one_coordinate(link));
+                        let link = link.ok_or(TreeError::Coupling { coupling: i })?;
+                        let is_guided = self.links[link as usize].kind.is_guided();
+                        SumMeasure::Joint { link, side: if is_guided { NONE } else { 0 } }
+                    }
+                    (mbs_core::scene::CouplingMeasure::Length { points }, None) => {
+                        self.line(points, first_start)
+                    }
+                    // A coordinate has its place.
+                    (mbs_core::scene::CouplingMeasure::Coordinate { .. }, None) => continue,
+                };
+                let curve = self.couplings.add_curve(&term.curve);
+                let factor = term.factor / input.scale();
+                self.couplings.terms.push(SumTerm { factor, curve, of });
+            }
+            let terms = Span { first: index(first_term), end: index(self.couplings.terms.len()) };
+            let starts =
+                Span { first: index(first_start), end: index(self.couplings.starts.len()) };
+            let is_angle = self.is_angle(terms);
+            let inverse = T::ONE / input.scale();
+            let guide = sum.map_or(NONE, index);
+            let row = CoupledRow { terms, starts, guide, inverse, is_angle };
+            if self.can_move(&row) {
+                self.add_coupled(row, i);
+            } else if !self.is_held_by_guides(&row) {
+                return Err(TreeError::CouplingGuided { coupling: i });
+            }
+        }
+        Ok(())
+    }
+
+    fn has_one_coordinate(&self, link: u32) -> bool {
+        !matches!(self.links[link as usize].kind, LinkKind::Ball | LinkKind::Free)
+    }
+
+    fn add_coupled(&mut self, row: CoupledRow<T>, coupling: usize) {
+        self.loops.push(ClosedLoop {
+            links: [0; 2],
+            points: [S::Point::zero(); 2],
+            first: index(self.rows.len()),
+            n: 1,
+            ancestor: 0,
+            block: 0,
+            joint: index(coupling),
+        });
+        self.rows.push(Row::Coupled(row));
+    }
+
+    /// A line over points; its links are added to those of its row, which begin at `first`.
+    fn line(&mut self, points: &[(BodyId, [T; 3])], first: usize) -> SumMeasure<T> {
+        let begin = index(self.couplings.points.len());
+        for &(body, at) in points {
+            let (link, point) = self.seat_point(body, at);
+            let starts = &mut self.couplings.starts;
+            let known = starts[first..].iter().position(|start| start.link == link);
+            let start = known.unwrap_or_else(|| {
+                starts.push(LinkStart { link, side: 0 });
+                starts.len() - 1 - first
+            });
+            self.couplings.points.push(LinePoint { start: index(start), point });
+        }
+        let places = points.iter().map(|(_, at)| Vector::<T, 3>::from(*at));
+        let next = places.clone().skip(1);
+        let reference = places.zip(next).fold(T::ZERO, |sum, (a, b)| sum + norm(&(b - a)));
+        SumMeasure::Line {
+            points: Span { first: begin, end: begin + index(points.len()) },
+            reference,
+        }
+    }
+
+    /// Is the sum an angle: does the term with the largest factor measure one?
+    fn is_angle(&self, terms: Span) -> bool {
+        let terms = &self.couplings.terms[terms.range()];
+        let largest = terms.iter().filter(|term| term.factor.abs() == T::ONE);
+        let plain = largest.clone().find(|term| term.curve == NONE);
+        plain.or_else(|| largest.clone().next()).is_some_and(|term| match term.of {
+            SumMeasure::Joint { link, .. } => {
+                let kind = self.links[link as usize].kind;
+                matches!(kind, LinkKind::Revolute | LinkKind::GuidedRevolute)
+            }
+            SumMeasure::Line { .. } => false,
+        })
+    }
+
+    /// Has one of its joints a freedom, or does it have lines between different links?
+    fn can_move(&self, row: &CoupledRow<T>) -> bool {
+        let is_line = self.couplings.starts[row.starts.range()].len() > 1;
+        is_line
+            || self.couplings.terms[row.terms.range()].iter().any(|term| match term.of {
+                SumMeasure::Joint { link, .. } => !self.links[link as usize].kind.is_guided(),
+                SumMeasure::Line { .. } => false,
+            })
+    }
+
+    /// Do the guides of its joints hold it? They are compared at a few times.
+    fn is_held_by_guides(&self, row: &CoupledRow<T>) -> bool {
+        /// Times at which guides are compared [s]. Chosen, not tuned.
+        const TIMES: [f64; 5] = [0.0, 0.171_3, 0.618_2, 1.393_7, 7.129_1];
+        /// Sum of guides that is zero beside its terms [-]. Chosen, not tuned.
+        const ROUNDING: f64 = 1e-9;
+        let mut guides = alloc::vec![[T::ZERO; 3]; self.prescribed.n_guides()];
+        let placed = alloc::vec![crate::link::LinkMotion::ground(); self.links.len()];
+        TIMES.iter().all(|&t| {
+            self.prescribed.write(T::from_f64(t), &self.prescribed.inputs(), &mut guides, &mut []);
+            let here = (&self.links[..], &placed[..], (&[][..], &[][..], &guides[..]));
+            let value = self.couplings.slices().evaluate((row, 0, 1), here, None);
+            value.is_ok_and(|value| {
+                value.row[0].abs() <= value.parts[0] * T::from_f64(ROUNDING).max(T::EPSILON)
+            })
+        })
+    }
+
+    /// The effort of `scene.couplings[coupling]`: the force along a coordinate is its factor times this [N m or N, by one of the factor].
+    /// Nothing of one whose joints are all guided.
+    #[must_use]
+    pub fn coupling_effort(&self, state: &TreeState<T>, coupling: usize) -> Option<T> {
+        let (_, coupled) = self.loops.split_at_checked(self.couplings.n_cut as usize)?;
+        let lap = coupled.iter().find(|lap| lap.joint as usize == coupling)?;
+        let row = lap.first as usize;
+        let Some(Row::Coupled(of)) = self.rows.get(row) else { return None };
+        Some(-*state.lambda.get(row)? * of.inverse)
+    }
+}
