@@ -3,7 +3,9 @@
 use crate::support::{Run, imbalance, random};
 use mbs_core::model::State;
 use mbs_core::natural::NaturalModel;
-use mbs_core::scene::{Coupling, CouplingTerm, Dimension, Freedom, JointId, CouplingMeasure, Scene};
+use mbs_core::scene::{
+    Coupling, CouplingMeasure, CouplingTerm, Dimension, Freedom, JointId, Scene,
+};
 use mbs_recursive::space::Space;
 use mbs_recursive::{EffortTerms, Planar, Spatial, TreeError, TreeModel};
 use mbs_testkit::Random;
