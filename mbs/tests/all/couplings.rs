@@ -9,8 +9,8 @@ use mbs_testkit::scene;
 const EXACT: f64 = 1e-8;
 
 /// Every formulation with the trapezoidal rule.
-fn ways() -> [Way; 4] {
-    ["index-3", "index-1", "classical", "state-space"].map(|f| Way(f, "trapezoidal"))
+fn ways() -> [Way; 5] {
+    ["index-3", "index-1", "classical", "state-space", "recursive"].map(|f| Way(f, "trapezoidal"))
 }
 
 fn last(rows: &Rows) -> &[f64] {

@@ -4,7 +4,7 @@ pub(crate) use mbs_testkit::repository::path;
 use std::path::{Path, PathBuf};
 
 /// Scenes of the repository, without those of vehicles.
-pub(crate) const SCENES: [&str; 15] = [
+pub(crate) const SCENES: [&str; 18] = [
     "simple-pendulum",
     "double-pendulum",
     "two-four-bars",
@@ -20,6 +20,9 @@ pub(crate) const SCENES: [&str; 15] = [
     "rssr",
     "tree-30",
     "andrews",
+    "planetary-gear",
+    "cam-follower",
+    "crane",
 ];
 
 /// An empty directory for one test.
