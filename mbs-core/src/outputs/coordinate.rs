@@ -1,8 +1,9 @@
 //! Joint coordinates measured at a state: the same directions and signs that hold them at the start.
 
 use super::frame::Frame;
+use super::wrench::Wrench;
 use crate::Real;
-use crate::algebra::{Vector, rotation_vector, unit};
+use crate::algebra::{Vector, cross, raised, rotation_vector, unit};
 use crate::model::State;
 use crate::natural::{self, Affine, NaturalModel, Places, unwrap, unwrap_rotation};
 use crate::scene::{BodyId, Freedom, Joint, Scene};
@@ -92,6 +93,23 @@ impl<T: Real, const D: usize> Coordinate<T, D> {
         let Self::Angle { x1, x2, y, sign } = self else { return T::ZERO };
         let y = y.value(q);
         x2.value(q).dot(&y).atan2(x1.value(q).dot(&y)) * *sign
+    }
+
+    /// The force at the joint's place on the second body and the moment on it, opposite on the first, that do work on this coordinate alone
+    /// [- and 1]: on a slide the force along it, on an angle the moment (C y x x2 - S y x x1)/r^2. Zero of a rotation.
+    pub(super) fn direction(&self, q: &[T]) -> Wrench<T> {
+        let mut wrench = Wrench::zero();
+        match self {
+            Self::Angle { x1, x2, y, .. } => {
+                let [x1, x2, y] = [x1, x2, y].map(|x| raised(&x.value(q)));
+                let (c, s) = (x1.dot(&y), x2.dot(&y));
+                wrench.moment =
+                    (cross(&y, &x2) * c - cross(&y, &x1) * s) * (T::ONE / (c * c + s * s));
+            }
+            Self::Slide { y, .. } => wrench.force = raised(&y.value(q)),
+            Self::Turn { .. } => {}
+        }
+        wrench
     }
 
     /// Where the angle is expected that was `last` before a time of `dt` [s] with these rates at both ends: where the mean rate leads.

@@ -7,6 +7,7 @@
 
 mod contact;
 mod coordinate;
+mod coupled_sum;
 mod cubic;
 mod error;
 mod event;

@@ -4,14 +4,16 @@
 //! on body b, about its centre of mass c:
 //!   sum_j +-R_j + applied = [m (c'' - g);  I omega' + omega x I omega]
 //! R_j = W_j r_j       W_j: the wrenches that joint j can transmit, at its place on the second body
+//! applied             effects, and c_k f_k' lambda of each term of a coupling, with its effort lambda unknown
 //! ```
 //!
 //! Welded bodies are bodies like all others. The solution is the smallest one, in forces and moments over the scene's length.
 
+use super::coupled_sum::CoupledSum;
 use super::error::ReactionError;
 use super::frame::Frame;
 use super::leaf_elimination::{Block, eliminate_leaves};
-use super::load::Loads;
+use super::load::{Applied, Loads};
 use super::minimum_norm::MinimumNorm;
 use super::wrench::{Wrench, WrenchBasis};
 use crate::Real;
@@ -34,6 +36,7 @@ pub struct Reactions<T: Real, const D: usize> {
     bodies: Vec<Balance<T, D>>,
     gravity: Vector<T, 3>,
     joints: Vec<WrenchBasis<T, D>>,
+    couplings: Vec<CoupledSum<T, D>>,
     loads: Loads<T, D>,
     blocks: Vec<Block>,
     length: T,
@@ -42,6 +45,8 @@ pub struct Reactions<T: Real, const D: usize> {
     directions: Vec<Wrench<T>>,
     wrenches: Vec<Wrench<T>>,
     is_unique: Vec<bool>,
+    /// Of each coupling, and whether the motion determines it.
+    efforts: Vec<(T, bool)>,
     residual: T,
     /// Place of each body in the block at hand.
     place_in_block: Vec<usize>,
@@ -80,9 +85,14 @@ impl<T: Real, const D: usize> Reactions<T, D> {
             (0..scene.joints.len()).map(|joint| WrenchBasis::new(scene, model, joint)).collect();
         let pairs: Vec<_> =
             joints.iter().map(|j| (j.n_directions() > 0).then_some(j.bodies)).collect();
-        let blocks = eliminate_leaves(scene.bodies.len(), &pairs);
-        let unknowns =
-            |block: &Block| block.joints.iter().map(|&j| joints[j].n_directions()).sum::<usize>();
+        let couplings: Vec<_> =
+            (0..scene.couplings.len()).map(|i| CoupledSum::new(scene, model, i)).collect();
+        let acted_on = couplings.iter().map(CoupledSum::bodies);
+        let blocks = eliminate_leaves(scene.bodies.len(), &pairs, acted_on);
+        let unknowns = |block: &Block| {
+            let of_joints = block.joints.iter().map(|&j| joints[j].n_directions());
+            of_joints.sum::<usize>() + block.couplings.len()
+        };
         let columns = blocks.iter().map(unknowns).max().unwrap_or(0);
         let rows = blocks.iter().map(|b| b.bodies.len()).max().unwrap_or(0) * Self::ROWS;
         if columns > LARGEST_BLOCK {
@@ -97,9 +107,11 @@ impl<T: Real, const D: usize> Reactions<T, D> {
             directions: Vec::with_capacity(columns),
             wrenches: vec![Wrench::zero(); joints.len()],
             is_unique: vec![true; joints.len()],
+            efforts: vec![(T::ZERO, false); couplings.len()],
             residual: T::ZERO,
             place_in_block: vec![usize::MAX; scene.bodies.len()],
             joints,
+            couplings,
             blocks,
         })
     }
@@ -150,6 +162,24 @@ impl<T: Real, const D: usize> Reactions<T, D> {
         self.is_unique[joint]
     }
 
+    /// The effort of a coupling as last updated: the generalised force on each of its terms over the term's factor [N, N m].
+    ///
+    /// # Panics
+    /// If there is no such coupling.
+    #[must_use]
+    pub fn effort(&self, coupling: usize) -> T {
+        self.efforts[coupling].0
+    }
+
+    /// Did the motion as last updated determine this coupling's effort? Otherwise it is the smallest of many.
+    ///
+    /// # Panics
+    /// If there is no such coupling.
+    #[must_use]
+    pub fn is_effort_unique(&self, coupling: usize) -> bool {
+        self.efforts[coupling].1
+    }
+
     /// The largest force, or moment over the scene's length, that no reactions balance [N]: the state's inconsistency.
     #[must_use]
     pub fn residual(&self) -> T {
@@ -160,19 +190,13 @@ impl<T: Real, const D: usize> Reactions<T, D> {
         let Self { bodies, loads, .. } = self;
         let (loads, law_inputs) = loads.at(state);
         for load in loads {
-            let mut given: [Option<super::load::Applied<T>>; 2] = [None, None];
+            let mut given: [Option<Applied<T>>; 2] = [None, None];
             let turned = |body| rotation_of(bodies, body);
             load.apply((state, &law_inputs), turned, |applied| {
                 let free = usize::from(given[0].is_some());
                 given[free] = Some(applied);
             });
-            for (body, at, wrench) in given.into_iter().flatten() {
-                if let BodyId::Body(b) = body {
-                    let body = &mut bodies[b];
-                    let arm = at.map_or_else(Vector::zeros, |at| at - body.at);
-                    body.missing.add(&wrench.shifted(&arm).scaled(-T::ONE));
-                }
-            }
+            given.into_iter().flatten().for_each(|applied| take_off(bodies, applied));
         }
     }
 
@@ -185,7 +209,8 @@ impl<T: Real, const D: usize> Reactions<T, D> {
             let turned = joint.bodies.map(|b| rotation_of(bodies, b));
             joint.directions(&state.q, [&turned[0], &turned[1]], |w| directions.push(w));
         }
-        system.begin(block.bodies.len() * Self::ROWS, directions.len());
+        let n_columns = directions.len() + block.couplings.len();
+        system.begin(block.bodies.len() * Self::ROWS, n_columns);
         for (place, &b) in block.bodies.iter().enumerate() {
             place_in_block[b] = place;
             let right = rows::<T, D>(&bodies[b].missing, self.length);
@@ -212,9 +237,21 @@ impl<T: Real, const D: usize> Reactions<T, D> {
                 column += 1;
             }
         }
+        for &i in &block.couplings {
+            let coupling = &self.couplings[i];
+            coupling.apply(T::ONE / coupling.scale(), state, |(body, at, wrench)| {
+                let BodyId::Body(b) = body else { return };
+                let arm = at.map_or_else(Vector::zeros, |at| at - bodies[b].at);
+                let entries = rows::<T, D>(&wrench.shifted(&arm), self.length);
+                for (row, &x) in entries[..Self::ROWS].iter().enumerate() {
+                    *system.entry(place_in_block[b] * Self::ROWS + row, column) += x;
+                }
+            });
+            column += 1;
+        }
     }
 
-    /// Stores the wrenches of a solved block and takes them off what its bodies miss.
+    /// Stores the wrenches and efforts of a solved block and takes them off what its bodies miss.
     fn distribute(&mut self, block: &Block, state: &State<T>) {
         let mut column = 0;
         for &j in &block.joints {
@@ -234,6 +271,22 @@ impl<T: Real, const D: usize> Reactions<T, D> {
                 }
             }
         }
+        let Self { bodies, couplings, system, efforts, .. } = self;
+        for &i in &block.couplings {
+            let effort = system.solution()[column] / couplings[i].scale();
+            efforts[i] = (effort, system.is_determined(column));
+            couplings[i].apply(effort, state, |applied| take_off(bodies, applied));
+            column += 1;
+        }
+    }
+}
+
+/// Takes what is applied to a body off what its joints must give.
+fn take_off<T: Real, const D: usize>(bodies: &mut [Balance<T, D>], (body, at, wrench): Applied<T>) {
+    if let BodyId::Body(b) = body {
+        let body = &mut bodies[b];
+        let arm = at.map_or_else(Vector::zeros, |at| at - body.at);
+        body.missing.add(&wrench.shifted(&arm).scaled(-T::ONE));
     }
 }
 

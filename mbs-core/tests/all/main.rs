@@ -5,6 +5,7 @@ mod small;
 mod codes;
 mod effect_table;
 mod effects;
+mod efforts;
 mod elements;
 mod events;
 mod joints;

@@ -1,0 +1,199 @@
+//! The sum of a coupling at a state, and what the coupling does to the bodies.
+//!
+//! ```text
+//! sum    = sum_k c_k f_k(m_k),   its rate sum_k c_k f_k' m_k'
+//! effort = lambda:  a term acts with w = c_k f_k' lambda
+//! angle    moment w g on the second body, -w g on the first:  g.a = 1 about its axis, g.b = 0 about the other of two axes
+//! slide    force w d at the joint's place on the second body, -w d on the first body there
+//! length   force w n on the second point, -w n on the first:  n from the first to the second
+//! ```
+
+use super::coordinate::Coordinate;
+use super::load::Applied;
+use super::wrench::Wrench;
+use crate::Real;
+use crate::algebra::{Vector, norm, raised};
+use crate::measure::{CouplingInput, PreparedCurve, TermInput};
+use crate::model::State;
+use crate::natural::{Affine, NaturalModel};
+use crate::scene::{BodyId, Measured, Scene};
+use alloc::vec::Vec;
+
+/// The sum of a coupling.
+#[derive(Debug, Clone)]
+pub(super) struct CoupledSum<T: Real, const D: usize> {
+    terms: Vec<SumTerm<T, D>>,
+    /// The moving bodies that it acts on, ascending.
+    bodies: Vec<usize>,
+    /// The largest force, or moment over the scene's length, of a term without a curve at an effort of one.
+    scale: T,
+}
+
+/// A curve of a sum of measures, with its factor.
+#[derive(Debug, Clone)]
+struct SumTerm<T: Real, const D: usize> {
+    factor: T,
+    curve: PreparedCurve<T>,
+    parts: Vec<Part<T, D>>,
+}
+
+/// A measure between two bodies.
+#[derive(Debug, Clone)]
+struct Part<T: Real, const D: usize> {
+    bodies: [BodyId; 2],
+    of: PartKind<T, D>,
+}
+
+#[derive(Debug, Clone)]
+enum PartKind<T: Real, const D: usize> {
+    /// A coordinate of a joint, at its place on the second body; of an angle, where the state remembers it, and the sign with which it does.
+    Coordinate { of: Coordinate<T, D>, at: Affine<T, D>, memory: Option<(usize, T)> },
+    /// The distance of two points, less that in the reference configuration.
+    Length { points: [Affine<T, D>; 2], reference: T },
+}
+
+impl<T: Real, const D: usize> CoupledSum<T, D> {
+    /// Of `scene.couplings[index]` in a scene that passed its check.
+    pub(super) fn new(scene: &Scene<T>, model: &NaturalModel<T, D>, index: usize) -> Self {
+        let input = CouplingInput::new(&scene.couplings[index]);
+        let (mut bodies, mut scale) = (Vec::new(), T::ZERO);
+        let terms = input.terms.into_iter().map(|term| {
+            let parts = Part::of_term(scene, model, &term);
+            bodies.extend(parts.iter().flat_map(|part| part.bodies).filter_map(BodyId::index));
+            let is_angle = parts.iter().any(Part::is_angle);
+            let length = if is_angle { model.length() } else { T::ONE };
+            scale = scale.max(term.factor.abs() / length);
+            SumTerm { factor: term.factor, curve: term.curve, parts }
+        });
+        let terms = terms.collect();
+        bodies.sort_unstable();
+        bodies.dedup();
+        Self { terms, bodies, scale }
+    }
+
+    /// The moving bodies that it acts on, ascending.
+    pub(super) fn bodies(&self) -> &[usize] {
+        &self.bodies
+    }
+
+    /// Times an effort, this is a force.
+    pub(super) fn scale(&self) -> T {
+        self.scale
+    }
+
+    /// The sum and its rate; angles continue from those that the state remembers.
+    pub(super) fn measure(&self, state: &State<T>) -> [T; 2] {
+        self.terms.iter().fold([T::ZERO; 2], |[sum, rate], term| {
+            let ([value, slope], m_t) = term.evaluate(state);
+            [sum + term.factor * value, rate + term.factor * slope * m_t]
+        })
+    }
+
+    /// Hands out what it does to the bodies at an effort.
+    pub(super) fn apply(&self, effort: T, state: &State<T>, mut take: impl FnMut(Applied<T>)) {
+        for term in &self.terms {
+            let ([_, slope], _) = term.evaluate(state);
+            let weight = term.factor * slope * effort;
+            term.parts.iter().for_each(|part| part.apply(weight, state, &mut take));
+        }
+    }
+}
+
+impl<T: Real, const D: usize> SumTerm<T, D> {
+    /// f(m), f'(m) and the rate of m.
+    fn evaluate(&self, state: &State<T>) -> ([T; 2], T) {
+        let (mut m, mut m_t) = (T::ZERO, T::ZERO);
+        for part in &self.parts {
+            let [value, rate] = part.measure(state);
+            (m, m_t) = (m + value, m_t + rate);
+        }
+        let [value, slope, _] = self.curve.at(m);
+        ([value, slope], m_t)
+    }
+}
+
+impl<T: Real, const D: usize> Part<T, D> {
+    fn of_term(scene: &Scene<T>, model: &NaturalModel<T, D>, term: &TermInput<T>) -> Vec<Self> {
+        match (&term.of, term.coordinate) {
+            (Measured::Length { points }, _) => {
+                let parts = points.windows(2).map(|pair| {
+                    let gap = Vector::<T, 3>::from(pair[1].1) - Vector::from(pair[0].1);
+                    let points = [0, 1].map(|k| model.point(pair[k].0, pair[k].1));
+                    let of = PartKind::Length { points, reference: norm(&gap) };
+                    Self { bodies: [pair[0].0, pair[1].0], of }
+                });
+                parts.collect()
+            }
+            (Measured::Coordinate { .. }, Some(of)) => {
+                Self::of_coordinate(scene, model, of).into_iter().collect()
+            }
+            (Measured::Coordinate { .. }, None) => Vec::new(),
+        }
+    }
+
+    fn of_coordinate(
+        scene: &Scene<T>,
+        model: &NaturalModel<T, D>,
+        of: (usize, usize),
+    ) -> Option<Self> {
+        let joint = &scene.joints[of.0];
+        let mut freedoms = joint.kind.numbered(scene.dimension);
+        let (_, freedom) = freedoms.find(|(number, _)| *number == of.1)?;
+        let memory = model.coupled_angles().find(|angle| angle.0 == of);
+        let of = PartKind::Coordinate {
+            of: Coordinate::of_freedom(scene, model, (joint, freedom)),
+            at: model.point(joint.bodies[1], joint.points[1]),
+            memory: memory.map(|(_, sign, place)| (place, sign)),
+        };
+        Some(Self { bodies: joint.bodies, of })
+    }
+
+    fn is_angle(&self) -> bool {
+        matches!(&self.of, PartKind::Coordinate { of, .. } if of.is_angle())
+    }
+
+    /// Its value and its rate.
+    fn measure(&self, state: &State<T>) -> [T; 2] {
+        match &self.of {
+            PartKind::Coordinate { of, memory, .. } => {
+                let last = memory.map_or(T::ZERO, |(place, sign)| sign * state.memory[place]);
+                let (mut value, mut rate) = ([T::ZERO], [T::ZERO]);
+                of.track(&state.q, &[last], &mut value);
+                of.rates(&state.q, &state.v, &mut rate);
+                [value[0], rate[0]]
+            }
+            PartKind::Length { points, reference } => {
+                let (line, length, _) = along(points, state);
+                let [from, to] = [0, 1].map(|i| points[i].rate(&state.v));
+                [length - *reference, line.dot(&raised(&(to - from)))]
+            }
+        }
+    }
+
+    /// Hands out what does the work `weight` times the rate.
+    fn apply(&self, weight: T, state: &State<T>, mut take: impl FnMut(Applied<T>)) {
+        let [first, second] = self.bodies;
+        let (wrench, places) = match &self.of {
+            PartKind::Coordinate { of, at, .. } => {
+                (of.direction(&state.q).scaled(weight), [raised(&at.value(&state.q)); 2])
+            }
+            PartKind::Length { points, .. } => {
+                let (line, _, places) = along(points, state);
+                (Wrench { force: line * weight, moment: Vector::zeros() }, places)
+            }
+        };
+        take((first, Some(places[0]), wrench.scaled(-T::ONE)));
+        take((second, Some(places[1]), wrench));
+    }
+}
+
+/// The direction from the first point to the second, zero where they coincide, their distance, and their places.
+fn along<T: Real, const D: usize>(
+    points: &[Affine<T, D>; 2],
+    state: &State<T>,
+) -> (Vector<T, 3>, T, [Vector<T, 3>; 2]) {
+    let [from, to] = [0, 1].map(|i| raised(&points[i].value(&state.q)));
+    let length = norm(&(to - from));
+    let inverse = if length > T::ZERO { T::ONE / length } else { T::ZERO };
+    ((to - from) * inverse, length, [from, to])
+}
