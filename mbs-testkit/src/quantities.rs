@@ -1,9 +1,9 @@
 //! Every quantity that an output of a scene can have.
 
 use mbs_core::outputs::{QUANTITIES, Quantity, Target, TargetKind};
-use mbs_core::scene::{BodyId, Inertia, JointId, Output, Scene};
+use mbs_core::scene::{BodyId, CouplingId, EffectId, Inertia, JointId, Output, Scene};
 
-/// All quantities of centres of mass, bodies and joints, in the order of the table.
+/// All quantities of centres of mass, bodies, joints, couplings, effects and the scene, in the order of the table.
 #[must_use]
 pub fn every(scene: &Scene<f64>) -> Vec<Quantity<f64>> {
     let center = |body: usize| match scene.bodies[body].inertia {
@@ -18,6 +18,13 @@ pub fn every(scene: &Scene<f64>) -> Vec<Quantity<f64>> {
             TargetKind::Joint => {
                 (0..scene.joints.len()).map(|joint| Target::Joint(JointId::new(joint))).collect()
             }
+            TargetKind::Coupling => {
+                (0..scene.couplings.len()).map(|i| Target::Coupling(CouplingId::new(i))).collect()
+            }
+            TargetKind::Effect => {
+                (0..scene.effects.len()).map(|i| Target::Effect(EffectId::new(i))).collect()
+            }
+            TargetKind::Scene => [Target::Scene].into(),
         };
         targets.into_iter().filter_map(|target| Quantity::of(row.name, target))
     });

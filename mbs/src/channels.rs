@@ -1,4 +1,4 @@
-//! What the channels of a run read: measures, and joint reactions where an output asks for one.
+//! What the channels of a run read: measures, and reactions and effects where an output asks for them.
 
 use crate::checkpoint::tape::{Tape, Walked, holds};
 use crate::simulation::Simulation;
@@ -6,17 +6,18 @@ use crate::stop::StopError;
 use mbs_core::Real;
 use mbs_core::model::State;
 use mbs_core::natural::NaturalModel;
-use mbs_core::outputs::{Measures, Reactions, Target};
+use mbs_core::outputs::{Forces, Measures, Target};
 use mbs_core::scene::Scene;
 
-/// Measures and reactions of a scene.
+/// Measures and forces of a scene.
 #[derive(Debug, Clone)]
 pub struct Channels<T: Real, const D: usize> {
     measures: Measures<T, D>,
-    reactions: Option<Reactions<T, D>>,
-    /// Joints whose reaction is an output and was not unique at some row.
+    forces: Option<Forces<T, D>>,
+    /// Joints whose reaction is an output and was not unique at some row, and couplings with their effort, numbered after the joints.
     not_unique: Vec<usize>,
     asked: Vec<usize>,
+    n_joints: usize,
     /// Where the components of each output end.
     outputs: Vec<usize>,
 }
@@ -28,14 +29,13 @@ impl<T: Real, const D: usize> Channels<T, D> {
     /// [`StopError`] for an output that cannot be measured.
     pub fn new(scene: &Scene<T>, model: &NaturalModel<T, D>) -> Result<Self, StopError> {
         let measures = Measures::new(scene, model).map_err(|e| StopError::Start(e.into()))?;
-        let reactions = Reactions::<T, D>::needed(scene)
-            .then(|| Reactions::new(scene, model))
-            .transpose()
-            .map_err(StopError::Reaction)?;
+        let forces = Forces::new(scene, model).map_err(StopError::Reaction)?;
         let asked = scene.outputs.iter().filter(|o| o.quantity.row().needs_reactions);
+        let n_joints = scene.joints.len();
         let asked: Vec<usize> = asked
             .filter_map(|o| match o.quantity.target() {
                 Target::Joint(joint) => Some(joint.index()),
+                Target::Coupling(coupling) => Some(n_joints + coupling.index()),
                 _ => None,
             })
             .collect();
@@ -45,12 +45,13 @@ impl<T: Real, const D: usize> Channels<T, D> {
         });
         let outputs = ends.collect();
         let not_unique = Vec::with_capacity(asked.len());
-        Ok(Self { measures, reactions, not_unique, asked, outputs })
+        let forces = Some(forces);
+        Ok(Self { measures, forces, not_unique, asked, n_joints, outputs })
     }
 
-    /// Exchanges what reactions are made of: the same scene with other effects has others.
-    pub fn exchange(&mut self, reactions: &mut Option<Reactions<T, D>>) {
-        core::mem::swap(&mut self.reactions, reactions);
+    /// Exchanges what forces are made of: the same scene with other effects has others.
+    pub fn exchange(&mut self, forces: &mut Option<Forces<T, D>>) {
+        core::mem::swap(&mut self.forces, forces);
     }
 
     /// Writes what is remembered of them, or reads it back.
@@ -81,16 +82,20 @@ impl<T: Real, const D: usize> Channels<T, D> {
     /// # Errors
     /// [`StopError::Output`] for one that is not finite, as the acceleration of a point beyond all measure.
     pub fn write(&mut self, state: &State<T>, out: &mut [T]) -> Result<(), StopError> {
-        if let Some(reactions) = &mut self.reactions {
-            reactions.update(state);
-            for &joint in &self.asked {
-                if !reactions.is_unique(joint) && !self.not_unique.contains(&joint) {
-                    self.not_unique.push(joint);
+        self.forces.iter_mut().for_each(|forces| forces.update(state));
+        if let Some(reactions) = self.forces.as_ref().and_then(Forces::reactions) {
+            for &asked in &self.asked {
+                let is_unique = match asked.checked_sub(self.n_joints) {
+                    None => reactions.is_unique(asked),
+                    Some(coupling) => reactions.is_effort_unique(coupling),
+                };
+                if !is_unique && !self.not_unique.contains(&asked) {
+                    self.not_unique.push(asked);
                 }
             }
         }
         // A state that was tracked before: its turns are known.
-        let _ = self.measures.write(state, self.reactions.as_ref(), out);
+        let _ = self.measures.write(state, self.forces.as_ref(), out);
         let Some(bad) = out.iter().position(|x| !x.to_f64().is_finite()) else { return Ok(()) };
         Err(StopError::Output { output: self.outputs.partition_point(|end| *end <= bad) })
     }
@@ -100,8 +105,12 @@ impl<T: Real, const D: usize> Channels<T, D> {
         self.measures.lengths()
     }
 
-    /// Names of the joints whose reaction was not unique.
+    /// Names of the joints whose reaction was not unique, and of the couplings whose effort was not.
     pub fn not_unique(&self, scene: &Scene<T>) -> Vec<String> {
-        self.not_unique.iter().map(|&j| scene.joints[j].name.clone()).collect()
+        let name = |&i: &usize| match i.checked_sub(self.n_joints) {
+            None => scene.joints[i].name.clone(),
+            Some(coupling) => scene.couplings[coupling].name.clone(),
+        };
+        self.not_unique.iter().map(name).collect()
     }
 }

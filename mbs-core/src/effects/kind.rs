@@ -4,7 +4,7 @@ use super::{EffectData, EffectKind, Field, Value};
 use crate::Real;
 use crate::actions::Compiler;
 use crate::scene::check::Place;
-use crate::scene::{BodyId, SceneError, Surroundings};
+use crate::scene::{BodyId, JointId, SceneError, Surroundings, UserLaw};
 use alloc::vec::Vec;
 
 /// What a kind of effect does, and what it says of itself.
@@ -129,6 +129,38 @@ impl<T: Clone> EffectKind<T> {
             }
         }
         places
+    }
+}
+
+/// What an effect acts on.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum ActsOn {
+    /// A line between two points, by one number.
+    Line,
+    /// A joint, by one number.
+    Joint(JointId),
+    /// One body or two, by several numbers.
+    Bodies,
+}
+
+impl<T: Clone> EffectKind<T> {
+    /// What it acts on.
+    #[must_use]
+    pub fn acts_on(&self) -> ActsOn {
+        if let Self::Own(own) = self {
+            return match own.law {
+                UserLaw::Length { .. } => ActsOn::Line,
+                UserLaw::Joint { joint, .. } => ActsOn::Joint(joint),
+                UserLaw::Body { .. } => ActsOn::Bodies,
+            };
+        }
+        let values = self.values();
+        let on = values.iter().find_map(|value| match value {
+            Value::Points(_) => Some(ActsOn::Line),
+            Value::Joint(joint) => Some(ActsOn::Joint(*joint)),
+            _ => None,
+        });
+        on.unwrap_or(ActsOn::Bodies)
     }
 }
 

@@ -22,7 +22,7 @@ pub use field::{Default, Field, Form, JointNeed, Sign, SignalForm, Value};
 #[cfg(feature = "alloc")]
 pub(crate) use kind::EffectModel;
 #[cfg(feature = "alloc")]
-pub use kind::Row;
+pub use kind::{ActsOn, Row};
 pub use law::{BodyLaw, Law, laws};
 
 #[cfg(feature = "alloc")]

@@ -3,7 +3,7 @@
 use super::frame::Frame;
 use super::wrench::Wrench;
 use crate::Real;
-use crate::algebra::{Vector, cross, raised, rotation_vector, unit};
+use crate::algebra::{Vector, cross, norm, raised, rotation_vector, unit};
 use crate::model::State;
 use crate::natural::{self, Affine, NaturalModel, Places, unwrap, unwrap_rotation};
 use crate::scene::{BodyId, Freedom, Joint, Scene};
@@ -16,7 +16,7 @@ const LARGE_TURN: f64 = 0.3;
 /// Largest relative difference of such a turn by positions and by rates [-]: above the 0.7 % of the rule.
 const MISFIT: f64 = 1e-2;
 
-/// One coordinate of a joint, or the three of a turn.
+/// One coordinate of a joint, or the three of a turn; or the four of a body's orientation.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) enum Coordinate<T: Real, const D: usize> {
     /// `sign` times the angle of y in the frame x1, x2.
@@ -25,6 +25,8 @@ pub(super) enum Coordinate<T: Real, const D: usize> {
     Slide { x: Affine<T, D>, y: Affine<T, D> },
     /// Rotation of the second body against the first.
     Turn { frames: Box<[Frame<T, D>; 2]> },
+    /// Rotation of a body as a unit quaternion, its scalar part first.
+    Quaternion { frame: Box<Frame<T, D>> },
 }
 
 impl<T: Real, const D: usize> Coordinate<T, D> {
@@ -65,9 +67,18 @@ impl<T: Real, const D: usize> Coordinate<T, D> {
         }
     }
 
+    /// The rotation of a body in space against the reference configuration.
+    pub(super) fn quaternion(scene: &Scene<T>, model: &NaturalModel<T, D>, body: BodyId) -> Self {
+        Self::Quaternion { frame: Box::new(Frame::new(scene, model, body)) }
+    }
+
     /// How many numbers it has.
     pub(super) fn len(&self) -> usize {
-        if matches!(self, Self::Turn { .. }) { 3 } else { 1 }
+        match self {
+            Self::Angle { .. } | Self::Slide { .. } => 1,
+            Self::Turn { .. } => 3,
+            Self::Quaternion { .. } => 4,
+        }
     }
 
     /// Is it one that turns more than once?
@@ -84,6 +95,16 @@ impl<T: Real, const D: usize> Coordinate<T, D> {
                 let r = frames[0].rotation(q).transpose() * frames[1].rotation(q);
                 let w = unwrap_rotation(&rotation_vector(&r), &Vector::from_fn(|i, _| expected[i]));
                 last.copy_from_slice(w.as_slice());
+            }
+            Self::Quaternion { frame } => {
+                let half = rotation_vector(&frame.rotation(q)) * T::HALF;
+                let angle = norm(&half);
+                let (sin, cos) = angle.sin_cos();
+                let by = if angle > T::ZERO { sin / angle } else { T::ONE };
+                let found = [cos, half[0] * by, half[1] * by, half[2] * by];
+                let along = found.iter().zip(expected).fold(T::ZERO, |sum, (x, y)| sum + *x * *y);
+                let sign = if along < T::ZERO { -T::ONE } else { T::ONE };
+                last.copy_from_slice(&found.map(|x| x * sign));
             }
         }
     }
@@ -107,7 +128,7 @@ impl<T: Real, const D: usize> Coordinate<T, D> {
                     (cross(&y, &x2) * c - cross(&y, &x1) * s) * (T::ONE / (c * c + s * s));
             }
             Self::Slide { y, .. } => wrench.force = raised(&y.value(q)),
-            Self::Turn { .. } => {}
+            Self::Turn { .. } | Self::Quaternion { .. } => {}
         }
         wrench
     }
@@ -151,6 +172,55 @@ impl<T: Real, const D: usize> Coordinate<T, D> {
                 let omega = frames[1].turning(q, v) - frames[0].turning(q, v);
                 out.copy_from_slice(omega.as_slice());
             }
+            // its rate is the angular velocity of the body
+            Self::Quaternion { .. } => out.fill(T::ZERO),
+        }
+    }
+
+    /// Writes the accelerations at a state.
+    pub(super) fn accelerations(&self, state: &State<T>, out: &mut [T]) {
+        match self {
+            // the derivative of its rate
+            Self::Turn { .. } => self.rates(&state.q, &state.a, out),
+            _ => out.fill(self.motion(state)[1]),
+        }
+    }
+
+    /// Rate and acceleration of an angle or a slide; zero of others.
+    fn motion(&self, state: &State<T>) -> [T; 2] {
+        let State { q, v, a, .. } = state;
+        // x.y, its rate and its second derivative
+        let product = |x: &Affine<T, D>, y: &Affine<T, D>| {
+            let ([x, xt, xtt], [y, yt, ytt]) =
+                [x, y].map(|z| [z.value(q), z.rate(v), z.rate(a)]).into();
+            let second = xtt.dot(&y) + T::TWO * xt.dot(&yt) + x.dot(&ytt);
+            [x.dot(&y), xt.dot(&y) + x.dot(&yt), second]
+        };
+        match self {
+            Self::Angle { x1, x2, y, sign } => {
+                let ([c, ct, ctt], [s, st, stt]) = (product(x1, y), product(x2, y));
+                // tan theta = s/c, r^2 = c^2 + s^2
+                let inverse = T::ONE / (c * c + s * s);
+                let rate = (c * st - s * ct) * inverse;
+                let turning = (c * stt - s * ctt) * inverse;
+                let change = T::TWO * (c * ct + s * st) * inverse * rate;
+                [rate, turning - change].map(|x| x * *sign)
+            }
+            Self::Slide { x, y } => {
+                let [_, rate, acceleration] = product(x, y);
+                [rate, acceleration]
+            }
+            Self::Turn { .. } | Self::Quaternion { .. } => [T::ZERO; 2],
+        }
+    }
+
+    /// Writes what a wrench of the first body on the second, at the joint's place there, does on the coordinate.
+    pub(super) fn efforts(&self, q: &[T], wrench: &Wrench<T>, out: &mut [T]) {
+        if let Self::Turn { .. } = self {
+            out.copy_from_slice(wrench.moment.as_slice());
+        } else {
+            let along = self.direction(q);
+            out.fill(wrench.force.dot(&along.force) + wrench.moment.dot(&along.moment));
         }
     }
 }
@@ -172,30 +242,7 @@ impl<T: Real, const D: usize> CoordinateMotion<T, D> {
     /// Its rate and its acceleration at a state [rad/s or m/s, rad/s^2 or m/s^2]. Cost: a few products, no allocation.
     #[must_use]
     pub fn at(&self, state: &State<T>) -> [T; 2] {
-        let State { q, v, a, .. } = state;
-        // x.y, its rate and its second derivative
-        let product = |x: &Affine<T, D>, y: &Affine<T, D>| {
-            let ([x, xt, xtt], [y, yt, ytt]) =
-                [x, y].map(|z| [z.value(q), z.rate(v), z.rate(a)]).into();
-            let second = xtt.dot(&y) + T::TWO * xt.dot(&yt) + x.dot(&ytt);
-            [x.dot(&y), xt.dot(&y) + x.dot(&yt), second]
-        };
-        match &self.coordinate {
-            Coordinate::Angle { x1, x2, y, sign } => {
-                let ([c, ct, ctt], [s, st, stt]) = (product(x1, y), product(x2, y));
-                // tan theta = s/c, r^2 = c^2 + s^2
-                let inverse = T::ONE / (c * c + s * s);
-                let rate = (c * st - s * ct) * inverse;
-                let turning = (c * stt - s * ctt) * inverse;
-                let change = T::TWO * (c * ct + s * st) * inverse * rate;
-                [rate, turning - change].map(|x| x * *sign)
-            }
-            Coordinate::Slide { x, y } => {
-                let [_, rate, acceleration] = product(x, y);
-                [rate, acceleration]
-            }
-            Coordinate::Turn { .. } => [T::ZERO; 2],
-        }
+        self.coordinate.motion(state)
     }
 }
 

@@ -1,9 +1,11 @@
 //! What effects exert on bodies, as reactions take it.
 
 use super::frame::Frame;
-use super::load::Loads;
+use super::load::{Load, Loads};
 use super::wrench::Wrench;
 use crate::Real;
+use crate::algebra::Matrix;
+use crate::laws::scalar::ScalarForce;
 use crate::model::State;
 use crate::natural::{ModelError, NaturalModel};
 use crate::scene::{BodyId, Scene};
@@ -31,24 +33,67 @@ impl<T: Real, const D: usize> EffectWrenches<T, D> {
         Ok(Self { loads, effects, frames, ground: frame(BodyId::Ground) })
     }
 
+    /// Sets the functions of time that effects follow to those of a state.
+    pub fn update(&mut self, state: &State<T>) {
+        self.loads.update(state);
+    }
+
     /// What an effect exerts at a state: on its body, or on the second of its two, global axes. The moment is about the point of that body where
     /// the effect is attached, as it has moved; an effect about an angle has a moment alone. Zero where the effect is not there.
     ///
     /// Cost: one evaluation of the effect's laws, and one look at each other effect; no allocation.
     pub fn of(&mut self, effect: usize, state: &State<T>) -> Wrench<T> {
-        let Self { loads, effects, frames, ground } = self;
-        let (list, law_inputs) = loads.at(state);
+        self.update(state);
+        self.wrench(effect, state)
+    }
+
+    /// The same at the state that was [set](Self::update).
+    pub(super) fn wrench(&self, effect: usize, state: &State<T>) -> Wrench<T> {
+        let law_inputs = self.loads.law_inputs();
         let mut sum = Wrench::zero();
-        for (load, _) in list.iter().zip(effects).filter(|(_, owner)| **owner == effect) {
-            let turned = |body| match body {
-                BodyId::Ground => ground.rotation(&state.q),
-                BodyId::Body(body) => frames[body].rotation(&state.q),
-            };
+        for load in self.loads_of(Some(effect)) {
             // the second of two bodies comes last
             let mut last = Wrench::zero();
+            let turned = |body| self.turned(body, state);
             load.apply((state, &law_inputs), turned, |(_, _, wrench)| last = wrench);
             sum.add(&last);
         }
         sum
+    }
+
+    /// The number that an effect along a line or on a joint measures, its rate and its tension; zero of what measures none.
+    pub(super) fn scalar(&self, effect: usize, state: &State<T>) -> ScalarForce<T> {
+        let law_inputs = self.loads.law_inputs();
+        let mut loads = self.loads_of(Some(effect));
+        loads.find_map(|load| load.scalar(state, &law_inputs)).unwrap_or_default()
+    }
+
+    /// Energy stored in an effect, or in all [J].
+    pub(super) fn energy(&self, effect: Option<usize>, state: &State<T>) -> T {
+        let law_inputs = self.loads.law_inputs();
+        let turned = |body| self.turned(body, state);
+        let loads = self.loads_of(effect);
+        loads.fold(T::ZERO, |sum, load| sum + load.energy((state, &law_inputs), turned))
+    }
+
+    /// Power that an effect gives to bodies [W].
+    pub(super) fn power(&self, effect: usize, state: &State<T>) -> T {
+        let law_inputs = self.loads.law_inputs();
+        let turned = |body| self.turned(body, state);
+        let loads = self.loads_of(Some(effect));
+        loads.fold(T::ZERO, |sum, load| sum + load.power((state, &law_inputs), turned))
+    }
+
+    /// The parts of an effect, or of all.
+    fn loads_of(&self, effect: Option<usize>) -> impl Iterator<Item = &Load<T, D>> {
+        let all = self.loads.list().iter().zip(&self.effects);
+        all.filter(move |(_, of)| effect.is_none_or(|effect| **of == effect)).map(|(load, _)| load)
+    }
+
+    fn turned(&self, body: BodyId, state: &State<T>) -> Matrix<T, 3> {
+        match body {
+            BodyId::Ground => self.ground.rotation(&state.q),
+            BodyId::Body(body) => self.frames[body].rotation(&state.q),
+        }
     }
 }

@@ -1,8 +1,8 @@
 //! The numbers of all channels of a scene at a state.
 
 use super::coordinate::Coordinate;
+use super::forces::Forces;
 use super::quantity::{Channel, Instant, Maker};
-use super::reaction::Reactions;
 use crate::Real;
 use crate::measure::given_values;
 use crate::model::State;
@@ -111,11 +111,11 @@ impl<T: Real, const D: usize> Measures<T, D> {
         time[0] = state.t;
         let mut lost = Ok(());
         for (channel, _) in channels {
-            let Channel::JointValue(value) = channel else { continue };
+            let Some(value) = channel.followed() else { continue };
             let mut at = value.start;
             for (number, coordinate) in value.coordinates.iter().enumerate() {
                 let end = at + coordinate.len();
-                let mut expected = [T::ZERO; 3];
+                let mut expected = [T::ZERO; 4];
                 let expected = &mut expected[..end - at];
                 expected.copy_from_slice(&values[at..end]);
                 if !coordinate.is_angle() {
@@ -125,19 +125,19 @@ impl<T: Real, const D: usize> Measures<T, D> {
                 }
                 let (last, before) = (values[at], rates[at]);
                 coordinate.rates(&state.q, &state.v, &mut rates[at..end]);
-                if let Some(known) = known(value.joint, number) {
+                if let Some(known) = value.joint.and_then(|joint| known(joint, number)) {
                     expected[0] = known;
                 } else if has_passed {
                     expected[0] = Coordinate::<T, D>::expected(last, [before, rates[at]], dt);
                 }
                 coordinate.track(&state.q, expected, &mut values[at..end]);
-                if is_checked && has_passed {
+                if let (true, true, Some(joint)) = (is_checked, has_passed, value.joint) {
                     turns[at] += expected[0] - last;
                     misfits[at] += expected[0] - values[at];
                     let (turn, misfit) = (expected[0] - last, misfits[at].abs());
                     let most = (T::PI * T::HALF).max(turns[at].abs() * T::from_f64(MISFIT));
                     if misfit > most && lost.is_ok() {
-                        let joint = u32::try_from(value.joint).unwrap_or(u32::MAX);
+                        let joint = u32::try_from(joint).unwrap_or(u32::MAX);
                         lost = Err(StepError::TurnTooLarge { joint, turn: turn.to_f64() });
                     }
                 }
@@ -149,7 +149,7 @@ impl<T: Real, const D: usize> Measures<T, D> {
 
     /// Tracks `state` and writes all components in the order of the channels.
     ///
-    /// `reactions` are those of the state; without them the channels that are reactions are zero.
+    /// `forces` are those of the state; without them the channels that read reactions or effects are zero.
     ///
     /// Cost: as [`track`](Self::track), and a few products for each point; no allocation.
     ///
@@ -161,12 +161,15 @@ impl<T: Real, const D: usize> Measures<T, D> {
     pub fn write(
         &mut self,
         state: &State<T>,
-        reactions: Option<&Reactions<T, D>>,
+        forces: Option<&Forces<T, D>>,
         out: &mut [T],
     ) -> Result<(), StepError> {
         assert_eq!(out.len(), self.n_components, "one place per component");
         let tracked = self.track(state);
-        let now = Instant { state, values: &self.memory[..self.n_values], reactions };
+        let values = &self.memory[..self.n_values];
+        let (reactions, effects) =
+            (forces.and_then(Forces::reactions), forces.and_then(Forces::effects));
+        let now = Instant { state, values, reactions, effects };
         let mut rest = out;
         for (channel, length) in &self.channels {
             let (here, tail) = rest.split_at_mut(*length);

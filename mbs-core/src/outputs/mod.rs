@@ -1,7 +1,8 @@
 //! What is recorded of a motion: points, joint coordinates and reactions, measured from a state of the model.
 //!
 //! Nothing here depends on a formulation or an integrator. [`Measures`] reads positions, velocities and accelerations.
-//! [`Reactions`] closes the balance of every body of the scene from them. [`EffectWrenches`] has the wrenches of effects, [`Contacts`]
+//! [`Reactions`] closes the balance of every body of the scene from them, with the efforts of couplings. [`EffectWrenches`] has what effects do;
+//! [`Forces`] has both, where outputs ask for them, and [`Contacts`]
 //! the instants at which one-sided effects touch. [`Turns`] checks whether positions determine how far joints have turned in a step.
 //! [`Events`] finds where within a step a law's kink is passed, for steps that are to end there.
 
@@ -12,7 +13,9 @@ mod cubic;
 mod error;
 mod event;
 mod exerted;
+mod forces;
 mod frame;
+mod inertia;
 mod leaf_elimination;
 mod load;
 mod measure;
@@ -28,6 +31,7 @@ pub use coordinate::CoordinateMotion;
 pub use error::ReactionError;
 pub use event::{EventHistory, Events};
 pub use exerted::EffectWrenches;
+pub use forces::Forces;
 pub use measure::{Measures, start_values};
 pub use quantity::{
     Component, ComponentForm, QUANTITIES, Quantity, QuantityRow, Target, TargetKind,

@@ -11,16 +11,15 @@
 
 use super::coupled_sum::CoupledSum;
 use super::error::ReactionError;
-use super::frame::Frame;
+use super::inertia::BodyInertia;
 use super::leaf_elimination::{Block, eliminate_leaves};
 use super::load::{Applied, Loads};
 use super::minimum_norm::MinimumNorm;
 use super::wrench::{Wrench, WrenchBasis};
 use crate::Real;
 use crate::algebra::{Matrix, Vector, cross, raised};
-use crate::cluster::mass_properties;
 use crate::model::State;
-use crate::natural::{Affine, ModelError, NaturalModel};
+use crate::natural::{ModelError, NaturalModel};
 use crate::scene::{BodyId, Scene};
 use alloc::vec;
 use alloc::vec::Vec;
@@ -55,11 +54,7 @@ pub struct Reactions<T: Real, const D: usize> {
 /// One body.
 #[derive(Debug, Clone)]
 struct Balance<T: Real, const D: usize> {
-    frame: Frame<T, D>,
-    center: Affine<T, D>,
-    mass: T,
-    /// Reference configuration, about the centre of mass.
-    inertia: Matrix<T, 3>,
+    body: BodyInertia<T, D>,
     /// At the state: rotation, centre of mass, and what the unsolved joints must give about it.
     turned: Matrix<T, 3>,
     at: Vector<T, 3>,
@@ -67,11 +62,6 @@ struct Balance<T: Real, const D: usize> {
 }
 
 impl<T: Real, const D: usize> Reactions<T, D> {
-    /// Does some output ask for a reaction?
-    pub fn needed(scene: &Scene<T>) -> bool {
-        scene.outputs.iter().any(|output| output.quantity.row().needs_reactions)
-    }
-
     /// Prepares a scene that passed its check; all memory is taken here.
     ///
     /// # Errors
@@ -292,29 +282,25 @@ fn take_off<T: Real, const D: usize>(bodies: &mut [Balance<T, D>], (body, at, wr
 
 impl<T: Real, const D: usize> Balance<T, D> {
     fn new(scene: &Scene<T>, model: &NaturalModel<T, D>, body: usize) -> Self {
-        let (mass, center, inertia) = mass_properties(scene, body);
-        let me = BodyId::Body(body);
         Self {
-            frame: Frame::new(scene, model, me),
-            center: model.point(me, center.into()),
-            mass,
-            inertia,
+            body: BodyInertia::new(scene, model, body),
             turned: Matrix::<T, 3>::identity(),
-            at: center,
+            at: Vector::zeros(),
             missing: Wrench::zero(),
         }
     }
 
     /// What all joints and effects together must give: [m (c'' - g); I omega' + omega x I omega].
     fn update(&mut self, state: &State<T>, gravity: &Vector<T, 3>) {
-        let r = self.frame.rotation(&state.q);
-        let omega = self.frame.turning(&state.q, &state.v);
-        let alpha = self.frame.turning(&state.q, &state.a);
-        let inertia = r * self.inertia * r.transpose();
+        let BodyInertia { frame, center, mass, inertia } = &self.body;
+        let r = frame.rotation(&state.q);
+        let omega = frame.turning(&state.q, &state.v);
+        let alpha = frame.turning(&state.q, &state.a);
+        let inertia = r * *inertia * r.transpose();
         self.turned = r;
-        self.at = raised(&self.center.value(&state.q));
+        self.at = raised(&center.value(&state.q));
         self.missing = Wrench {
-            force: (raised(&self.center.rate(&state.a)) - gravity) * self.mass,
+            force: (raised(&center.rate(&state.a)) - gravity) * *mass,
             moment: inertia * alpha + cross(&omega, &(inertia * omega)),
         };
     }

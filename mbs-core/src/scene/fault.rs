@@ -56,6 +56,8 @@ pub enum SceneFault {
     },
     /// The joint has no coordinates to speak about.
     NoCoordinate,
+    /// The effect does not measure one number.
+    NoMeasure,
     /// The coordinate is not there; the number of coordinates that the joint has.
     UnknownCoordinate(usize),
     /// The coordinate is a component of a rotation, which is no angle of its own.
@@ -167,6 +169,9 @@ impl SceneFault {
             Self::WrongDimension => "planar bodies have one number, spatial bodies six",
             Self::WrongCount { .. } => "write as many numbers as the joint or table needs",
             Self::NoCoordinate => "remove this entry, or name another joint",
+            Self::NoMeasure => {
+                "ask for `force`, `energy` or `power`, or name an effect along a line or on a joint"
+            }
             Self::UnknownCoordinate(_) => "count the joint's coordinates from 0",
             Self::BallCoordinate => "name a joint that turns about axes, such as a universal joint",
             Self::NoTerm => "write a term with a factor that is not zero",
@@ -232,6 +237,10 @@ impl SceneFault {
                 write!(f, "needs {needed} number{plural}, but has {found}")
             }
             Self::NoCoordinate => write!(f, "is a joint without coordinates"),
+            Self::NoMeasure => write!(
+                f,
+                "is not measured by this effect, which acts on bodies in several directions"
+            ),
             Self::UnknownCoordinate(n) => {
                 write!(
                     f,

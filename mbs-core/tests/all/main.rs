@@ -13,6 +13,7 @@ mod least;
 mod model;
 mod motion;
 mod outputs;
+mod quantities;
 mod reactions;
 mod start;
 mod undetermined;

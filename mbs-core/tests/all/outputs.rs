@@ -2,7 +2,7 @@
 
 use crate::small::{GROUND, add_body, add_joint, add_rod, hold, output, scene, start};
 use mbs_core::algebra::{Matrix, Vector, rotation, rotation_vector};
-use mbs_core::outputs::{Measures, QUANTITIES, Reactions};
+use mbs_core::outputs::{Forces, Measures, QUANTITIES};
 use mbs_core::scene::{
     BodyId, Dimension, Inertia, JointId, JointKind, Motion, Quantity, Scene, TableEnds,
 };
@@ -72,11 +72,11 @@ fn is_as_its_row_says<const D: usize>(text: &str) {
     }
     quantities::show(&mut scene, all);
     let (model, state) = start::<D>(&scene);
-    let mut reactions = Reactions::new(&scene, &model).expect("reactions");
-    reactions.update(&state);
+    let mut forces = Forces::new(&scene, &model).expect("reactions");
+    forces.update(&state);
     let mut measures = Measures::new(&scene, &model).expect("channels");
     let mut out = vec![f64::NAN; measures.n_components()];
-    measures.write(&state, Some(&reactions), &mut out).expect("turns are known");
+    measures.write(&state, Some(&forces), &mut out).expect("turns are known");
     assert!(out.iter().all(|x| x.is_finite()), "{out:?}");
 }
 

@@ -71,6 +71,15 @@ pub enum ReadFault {
         /// The names that are there.
         known: Vec<String>,
     },
+    /// A coupling or an effect of that name is not in the file.
+    UnknownPart {
+        /// `couplings` or `effects`.
+        list: &'static str,
+        /// The name as written.
+        name: String,
+        /// The names that are there.
+        known: Vec<String>,
+    },
     /// The ground where a moving body is needed.
     GroundDoesNotMove,
     /// A value of another type.
@@ -185,6 +194,9 @@ impl Display for ReadFault {
             Self::UnknownWord { key, found, .. } => write!(f, "unknown {key} `{found}`"),
             Self::UnknownBody { name, .. } => write!(f, "unknown body `{name}`"),
             Self::UnknownJoint { name, .. } => write!(f, "unknown joint `{name}`"),
+            Self::UnknownPart { list, name, .. } => {
+                write!(f, "unknown {} `{name}`", list.trim_end_matches('s'))
+            }
             Self::GroundDoesNotMove => write!(f, "the ground does not move"),
             Self::WrongType { expected, found } => write!(f, "expected {expected}, found {found}"),
             Self::NumberInText { text } => match units::quantity(text) {
@@ -221,9 +233,9 @@ impl Display for ReadFault {
 }
 
 /// What an output without an owner lacks.
-pub(crate) const OWNER: &str = "joint or body";
-const OF_WHOM: &str = "add `joint = \"...\"` for its value, rate or reaction, or `body = \"...\"` with `at = [...]` for the position, velocity or \
-                       acceleration of a point";
+pub(crate) const OWNER: &str = "joint, body, coupling or effect";
+const OF_WHOM: &str = "add `joint = \"...\"` for its value, rate or reaction, `body = \"...\"` with `at = [...]` for the position, velocity or \
+                       acceleration of a point, or the `coupling` or `effect`; the energy, momentum and center-of-mass are of the scene";
 const INERTIA: &str = "add `inertia`, about the centre of mass [kg m^2]: one number in the plane, six in space; a point mass that is welded \
                        to a body has zeros; a slender rod has \
                        `rod = { from = [...], to = [...] }` instead of `center` and `inertia`";
@@ -241,6 +253,7 @@ impl ReadFault {
             Self::UnknownWord { found, known, .. } => nearest_name(found, known, "choices"),
             Self::UnknownBody { name, known } => nearest_name(name, known, "bodies"),
             Self::UnknownJoint { name, known } => nearest_name(name, known, "joints"),
+            Self::UnknownPart { list, name, known } => nearest_name(name, known, list),
             Self::GroundDoesNotMove => "name a body".to_owned(),
             Self::WrongType { expected, .. } => format!("write {expected}"),
             Self::WrongCount { needed, .. } => {

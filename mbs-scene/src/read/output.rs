@@ -3,11 +3,22 @@
 use crate::read::ReadFault;
 use crate::read::error::OWNER;
 use crate::read::fields::{Fields, Read};
+use crate::read::names::Names;
 use mbs_core::outputs::{QUANTITIES, Quantity, QuantityRow, Target, TargetKind};
-use mbs_core::scene::{Number, Output, SolverTable};
+use mbs_core::scene::{CouplingId, EffectId, Number, Output, SolverTable};
 
-pub(crate) fn read(fields: &Fields<'_>) -> Read<Output<Number>> {
-    fields.exclusive("joint", "body")?;
+/// Keys that say what an output is of; one at most.
+const OWNERS: [&str; 4] = ["joint", "body", "coupling", "effect"];
+
+/// Reads an output of a scene with these couplings and effects.
+pub(crate) fn read(
+    fields: &Fields<'_>,
+    couplings: &Names,
+    effects: &Names,
+) -> Read<Output<Number>> {
+    for (i, one) in OWNERS.iter().enumerate() {
+        OWNERS[i + 1..].iter().try_for_each(|other| fields.exclusive(one, other))?;
+    }
     let keys = |of: &[&'static str]| [&["name"], of, &["quantity"]].concat();
     let mut every = Vec::new();
     for key in QUANTITIES.iter().flat_map(|row| row.target.keys()) {
@@ -15,32 +26,60 @@ pub(crate) fn read(fields: &Fields<'_>) -> Read<Output<Number>> {
             every.push(*key);
         }
     }
-    let is_here = |row: &&QuantityRow| fields.get(row.target.keys()[0]).is_some();
+    let word = fields.get("quantity").map(|_| fields.word("quantity")).transpose()?;
+    let has_owner = OWNERS.iter().any(|owner| fields.get(owner).is_some());
+    let is_here = |row: &&QuantityRow| match row.target.keys().first() {
+        Some(owner) => fields.get(owner).is_some(),
+        // only what the whole scene alone has needs no owner
+        None => !has_owner && word.is_some_and(|word| row.has_name(word.0)),
+    };
     let rows: Vec<&QuantityRow> = QUANTITIES.iter().filter(is_here).collect();
     let Some(first) = rows.first() else {
         fields.allow(&keys(&every), &[])?;
         return fields.context.fault(fields.header, ReadFault::Missing { key: OWNER });
     };
-    let word = fields.get("quantity").map(|_| fields.word("quantity")).transpose()?;
     let word = word.unwrap_or((first.name, fields.header));
     let unknown = || {
         let known: Vec<_> = rows.iter().map(|row| row.name).collect();
         fields.unknown_word("quantity", word, &known)
     };
     // before keys are missed that another quantity has
-    let Some(kind) = rows.iter().find(|row| row.name == word.0).map(|row| row.target) else {
+    let Some(kind) = rows.iter().find(|row| row.has_name(word.0)).map(|row| row.target) else {
         return unknown();
     };
     fields.allow(&keys(kind.keys()), &keys(&every))?;
-    let owner = fields.need(kind.keys()[0])?;
-    let body = || fields.context.moving_body(owner);
-    let target = match kind {
-        TargetKind::Point => Target::Point(body()?, fields.vector("at")?),
-        TargetKind::Body => Target::Body(body()?),
-        TargetKind::Joint => Target::Joint(fields.context.joint(owner)?),
-    };
+    let target = target(fields, kind, [couplings, effects])?;
     let Some(quantity) = Quantity::of(word.0, target) else { return unknown() };
     Ok(Output { name: fields.name()?, quantity })
+}
+
+/// What an output is of.
+fn target(
+    fields: &Fields<'_>,
+    kind: TargetKind,
+    [couplings, effects]: [&Names; 2],
+) -> Read<Target<Number>> {
+    let owner = || fields.need(kind.keys().first().copied().unwrap_or_default());
+    let body = || fields.context.moving_body(owner()?);
+    let place = |names: &Names, list: &'static str| {
+        let item = owner()?;
+        let name = fields.context.text(item)?;
+        names.place(name).map_or_else(
+            || {
+                let (name, known) = (name.to_owned(), names.list().to_vec());
+                fields.context.fault(&item.span, ReadFault::UnknownPart { list, name, known })
+            },
+            Ok,
+        )
+    };
+    Ok(match kind {
+        TargetKind::Point => Target::Point(body()?, fields.vector("at")?),
+        TargetKind::Body => Target::Body(body()?),
+        TargetKind::Joint => Target::Joint(fields.context.joint(owner()?)?),
+        TargetKind::Coupling => Target::Coupling(CouplingId::new(place(couplings, "couplings")?)),
+        TargetKind::Effect => Target::Effect(EffectId::new(place(effects, "effects")?)),
+        TargetKind::Scene => Target::Scene,
+    })
 }
 
 pub(crate) fn read_solver(fields: &Fields<'_>) -> Read<SolverTable<Number>> {

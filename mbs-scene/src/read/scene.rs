@@ -47,6 +47,11 @@ impl SceneFile {
         let body_data = self.entries(&context, "body", |_, fields| body::read(fields))?;
         let centers: Vec<[Number; 3]> = body_data.iter().map(|body| body.center.clone()).collect();
         let joints = self.entries(&context, "joint", |_, fields| joint::read(fields, &centers))?;
+        let couplings =
+            self.entries(&context, "coupling", |i, fields| coupling::read(i, fields, &joints))?;
+        let effects = self.entries(&context, "effect", effect::read)?;
+        let of_couplings = Names::new(couplings.iter().map(|x| x.name.clone()).collect());
+        let of_effects = Names::new(effects.iter().map(|x| x.name.clone()).collect());
         Ok(Scene {
             name: self.scene_name(&header)?,
             dimension,
@@ -56,16 +61,17 @@ impl SceneFile {
             initials: self
                 .entries(&context, "initial", |_, fields| motion::read_initial(fields))?,
             guides: self.entries(&context, "guide", |_, fields| motion::read_guide(fields))?,
-            couplings: self
-                .entries(&context, "coupling", |i, fields| coupling::read(i, fields, &joints))?,
+            couplings,
             joints,
             road: match self.top("road") {
                 Some(item) => road::read(&context.table(item, "a table: [road]")?)?,
                 None => Default::default(),
             },
             start: read_start(&header)?,
-            effects: self.entries(&context, "effect", effect::read)?,
-            outputs: self.entries(&context, "output", |_, fields| output::read(fields))?,
+            effects,
+            outputs: self.entries(&context, "output", |_, fields| {
+                output::read(fields, &of_couplings, &of_effects)
+            })?,
             solver: match self.top("solver") {
                 Some(item) => output::read_solver(&context.table(item, "a table: [solver]")?)?,
                 None => Default::default(),

@@ -415,6 +415,17 @@ impl Writer<'_> {
             }
             Target::Body(body) => keys.push("body", self.body_name(body)?),
             Target::Joint(joint) => keys.push("joint", self.joint_name(joint)?),
+            Target::Coupling(coupling) => {
+                let coupling = self.scene.couplings.get(coupling.index());
+                let coupling = coupling.ok_or(WriteError::UnknownReference("coupling"))?;
+                keys.push("coupling", coupling.name.as_str());
+            }
+            Target::Effect(effect) => {
+                let effect = self.scene.effects.get(effect.index());
+                let effect = effect.ok_or(WriteError::UnknownReference("effect"))?;
+                keys.push("effect", effect.name.as_str());
+            }
+            Target::Scene => {}
         }
         keys.push("quantity", output.quantity.row().name);
         Ok(keys)

@@ -20,7 +20,7 @@ use core::time::Duration;
 use mbs_core::Real;
 use mbs_core::control::Accepted;
 use mbs_core::formulation::SwitchError;
-use mbs_core::outputs::Reactions;
+use mbs_core::outputs::Forces;
 use mbs_core::scene::Scene;
 use mbs_core::step::StepError;
 use mbs_realtime::{Clock, Pacer, Task, Work};
@@ -132,7 +132,7 @@ impl From<StopError> for Unready {
 struct Level<T: Real, const D: usize> {
     simulation: Option<Box<Simulation<T, D>>>,
     /// Of its effects; while it runs, those of the full scene.
-    reactions: Option<Reactions<T, D>>,
+    forces: Option<Forces<T, D>>,
     /// Steps of a period, where their lengths are fixed.
     steps: Option<u32>,
 }
@@ -142,16 +142,14 @@ impl<T: Real, const D: usize> Level<T, D> {
     fn new(run: &Run<'_, T, D>, rung: &PacedLevel, steps: Option<u32>) -> Result<Self, Unready> {
         let steps = steps.map(|steps| rung.steps(steps));
         let Some(&last) = rung.off.last() else {
-            return Ok(Self { simulation: None, reactions: None, steps });
+            return Ok(Self { simulation: None, forces: None, steps });
         };
         let scene = rung.scene(run.record.scene);
         let simulation = Simulation::new(&scene, run.record.settings)?;
         let taken = simulation.takes_over(&run.simulation);
         taken.map_err(|refusal| Unready::Refused((last, refusal)))?;
-        let needed = Reactions::<T, D>::needed(run.record.scene);
-        let reactions = needed.then(|| Reactions::new(&scene, run.simulation.model()));
-        let reactions = reactions.transpose().map_err(StopError::Reaction)?;
-        Ok(Self { simulation: Some(Box::new(simulation)), reactions, steps })
+        let forces = Forces::new(&scene, run.simulation.model()).map_err(StopError::Reaction)?;
+        Ok(Self { simulation: Some(Box::new(simulation)), forces: Some(forces), steps })
     }
 }
 
@@ -193,12 +191,12 @@ impl<T: Real, const D: usize> Ladder<T, D> {
         let from = core::mem::replace(at, to);
         let was_own = levels[from].simulation.is_none();
         if !was_own {
-            record.measures.exchange(&mut levels[from].reactions);
+            record.measures.exchange(&mut levels[from].forces);
         }
         let level = &mut levels[to];
         match &mut level.simulation {
             Some(simulation) => {
-                record.measures.exchange(&mut level.reactions);
+                record.measures.exchange(&mut level.forces);
                 simulation.take_over(own).map_err(|error| simulation.explain(error))
             }
             None if was_own => Ok(()),

@@ -13,7 +13,7 @@ use super::{Load, Measure, Wrench};
 use crate::Real;
 use crate::algebra::{Matrix, Vector, norm, raised, rotation_gradient, rotation_vector, unit};
 use crate::laws::LawInputs;
-use crate::laws::body::{BodyMotion, MAX_ACTIONS, UnitWrench};
+use crate::laws::body::{BodyLaw, BodyMotion, MAX_ACTIONS, UnitWrench};
 use crate::laws::scalar::Law;
 use crate::model::State;
 use crate::natural::{Affine, unwrap_rotation};
@@ -51,7 +51,7 @@ impl<T: Real, const D: usize> Load<T, D> {
                 let force = if *turns { turned(body) * given } else { given };
                 take((body, Some(raised(&point.value(&state.q))), push(force)));
             }
-            Self::Torque { body, course } => {
+            Self::Torque { body, course, .. } => {
                 let given = law_inputs.courses[*course];
                 let moment = if D == 2 { unit(2) * given[0] } else { given.into() };
                 take((BodyId::Body(*body), None, twist(moment)));
@@ -60,14 +60,16 @@ impl<T: Real, const D: usize> Load<T, D> {
                 let body = BodyId::Body(*body);
                 let motion = motion((point, frame), &(turned(body) * axis), state);
                 let at = Vector::from(motion.position);
-                let mut actions = [UnitWrench::default(); MAX_ACTIONS];
-                let actions = &mut actions[..law.n_actions()];
-                law.evaluate(&motion, law_inputs, actions);
                 let mut sum = Wrench::zero();
-                for UnitWrench { force, moment, measure } in actions {
-                    let (force, moment) = ((*force).into(), (*moment).into());
-                    sum.add(&Wrench { force, moment }.scaled(-measure.tension));
-                }
+                for_each_action(
+                    law,
+                    &motion,
+                    law_inputs,
+                    |_, UnitWrench { force, moment, measure }| {
+                        let (force, moment) = ((*force).into(), (*moment).into());
+                        sum.add(&Wrench { force, moment }.scaled(-measure.tension));
+                    },
+                );
                 take((body, Some(at), sum));
             }
         }
@@ -146,6 +148,19 @@ impl<T: Real, const D: usize> Measure<T, D> {
             memory.map_or(Vector::zeros(), |at| Vector::from_fn(|i, _| state.memory[at + i]));
         unwrap_rotation(&rotation_vector(&(first.transpose() * second)), &last)
     }
+}
+
+/// Hands out the actions of a law on one body, with their numbers.
+pub(super) fn for_each_action<T: Real>(
+    law: &BodyLaw<T>,
+    motion: &BodyMotion<T>,
+    law_inputs: &LawInputs<'_, T>,
+    mut take: impl FnMut(usize, &UnitWrench<T>),
+) {
+    let mut actions = [UnitWrench::default(); MAX_ACTIONS];
+    let actions = &mut actions[..law.n_actions()];
+    law.evaluate(motion, law_inputs, actions);
+    actions.iter().enumerate().for_each(|(i, action)| take(i, action));
 }
 
 /// What a law on one body sees of it, with the law's direction as it has turned.

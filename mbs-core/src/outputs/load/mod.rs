@@ -2,6 +2,7 @@
 
 mod apply;
 mod gap;
+mod work;
 
 pub(super) use apply::Applied;
 pub(super) use gap::{Gap, MOST_GAPS, N_READING, Reading};
@@ -43,7 +44,7 @@ pub(super) enum Load<T: Real, const D: usize> {
     /// A force that follows a course.
     Force { body: usize, point: Affine<T, D>, course: usize, turns: bool },
     /// A torque that follows a course.
-    Torque { body: usize, course: usize },
+    Torque { body: usize, frame: Frame<T, D>, course: usize },
     /// A law on one body.
     BodyLoad {
         body: usize,
@@ -131,8 +132,23 @@ impl<T: Real, const D: usize> Loads<T, D> {
 
     /// The effects, and the courses of a state's instant, with the inputs that its accelerations were made with.
     pub(super) fn at(&mut self, state: &State<T>) -> (&[Load<T, D>], LawInputs<'_, T>) {
+        self.update(state);
+        (&self.list, self.law_inputs())
+    }
+
+    /// Sets the courses to those of a state's instant.
+    pub(super) fn update(&mut self, state: &State<T>) {
         self.prescribed.write(state.t, &state.applied, &mut [], &mut self.values);
-        (&self.list, self.tables.law_inputs(&self.values))
+    }
+
+    /// The effects.
+    pub(super) fn list(&self) -> &[Load<T, D>] {
+        &self.list
+    }
+
+    /// The courses as last set.
+    pub(super) fn law_inputs(&self) -> LawInputs<'_, T> {
+        self.tables.law_inputs(&self.values)
     }
 }
 
@@ -179,7 +195,8 @@ impl<T: Real, const D: usize> Load<T, D> {
                 return Self::Force { body: at.0, point: point(at), course, turns };
             }
             Action::Torque { body, course } => {
-                return Self::Torque { body: *body, course: *course as usize };
+                let frame = Frame::new(scene, model, BodyId::Body(*body));
+                return Self::Torque { body: *body, frame, course: *course as usize };
             }
             Action::BodyLoad { at, axis, law } => {
                 let frame = Frame::new(scene, model, BodyId::Body(at.0));

@@ -1,7 +1,7 @@
 //! What one channel reads: a quantity of each kind.
 
 use super::Quantity;
-use super::kind::{Instant, Maker, Measured};
+use super::kind::{Followed, Instant, Maker, Measured};
 use crate::Real;
 
 super::list::list!(channels);

@@ -23,27 +23,57 @@ pub enum ComponentForm {
     Axial(&'static str),
     /// `1`, `2`, ... for the coordinates of a joint, one number where there is one; with what follows the unit of each.
     Coordinates(&'static str),
+    /// The same for the forces on the coordinates.
+    Efforts,
+    /// One number; with its unit.
+    Number(&'static str),
+    /// One number that a coupling or an effect measures, with what follows its unit; nothing of an effect that measures several.
+    Measured(&'static str),
+    /// The force on what is measured; of an effect that measures several numbers, its wrench.
+    Force,
+    /// `w`, `x`, `y`, `z` of a quaternion; in the plane an angle.
+    Orientation,
     /// `Fx`, `Fy`, `Fz`, `Mx`, `My`, `Mz`; in the plane `Fx`, `Fy`, `Mz`.
     Wrench,
 }
 
+/// The unit of what is done work on by a force: `N m` on an angle, `N` on a length.
+fn effort(unit: &str) -> &'static str {
+    if unit == "rad" { "N m" } else { "N" }
+}
+
 impl ComponentForm {
-    /// Each component, of a joint with these freedoms.
-    pub(super) fn of(self, dimension: Dimension, freedoms: &[Freedom]) -> Vec<Component> {
+    /// Each component; of a joint with these freedoms, of a coupling or an effect with the unit of what it measures.
+    pub(super) fn of(
+        self,
+        dimension: Dimension,
+        freedoms: &[Freedom],
+        measured: Option<&str>,
+    ) -> Vec<Component> {
         let one = |label: &str, unit: &str| Component { label: label.into(), unit: unit.into() };
         let axes = &["x", "y", "z"][..dimension.count()];
         let about = if dimension == Dimension::Planar { &["z"] } else { axes };
+        let coordinates = |unit: &dyn Fn(&str) -> String| {
+            let units = |f: &Freedom| core::iter::repeat_n(f.unit(), f.n_coordinates());
+            let units: Vec<_> = freedoms.iter().flat_map(units).collect();
+            let label = |i| if units.len() == 1 { String::new() } else { format!("{}", i + 1) };
+            units.iter().enumerate().map(|(i, x)| one(&label(i), &unit(x))).collect()
+        };
         match self {
             Self::Axial(unit) if about.len() == 1 => [one("", unit)].into(),
             Self::Vector(unit) | Self::Axial(unit) => axes.iter().map(|x| one(x, unit)).collect(),
-            Self::Coordinates(per) => {
-                let units = |f: &Freedom| core::iter::repeat_n(f.unit(), f.n_coordinates());
-                let units: Vec<_> = freedoms.iter().flat_map(units).collect();
-                let label = |i| if units.len() == 1 { String::new() } else { format!("{}", i + 1) };
-                let component = |(i, unit)| one(&label(i), &format!("{unit}{per}"));
-                units.iter().enumerate().map(component).collect()
+            Self::Coordinates(per) => coordinates(&|unit| format!("{unit}{per}")),
+            Self::Efforts => coordinates(&|unit| effort(unit).into()),
+            Self::Number(unit) => [one("", unit)].into(),
+            Self::Measured(per) => {
+                measured.map(|unit| one("", &format!("{unit}{per}"))).into_iter().collect()
             }
-            Self::Wrench => {
+            Self::Orientation if about.len() == 1 => [one("", "rad")].into(),
+            Self::Orientation => ["w", "x", "y", "z"].map(|label| one(label, "-")).into(),
+            Self::Force | Self::Wrench => {
+                if let (Self::Force, Some(unit)) = (self, measured) {
+                    return [one("", effort(unit))].into();
+                }
                 let forces = axes.iter().map(|x| one(&format!("F{x}"), "N"));
                 forces.chain(about.iter().map(|x| one(&format!("M{x}"), "N m"))).collect()
             }

@@ -1,6 +1,8 @@
 //! How the numbers of a quantity are read.
 
 use super::super::coordinate::Coordinate;
+use super::super::exerted::EffectWrenches;
+use super::super::inertia::BodyInertia;
 use super::super::reaction::Reactions;
 use crate::Real;
 use crate::model::State;
@@ -10,7 +12,7 @@ use alloc::vec::Vec;
 
 /// What a quantity is read with.
 pub(super) trait Measured<T: Real, const D: usize> {
-    /// The point, the body or the joint.
+    /// The point, the body, the joint, the coupling or the effect; nothing of the whole scene.
     type Of;
 
     /// Prepares it.
@@ -18,6 +20,28 @@ pub(super) trait Measured<T: Real, const D: usize> {
 
     /// Writes its components at an instant. Cost: a few products, no allocation.
     fn write(&self, now: &Instant<'_, T, D>, out: &mut [T]);
+
+    /// The coordinates that it follows from step to step.
+    fn followed(&self) -> Option<&Followed<T, D>> {
+        None
+    }
+}
+
+/// Coordinates that are followed from step to step.
+#[derive(Debug, Clone)]
+pub(in crate::outputs) struct Followed<T: Real, const D: usize> {
+    pub coordinates: Vec<Coordinate<T, D>>,
+    /// Where their values start among those of all that are followed.
+    pub start: usize,
+    /// The joint that they are of; `None`: a body against the ground.
+    pub joint: Option<usize>,
+}
+
+impl<T: Real, const D: usize> Followed<T, D> {
+    /// Writes their present values.
+    pub(super) fn write(&self, now: &Instant<'_, T, D>, out: &mut [T]) {
+        out.copy_from_slice(&now.values[self.start..][..out.len()]);
+    }
 }
 
 /// What quantities are made of.
@@ -33,7 +57,13 @@ pub(in crate::outputs) struct Maker<'a, T: Real, const D: usize> {
 impl<T: Real, const D: usize> Maker<'_, T, D> {
     /// The coordinates of a joint, in the order of its numbers.
     pub(super) fn coordinates(&self, joint: JointId) -> Vec<Coordinate<T, D>> {
-        Coordinate::of_joint(self.scene, self.model, &self.scene.joints[joint])
+        Coordinate::of_joint(self.scene, self.model, &self.scene.joints[joint.index()])
+    }
+
+    /// All bodies with their masses.
+    pub(super) fn bodies(&self) -> Vec<BodyInertia<T, D>> {
+        let of = |body| BodyInertia::new(self.scene, self.model, body);
+        (0..self.scene.bodies.len()).map(of).collect()
     }
 }
 
@@ -44,4 +74,5 @@ pub(in crate::outputs) struct Instant<'a, T: Real, const D: usize> {
     pub values: &'a [T],
     /// Those of the state; zero where there are none.
     pub reactions: Option<&'a Reactions<T, D>>,
+    pub effects: Option<&'a EffectWrenches<T, D>>,
 }

@@ -1,7 +1,7 @@
 //! The list of quantities: all that the rest of the workspace knows of them.
 //!
-//! A line has what the quantity is, its kind and its module, under what it is of; the first line of a body's or a joint's is the
-//! quantity where a scene file names none. The module is the constructor's name.
+//! A line has what the quantity is, its kind and its module, under what it is of; the first line of a body's, a joint's, a coupling's or an
+//! effect's is the quantity where a scene file names none. The module is the constructor's name.
 
 /// Hands the list of quantities to a macro of `table`.
 macro_rules! list {
@@ -15,17 +15,66 @@ macro_rules! list {
                 /// Acceleration of a point of a body [m/s^2], global axes.
                 Acceleration in acceleration;
             }
-            body {
+            of Body(body: BodyId) {
                 /// Angular velocity of a body [rad/s], global axes; in the plane one number. Of a thin rod that balls alone hold, the part across it.
                 AngularVelocity in angular_velocity;
+                /// Angular acceleration of a body [rad/s^2], global axes; in the plane one number. Of a thin rod that balls alone hold, the part across it.
+                AngularAcceleration in angular_acceleration;
+                /// Orientation of a body against the reference configuration: in the plane its angle, turns counted [rad]; in space a unit quaternion,
+                /// its scalar part first, whose sign follows from step to step.
+                Orientation in orientation;
+                /// Kinetic energy of a body [J].
+                BodyKineticEnergy in body_kinetic_energy;
             }
-            joint {
+            of Joint(joint: JointId) {
                 /// Coordinates of a joint [rad or m], turns counted.
                 JointValue in value;
                 /// Rates of a joint [rad/s or m/s].
                 JointRate in rate;
+                /// Accelerations of a joint's coordinates [rad/s^2 or m/s^2]; of a rotation, the difference of angular accelerations in global axes.
+                JointAcceleration in joint_acceleration;
+                /// What a guide puts on the coordinate of a joint [N m or N], of the first body on the second; zero without a guide.
+                JointEffort in joint_effort;
                 /// What a joint's first body does to the second at the joint's place [N, N m]: planar [Fx, Fy, Mz], spatial [Fx, Fy, Fz, Mx, My, Mz].
                 Reaction in reaction;
+            }
+            of Coupling(coupling: CouplingId) {
+                /// Effort of a coupling: the generalised force on each of its terms over the term's factor [N m, or N where it has slides or lengths].
+                Effort in effort;
+                /// The sum of a coupling, turns counted [rad, or m where it has slides or lengths].
+                CouplingValue in coupling_value;
+                /// The rate of the sum of a coupling [rad/s or m/s].
+                CouplingRate in coupling_rate;
+                /// Power that a driven coupling gives [W]; zero where its sum is constant.
+                CouplingPower in coupling_power;
+            }
+            of Effect(effect: EffectId) {
+                /// Force of an effect [N or N m]: along a length it is the tension, positive where it pulls the ends together; on a joint it is
+                /// positive against growth of the coordinate. Of an effect on a body and of a bushing, what it does to the body, or the second
+                /// of two, at its point there: planar [Fx, Fy, Mz], spatial [Fx, Fy, Fz, Mx, My, Mz].
+                EffectForce in effect_force;
+                /// The length or coordinate of an effect along a line or on a joint [m or rad], turns counted.
+                EffectValue in effect_value;
+                /// The rate of the length or coordinate of an effect [m/s or rad/s].
+                EffectRate in effect_rate;
+                /// Energy stored in an effect [J]; of a constant force, minus its product with the position of its point.
+                EffectEnergy in effect_energy;
+                /// Power that an effect gives to bodies [W]; negative where it takes.
+                EffectPower in effect_power;
+            }
+            scene {
+                /// Kinetic energy of all bodies [J].
+                KineticEnergy in kinetic_energy;
+                /// Potential energy of gravity, zero at the origin, and of all effects [J].
+                PotentialEnergy in potential_energy;
+                /// Kinetic and potential energy [J].
+                Energy in energy;
+                /// Centre of mass of all bodies [m].
+                CenterOfMass in center_of_mass;
+                /// Momentum of all bodies [kg m/s].
+                Momentum in momentum;
+                /// Angular momentum of all bodies about their centre of mass [kg m^2/s], global axes; in the plane one number.
+                AngularMomentum in angular_momentum;
             }
         }
     };

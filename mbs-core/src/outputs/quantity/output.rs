@@ -2,7 +2,10 @@
 
 use super::components::Component;
 use super::{Quantity, Target};
-use crate::scene::{BodyId, JointId, Number, Output, Scene, Vector3};
+use crate::effects::ActsOn;
+use crate::scene::{
+    BodyId, CouplingId, EffectId, JointId, Measured, Number, Output, Scene, Vector3,
+};
 use alloc::vec::Vec;
 
 super::list::list!(constructors);
@@ -11,13 +14,42 @@ impl<T: Clone> Quantity<T> {
     /// Its components in a scene.
     ///
     /// # Panics
-    /// If it is of a joint that is not there; [`Scene::check`] refuses those.
+    /// If it is of a joint, a coupling or an effect that is not there; [`Scene::check`] refuses those.
     #[must_use]
     pub fn components(&self, scene: &Scene<T>) -> Vec<Component> {
-        let freedoms = match self.target() {
-            Target::Joint(joint) => scene.joints[joint].kind.freedoms(scene.dimension),
-            Target::Point(..) | Target::Body(_) => &[],
+        let form = self.row().components;
+        let (freedoms, measured) = match self.target() {
+            Target::Joint(joint) => {
+                (scene.joints[joint.index()].kind.freedoms(scene.dimension), None)
+            }
+            Target::Coupling(coupling) => (&[][..], Some(unit_of_sum(scene, coupling))),
+            Target::Effect(effect) => (&[][..], unit_of_measure(scene, effect)),
+            Target::Point(..) | Target::Body(_) | Target::Scene => (&[][..], None),
         };
-        self.row().components.of(scene.dimension, freedoms)
+        form.of(scene.dimension, freedoms, measured)
+    }
+}
+
+/// The unit of a coupling's sum: that of its slides and lengths, whose factors are numbers, else that of its angles.
+fn unit_of_sum<T>(scene: &Scene<T>, coupling: CouplingId) -> &'static str {
+    let unit = |of: &Measured<T>| {
+        let Some((joint, number)) = of.coordinate() else { return "m" };
+        let kind = scene.joints.get(joint.index()).map(|joint| joint.kind);
+        let mut freedoms = kind.into_iter().flat_map(|kind| kind.numbered(scene.dimension));
+        freedoms.find(|(at, _)| *at == number).map_or("rad", |(_, freedom)| freedom.unit())
+    };
+    let mut units = scene.couplings[coupling.index()].terms.iter().map(|term| unit(&term.of));
+    units.find(|unit| *unit == "m").unwrap_or("rad")
+}
+
+/// The unit of the one number that an effect measures; `None` where it measures several.
+fn unit_of_measure<T: Clone>(scene: &Scene<T>, effect: EffectId) -> Option<&'static str> {
+    match scene.effects[effect.index()].kind.acts_on() {
+        ActsOn::Line => Some("m"),
+        ActsOn::Joint(joint) => {
+            let joint = scene.joints.get(joint.index())?;
+            Some(joint.kind.single(scene.dimension).map_or("rad", |freedom| freedom.unit()))
+        }
+        ActsOn::Bodies => None,
     }
 }

@@ -6,10 +6,8 @@ use crate::Real;
 use crate::scene::JointId;
 use core::marker::PhantomData;
 
-pub(super) const ROW: QuantityRow = QuantityRow {
-    needs_reactions: true,
-    ..QuantityRow::new("reaction", TargetKind::Joint, ComponentForm::Wrench)
-};
+pub(super) const ROW: QuantityRow =
+    QuantityRow::new("reaction", TargetKind::Joint, ComponentForm::Wrench).of_reactions();
 
 /// The joint.
 #[derive(Debug, Clone)]

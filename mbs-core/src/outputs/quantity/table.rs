@@ -4,12 +4,14 @@
 macro_rules! quantities {
     (
         point { $($(#[doc = $point_doc:literal])+ $Point:ident in $point:ident;)* }
-        body { $($(#[doc = $body_doc:literal])+ $Body:ident in $body:ident;)* }
-        joint { $($(#[doc = $joint_doc:literal])+ $Joint:ident in $joint:ident;)* }
+        $(of $Target:ident($id:ident: $Id:ident) {
+            $($(#[doc = $doc:literal])+ $Kind:ident in $module:ident;)*
+        })*
+        scene { $($(#[doc = $scene_doc:literal])+ $Scene:ident in $scene:ident;)* }
     ) => {
         $(mod $point;)*
-        $(mod $body;)*
-        $(mod $joint;)*
+        $($(mod $module;)*)*
+        $(mod $scene;)*
 
         /// What a channel measures.
         #[derive(Debug, Clone, PartialEq)]
@@ -24,29 +26,27 @@ macro_rules! quantities {
                     at: [T; 3],
                 },
             )*
-            $(
-                $(#[doc = $body_doc])+
-                $Body {
-                    /// Body.
-                    body: BodyId,
+            $($(
+                $(#[doc = $doc])+
+                $Kind {
+                    #[doc = concat!(stringify!($Target), ".")]
+                    $id: $Id,
                 },
-            )*
+            )*)*
             $(
-                $(#[doc = $joint_doc])+
-                $Joint {
-                    /// Joint.
-                    joint: JointId,
-                },
+                $(#[doc = $scene_doc])+
+                $Scene,
             )*
         }
 
         /// Every kind of quantity, in the order of the format.
-        pub const QUANTITIES: &[QuantityRow] = &[$($point::ROW,)* $($body::ROW,)* $($joint::ROW,)*];
+        pub const QUANTITIES: &[QuantityRow] =
+            &[$($point::ROW,)* $($($module::ROW,)*)* $($scene::ROW,)*];
 
         const _: () = {
             $(assert!(matches!($point::ROW.target, TargetKind::Point));)*
-            $(assert!(matches!($body::ROW.target, TargetKind::Body));)*
-            $(assert!(matches!($joint::ROW.target, TargetKind::Joint));)*
+            $($(assert!(matches!($module::ROW.target, TargetKind::$Target));)*)*
+            $(assert!(matches!($scene::ROW.target, TargetKind::Scene));)*
         };
 
         impl<T> Quantity<T> {
@@ -55,8 +55,8 @@ macro_rules! quantities {
             pub const fn row(&self) -> &'static QuantityRow {
                 match self {
                     $(Self::$Point { .. } => &$point::ROW,)*
-                    $(Self::$Body { .. } => &$body::ROW,)*
-                    $(Self::$Joint { .. } => &$joint::ROW,)*
+                    $($(Self::$Kind { .. } => &$module::ROW,)*)*
+                    $(Self::$Scene => &$scene::ROW,)*
                 }
             }
 
@@ -72,9 +72,9 @@ macro_rules! quantities {
             #[must_use]
             pub fn of(name: &str, target: Target<T>) -> Option<Self> {
                 Some(match target {
-                    $(Target::Point(body, at) if name == $point::ROW.name => Self::$Point { body, at },)*
-                    $(Target::Body(body) if name == $body::ROW.name => Self::$Body { body },)*
-                    $(Target::Joint(joint) if name == $joint::ROW.name => Self::$Joint { joint },)*
+                    $(Target::Point(body, at) if $point::ROW.has_name(name) => Self::$Point { body, at },)*
+                    $($(Target::$Target($id) if $module::ROW.has_name(name) => Self::$Kind { $id },)*)*
+                    $(Target::Scene if $scene::ROW.has_name(name) => Self::$Scene,)*
                     _ => return None,
                 })
             }
@@ -87,8 +87,8 @@ macro_rules! quantities {
             {
                 match self {
                     $(Self::$Point { body, at } => Target::Point(*body, at.clone()),)*
-                    $(Self::$Body { body } => Target::Body(*body),)*
-                    $(Self::$Joint { joint } => Target::Joint(*joint),)*
+                    $($(Self::$Kind { $id } => Target::$Target(*$id),)*)*
+                    $(Self::$Scene => Target::Scene,)*
                 }
             }
 
@@ -98,8 +98,8 @@ macro_rules! quantities {
                     $(Self::$Point { body, at } => {
                         Quantity::$Point { body: *body, at: at.each_ref().map(f) }
                     })*
-                    $(Self::$Body { body } => Quantity::$Body { body: *body },)*
-                    $(Self::$Joint { joint } => Quantity::$Joint { joint: *joint },)*
+                    $($(Self::$Kind { $id } => Quantity::$Kind { $id: *$id },)*)*
+                    $(Self::$Scene => Quantity::$Scene,)*
                 }
             }
         }
@@ -110,8 +110,10 @@ macro_rules! quantities {
 macro_rules! constructors {
     (
         point { $($(#[doc = $point_doc:literal])+ $Point:ident in $point:ident;)* }
-        body { $($(#[doc = $body_doc:literal])+ $Body:ident in $body:ident;)* }
-        joint { $($(#[doc = $joint_doc:literal])+ $Joint:ident in $joint:ident;)* }
+        $(of $Target:ident($id:ident: $Id:ident) {
+            $($(#[doc = $doc:literal])+ $Kind:ident in $module:ident;)*
+        })*
+        scene { $($(#[doc = $scene_doc:literal])+ $Scene:ident in $scene:ident;)* }
     ) => {
         impl Output<Number> {
             $(
@@ -120,18 +122,18 @@ macro_rules! constructors {
                     Self::new(Quantity::$Point { body, at: at.into().0 })
                 }
             )*
-            $(
-                $(#[doc = $body_doc])+
+            $($(
+                $(#[doc = $doc])+
                 #[must_use]
-                pub fn $body(body: BodyId) -> Self {
-                    Self::new(Quantity::$Body { body })
+                pub fn $module($id: $Id) -> Self {
+                    Self::new(Quantity::$Kind { $id })
                 }
-            )*
+            )*)*
             $(
-                $(#[doc = $joint_doc])+
+                $(#[doc = $scene_doc])+
                 #[must_use]
-                pub fn $joint(joint: JointId) -> Self {
-                    Self::new(Quantity::$Joint { joint })
+                pub fn $scene() -> Self {
+                    Self::new(Quantity::$Scene)
                 }
             )*
         }
@@ -142,15 +144,17 @@ macro_rules! constructors {
 macro_rules! channels {
     (
         point { $($(#[doc = $point_doc:literal])+ $Point:ident in $point:ident;)* }
-        body { $($(#[doc = $body_doc:literal])+ $Body:ident in $body:ident;)* }
-        joint { $($(#[doc = $joint_doc:literal])+ $Joint:ident in $joint:ident;)* }
+        $(of $Target:ident($id:ident: $Id:ident) {
+            $($(#[doc = $doc:literal])+ $Kind:ident in $module:ident;)*
+        })*
+        scene { $($(#[doc = $scene_doc:literal])+ $Scene:ident in $scene:ident;)* }
     ) => {
         /// What one channel reads.
         #[derive(Debug, Clone)]
         pub(in crate::outputs) enum Channel<T: Real, const D: usize> {
             $($Point(super::$point::$Point<T, D>),)*
-            $($Body(super::$body::$Body<T, D>),)*
-            $($Joint(super::$joint::$Joint<T, D>),)*
+            $($($Kind(super::$module::$Kind<T, D>),)*)*
+            $($Scene(super::$scene::$Scene<T, D>),)*
         }
 
         impl<T: Real, const D: usize> Channel<T, D> {
@@ -159,16 +163,24 @@ macro_rules! channels {
                     $(Quantity::$Point { body, at } => {
                         Self::$Point(Measured::new(from.model.point(body, at), from))
                     })*
-                    $(Quantity::$Body { body } => Self::$Body(Measured::new(body, from)),)*
-                    $(Quantity::$Joint { joint } => Self::$Joint(Measured::new(joint, from)),)*
+                    $($(Quantity::$Kind { $id } => Self::$Kind(Measured::new($id, from)),)*)*
+                    $(Quantity::$Scene => Self::$Scene(Measured::new((), from)),)*
                 }
             }
 
             pub(in crate::outputs) fn write(&self, now: &Instant<'_, T, D>, out: &mut [T]) {
                 match self {
                     $(Self::$Point(channel) => channel.write(now, out),)*
-                    $(Self::$Body(channel) => channel.write(now, out),)*
-                    $(Self::$Joint(channel) => channel.write(now, out),)*
+                    $($(Self::$Kind(channel) => channel.write(now, out),)*)*
+                    $(Self::$Scene(channel) => channel.write(now, out),)*
+                }
+            }
+
+            pub(in crate::outputs) fn followed(&self) -> Option<&Followed<T, D>> {
+                match self {
+                    $(Self::$Point(channel) => channel.followed(),)*
+                    $($(Self::$Kind(channel) => channel.followed(),)*)*
+                    $(Self::$Scene(channel) => channel.followed(),)*
                 }
             }
         }

@@ -24,5 +24,16 @@ pub(super) fn check<T: Real>(
             }
             Some(_) => Ok(()),
         },
+        Target::Coupling(coupling) if coupling.index() >= scene.couplings.len() => {
+            place.fault("coupling", SceneFault::UnknownReference)
+        }
+        Target::Effect(effect) => match scene.effects.get(effect.index()) {
+            None => place.fault("effect", SceneFault::UnknownReference),
+            Some(_) if quantity.components(scene).is_empty() => {
+                place.fault("quantity", SceneFault::NoMeasure)
+            }
+            Some(_) => Ok(()),
+        },
+        Target::Coupling(_) | Target::Scene => Ok(()),
     }
 }

@@ -1,0 +1,101 @@
+//! Masses in motion: energy and momentum of bodies at a state.
+//!
+//! ```text
+//! E = 1/2 sum (m c'.c' + omega.I omega),   V = -sum m g.c,   P = sum m c'
+//! L = sum (I omega + m (c - C) x (c' - C'))      C: the centre of mass of all
+//! ```
+
+use super::frame::Frame;
+use crate::Real;
+use crate::algebra::{Matrix, Vector, cross, raised};
+use crate::model::State;
+use crate::natural::{Affine, NaturalModel};
+use crate::scene::{BodyId, Scene};
+
+/// A body with its mass.
+#[derive(Debug, Clone)]
+pub(super) struct BodyInertia<T: Real, const D: usize> {
+    pub(super) frame: Frame<T, D>,
+    pub(super) center: Affine<T, D>,
+    /// Mass [kg].
+    pub(super) mass: T,
+    /// Reference configuration, about the centre of mass [kg m^2].
+    pub(super) inertia: Matrix<T, 3>,
+}
+
+impl<T: Real, const D: usize> BodyInertia<T, D> {
+    /// Of `scene.bodies[body]`.
+    pub(super) fn new(scene: &Scene<T>, model: &NaturalModel<T, D>, body: usize) -> Self {
+        let (mass, center, inertia) = scene.bodies[body].mass_properties();
+        let me = BodyId::Body(body);
+        let (frame, center) = (Frame::new(scene, model, me), model.point(me, center.into()));
+        Self { frame, center, mass, inertia }
+    }
+
+    /// Its centre of mass and the velocity of that.
+    fn center(&self, state: &State<T>) -> [Vector<T, 3>; 2] {
+        [raised(&self.center.value(&state.q)), raised(&self.center.rate(&state.v))]
+    }
+
+    /// Its angular velocity, and I omega.
+    fn spin(&self, state: &State<T>) -> [Vector<T, 3>; 2] {
+        let (r, omega) = (self.frame.rotation(&state.q), self.frame.turning(&state.q, &state.v));
+        [omega, r * (self.inertia * (r.transpose() * omega))]
+    }
+
+    /// Its kinetic energy [J].
+    pub(super) fn kinetic_energy(&self, state: &State<T>) -> T {
+        let ([_, v], [omega, spin]) = (self.center(state), self.spin(state));
+        (v.dot(&v) * self.mass + omega.dot(&spin)) * T::HALF
+    }
+}
+
+/// The kinetic energy of bodies [J].
+pub(super) fn kinetic_energy<T: Real, const D: usize>(
+    bodies: &[BodyInertia<T, D>],
+    state: &State<T>,
+) -> T {
+    bodies.iter().fold(T::ZERO, |sum, body| sum + body.kinetic_energy(state))
+}
+
+/// The potential energy of bodies in a field of gravity, zero at the origin [J].
+pub(super) fn potential_energy<T: Real, const D: usize>(
+    bodies: &[BodyInertia<T, D>],
+    gravity: &Vector<T, 3>,
+    state: &State<T>,
+) -> T {
+    let height = |body: &BodyInertia<T, D>| gravity.dot(&body.center(state)[0]);
+    bodies.iter().fold(T::ZERO, |sum, body| sum - body.mass * height(body))
+}
+
+/// The momentum of bodies [kg m/s].
+pub(super) fn momentum<T: Real, const D: usize>(
+    bodies: &[BodyInertia<T, D>],
+    state: &State<T>,
+) -> Vector<T, 3> {
+    bodies.iter().fold(Vector::zeros(), |sum, body| sum + body.center(state)[1] * body.mass)
+}
+
+/// The centre of mass of bodies, and its velocity; the origin where they have no mass.
+pub(super) fn center<T: Real, const D: usize>(
+    bodies: &[BodyInertia<T, D>],
+    state: &State<T>,
+) -> [Vector<T, 3>; 2] {
+    let mass = bodies.iter().fold(T::ZERO, |sum, body| sum + body.mass);
+    let inverse = if mass > T::ZERO { T::ONE / mass } else { T::ZERO };
+    let place = |sum, body: &BodyInertia<T, D>| sum + body.center(state)[0] * body.mass;
+    let place: Vector<T, 3> = bodies.iter().fold(Vector::zeros(), place);
+    [place * inverse, momentum(bodies, state) * inverse]
+}
+
+/// The angular momentum of bodies about their centre of mass [kg m^2/s].
+pub(super) fn angular_momentum<T: Real, const D: usize>(
+    bodies: &[BodyInertia<T, D>],
+    state: &State<T>,
+) -> Vector<T, 3> {
+    let [middle, v_middle] = center(bodies, state);
+    bodies.iter().fold(Vector::zeros(), |sum, body| {
+        let ([c, v], [_, spin]) = (body.center(state), body.spin(state));
+        sum + spin + cross(&(c - middle), &(v - v_middle)) * body.mass
+    })
+}

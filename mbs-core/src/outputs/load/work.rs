@@ -1,0 +1,90 @@
+//! Energy that effects store, and power that they give to bodies.
+//!
+//! ```text
+//! scalar law   V(m),   power -f m'
+//! constant     V = -F.r
+//! on a body    power F.v + M.omega at its point
+//! ```
+
+use super::Load;
+use super::apply::{for_each_action, motion};
+use crate::Real;
+use crate::algebra::{Matrix, Vector, raised};
+use crate::laws::LawInputs;
+use crate::laws::scalar::ScalarForce;
+use crate::model::State;
+use crate::scene::BodyId;
+
+impl<T: Real, const D: usize> Load<T, D> {
+    /// What a law of one number gives; `None` of what is none.
+    pub(in crate::outputs) fn scalar(
+        &self,
+        state: &State<T>,
+        law_inputs: &LawInputs<'_, T>,
+    ) -> Option<ScalarForce<T>> {
+        let Self::Between { gauge, law, .. } = self else { return None };
+        let [value, rate] = gauge.measure(state);
+        let tension = law.evaluate(value, rate, law_inputs).tension;
+        Some(ScalarForce { value, rate, tension, ..ScalarForce::default() })
+    }
+
+    /// Stored energy [J]; `turned` gives the rotation of a body.
+    pub(in crate::outputs) fn energy(
+        &self,
+        (state, law_inputs): (&State<T>, &LawInputs<'_, T>),
+        turned: impl Fn(BodyId) -> Matrix<T, 3>,
+    ) -> T {
+        match self {
+            Self::Between { gauge, law, .. } => law.energy(gauge.measure(state)[0], law_inputs),
+            Self::Constant { point, force, .. } => -force.dot(&raised(&point.value(&state.q))),
+            Self::Force { .. } | Self::Torque { .. } => T::ZERO,
+            Self::BodyLoad { body, point, frame, axis, law } => {
+                let axis = turned(BodyId::Body(*body)) * axis;
+                let mut sum = T::ZERO;
+                for_each_action(
+                    law,
+                    &motion((point, frame), &axis, state),
+                    law_inputs,
+                    |i, action| {
+                        sum += law.energy(i, &action.measure);
+                    },
+                );
+                sum
+            }
+        }
+    }
+
+    /// Power that it gives to bodies [W]; `turned` gives the rotation of a body.
+    pub(in crate::outputs) fn power(
+        &self,
+        (state, law_inputs): (&State<T>, &LawInputs<'_, T>),
+        turned: impl Fn(BodyId) -> Matrix<T, 3>,
+    ) -> T {
+        match self {
+            Self::Between { gauge, law, .. } => {
+                let [value, rate] = gauge.measure(state);
+                -law.evaluate(value, rate, law_inputs).tension * rate
+            }
+            Self::Constant { point, .. } | Self::Force { point, .. } => {
+                let mut power = T::ZERO;
+                let velocity = raised(&point.rate(&state.v));
+                self.apply((state, law_inputs), turned, |(_, _, wrench)| {
+                    power += wrench.force.dot(&velocity);
+                });
+                power
+            }
+            Self::Torque { frame, .. } | Self::BodyLoad { frame, .. } => {
+                let omega = frame.turning(&state.q, &state.v);
+                let velocity = match self {
+                    Self::BodyLoad { point, .. } => raised(&point.rate(&state.v)),
+                    _ => Vector::zeros(),
+                };
+                let mut power = T::ZERO;
+                self.apply((state, law_inputs), turned, |(_, _, wrench)| {
+                    power += wrench.force.dot(&velocity) + wrench.moment.dot(&omega);
+                });
+                power
+            }
+        }
+    }
+}

@@ -1,0 +1,28 @@
+//! Angular momentum of all bodies about their centre of mass.
+
+use super::super::inertia::{self, BodyInertia};
+use super::kind::{Instant, Maker, Measured};
+use super::{ComponentForm, QuantityRow, TargetKind};
+use crate::Real;
+use alloc::vec::Vec;
+
+pub(super) const ROW: QuantityRow =
+    QuantityRow::new("angular-momentum", TargetKind::Scene, ComponentForm::Axial("kg m^2/s"));
+
+/// The bodies.
+#[derive(Debug, Clone)]
+pub(in crate::outputs) struct AngularMomentum<T: Real, const D: usize>(Vec<BodyInertia<T, D>>);
+
+impl<T: Real, const D: usize> Measured<T, D> for AngularMomentum<T, D> {
+    type Of = ();
+
+    fn new((): (), from: &mut Maker<'_, T, D>) -> Self {
+        Self(from.bodies())
+    }
+
+    fn write(&self, now: &Instant<'_, T, D>, out: &mut [T]) {
+        let sum = inertia::angular_momentum(&self.0, now.state);
+        // in the plane its last component
+        out.copy_from_slice(&sum.as_slice()[3 - out.len()..]);
+    }
+}

@@ -1,0 +1,26 @@
+//! Kinetic energy of a body.
+
+use super::super::inertia::BodyInertia;
+use super::kind::{Instant, Maker, Measured};
+use super::{ComponentForm, QuantityRow, TargetKind};
+use crate::Real;
+use crate::scene::BodyId;
+
+pub(super) const ROW: QuantityRow =
+    QuantityRow::new("kinetic-energy", TargetKind::Body, ComponentForm::Number("J"));
+
+/// The body; the ground has none.
+#[derive(Debug, Clone)]
+pub(in crate::outputs) struct BodyKineticEnergy<T: Real, const D: usize>(Option<BodyInertia<T, D>>);
+
+impl<T: Real, const D: usize> Measured<T, D> for BodyKineticEnergy<T, D> {
+    type Of = BodyId;
+
+    fn new(of: BodyId, from: &mut Maker<'_, T, D>) -> Self {
+        Self(of.index().map(|body| BodyInertia::new(from.scene, from.model, body)))
+    }
+
+    fn write(&self, now: &Instant<'_, T, D>, out: &mut [T]) {
+        out[0] = self.0.as_ref().map_or(T::ZERO, |body| body.kinetic_energy(now.state));
+    }
+}

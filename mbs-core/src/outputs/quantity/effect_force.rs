@@ -1,0 +1,35 @@
+//! Force of an effect.
+
+use super::kind::{Instant, Maker, Measured};
+use super::{ComponentForm, QuantityRow, TargetKind};
+use crate::Real;
+use crate::scene::EffectId;
+use core::marker::PhantomData;
+
+pub(super) const ROW: QuantityRow =
+    QuantityRow::new("force", TargetKind::Effect, ComponentForm::Force).of_effects();
+
+/// The effect.
+#[derive(Debug, Clone)]
+pub(in crate::outputs) struct EffectForce<T: Real, const D: usize>(usize, PhantomData<T>);
+
+impl<T: Real, const D: usize> Measured<T, D> for EffectForce<T, D> {
+    type Of = EffectId;
+
+    fn new(of: EffectId, _: &mut Maker<'_, T, D>) -> Self {
+        Self(of.index(), PhantomData)
+    }
+
+    fn write(&self, now: &Instant<'_, T, D>, out: &mut [T]) {
+        let Some(all) = now.effects else { return out.fill(T::ZERO) };
+        if let [one] = out {
+            *one = all.scalar(self.0, now.state).tension;
+        } else {
+            let sum = all.wrench(self.0, now.state);
+            out[..D].copy_from_slice(&sum.force.as_slice()[..D]);
+            // in the plane its last component
+            let n = out.len() - D;
+            out[D..].copy_from_slice(&sum.moment.as_slice()[3 - n..]);
+        }
+    }
+}

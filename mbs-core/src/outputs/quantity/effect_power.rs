@@ -1,0 +1,26 @@
+//! Power that an effect gives.
+
+use super::kind::{Instant, Maker, Measured};
+use super::{ComponentForm, QuantityRow, TargetKind};
+use crate::Real;
+use crate::scene::EffectId;
+use core::marker::PhantomData;
+
+pub(super) const ROW: QuantityRow =
+    QuantityRow::new("power", TargetKind::Effect, ComponentForm::Number("W")).of_effects();
+
+/// The effect.
+#[derive(Debug, Clone)]
+pub(in crate::outputs) struct EffectPower<T: Real, const D: usize>(usize, PhantomData<T>);
+
+impl<T: Real, const D: usize> Measured<T, D> for EffectPower<T, D> {
+    type Of = EffectId;
+
+    fn new(of: EffectId, _: &mut Maker<'_, T, D>) -> Self {
+        Self(of.index(), PhantomData)
+    }
+
+    fn write(&self, now: &Instant<'_, T, D>, out: &mut [T]) {
+        out[0] = now.effects.map_or(T::ZERO, |all| all.power(self.0, now.state));
+    }
+}

@@ -1,0 +1,26 @@
+//! The number that an effect measures.
+
+use super::kind::{Instant, Maker, Measured};
+use super::{ComponentForm, QuantityRow, TargetKind};
+use crate::Real;
+use crate::scene::EffectId;
+use core::marker::PhantomData;
+
+pub(super) const ROW: QuantityRow =
+    QuantityRow::new("value", TargetKind::Effect, ComponentForm::Measured("")).of_effects().or("length");
+
+/// The effect.
+#[derive(Debug, Clone)]
+pub(in crate::outputs) struct EffectValue<T: Real, const D: usize>(usize, PhantomData<T>);
+
+impl<T: Real, const D: usize> Measured<T, D> for EffectValue<T, D> {
+    type Of = EffectId;
+
+    fn new(of: EffectId, _: &mut Maker<'_, T, D>) -> Self {
+        Self(of.index(), PhantomData)
+    }
+
+    fn write(&self, now: &Instant<'_, T, D>, out: &mut [T]) {
+        out[0] = now.effects.map_or(T::ZERO, |all| all.scalar(self.0, now.state).value);
+    }
+}

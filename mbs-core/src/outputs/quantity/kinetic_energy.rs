@@ -1,0 +1,26 @@
+//! Kinetic energy of all bodies.
+
+use super::super::inertia::{self, BodyInertia};
+use super::kind::{Instant, Maker, Measured};
+use super::{ComponentForm, QuantityRow, TargetKind};
+use crate::Real;
+use alloc::vec::Vec;
+
+pub(super) const ROW: QuantityRow =
+    QuantityRow::new("kinetic-energy", TargetKind::Scene, ComponentForm::Number("J"));
+
+/// The bodies.
+#[derive(Debug, Clone)]
+pub(in crate::outputs) struct KineticEnergy<T: Real, const D: usize>(Vec<BodyInertia<T, D>>);
+
+impl<T: Real, const D: usize> Measured<T, D> for KineticEnergy<T, D> {
+    type Of = ();
+
+    fn new((): (), from: &mut Maker<'_, T, D>) -> Self {
+        Self(from.bodies())
+    }
+
+    fn write(&self, now: &Instant<'_, T, D>, out: &mut [T]) {
+        out[0] = inertia::kinetic_energy(&self.0, now.state);
+    }
+}

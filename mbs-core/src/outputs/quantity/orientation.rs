@@ -1,0 +1,39 @@
+//! Orientation of a body.
+
+use super::super::coordinate::Coordinate;
+use super::kind::{Followed, Instant, Maker, Measured};
+use super::{ComponentForm, QuantityRow, TargetKind};
+use crate::Real;
+use crate::scene::BodyId;
+use alloc::vec;
+
+pub(super) const ROW: QuantityRow =
+    QuantityRow::new("orientation", TargetKind::Body, ComponentForm::Orientation);
+
+/// The angle or the quaternion, which is followed from step to step.
+#[derive(Debug, Clone)]
+pub(in crate::outputs) struct Orientation<T: Real, const D: usize>(Followed<T, D>);
+
+impl<T: Real, const D: usize> Measured<T, D> for Orientation<T, D> {
+    type Of = BodyId;
+
+    fn new(of: BodyId, from: &mut Maker<'_, T, D>) -> Self {
+        let start = from.values.len();
+        let coordinate = if D == 2 {
+            Coordinate::between(from.model, [BodyId::Ground, of])
+        } else {
+            Coordinate::quaternion(from.scene, from.model, of)
+        };
+        from.values.push(if D == 2 { T::ZERO } else { T::ONE });
+        from.values.resize(start + coordinate.len(), T::ZERO);
+        Self(Followed { coordinates: vec![coordinate], start, joint: None })
+    }
+
+    fn write(&self, now: &Instant<'_, T, D>, out: &mut [T]) {
+        self.0.write(now, out);
+    }
+
+    fn followed(&self) -> Option<&Followed<T, D>> {
+        Some(&self.0)
+    }
+}
