@@ -32,6 +32,8 @@ pub struct Moved {
     pub accelerations: Vec<[f64; 6]>,
     /// Reaction of each joint: what its first body does to its second, at the joint's place, guide included.
     pub reactions: Vec<[f64; 6]>,
+    /// What a guide puts on the coordinate of each joint.
+    pub efforts: Vec<f64>,
     /// Is the reaction of each joint unique?
     pub unique: Vec<bool>,
     /// Does a body turn freely without inertia, as a thin rod about itself?
@@ -153,6 +155,13 @@ impl Mechanism {
         product(&product(turn, &self.scene.bodies[b].inertia), &transpose(turn))
     }
 
+    /// Kinetic energy of a body [J].
+    pub(crate) fn kinetic_energy(&self, b: usize, state: &State, places: &Places) -> f64 {
+        let (frame, mass) = (&state.frames[b], self.scene.bodies[b].mass);
+        let momentum = times(&self.inertia(b, places), frame.w);
+        0.5 * (mass * dot(frame.v, frame.v) + dot(frame.w, momentum))
+    }
+
     pub(crate) fn dense_row(&self, row: &Row) -> Vec<(usize, f64)> {
         let mut entries = Vec::with_capacity(12);
         for (body, part) in &row.parts {
@@ -243,8 +252,7 @@ impl Mechanism {
         let mut kinetic = 0.0;
         for (b, frame) in state.frames.iter().enumerate() {
             let momentum = times(&self.inertia(b, &places), frame.w);
-            kinetic +=
-                0.5 * (self.scene.bodies[b].mass * dot(frame.v, frame.v) + dot(frame.w, momentum));
+            kinetic += self.kinetic_energy(b, state, &places);
             let gyroscopic = cross(frame.w, momentum);
             (0..3).for_each(|i| on[b][i + 3] -= gyroscopic[i]);
         }
@@ -257,6 +265,11 @@ impl Mechanism {
             let wrench = self.wrench(owner, row, *lambda, &places);
             reactions[owner].iter_mut().zip(wrench).for_each(|(r, w)| *r += w);
             power += lambda * row.given[0];
+        }
+        let mut efforts = vec![0.0; reactions.len()];
+        let first_guide = rows.len() - self.scene.guides.len();
+        for (&owner, lambda) in owners.iter().zip(&multipliers).skip(first_guide) {
+            efforts[owner] = *lambda;
         }
         let mut unique = vec![true; reactions.len()];
         let mut idle = vec![false; state.frames.len()];
@@ -272,6 +285,7 @@ impl Mechanism {
         Moved {
             accelerations,
             reactions,
+            efforts,
             unique,
             idle,
             energy: [kinetic, potential],

@@ -8,9 +8,10 @@ impl Quantity {
     /// Names of those of a body's point.
     pub const OF_POINTS: &[&str] = &["position", "velocity", "acceleration"];
     /// Names of those of a body.
-    pub const OF_BODIES: &[&str] = &["angular-velocity"];
+    pub const OF_BODIES: &[&str] =
+        &["angular-velocity", "angular-acceleration", "orientation", "kinetic-energy"];
     /// Names of those of a joint.
-    pub const OF_JOINTS: &[&str] = &["value", "rate", "reaction"];
+    pub const OF_JOINTS: &[&str] = &["value", "rate", "acceleration", "effort", "reaction"];
 
     /// That of a body, or of its point.
     pub(crate) fn of_body(name: &str, body: usize, at: Option<Vector>) -> Option<Self> {
@@ -19,6 +20,9 @@ impl Quantity {
             ("velocity", Some(at)) => Self::Velocity(body, at),
             ("acceleration", Some(at)) => Self::Acceleration(body, at),
             ("angular-velocity", None) => Self::AngularVelocity(body),
+            ("angular-acceleration", None) => Self::AngularAcceleration(body),
+            ("orientation", None) => Self::Orientation(body),
+            ("kinetic-energy", None) => Self::KineticEnergy(body),
             _ => return None,
         })
     }
@@ -28,6 +32,8 @@ impl Quantity {
         Some(match name {
             "value" => Self::Value(joint),
             "rate" => Self::Rate(joint),
+            "acceleration" => Self::JointAcceleration(joint),
+            "effort" => Self::Effort(joint),
             "reaction" => Self::Reaction(joint),
             _ => return None,
         })
@@ -52,6 +58,25 @@ impl Mechanism {
             }
             Quantity::AngularVelocity(body) => {
                 places.of(Some(body)).w[if planar { 2 } else { 0 }..].to_vec()
+            }
+            Quantity::AngularAcceleration(body) => {
+                self.evaluate(state).accelerations[body][if planar { 5 } else { 3 }..].to_vec()
+            }
+            Quantity::Orientation(body) if planar => vec![state.frames[body].angle],
+            Quantity::Orientation(body) => state.frames[body].q.to_vec(),
+            Quantity::KineticEnergy(body) => vec![self.kinetic_energy(body, state, &places)],
+            Quantity::JointAcceleration(joint) => {
+                let moved = self.evaluate(state).accelerations;
+                let of = |(body, part): &(Option<usize>, [f64; 6])| {
+                    let gain = |b: usize| part.iter().zip(&moved[b]).map(|(x, a)| x * a).sum();
+                    body.map_or(0.0, gain)
+                };
+                let rows = self.now(state, &places).coordinates(joint);
+                rows.iter().map(|row| row.parts.iter().map(of).sum::<f64>() + row.bias).collect()
+            }
+            Quantity::Effort(joint) => {
+                let n = self.now(state, &places).coordinates(joint).len();
+                vec![self.evaluate(state).efforts[joint]; n]
             }
             Quantity::Value(joint) => {
                 self.now(state, &places).coordinates(joint).iter().map(|row| row.value).collect()

@@ -305,10 +305,20 @@ pub enum Quantity {
     Acceleration(usize, Vector),
     /// Of a body.
     AngularVelocity(usize),
+    /// Of a body.
+    AngularAcceleration(usize),
+    /// Of a body: the angle in the plane, a quaternion in space.
+    Orientation(usize),
+    /// Of a body.
+    KineticEnergy(usize),
     /// Of a joint.
     Value(usize),
     /// Of a joint.
     Rate(usize),
+    /// Of a joint.
+    JointAcceleration(usize),
+    /// Of a joint: what its guide puts on its coordinate.
+    Effort(usize),
     /// Of a joint.
     Reaction(usize),
 }

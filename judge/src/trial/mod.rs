@@ -107,9 +107,14 @@ pub fn judge(text: &str, step: f64, steps: u32) -> Result<Judged, String> {
         joint.bodies.iter().flatten().any(|&b| begun.idle[b])
     };
     let is_unique = |q: Quantity| match q {
-        Quantity::Reaction(j) => begun.unique[j],
-        Quantity::Value(j) | Quantity::Rate(j) => !turns_idle(j),
-        Quantity::AngularVelocity(b) => !begun.idle[b],
+        Quantity::Reaction(j) | Quantity::Effort(j) => begun.unique[j],
+        Quantity::Value(j) | Quantity::Rate(j) | Quantity::JointAcceleration(j) => !turns_idle(j),
+        Quantity::AngularVelocity(b) | Quantity::AngularAcceleration(b) => !begun.idle[b],
+        // the crates count from the nearest angle or quaternion
+        Quantity::Orientation(b) => {
+            let frame = &state.frames[b];
+            !begun.idle[b] && frame.angle.abs() < core::f64::consts::PI && frame.q[0] > 0.0
+        }
         _ => true,
     };
     let channels =
@@ -237,10 +242,13 @@ fn kind(quantity: Quantity) -> usize {
     match quantity {
         Quantity::Position(..) => 0,
         Quantity::Velocity(..) => 1,
-        Quantity::Acceleration(..) => 2,
-        Quantity::Value(..) => 3,
+        Quantity::Acceleration(..)
+        | Quantity::AngularAcceleration(..)
+        | Quantity::JointAcceleration(..) => 2,
+        Quantity::Value(..) | Quantity::Orientation(..) => 3,
         Quantity::Rate(..) | Quantity::AngularVelocity(..) => 4,
-        Quantity::Reaction(..) => 5,
+        Quantity::Reaction(..) | Quantity::Effort(..) => 5,
+        Quantity::KineticEnergy(..) => 6,
     }
 }
 
@@ -270,18 +278,25 @@ pub fn parts(judged: &Judged) -> Vec<Part> {
                     n / 2
                 }
             }
-            (Quantity::Value(_) | Quantity::Rate(_), 2 | 6) => n / 2,
-            (Quantity::Value(j) | Quantity::Rate(j), 3)
-                if scene.joints[j].kind != crate::scene::Kind::Spherical =>
-            {
-                2
-            }
-            (Quantity::Value(j) | Quantity::Rate(j), 1)
-                if scene.joints[j].kind == crate::scene::Kind::Prismatic =>
-            {
-                1
-            }
-            (Quantity::Value(_) | Quantity::Rate(_) | Quantity::AngularVelocity(_), _) => 0,
+            (
+                Quantity::Value(j)
+                | Quantity::Rate(j)
+                | Quantity::JointAcceleration(j)
+                | Quantity::Effort(j),
+                n,
+            ) => match (n, scene.joints[j].kind) {
+                (2 | 6, _) => n / 2,
+                (3, crate::scene::Kind::Spherical) => 0,
+                (3, _) => 2,
+                (1, crate::scene::Kind::Prismatic) => 1,
+                _ => 0,
+            },
+            (
+                Quantity::AngularVelocity(_)
+                | Quantity::AngularAcceleration(_)
+                | Quantity::Orientation(_),
+                _,
+            ) => 0,
             _ => n,
         };
         let of = |second: bool| 2 * kind(quantity) + usize::from(second);

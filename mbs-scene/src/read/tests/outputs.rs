@@ -1,0 +1,94 @@
+//! Outputs of couplings, effects and the whole scene.
+
+use super::{PLANAR, read, refused};
+use mbs_core::scene::*;
+
+const COUPLING: &str = "[[coupling]]\nname = \"mesh\"\nkind = \"gear\"\njoints = [\"pivot\", \"elbow\"]\nteeth = [40, 17]\n\
+                        [[effect]]\nname = \"mount\"\nkind = \"bushing\"\nbodies = [\"ground\", \"upper\"]\nat = [0, 0]\nstiffness = [1, 1, 1]\n";
+
+/// The planar scene without its guide, with a coupling, a bushing and one more output.
+fn with(output: &str) -> String {
+    let guide =
+        "[[guide]]\njoint = \"elbow\"\nsine = { amplitude = 0.05, frequency = 0.5, phase = 0.0 }\n";
+    format!("{}\n{COUPLING}[[output]]\nname = \"x\"\n{output}\n", PLANAR.replace(guide, ""))
+}
+
+#[test]
+fn outputs_of_parts_and_of_the_scene_are_read_by_name_with_their_defaults() {
+    let cases = [
+        ("coupling = \"mesh\"", Quantity::Effort { coupling: CouplingId::new(0) }),
+        (
+            "coupling = \"mesh\"\nquantity = \"force\"",
+            Quantity::Effort { coupling: CouplingId::new(0) },
+        ),
+        (
+            "coupling = \"mesh\"\nquantity = \"power\"",
+            Quantity::CouplingPower { coupling: CouplingId::new(0) },
+        ),
+        ("effect = \"strut\"", Quantity::EffectForce { effect: EffectId::new(0) }),
+        (
+            "effect = \"strut\"\nquantity = \"length\"",
+            Quantity::EffectValue { effect: EffectId::new(0) },
+        ),
+        // without a name of its own
+        ("effect = \"effect-2\"", Quantity::EffectForce { effect: EffectId::new(1) }),
+        ("quantity = \"energy\"", Quantity::Energy),
+        ("quantity = \"kinetic-energy\"", Quantity::KineticEnergy),
+        (
+            "body = \"lower\"\nquantity = \"kinetic-energy\"",
+            Quantity::BodyKineticEnergy { body: BodyId::Body(1) },
+        ),
+        (
+            "joint = \"elbow\"\nquantity = \"acceleration\"",
+            Quantity::JointAcceleration { joint: JointId::new(1) },
+        ),
+    ];
+    for (output, expected) in cases {
+        let scene = read(&with(output)).unwrap_or_else(|e| panic!("{output}: {e}"));
+        assert_eq!(scene.outputs.last().expect("an output").quantity, expected, "{output}");
+    }
+}
+
+#[test]
+fn components_have_the_units_of_what_they_are_of() {
+    let units = |output: &str| -> Vec<String> {
+        let scene = read(&with(output)).unwrap_or_else(|e| panic!("{output}: {e}"));
+        let components = scene.outputs.last().expect("an output").quantity.components(&scene);
+        components.into_iter().map(|c| format!("{} {}", c.label, c.unit)).collect()
+    };
+    assert_eq!(units("coupling = \"mesh\""), [" N m"]);
+    assert_eq!(units("coupling = \"mesh\"\nquantity = \"rate\""), [" rad/s"]);
+    assert_eq!(units("effect = \"strut\""), [" N"]);
+    assert_eq!(units("effect = \"strut\"\nquantity = \"value\""), [" m"]);
+    assert_eq!(units("effect = \"effect-2\"\nquantity = \"value\""), [" rad"]);
+    assert_eq!(units("effect = \"mount\""), ["Fx N", "Fy N", "Mz N m"]);
+    assert_eq!(units("joint = \"elbow\"\nquantity = \"effort\""), [" N m"]);
+    assert_eq!(units("quantity = \"momentum\""), ["x kg m/s", "y kg m/s"]);
+    assert_eq!(units("body = \"lower\"\nquantity = \"orientation\""), [" rad"]);
+}
+
+#[test]
+fn outputs_of_unknown_parts_are_refused_at_the_name() {
+    let refusal = |output: &str| read(&with(output)).expect_err("it is refused");
+    let line = with("").lines().count();
+    let at = |column: usize| format!("{line}:{column}");
+    let e = refusal("coupling = \"mash\"");
+    refused(&e, &at(12), "unknown coupling `mash`", "`mesh`");
+    let e = refusal("effect = \"struts\"");
+    refused(&e, &at(10), "unknown effect `struts`", "`strut`");
+    let e = refusal("effect = \"strut\"\ncoupling = \"mesh\"");
+    refused(&e, &format!("{line}:10"), "both `coupling` and `effect` are given", "keep one");
+    let e = refusal("effect = \"strut\"\nquantity = \"forse\"");
+    refused(&e, &format!("{}:12", line + 1), "unknown quantity `forse`", "`force`");
+    let e = refusal("effect = \"mount\"\nquantity = \"value\"");
+    let message =
+        "`quantity` is not measured by this effect, which acts on bodies in several directions";
+    refused(&e, &format!("{}:12", line + 1), message, "`force`");
+    let e = refusal("quantity = \"position\"");
+    refused(
+        &e,
+        &format!("{}:1", line - 2),
+        "`joint, body, coupling or effect` is missing",
+        "`coupling` or `effect`",
+    );
+}
