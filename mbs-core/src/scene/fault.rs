@@ -138,6 +138,7 @@ pub enum SceneFault {
 impl SceneFault {
     /// What to do about it, in the imperative.
     #[must_use]
+    #[allow(clippy::too_many_lines, reason = "one sentence for each fault")]
     pub fn advice(&self) -> &'static str {
         match self {
             Self::NotFinite => "write a finite number",

@@ -56,7 +56,7 @@ impl<T: Real, const D: usize> Load<T, D> {
                 let moment = if D == 2 { unit(2) * given[0] } else { given.into() };
                 take((BodyId::Body(*body), None, twist(moment)));
             }
-            Self::BodyLoad { body, point, frame, axis, law } => {
+            Self::OnBody { body, point, frame, axis, law } => {
                 let body = BodyId::Body(*body);
                 let motion = motion((point, frame), &(turned(body) * axis), state);
                 let at = Vector::from(motion.position);

@@ -56,7 +56,7 @@ impl<T: Real, const D: usize> Load<T, D> {
     pub(in crate::outputs) fn n_gaps(&self) -> usize {
         match self {
             Self::Between { law, .. } => law.n_gaps(),
-            Self::BodyLoad { law, .. } => law.n_gaps(),
+            Self::OnBody { law, .. } => law.n_gaps(),
             _ => 0,
         }
     }
@@ -65,7 +65,7 @@ impl<T: Real, const D: usize> Load<T, D> {
     pub(in crate::outputs) fn fade(&self) -> Option<f64> {
         let has_fade = match self {
             Self::Between { law, .. } => law.has_fade(),
-            Self::BodyLoad { law, .. } => law.has_fade(),
+            Self::OnBody { law, .. } => law.has_fade(),
             _ => false,
         };
         has_fade.then_some(FADE)
@@ -75,7 +75,7 @@ impl<T: Real, const D: usize> Load<T, D> {
     pub(in crate::outputs) fn may_have_kinks(&self) -> bool {
         match self {
             Self::Between { law, .. } => law.may_have_kinks(),
-            Self::BodyLoad { law, .. } => law.may_have_kinks(),
+            Self::OnBody { law, .. } => law.may_have_kinks(),
             _ => false,
         }
     }
@@ -88,7 +88,7 @@ impl<T: Real, const D: usize> Load<T, D> {
     ) {
         match self {
             Self::Between { law, .. } => law.kinks(law_inputs, &mut take),
-            Self::BodyLoad { law, .. } => law.kinks(law_inputs, &mut take),
+            Self::OnBody { law, .. } => law.kinks(law_inputs, &mut take),
             _ => {}
         }
     }
@@ -96,7 +96,7 @@ impl<T: Real, const D: usize> Load<T, D> {
     /// How far from its place a kink may be passed [m]: on a slope, a wheel stands off its foot by less than its radius.
     pub(in crate::outputs) fn reach(&self) -> T {
         match self {
-            Self::BodyLoad { law, .. } => law.reach(),
+            Self::OnBody { law, .. } => law.reach(),
             _ => T::ZERO,
         }
     }
@@ -120,7 +120,7 @@ impl<T: Real, const D: usize> Load<T, D> {
                 reading.gaps = law.gaps(value, rate).map(of);
                 reading.place[0] = Gap { value, rate };
             }
-            Self::BodyLoad { point, frame, axis, law, .. }
+            Self::OnBody { point, frame, axis, law, .. }
                 if self.n_gaps() > 0 || self.may_have_kinks() =>
             {
                 let axis = frame.rotation(&state.q) * axis;

@@ -46,7 +46,7 @@ pub(super) enum Load<T: Real, const D: usize> {
     /// A torque that follows a course.
     Torque { body: usize, frame: Frame<T, D>, course: usize },
     /// A law on one body.
-    BodyLoad {
+    OnBody {
         body: usize,
         point: Affine<T, D>,
         frame: Frame<T, D>,
@@ -201,7 +201,7 @@ impl<T: Real, const D: usize> Load<T, D> {
             Action::BodyLoad { at, axis, law } => {
                 let frame = Frame::new(scene, model, BodyId::Body(at.0));
                 let (axis, law) = ((*axis).into(), *law);
-                return Self::BodyLoad { body: at.0, point: point(at), frame, axis, law };
+                return Self::OnBody { body: at.0, point: point(at), frame, axis, law };
             }
         };
         Self::Between { bodies, gauge, law: *law }

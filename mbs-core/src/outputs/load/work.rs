@@ -38,7 +38,7 @@ impl<T: Real, const D: usize> Load<T, D> {
             Self::Between { gauge, law, .. } => law.energy(gauge.measure(state)[0], law_inputs),
             Self::Constant { point, force, .. } => -force.dot(&raised(&point.value(&state.q))),
             Self::Force { .. } | Self::Torque { .. } => T::ZERO,
-            Self::BodyLoad { body, point, frame, axis, law } => {
+            Self::OnBody { body, point, frame, axis, law } => {
                 let axis = turned(BodyId::Body(*body)) * axis;
                 let mut sum = T::ZERO;
                 for_each_action(
@@ -73,10 +73,10 @@ impl<T: Real, const D: usize> Load<T, D> {
                 });
                 power
             }
-            Self::Torque { frame, .. } | Self::BodyLoad { frame, .. } => {
+            Self::Torque { frame, .. } | Self::OnBody { frame, .. } => {
                 let omega = frame.turning(&state.q, &state.v);
                 let velocity = match self {
-                    Self::BodyLoad { point, .. } => raised(&point.rate(&state.v)),
+                    Self::OnBody { point, .. } => raised(&point.rate(&state.v)),
                     _ => Vector::zeros(),
                 };
                 let mut power = T::ZERO;
