@@ -70,29 +70,32 @@ impl Columns<'_> {
 }
 
 impl<T: Real, const D: usize> Layout<T, D> {
-    /// Unknown entities first, in the order in which the groups use them, then constants.
+    /// Unknown entities first, in the order in which the groups use them, then constants; and the place of each.
+    fn order(entities: &[Entity<T>], groups: &[GroupDraft<T>]) -> (Vec<usize>, Vec<u32>) {
+        let mut entity_at = vec![u32::MAX; entities.len()];
+        let mut order = Vec::new();
+        let used = groups.iter().flat_map(|group| group.slots(entities));
+        let unknown = used.filter(|&e| !entities[e].is_constant);
+        for e in unknown.chain((0..entities.len()).filter(|&e| entities[e].is_constant)) {
+            if entity_at[e] == u32::MAX {
+                entity_at[e] = index(order.len() * D);
+                order.push(e);
+            }
+        }
+        (order, entity_at)
+    }
+
+    /// A model without groups.
     fn new(
         (entities, owners): (Vec<Entity<T>>, &[Owner]),
         groups: &[GroupDraft<T>],
         (clusters, length): (Clusters<T>, T),
         actions: Actions<T>,
     ) -> Self {
-        let mut entity_at = vec![u32::MAX; entities.len()];
-        let (mut order, mut unknown_owner) = (Vec::new(), Vec::new());
-        for group in groups {
-            for e in group.slots(&entities).into_iter().filter(|&e| !entities[e].is_constant) {
-                if entity_at[e] == u32::MAX {
-                    entity_at[e] = index(order.len() * D);
-                    order.push(e);
-                    unknown_owner.push(owners[e]);
-                }
-            }
-        }
-        let n_unknowns = order.len() * D;
-        for e in (0..entities.len()).filter(|&e| entities[e].is_constant) {
-            entity_at[e] = index(order.len() * D);
-            order.push(e);
-        }
+        let (order, entity_at) = Self::order(&entities, groups);
+        let unknown = |&&e: &&usize| !entities[e].is_constant;
+        let unknown_owner: Vec<_> = order.iter().filter(unknown).map(|&e| owners[e]).collect();
+        let n_unknowns = unknown_owner.len() * D;
         let at = |&e: &usize| entities[e].at.iter().copied().take(D);
         let reference: Vec<T> = order.iter().flat_map(at).collect();
         let model = NaturalModel {

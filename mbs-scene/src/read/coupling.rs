@@ -210,7 +210,7 @@ fn sense(fields: &Fields<'_>, joints: [&Joint<Number>; 2]) -> Option<f64> {
     let dimension = fields.context.dimension;
     let is_turn =
         |joint: &&Joint<Number>| matches!(joint.kind.single(dimension), Some(Freedom::Turn(_)));
-    if fields.context.is_planar() || !joints.iter().all(|joint| is_turn(joint)) {
+    if fields.context.is_planar() || !joints.iter().all(is_turn) {
         return Some(1.0);
     }
     let axes =
