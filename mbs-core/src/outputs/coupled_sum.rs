@@ -16,7 +16,7 @@ use crate::algebra::{Vector, norm, raised};
 use crate::measure::{CouplingInput, PreparedCurve, TermInput};
 use crate::model::State;
 use crate::natural::{Affine, NaturalModel};
-use crate::scene::{BodyId, Measured, Scene};
+use crate::scene::{BodyId, CouplingMeasure, Scene};
 use alloc::vec::Vec;
 
 /// The sum of a coupling.
@@ -115,7 +115,7 @@ impl<T: Real, const D: usize> SumTerm<T, D> {
 impl<T: Real, const D: usize> Part<T, D> {
     fn of_term(scene: &Scene<T>, model: &NaturalModel<T, D>, term: &TermInput<T>) -> Vec<Self> {
         match (&term.of, term.coordinate) {
-            (Measured::Length { points }, _) => {
+            (CouplingMeasure::Length { points }, _) => {
                 let parts = points.windows(2).map(|pair| {
                     let gap = Vector::<T, 3>::from(pair[1].1) - Vector::from(pair[0].1);
                     let points = [0, 1].map(|k| model.point(pair[k].0, pair[k].1));
@@ -124,10 +124,10 @@ impl<T: Real, const D: usize> Part<T, D> {
                 });
                 parts.collect()
             }
-            (Measured::Coordinate { .. }, Some(of)) => {
+            (CouplingMeasure::Coordinate { .. }, Some(of)) => {
                 Self::of_coordinate(scene, model, of).into_iter().collect()
             }
-            (Measured::Coordinate { .. }, None) => Vec::new(),
+            (CouplingMeasure::Coordinate { .. }, None) => Vec::new(),
         }
     }
 

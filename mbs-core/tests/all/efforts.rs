@@ -3,8 +3,8 @@
 use crate::small::{GROUND, add_body, add_joint, hold, scene, start};
 use mbs_core::outputs::Reactions;
 use mbs_core::scene::{
-    BodyId, Coupling, CouplingTerm, Curve, Dimension, Effect, Inertia, JointId, JointKind,
-    JointTorque, Measured, Scene, Signal,
+    BodyId, Coupling, CouplingMeasure, CouplingTerm, Curve, Dimension, Effect, Inertia, JointId,
+    JointKind, JointTorque, Scene, Signal,
 };
 
 const G: f64 = 9.81;
@@ -21,7 +21,7 @@ fn couple(scene: &mut Scene<f64>, terms: Vec<CouplingTerm<f64>>) {
 }
 
 fn term(index: usize, number: usize, factor: f64) -> CouplingTerm<f64> {
-    let of = Measured::Coordinate { joint: joint(index), number };
+    let of = CouplingMeasure::Coordinate { joint: joint(index), number };
     CouplingTerm { factor, of, curve: None }
 }
 
@@ -121,7 +121,7 @@ fn a_rope_over_two_points_pulls_as_in_the_machine_of_atwood() {
         (GROUND, [0.5, 1.0, 0.0]),
         (BodyId::Body(1), [0.5, 0.0, 0.0]),
     ];
-    let rope = CouplingTerm { factor: 1.0, of: Measured::Length { points }, curve: None };
+    let rope = CouplingTerm { factor: 1.0, of: CouplingMeasure::Length { points }, curve: None };
     couple(&mut s, vec![rope]);
     let (r, _) = reactions::<2>(&s);
     // 2 m1 m2 g / (m1 + m2), against growth

@@ -6,9 +6,9 @@ use mbs_core::algebra::{Vector, norm, rotation};
 use mbs_core::outputs::{Forces, Measures};
 use mbs_core::rigid::RigidMotion;
 use mbs_core::scene::{
-    AxisFrame, BodyId, Bushing, Coupling, CouplingId, CouplingTerm, Dimension, Effect, EffectId,
-    EffectKind, Force, Inertia, JointId, JointKind, JointTorque, Measured, Motion, Quantity, Scene,
-    Signal, SpringDamper,
+    AxisFrame, BodyId, Bushing, Coupling, CouplingId, CouplingMeasure, CouplingTerm, Dimension,
+    Effect, EffectId, EffectKind, Force, Inertia, JointId, JointKind, JointTorque, Motion,
+    Quantity, Scene, Signal, SpringDamper,
 };
 
 const G: f64 = 9.81;
@@ -251,7 +251,7 @@ fn a_driven_coupling_and_a_guide_give_what_the_motion_needs() {
     assert_near(&measured::<2>(&guided, &effort), &[0.3 * 4.0, 7.0]);
 
     // 2 angle = the input
-    let of = Measured::Coordinate { joint, number: 0 };
+    let of = CouplingMeasure::Coordinate { joint, number: 0 };
     let terms = vec![CouplingTerm { factor: 2.0, of, curve: None }];
     let motion = Some(Motion::Input(INPUT));
     s.couplings.push(Coupling { name: "drive".into(), terms, value: 0.0, motion });

@@ -4,7 +4,7 @@ use super::components::Component;
 use super::{Quantity, Target};
 use crate::effects::ActsOn;
 use crate::scene::{
-    BodyId, CouplingId, EffectId, JointId, Measured, Number, Output, Scene, Vector3,
+    BodyId, CouplingId, CouplingMeasure, EffectId, JointId, Number, Output, Scene, Vector3,
 };
 use alloc::vec::Vec;
 
@@ -32,7 +32,7 @@ impl<T: Clone> Quantity<T> {
 
 /// The unit of a coupling's sum: that of its slides and lengths, whose factors are numbers, else that of its angles.
 fn unit_of_sum<T>(scene: &Scene<T>, coupling: CouplingId) -> &'static str {
-    let unit = |of: &Measured<T>| {
+    let unit = |of: &CouplingMeasure<T>| {
         let Some((joint, number)) = of.coordinate() else { return "m" };
         let kind = scene.joints.get(joint.index()).map(|joint| joint.kind);
         let mut freedoms = kind.into_iter().flat_map(|kind| kind.numbered(scene.dimension));
