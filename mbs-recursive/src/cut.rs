@@ -10,13 +10,12 @@
 //! | link | (p·p − L²)/(2L); hinged: p·a |
 
 use crate::error::TreeError;
-use crate::link::LinkKind;
 use crate::loads::{BodyLoad, Load, Measure};
 use crate::loops::index;
 use crate::rows::{ClosedLoop, Row};
 use crate::space::{Numbers, Space};
 use crate::tree::TreeModel;
-use alloc::collections::BTreeMap;
+use alloc::vec::Vec;
 use mbs_core::Real;
 use mbs_core::actions::{self, Action};
 use mbs_core::algebra::{Vector, norm};
@@ -83,10 +82,10 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         scene: &Scene<T>,
         list: &[(usize, Action<T>)],
     ) -> Result<(), TreeError> {
-        let turning = self.turning_links();
+        let coordinates = self.coordinate_links(scene);
         for (effect, action) in list {
             let cut = |joint| TreeError::EffectCut { effect: *effect, joint };
-            if let Some(load) = self.load((scene, &turning), action).map_err(cut)?
+            if let Some(load) = self.load((scene, &coordinates), action).map_err(cut)?
                 && !load.is_idle()
             {
                 self.loads.push(load);
@@ -97,66 +96,53 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         Ok(())
     }
 
-    /// The link that turns about the axis of each joint of the tree, where one alone does. It is the part of the joint that is revolute, wherever
-    /// it is among the others.
-    fn turning_links(&self) -> BTreeMap<usize, u32> {
-        let mut turning = BTreeMap::new();
-        for seat in &self.seats {
-            let turns = |&link: &u32| {
-                let kind = self.links[link as usize].kind;
-                matches!(kind, LinkKind::Revolute | LinkKind::GuidedRevolute)
-            };
-            if let (Some(joint), Some(link)) =
-                (seat.branch.joint, (seat.first..=seat.link).find(turns))
-            {
-                turning.insert(joint, link);
-            }
-        }
-        turning
-    }
-
-    /// A law about a joint's axis: on the coordinate of the link that turns there. A free joint in the plane has no link between its bodies:
-    /// their angles differ by its own. Between parts of one body nothing turns.
+    /// A law of a turn: on the coordinate of the link that turns there. A free joint in the plane has no link between its bodies: their
+    /// angles differ by its own. Between parts of one body nothing turns.
     ///
     /// # Errors
     /// The joint, if nothing has its angle.
     fn about_axis(
         &self,
         scene: &Scene<T>,
-        (index, link): (usize, Option<&u32>),
+        (index, link): (usize, Option<u32>),
         law: Law<T>,
     ) -> Result<Option<Load<T, S>>, usize> {
-        if let Some(&link) = link {
+        let joint = &scene.joints[index];
+        let is_planar_free = joint.kind.is_free() && S::DIMENSION == 2;
+        if let Some(link) = link.filter(|_| !is_planar_free) {
             return Ok(Some(Load::Angle { link, law }));
         }
-        let joint = &scene.joints[index];
         let links = joint.bodies.map(|body| self.link(body));
         if links[0] == links[1] {
             return Ok(None);
         }
-        let is_planar_free = joint.kind.is_free() && S::DIMENSION == 2;
         let load = is_planar_free.then_some(Load::Between { links, gauge: Measure::Turn, law });
         load.map(Some).ok_or(index)
     }
 
-    /// The load of an action; `turning` has the link that turns about the axis of each joint.
+    /// The load of an action; `coordinates` has the links of the joints' coordinates.
     ///
     /// # Errors
     /// The joint whose angle it asks for in vain.
     fn load(
         &self,
-        (scene, turning): (&Scene<T>, &BTreeMap<usize, u32>),
+        (scene, coordinates): (&Scene<T>, &[Vec<Option<u32>>]),
         action: &Action<T>,
     ) -> Result<Option<Load<T, S>>, usize> {
+        let link_of = |joint: usize, number: usize| coordinates[joint][number];
         Ok(Some(match action {
-            Action::Angle { joint, law, .. } => {
-                return self.about_axis(scene, (*joint, turning.get(joint)), *law);
+            Action::Angle { joint, number, law } => {
+                return self.about_axis(scene, (*joint, link_of(*joint, *number)), *law);
             }
             Action::Length { ends, law } => {
                 let (links, points) = self.ends(ends);
                 Load::Between { links, gauge: Measure::Length { points }, law: *law }
             }
-            Action::Along { ends, direction, offset, law } => {
+            Action::Along { ends, direction, offset, of, law } => {
+                // A slide of a joint with several coordinates is a link of several.
+                if let Some(link) = of.and_then(|(joint, number)| link_of(joint, number)) {
+                    return Ok(Some(Load::Angle { link, law: *law }));
+                }
                 let (links, points) = self.ends(ends);
                 let direction = S::point_from(&Vector::from(*direction));
                 let gauge = Measure::Along { points, direction, offset: *offset };

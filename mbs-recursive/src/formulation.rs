@@ -48,11 +48,7 @@ fn angles<T: Real, const D: usize>(
     let list = Actions::new(scene).map(|actions| actions.list).unwrap_or_default();
     let angle = |(effect, action): &(usize, Action<T>)| {
         let angle = match action {
-            // Joints with an effect about their axis have one angle.
-            Action::Angle { joint, .. } => {
-                let (number, _) = scene.joints[*joint].kind.turn(scene.dimension)?;
-                Angle::Of(coordinates[*joint][number]?)
-            }
+            Action::Angle { joint, number, .. } => Angle::Of(coordinates[*joint][*number]?),
             Action::Turn { bodies, .. } => Angle::Between(*bodies),
             Action::Torque { body, .. } if D == 2 => {
                 Angle::Between([BodyId::Ground, BodyId::Body(*body)])

@@ -155,13 +155,28 @@ pub fn bushing(dimension: Dimension, damping: f64) -> EffectKind<f64> {
 
 /// Stops of a joint.
 fn limit(joint: JointId, lower: f64, upper: f64) -> EffectKind<f64> {
-    EffectKind::Limit(Limit { joint, lower, upper, stiffness: 40.0, damping: 2.0 })
+    EffectKind::Limit(Limit {
+        joint,
+        coordinate: None,
+        lower,
+        upper,
+        stiffness: 40.0,
+        damping: 2.0,
+    })
 }
 
 fn friction(joint: JointId) -> EffectKind<f64> {
     let (coulomb, r#static, stribeck) = (1.0, 1.2, 0.2);
     let (viscous, regularisation) = (0.3, 0.1);
-    EffectKind::Friction(Friction { joint, coulomb, r#static, stribeck, viscous, regularisation })
+    EffectKind::Friction(Friction {
+        joint,
+        coordinate: None,
+        coulomb,
+        r#static,
+        stribeck,
+        viscous,
+        regularisation,
+    })
 }
 
 /// A drive of the left body.

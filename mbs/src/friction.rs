@@ -47,10 +47,13 @@ impl<T: Real, const D: usize> Frictions<T, D> {
         let is_explicit = settings.integrator == IntegratorKind::Rk4;
         let friction = |(effect, e): (usize, &Effect<T>)| match &e.kind {
             EffectKind::Friction(law) if e.enabled => {
-                let &scene::Friction { joint, coulomb, r#static, regularisation, .. } = law;
+                let &scene::Friction {
+                    joint, coordinate, coulomb, r#static, regularisation, ..
+                } = law;
                 // What is viscous alone rises nowhere.
                 let has_rise = coulomb.max(r#static) > T::ZERO;
-                let motion = CoordinateMotion::new(scene, model, &scene.joints[joint]);
+                let motion =
+                    CoordinateMotion::new(scene, model, (&scene.joints[joint], coordinate));
                 let regularisation = regularisation.to_f64();
                 let motion = motion.filter(|_| has_rise)?;
                 Some(Friction { effect, motion, regularisation })

@@ -60,6 +60,7 @@ fn springs_and_forces(points: [[f64; 3]; 2], at: [f64; 3]) -> Vec<(&'static str,
             "torsion-spring",
             EffectKind::TorsionSpring(TorsionSpring {
                 joint: CRANK,
+                coordinate: None,
                 stiffness,
                 damping,
                 free_value: 0.0,
@@ -72,7 +73,11 @@ fn springs_and_forces(points: [[f64; 3]; 2], at: [f64; 3]) -> Vec<(&'static str,
         ("body-torque", EffectKind::BodyTorque(BodyTorque { body, course: course.clone() })),
         (
             "joint-torque",
-            EffectKind::JointTorque(JointTorque { joint: CRANK, course: course.clone() }),
+            EffectKind::JointTorque(JointTorque {
+                joint: CRANK,
+                coordinate: None,
+                course: course.clone(),
+            }),
         ),
         ("actuator", EffectKind::Actuator(Actuator { bodies, points, course })),
     ]
@@ -99,11 +104,22 @@ fn between(points: [[f64; 3]; 2], six: [f64; 6]) -> Vec<(&'static str, EffectKin
             "bumper",
             EffectKind::Bumper(Bumper { bodies, points, stiffness, damping, clearance: 0.1 }),
         ),
-        ("limit", EffectKind::Limit(Limit { joint, lower: -1.0, upper: 1.0, stiffness, damping })),
+        (
+            "limit",
+            EffectKind::Limit(Limit {
+                joint,
+                coordinate: None,
+                lower: -1.0,
+                upper: 1.0,
+                stiffness,
+                damping,
+            }),
+        ),
         (
             "friction",
             EffectKind::Friction(Friction {
                 joint,
+                coordinate: None,
                 coulomb: 1.0,
                 r#static: 1.2,
                 stribeck: 0.1,
@@ -133,7 +149,13 @@ fn between(points: [[f64; 3]; 2], six: [f64; 6]) -> Vec<(&'static str, EffectKin
         ),
         (
             "law-on-joint",
-            LawOnJoint { joint, law: Steady.into(), input: Signal::Input([1.0; 3]) }.into(),
+            LawOnJoint {
+                joint,
+                coordinate: None,
+                law: Steady.into(),
+                input: Signal::Input([1.0; 3]),
+            }
+            .into(),
         ),
     ]
 }

@@ -12,7 +12,9 @@ fn scene() -> Scene<f64> {
     let mut scene = file("guided-four-bar");
     scene.guides[0].law = Motion::Input([0.0, 0.0, 2.0]);
     scene.initials.clear();
-    let kind = JointTorque { joint: JointId::new(1), course: Signal::Input([0.0; 3]) }.into();
+    let kind =
+        JointTorque { joint: JointId::new(1), coordinate: None, course: Signal::Input([0.0; 3]) }
+            .into();
     scene.effects.push(Effect { name: "motor".into(), enabled: true, kind });
     scene
 }

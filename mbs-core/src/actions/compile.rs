@@ -97,26 +97,29 @@ impl<T: Real> Compiler<'_, T> {
         law: impl Into<Option<Law<T>>>,
     ) {
         let ends = ends(bodies, points);
-        self.act(law, |law| Action::Along { ends, direction, offset: T::ZERO, law });
+        self.act(law, |law| Action::Along { ends, direction, offset: T::ZERO, of: None, law });
     }
 
-    /// A law about the one axis that a joint turns about: the scene's check refuses others.
-    pub(crate) fn angle(&mut self, id: JointId, law: impl Into<Option<Law<T>>>) {
-        if let Some((_, axis)) = self.among.joints[id.index()].kind.turn(self.among.dimension) {
-            self.act(law, |law| Action::Angle { joint: id.index(), axis, law });
-        }
-    }
-
-    /// A law of a joint's one coordinate: the scene's check refuses joints with none or several.
-    pub(crate) fn on_joint(&mut self, id: JointId, law: impl Into<Option<Law<T>>>) {
-        let joint = &self.among.joints[id.index()];
-        match joint.kind.single(self.among.dimension) {
+    /// A law of a joint's coordinate: the scene's check refuses joints without it.
+    pub(crate) fn on_joint(
+        &mut self,
+        (id, coordinate): (JointId, Option<usize>),
+        law: impl Into<Option<Law<T>>>,
+    ) {
+        let (index, dimension) = (id.index(), self.among.dimension);
+        let joint = &self.among.joints[index];
+        let number = coordinate.or_else(|| joint.kind.default_coordinate(dimension));
+        let Some(number) = number else { return };
+        match joint.kind.freedom(dimension, number) {
             Some(Freedom::Slide(axis)) => {
                 let direction = direction_of(joint.direction(axis).into());
-                self.along(joint.bodies, joint.points, direction, law);
+                let ends = ends(joint.bodies, joint.points);
+                let is_single = joint.kind.single(dimension).is_some();
+                let of = (!is_single).then_some((index, number));
+                self.act(law, |law| Action::Along { ends, direction, offset: T::ZERO, of, law });
             }
-            Some(Freedom::Turn(axis)) => {
-                self.act(law, |law| Action::Angle { joint: id.index(), axis, law });
+            Some(Freedom::Turn(_)) => {
+                self.act(law, |law| Action::Angle { joint: index, number, law });
             }
             Some(Freedom::Ball) | None => {}
         }

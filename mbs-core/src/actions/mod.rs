@@ -16,7 +16,7 @@ pub use tables::Tables;
 use crate::inputs::Prescribed;
 use crate::laws::body::BodyLaw;
 use crate::laws::scalar::Law;
-use crate::scene::{Axis, BodyId};
+use crate::scene::BodyId;
 use alloc::vec::Vec;
 
 /// A place on a body, reference configuration [m].
@@ -40,15 +40,17 @@ pub enum Action<T> {
         direction: [T; 3],
         /// What the distance is counted from [m].
         offset: T,
+        /// Joint and number of the coordinate that it is, where the joint has others too.
+        of: Option<(usize, usize)>,
         /// The law.
         law: Law<T>,
     },
-    /// A law of the angle of a joint with one rotation.
+    /// A law of a turn of a joint about an axis.
     Angle {
         /// Index of the joint.
         joint: usize,
-        /// What it turns about.
-        axis: Axis,
+        /// The number of the turn among the joint's coordinates.
+        number: usize,
         /// The law.
         law: Law<T>,
     },

@@ -27,6 +27,7 @@ impl EffectKind<f64> {
                 Form::Bodies => Value::Bodies(places.pair.0),
                 Form::Body => Value::Body(places.body.0),
                 Form::Joint(_) => Value::Joint(places.joint),
+                Form::Coordinate => Value::Coordinate(None),
                 Form::Point => Value::Point(places.body.1),
                 Form::Points(_) => Value::Points(places.pair.1),
                 Form::Axis => Value::Axis([1.0, 0.0, 0.0]),

@@ -46,6 +46,8 @@ pub enum Form {
     Body,
     /// A joint.
     Joint(JointNeed),
+    /// A coordinate of the joint, by name or number from 0; `None`: the one that the joint's need means.
+    Coordinate,
     /// A place in the reference configuration.
     Point,
     /// Two places, one per body; with the flag they must differ.
@@ -74,7 +76,7 @@ pub enum Form {
     BodyLaw,
 }
 
-/// What an effect asks of its joint.
+/// What an effect asks of a joint whose coordinate is not given.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum JointNeed {
     /// One rotation.
@@ -146,6 +148,8 @@ pub enum Value<T> {
     Body(BodyId),
     /// Of [`Form::Joint`].
     Joint(JointId),
+    /// Of [`Form::Coordinate`].
+    Coordinate(Option<usize>),
     /// Of [`Form::Point`].
     Point([T; 3]),
     /// Of [`Form::Points`].
@@ -181,6 +185,7 @@ impl<T> Value<T> {
             Self::Bodies(bodies) => Value::Bodies(bodies),
             Self::Body(body) => Value::Body(body),
             Self::Joint(joint) => Value::Joint(joint),
+            Self::Coordinate(number) => Value::Coordinate(number),
             Self::Point(x) => Value::Point(x.map(f)),
             Self::Points(x) => Value::Points(x.map(|x| x.map(&mut *f))),
             Self::Axis(x) => Value::Axis(x.map(f)),

@@ -110,10 +110,12 @@ mod data {
     use crate::effects::data::*;
 
     effect! {
-        /// Stribeck friction of a joint with one coordinate, regularised.
+        /// Stribeck friction of a joint's coordinate, regularised.
         pub struct Friction<T> = ["friction"] {
             /// The joint.
             joint: JointId = Joint(Coordinate), "", Needed;
+            /// Its coordinate; needed where it has several.
+            coordinate: Option<usize> = Coordinate, "", Nothing;
             /// Friction of fast motion.
             coulomb: T = Number(NotNegative), "N m or N", Needed;
             /// Friction of slow motion.
@@ -139,9 +141,10 @@ mod data {
             place.fault("static", SceneFault::StaticBelowCoulomb(levels))
         }
         fn actions(&self, to: &mut Compiler<'_, T>) {
-            let &Self { joint, coulomb, r#static, regularisation, stribeck, viscous } = self;
+            let &Self { joint, coordinate, coulomb, r#static, regularisation, stribeck, viscous } =
+                self;
             let law = FrictionLaw { coulomb, r#static, stribeck, viscous, regularisation };
-            to.on_joint(joint, law);
+            to.on_joint((joint, coordinate), law);
         }
         fn dissipates(&self) -> bool {
             true

@@ -1,4 +1,4 @@
-//! A given torque between the bodies of a joint: power tau(t) m'.
+//! A given torque, or force, between the bodies of a joint: power tau(t) m'.
 
 use crate::Real;
 use crate::laws::LawInputs;
@@ -39,12 +39,14 @@ mod data {
     use crate::effects::data::*;
 
     effect! {
-        /// A torque of the first body on the second about the joint's axis (first component).
+        /// A torque of the first body on the second about the joint's axis (first component); a force along a slide.
         pub struct JointTorque<T> = ["torque"] {
             /// The joint.
             joint: JointId = Joint(Rotation), "", Needed;
-            /// Torque.
-            course as "value": Signal<T> = Signal(Scalar), "N m", Needed;
+            /// Its coordinate; needed where it has several rotations.
+            coordinate: Option<usize> = Coordinate, "", Nothing;
+            /// Torque, or force.
+            course as "value": Signal<T> = Signal(Scalar), "N m or N", Needed;
         }
     }
 
@@ -54,7 +56,7 @@ mod data {
 
         fn actions(&self, to: &mut Compiler<'_, T>) {
             let course = to.course(&self.course);
-            to.angle(self.joint, TorqueLaw { course });
+            to.on_joint((self.joint, self.coordinate), TorqueLaw { course });
         }
     }
 }

@@ -1,4 +1,4 @@
-//! A user-defined law with data on the coordinate of a joint that has one: see [`code`](crate::laws::code).
+//! A user-defined law with data on a coordinate of a joint: see [`code`](crate::laws::code).
 
 #[cfg(feature = "alloc")]
 pub use data::LawOnJoint;
@@ -9,10 +9,12 @@ mod data {
     use crate::laws::code::{Code, ForceLaw};
 
     effect! {
-        /// A user-defined law with data, on a joint with one coordinate; in code only.
+        /// A user-defined law with data, on a joint's coordinate; in code only.
         pub struct LawOnJoint<T> = [] {
             /// The joint.
             joint: JointId = Joint(Coordinate), "", Needed;
+            /// Its coordinate; needed where it has several.
+            coordinate: Option<usize> = Coordinate, "", Nothing;
             /// The law.
             law: Code<dyn ForceLaw> = ForceLaw, "", Needed;
             /// Its input.
@@ -28,7 +30,7 @@ mod data {
         }
         fn actions(&self, to: &mut Compiler<'_, T>) {
             let law = to.force_code(&self.law, &self.input);
-            to.on_joint(self.joint, law);
+            to.on_joint((self.joint, self.coordinate), law);
         }
         fn stores_energy(&self) -> bool {
             true

@@ -90,10 +90,12 @@ mod data {
     use crate::effects::data::*;
 
     effect! {
-        /// Elastic stops of a joint with one coordinate.
+        /// Elastic stops of a joint's coordinate.
         pub struct Limit<T> = ["limit"] {
             /// The joint.
             joint: JointId = Joint(Coordinate), "", Needed;
+            /// Its coordinate; needed where it has several.
+            coordinate: Option<usize> = Coordinate, "", Nothing;
             /// Coordinate below which the lower stop pushes.
             lower: T = Number(Any), "rad or m", Needed;
             /// Coordinate above which the upper stop pushes.
@@ -120,8 +122,8 @@ mod data {
             place.fault("lower", SceneFault::RangeOrder(range))
         }
         fn actions(&self, to: &mut Compiler<'_, T>) {
-            let &Self { joint, lower, upper, stiffness, damping } = self;
-            to.on_joint(joint, LimitLaw { lower, upper, stiffness, damping });
+            let &Self { joint, coordinate, lower, upper, stiffness, damping } = self;
+            to.on_joint((joint, coordinate), LimitLaw { lower, upper, stiffness, damping });
         }
         fn stores_energy(&self) -> bool {
             !self.stiffness.is_zero()

@@ -1,4 +1,4 @@
-//! Spring and damper about the axis of a joint.
+//! Spring and damper of a coordinate of a joint.
 
 #[cfg(feature = "alloc")]
 pub use data::TorsionSpring;
@@ -9,16 +9,18 @@ mod data {
     use crate::effects::spring_damper::SpringDamperLaw;
 
     effect! {
-        /// torque on the second body = -(stiffness (angle - free_value) + damping rate) about a revolute joint's axis.
+        /// torque on the second body = -(stiffness (angle - free_value) + damping rate) about a joint's axis; a force along a slide.
         pub struct TorsionSpring<T> = ["torsion-spring"] {
             /// The joint.
             joint: JointId = Joint(Rotation), "", Needed;
+            /// Its coordinate; needed where it has several rotations.
+            coordinate: Option<usize> = Coordinate, "", Nothing;
             /// Stiffness.
-            stiffness: T = Number(Any), "N m/rad", ZERO;
+            stiffness: T = Number(Any), "N m/rad or N/m", ZERO;
             /// Damping.
-            damping: T = Number(Any), "N m s/rad", ZERO;
-            /// Angle without torque.
-            free_value: T = Number(Any), "rad", ZERO;
+            damping: T = Number(Any), "N m s/rad or N s/m", ZERO;
+            /// Coordinate without torque or force.
+            free_value: T = Number(Any), "rad or m", ZERO;
         }
     }
 
@@ -29,7 +31,8 @@ mod data {
 
         fn actions(&self, to: &mut Compiler<'_, T>) {
             let (stiffness, damping, free) = (self.stiffness, self.damping, self.free_value);
-            to.angle(self.joint, SpringDamperLaw { stiffness, damping, free });
+            let law = SpringDamperLaw { stiffness, damping, free };
+            to.on_joint((self.joint, self.coordinate), law);
         }
         fn stores_energy(&self) -> bool {
             !self.stiffness.is_zero()

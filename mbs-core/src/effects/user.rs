@@ -94,7 +94,7 @@ mod data {
     use crate::effects::data::*;
     use crate::effects::{EffectData, Field, Value};
     use crate::scene::UserLaw;
-    use crate::scene::check::{check_pair, known_body, single_coordinate};
+    use crate::scene::check::{check_coordinate, check_pair, known_body};
     use alloc::vec::Vec;
 
     /// A law of a user's own, in code only.
@@ -135,7 +135,9 @@ mod data {
                     check_pair(among, bodies, place)?;
                     place.apart("points", points)
                 }
-                UserLaw::Joint { joint, .. } => single_coordinate(among, joint, place),
+                UserLaw::Joint { joint, .. } => {
+                    check_coordinate(among, joint, (Coordinate, None), place)
+                }
                 UserLaw::Body { body, at, axis, .. } => {
                     known_body(among, body, place)?;
                     place.vector("at", at)?;
@@ -149,7 +151,9 @@ mod data {
                 UserLaw::Length { bodies, points, law } => {
                     to.length(bodies, points, UserScalarEntry { law, course });
                 }
-                UserLaw::Joint { joint, law } => to.on_joint(joint, UserScalarEntry { law, course }),
+                UserLaw::Joint { joint, law } => {
+                    to.on_joint((joint, None), UserScalarEntry { law, course });
+                }
                 UserLaw::Body { body, at, axis, law } => {
                     let axis = crate::actions::direction_of(axis);
                     to.on_body((body, at), axis, UserBodyEntry { law, course });

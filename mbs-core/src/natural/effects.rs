@@ -11,7 +11,7 @@ use crate::algebra::{Vector, unit};
 use crate::effects::joint_torque::TorqueLaw;
 use crate::laws::scalar::Law;
 use crate::model::Owner;
-use crate::scene::{BodyId, Dimension, Freedom};
+use crate::scene::{BodyId, Dimension};
 use alloc::vec::Vec;
 
 impl<T: Real> Builder<'_, T> {
@@ -36,20 +36,22 @@ impl<T: Real> Builder<'_, T> {
             Action::Length { ends, law } => {
                 EffectDraft::Length { x: self.between(ends), law: *law }
             }
-            Action::Along { ends, direction, offset, law } => EffectDraft::Along {
+            Action::Along { ends, direction, offset, law, .. } => EffectDraft::Along {
                 x: self.between(ends),
                 d: self.direction(ends[0].0, Vector::from(*direction)),
                 offset: *offset,
                 law: *law,
             },
-            Action::Angle { joint, axis, law } => {
-                let scene = self.scene;
-                let turn = Freedom::Turn(*axis);
-                match self.coordinate(&scene.joints[*joint], scene.dimension, turn) {
-                    Coordinate::Angle { x1, x2, y, .. } => {
+            Action::Angle { joint, number, law } => {
+                let (joint, dimension) = (&self.scene.joints[*joint], self.scene.dimension);
+                let turn = joint.kind.freedom(dimension, *number);
+                match turn.map(|turn| self.coordinate(joint, dimension, turn)) {
+                    Some(Coordinate::Angle { x1, x2, y, sign }) => {
+                        // the angle of -x2 is minus that of x2
+                        let x2 = if sign < T::ZERO { difference(&Vec::new(), &x2) } else { x2 };
                         EffectDraft::Angle { x1, x2, y, law: *law }
                     }
-                    Coordinate::Slide { .. } | Coordinate::Rotation => return Ok(()),
+                    _ => return Ok(()),
                 }
             }
             Action::Turn { bodies: [first, second], law } => {

@@ -121,16 +121,23 @@ impl<T: Real, const D: usize> Coordinate<T, D> {
     pub(super) fn direction(&self, q: &[T]) -> Wrench<T> {
         let mut wrench = Wrench::zero();
         match self {
-            Self::Angle { x1, x2, y, .. } => {
-                let [x1, x2, y] = [x1, x2, y].map(|x| raised(&x.value(q)));
-                let (c, s) = (x1.dot(&y), x2.dot(&y));
-                wrench.moment =
-                    (cross(&y, &x2) * c - cross(&y, &x1) * s) * (T::ONE / (c * c + s * s));
-            }
+            Self::Angle { .. } => wrench.moment = self.gradient(q),
             Self::Slide { y, .. } => wrench.force = raised(&y.value(q)),
             Self::Turn { .. } | Self::Quaternion { .. } => {}
         }
         wrench
+    }
+
+    /// The gradient of the angle by the rotation of the second body against the first, global axes; zero of what is no angle.
+    ///
+    /// ```text
+    /// y x (C x2 - S x1) / (C^2 + S^2),   C = x1.y,   S = x2.y
+    /// ```
+    pub(super) fn gradient(&self, q: &[T]) -> Vector<T, 3> {
+        let Self::Angle { x1, x2, y, .. } = self else { return Vector::zeros() };
+        let [x1, x2, y] = [x1, x2, y].map(|x| raised(&x.value(q)));
+        let (c, s) = (x1.dot(&y), x2.dot(&y));
+        cross(&y, &(x2 * c - x1 * s)) * (T::ONE / (c * c + s * s))
     }
 
     /// Where the angle is expected that was `last` before a time of `dt` [s] with these rates at both ends: where the mean rate leads.
@@ -225,17 +232,24 @@ impl<T: Real, const D: usize> Coordinate<T, D> {
     }
 }
 
-/// Rate and acceleration of the coordinate of a joint that has one.
+/// Rate and acceleration of a coordinate of a joint.
 #[derive(Debug, Clone, PartialEq)]
 pub struct CoordinateMotion<T: Real, const D: usize> {
     coordinate: Coordinate<T, D>,
 }
 
 impl<T: Real, const D: usize> CoordinateMotion<T, D> {
-    /// Of a joint; `None` where it has no coordinate or several.
+    /// Of a joint, by the coordinate's number, or else of its [default](crate::scene::JointKind::default_coordinate); `None` where it has
+    /// none.
     #[must_use]
-    pub fn new(scene: &Scene<T>, model: &NaturalModel<T, D>, joint: &Joint<T>) -> Option<Self> {
-        let freedom = joint.kind.single(scene.dimension)?;
+    pub fn new(
+        scene: &Scene<T>,
+        model: &NaturalModel<T, D>,
+        (joint, number): (&Joint<T>, Option<usize>),
+    ) -> Option<Self> {
+        let (kind, dimension) = (joint.kind, scene.dimension);
+        let number = number.or_else(|| kind.default_coordinate(dimension))?;
+        let freedom = kind.freedom(dimension, number)?;
         Some(Self { coordinate: Coordinate::of_freedom(scene, model, (joint, freedom)) })
     }
 

@@ -2,6 +2,7 @@
 //!
 //! Points and vectors are in global axes, reference configuration, with two numbers in the plane and three in space.
 
+use crate::effects::Value;
 use crate::laws::code::{BodyLaw, ForceLaw};
 use crate::scene::{
     Actuator, AeroDrag, Axis, AxisFrame, Body, BodyId, BodyTorque, Bumper, Bushing, Coupling,
@@ -180,6 +181,17 @@ impl Effect<Number> {
         Self { name: String::new(), enabled: true, kind: kind.into() }
     }
 
+    /// The same effect on another coordinate of its joint, by its number from 0; effects without a joint stay as they are.
+    #[must_use]
+    pub fn on_coordinate(mut self, number: usize) -> Self {
+        let values = self.kind.values().into_iter().map(|value| match value {
+            Value::Coordinate(_) => Value::Coordinate(Some(number)),
+            other => other,
+        });
+        self.kind = self.kind.with(values).unwrap_or(self.kind);
+        self
+    }
+
     /// A spring and a damper along the line of two points: stiffness [N/m], damping [N s/m], length without tension [m].
     pub fn spring_damper<P: Into<Vector3>>(
         between: [(BodyId, P); 2],
@@ -201,7 +213,7 @@ impl Effect<Number> {
     ) -> Self {
         let (stiffness, damping) = (stiffness.into(), damping.into());
         let free_value = free_value.into();
-        Self::of(TorsionSpring { joint, stiffness, damping, free_value })
+        Self::of(TorsionSpring { joint, coordinate: None, stiffness, damping, free_value })
     }
 
     /// A force at a point of a body, global axes [N].
@@ -222,7 +234,7 @@ impl Effect<Number> {
 
     /// A torque of a joint's first body on the second about its axis, one number [N m].
     pub fn torque(joint: JointId, signal: impl Into<Signal<Number>>) -> Self {
-        Self::of(JointTorque { joint, course: signal.into() })
+        Self::of(JointTorque { joint, coordinate: None, course: signal.into() })
     }
 
     /// A torque on a body from the ground, global axes; in the plane one number [N m].
@@ -280,14 +292,14 @@ impl Effect<Number> {
         Self::of(Bushing { bodies, at: at.into().0, stiffness, damping })
     }
 
-    /// Elastic stops of a joint with one coordinate: from, to [rad or m]; stiffness, damping [N m/rad, N m s/rad or N/m, N s/m].
+    /// Elastic stops of a joint's coordinate: from, to [rad or m]; stiffness, damping [N m/rad, N m s/rad or N/m, N s/m].
     pub fn limit(joint: JointId, range: [f64; 2], stiffness: f64, damping: f64) -> Self {
         let [lower, upper] = range.map(Number::from);
         let (stiffness, damping) = (stiffness.into(), damping.into());
-        Self::of(Limit { joint, lower, upper, stiffness, damping })
+        Self::of(Limit { joint, coordinate: None, lower, upper, stiffness, damping })
     }
 
-    /// Coulomb friction of a joint with one coordinate [N m or N], smooth below a rate [rad/s or m/s]; the other numbers of the part may be
+    /// Coulomb friction of a joint's coordinate [N m or N], smooth below a rate [rad/s or m/s]; the other numbers of the part may be
     /// changed.
     pub fn friction(
         joint: JointId,
@@ -299,6 +311,7 @@ impl Effect<Number> {
         let (coulomb, regularisation) = (coulomb.into(), regularisation.into());
         Self::of(Friction {
             joint,
+            coordinate: None,
             r#static: coulomb.clone(),
             coulomb,
             stribeck: regularisation.clone() * Number::from(STRIBECK_RATIO),
@@ -364,7 +377,7 @@ impl Effect<Number> {
 
     /// A force law on the coordinate of a joint that has one.
     pub fn law_on_joint(joint: JointId, law: impl ForceLaw + 'static) -> Self {
-        Self::of(LawOnJoint { joint, law: law.into(), input: Signal::input(0.0) })
+        Self::of(LawOnJoint { joint, coordinate: None, law: law.into(), input: Signal::input(0.0) })
     }
 
     /// A law on a body at a point. The direction that the law sees turn with the body is at first that of x; the part has another.

@@ -19,7 +19,7 @@ mod vector;
 use crate::Real;
 use crate::scene::{Entry, Scene, SceneError, SceneFault};
 use alloc::vec::Vec;
-pub(crate) use reference::{check_pair, known_body, single_coordinate};
+pub(crate) use reference::{check_coordinate, check_pair, known_body};
 pub(crate) use vector::Place;
 
 impl<T: Real> Scene<T> {

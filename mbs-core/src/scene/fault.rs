@@ -1,5 +1,6 @@
 //! What can be wrong with a scene, and what to do about it.
 
+use super::{Dimension, JointKind};
 use core::fmt::{self, Display, Formatter};
 
 /// The faults.
@@ -62,6 +63,15 @@ pub enum SceneFault {
     UnknownCoordinate(usize),
     /// The coordinate is a component of a rotation, which is no angle of its own.
     BallCoordinate,
+    /// The coordinate of a joint that has several is missing, or is none of them.
+    NeedsCoordinate {
+        /// The joint's kind.
+        joint: JointKind,
+        /// The scene's dimension.
+        dimension: Dimension,
+        /// The number that is given.
+        given: Option<usize>,
+    },
     /// There is no term, or every factor is zero.
     NoTerm,
     /// A periodic curve has different values at its ends; both.
@@ -174,6 +184,7 @@ impl SceneFault {
                 "ask for `force`, `energy` or `power`, or name an effect along a line or on a joint"
             }
             Self::UnknownCoordinate(_) => "count the joint's coordinates from 0",
+            Self::NeedsCoordinate { .. } => "write one of these names",
             Self::BallCoordinate => "name a joint that turns about axes, such as a universal joint",
             Self::NoTerm => "write a term with a factor that is not zero",
             Self::PeriodicEnds(_) => "end the table with the value that it begins with",
@@ -248,6 +259,16 @@ impl SceneFault {
                     "is not there: the joint has {n} coordinate{}",
                     if *n == 1 { "" } else { "s" }
                 )
+            }
+            Self::NeedsCoordinate { joint, dimension, given } => {
+                match given {
+                    Some(number) => write!(f, "is {number}, but the joint has")?,
+                    None => write!(f, "is missing: the joint has")?,
+                }
+                for (i, (_, name)) in joint.coordinate_names(*dimension).enumerate() {
+                    write!(f, "{} `{name}`", if i == 0 { "" } else { "," })?;
+                }
+                Ok(())
             }
             Self::BallCoordinate => write!(f, "is a component of a rotation, not an angle"),
             Self::NoTerm => write!(f, "has no term with a factor that is not zero"),

@@ -14,6 +14,7 @@
 use super::Dimension;
 use Axis::{First, Second, Third, X, Y, Z};
 use Freedom::{Ball, Slide, Turn};
+use core::mem::discriminant;
 
 /// A direction of a joint.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -248,6 +249,44 @@ impl JointKind {
             [one] if one.n_coordinates() == 1 => Some(*one),
             _ => None,
         }
+    }
+
+    /// The freedom whose only coordinate has this number; `None` for a component of a rotation.
+    #[must_use]
+    pub fn freedom(self, dimension: Dimension, number: usize) -> Option<Freedom> {
+        let mut freedoms = self.numbered(dimension);
+        freedoms.find(|(at, freedom)| *at == number && *freedom != Ball).map(|(_, freedom)| freedom)
+    }
+
+    /// The name of a coordinate: `slide` and `turn`, several `x`, `y`, `z`, or `first`, `second`. A component of a rotation has none.
+    #[must_use]
+    pub fn coordinate_name(self, dimension: Dimension, number: usize) -> Option<&'static str> {
+        let freedom = self.freedom(dimension, number)?;
+        let is_alike = |other: &&Freedom| discriminant(*other) == discriminant(&freedom);
+        let mut alike = self.freedoms(dimension).iter().filter(is_alike);
+        let place = alike.clone().position(|other| *other == freedom)?;
+        match (freedom, alike.nth(1)) {
+            (Slide(_), None) => Some("slide"),
+            (Slide(_), Some(_)) => ["x", "y", "z"].get(place).copied(),
+            (_, None) => Some("turn"),
+            (_, Some(_)) => ["first", "second"].get(place).copied(),
+        }
+    }
+
+    /// The names of its coordinates, with their numbers.
+    pub fn coordinate_names(
+        self,
+        dimension: Dimension,
+    ) -> impl Iterator<Item = (usize, &'static str)> {
+        let name = move |number| Some((number, self.coordinate_name(dimension, number)?));
+        (0..self.n_coordinates(dimension)).filter_map(name)
+    }
+
+    /// The coordinate that an effect acts on where none is given: the only one, else the first turn.
+    #[must_use]
+    pub fn default_coordinate(self, dimension: Dimension) -> Option<usize> {
+        let only = self.single(dimension).map(|_| 0);
+        only.or_else(|| self.turn(dimension).map(|(number, _)| number))
     }
 
     /// The number of its first turn about an axis, with the axis.

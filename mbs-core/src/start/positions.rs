@@ -116,9 +116,8 @@ impl<T: Real, S: SpdSolver<T>, const D: usize> Assembly<'_, T, S, D> {
         // A scene that has a model has actions.
         let actions = Actions::new(scene).map(|actions| actions.list).unwrap_or_default();
         for (effect, action) in actions {
-            let Action::Angle { joint, .. } = action else { continue };
-            let turn = scene.joints[joint].kind.turn(scene.dimension);
-            let start = turn.and_then(|(number, _)| starts[joint].get(number));
+            let Action::Angle { joint, number, .. } = action else { continue };
+            let start = starts[joint].get(number);
             if let (Some(place), Some(&start)) = (model.memory_of_effect(effect), start) {
                 s.memory[place] = start;
             }

@@ -53,8 +53,12 @@ pub(crate) fn every(dimension: Dimension) -> Vec<(&'static str, EffectKind<f64>)
     let (bodies, points) = ([BodyId::Body(2), body], [[0.1, 0.8, 0.7 * depth], at]);
     let hardening = || Hardening { stiffness: 30.0, cubic: 20.0, damping: 2.0 }.into();
     let input = || Signal::Constant([0.3, 0.0, 0.0]);
-    let on_joint =
-        |joint| LawOnJoint { joint: JointId::new(joint), law: hardening(), input: input() };
+    let on_joint = |joint| LawOnJoint {
+        joint: JointId::new(joint),
+        coordinate: None,
+        law: hardening(),
+        input: input(),
+    };
     let (law, axis) = (Wind(0.7).into(), [1.0, 2.0, 0.5 * depth]);
     vec![
         ("line", LawOnLine { bodies, points, law: hardening(), input: input() }.into()),

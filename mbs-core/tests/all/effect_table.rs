@@ -99,8 +99,13 @@ fn key(field: &Field) -> Option<String> {
     let key = field.key;
     let named = match field.form {
         Form::Bodies | Form::Points(_) | Form::Name(_) => return None,
-        Form::Joint(JointNeed::Rotation) => format!("`{key}` with one rotation"),
-        Form::Joint(JointNeed::Coordinate) => format!("`{key}` with one coordinate"),
+        Form::Coordinate => return None,
+        Form::Joint(JointNeed::Rotation) => {
+            format!("`{key}` with one rotation, or with a `coordinate`")
+        }
+        Form::Joint(JointNeed::Coordinate) => {
+            format!("`{key}` with one coordinate, or with a `coordinate`")
+        }
         Form::Pieces => format!("`{key} = [[lower, upper, c0, c1, ...], ...]`"),
         Form::Frame => format!("`{key}`, `\"global\"` or `\"body\"`"),
         Form::Side => {

@@ -142,3 +142,31 @@ fn the_readme_lists_the_kinds_of_joint() {
     let listed: BTreeSet<_> = list.expect("a list").split(',').map(last).collect();
     assert_eq!(listed, JOINTS.iter().map(|form| form.name).collect());
 }
+
+#[test]
+fn coordinates_have_names_but_components_of_a_rotation() {
+    let names = |kind: JointKind, dimension| {
+        let names: Vec<_> = kind.coordinate_names(dimension).collect();
+        for &(number, name) in &names {
+            assert_eq!(kind.coordinate_name(dimension, number), Some(name));
+        }
+        names.into_iter().map(|(number, name)| format!("{number} {name}")).collect::<Vec<_>>()
+    };
+    use Dimension::{Planar, Spatial};
+    for (kind, dimension, expected) in [
+        (JointKind::Revolute, Planar, &["0 turn"][..]),
+        (JointKind::Spherical, Spatial, &[]),
+        (JointKind::Universal, Spatial, &["0 first", "1 second"]),
+        (JointKind::Prismatic, Spatial, &["0 slide"]),
+        (JointKind::Cylindrical, Spatial, &["0 slide", "1 turn"]),
+        (JointKind::Planar, Spatial, &["0 x", "1 y", "2 turn"]),
+        (JointKind::PinInSlot, Planar, &["0 slide", "1 turn"]),
+        (JointKind::PinInSlot, Spatial, &["0 slide"]),
+        (JointKind::Weld, Spatial, &[]),
+        (JointKind::Free, Planar, &["0 x", "1 y", "2 turn"]),
+        (JointKind::Free, Spatial, &["0 x", "1 y", "2 z"]),
+        (JointKind::Distance, Spatial, &[]),
+    ] {
+        assert_eq!(names(kind, dimension), expected, "{kind:?}");
+    }
+}

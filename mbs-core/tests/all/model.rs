@@ -203,11 +203,17 @@ fn power<const D: usize>(scene: &Scene<f64>, field: &Field<'_, D>) -> f64 {
                 let rate = dot(&d, &w) / length;
                 -(stiffness * (length - free_length) + damping * rate) * rate
             }
-            EffectKind::TorsionSpring(TorsionSpring { joint, damping, free_value, stiffness }) => {
+            EffectKind::TorsionSpring(TorsionSpring {
+                joint,
+                damping,
+                free_value,
+                stiffness,
+                ..
+            }) => {
                 let rate = joint_rate(scene, field, joint.index());
                 -(stiffness * (0.0 - free_value) + damping * rate) * rate
             }
-            EffectKind::JointTorque(JointTorque { joint, course }) => {
+            EffectKind::JointTorque(JointTorque { joint, course, .. }) => {
                 at_start(course)[0] * joint_rate(scene, field, joint.index())
             }
             EffectKind::Force(Force { body, at, course, .. }) => {

@@ -301,12 +301,40 @@ fn add_effects(s: &mut Scene<f64>) {
         }),
         EffectKind::TorsionSpring(TorsionSpring {
             joint: JointId::new(2),
+            coordinate: None,
             stiffness: 40.0,
             damping: 3.0,
             free_value: 0.4,
         }),
+        EffectKind::TorsionSpring(TorsionSpring {
+            joint: JointId::new(2),
+            coordinate: Some(0),
+            stiffness: 300.0,
+            damping: 4.0,
+            free_value: 0.3,
+        }),
+        EffectKind::JointTorque(JointTorque {
+            joint: JointId::new(1),
+            coordinate: Some(0),
+            course: Signal::Constant([3.0, 0.0, 0.0]),
+        }),
+        EffectKind::TorsionSpring(TorsionSpring {
+            joint: JointId::new(1),
+            coordinate: Some(1),
+            stiffness: 25.0,
+            damping: 2.0,
+            free_value: 0.8,
+        }),
+        EffectKind::TorsionSpring(TorsionSpring {
+            joint: JointId::new(6),
+            coordinate: Some(1),
+            stiffness: 90.0,
+            damping: 1.0,
+            free_value: -0.2,
+        }),
         EffectKind::JointTorque(JointTorque {
             joint: JointId::new(0),
+            coordinate: None,
             course: Signal::Constant([7.0, 0.0, 0.0]),
         }),
         EffectKind::Force(Force {

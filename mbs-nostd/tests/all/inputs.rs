@@ -15,7 +15,11 @@ fn with_torques(name: &str) -> Scene<f64> {
     for (name, course) in
         [("set", Signal::Input([0.0; 3])), ("constant", Signal::Constant([0.1, 0.0, 0.0]))]
     {
-        let kind = EffectKind::JointTorque(JointTorque { joint: JointId::new(0), course });
+        let kind = EffectKind::JointTorque(JointTorque {
+            joint: JointId::new(0),
+            coordinate: None,
+            course,
+        });
         scene.effects.push(Effect { name: name.into(), enabled: true, kind });
     }
     scene

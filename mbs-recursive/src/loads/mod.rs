@@ -37,9 +37,9 @@ pub enum Load<T: Real, S: Space<T>> {
         /// The law.
         law: Law<T>,
     },
-    /// A law about the axis of a revolute joint.
+    /// A law of the coordinate of a link with one freedom.
     Angle {
-        /// The link behind the joint.
+        /// The link.
         link: u32,
         /// The law.
         law: Law<T>,

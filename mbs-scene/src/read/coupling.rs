@@ -68,7 +68,8 @@ pub(crate) fn read(
         "linear" => {
             allow(fields, &[&["terms", "value"], &MOTION_KEYS[..]].concat())?;
             let list = fields.context.list(fields.need("terms")?, TERMS)?;
-            let terms = list.iter().map(|item| read_term(fields, item)).collect::<Read<_>>()?;
+            let terms =
+                list.iter().map(|item| read_term(fields, item, joints)).collect::<Read<_>>()?;
             (terms, fields.number_or_zero("value")?, read_motion(fields)?)
         }
         _ => return fields.unknown_word("kind", kind, &KINDS),
@@ -321,7 +322,11 @@ fn read_points<'a>(
 }
 
 /// A term: a coordinate of a joint, or the length over points; a curve of it.
-fn read_term<'a>(fields: &Fields<'a>, item: &'a Item) -> Read<CouplingTerm<Number>> {
+fn read_term<'a>(
+    fields: &Fields<'a>,
+    item: &'a Item,
+    joints: &[Joint<Number>],
+) -> Read<CouplingTerm<Number>> {
     let context = fields.context;
     let term = context.table(item, "a term like { joint = \"j\", factor = 1.0 }")?;
     let keys = ["joint", "coordinate", "points", "factor", "table", "periodic", "coefficients"];
@@ -331,22 +336,13 @@ fn read_term<'a>(fields: &Fields<'a>, item: &'a Item) -> Read<CouplingTerm<Numbe
         CouplingMeasure::Length { points: read_points(fields, points)? }
     } else {
         let joint = context.joint(term.need("joint")?)?;
-        CouplingMeasure::Coordinate { joint, number: coordinate(&term)? }
+        let number = match term.get("coordinate") {
+            Some(item) => term.coordinate(item, &joints[joint.index()])?,
+            None => 0,
+        };
+        CouplingMeasure::Coordinate { joint, number }
     };
     Ok(CouplingTerm { factor: term.number_or("factor", "1")?, of, curve: read_curve(&term)? })
-}
-
-/// The number of a joint's coordinate, from 0.
-fn coordinate(fields: &Fields<'_>) -> Read<usize> {
-    let Some(item) = fields.get("coordinate") else { return Ok(0) };
-    let text = match &item.node {
-        Node::Number(text) => text.clone(),
-        _ => String::new(),
-    };
-    match text.parse() {
-        Ok(number) => Ok(number),
-        Err(_) => fields.context.fault(&item.span, ReadFault::NotACount { text, most: 5 }),
-    }
 }
 
 fn need_curve(fields: &Fields<'_>) -> Read<Curve<Number>> {

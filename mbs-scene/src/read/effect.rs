@@ -5,12 +5,16 @@ mod value;
 use crate::read::ReadFault;
 use crate::read::fields::{Fields, Read};
 use mbs_core::effects::{Default, EFFECTS, Field, Form, Row, Value};
-use mbs_core::scene::{AxisFrame, Effect, EffectKind, Number};
+use mbs_core::scene::{AxisFrame, Effect, EffectKind, Joint, Number};
 
 const COMMON: [&str; 3] = ["name", "kind", "enabled"];
 
 /// Reads an effect; without a name it is called `effect-N`, counted from 1.
-pub(crate) fn read(index: usize, fields: &Fields<'_>) -> Read<Effect<Number>> {
+pub(crate) fn read(
+    index: usize,
+    fields: &Fields<'_>,
+    joints: &[Joint<Number>],
+) -> Read<Effect<Number>> {
     let word = fields.word("kind")?;
     let named: Vec<usize> =
         (0..EFFECTS.len()).filter(|&row| EFFECTS[row].names.contains(&word.0)).collect();
@@ -34,7 +38,7 @@ pub(crate) fn read(index: usize, fields: &Fields<'_>) -> Read<Effect<Number>> {
     let enabled = fields.flag("enabled", true)?;
     let row = choose(fields, &named)?;
     let all = EFFECTS[row].fields;
-    let written = all.iter().map(|field| value::read(fields, field, word.0));
+    let written = all.iter().map(|field| value::read(fields, field, (word.0, joints)));
     let written: Vec<Option<Value<Number>>> = written.collect::<Read<_>>()?;
     let value = |i: usize| match &written[i] {
         Some(value) => Ok(value.clone()),
@@ -94,6 +98,7 @@ fn default(
         (_, Default::NeededWith(key)) if other(key)?.is_zero() => {
             return Ok(Value::Number(Number::ZERO));
         }
+        (Form::Coordinate, Default::Nothing) => return Ok(Value::Coordinate(None)),
         (Form::MaybeAxis, Default::Nothing) => return Ok(Value::MaybeAxis(None)),
         (Form::Frame, Default::Nothing) => return Ok(Value::Frame(AxisFrame::Global)),
         (Form::Side, Default::Nothing) => return Ok(Value::Side(None)),

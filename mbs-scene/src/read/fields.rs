@@ -3,7 +3,7 @@
 use crate::read::names::Names;
 use crate::read::tree::{Item, Member, Node, Span};
 use crate::read::{ReadError, ReadFault, SceneFile};
-use mbs_core::scene::{BodyId, Dimension, JointId, Number};
+use mbs_core::scene::{BodyId, Dimension, Joint, JointId, Number};
 
 /// What the readers of all entries share.
 #[derive(Debug, Clone, Copy)]
@@ -264,6 +264,26 @@ impl<'a> Fields<'a> {
     pub(crate) fn two_vectors(&self, key: &'static str) -> Read<[[Number; 3]; 2]> {
         let [first, second] = self.context.exactly(self.need(key)?, "a list of two vectors")?;
         Ok([self.context.vector(first)?, self.context.vector(second)?])
+    }
+
+    /// A coordinate of a joint, by its name or its number from 0.
+    pub(crate) fn coordinate(&self, item: &Item, joint: &Joint<Number>) -> Read<usize> {
+        let names = || joint.kind.coordinate_names(self.context.dimension);
+        let number = match &item.node {
+            Node::Number(text) => text.parse().ok(),
+            Node::Text(name) => match names().find(|(_, known)| known == name) {
+                Some((number, _)) => Some(number),
+                None => {
+                    let known: Vec<_> = names().map(|(_, name)| name).collect();
+                    return self.unknown_word("coordinate", (name, &item.span), &known);
+                }
+            },
+            _ => None,
+        };
+        match number {
+            Some(number) => Ok(number),
+            None => self.context.wrong_type(item, "a coordinate's name, or its number from 0"),
+        }
     }
 
     pub(crate) fn unknown_word<R>(

@@ -49,7 +49,8 @@ impl SceneFile {
         let joints = self.entries(&context, "joint", |_, fields| joint::read(fields, &centers))?;
         let couplings =
             self.entries(&context, "coupling", |i, fields| coupling::read(i, fields, &joints))?;
-        let effects = self.entries(&context, "effect", effect::read)?;
+        let effects =
+            self.entries(&context, "effect", |i, fields| effect::read(i, fields, &joints))?;
         let of_couplings = Names::new(couplings.iter().map(|x| x.name.clone()).collect());
         let of_effects = Names::new(effects.iter().map(|x| x.name.clone()).collect());
         Ok(Scene {

@@ -62,7 +62,7 @@
 //! "#;
 //! let mut scene = SceneFile::parse(text, "arm.toml")?.scene::<f64>()?;
 //! // what the input is at the start, before the first `set_input`: 9.81 N m hold 1 kg at 1 m
-//! let kind = EffectKind::JointTorque(JointTorque { joint: JointId::new(0), course: Signal::Input([9.81, 0.0, 0.0]) });
+//! let kind = EffectKind::JointTorque(JointTorque { joint: JointId::new(0), coordinate: None, course: Signal::Input([9.81, 0.0, 0.0]) });
 //! scene.effects.push(Effect { name: "motor".into(), enabled: true, kind });
 //! let settings = ResolvedMethod::new(&scene, &Method { step: Some(1e-3), ..Method::default() })?;
 //! let simulation = Simulation::new(&scene, &settings).expect("the scene starts");

@@ -1,5 +1,5 @@
-//! Effects about the axis of a joint: every kind of joint that has one, in both orders of its bodies, on the ground and on a body that
-//! moves, in every formulation; and guides on every joint of a chain.
+//! Effects on each coordinate of a joint: every kind of joint that has one, in both orders of its bodies, on the ground and on a body that
+//! moves, in every formulation, and by closed forms; and guides on every joint of a chain.
 
 use crate::common::oracle::{Way, disagreement, everything, methods, rows, rows_with_errors};
 use mbs_testkit::scene;
@@ -14,6 +14,9 @@ fn hung(is_planar: bool, kind: &str, [is_on_body, is_reversed]: [bool; 2], effec
     let axis = |of: &str| if is_planar { String::new() } else { format!("axis = {of}\n") };
     let own_axis = match kind {
         "planar" => "axis = [1.0, 0.2, 0.3]\ndirection = [0.0, 1.0, 0.1]\n",
+        "universal" => "axes = [[1.0, 0.2, 0.3], [0.1, 1.0, -0.4]]\n",
+        "pin-in-slot" if is_planar => "axis = [1.0, 0.3]\n",
+        "pin-in-slot" => "axis = [1.0, 0.2, 0.3]\n",
         "revolute" | "cylindrical" if !is_planar => "axis = [1.0, 0.2, 0.3]\n",
         _ => "",
     };
@@ -34,10 +37,19 @@ fn hung(is_planar: bool, kind: &str, [is_on_body, is_reversed]: [bool; 2], effec
             axis("[0.3, 0.2, 1.0]"),
         );
     }
-    let rate = if kind == "revolute" {
-        "[[initial]]\njoint = \"j\"\nvalue = 0.2\nrate = 3.0\n"
-    } else {
-        ""
+    let rate = match (kind, effect.contains("coordinate")) {
+        ("revolute", _) => "[[initial]]\njoint = \"j\"\nvalue = 0.2\nrate = 3.0\n",
+        ("universal", _) => "[[initial]]\njoint = \"j\"\nvalue = [0.2, -0.6]\nrate = [3.0, -2.0]\n",
+        ("cylindrical", true) => {
+            "[[initial]]\njoint = \"j\"\nvalue = [0.2, 0.3]\nrate = [1.5, -2.0]\n"
+        }
+        ("pin-in-slot", true) if is_planar => {
+            "[[initial]]\njoint = \"j\"\nvalue = [0.2, 0.3]\nrate = [1.5, -2.0]\n"
+        }
+        ("planar", true) => {
+            "[[initial]]\njoint = \"j\"\nvalue = [0.2, -0.05, 0.3]\nrate = [1.5, -2.0, 2.0]\n"
+        }
+        _ => "",
     };
     text + &format!(
         "[[joint]]\nname = \"j\"\nkind = \"{kind}\"\nbodies = {bodies:?}\n{at}{own_axis}{rate}\
@@ -57,8 +69,6 @@ const ON_ONE_COORDINATE: [&str; 2] = [
 
 #[test]
 fn effects_about_an_axis_are_the_same_in_every_formulation() {
-    let mut faults = Vec::new();
-    let mut n = 0;
     for (is_planar, kind) in [
         (true, "revolute"),
         (true, "free"),
@@ -68,32 +78,156 @@ fn effects_about_an_axis_are_the_same_in_every_formulation() {
     ] {
         let others = if kind == "revolute" { &ON_ONE_COORDINATE[..] } else { &[] };
         for effect in ON_ONE_ROTATION.iter().chain(others) {
-            for place in [[false, false], [false, true], [true, false], [true, true]] {
-                let text = hung(is_planar, kind, place, effect);
-                let scene = everything(&scene(&text));
-                let case = |method: Way| rows_with_errors(&scene, method, (1e-3, 0.1));
-                let reference = case(methods()[0]).unwrap_or_else(|e| panic!("{e}\n{text}"));
-                for &method in &methods()[1..] {
-                    n += 1;
-                    match case(method) {
-                        Ok(told) => {
-                            let (ratio, i) = disagreement(&reference, &told);
-                            if !(ratio <= 1.0) {
-                                faults.push(format!(
-                                    "{kind} {place:?} {effect:?} {method:?}: {ratio:.2}, {i}"
-                                ));
-                            }
-                        }
-                        Err(stop) => {
-                            faults.push(format!("{kind} {place:?} {effect:?} {method:?}: {stop}"))
+            every_method_agrees(is_planar, kind, effect, &[false, true]);
+        }
+    }
+}
+
+#[test]
+fn effects_on_each_coordinate_are_the_same_in_every_formulation() {
+    for (is_planar, kind, coordinate) in [
+        (false, "cylindrical", "\"slide\""),
+        (false, "cylindrical", "\"turn\""),
+        (false, "universal", "\"first\""),
+        (false, "universal", "\"second\""),
+        (false, "planar", "\"x\""),
+        (false, "planar", "1"),
+        (false, "planar", "\"turn\""),
+        (true, "pin-in-slot", "\"slide\""),
+        (true, "pin-in-slot", "\"turn\""),
+        (false, "pin-in-slot", "\"slide\""),
+        (true, "free", "\"y\""),
+    ] {
+        for effect in ON_ONE_ROTATION[2..].iter().chain(&ON_ONE_COORDINATE) {
+            let effect = format!("{effect}\ncoordinate = {coordinate}");
+            // on the ground: closed forms below
+            every_method_agrees(is_planar, kind, &effect, &[true]);
+        }
+    }
+}
+
+/// In both orders of the bodies, on the ground and on a body that moves.
+fn every_method_agrees(is_planar: bool, kind: &str, effect: &str, is_on_body: &[bool]) {
+    let mut faults = Vec::new();
+    for place in is_on_body.iter().flat_map(|&of| [[of, false], [of, true]]) {
+        let text = hung(is_planar, kind, place, effect);
+        let scene = everything(&scene(&text));
+        let case = |method: Way| rows_with_errors(&scene, method, (1e-3, 0.1));
+        let reference = case(methods()[0]).unwrap_or_else(|e| panic!("{e}\n{text}"));
+        for &method in &methods()[1..] {
+            match case(method).map(|other| disagreement(&reference, &other)) {
+                Ok((ratio, _)) if ratio <= 1.0 => {}
+                Ok((ratio, i)) => faults.push(format!("{place:?} {method:?}: {ratio:.2}, {i}")),
+                Err(stop) => faults.push(format!("{place:?} {method:?}: {stop}")),
+            }
+        }
+    }
+    assert!(faults.is_empty(), "{kind} {effect}\n{}", faults.join("\n"));
+}
+
+/// A body with its centre in the joint, its principal axes along the joint's, and what resists each coordinate.
+fn centred(kind: &str, is_planar: bool) -> (&'static str, Vec<(&'static str, f64)>) {
+    let (m, [jx, jy, jz]) = (2.0, [0.02, 0.03, 0.04]);
+    match (kind, is_planar) {
+        ("cylindrical", _) => ("axis = [0.0, 0.0, 1.0]", vec![("slide", m), ("turn", jz)]),
+        ("universal", _) => {
+            ("axes = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]]", vec![("first", jx), ("second", jy)])
+        }
+        ("planar", _) => (
+            "axis = [0.0, 0.0, 1.0]\ndirection = [1.0, 0.0, 0.0]",
+            vec![("x", m), ("y", m), ("turn", jz)],
+        ),
+        ("pin-in-slot", true) => ("axis = [1.0, 0.0]", vec![("slide", m), ("turn", jz)]),
+        ("pin-in-slot", false) => ("axis = [1.0, 0.0, 0.0]", vec![("slide", m)]),
+        _ => ("", vec![("x", m), ("y", m), ("turn", jz)]),
+    }
+}
+
+#[test]
+fn effects_move_each_coordinate_alone_by_closed_form() {
+    let t = 0.05;
+    for (is_planar, kind) in [
+        (false, "cylindrical"),
+        (false, "universal"),
+        (false, "planar"),
+        (true, "pin-in-slot"),
+        (false, "pin-in-slot"),
+        (true, "free"),
+    ] {
+        let (axes, coordinates) = centred(kind, is_planar);
+        let count = match (kind, is_planar) {
+            ("pin-in-slot", false) => 4,
+            _ => coordinates.len(),
+        };
+        for (number, (name, inertia)) in coordinates.into_iter().enumerate() {
+            let omega = (5.0 / inertia).sqrt();
+            // value and rate at the start, effect, value and rate at t
+            let cases = [
+                (
+                    [0.0, 0.3],
+                    "kind = \"torque\"\nvalue = 0.7",
+                    [0.3 * t + 0.35 / inertia * t * t, 0.3 + 0.7 / inertia * t],
+                ),
+                (
+                    [0.3, 0.0],
+                    "kind = \"torsion-spring\"\nstiffness = 5.0\nfree_value = 0.1",
+                    [0.1 + 0.2 * (omega * t).cos(), -0.2 * omega * (omega * t).sin()],
+                ),
+                (
+                    [0.2, 1.5],
+                    "kind = \"limit\"\nlower = -1.0\nupper = 0.2\nstiffness = 5.0",
+                    [0.2 + 1.5 / omega * (omega * t).sin(), 1.5 * (omega * t).cos()],
+                ),
+                (
+                    [0.2, 1.5],
+                    "kind = \"friction\"\ncoulomb = 0.0\nviscous = 0.4",
+                    [
+                        0.2 + 1.5 * inertia / 0.4 * (1.0 - (-0.4 / inertia * t).exp()),
+                        1.5 * (-0.4 / inertia * t).exp(),
+                    ],
+                ),
+            ];
+            for (start, effect, expected) in cases {
+                for bodies in [["ground", "a"], ["a", "ground"]] {
+                    let start = start.map(|x| {
+                        let mut all = vec![0.0; count];
+                        all[number] = x;
+                        format!("{all:?}")
+                    });
+                    let origin = if is_planar { "[0.0, 0.0]" } else { "[0.0, 0.0, 0.0]" };
+                    let at =
+                        if kind == "free" { String::new() } else { format!("at = {origin}\n") };
+                    let inertia =
+                        if is_planar { "0.04" } else { "[0.02, 0.03, 0.04, 0.0, 0.0, 0.0]" };
+                    let scene = scene(&format!(
+                        "[scene]\nname = \"alone\"\ndimension = {}\nduration = 0.05\n\
+                         [[body]]\nname = \"a\"\nmass = 2.0\ncenter = {origin}\ninertia = {inertia}\n\
+                         [[joint]]\nname = \"j\"\nkind = \"{kind}\"\nbodies = {bodies:?}\n{at}{axes}\n\
+                         [[initial]]\njoint = \"j\"\nvalue = {}\nrate = {}\n\
+                         [[effect]]\njoint = \"j\"\ncoordinate = \"{name}\"\n{effect}\n\
+                         [[output]]\nname = \"q\"\njoint = \"j\"\nquantity = \"value\"\n\
+                         [[output]]\nname = \"v\"\njoint = \"j\"\nquantity = \"rate\"\n",
+                        if is_planar { 2 } else { 3 },
+                        start[0],
+                        start[1],
+                    ));
+                    for &method in &methods() {
+                        let rows = rows(&scene, method, (1e-4, t), 500);
+                        let rows = rows.unwrap_or_else(|e| panic!("{kind} {name} {method:?}: {e}"));
+                        let last = &rows.last().expect("rows").1;
+                        for (i, found) in last.iter().enumerate() {
+                            let own = i % count == number;
+                            let expected = if own { expected[i / count] } else { 0.0 };
+                            assert!(
+                                (found - expected).abs() < 2e-6 * (1.0 + omega),
+                                "{kind} {name} {bodies:?} {effect} {method:?}: {last:?}, {expected}"
+                            );
                         }
                     }
                 }
             }
         }
     }
-    println!("{n} combinations");
-    assert!(faults.is_empty(), "{}\n{} of {n}", faults.join("\n"), faults.len());
 }
 
 #[test]

@@ -394,6 +394,7 @@ fn a_limit_reports_which_end_was_touched_and_watching_allocates_nothing() {
     let (stiffness, damping) = (5000.0, 0.0);
     bounce.scene.effects[0].kind = EffectKind::Limit(Limit {
         joint: JointId::new(0),
+        coordinate: None,
         lower: -0.05,
         upper: 0.1,
         stiffness,

@@ -70,6 +70,7 @@ fn wheel() -> Scene<f64> {
     let mut scene = mbs_testkit::scene(TEXT);
     let kind = EffectKind::JointTorque(JointTorque {
         joint: JointId::new(0),
+        coordinate: None,
         course: Signal::Input([0.0; 3]),
     });
     scene.effects.push(Effect { name: "motor".into(), enabled: true, kind });
@@ -131,6 +132,7 @@ fn a_torque_that_is_set_every_ten_milliseconds_leaves_every_rule_its_order_in_a_
         scene.outputs.clear();
         let kind = EffectKind::JointTorque(JointTorque {
             joint: JointId::new(0),
+            coordinate: None,
             course: Signal::Input([0.0; 3]),
         });
         scene.effects.push(Effect { name: "motor".into(), enabled: true, kind });
@@ -236,8 +238,13 @@ fn close(a: [f64; 2], b: [f64; 2], allowed: f64, what: &str) {
 #[test]
 fn an_input_that_is_set_to_a_constant_is_that_constant() {
     for formulation in common::with_fixed_steps() {
-        let torque =
-            |course| EffectKind::JointTorque(JointTorque { joint: JointId::new(0), course });
+        let torque = |course| {
+            EffectKind::JointTorque(JointTorque {
+                joint: JointId::new(0),
+                coordinate: None,
+                course,
+            })
+        };
         let mut plain = simulation(&with(torque(Signal::Constant([3.0, 0.0, 0.0]))), formulation);
         let mut driven = simulation(&with(torque(Signal::Input([3.0, 0.0, 0.0]))), formulation);
         let effect = 0;
@@ -261,6 +268,7 @@ fn an_input_changes_the_motion_from_the_next_step_on() {
     for formulation in common::with_fixed_steps() {
         let scene = with(EffectKind::JointTorque(JointTorque {
             joint: JointId::new(0),
+            coordinate: None,
             course: Signal::Input([0.0; 3]),
         }));
         let (mut still, mut driven) =

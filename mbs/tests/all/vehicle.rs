@@ -50,7 +50,7 @@ fn forces(
         Action::Length { ends: [first, second], law } => {
             law.evaluate((place(*second) - place(*first)).norm(), 0.0, &law_inputs).tension
         }
-        Action::Along { ends: [first, second], direction, offset, law } => {
+        Action::Along { ends: [first, second], direction, offset, law, .. } => {
             let along = model.direction(first.0, *direction).value(state);
             let distance = (place(*second) - place(*first)).dot(&along) - offset;
             law.evaluate(distance, 0.0, &law_inputs).tension

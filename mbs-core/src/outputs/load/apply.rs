@@ -3,7 +3,7 @@
 //! ```text
 //! length      tension f along the line of two points
 //! along       -f d on the second body's point, f d on the first body there
-//! angle       -f about the joint's axis on the second body, opposite on the first
+//! angle       -f about the joint's axis on the second body, opposite on the first; of two axes by the gradient of the angle
 //! rotation    -f g on the second body, opposite on the first: g the gradient of a component of the rotation vector
 //! on a body   -f d at the law's point and -f m, over the law's actions
 //! ```
@@ -99,7 +99,10 @@ impl<T: Real, const D: usize> Measure<T, D> {
                 let ([_, r], _) = ends(points, state);
                 ([Some(r); 2], push(raised(&direction.value(&state.q)) * tension))
             }
-            Self::Angle { axis, .. } => ([None; 2], twist(axes * axis * tension)),
+            Self::Angle { axis, angle, .. } => {
+                let axis = axis.map_or_else(|| angle.gradient(&state.q), |axis| axes * axis);
+                ([None; 2], twist(axis * tension))
+            }
             Self::Rotation { number, .. } => {
                 let g = axes * rotation_gradient(&self.rotation(state), *number);
                 ([None; 2], twist(g * tension))

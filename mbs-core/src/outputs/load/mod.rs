@@ -19,7 +19,7 @@ use crate::laws::body::BodyLaw;
 use crate::laws::scalar::Law;
 use crate::model::State;
 use crate::natural::{Affine, NaturalModel};
-use crate::scene::{BodyId, Freedom, Scene};
+use crate::scene::{Axis, BodyId, Freedom, Scene};
 use alloc::boxed::Box;
 use alloc::vec;
 use alloc::vec::Vec;
@@ -67,8 +67,8 @@ pub(super) enum Measure<T: Real, const D: usize> {
         offset: T,
     },
     Angle {
-        /// The joint's axis, fixed in the first body, as in the reference configuration.
-        axis: Vector<T, 3>,
+        /// The joint's axis, fixed in the first body, as in the reference configuration; `None`: of two axes, each in its body.
+        axis: Option<Vector<T, 3>>,
         angle: Coordinate<T, D>,
         /// Where the state remembers the angle; `None`: neither body moves.
         memory: Option<usize>,
@@ -164,22 +164,27 @@ impl<T: Real, const D: usize> Load<T, D> {
             Action::Length { ends, law } => {
                 (ends.map(|e| e.0), Measure::Length { points: points(ends) }, law)
             }
-            Action::Along { ends, direction, offset, law } => {
+            Action::Along { ends, direction, offset, law, .. } => {
                 let direction = model.direction(ends[0].0, *direction);
                 let gauge = Measure::Along { points: points(ends), direction, offset: *offset };
                 (ends.map(|e| e.0), gauge, law)
             }
-            Action::Angle { joint, axis, law } => {
-                let joint = &scene.joints[*joint];
-                let angle = Coordinate::of_freedom(scene, model, (joint, Freedom::Turn(*axis)));
-                let axis = joint.direction(*axis);
+            Action::Angle { joint, number, law } => {
+                let (joint, dimension) = (&scene.joints[*joint], scene.dimension);
+                let turn = joint.kind.freedom(dimension, *number).unwrap_or(Freedom::Turn(Axis::Z));
+                let angle = Coordinate::of_freedom(scene, model, (joint, turn));
+                let is_single = joint.kind.n_rotations(dimension) == 1;
+                let axis = turn.axis().filter(|_| is_single).map(|axis| joint.direction(axis));
                 let gauge = Measure::Angle { axis, angle, memory: model.memory_of_effect(effect) };
                 (joint.bodies, gauge, law)
             }
             Action::Turn { bodies, law } => {
                 let angle = Coordinate::between(model, *bodies);
-                let gauge =
-                    Measure::Angle { axis: unit(2), angle, memory: model.memory_of_effect(effect) };
+                let gauge = Measure::Angle {
+                    axis: Some(unit(2)),
+                    angle,
+                    memory: model.memory_of_effect(effect),
+                };
                 (*bodies, gauge, law)
             }
             Action::Rotation { bodies, number, law } => {

@@ -1,10 +1,10 @@
 //! Effects: references and numbers, field by field, then what the kind itself refuses.
 
 use super::course;
-use super::reference::{check_pair, known_body, single_coordinate, single_rotation};
+use super::reference::{check_coordinate, check_pair, known_body};
 use super::vector::{Place, is_planar};
 use crate::Real;
-use crate::effects::{Form, JointNeed, Sign, Value};
+use crate::effects::{Form, Sign, Value};
 use crate::scene::{EffectKind, Scene, SceneError, SceneFault};
 
 pub(super) fn check<T: Real>(
@@ -13,17 +13,22 @@ pub(super) fn check<T: Real>(
     place: Place,
 ) -> Result<(), SceneError> {
     let among = scene.surroundings();
-    for (field, value) in effect.row().fields.iter().zip(effect.values()) {
+    let values = effect.values();
+    let given = values.iter().find_map(|value| match value {
+        Value::Coordinate(number) => *number,
+        _ => None,
+    });
+    for (field, value) in effect.row().fields.iter().zip(values) {
         let key = field.key;
         match value {
             Value::Bodies(bodies) => check_pair(among, bodies, place)?,
             Value::Body(body) => {
                 known_body(among, body, place)?;
             }
-            Value::Joint(joint) if field.form == Form::Joint(JointNeed::Rotation) => {
-                single_rotation(among, joint, place)?;
+            Value::Joint(joint) => {
+                let Form::Joint(need) = field.form else { continue };
+                check_coordinate(among, joint, (need, given), place)?;
             }
-            Value::Joint(joint) => single_coordinate(among, joint, place)?,
             Value::Point(x) => place.vector(key, x)?,
             Value::Points(x) if field.form == Form::Points(true) => place.apart(key, x)?,
             Value::Points(x) => x.iter().try_for_each(|x| place.vector(key, *x))?,
@@ -38,6 +43,8 @@ pub(super) fn check<T: Real>(
                 let Form::Signal(form) = field.form else { continue };
                 course::check(&signal, Some(form), place)?;
             }
+            // checked with the joint
+            Value::Coordinate(_) => {}
             // left to the kind
             Value::MaybeAxis(_) | Value::Pieces(_) | Value::Side(_) => {}
             Value::Frame(_) | Value::Name(_) | Value::ForceLaw(_) | Value::BodyLaw(_) => {}

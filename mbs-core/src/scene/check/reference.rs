@@ -1,6 +1,7 @@
 //! Checks of what an entry refers to: its bodies and its joint.
 
 use super::vector::Place;
+use crate::effects::JointNeed;
 use crate::scene::{BodyId, Joint, JointId, SceneError, SceneFault, Surroundings};
 
 /// The entry's two bodies exist and differ.
@@ -48,24 +49,34 @@ fn joint<'a, T>(
     }
 }
 
-pub(super) fn single_rotation<T>(
+/// The joint has the coordinate that is given, or else one alone that the need means.
+pub(crate) fn check_coordinate<T>(
     among: Surroundings<'_, T>,
     joint: JointId,
+    (need, given): (JointNeed, Option<usize>),
     place: Place,
 ) -> Result<(), SceneError> {
-    match self::joint(&among, joint, place)?.kind.n_rotations(among.dimension) {
-        1 => Ok(()),
-        n => place.fault("joint", SceneFault::NoSingleRotation(n)),
-    }
-}
-
-pub(crate) fn single_coordinate<T>(
-    among: Surroundings<'_, T>,
-    joint: JointId,
-    place: Place,
-) -> Result<(), SceneError> {
-    match self::joint(&among, joint, place)?.kind.n_coordinates(among.dimension) {
-        1 => Ok(()),
-        n => place.fault("joint", SceneFault::NoSingleCoordinate(n)),
+    let (kind, dimension) = (self::joint(&among, joint, place)?.kind, among.dimension);
+    let n = kind.n_coordinates(dimension);
+    let needs_one = SceneFault::NeedsCoordinate { joint: kind, dimension, given };
+    let Some(number) = given else {
+        let (meant, fault) = match need {
+            JointNeed::Rotation => {
+                let n = kind.n_rotations(dimension);
+                (n, SceneFault::NoSingleRotation(n))
+            }
+            JointNeed::Coordinate => (n, SceneFault::NoSingleCoordinate(n)),
+        };
+        return match kind.coordinate_names(dimension).next() {
+            _ if meant == 1 => Ok(()),
+            Some(_) if n > 1 => place.fault("coordinate", needs_one),
+            _ => place.fault("joint", fault),
+        };
+    };
+    match kind.freedom(dimension, number) {
+        Some(_) => Ok(()),
+        None if n == 0 => place.fault("joint", SceneFault::NoCoordinate),
+        None if number < n => place.fault("coordinate", SceneFault::BallCoordinate),
+        None => place.fault("coordinate", needs_one),
     }
 }

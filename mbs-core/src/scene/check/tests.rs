@@ -310,7 +310,11 @@ fn effects_act_between_different_points_and_on_rotations() {
     let found = refused(spatial(), |s| {
         s.joints[1].kind = JointKind::Prismatic;
         let course = Signal::Constant([1.0, 0.0, 0.0]);
-        let kind = EffectKind::JointTorque(JointTorque { joint: JointId::new(1), course });
+        let kind = EffectKind::JointTorque(JointTorque {
+            joint: JointId::new(1),
+            coordinate: None,
+            course,
+        });
         s.effects = vec![Effect { name: "motor".into(), enabled: true, kind }];
     });
     assert_eq!(found, (Entry::Effect(0), "joint", SceneFault::NoSingleRotation(0)));

@@ -4,13 +4,13 @@ use crate::read::ReadFault;
 use crate::read::fields::{Fields, Read};
 use crate::read::tree::{Item, Node};
 use mbs_core::effects::{Field, Form, SignalForm, Value};
-use mbs_core::scene::{AxisFrame, CalspanCoefficients, Number, PolynomialPiece, Signal};
+use mbs_core::scene::{AxisFrame, CalspanCoefficients, Joint, Number, PolynomialPiece, Signal};
 
 /// The value of a field of an effect of the kind `name`; `None` where its key is left out.
 pub(super) fn read(
     fields: &Fields<'_>,
     field: &'static Field,
-    name: &str,
+    (name, joints): (&str, &[Joint<Number>]),
 ) -> Read<Option<Value<Number>>> {
     let (key, context) = (field.key, fields.context);
     match field.form {
@@ -25,6 +25,10 @@ pub(super) fn read(
         Form::Bodies => Value::Bodies(fields.pair()?),
         Form::Body => Value::Body(context.moving_body(item)?),
         Form::Joint(_) => Value::Joint(context.joint(item)?),
+        Form::Coordinate => {
+            let joint = &joints[context.joint(fields.need("joint")?)?.index()];
+            Value::Coordinate(Some(fields.coordinate(item, joint)?))
+        }
         Form::Point => Value::Point(context.vector(item)?),
         Form::Points(_) => Value::Points(fields.two_vectors(key)?),
         Form::Axis => Value::Axis(context.vector(item)?),

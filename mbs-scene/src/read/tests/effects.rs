@@ -146,6 +146,7 @@ fn effects_of_joints_have_their_defaults() {
     let kinds = kinds(CART);
     let limit = EffectKind::Limit(Limit {
         joint: JointId::new(0),
+        coordinate: None,
         lower: -0.2,
         upper: 0.3,
         stiffness: 1e5,
@@ -156,6 +157,7 @@ fn effects_of_joints_have_their_defaults() {
         let [coulomb, r#static, stribeck, viscous, regularisation] = numbers;
         EffectKind::Friction(Friction {
             joint: JointId::new(0),
+            coordinate: None,
             coulomb,
             r#static,
             stribeck,
@@ -290,6 +292,71 @@ fn wrong_keys_of_effects_are_refused_with_the_right_ones() {
     refused(&e, "56:1", "`side = \"calspan\"` is missing", "add");
     let e = spoil(CART, "table = [[0, 0], [1, 50]]", "table = [[0, 0], [1, 50]]\nvalue = 1");
     refused(&e, "38:9", "both `value` and `table` are given", "keep one");
+}
+
+/// A body on a cylindrical joint.
+const SHAFT: &str = r#"[scene]
+dimension = 3
+duration = 1
+[[body]]
+name = "a"
+mass = 1
+center = [0, 0, 0]
+inertia = [1, 1, 1, 0, 0, 0]
+[[joint]]
+name = "j"
+kind = "cylindrical"
+bodies = ["ground", "a"]
+at = [0, 0, 0]
+axis = [0, 0, 1]
+[[effect]]
+kind = "limit"
+joint = "j"
+coordinate = "slide"
+lower = -1
+upper = 1
+stiffness = 10
+"#;
+
+#[test]
+fn effects_name_a_coordinate_of_a_joint_that_has_several() {
+    let coordinate = |text: &str| match &kinds(text)[0] {
+        EffectKind::Limit(Limit { coordinate, .. }) => *coordinate,
+        EffectKind::TorsionSpring(TorsionSpring { coordinate, .. }) => *coordinate,
+        kind => panic!("{kind:?}"),
+    };
+    let with = |to: &str| SHAFT.replace("coordinate = \"slide\"\n", to);
+    assert_eq!(coordinate(SHAFT), Some(0));
+    assert_eq!(coordinate(&with("coordinate = \"turn\"\n")), Some(1));
+    assert_eq!(coordinate(&with("coordinate = 1\n")), Some(1));
+    // the only turn is meant where nothing is said
+    let turn = with("").replace("\"limit\"", "\"torsion-spring\"");
+    let turn = turn.replace("lower = -1\nupper = 1\n", "");
+    assert_eq!(coordinate(&turn), None);
+
+    let spoil = |to: &str| spoil(SHAFT, "coordinate = \"slide\"\n", to);
+    let several = "`coordinate` is missing: the joint has `slide`, `turn`";
+    refused(&spoil(""), "15:1", several, "write one of these names");
+    let number = "`coordinate` is 2, but the joint has `slide`, `turn`";
+    refused(&spoil("coordinate = 2\n"), "18:14", number, "write one of these names");
+    let e = spoil("coordinate = \"slid\"\n");
+    refused(&e, "18:14", "unknown coordinate `slid`", "did you mean `slide`?");
+    let e = spoil("coordinate = \"first\"\n");
+    refused(&e, "18:14", "unknown coordinate `first`", "choices: slide, turn");
+    let e = spoil("coordinate = -1\n");
+    refused(&e, "18:14", "expected a coordinate's name, or its number from 0, found a number", "");
+    let ball = SHAFT.replace("\"cylindrical\"", "\"pin-in-slot\"");
+    let ball = ball.replace("coordinate = \"slide\"", "coordinate = 2");
+    let e = read(&ball).unwrap_err();
+    refused(
+        &e,
+        "18:14",
+        "`coordinate` is a component of a rotation, not an angle",
+        "turns about axes",
+    );
+    let weld = SHAFT.replace("\"cylindrical\"", "\"weld\"").replace("axis = [0, 0, 1]\n", "");
+    let e = read(&weld.replace("coordinate = \"slide\"", "coordinate = 0")).unwrap_err();
+    refused(&e, "16:9", "`joint` is a joint without coordinates", "name another joint");
 }
 
 #[test]

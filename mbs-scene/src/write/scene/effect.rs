@@ -38,6 +38,9 @@ impl Writer<'_> {
             Value::Bodies(bodies) => keys.push(key, self.pair(*bodies)?),
             Value::Body(body) => keys.push(key, self.body_name(*body)?),
             Value::Joint(joint) => keys.push(key, self.joint_name(*joint)?),
+            Value::Coordinate(number) => {
+                keys.push_some(key, number.map(|number| Node::Number(number.to_string())));
+            }
             Value::Point(x) | Value::Axis(x) => keys.push(key, self.vector(x)),
             Value::Points(x) => keys.push(key, self.two(x)),
             Value::MaybeAxis(x) => keys.push_some(key, x.as_ref().map(|x| self.vector(x))),

@@ -43,6 +43,7 @@ impl Case {
             let (stiffness, damping, free_value) = (2.0, 0.0, 0.0);
             let kind = EffectKind::TorsionSpring(TorsionSpring {
                 joint: JointId::new(0),
+                coordinate: None,
                 stiffness,
                 damping,
                 free_value,

@@ -129,6 +129,7 @@ fn several_frictions_are_followed_in_natural_coordinates() {
             let r#static = coulomb * (1.0 + 0.5 * (joint % 2) as f64);
             let kind = EffectKind::Friction(Friction {
                 joint: JointId::new(joint),
+                coordinate: None,
                 coulomb,
                 r#static,
                 stribeck: 1e-2,

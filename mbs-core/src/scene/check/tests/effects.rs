@@ -81,7 +81,14 @@ fn a_distance_along_a_line_may_be_zero_but_the_line_has_a_direction() {
 #[test]
 fn limits_and_friction_need_one_coordinate_and_ordered_levels() {
     let limit = |joint, lower| {
-        EffectKind::Limit(Limit { joint, lower, upper: 1.0, stiffness: 1.0, damping: 0.0 })
+        EffectKind::Limit(Limit {
+            joint,
+            coordinate: None,
+            lower,
+            upper: 1.0,
+            stiffness: 1.0,
+            damping: 0.0,
+        })
     };
     assert_eq!(
         fault(planar(), limit(JointId::new(7), 0.0)),
@@ -102,6 +109,7 @@ fn limits_and_friction_need_one_coordinate_and_ordered_levels() {
         let (r#static, stribeck, viscous) = (2.0, 0.1, 0.0);
         EffectKind::Friction(Friction {
             joint: JointId::new(0),
+            coordinate: None,
             coulomb,
             r#static,
             stribeck,
@@ -121,14 +129,22 @@ fn a_torque_about_one_axis_is_one_number() {
     let on_body =
         |value| EffectKind::BodyTorque(BodyTorque { body: BodyId::Body(0), course: course(value) });
     let at_joint = |value| {
-        EffectKind::JointTorque(JointTorque { joint: JointId::new(0), course: course(value) })
+        EffectKind::JointTorque(JointTorque {
+            joint: JointId::new(0),
+            coordinate: None,
+            course: course(value),
+        })
     };
     // a vector about z, as in space: its first number is no torque
     let three = ("value", SceneFault::WrongCount { needed: 1, found: 3 });
     assert_eq!(fault(planar(), on_body([0.0, 0.0, 5.0])), three);
     assert_eq!(fault(planar(), at_joint([0.0, 0.0, 5.0])), three);
     let table = Signal::Table(vec![(0.0, [0.0, 5.0, 0.0])]);
-    let found = EffectKind::JointTorque(JointTorque { joint: JointId::new(0), course: table });
+    let found = EffectKind::JointTorque(JointTorque {
+        joint: JointId::new(0),
+        coordinate: None,
+        course: table,
+    });
     let two = ("table", SceneFault::WrongCount { needed: 1, found: 2 });
     assert_eq!(fault(planar(), found), two);
     let mut scene = spatial();
