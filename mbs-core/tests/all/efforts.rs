@@ -26,7 +26,8 @@ fn term(index: usize, number: usize, factor: f64) -> CouplingTerm<f64> {
 }
 
 fn torque(scene: &mut Scene<f64>, joint: JointId, value: f64) {
-    let torque = JointTorque { joint, course: Signal::Constant([value, 0.0, 0.0]) };
+    let torque =
+        JointTorque { joint, coordinate: None, course: Signal::Constant([value, 0.0, 0.0]) };
     let (name, kind) = (format!("torque {}", scene.effects.len()), torque.into());
     scene.effects.push(Effect { name, kind, enabled: true });
 }

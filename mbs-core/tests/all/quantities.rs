@@ -193,7 +193,11 @@ fn a_spring_pulls_stores_and_gives_what_its_law_says() {
 fn motors_forces_and_bushings_give_their_power() {
     let (angle, rate) = (0.4_f64, 1.5);
     let mut s = pendulum(angle, rate);
-    let motor = JointTorque { joint: JointId::new(0), course: Signal::Constant([0.8, 0.0, 0.0]) };
+    let motor = JointTorque {
+        joint: JointId::new(0),
+        coordinate: None,
+        course: Signal::Constant([0.8, 0.0, 0.0]),
+    };
     let motor = add_effect(&mut s, motor);
     let push = Force {
         body: BodyId::Body(0),
