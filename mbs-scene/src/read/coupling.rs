@@ -121,8 +121,11 @@ fn one() -> Number {
     Number::from(1.0)
 }
 
+/// The same digits with the other sign.
 fn minus(x: Number) -> Number {
-    Number::from(-1.0) * x
+    let text = x.text();
+    let text = text.strip_prefix('-').map_or_else(|| format!("-{text}"), str::to_owned);
+    Number::from_decimal(&text).unwrap_or(x)
 }
 
 fn term(joint: JointId, factor: Number) -> CouplingTerm<Number> {
