@@ -220,6 +220,12 @@ impl<T: Real> GuideInput<T> {
         [self.offset.map_or(value, |offset| value + offset), rate, acceleration]
     }
 
+    /// What is added to the law's value.
+    #[must_use]
+    pub const fn offset(&self) -> Option<T> {
+        self.offset
+    }
+
     /// The law.
     #[must_use]
     pub fn law(&self) -> &Motion<T> {

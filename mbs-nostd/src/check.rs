@@ -5,10 +5,11 @@ use crate::model::Model;
 use mbs_core::Real;
 use mbs_core::effects::bushing;
 use mbs_core::laws::Part;
+use mbs_recursive::coupled::{CoupledRow, NONE, SumMeasure};
 use mbs_recursive::link::LinkKind;
 use mbs_recursive::loads::{Load, Measure};
 use mbs_recursive::plan::Span;
-use mbs_recursive::rows::Row;
+use mbs_recursive::rows::{ClosedLoop, Row};
 use mbs_recursive::slices::TreeSlices;
 use mbs_recursive::space::Space;
 
@@ -32,7 +33,7 @@ pub enum LoadError {
         /// The entry.
         entry: usize,
     },
-    /// A coupling, which no controller holds.
+    /// A coupling of lengths, with curves, or of joints on more than two branches, which no controller holds.
     Coupling {
         /// `scene.couplings[coupling]`.
         coupling: usize,
@@ -229,6 +230,11 @@ fn fault(table: &'static str, entry: usize) -> LoadError {
     LoadError::Index { table, entry }
 }
 
+/// A coupling that no controller holds.
+fn unheld<T: Real, S: Space<T>>(lap: &ClosedLoop<T, S>) -> LoadError {
+    LoadError::Coupling { coupling: lap.joint as usize }
+}
+
 /// `Ok` if so.
 fn ensure(holds: bool, table: &'static str, entry: usize) -> Result<(), LoadError> {
     if holds { Ok(()) } else { Err(fault(table, entry)) }
@@ -260,13 +266,38 @@ impl<T: Real, S: Space<T>> Look<'_, '_, T, S> {
                 && (lap.ancestor as usize) < links
                 && ends_by(lap.first, lap.n as usize, self.sizes.rows);
             ensure(holds, "loops", i)?;
-            if let Some(Row::Coupled(_)) = self.m.loops.rows.get(lap.first as usize) {
-                return Err(LoadError::Coupling { coupling: lap.joint as usize });
+            if let Some(Row::Coupled(row)) = self.m.loops.rows.get(lap.first as usize) {
+                self.coupling((i, lap), row)?;
             }
         }
         for (i, row) in self.m.loops.rows.iter().enumerate() {
             let Row::Coincidence { axis } = row else { continue };
             ensure((*axis as usize) < S::DIMENSION, "rows", i)?;
+        }
+        Ok(())
+    }
+
+    /// A coupling of joint coordinates without curves.
+    fn coupling(
+        &self,
+        (i, lap): (usize, &ClosedLoop<T, S>),
+        row: &CoupledRow<T>,
+    ) -> Result<(), LoadError> {
+        let terms = self.m.loops.couplings.terms.get(row.terms.range()).unwrap_or(&[]);
+        let is_known = row.guide == NONE || (row.guide as usize) < self.sizes.guides;
+        ensure(is_known && lap.n == 1 && !terms.is_empty(), "loops", i)?;
+        for term in terms {
+            let SumMeasure::Joint { link, side } = term.of else { return Err(unheld(lap)) };
+            let joint = self.m.links.get(link as usize);
+            let holds = link > 0
+                && joint.is_some_and(|link| match link.kind.n_freedoms::<T, S>() {
+                    0 => side == NONE,
+                    n => n == 1,
+                });
+            ensure(holds, "loops", i)?;
+            if term.curve != NONE || (side != NONE && side > 1) {
+                return Err(unheld(lap));
+            }
         }
         Ok(())
     }

@@ -8,7 +8,7 @@ use heapless::Vec;
 use mbs_core::Real;
 use mbs_core::laws::entry::Entry;
 use mbs_core::laws::{CurvatureEntry, FeatureEntry, KnotEntry, LawInputs, LawTables, PieceEntry};
-use mbs_recursive::coupled::Couplings;
+use mbs_recursive::coupled::{Couplings, SumTerm};
 use mbs_recursive::link::Link;
 use mbs_recursive::loads::Load;
 use mbs_recursive::loops::Loops;
@@ -18,7 +18,7 @@ use mbs_recursive::slices::TreeSlices;
 use mbs_recursive::space::Space;
 
 /// What a model's text begins with, and its version.
-pub(crate) const HEAD: [u32; 2] = [u32::from_le_bytes(*b"MBSN"), 1];
+pub(crate) const HEAD: [u32; 2] = [u32::from_le_bytes(*b"MBSN"), 2];
 
 /// A model read from bytes: at most `L` links, `K` loops with `R` rows, `P` entries in each list of the plan, `E` effects.
 /// It has at most `X` entries in each table of laws, `I` guides and as many courses, `Q` coordinates and as many freedoms.
@@ -42,6 +42,7 @@ pub struct Tables<
     stations: Vec<Station, L>,
     loops: Vec<ClosedLoop<T, S>, K>,
     rows: Vec<Row<T, S>, R>,
+    terms: Vec<SumTerm<T>, P>,
     passes: Vec<Pass, P>,
     pairs: Vec<Pair, P>,
     ends: Vec<End, K>,
@@ -60,6 +61,7 @@ pub struct Tables<
     v: Vec<T, Q>,
     a: Vec<T, Q>,
     floor: [T; 2],
+    n_cut: u32,
     gravity: S::Point,
     base: S::Point,
     length: T,
@@ -132,6 +134,7 @@ impl<
             stations: list("links", from)?,
             loops: list("loops", from)?,
             rows: list("rows", from)?,
+            terms: list("terms of couplings", from)?,
             passes: list("passes", from)?,
             pairs: list("pairs", from)?,
             ends: list("loops", from)?,
@@ -153,6 +156,7 @@ impl<
             v: list("freedoms", from)?,
             a: list("freedoms", from)?,
             floor: Record::read(from)?,
+            n_cut: Record::read(from)?,
             gravity: Record::read(from)?,
             base: Record::read(from)?,
             length: Record::read(from)?,
@@ -194,7 +198,11 @@ impl<
                     rows: &self.rows,
                     plan,
                     floor: self.floor,
-                    couplings: Couplings::none(),
+                    couplings: Couplings {
+                        n_cut: self.n_cut,
+                        terms: &self.terms,
+                        ..Couplings::none()
+                    },
                 },
                 loads: &self.loads,
                 tables,

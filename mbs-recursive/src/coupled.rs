@@ -28,6 +28,8 @@ pub struct CoupledRow<T> {
     pub starts: Span,
     /// Number of the guide that is its sum; [`NONE`]: it is zero.
     pub guide: u32,
+    /// What its sum is beside the guide, over the largest factor: what a guide adds to its law where it is exported.
+    pub value: T,
     /// One over the largest factor: the sum is divided by it.
     pub inverse: T,
     /// Is its value an angle (otherwise a length)?
@@ -124,7 +126,7 @@ pub struct Couplings<'a, T: Real, S: Space<T>> {
 pub(crate) type Here<'a, T, S> =
     (&'a [Link<T, S>], &'a [LinkMotion<T, S>], (&'a [T], &'a [T], &'a [[T; 3]]));
 
-/// The gradients of all rows: K of all sides, those of the first in front; and one slope for each term.
+/// The gradients of all rows: K of all sides, those of the first in front; and the slope of each term that has a curve.
 pub(crate) type Gradients<'a, T, S> = (&'a mut [<S as Space<T>>::Motion], &'a mut [T]);
 
 /// What the row of a coupling is at an instant.
@@ -246,7 +248,9 @@ impl<T: Real, S: Space<T>> Couplings<'_, T, S> {
             let slope = term.factor * slope;
             add([term.factor * f, slope * rate, slope * known + term.factor * bend * rate * rate]);
             let Some((gradient, slopes)) = &mut out else { continue };
-            *at_mut(slopes, i)? = slope;
+            if term.curve != NONE {
+                *at_mut(slopes, i)? = slope;
+            }
             let SumMeasure::Line { points, .. } = term.of else { continue };
             self.each_part((points, row.starts), here.1, |part| {
                 for ((start, arm), n) in part.ends.iter().zip([-part.direction, part.direction]) {
@@ -256,6 +260,7 @@ impl<T: Real, S: Space<T>> Couplings<'_, T, S> {
                 Ok(())
             })?;
         }
+        add([-row.value, T::ZERO, T::ZERO]);
         if row.guide != NONE {
             let (_, _, (_, _, guides)) = here;
             add(at(guides, row.guide as usize)?.map(|s| -s * row.inverse));
@@ -274,10 +279,12 @@ impl<T: Real, S: Space<T>> Couplings<'_, T, S> {
         row: &CoupledRow<T>,
         slopes: &'s [T],
     ) -> Result<impl Iterator<Item = (u32, u32, T)> + 's, Outside> {
-        let slopes = range(slopes, row.terms.range())?;
-        let terms = range(self.terms, row.terms.range())?.iter().zip(slopes);
-        Ok(terms.filter_map(|(term, &slope)| match term.of {
-            SumMeasure::Joint { link, side } => Some((link, side, slope)),
+        let terms = row.terms.range().zip(range(self.terms, row.terms.range())?);
+        Ok(terms.filter_map(|(i, term)| match term.of {
+            SumMeasure::Joint { link, side } if term.curve == NONE => {
+                Some((link, side, term.factor))
+            }
+            SumMeasure::Joint { link, side } => Some((link, side, *slopes.get(i)?)),
             SumMeasure::Line { .. } => None,
         }))
     }

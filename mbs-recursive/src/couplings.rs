@@ -57,7 +57,7 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
             let is_angle = self.is_angle(terms);
             let inverse = T::ONE / input.scale();
             let guide = sum.map_or(NONE, index);
-            let row = CoupledRow { terms, starts, guide, inverse, is_angle };
+            let row = CoupledRow { terms, starts, guide, value: T::ZERO, inverse, is_angle };
             if self.can_move(&row) {
                 self.add_coupled(row, i);
             } else if !self.is_held_by_guides(&row) {

@@ -57,21 +57,16 @@ pub struct Loops<'a, T: Real, S: Space<T>> {
 }
 
 impl<'a, T: Real, S: Space<T>> Loops<'a, T, S> {
-    /// The loops that are cut joints, and those behind them that are couplings.
-    fn parts(&self) -> (&'a [ClosedLoop<T, S>], &'a [ClosedLoop<T, S>]) {
-        let n_cut = self.couplings.n_cut as usize;
-        self.loops.split_at_checked(n_cut).unwrap_or((self.loops, &[]))
-    }
-
     /// The loops that are cut joints.
     pub(crate) fn cut(&self) -> &'a [ClosedLoop<T, S>] {
-        self.parts().0
+        self.loops.get(..self.couplings.n_cut as usize).unwrap_or(self.loops)
     }
 
     /// The rows of couplings: each with its number and the number of rows.
     pub(crate) fn coupled(&self) -> impl Iterator<Item = (&'a CoupledRow<T>, usize, usize)> + 'a {
         let rows = self.rows;
-        self.parts().1.iter().filter_map(move |lap| {
+        let coupled = self.loops.get(self.couplings.n_cut as usize..).unwrap_or(&[]);
+        coupled.iter().filter_map(move |lap| {
             let k = lap.first as usize;
             let Some(Row::Coupled(row)) = rows.get(k) else { return None };
             Some((row, k, rows.len()))
@@ -84,7 +79,7 @@ impl<'a, T: Real, S: Space<T>> Loops<'a, T, S> {
 pub struct LoopStore<'a, T: Real, S: Space<T>> {
     /// K of all sides as they travel: all first sides, then all second ones, and so on.
     pub k: &'a mut [S::Motion],
-    /// The slopes of the terms of couplings.
+    /// The slopes of the terms of couplings that have curves, by the number of the term.
     pub slopes: &'a mut [T],
     /// l, later l̃.
     pub l: &'a mut [T],

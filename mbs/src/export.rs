@@ -26,7 +26,7 @@ pub enum ExportError {
     Stop(StopError),
     /// An effect of this name is code, which no table has.
     Effect(String),
-    /// A coupling of this name is not written for controllers.
+    /// A coupling of this name is not written for controllers: it has a length, a curve, or joints on more than two branches.
     Coupling(String),
     /// A ladder names what the scene has not, or is no price list.
     Ladder(String),
@@ -40,7 +40,10 @@ impl core::fmt::Display for ExportError {
                 write!(f, "effect `{name}` is a law in code, which cannot be written as a table")
             }
             Self::Coupling(name) => {
-                write!(f, "coupling `{name}` cannot be written for a controller")
+                write!(
+                    f,
+                    "coupling `{name}` cannot be written for a controller: it has lengths, curves, or joints on more than two branches"
+                )
             }
             Self::Ladder(what) => write!(f, "{what}"),
         }

@@ -8,6 +8,8 @@ use mbs_core::inputs::Prescribed;
 use mbs_core::laws::Part;
 use mbs_core::scene::{Motion as SceneLaw, Signal};
 use mbs_recursive::loads::{Load, Measure};
+use mbs_recursive::loops::Loops;
+use mbs_recursive::rows::Row;
 use mbs_recursive::slices::TreeSlices;
 use mbs_recursive::space::Space;
 use mbs_recursive::{TreeModel, TreeState};
@@ -24,6 +26,8 @@ pub struct Collected<'a, T: Real, S: Space<T>> {
     curvatures: Vec<T>,
     rows: Vec<[T; 4]>,
     rungs: Vec<u32>,
+    /// The equations of loops; those of couplings have what their guides add to a law.
+    lap_rows: Vec<Row<T, S>>,
 }
 
 fn index(i: usize) -> u32 {
@@ -46,6 +50,7 @@ impl<'a, T: Real, S: Space<T>> Collected<'a, T, S> {
             curvatures: Vec::new(),
             rows: Vec::new(),
             rungs: Vec::new(),
+            lap_rows: mechanism.loops.rows.to_vec(),
         };
         model.order(tree.effect_of_load(), ladder);
         model.prescribe(tree.prescribed());
@@ -68,6 +73,11 @@ impl<'a, T: Real, S: Space<T>> Collected<'a, T, S> {
     }
 
     fn prescribe(&mut self, prescribed: &Prescribed<T>) {
+        for row in &mut self.lap_rows {
+            let Row::Coupled(row) = row else { continue };
+            let guide = prescribed.guides().get(row.guide as usize);
+            row.value = guide.and_then(|guide| guide.offset()).map_or(T::ZERO, |x| x * row.inverse);
+        }
         for guide in prescribed.guides() {
             let law = match guide.law() {
                 SceneLaw::Input(motion) => Motion::Input(*motion),
@@ -103,7 +113,11 @@ impl<'a, T: Real, S: Space<T>> Collected<'a, T, S> {
     #[must_use]
     pub fn model(&self) -> Model<'_, T, S> {
         Model {
-            mechanism: TreeSlices { loads: &self.loads, ..self.mechanism },
+            mechanism: TreeSlices {
+                loads: &self.loads,
+                loops: Loops { rows: &self.lap_rows, ..self.mechanism.loops },
+                ..self.mechanism
+            },
             prescriptions: Prescriptions {
                 guides: &self.guides,
                 courses: &self.courses,

@@ -147,7 +147,7 @@ fn constant<T: Real + Record, S: Axes<T>>(
          \x20               updates: &UPDATES,\n\
          \x20           }},\n\
          \x20           floor: {},\n\
-         \x20           couplings: Couplings::none(),\n\
+         \x20           couplings: Couplings {{ n_cut: {}, terms: &TERMS, ..Couplings::none() }},\n\
          \x20       }},\n\
          \x20       loads: &LOADS,\n\
          \x20       tables: {law_inputs},\n\
@@ -167,6 +167,7 @@ fn constant<T: Real + Record, S: Axes<T>>(
          \x20   rungs: &RUNGS,\n\
          }};\n",
         value(&m.loops.floor),
+        m.loops.couplings.n_cut,
         value(&m.gravity),
         value(&m.base),
         value(&m.length),
@@ -183,6 +184,7 @@ fn lists<T: Real + Record, S: Axes<T>>(model: &Model<'_, T, S>, to: &mut String)
     table("LINKS", "Link<Scalar, Axes>", m.links, to);
     table("LOOPS", "ClosedLoop<Scalar, Axes>", m.loops.loops, to);
     table("ROWS", "Row<Scalar, Axes>", m.loops.rows, to);
+    table("TERMS", "SumTerm<Scalar>", m.loops.couplings.terms, to);
     table("STATIONS", "Station", plan.stations, to);
     table("PASSES", "Pass", plan.passes, to);
     table("PAIRS", "Pair", plan.pairs, to);

@@ -5,6 +5,7 @@ use super::{Axes, Record};
 use crate::inputs::{Motion, SignalLaw};
 use mbs_core::Real;
 use mbs_core::laws::Part;
+use mbs_recursive::coupled::{CoupledRow, SumMeasure, SumTerm};
 use mbs_recursive::link::{Link, LinkKind};
 use mbs_recursive::loads::{BodyLoad, Load, Measure};
 use mbs_recursive::plan::{End, LoopCoupling, Pair, Pass, Span, Station, Update};
@@ -27,6 +28,15 @@ record_enum!([T: Real + Record, S: Axes<T>] Row<T, S> = Row {
     1 Gap { direction direction, constant constant },
     2 Dot { x x, y y, constant constant },
     3 Length { length length },
+    4 Coupled { 0 row },
+});
+
+record_struct!([T: Real + Record] CoupledRow<T> = CoupledRow {
+    terms, starts, guide, value, inverse, is_angle,
+});
+record_struct!([T: Real + Record] SumTerm<T> = SumTerm { factor, curve, of });
+record_enum!([T: Real + Record] SumMeasure<T> = SumMeasure {
+    0 Joint { link link, side side },
 });
 
 record_struct!([] Span = Span { first, end });

@@ -30,10 +30,11 @@ const fn solve(rows: u64) -> Operations {
     ops(below(rows) + rows, below(rows))
 }
 
-/// J a + bias of this many rows, with the scale of its parts.
-pub(super) fn residual<T: Real, S: Space<T>>(rows: u64) -> Operations {
+/// J a + bias of all rows, with the scale of its parts.
+pub(super) fn residual<T: Real, S: Space<T>>(m: &TreeSlices<'_, T, S>) -> Operations {
     let n = motion::<T, S>();
-    ops(4 * n, 2 * (n - 1) + 2 + 2 * n + 2) * rows
+    let terms = count(m.loops.couplings.terms.len());
+    ops(4 * n, 2 * (n - 1) + 2 + 2 * n + 2) * count(m.loops.rows.len()) + ops(terms, 2 * terms)
 }
 
 /// Values, rates, gradients and biases of all rows.
@@ -50,8 +51,10 @@ pub(super) fn rows<T: Real, S: Space<T>>(m: &TreeSlices<'_, T, S>) -> Operations
             (Row::Dot { .. }, true) => ops(85, 55),
             (Row::Dot { .. }, false) => ops(37, 17),
             (Row::Length { .. }, true) => ops(40, 25).and(1, 0, 0),
-            // No controller holds one.
-            (Row::Coupled(_), _) => ops(0, 0),
+            (Row::Coupled(row), _) => {
+                let terms = count(row.terms.range().len());
+                ops(8 * terms + 3, 8 * terms + 12)
+            }
             (Row::Length { .. }, false) => ops(22, 12).and(1, 0, 0),
         };
     }
@@ -64,6 +67,10 @@ pub(super) fn evaluation<T: Real, S: Space<T>>(m: &TreeSlices<'_, T, S>) -> Oper
     let gathered = if S::DIMENSION == 3 { ops(6, 6) } else { ops(2, 2) };
     let square = if S::DIMENSION == 3 { ops(27, 21) } else { ops(9, 6) };
     let lap_rows = |lap: u32| m.loops.loops.get(lap as usize).map_or(0, |lap| u64::from(lap.n));
+    let is_coupled = |lap: u32| {
+        let first = m.loops.loops.get(lap as usize).map(|lap| lap.first as usize);
+        matches!(first.and_then(|k| m.loops.rows.get(k)), Some(Row::Coupled(_)))
+    };
     let plan = &m.loops.plan;
     let mut sum = opening(m);
     for (station, link) in plan.stations.iter().zip(m.links) {
@@ -71,6 +78,8 @@ pub(super) fn evaluation<T: Real, S: Space<T>>(m: &TreeSlices<'_, T, S>) -> Oper
         for pass in plan.passes.get(station.passes.range()).unwrap_or(&[]) {
             let row = joints::pass::<T, S>(link.kind) + ops(n, n + 1) + gathered;
             let row = row + ops(2 * f, 2 * f + 1) + Operations::entries(1);
+            // K b over all numbers, and g
+            let row = if is_coupled(pass.lap) { row + ops(n, n) } else { row };
             sum += row * lap_rows(pass.lap);
         }
         for pair in plan.pairs.get(station.pairs.range()).unwrap_or(&[]) {

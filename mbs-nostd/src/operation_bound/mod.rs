@@ -55,7 +55,7 @@ pub fn step<T: Real, S: Space<T>>(model: &Model<'_, T, S>, bounds: Bounds) -> Op
         }
     }
     if has_loops {
-        let residual = loops::residual::<T, S>(count(m.loops.rows.len()));
+        let residual = loops::residual(m);
         let answer = response(m)
             + Operations::new(
                 0,

@@ -6,7 +6,7 @@ use mbs_core::integrator::Integrator;
 use mbs_core::step::{OptionError, StepError};
 use mbs_nostd::export::{Collected, bytes, needs};
 use mbs_nostd::table::{Law, Load, Measure};
-use mbs_nostd::{Bounds, Checked, Options, Solver, Spatial, Tables, Unwatched};
+use mbs_nostd::{Bounds, Checked, LoadError, Options, Planar, Solver, Spatial, Tables, Unwatched};
 use mbs_recursive::{TreeModel, TreeState, Workspace, bounded_step, step};
 use mbs_testkit::file;
 
@@ -41,6 +41,60 @@ fn a_solver_of_fixed_capacity_gives_the_bits_of_the_recursion() {
             }
         }
     }
+}
+
+/// A gear between wheels of a free housing, and a wheel that is driven against it.
+const GEARS: &str = include_str!("couplings.toml");
+
+const DRIVEN: &str = r#"
+[[coupling]]
+name = "drive"
+kind = "linear"
+terms = [{ joint = "a", factor = 1.0 }, { joint = "hinge", factor = 0.5 }]
+sine = { amplitude = 0.3, frequency = 1.0 }
+"#;
+
+/// The largest difference of coordinates and accelerations from the recursion over steps of a scene.
+fn apart_on_controller(text: &str) -> Result<f64, LoadError> {
+    type Small = Solver<f64, Planar, 4, 4, 4, 4, 64, 64, 4, 1>;
+    let (tree, begin) = start::<Planar, 2>(&mbs_testkit::scene(text));
+    let gathered = Gathered::new(&tree, &begin, &[]);
+    let flash = Checked::new(&gathered.model())?;
+    let bytes = bytes(&gathered.model(), false).expect("a scene of tables");
+    let tables = Tables::<f64, Planar, 4, 4, 4, 16, 4, 4, 4, 4>::read(&bytes)?;
+    let read = tables.model();
+    let mut solvers = [Small::new(&flash), Small::new(&read)].map(|s| s.expect("room"));
+    let (mut state, mut workspace) = (begin.clone(), Workspace::new(&tree));
+    let (options, bounds) = (Options::default(), Bounds::default());
+    let mut worst = 0.0_f64;
+    for _ in 0..500 {
+        bounded_step(&tree, (1e-3, &options, bounds), &mut state, &mut workspace).expect("a step");
+        for (solver, model) in solvers.iter_mut().zip([&flash, &read]) {
+            solver.step(model, 1e-3, &mut Unwatched).expect("a step");
+            let own = solver.coordinates().iter().chain(solver.accelerations());
+            for (x, y) in own.zip(state.z.iter().chain(&state.a)) {
+                worst = worst.max((x - y).abs());
+            }
+        }
+    }
+    Ok(worst)
+}
+
+#[test]
+fn couplings_of_joints_hold_on_a_controller_as_in_the_recursion() {
+    assert_eq!(apart_on_controller(GEARS), Ok(0.0));
+    assert_eq!(apart_on_controller(&format!("{GEARS}{DRIVEN}")), Ok(0.0));
+    // What a guide adds to its law is apart from it there: roundings of accelerations.
+    let held = format!("{GEARS}{}", DRIVEN.replace("sine", "value = 0.1\nsine"));
+    let apart = apart_on_controller(&held).expect("a model");
+    assert!(apart < 1e-10, "{apart}");
+}
+
+#[test]
+fn a_cam_is_refused_for_a_controller_with_its_coupling() {
+    let cam = DRIVEN.replace("factor = 0.5", "factor = 0.5, coefficients = [0.0, 1.0, 0.2]");
+    let refused = apart_on_controller(&format!("{GEARS}{cam}"));
+    assert_eq!(refused, Err(LoadError::Coupling { coupling: 1 }));
 }
 
 /// Largest difference of a coordinate from the converged trapezoidal rule over 10 s [m or rad].

@@ -101,6 +101,15 @@ fn is_bound(name: &str, (bound, steps): (Operations, Vec<Operations>)) {
 }
 
 #[test]
+fn couplings_stay_below_the_bound() {
+    let text = include_str!("couplings.toml");
+    for (sweeps, projections) in [(0, 1), (2, 2)] {
+        let bounds = Bounds { evaluations: 2, sweeps, projections };
+        is_bound("couplings", counted_of::<Planar, 2>(&mbs_testkit::scene(text), bounds));
+    }
+}
+
+#[test]
 fn effects_that_branch_stay_below_the_bound() {
     for name in ["iltis-slalom", "iltis-ramp-steer-30", "iltis-suspension", "iltis-stairs"] {
         is_bound(name, counted::<Spatial, 3>(name, Bounds::default()));

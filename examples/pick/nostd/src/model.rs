@@ -50,6 +50,7 @@ static LINKS: [Link<Scalar, Axes>; 3] = [
 ];
 static LOOPS: [ClosedLoop<Scalar, Axes>; 0] = [];
 static ROWS: [Row<Scalar, Axes>; 0] = [];
+static TERMS: [SumTerm<Scalar>; 0] = [];
 static STATIONS: [Station; 3] = [
     Station {
         passes: Span { first: 0, end: 0 },
@@ -98,7 +99,7 @@ pub static MODEL: Model<'static, Scalar, Axes> = Model {
                 updates: &UPDATES,
             },
             floor: [0.5, 0.125],
-            couplings: Couplings::none(),
+            couplings: Couplings { n_cut: 4294967295, terms: &TERMS, ..Couplings::none() },
         },
         loads: &LOADS,
         tables: LawInputs::courses(&[]),
