@@ -110,6 +110,31 @@ fn couplings_stay_below_the_bound() {
 }
 
 #[test]
+fn a_train_of_wheels_on_one_carrier_costs_a_work_linear_in_its_length() {
+    let products = |n: usize| {
+        let mut text = String::from("[scene]\ndimension = 2\nduration = 1.0\n");
+        let mut body = |name: &str, parent: &str, x: f64| {
+            text += &format!(
+                "[[body]]\nname = \"{name}\"\nmass = 1.0\ncenter = [{x:.2}, 0.0]\ninertia = 0.1\n\
+                 [[joint]]\nname = \"j-{name}\"\nkind = \"revolute\"\nbodies = [\"{parent}\", \"{name}\"]\nat = [{x:.2}, 0.0]\n"
+            );
+        };
+        body("carrier", "ground", 0.0);
+        (0..n).for_each(|i| body(&format!("w{i}"), "carrier", 0.1 * (i + 1) as f64));
+        for i in 1..n {
+            let joints = format!("[\"j-w{}\", \"j-w{i}\"]", i - 1);
+            text +=
+                &format!("[[coupling]]\nkind = \"gear\"\njoints = {joints}\nteeth = [20, 21]\n");
+        }
+        let (tree, begin) = start::<Planar, 2>(&mbs_testkit::scene(&text));
+        let gathered = Gathered::new(&tree, &begin, &[]);
+        bound::step(&gathered.model(), Bounds::default()).products
+    };
+    let [ten, twenty, forty] = [10, 20, 40].map(products);
+    assert_eq!(forty - twenty, 2 * (twenty - ten));
+}
+
+#[test]
 fn effects_that_branch_stay_below_the_bound() {
     for name in ["iltis-slalom", "iltis-ramp-steer-30", "iltis-suspension", "iltis-stairs"] {
         is_bound(name, counted::<Spatial, 3>(name, Bounds::default()));
