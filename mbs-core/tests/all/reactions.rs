@@ -291,6 +291,16 @@ fn every_joint() -> Scene<f64> {
 /// One effect of each kind and variant.
 fn add_effects(s: &mut Scene<f64>) {
     let rising = |end: [f64; 3]| Signal::Table(vec![(-1.0, [1.0, 2.0, -1.0]), (1.0, end)]);
+    let spring = |(joint, coordinate), [stiffness, damping, free_value]: [f64; 3]| {
+        let joint = JointId::new(joint);
+        EffectKind::TorsionSpring(TorsionSpring {
+            joint,
+            coordinate,
+            stiffness,
+            damping,
+            free_value,
+        })
+    };
     let kinds = [
         EffectKind::SpringDamper(SpringDamper {
             bodies: [BodyId::Body(1), BodyId::Body(6)],
@@ -299,39 +309,15 @@ fn add_effects(s: &mut Scene<f64>) {
             damping: 15.0,
             free_length: 2.0,
         }),
-        EffectKind::TorsionSpring(TorsionSpring {
-            joint: JointId::new(2),
-            coordinate: None,
-            stiffness: 40.0,
-            damping: 3.0,
-            free_value: 0.4,
-        }),
-        EffectKind::TorsionSpring(TorsionSpring {
-            joint: JointId::new(2),
-            coordinate: Some(0),
-            stiffness: 300.0,
-            damping: 4.0,
-            free_value: 0.3,
-        }),
+        spring((2, None), [40.0, 3.0, 0.4]),
+        spring((2, Some(0)), [300.0, 4.0, 0.3]),
         EffectKind::JointTorque(JointTorque {
             joint: JointId::new(1),
             coordinate: Some(0),
             course: Signal::Constant([3.0, 0.0, 0.0]),
         }),
-        EffectKind::TorsionSpring(TorsionSpring {
-            joint: JointId::new(1),
-            coordinate: Some(1),
-            stiffness: 25.0,
-            damping: 2.0,
-            free_value: 0.8,
-        }),
-        EffectKind::TorsionSpring(TorsionSpring {
-            joint: JointId::new(6),
-            coordinate: Some(1),
-            stiffness: 90.0,
-            damping: 1.0,
-            free_value: -0.2,
-        }),
+        spring((1, Some(1)), [25.0, 2.0, 0.8]),
+        spring((6, Some(1)), [90.0, 1.0, -0.2]),
         EffectKind::JointTorque(JointTorque {
             joint: JointId::new(0),
             coordinate: None,
