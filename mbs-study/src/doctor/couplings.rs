@@ -86,11 +86,14 @@ fn norm(x: &[f64]) -> f64 {
     x.iter().map(|x| x * x).sum::<f64>().sqrt()
 }
 
+/// The number of a coupling, and the gradient of its row.
+type Gradient = (usize, Vec<f64>);
+
 /// The rows of all but couplings, and the gradient of each coupling.
 fn rows<const D: usize>(
     model: &NaturalModel<f64, D>,
     state: &State<f64>,
-) -> Option<(Matrix, Vec<(usize, Vec<f64>)>)> {
+) -> Option<(Matrix, Vec<Gradient>)> {
     let (m, n) = (model.n_constraints(), model.n_unknowns());
     if m * n > LARGEST {
         return None;
