@@ -4,21 +4,18 @@ use super::basis::Combination;
 use super::build::Builder;
 use super::coordinate_sets::CoordinateSet;
 use super::element::{DENSE, ROOM};
-use super::forces::{BodyTorque, Measure, MeasureElement, PointForce};
 use super::group::{Group, index, packed};
 use super::incidence::Incidence;
 use super::merge::merged;
 use super::model::NaturalModel;
 use super::motion::carriers;
-use super::on_body::BodyElement;
-use super::row_builder::{EffectDraft, GroupDraft, RowDraft};
+use super::row_builder::{GroupDraft, RowDraft};
 use super::sharing::Entity;
 use crate::Real;
 use crate::actions::Actions;
 use crate::algebra::{Coef, Vector};
 use crate::cluster::Clusters;
 use crate::elements::{Coupled, Distance, Dot, Guided, GuidedMotion, Linear, NONE, Span, Term};
-use crate::laws::scalar::Law;
 use crate::model::Owner;
 use alloc::vec;
 use alloc::vec::Vec;
@@ -64,7 +61,7 @@ pub(super) struct Columns<'a> {
 }
 
 impl Columns<'_> {
-    fn of(&self, entity: usize) -> usize {
+    pub(super) fn of(&self, entity: usize) -> usize {
         self.slots.iter().position(|&s| s == entity).unwrap_or(usize::MAX)
     }
 }
@@ -333,113 +330,6 @@ impl<T: Real, const D: usize> Layout<T, D> {
         if like.is_none() {
             self.masses.push((group.mass, group.block));
         }
-    }
-
-    fn add_forces(
-        &mut self,
-        draft: &GroupDraft<T>,
-        columns: &Columns<'_>,
-        n_unknown: usize,
-        group: &mut Group,
-    ) {
-        if draft.forces.is_empty() && draft.effects.is_empty() {
-            return;
-        }
-        let mut force = vec![T::ZERO; n_unknown * D];
-        for (e, f) in &draft.forces {
-            let column = columns.of(*e);
-            if column < n_unknown {
-                for i in 0..D {
-                    force[column * D + i] += f[i];
-                }
-            }
-        }
-        group.force = extend(&mut self.model.constant_force, force.into_iter());
-        for effect in &draft.effects {
-            self.add_effect(effect, columns, group);
-        }
-        if group.measures.is_empty() {
-            group.measures.end = index(self.model.measures.len());
-        }
-    }
-
-    fn add_effect(&mut self, effect: &EffectDraft<T>, columns: &Columns<'_>, group: &mut Group) {
-        match effect {
-            EffectDraft::Length { x, law } => {
-                let x = self.span(x, columns);
-                self.add_measure(Measure::Length { x }, *law, group);
-            }
-            EffectDraft::Angle { x1, x2, y, law } => {
-                let (x1, x2) = (self.span(x1, columns), self.span(x2, columns));
-                let y = self.span(y, columns);
-                let memory = index(self.model.n_memory);
-                self.model.n_memory += 1;
-                self.model.angles.push((group.owner, memory));
-                self.add_measure(Measure::Angle { x1, x2, y, memory }, *law, group);
-            }
-            EffectDraft::Force { point, frame, course } => {
-                let point = self.span(point, columns);
-                let frame = frame.as_ref().map(|f| self.frame(f, columns));
-                let (course, force) = (*course, group.force);
-                self.model.point_forces.push(PointForce { point, course, frame, force });
-            }
-            EffectDraft::Torque { frame, course } => {
-                let frame = self.frame(frame, columns);
-                let (course, force) = (*course, group.force);
-                self.model.torques.push(BodyTorque { frame, course, force });
-            }
-            EffectDraft::Along { x, d, offset, law } => {
-                let (x, d) = (self.span(x, columns), self.span(d, columns));
-                self.add_measure(Measure::Along { x, d, offset: *offset }, *law, group);
-            }
-            EffectDraft::Rotation { frames, number, law } => {
-                let frames = [0, 1].map(|i| self.frame(&frames[i], columns));
-                if *number == 0 {
-                    // The three of a rotation follow each other and share what is remembered.
-                    let (first, owner) = (index(self.model.n_memory), group.owner);
-                    self.model.angles.extend([0, 1, 2].map(|i| (owner, first + i)));
-                    self.model.rotations.push((index(self.model.measures.len()), owner));
-                    self.model.n_memory += 3;
-                }
-                let memory = index(self.model.n_memory - 3);
-                self.add_measure(
-                    Measure::Rotation { frames, number: *number, memory },
-                    *law,
-                    group,
-                );
-            }
-            EffectDraft::BodyLoad { point, frame, axis, law } => {
-                let point = self.span(point, columns);
-                let frame = frame.as_ref().map_or([Span::default(); 3], |f| self.frame(f, columns));
-                let m = &mut self.model;
-                let (first, start) = (m.n_measures, m.n_jacobian);
-                m.n_measures += law.n_actions();
-                m.n_jacobian += law.n_actions() * group.width as usize;
-                let measures = Span { start: index(first), end: index(m.n_measures) };
-                let place = Span { start: index(start), end: index(m.n_jacobian) };
-                let (axis, law) = (*axis, *law);
-                m.body_elements.push(BodyElement { point, frame, axis, law, measures, place });
-                group.measures = measures;
-                group.has_body_law = true;
-            }
-        }
-    }
-
-    fn frame(&mut self, directions: &[Combination<T>], columns: &Columns<'_>) -> [Span; 3] {
-        let mut frame = [Span::default(); 3];
-        for (span, direction) in frame.iter_mut().zip(directions) {
-            *span = self.span(direction, columns);
-        }
-        frame
-    }
-
-    /// A measure's gradient stands after the constraint rows of its group.
-    fn add_measure(&mut self, gauge: Measure<T>, law: Law<T>, group: &Group) {
-        let m = &mut self.model;
-        let start = m.n_jacobian;
-        m.n_jacobian += group.width as usize;
-        let place = Span { start: index(start), end: index(m.n_jacobian) };
-        m.measures.push(MeasureElement { gauge, law, place });
     }
 }
 

@@ -11,6 +11,7 @@ mod coordinate;
 mod coordinate_sets;
 mod coupled_layout;
 mod couplings;
+mod effect_layout;
 mod effects;
 mod element;
 mod element_ranges;
