@@ -2,7 +2,8 @@
 //! moves, in every formulation, and by closed forms; and guides on every joint of a chain.
 
 use crate::common::oracle::{Way, disagreement, everything, methods, rows, rows_with_errors};
-use mbs_testkit::scene;
+use mbs::core::scene::{JointId, Quantity};
+use mbs_testkit::{quantities, scene};
 
 /// A body that hangs on the ground, or on a body that swings itself, by a joint with an effect.
 fn hung(is_planar: bool, kind: &str, [is_on_body, is_reversed]: [bool; 2], effect: &str) -> String {
@@ -234,9 +235,11 @@ fn effects_move_each_coordinate_alone_by_closed_form() {
 fn a_torque_on_a_free_joint_turns_its_body_by_closed_form() {
     // a body on nothing:   α = M / J,   rate of the second body in the first after 0.6 s: 0.6 · 0.7 / 0.05
     for place in [[false, false], [false, true]] {
-        let scene = scene(&hung(true, "free", place, ON_ONE_ROTATION[0]));
+        let mut scene = scene(&hung(true, "free", place, ON_ONE_ROTATION[0]));
+        let joint = JointId::new(scene.joints.len() - 1);
+        quantities::show(&mut scene, [Quantity::JointRate { joint }]);
         for method in methods().iter().filter(|method| method.0 == "recursive") {
-            let rows = rows(&everything(&scene), *method, (1e-3, 0.6), 600);
+            let rows = rows(&scene, *method, (1e-3, 0.6), 600);
             let rows = rows.unwrap_or_else(|e| panic!("{method:?}: {e}"));
             let last = rows.last().expect("rows").1.last().copied().expect("a joint rate");
             assert!((last - 8.4).abs() < 1e-6, "{method:?} {place:?}: {last}");
