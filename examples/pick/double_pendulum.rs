@@ -51,6 +51,7 @@ pub fn double_pendulum() -> Scene<f64> {
         initials: vec![],
         guides: vec![],
         couplings: vec![],
+        signals: vec![],
         effects: vec![],
         road: Default::default(),
         start: Default::default(),

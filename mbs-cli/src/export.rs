@@ -71,6 +71,9 @@ fn refusal(error: &ExportError) -> Refusal {
         }
         ExportError::Coupling(_) => "leave the coupling out",
         ExportError::Effect(_) => "leave user-defined laws out: a table cannot hold code",
+        ExportError::Signal(_) => {
+            "make it constant, or write `table`, or `input = true`, in place of `signal`"
+        }
         ExportError::Ladder(_) => {
             "make the list of effect costs from this scene: `mbs explain SCENE --json`"
         }

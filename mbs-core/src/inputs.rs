@@ -1,32 +1,41 @@
 //! Prescribed functions of time: guide laws and courses, prepared once.
 
+mod signals;
+
+pub use signals::SignalGraph;
+pub(crate) use signals::curvatures;
+
 use crate::Real;
 use crate::laws::guide;
-use crate::scene::{Guide, Motion, Signal, TableEnds};
+use crate::scene::{Motion, Scene, Signal};
 use crate::step::InputError;
-use alloc::vec;
 use alloc::vec::Vec;
 use core::ops::Range;
+use signals::value_of;
 
-/// The guides of a scene and the courses of its effects.
+/// The guides of a scene, its signals, and the courses of its effects.
+///
+/// Signals are the first courses, by their numbers: those of effects that follow them, and guides, read them there.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Prescribed<T> {
     guides: Vec<GuideInput<T>>,
+    signals: SignalGraph<T>,
     /// The effect that asked for each course, and the course.
     courses: Vec<(usize, SignalInput<T>)>,
 }
 
 impl<T: Real> Prescribed<T> {
-    /// The guides of a scene, then the sums of its couplings that are not always zero; and no course.
-    pub(crate) fn new(guides: &[Guide<T>], sums: impl Iterator<Item = GuideInput<T>>) -> Self {
-        let of_guides = guides.iter().map(|guide| GuideInput::new(&guide.law));
-        Self { guides: of_guides.chain(sums).collect(), courses: Vec::new() }
+    /// The guides of a scene, then the sums of its couplings that are not always zero; its signals, and no other course.
+    pub(crate) fn new(scene: &Scene<T>, sums: impl Iterator<Item = GuideInput<T>>) -> Self {
+        let of_guides = scene.guides.iter().map(|guide| GuideInput::new(&guide.law));
+        let signals = SignalGraph::new(&scene.signals);
+        Self { guides: of_guides.chain(sums).collect(), signals, courses: Vec::new() }
     }
 
     /// Adds a course for `scene.effects[effect]` and returns its number.
     pub(crate) fn add(&mut self, effect: usize, course: SignalInput<T>) -> usize {
         self.courses.push((effect, course));
-        self.courses.len() - 1
+        self.n_courses() - 1
     }
 
     /// The guides, in the order of the scene; then the sums of couplings that are not always zero.
@@ -35,7 +44,13 @@ impl<T: Real> Prescribed<T> {
         &self.guides
     }
 
-    /// The courses by number, each with the effect that asked for it.
+    /// The signals.
+    #[must_use]
+    pub fn signals(&self) -> &SignalGraph<T> {
+        &self.signals
+    }
+
+    /// The courses by number behind the signals, each with the effect that asked for it.
     #[must_use]
     pub fn courses(&self) -> &[(usize, SignalInput<T>)] {
         &self.courses
@@ -47,10 +62,19 @@ impl<T: Real> Prescribed<T> {
         self.guides.len()
     }
 
-    /// Number of courses.
+    /// Number of courses, signals included.
     #[must_use]
     pub fn n_courses(&self) -> usize {
-        self.courses.len()
+        self.signals.len() + self.courses.len()
+    }
+
+    /// Value, rate and acceleration at time `t` of a guide; of an input, what it begins with. Cost: that of all signals.
+    ///
+    /// # Panics
+    /// If there is no such guide.
+    #[must_use]
+    pub fn guide_at(&self, guide: usize, t: T) -> [T; 3] {
+        self.guides[guide].at(t, &self.signals.values(t))
     }
 
     /// Writes value, rate and acceleration of each guide and the vector of each course at time `t`, with `inputs` in their
@@ -77,15 +101,19 @@ impl<T: Real> Prescribed<T> {
         (of_guides, of_courses): (&[T], &[T]),
         (guides, courses): (&mut [[T; 3]], &mut [[T; 3]]),
     ) {
+        let n_of_effects = of_courses.len().saturating_sub(self.signals.inputs().len());
+        let (of_courses, of_signals) = of_courses.split_at(n_of_effects);
+        let (signals, courses) = courses.split_at_mut(self.signals.len().min(courses.len()));
+        self.signals.write(t, of_signals, signals);
         let mut inputs = of_guides.as_chunks().0.iter();
         for (value, guide) in guides.iter_mut().zip(&self.guides) {
             let input = guide.input().and_then(|_| inputs.next());
-            *value = input.map_or_else(|| guide.at(t), |u| guide.shifted(*u));
+            *value = input.map_or_else(|| guide.at(t, signals), |u| guide.shifted(*u));
         }
         let mut inputs = of_courses.as_chunks().0.iter();
         for (value, (_, course)) in courses.iter_mut().zip(&self.courses) {
-            *value =
-                course.input().and_then(|_| inputs.next()).map_or_else(|| course.at(t), |u| *u);
+            let input = course.input().and_then(|_| inputs.next());
+            *value = input.map_or_else(|| course.at(t, signals), |u| *u);
         }
     }
 
@@ -99,10 +127,11 @@ impl<T: Real> Prescribed<T> {
         self.courses.iter().filter_map(|(effect, course)| Some((*effect, course.input()?)))
     }
 
-    /// What the inputs of a state begin with, three numbers each: guides, then effects.
+    /// What the inputs of a state begin with: guides, then effects, three numbers each; then signals, one number each.
     #[must_use]
     pub fn inputs(&self) -> Vec<T> {
-        self.guide_inputs().chain(self.effect_inputs()).flat_map(|(_, value)| value).collect()
+        let threes = self.guide_inputs().chain(self.effect_inputs()).flat_map(|(_, value)| value);
+        threes.chain(self.signals.inputs().iter().map(|(_, value)| *value)).collect()
     }
 
     /// Place of the first number of an effect's input.
@@ -127,6 +156,26 @@ impl<T: Real> Prescribed<T> {
     pub fn guide_input(&self, guide: usize) -> Result<Range<usize>, InputError> {
         let place = self.guide_inputs().position(|(g, _)| g == guide);
         place.map(|place| part(3 * place)).ok_or(InputError::NotAnInput { number: guide })
+    }
+
+    /// The place among a state's inputs of `scene.signals[signal]`.
+    ///
+    /// # Errors
+    /// [`InputError::NotAnInput`] where the signal is none ([`SignalKind::Input`](crate::scene::SignalKind::Input)).
+    pub fn signal_input(&self, signal: usize) -> Result<usize, InputError> {
+        let place = self.signals.inputs().iter().position(|(s, _)| *s == signal);
+        let place = place.ok_or(InputError::NotAnInput { number: signal })?;
+        Ok(self.first_course() + 3 * self.effect_inputs().count() + place)
+    }
+
+    /// Sets `scene.signals[signal]` between two steps, among the `inputs` of a state, as [`set_input`](Self::set_input) does.
+    ///
+    /// # Errors
+    /// [`InputError`] where the signal is [no input](Self::signal_input), or the value not finite.
+    pub fn set_signal(&self, inputs: &mut [T], signal: usize, value: T) -> Result<(), InputError> {
+        InputError::check(signal, &[value, T::ZERO, T::ZERO])?;
+        inputs[self.signal_input(signal)?] = value;
+        Ok(())
     }
 
     /// Sets the input of `scene.effects[effect]` between two steps, among the `inputs` of a state. It holds until it is set again,
@@ -196,15 +245,10 @@ impl<T: Real> GuideInput<T> {
     /// Prepares a law.
     #[must_use]
     pub fn new(law: &Motion<T>) -> Self {
-        let mut curvature = Vec::new();
-        if let Motion::Table { rows, ends } = law {
-            curvature.resize(rows.len(), T::ZERO);
-            let mut scratch = vec![T::ZERO; rows.len()];
-            match ends {
-                TableEnds::Natural => guide::spline_curvatures(rows, &mut curvature, &mut scratch),
-                TableEnds::Level => guide::level_curvatures(rows, &mut curvature, &mut scratch),
-            }
-        }
+        let curvature = match law {
+            Motion::Table { rows, ends } => curvatures(rows, *ends),
+            _ => Vec::new(),
+        };
         Self { law: law.clone(), curvature, offset: None }
     }
 
@@ -238,8 +282,9 @@ impl<T: Real> GuideInput<T> {
         &self.curvature
     }
 
-    /// Value, rate, acceleration at time `t`; of an input, what it begins with. Cost: one law; no allocation.
-    pub fn at(&self, t: T) -> [T; 3] {
+    /// Value, rate, acceleration at time `t`, with the [values](SignalGraph::values) of the scene's signals there; of an input, what
+    /// it begins with. Cost: one law; no allocation.
+    pub fn at(&self, t: T, signals: &[[T; 3]]) -> [T; 3] {
         let m = match &self.law {
             Motion::Table { rows, .. } => guide::spline(rows, &self.curvature, t),
             Motion::Sine { amplitude, frequency, phase } => {
@@ -247,6 +292,7 @@ impl<T: Real> GuideInput<T> {
             }
             Motion::Ramp { rate } => guide::ramp(*rate, t),
             Motion::Input(motion) => return self.shifted(*motion),
+            Motion::Signal(signal) => return self.shifted(value_of(*signal, signals)),
         };
         self.shifted([m.value, m.rate, m.acceleration])
     }
@@ -260,7 +306,7 @@ impl<T: Real> GuideInput<T> {
     }
 }
 
-/// A constant or a table, linear between its rows; or the way and speed of a road that moves.
+/// A constant, signals, or a table, linear between its rows; or the way and speed of a road that moves.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SignalInput<T> {
     course: Signal<T>,
@@ -301,13 +347,16 @@ impl<T: Real> SignalInput<T> {
         }
     }
 
-    /// Value at time `t`; of an input, what it begins with.
-    pub fn at(&self, t: T) -> [T; 3] {
+    /// Value at time `t`, with the values of the scene's signals there; of an input, what it begins with.
+    pub fn at(&self, t: T, signals: &[[T; 3]]) -> [T; 3] {
         if let Some(speed) = self.travel {
             return [speed * t, speed, T::ZERO];
         }
         let rows = match &self.course {
             Signal::Constant(value) | Signal::Input(value) => return *value,
+            Signal::Named(of) => {
+                return of.map(|of| of.map_or(T::ZERO, |signal| value_of(signal, signals)[0]));
+            }
             Signal::Table(rows) => rows,
         };
         guide::linear(rows, |row| *row, t)

@@ -20,6 +20,7 @@ fn scene<T: Real>(dimension: Dimension) -> Scene<T> {
         initials: Vec::new(),
         guides: Vec::new(),
         couplings: Vec::new(),
+        signals: Vec::new(),
         effects: Vec::new(),
         road: Default::default(),
         start: Default::default(),

@@ -54,7 +54,7 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         if link.kind.is_guided() {
             let guide = link.v as usize;
             let input = self.prescribed.guide_input(guide).ok();
-            let law = || self.prescribed.guides()[guide].at(state.t)[0];
+            let law = || self.prescribed.guide_at(guide, state.t)[0];
             input.map_or_else(law, |place| state.applied[place.start])
         } else {
             state.z[link.z as usize]

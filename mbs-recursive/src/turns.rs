@@ -125,7 +125,8 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
     /// What an instant says that has coordinates, and no places.
     fn with_angles<R>(&self, state: &TreeState<T>, f: impl FnOnce(&Instant<'_, T, S>) -> R) -> R {
         let mut guides = vec![[T::ZERO; 3]; self.prescribed.n_guides()];
-        self.prescribed.write(state.t, &state.applied, &mut guides, &mut []);
+        let mut signals = vec![[T::ZERO; 3]; self.prescribed.signals().len()];
+        self.prescribed.write(state.t, &state.applied, &mut guides, &mut signals);
         f(&Instant {
             links: &self.links,
             placed: &[],

@@ -56,8 +56,8 @@ fn simulated(e: &Explanation) -> Section {
         (None, None) => "no model".to_owned(),
     };
     rows.push(row("relative coordinates", relative));
-    if let Some(relative) = &s.relative {
-        rows.push(row("a step on a controller", on_controller(&relative.controller)));
+    if let Some(bound) = s.relative.as_ref().and_then(|relative| relative.controller.as_ref()) {
+        rows.push(row("a step on a controller", on_controller(bound)));
     }
     for rod in &s.rods {
         let says = if rod.idle_spin_carried {

@@ -149,6 +149,14 @@ impl<T: Real, const D: usize> StepInputs<'_, T, D> {
     pub fn set_guide(&mut self, guide: usize, motion: [T; 3]) -> Result<(), InputError> {
         self.0.set_guide(guide, motion)
     }
+
+    /// As [`Simulation::set_signal`].
+    ///
+    /// # Errors
+    /// [`InputError`] where there is no such input, or the value is not finite.
+    pub fn set_signal(&mut self, signal: usize, value: T) -> Result<(), InputError> {
+        self.0.set_signal(signal, value)
+    }
 }
 
 impl<T: Real, const D: usize> Deref for StepInputs<'_, T, D> {

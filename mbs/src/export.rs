@@ -5,7 +5,7 @@ use crate::simulation::Simulation;
 use crate::stop::StopError;
 use mbs_core::scene::{Dimension, Scene};
 use mbs_nostd::LoadError;
-use mbs_nostd::export::{Collected, bytes, source};
+use mbs_nostd::export::{Collected, MovingSignal, bytes, source};
 use mbs_nostd::format::Axes;
 use mbs_recursive::{Planar, Spatial, StartError, TreeModel};
 use serde_json::Value;
@@ -28,6 +28,8 @@ pub enum ExportError {
     Effect(String),
     /// A coupling of this name is not written for controllers: it has a length, a curve, or joints on more than two branches.
     Coupling(String),
+    /// A signal of this name is not constant, and tables have no others.
+    Signal(String),
     /// A ladder names what the scene has not, or is no price list.
     Ladder(String),
 }
@@ -44,6 +46,9 @@ impl core::fmt::Display for ExportError {
                     f,
                     "coupling `{name}` cannot be written for a controller: it has lengths, curves, or joints on more than two branches"
                 )
+            }
+            Self::Signal(name) => {
+                write!(f, "signal `{name}` is not constant, and tables have no signals of time")
             }
             Self::Ladder(what) => write!(f, "{what}"),
         }
@@ -90,7 +95,9 @@ fn in_space<S: Axes<f64>, const D: usize>(
         }
         _ => StopError::tree(mbs_recursive::TreeError::Dimension),
     })?;
+    let name = |moving: MovingSignal| scene.signals[moving.signal].name.clone();
     let collected = Collected::new(&tree, &start, ladder);
+    let collected = collected.map_err(|moving| ExportError::Signal(name(moving)))?;
     let model = collected.model();
     let in_code = || {
         let mut effects = scene.effects.iter();

@@ -52,17 +52,17 @@ pub use front::tree::{Matrix, Tree, TreeError, TreeErrorKind, TreeRange};
 pub use front::{
     Body, BodyMotion, Components, ContactEvent, Coordinates, Coupling, Effect, Energies,
     EquilibriumOptions, Error, FunctionId, Guide, Id, InitialCondition, InputId, InputInfo,
-    InputOwner, Joint, Mechanism, Observer, Output, OutputFunction, Part, PathError, PointMotion,
-    Pose, Run, RunInputs, RunResult, SceneError, Simulation, SimulationError, Sizes, Snapshot,
-    StepReport, Table, UnknownName, View, Wrench, equilibrium, modes, run, run_with,
+    InputOwner, Joint, Mechanism, NamedSignal, Observer, Output, OutputFunction, Part, PathError,
+    PointMotion, Pose, Run, RunInputs, RunResult, SceneError, Simulation, SimulationError, Sizes,
+    Snapshot, StepReport, Table, UnknownName, View, Wrench, equilibrium, modes, run, run_with,
 };
 pub use interrupt::Interrupt;
 pub use mbs_core::formulation::{Formulation, SwitchError};
 pub use mbs_core::laws::code::{BodyLaw, Force, ForceLaw, Measured, MeasuredBody};
 pub use mbs_core::scene::{
     BodyId, CouplingId, CouplingMeasure, CouplingTerm, Curve, EffectId, EffectKind, GROUND,
-    GuideId, InitialId, JointId, Motion, Number, OutputId, PolynomialPiece, Road, RoadFeature,
-    Signal, TableEnds, Vector3,
+    GuideId, InitialId, Interpolation, JointId, Motion, Number, OutputId, PolynomialPiece, Road,
+    RoadFeature, Signal, SignalId, SignalKind, TableEnds, Vector3,
 };
 pub use mbs_scene::{ReadError, WriteError};
 pub use methods::{FORMULATIONS, FormulationKind, PenaltyUse, Row};

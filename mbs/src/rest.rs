@@ -1,7 +1,7 @@
 //! A scene as it is at rest, and what is left out of it.
 
 use mbs_core::Real;
-use mbs_core::inputs::GuideInput;
+use mbs_core::inputs::{GuideInput, SignalGraph};
 use mbs_core::scene::{InitialTarget, Motion, Scene};
 use serde_json::{Value, json};
 
@@ -22,8 +22,9 @@ pub(crate) fn at_rest<T: Real>(scene: &Scene<T>) -> Scene<T> {
     for effect in &mut still.effects {
         effect.enabled &= effect.kind.rest(&mut |_| {});
     }
+    let signals = SignalGraph::new(&scene.signals).values(T::ZERO);
     for guide in &mut still.guides {
-        let [value, ..] = GuideInput::new(&guide.law).at(T::ZERO);
+        let [value, ..] = GuideInput::new(&guide.law).at(T::ZERO, &signals);
         guide.law = Motion::Input([value, T::ZERO, T::ZERO]);
     }
     without_rates(still)

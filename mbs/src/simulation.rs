@@ -12,6 +12,7 @@ use mbs_core::Real;
 use mbs_core::control::{Accepted, Invariant, Limit, TrialStep};
 use mbs_core::effects::{Field, Value};
 use mbs_core::formulation::{Formulation, energies};
+use mbs_core::inputs::SignalGraph;
 use mbs_core::model::{Model, Owner, State};
 use mbs_core::natural::NaturalModel;
 use mbs_core::scene::{EffectKind, Scene, Signal};
@@ -157,6 +158,15 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         self.model.prescribed().set_guide(&mut self.state.inputs, guide, motion)
     }
 
+    /// Sets `scene.signals[signal]` between two steps, as [`set_input`](Self::set_input) does.
+    ///
+    /// # Errors
+    /// [`InputError`] where the signal is no input ([`SignalKind::Input`](mbs_core::scene::SignalKind::Input)), or the value not
+    /// finite. Nothing is set then.
+    pub fn set_signal(&mut self, signal: usize, value: T) -> Result<(), InputError> {
+        self.model.prescribed().set_signal(&mut self.state.inputs, signal, value)
+    }
+
     /// An angle or slide of a joint with its turns, by joint and number, where the formulation's own coordinates have it. A tree has all
     /// but the joints that it cuts and rotations in space.
     pub fn coordinate(&self, joint: usize, number: usize) -> Option<T> {
@@ -201,7 +211,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             formulation,
             control,
             invariant,
-            inputs: [courses, guides],
+            inputs: [courses, guides, signals],
         } = snapshot;
         let mut is_ours = match (&mut self.control, control) {
             (Some(present), Some(control)) => present.restore(control),
@@ -217,6 +227,9 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         }
         for &(guide, motion) in guides {
             is_ours &= self.set_guide(guide, motion).is_ok();
+        }
+        for &(signal, [value, ..]) in signals {
+            is_ours &= self.set_signal(signal, value).is_ok();
         }
         is_ours
     }
@@ -301,7 +314,8 @@ fn ground<T: Real, const D: usize>(
     let (length, epsilon) = (model.length().to_f64(), T::EPSILON.to_f64().max(f64::EPSILON));
     let mass: f64 = scene.bodies.iter().map(|body| body.mass.to_f64()).sum();
     let gravity = scene.gravity.map_or(0.0, |g| size(g));
-    let loads: f64 = scene.effects.iter().map(|effect| given(&effect.kind, length)).sum();
+    let peaks = peaks(scene, settings.duration);
+    let loads: f64 = scene.effects.iter().map(|effect| given(&effect.kind, length, &peaks)).sum();
     let slow = epsilon.sqrt() / settings.duration.max(settings.step_max);
     let rounded = ROUNDINGS * epsilon / settings.step_max;
     let still = 0.5 * mass * length * length * (slow * slow + rounded * rounded);
@@ -309,10 +323,14 @@ fn ground<T: Real, const D: usize>(
 }
 
 /// Largest force or torque that an effect is given, as work over the scene's length or a radian [J].
-fn given<T: Real>(kind: &EffectKind<T>, length: f64) -> f64 {
+fn given<T: Real>(kind: &EffectKind<T>, length: f64, peaks: &[f64]) -> f64 {
     let largest = |signal: &Signal<T>| match signal {
         Signal::Constant(value) | Signal::Input(value) => size(*value),
         Signal::Table(rows) => rows.iter().map(|(_, value)| size(*value)).fold(0.0, f64::max),
+        Signal::Named(of) => {
+            let squares = of.iter().flatten().map(|s| peaks[s.index()] * peaks[s.index()]);
+            squares.sum::<f64>().sqrt()
+        }
     };
     let given = |(field, value): (&Field, Value<T>)| match value {
         // What a law makes of its input is not known.
@@ -322,6 +340,22 @@ fn given<T: Real>(kind: &EffectKind<T>, length: f64) -> f64 {
         _ => 0.0,
     };
     kind.row().fields.iter().zip(kind.values()).map(given).sum()
+}
+
+/// Instants at which the signals of a run are looked at [-]. Chosen, not tuned.
+const PEAK_INSTANTS: u32 = 256;
+
+/// The largest value that each signal of a scene has at equal instants of a run, with its inputs as they begin.
+fn peaks<T: Real>(scene: &Scene<T>, duration: f64) -> Vec<f64> {
+    let signals = SignalGraph::new(&scene.signals);
+    let mut peaks = vec![0.0_f64; signals.len()];
+    for i in 0..=if peaks.is_empty() { 0 } else { PEAK_INSTANTS } {
+        let t = duration * f64::from(i) / f64::from(PEAK_INSTANTS);
+        for (peak, [value, ..]) in peaks.iter_mut().zip(signals.values(T::from_f64(t))) {
+            *peak = peak.max(value.to_f64().abs());
+        }
+    }
+    peaks
 }
 
 /// Length of a vector.

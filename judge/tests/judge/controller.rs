@@ -19,7 +19,7 @@ fn is_followed<S: Space<f64>, const D: usize>(scene: &Scene<f64>, name: &str, st
     };
     let (natural, begin) = mbs_testkit::start::<D>(scene);
     let start = tree.start(scene, &natural, &begin).unwrap_or_else(|e| panic!("{name}: {e}"));
-    let collected = Collected::new(&tree, &start, &[]);
+    let collected = Collected::new(&tree, &start, &[]).expect("no signals");
     let model = Checked::new(&collected.model()).unwrap_or_else(|e| panic!("{name}: {e}"));
     let mut solver = Room::new(&model).unwrap_or_else(|e| panic!("{name}: {e}"));
     let (options, bounds) = (Options::default(), Bounds::default());

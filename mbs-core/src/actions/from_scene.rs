@@ -22,7 +22,7 @@ impl<T: Real> Actions<T> {
             actions: Self {
                 list: Vec::new(),
                 prescribed: Prescribed::new(
-                    &scene.guides,
+                    scene,
                     scene.couplings.iter().filter_map(|coupling| CouplingInput::new(coupling).sum),
                 ),
                 tables: Tables::empty(),

@@ -11,7 +11,7 @@ use alloc::vec::Vec;
 /// One key of an effect in scene files.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Field {
-    /// The key; of a [`Form::Signal`] the first of its three.
+    /// The key; of a [`Form::Signal`] the first of its four.
     pub key: &'static str,
     /// What stands there.
     pub form: Form,
@@ -27,10 +27,10 @@ impl Field {
     /// Its keys in scene files.
     pub fn keys(&self) -> impl Iterator<Item = &'static str> {
         let keys = match self.form {
-            Form::Signal(_) => [Some(self.key), Some("table"), Some("input")],
-            Form::Side => [Some(self.key), Some("coefficients"), None],
-            Form::Name(_) | Form::ForceLaw | Form::BodyLaw => [None; 3],
-            _ => [Some(self.key), None, None],
+            Form::Signal(_) => [Some(self.key), Some("table"), Some("input"), Some("signal")],
+            Form::Side => [Some(self.key), Some("coefficients"), None, None],
+            Form::Name(_) | Form::ForceLaw | Form::BodyLaw => [None; 4],
+            _ => [Some(self.key), None, None, None],
         };
         keys.into_iter().flatten()
     }
@@ -62,7 +62,7 @@ pub enum Form {
     Six,
     /// Pieces of a polynomial, `[lower, upper, c0, c1, ...]`.
     Pieces,
-    /// `value`, with `input = true` one that is set between steps, or `table` over time.
+    /// `value`, with `input = true` one that is set between steps, `table` over time, or `signal` by name.
     Signal(SignalForm),
     /// `"global"` or `"body"`.
     Frame,
@@ -225,6 +225,7 @@ impl<T> Signal<T> {
             Self::Table(rows) => {
                 Signal::Table(rows.into_iter().map(|(t, x)| (f(t), x.map(&mut *f))).collect())
             }
+            Self::Named(signals) => Signal::Named(signals),
         }
     }
 }

@@ -129,7 +129,7 @@ mod data {
             "own"
         }
         fn check(&self, among: Surroundings<'_, T>, place: Place) -> Result<(), SceneError> {
-            place.signal(&self.course)?;
+            place.signal(&self.course, among.signals.len())?;
             match self.law {
                 UserLaw::Length { bodies, points, .. } => {
                     check_pair(among, bodies, place)?;

@@ -45,10 +45,10 @@ impl<T: Real> CouplingInput<T> {
         Self { terms: terms.collect(), sum }
     }
 
-    /// What the sum is at time `t` [s].
+    /// What the sum is at time `t` [s], with the values of the scene's signals there.
     #[must_use]
-    pub fn sum_at(&self, t: T) -> T {
-        self.sum.as_ref().map_or(T::ZERO, |sum| sum.at(t)[0])
+    pub fn sum_at(&self, t: T, signals: &[[T; 3]]) -> T {
+        self.sum.as_ref().map_or(T::ZERO, |sum| sum.at(t, signals)[0])
     }
 
     /// The largest factor: rows divided by it are of order one.

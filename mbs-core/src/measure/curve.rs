@@ -13,15 +13,19 @@ use crate::laws::guide;
 ///
 /// Cost: one binary search; no allocation.
 pub fn spline_curve<T: Real>(knots: &[[T; 2]], curvature: &[T], period: T, x: T) -> [T; 3] {
-    let x = match knots {
+    let at = guide::spline(knots, curvature, within(knots, period, x));
+    [at.value, at.rate, at.acceleration]
+}
+
+/// `x` taken into the period that begins at the first knot; without a period larger than zero `x` itself.
+pub(crate) fn within<T: Real>(knots: &[[T; 2]], period: T, x: T) -> T {
+    match knots {
         [first, .., last] if period > T::ZERO => {
             // to machine precision it is within
-            within(x, first[0], period).max(first[0]).min(last[0])
+            taken_into(x, first[0], period).max(first[0]).min(last[0])
         }
         _ => x,
-    };
-    let at = guide::spline(knots, curvature, x);
-    [at.value, at.rate, at.acceleration]
+    }
 }
 
 /// f, f' and f'' of the polynomial with these coefficients, the constant one first, at `x`.
@@ -50,7 +54,7 @@ pub fn spline_change<T: Real>((knots, curvature): (&[[T; 2]], &[T]), period: T, 
     let (ends, is_periodic) = ([first[0], last[0]], period > T::ZERO);
     let (mut at, mut left, mut sum) = (x, dx, T::ZERO);
     if is_periodic {
-        at = within(x, ends[0], period);
+        at = taken_into(x, ends[0], period);
     }
     // Each pass ends a piece; a way of more periods than there are pieces is no step.
     for _ in 0..=2 * knots.len() {
@@ -98,7 +102,7 @@ pub fn spline_change<T: Real>((knots, curvature): (&[[T; 2]], &[T]), period: T, 
 }
 
 /// x in the period that begins at `first`.
-fn within<T: Real>(x: T, first: T, period: T) -> T {
+fn taken_into<T: Real>(x: T, first: T, period: T) -> T {
     let turns = libm::floor(((x - first) / period).to_f64());
     x - T::from_f64(turns) * period
 }

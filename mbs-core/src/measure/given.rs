@@ -2,7 +2,7 @@
 
 use super::CouplingInput;
 use crate::Real;
-use crate::inputs::GuideInput;
+use crate::inputs::{GuideInput, SignalGraph};
 use crate::scene::{InitialTarget, Joint, Scene};
 use alloc::vec;
 use alloc::vec::Vec;
@@ -14,9 +14,10 @@ use alloc::vec::Vec;
 pub fn given_values<T: Real>(scene: &Scene<T>) -> Vec<Vec<Option<T>>> {
     let open = |joint: &Joint<T>| vec![None; joint.kind.n_coordinates(scene.dimension)];
     let mut values: Vec<Vec<Option<T>>> = scene.joints.iter().map(open).collect();
+    let signals = SignalGraph::new(&scene.signals).values(T::ZERO);
     for guide in &scene.guides {
         if let Some(values) = values.get_mut(guide.joint.index()) {
-            values.fill(Some(GuideInput::new(&guide.law).at(T::ZERO)[0]));
+            values.fill(Some(GuideInput::new(&guide.law).at(T::ZERO, &signals)[0]));
         }
     }
     for initial in &scene.initials {
@@ -29,7 +30,7 @@ pub fn given_values<T: Real>(scene: &Scene<T>) -> Vec<Vec<Option<T>>> {
     let mut couplings: Vec<_> = scene.couplings.iter().map(CouplingInput::new).collect();
     loop {
         let before = couplings.len();
-        couplings.retain(|coupling| !propagated(coupling, &mut values));
+        couplings.retain(|coupling| !propagated(coupling, (&mut values, &signals)));
         if couplings.len() == before {
             return values;
         }
@@ -37,8 +38,11 @@ pub fn given_values<T: Real>(scene: &Scene<T>) -> Vec<Vec<Option<T>>> {
 }
 
 /// Gives the one open coordinate of a coupling its value; says whether it has done so, or none is open.
-fn propagated<T: Real>(coupling: &CouplingInput<T>, values: &mut [Vec<Option<T>>]) -> bool {
-    let (mut rest, mut open) = (coupling.sum_at(T::ZERO), None);
+fn propagated<T: Real>(
+    coupling: &CouplingInput<T>,
+    (values, signals): (&mut [Vec<Option<T>>], &[[T; 3]]),
+) -> bool {
+    let (mut rest, mut open) = (coupling.sum_at(T::ZERO, signals), None);
     for term in &coupling.terms {
         let Some((joint, number)) = term.coordinate else { return false };
         match values.get(joint).and_then(|list| list.get(number)).copied().flatten() {

@@ -12,6 +12,8 @@ mod given;
 pub use coupling::{CouplingInput, TermInput};
 #[cfg(feature = "alloc")]
 pub use curve::PreparedCurve;
+#[cfg(feature = "alloc")]
+pub(crate) use curve::within;
 pub use curve::{polynomial, polynomial_change, spline_change, spline_curve};
 #[cfg(feature = "alloc")]
 pub use given::given_values;

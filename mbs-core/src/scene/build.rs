@@ -8,8 +8,8 @@ use crate::scene::{
     Actuator, AeroDrag, Axis, AxisFrame, Body, BodyId, BodyTorque, Bumper, Bushing, Coupling,
     Dimension, Effect, EffectKind, Force, Freedom, Friction, Guide, Inertia, InitialCondition,
     InitialTarget, Joint, JointId, JointKind, JointTorque, LawOnBody, LawOnJoint, LawOnLine, Limit,
-    Motion, Number, Output, Polynomial, PolynomialPiece, Road, RoadFeature, Rotation, Signal,
-    SpeedHold, SpringDamper, Tire, TorsionSpring, Vector3,
+    Motion, NamedSignal, Number, Output, Polynomial, PolynomialPiece, Road, RoadFeature, Rotation,
+    Signal, SignalId, SignalKind, SpeedHold, SpringDamper, Tire, TorsionSpring, Vector3,
 };
 use alloc::string::String;
 use alloc::vec::Vec;
@@ -400,13 +400,39 @@ macro_rules! named {
         }
     )*};
 }
-named!(Body, Coupling, Joint, Effect, Output);
+named!(Body, Coupling, Joint, NamedSignal, Effect, Output);
 
 impl Signal<Number> {
     /// A number that is set between steps; this at the start.
     #[must_use]
     pub fn input(start: impl Into<Number>) -> Self {
         Self::Input([start.into(), Number::ZERO, Number::ZERO])
+    }
+}
+
+/// The first component of a vector.
+impl<T> From<SignalId> for Signal<T> {
+    fn from(signal: SignalId) -> Self {
+        Self::Named([Some(signal), None, None])
+    }
+}
+
+impl<T> From<SignalId> for Motion<T> {
+    fn from(signal: SignalId) -> Self {
+        Self::Signal(signal)
+    }
+}
+
+impl NamedSignal<Number> {
+    /// A signal without a name.
+    pub fn new(kind: impl Into<SignalKind<Number>>) -> Self {
+        Self { name: String::new(), kind: kind.into() }
+    }
+}
+
+impl From<SignalKind<f64>> for SignalKind<Number> {
+    fn from(kind: SignalKind<f64>) -> Self {
+        kind.map(&mut |x| Number::from(*x))
     }
 }
 

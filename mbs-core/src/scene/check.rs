@@ -12,6 +12,7 @@ mod motion;
 mod output;
 mod reference;
 mod road;
+mod signal;
 #[cfg(test)]
 mod tests;
 mod vector;
@@ -43,6 +44,7 @@ impl<T: Real> Scene<T> {
     ///     initials: Vec::new(),
     ///     guides: Vec::new(),
     ///     couplings: Vec::new(),
+    ///     signals: Vec::new(),
     ///     effects: Vec::new(),
     ///     road: Default::default(),
     ///     start: Default::default(),
@@ -72,6 +74,7 @@ impl<T: Real> Scene<T> {
         body::check_lumps(self)?;
         motion::check_guides(self)?;
         coupling::check(self)?;
+        signal::check(self)?;
         motion::check_initials(self)?;
         coupling::check_starts(self)?;
         for (i, effect) in self.effects.iter().enumerate() {
@@ -84,14 +87,16 @@ impl<T: Real> Scene<T> {
         Ok(())
     }
 
-    /// Refuses what only the length of a run shows: the table of a guide that begins or ends within it on a slope.
+    /// Refuses what only the length of a run shows: the table of a guide, or of a signal that one follows, that begins or ends
+    /// within it on a slope.
     ///
     /// A table that is in motion at t = 0, or when the run ends, has no such jump.
     ///
     /// # Errors
-    /// [`SceneFault::TableSlope`] with the guide and the row.
+    /// [`SceneFault::TableSlope`] with the guide or signal and the row.
     pub fn check_run(&self, duration: T) -> Result<(), SceneError> {
-        motion::check_ends(self, duration)
+        motion::check_ends(self, duration)?;
+        signal::check_ends(self, duration)
     }
 
     /// Bodies with an inertia that none can have, or with inertia and no mass. [`Self::check`] accepts them where the bodies welded
@@ -109,6 +114,7 @@ impl<T: Real> Scene<T> {
         unique(self.bodies.iter().map(|b| b.name.as_str()), Some("ground"), Entry::Body)?;
         unique(self.joints.iter().map(|j| j.name.as_str()), None, Entry::Joint)?;
         unique(self.couplings.iter().map(|c| c.name.as_str()), None, Entry::Coupling)?;
+        unique(self.signals.iter().map(|s| s.name.as_str()), None, Entry::Signal)?;
         unique(self.effects.iter().map(|e| e.name.as_str()), None, Entry::Effect)?;
         unique(self.outputs.iter().map(|o| o.name.as_str()), Some("t"), Entry::Output)
     }

@@ -1,6 +1,6 @@
 //! Bodies, joints, initial conditions and guides.
 
-use crate::scene::{BodyId, Dimension, JointId, JointKind, Road};
+use crate::scene::{BodyId, Dimension, JointId, JointKind, NamedSignal, Road, SignalId};
 use alloc::string::String;
 use alloc::vec::Vec;
 
@@ -137,6 +137,8 @@ pub enum Motion<T> {
         /// Rate [rad/s or m/s].
         rate: T,
     },
+    /// A signal of the scene, which is [smooth](crate::scene::Smoothness).
+    Signal(SignalId),
 }
 
 /// What an effect acts among.
@@ -146,4 +148,5 @@ pub(crate) struct Surroundings<'a, T> {
     pub(crate) bodies: &'a [Body<T>],
     pub(crate) joints: &'a [Joint<T>],
     pub(crate) road: &'a Road<T>,
+    pub(crate) signals: &'a [NamedSignal<T>],
 }

@@ -1,10 +1,10 @@
 //! What effects are described by: signals, axes, laws of users, polynomials and roads.
 
 use crate::laws::user::{UserBodyLaw, UserScalarLaw};
-use crate::scene::{BodyId, JointId};
+use crate::scene::{BodyId, JointId, SignalId};
 use alloc::vec::Vec;
 
-/// A constant, or a table over time (linear between the points, the end values held outside).
+/// A constant, a table over time (linear between the points, the end values held outside), or signals of the scene.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Signal<T> {
     /// The same at all times; planar torques and joint torques use the first component only.
@@ -13,6 +13,8 @@ pub enum Signal<T> {
     Table(Vec<(T, [T; 3])>),
     /// Held until it is set again between steps; this at the start.
     Input([T; 3]),
+    /// Signals of the scene, one for each component; the last ones may be left out where none is needed.
+    Named([Option<SignalId>; 3]),
 }
 
 /// Axes in which a force is given.

@@ -1,6 +1,7 @@
 //! What can be wrong with a scene, and what to do about it.
 
 use super::{Dimension, JointKind};
+use crate::scene::SignalBreak;
 use core::fmt::{self, Display, Formatter};
 
 /// The faults.
@@ -102,6 +103,15 @@ pub enum SceneFault {
         /// The rate there [rad/s or m/s].
         rate: f64,
     },
+    /// A signal is made of itself, directly or by others.
+    SignalCircle,
+    /// The signal is not smooth, which a guide or a coupling needs.
+    SignalNotSmooth {
+        /// What spoils it.
+        broken: SignalBreak,
+        /// What makes it smooth.
+        remedy: &'static str,
+    },
     /// Times in a table do not increase; the row (from 0) that is not later than the one before.
     TableOrder(usize),
     /// The upper limit is below the lower one; both.
@@ -200,6 +210,8 @@ impl SceneFault {
             Self::TableSlope { .. } => {
                 "add `ends = \"level\"` beside `table`: it then begins and ends at rest"
             }
+            Self::SignalCircle => "take one of its operands out",
+            Self::SignalNotSmooth { remedy, .. } => remedy,
             Self::TableOrder(_) => "sort the rows by time and keep one row per time",
             Self::LimitOrder(_) => "write the upper limit first: [U, L] with U > L",
             Self::RangeOrder(_) => "write the lower end below the upper end",
@@ -298,6 +310,10 @@ impl SceneFault {
                     "{verb} at {time} s, within the run, with a rate of {rate:.3} rad/s (or m/s): \
                      its value is held {held} that, and the jump is an impact"
                 )
+            }
+            Self::SignalCircle => write!(f, "needs itself"),
+            Self::SignalNotSmooth { broken, .. } => {
+                write!(f, "follows signal {}, which {broken}", broken.signal.index() + 1)
             }
             Self::TableOrder(row) => {
                 write!(f, "has times that do not increase at row {}", row + 1)

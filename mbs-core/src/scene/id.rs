@@ -62,3 +62,4 @@ handle!(/** A guide by its place in `scene.guides`. */ GuideId);
 handle!(/** A coupling by its place in `scene.couplings`. */ CouplingId);
 handle!(/** An effect by its place in `scene.effects`. */ EffectId);
 handle!(/** An output by its place in `scene.outputs`. */ OutputId);
+handle!(/** A signal by its place in `scene.signals`. */ SignalId);

@@ -4,7 +4,7 @@ use crate::effects::EffectKind;
 use crate::outputs::Quantity;
 use crate::scene::{
     Body, Coupling, CouplingId, Dimension, EffectId, Guide, GuideId, InitialCondition, InitialId,
-    Joint, JointId, OutputId, Road, SolverTable, Start, Surroundings,
+    Joint, JointId, NamedSignal, OutputId, Road, SignalId, SolverTable, Start, Surroundings,
 };
 use alloc::string::String;
 use alloc::vec::Vec;
@@ -31,6 +31,8 @@ pub struct Scene<T> {
     pub guides: Vec<Guide<T>>,
     /// Relations of joint coordinates and lengths that hold.
     pub couplings: Vec<Coupling<T>>,
+    /// Numbers over time by name, that guides, couplings and effects follow.
+    pub signals: Vec<NamedSignal<T>>,
     /// The road of tires; empty: level ground at height zero.
     pub road: Road<T>,
     /// What the run starts from.
@@ -57,6 +59,7 @@ impl<T: Default> Scene<T> {
             initials: Vec::new(),
             guides: Vec::new(),
             couplings: Vec::new(),
+            signals: Vec::new(),
             road: Road::default(),
             start: Start::default(),
             effects: Vec::new(),
@@ -97,8 +100,8 @@ impl<T> Output<T> {
 impl<T> Scene<T> {
     /// What its effects act among.
     pub(crate) fn surroundings(&self) -> Surroundings<'_, T> {
-        let Self { dimension, ref bodies, ref joints, ref road, .. } = *self;
-        Surroundings { dimension, bodies, joints, road }
+        let Self { dimension, ref bodies, ref joints, ref road, ref signals, .. } = *self;
+        Surroundings { dimension, bodies, joints, road, signals }
     }
 }
 
@@ -134,4 +137,4 @@ macro_rules! by_handle {
     )*};
 }
 
-by_handle!(JointId of Joint, InitialId of InitialCondition, GuideId of Guide, CouplingId of Coupling, EffectId of Effect, OutputId of Output);
+by_handle!(JointId of Joint, InitialId of InitialCondition, GuideId of Guide, CouplingId of Coupling, SignalId of NamedSignal, EffectId of Effect, OutputId of Output);

@@ -35,6 +35,8 @@ mod number;
 #[cfg(feature = "alloc")]
 mod resolve;
 #[cfg(feature = "alloc")]
+mod signal;
+#[cfg(feature = "alloc")]
 mod solver;
 
 #[cfg(feature = "alloc")]
@@ -63,7 +65,9 @@ pub use error::{Entry, SceneError};
 #[cfg(feature = "alloc")]
 pub use fault::SceneFault;
 #[cfg(feature = "alloc")]
-pub use id::{BodyId, CouplingId, EffectId, GROUND, GuideId, InitialId, JointId, OutputId};
+pub use id::{
+    BodyId, CouplingId, EffectId, GROUND, GuideId, InitialId, JointId, OutputId, SignalId,
+};
 #[cfg(feature = "alloc")]
 pub(crate) use inertia::steiner;
 pub use joint::{Axis, Freedom, JOINTS, JointForm, JointKind, Rotation, Translation};
@@ -71,5 +75,9 @@ pub use joint::{Axis, Freedom, JOINTS, JointForm, JointKind, Rotation, Translati
 pub use mechanism::{Effect, Output, Scene};
 #[cfg(feature = "alloc")]
 pub use number::{Number, Vector3};
+#[cfg(feature = "alloc")]
+pub use signal::{
+    Interpolation, NamedSignal, SignalBreak, SignalKind, Smoothness, signal_breaks, signal_order,
+};
 #[cfg(feature = "alloc")]
 pub use solver::SolverTable;

@@ -3,8 +3,8 @@
 use crate::Real;
 use crate::scene::{
     Body, CalspanCoefficients, Coupling, CouplingMeasure, CouplingTerm, Curve, Dimension, Effect,
-    Entry, Guide, Inertia, InitialCondition, InitialTarget, Joint, Motion, Number, Output, Road,
-    RoadFeature, Scene, SceneError, SceneFault, SolverTable,
+    Entry, Guide, Inertia, InitialCondition, InitialTarget, Joint, Motion, NamedSignal, Number,
+    Output, Road, RoadFeature, Scene, SceneError, SceneFault, SolverTable,
 };
 use alloc::vec::Vec;
 
@@ -74,6 +74,11 @@ impl<T: Clone> Scene<T> {
                 .map(|guide| Guide { joint: guide.joint, law: guide.law.map(f) })
                 .collect(),
             couplings: self.couplings.iter().map(|coupling| coupling.map(f)).collect(),
+            signals: self
+                .signals
+                .iter()
+                .map(|signal| NamedSignal { name: signal.name.clone(), kind: signal.kind.map(f) })
+                .collect(),
             road: self.road.map(f),
             start: self.start,
             effects: self
@@ -141,6 +146,7 @@ impl<T> Motion<T> {
             }
             Self::Input(motion) => Motion::Input(all(motion, f)),
             Self::Ramp { rate } => Motion::Ramp { rate: f(rate) },
+            Self::Signal(signal) => Motion::Signal(*signal),
         }
     }
 }
@@ -156,13 +162,19 @@ impl<T> Coupling<T> {
     }
 }
 
+impl<T> Curve<T> {
+    pub(super) fn map<U>(&self, f: &mut impl FnMut(&T) -> U) -> Curve<U> {
+        match self {
+            Self::Table(table) => Curve::Table(rows(table, f)),
+            Self::Periodic(table) => Curve::Periodic(rows(table, f)),
+            Self::Polynomial(list) => Curve::Polynomial(list.iter().map(f).collect()),
+        }
+    }
+}
+
 impl<T> CouplingTerm<T> {
     fn map<U>(&self, f: &mut impl FnMut(&T) -> U) -> CouplingTerm<U> {
-        let curve = self.curve.as_ref().map(|curve| match curve {
-            Curve::Table(table) => Curve::Table(rows(table, f)),
-            Curve::Periodic(table) => Curve::Periodic(rows(table, f)),
-            Curve::Polynomial(list) => Curve::Polynomial(list.iter().map(&mut *f).collect()),
-        });
+        let curve = self.curve.as_ref().map(|curve| curve.map(f));
         let of = match &self.of {
             &CouplingMeasure::Coordinate { joint, number } => {
                 CouplingMeasure::Coordinate { joint, number }

@@ -15,5 +15,6 @@ mod motion;
 mod outputs;
 mod quantities;
 mod reactions;
+mod signals;
 mod start;
 mod undetermined;

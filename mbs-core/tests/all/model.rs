@@ -174,6 +174,7 @@ fn power<const D: usize>(scene: &Scene<f64>, field: &Field<'_, D>) -> f64 {
     let at_start = |course: &Signal<f64>| match course {
         Signal::Constant(f) | Signal::Input(f) => *f,
         Signal::Table(rows) => rows[0].1,
+        Signal::Named(_) => panic!("the scene has no signals"),
     };
     let mut power = 0.0;
     for (i, body) in scene.bodies.iter().enumerate() {

@@ -6,13 +6,29 @@ use alloc::vec::Vec;
 use mbs_core::Real;
 use mbs_core::inputs::Prescribed;
 use mbs_core::laws::Part;
-use mbs_core::scene::{Motion as SceneLaw, Signal};
+use mbs_core::scene::{Motion as SceneLaw, Signal, SignalId};
 use mbs_recursive::loads::{Load, Measure};
 use mbs_recursive::loops::Loops;
 use mbs_recursive::rows::Row;
 use mbs_recursive::slices::TreeSlices;
 use mbs_recursive::space::Space;
 use mbs_recursive::{TreeModel, TreeState};
+
+/// A signal of time, or one that is set, which tables do not have.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct MovingSignal {
+    /// The signal.
+    pub signal: SignalId,
+}
+
+impl core::fmt::Display for MovingSignal {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        let number = self.signal.index() + 1;
+        write!(f, "signal {number} is not constant, and tables have no signals of time")
+    }
+}
+
+impl core::error::Error for MovingSignal {}
 
 /// A model whose tables are partly those of a tree, partly its own.
 #[derive(Debug, Clone)]
@@ -37,8 +53,17 @@ fn index(i: usize) -> u32 {
 impl<'a, T: Real, S: Space<T>> Collected<'a, T, S> {
     /// Gathers a tree's tables and a state to begin from. `ladder` names effects of the scene by index, the one to be dropped first
     /// in front; each has a rung.
-    #[must_use]
-    pub fn new(tree: &'a TreeModel<T, S>, state: &'a TreeState<T>, ladder: &[usize]) -> Self {
+    ///
+    /// # Errors
+    /// [`MovingSignal`]: tables have signals that are constant, and no others.
+    pub fn new(
+        tree: &'a TreeModel<T, S>,
+        state: &'a TreeState<T>,
+        ladder: &[usize],
+    ) -> Result<Self, MovingSignal> {
+        if let Some(signal) = tree.prescribed().signals().moving() {
+            return Err(MovingSignal { signal });
+        }
         let mechanism = tree.mechanism();
         let mut model = Self {
             mechanism,
@@ -54,7 +79,7 @@ impl<'a, T: Real, S: Space<T>> Collected<'a, T, S> {
         };
         model.order(tree.effect_of_load(), ladder);
         model.prescribe(tree.prescribed());
-        model
+        Ok(model)
     }
 
     /// The effects that stay, in the order of the scene; behind them those of the ladder, the first to be dropped last.
@@ -78,6 +103,8 @@ impl<'a, T: Real, S: Space<T>> Collected<'a, T, S> {
             let guide = prescribed.guides().get(row.guide as usize);
             row.value = guide.and_then(|guide| guide.offset()).map_or(T::ZERO, |x| x * row.inverse);
         }
+        let signals = prescribed.signals().values(T::ZERO);
+        self.courses.extend(signals.iter().map(|value| SignalLaw::Constant(*value)));
         for guide in prescribed.guides() {
             let law = match guide.law() {
                 SceneLaw::Input(motion) => Motion::Input(*motion),
@@ -85,6 +112,13 @@ impl<'a, T: Real, S: Space<T>> Collected<'a, T, S> {
                     Motion::Sine { amplitude: *amplitude, frequency: *frequency, phase: *phase }
                 }
                 SceneLaw::Ramp { rate } => Motion::Ramp { rate: *rate },
+                // the signal is constant
+                SceneLaw::Signal(_) => {
+                    let first = index(self.knots.len());
+                    self.knots.push([T::ZERO, guide.at(T::ZERO, &signals)[0]]);
+                    self.curvatures.push(T::ZERO);
+                    Motion::Table(Part { first, n: 1 })
+                }
                 SceneLaw::Table { rows: table, .. } => {
                     let first = index(self.knots.len());
                     self.knots.extend_from_slice(table);
@@ -98,6 +132,7 @@ impl<'a, T: Real, S: Space<T>> Collected<'a, T, S> {
             let law = match (course.speed(), course.course()) {
                 (Some(speed), _) => SignalLaw::Travel(speed),
                 (None, Signal::Constant(value)) => SignalLaw::Constant(*value),
+                (None, Signal::Named(_)) => SignalLaw::Constant(course.at(T::ZERO, &signals)),
                 (None, Signal::Input(value)) => SignalLaw::Input(*value),
                 (None, Signal::Table(table)) => {
                     let first = index(self.rows.len());

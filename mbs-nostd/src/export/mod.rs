@@ -6,6 +6,6 @@ mod source;
 
 pub use crate::format::Bytes;
 pub use bytes::bytes;
-pub use collect::{Collected, needs};
+pub use collect::{Collected, MovingSignal, needs};
 pub use source::source;
 pub(crate) use source::{Source, close, name, open};

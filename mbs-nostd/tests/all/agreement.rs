@@ -22,7 +22,7 @@ fn vehicle(name: &str) -> (TreeModel<f64, Spatial>, TreeState<f64>) {
 fn a_solver_of_fixed_capacity_gives_the_bits_of_the_recursion() {
     for name in ["iltis-slalom", "iltis-jump", "iltis-suspension", "spatial-four-bar"] {
         let (tree, begin) = vehicle(name);
-        let collected = Collected::new(&tree, &begin, &[]);
+        let collected = Collected::new(&tree, &begin, &[]).expect("no signals");
         let text = bytes(&collected.model(), false).expect("a scene without own laws");
         let tables = RoomTables::read(&text).unwrap_or_else(|e| panic!("{name}: {e}"));
         let flash = Checked::new(&collected.model()).unwrap_or_else(|e| panic!("{name}: {e}"));
@@ -132,7 +132,7 @@ fn one_evaluation_a_step_stays_below_the_error_of_the_step_itself_on_level_roads
 #[test]
 fn rungs_drop_the_effects_of_the_ladder_in_its_order_and_time_that_runs_out_climbs_them() {
     let (tree, begin) = vehicle("iltis-slalom");
-    let collected = Collected::new(&tree, &begin, &[3, 1]);
+    let collected = Collected::new(&tree, &begin, &[3, 1]).expect("no signals");
     let model = collected.model();
     let n = model.mechanism.loads.len();
     assert_eq!(model.rungs, [n - 1, n - 2].map(|n| u32::try_from(n).expect("few effects")));
@@ -149,7 +149,7 @@ fn rungs_drop_the_effects_of_the_ladder_in_its_order_and_time_that_runs_out_clim
 #[test]
 fn a_solver_refuses_integrators_with_auxiliary_accelerations() {
     let (tree, begin) = vehicle("six-joint-arm");
-    let collected = Collected::new(&tree, &begin, &[]);
+    let collected = Collected::new(&tree, &begin, &[]).expect("no signals");
     let model = Checked::new(&collected.model()).expect("a model");
     let mut solver = Room::new(&model).expect("room");
     solver.options.integrator = Integrator::hht(0.05);
@@ -161,7 +161,7 @@ fn a_solver_refuses_integrators_with_auxiliary_accelerations() {
 #[test]
 fn a_rotation_needs_the_feature_of_bushings_and_is_refused_without_it() {
     let (tree, begin) = vehicle("six-joint-arm");
-    let collected = Collected::new(&tree, &begin, &[]);
+    let collected = Collected::new(&tree, &begin, &[]).expect("no signals");
     let law = Law::SpringDamper(SpringDamperLaw { stiffness: 1.0, damping: 0.0, free: 0.0 });
     let load = Load::Between { links: [1, 2], gauge: Measure::Rotation { number: 0 }, law };
     let mut model = collected.model();
@@ -174,7 +174,8 @@ fn a_rotation_needs_the_feature_of_bushings_and_is_refused_without_it() {
 #[test]
 fn whatever_word_of_a_model_is_broken_nothing_panics() {
     let (tree, begin) = vehicle("iltis-slalom");
-    let text = bytes(&Collected::new(&tree, &begin, &[]).model(), false).expect("a model");
+    let text = bytes(&Collected::new(&tree, &begin, &[]).expect("no signals").model(), false)
+        .expect("a model");
     let (mut refused, mut stepped) = (0, 0);
     for at in (0..text.len() - 3).step_by(4) {
         for word in [u32::MAX, 1, 0x7f, 0x7ff8_0000] {

@@ -32,7 +32,7 @@ fn a_course_written_for_one_step_acts_in_that_whole_step() {
     scene.initials.clear();
     scene.effects.pop();
     let (tree, begin) = start::<Planar, 2>(&scene);
-    let collected = Collected::new(&tree, &begin, &[]);
+    let collected = Collected::new(&tree, &begin, &[]).expect("no signals");
     let text = bytes(&collected.model(), false).expect("a scene without own laws");
     let tables = RoomTables::read(&text).expect("a model");
     let flash = Checked::new(&collected.model()).expect("a model");
@@ -62,7 +62,7 @@ fn a_solver_of_fixed_capacity_takes_inputs_as_the_recursion_does() {
     scene.initials.clear();
     let (tree, begin) = start::<Planar, 2>(&scene);
     let effect = scene.effects.len() - 2;
-    let collected = Collected::new(&tree, &begin, &[]);
+    let collected = Collected::new(&tree, &begin, &[]).expect("no signals");
     let course = collected
         .model()
         .prescriptions
@@ -98,7 +98,7 @@ fn a_table_with_level_ends_steps_from_bytes_as_it_does_on_the_host() {
     scene.guides[0].law = Motion::Table { rows, ends: TableEnds::Level };
     scene.initials.clear();
     let (host, mut state) = start::<Planar, 2>(&scene);
-    let collected = Collected::new(&host, &state, &[]);
+    let collected = Collected::new(&host, &state, &[]).expect("no signals");
     let text = bytes(&collected.model(), false).expect("a scene without own laws");
     let tables = RoomTables::read(&text).expect("a model");
     let model = tables.model();
@@ -121,7 +121,7 @@ fn a_table_with_level_ends_steps_from_bytes_as_it_does_on_the_host() {
 fn what_is_no_input_or_not_finite_is_refused_and_changes_nothing() {
     let scene = with_torques("double-pendulum");
     let (tree, begin) = start::<Planar, 2>(&scene);
-    let collected = Collected::new(&tree, &begin, &[]);
+    let collected = Collected::new(&tree, &begin, &[]).expect("no signals");
     let model = Checked::new(&collected.model()).expect("a model");
     let mut solver = Room::new(&model).expect("room");
     let mut other = solver.clone();

@@ -36,7 +36,7 @@ fn counted_of<S: Axes<Counted> + Axes<f64>, const D: usize>(
 ) -> (Operations, Vec<Operations>) {
     let (tree, begin) = start::<S, D>(scene);
     let name = &scene.name;
-    let collected = Collected::new(&tree, &begin, &[]);
+    let collected = Collected::new(&tree, &begin, &[]).expect("no signals");
     let text = bytes(&collected.model(), false).expect("a scene without own laws");
     // The same numbers again, as counting ones.
     let tables = Box::new(RoomTables::<S>::read(&text).unwrap_or_else(|e| panic!("{name}: {e}")));

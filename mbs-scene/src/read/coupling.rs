@@ -84,7 +84,7 @@ pub(crate) fn read(
 const TERMS: &str = "a list of terms like { joint = \"j\", factor = 1.0 }";
 
 /// The keys of all kinds.
-const EVERY_KEY: [&str; 26] = [
+const EVERY_KEY: [&str; 27] = [
     "joints",
     "joint",
     "teeth",
@@ -109,6 +109,7 @@ const EVERY_KEY: [&str; 26] = [
     "sine",
     "ramp",
     "input",
+    "signal",
     "coordinate",
     "at",
 ];
@@ -117,7 +118,7 @@ fn allow(fields: &Fields<'_>, keys: &[&'static str]) -> Read<()> {
     fields.allow(&[&["name", "kind"], keys].concat(), &EVERY_KEY)
 }
 
-fn one() -> Number {
+pub(crate) fn one() -> Number {
     Number::from(1.0)
 }
 
@@ -348,7 +349,7 @@ fn read_term<'a>(
     Ok(CouplingTerm { factor: term.number_or("factor", "1")?, of, curve: read_curve(&term)? })
 }
 
-fn need_curve(fields: &Fields<'_>) -> Read<Curve<Number>> {
+pub(crate) fn need_curve(fields: &Fields<'_>) -> Read<Curve<Number>> {
     match read_curve(fields)? {
         Some(curve) => Ok(curve),
         None => {

@@ -105,7 +105,7 @@ fn default(
         _ => {}
     }
     let key = match field.form {
-        Form::Signal(_) => "value or table",
+        Form::Signal(_) => "value, table or signal",
         _ => field.key,
     };
     fields.context.fault(fields.header, ReadFault::Missing { key })

@@ -3,7 +3,7 @@
 use crate::read::nearest::{listing, nearest_name};
 use crate::read::{Place, SweepFault, units};
 use core::fmt::{self, Display, Formatter};
-use mbs_core::scene::{Entry, SceneError, SceneFault};
+use mbs_core::scene::{Entry, SceneError, SceneFault, SignalBreak};
 
 /// A refused scene file: the fault, its place, and what to do.
 #[derive(Debug, Clone, PartialEq)]
@@ -79,6 +79,27 @@ pub enum ReadFault {
         name: String,
         /// The names that are there.
         known: Vec<String>,
+    },
+    /// A signal of that name is not in the file.
+    UnknownSignal {
+        /// The name as written.
+        name: String,
+        /// The names that are there.
+        known: Vec<String>,
+    },
+    /// Signals that are made of one another in a circle, by their names.
+    SignalCircle {
+        /// The names; each needs the next, the last the first.
+        names: Vec<String>,
+    },
+    /// A signal that is not smooth, where a guide or a coupling needs it.
+    SignalNotSmooth {
+        /// Its name.
+        name: String,
+        /// Where it is not smooth.
+        broken: SignalBreak,
+        /// What makes it smooth.
+        remedy: &'static str,
     },
     /// The ground where a moving body is needed.
     GroundDoesNotMove,
@@ -197,6 +218,13 @@ impl Display for ReadFault {
             Self::UnknownPart { list, name, .. } => {
                 write!(f, "unknown {} `{name}`", list.trim_end_matches('s'))
             }
+            Self::UnknownSignal { name, .. } => write!(f, "unknown signal `{name}`"),
+            Self::SignalCircle { names } => {
+                let first = names.first().map_or("", |name| name);
+                names.iter().try_for_each(|name| write!(f, "`{name}` needs "))?;
+                write!(f, "`{first}`")
+            }
+            Self::SignalNotSmooth { name, broken, .. } => write!(f, "`{name}` {broken}"),
             Self::GroundDoesNotMove => write!(f, "the ground does not move"),
             Self::WrongType { expected, found } => write!(f, "expected {expected}, found {found}"),
             Self::NumberInText { text } => match units::quantity(text) {
@@ -254,6 +282,9 @@ impl ReadFault {
             Self::UnknownBody { name, known } => nearest_name(name, known, "bodies"),
             Self::UnknownJoint { name, known } => nearest_name(name, known, "joints"),
             Self::UnknownPart { list, name, known } => nearest_name(name, known, list),
+            Self::UnknownSignal { name, known } => nearest_name(name, known, "signals"),
+            Self::SignalCircle { .. } => SceneFault::SignalCircle.advice().to_owned(),
+            Self::SignalNotSmooth { remedy, .. } => (*remedy).to_owned(),
             Self::GroundDoesNotMove => "name a body".to_owned(),
             Self::WrongType { expected, .. } => format!("write {expected}"),
             Self::WrongCount { needed, .. } => {
@@ -295,6 +326,7 @@ fn numbered(entry: Entry, index: usize) -> Entry {
         Entry::Initial(_) => Entry::Initial(index),
         Entry::Guide(_) => Entry::Guide(index),
         Entry::Coupling(_) => Entry::Coupling(index),
+        Entry::Signal(_) => Entry::Signal(index),
         Entry::Effect(_) => Entry::Effect(index),
         Entry::Output(_) => Entry::Output(index),
         Entry::Scene | Entry::Solver | Entry::Road | Entry::RoadLeft(_) | Entry::RoadRight(_) => {

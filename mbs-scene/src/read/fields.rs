@@ -3,7 +3,7 @@
 use crate::read::names::Names;
 use crate::read::tree::{Item, Member, Node, Span};
 use crate::read::{ReadError, ReadFault, SceneFile};
-use mbs_core::scene::{BodyId, Dimension, Joint, JointId, Number};
+use mbs_core::scene::{BodyId, Dimension, Joint, JointId, Number, SignalId};
 
 /// What the readers of all entries share.
 #[derive(Debug, Clone, Copy)]
@@ -12,6 +12,7 @@ pub(crate) struct Context<'a> {
     pub(crate) dimension: Dimension,
     pub(crate) bodies: &'a Names,
     pub(crate) joints: &'a Names,
+    pub(crate) signals: &'a Names,
 }
 
 /// One table of the file.
@@ -159,6 +160,17 @@ impl<'a> Context<'a> {
             None => {
                 let (name, known) = (name.to_owned(), self.joints.list().to_vec());
                 self.fault(&item.span, ReadFault::UnknownJoint { name, known })
+            }
+        }
+    }
+
+    pub(crate) fn signal(&self, item: &'a Item) -> Read<SignalId> {
+        let name = self.text(item)?;
+        match self.signals.place(name) {
+            Some(i) => Ok(SignalId::new(i)),
+            None => {
+                let (name, known) = (name.to_owned(), self.signals.list().to_vec());
+                self.fault(&item.span, ReadFault::UnknownSignal { name, known })
             }
         }
     }

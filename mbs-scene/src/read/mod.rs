@@ -16,6 +16,7 @@ mod output;
 mod place;
 mod road;
 mod scene;
+mod signal;
 mod sweep;
 #[cfg(test)]
 mod tests;

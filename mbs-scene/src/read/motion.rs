@@ -48,8 +48,8 @@ fn angular_velocity(fields: &Fields<'_>) -> Read<Option<[Number; 3]>> {
 
 pub(crate) fn read_guide(fields: &Fields<'_>) -> Read<Guide<Number>> {
     let known: &[_] = match fields.get("table") {
-        Some(_) => &["joint", "table", "ends", "sine", "ramp", "input"],
-        None => &["joint", "table", "sine", "ramp", "input"],
+        Some(_) => &["joint", "table", "ends", "sine", "ramp", "input", "signal"],
+        None => &["joint", "table", "sine", "ramp", "input", "signal"],
     };
     fields.allow(known, &["ends"])?;
     let context = fields.context;
@@ -57,17 +57,18 @@ pub(crate) fn read_guide(fields: &Fields<'_>) -> Read<Guide<Number>> {
     match read_motion(fields)? {
         Some(law) => Ok(Guide { joint, law }),
         None => {
-            context.fault(fields.header, ReadFault::Missing { key: "table, sine, ramp or input" })
+            let key = "table, sine, ramp, input or signal";
+            context.fault(fields.header, ReadFault::Missing { key })
         }
     }
 }
 
 /// The keys of a function of time.
-pub(crate) const MOTION_KEYS: [&str; 5] = ["table", "ends", "sine", "ramp", "input"];
+pub(crate) const MOTION_KEYS: [&str; 6] = ["table", "ends", "sine", "ramp", "input", "signal"];
 
 /// A function of time, where one of its keys is there.
 pub(crate) fn read_motion(fields: &Fields<'_>) -> Read<Option<Motion<Number>>> {
-    let laws = ["table", "sine", "ramp", "input"];
+    let laws = ["table", "sine", "ramp", "input", "signal"];
     for (i, one) in laws.iter().enumerate() {
         laws[i + 1..].iter().try_for_each(|other| fields.exclusive(one, other))?;
     }
@@ -91,6 +92,8 @@ pub(crate) fn read_motion(fields: &Fields<'_>) -> Read<Option<Motion<Number>>> {
         input.allow(&["value", "rate", "acceleration"], &[])?;
         let number = |key| input.number_or_zero(key);
         Motion::Input([number("value")?, number("rate")?, number("acceleration")?])
+    } else if let Some(item) = fields.get("signal") {
+        Motion::Signal(context.signal(item)?)
     } else if fields.get("table").is_some() {
         Motion::Table { rows: read_table(fields)?, ends: read_ends(fields)? }
     } else {
@@ -99,7 +102,7 @@ pub(crate) fn read_motion(fields: &Fields<'_>) -> Read<Option<Motion<Number>>> {
     Ok(Some(law))
 }
 
-fn read_ends(fields: &Fields<'_>) -> Read<TableEnds> {
+pub(crate) fn read_ends(fields: &Fields<'_>) -> Read<TableEnds> {
     if fields.get("ends").is_none() {
         return Ok(TableEnds::default());
     }
@@ -110,7 +113,7 @@ fn read_ends(fields: &Fields<'_>) -> Read<TableEnds> {
     }
 }
 
-fn read_table(fields: &Fields<'_>) -> Read<Vec<[Number; 2]>> {
+pub(crate) fn read_table(fields: &Fields<'_>) -> Read<Vec<[Number; 2]>> {
     let context = fields.context;
     context
         .list(fields.need("table")?, "a list of rows [time, value]")?

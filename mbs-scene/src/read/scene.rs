@@ -5,14 +5,17 @@ use crate::read::fields::{Context, Fields, Read};
 use crate::read::names::Names;
 use crate::read::tree::{Item, Member, Node};
 use crate::read::{
-    Place, ReadError, ReadFault, body, coupling, effect, joint, motion, output, road,
+    Place, ReadError, ReadFault, body, coupling, effect, joint, motion, output, road, signal,
 };
 use mbs_core::Real;
-use mbs_core::scene::{Dimension, Entry, Number, Scene, SceneError, SceneFault, Start};
+use mbs_core::scene::{
+    Dimension, Entry, Number, Scene, SceneError, SceneFault, Start, signal_order,
+};
 use std::collections::BTreeMap;
 
-const TABLES: [&str; 10] = [
-    "scene", "body", "joint", "initial", "guide", "coupling", "effect", "road", "solver", "output",
+const TABLES: [&str; 11] = [
+    "scene", "body", "joint", "initial", "guide", "coupling", "signal", "effect", "road", "solver",
+    "output",
 ];
 const SCENE_KEYS: [&str; 5] = ["name", "dimension", "gravity", "duration", "start"];
 
@@ -30,13 +33,20 @@ impl SceneFile {
     /// # Errors
     /// The first thing in the file that is unknown, missing, or of another form, with its place.
     pub fn numbers(&self) -> Result<Scene<Number>, ReadError> {
-        let (bodies, joints) = (self.names("body"), self.names("joint"));
+        let [bodies, joints, signals] = ["body", "joint", "signal"].map(|table| self.names(table));
         // the dimension is not known yet; nothing dimensional is read before it is
         let dimension = Dimension::Planar;
-        let context = Context { document: self, dimension, bodies: &bodies, joints: &joints };
+        let context = Context {
+            document: self,
+            dimension,
+            bodies: &bodies,
+            joints: &joints,
+            signals: &signals,
+        };
         self.check_tables(&context)?;
         self.refuse_duplicates(bodies.list(), Entry::Body)?;
         self.refuse_duplicates(joints.list(), Entry::Joint)?;
+        self.refuse_duplicates(signals.list(), Entry::Signal)?;
         let Some(item) = self.top("scene") else {
             return context.fault(&(0..0), ReadFault::Missing { key: "[scene]" });
         };
@@ -64,6 +74,7 @@ impl SceneFile {
             guides: self.entries(&context, "guide", |_, fields| motion::read_guide(fields))?,
             couplings,
             joints,
+            signals: self.entries(&context, "signal", |_, fields| signal::read(fields))?,
             road: match self.top("road") {
                 Some(item) => road::read(&context.table(item, "a table: [road]")?)?,
                 None => Default::default(),
@@ -104,6 +115,7 @@ impl SceneFile {
             Entry::Initial(i) => entries("initial", i),
             Entry::Guide(i) => entries("guide", i),
             Entry::Coupling(i) => entries("coupling", i),
+            Entry::Signal(i) => entries("signal", i),
             Entry::Effect(i) => entries("effect", i),
             Entry::Output(i) => entries("output", i),
         };
@@ -114,7 +126,7 @@ impl SceneFile {
         }
     }
 
-    /// Names of bodies or joints that are texts; the rest is refused when the entry is read.
+    /// Names of entries that are texts; the rest is refused when the entry is read.
     fn names(&self, key: &str) -> Names {
         let Some(Item { node: Node::List(items), .. }) = self.top(key) else {
             return Names::default();
@@ -151,7 +163,29 @@ impl SceneFile {
             _ => None,
         };
         let place = Place::of(&self.text, row.or(item).map_or(&(0..0), |item| &item.span));
-        ReadError::new(&self.file, place, ReadFault::Scene(error))
+        ReadError::new(&self.file, place, self.fault(error))
+    }
+
+    /// The fault, with the names of the signals that it is about.
+    fn fault(&self, error: SceneError) -> ReadFault {
+        let is_of_signals =
+            matches!(error.fault, SceneFault::SignalNotSmooth { .. } | SceneFault::SignalCircle);
+        if !is_of_signals {
+            return ReadFault::Scene(error);
+        }
+        let signals = self.numbers().map(|scene| scene.signals).unwrap_or_default();
+        let name = |i: usize| signals.get(i).map(|signal| signal.name.clone());
+        match error.fault {
+            SceneFault::SignalNotSmooth { broken, remedy } => match name(broken.signal.index()) {
+                Some(name) => ReadFault::SignalNotSmooth { name, broken, remedy },
+                None => ReadFault::Scene(error),
+            },
+            SceneFault::SignalCircle => {
+                let circle = signal_order(&signals).err().unwrap_or_default();
+                ReadFault::SignalCircle { names: circle.into_iter().filter_map(name).collect() }
+            }
+            _ => ReadFault::Scene(error),
+        }
     }
 
     pub(crate) fn entries<'a, R>(

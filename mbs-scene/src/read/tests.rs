@@ -9,6 +9,7 @@ mod effects;
 mod outputs;
 mod random;
 mod road;
+mod signals;
 
 const PLANAR: &str = r#"[scene]
 name = "double pendulum"

@@ -4,6 +4,7 @@
 
 mod effect;
 mod road;
+mod signal;
 #[cfg(test)]
 mod tests;
 
@@ -14,8 +15,7 @@ use core::fmt::{self, Display, Formatter};
 use mbs_core::outputs::Target;
 use mbs_core::scene::{
     Body, BodyId, Coupling, CouplingMeasure, CouplingTerm, Curve, Dimension, Guide, Inertia,
-    InitialCondition, InitialTarget, Joint, JointId, Motion, Number, Output, Scene, SolverTable,
-    Start, TableEnds,
+    InitialCondition, InitialTarget, Joint, JointId, Number, Output, Scene, SolverTable, Start,
 };
 
 /// A scene that has no text.
@@ -127,6 +127,7 @@ fn tables(
         .couplings
         .iter()
         .try_for_each(|x| w.coupling(x).map(|keys| visit("coupling", true, keys)))?;
+    scene.signals.iter().try_for_each(|x| w.signal(x).map(|keys| visit("signal", true, keys)))?;
     scene.effects.iter().try_for_each(|x| w.effect(x).map(|keys| visit("effect", true, keys)))?;
     if let Some(road) = w.road() {
         visit("road", false, road);
@@ -189,31 +190,17 @@ fn list(nodes: impl IntoIterator<Item = Node>) -> Node {
     Node::List(nodes.into_iter().map(item).collect())
 }
 
-/// The keys of a function of time.
-fn motion(keys: &mut Keys, law: &Motion<Number>) {
-    let mut parts = Keys::default();
-    match law {
-        Motion::Table { rows, ends } => {
-            keys.push("table", list(rows.iter().map(Node::from)));
-            if *ends == TableEnds::Level {
-                keys.push("ends", "level");
-            }
+/// The keys of a function of a number.
+fn curve(keys: &mut Keys, curve: &Curve<Number>) {
+    let rows = |rows: &[[Number; 2]]| list(rows.iter().map(Node::from));
+    match curve {
+        Curve::Table(table) => keys.push("table", rows(table)),
+        Curve::Periodic(table) => {
+            keys.push("table", rows(table));
+            keys.push("periodic", Node::Bool(true));
         }
-        Motion::Sine { amplitude, frequency, phase } => {
-            parts.push("amplitude", amplitude);
-            parts.push("frequency", frequency);
-            parts.push("phase", phase);
-            keys.push("sine", parts);
-        }
-        Motion::Ramp { rate } => {
-            parts.push("rate", rate);
-            keys.push("ramp", parts);
-        }
-        Motion::Input([value, rate, acceleration]) => {
-            parts.push("value", value);
-            parts.push("rate", rate);
-            parts.push("acceleration", acceleration);
-            keys.push("input", parts);
+        Curve::Polynomial(coefficients) => {
+            keys.push("coefficients", list(coefficients.iter().map(Node::from)));
         }
     }
 }
@@ -353,7 +340,7 @@ impl Writer<'_> {
     fn guide(self, guide: &Guide<Number>) -> Result<Keys, WriteError> {
         let mut keys = Keys::default();
         keys.push("joint", self.joint_name(guide.joint)?);
-        motion(&mut keys, &guide.law);
+        self.motion(&mut keys, &guide.law)?;
         Ok(keys)
     }
 
@@ -366,7 +353,7 @@ impl Writer<'_> {
         keys.push("terms", list(terms?));
         keys.push("value", &coupling.value);
         if let Some(law) = &coupling.motion {
-            motion(&mut keys, law);
+            self.motion(&mut keys, law)?;
         }
         Ok(keys)
     }
@@ -390,17 +377,8 @@ impl Writer<'_> {
             }
         }
         keys.push("factor", &term.factor);
-        let rows = |rows: &[[Number; 2]]| list(rows.iter().map(Node::from));
-        match &term.curve {
-            None => {}
-            Some(Curve::Table(table)) => keys.push("table", rows(table)),
-            Some(Curve::Periodic(table)) => {
-                keys.push("table", rows(table));
-                keys.push("periodic", Node::Bool(true));
-            }
-            Some(Curve::Polynomial(coefficients)) => {
-                keys.push("coefficients", list(coefficients.iter().map(Node::from)));
-            }
+        if let Some(of) = &term.curve {
+            curve(&mut keys, of);
         }
         Ok(keys.into())
     }

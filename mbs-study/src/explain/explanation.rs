@@ -120,8 +120,8 @@ pub struct Relative {
     pub loops: usize,
     /// Names of the joints that are cut.
     pub cut_joints: Vec<String>,
-    /// One step on a controller.
-    pub controller: ControllerStep,
+    /// One step on a controller; `None` where the scene has signals of time, which no controller's tables have.
+    pub controller: Option<ControllerStep>,
 }
 
 /// The bound of one step of bounded work: operations, by a closed formula in the structure of the model.

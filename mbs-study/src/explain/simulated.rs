@@ -53,16 +53,17 @@ fn relative<T: Real, S: Space<T>>(scene: &Scene<T>, sizes: Sizes) -> Result<Rela
     let cut_joints: Vec<_> =
         tree.cut_joints().map(|joint| scene.joints[joint].name.clone()).collect();
     let rest = TreeState::at_rest(&tree);
-    let collected = Collected::new(&tree, &rest, &[]);
-    let bound = operation_bound::step(&collected.model(), Bounds::default());
-    let controller = ControllerStep {
-        products: bound.products,
-        sums: bound.sums,
-        quotients: bound.quotients,
-        roots: bound.roots,
-        turns: bound.turns,
-        instructions: [false, true].map(|is_double| bound.instructions(is_double)),
-    };
+    let controller = Collected::new(&tree, &rest, &[]).ok().map(|collected| {
+        let bound = operation_bound::step(&collected.model(), Bounds::default());
+        ControllerStep {
+            products: bound.products,
+            sums: bound.sums,
+            quotients: bound.quotients,
+            roots: bound.roots,
+            turns: bound.turns,
+            instructions: [false, true].map(|is_double| bound.instructions(is_double)),
+        }
+    });
     Ok(Relative { sizes, loops: cut_joints.len(), cut_joints, controller })
 }
 
@@ -83,6 +84,7 @@ fn guides<T>(scene: &Scene<T>) -> Vec<GuideEntry> {
             Motion::Sine { .. } => "sine",
             Motion::Input(_) => "input",
             Motion::Ramp { .. } => "ramp",
+            Motion::Signal(_) => "signal",
         }
         .to_owned(),
     };

@@ -9,13 +9,14 @@ use mbs_core::Real;
 use mbs_core::scene::Scene;
 
 /// Parts of a scene, as a file calls them.
-const PARTS: [&str; 10] = [
+const PARTS: [&str; 11] = [
     "[scene]",
     "[[body]]",
     "[[joint]]",
     "[[initial]]",
     "[[guide]]",
     "[[coupling]]",
+    "[[signal]]",
     "[road]",
     "[[effect]]",
     "[[output]]",
@@ -147,6 +148,7 @@ fn fingerprints<T: Real>(scene: &Scene<T>) -> [u64; PARTS.len()] {
         initials,
         guides,
         couplings,
+        signals,
         road,
         start,
         effects,
@@ -161,6 +163,7 @@ fn fingerprints<T: Real>(scene: &Scene<T>) -> [u64; PARTS.len()] {
         of(initials),
         of(guides),
         of(couplings),
+        of(signals),
         of(road),
         of(effects),
         of(outputs),

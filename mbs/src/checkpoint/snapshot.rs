@@ -16,8 +16,8 @@ pub(crate) struct SimulationSnapshot<T> {
     pub(crate) formulation: History<T>,
     pub(crate) control: Option<ControlSnapshot<T>>,
     pub(crate) invariant: [f64; Invariant::N_HISTORY],
-    /// What is set from outside: courses and guides.
-    pub(crate) inputs: [Vec<(usize, [T; 3])>; 2],
+    /// What is set from outside: courses, guides and signals; of these the first number.
+    pub(crate) inputs: [Vec<(usize, [T; 3])>; 3],
 }
 
 /// What the control of the step length remembers.
@@ -69,14 +69,19 @@ impl<T: Real> ControlSnapshot<T> {
     }
 }
 
-/// The inputs as they are set in a state: of effects, and of guides.
+/// The inputs as they are set in a state: of effects, of guides, and of signals.
 pub(crate) fn inputs<T: Real>(
     prescribed: &Prescribed<T>,
     inputs: &[T],
-) -> [Vec<(usize, [T; 3])>; 2] {
-    let mut values = inputs.as_chunks().0.iter();
+) -> [Vec<(usize, [T; 3])>; 3] {
+    let of_signals = prescribed.signals().inputs();
+    let (threes, ones) = inputs.split_at(inputs.len() - of_signals.len());
+    let signals = of_signals.iter().zip(ones);
+    let signals = signals.map(|((signal, _), value)| (*signal, [*value, T::ZERO, T::ZERO]));
+    let mut values = threes.as_chunks().0.iter();
     let guides = prescribed.guide_inputs().zip(values.by_ref());
     let guides = guides.map(|((guide, _), motion)| (guide, *motion)).collect();
     let effects = prescribed.effect_inputs().zip(values);
-    [effects.map(|((effect, _), value)| (effect, *value)).collect(), guides]
+    let effects = effects.map(|((effect, _), value)| (effect, *value)).collect();
+    [effects, guides, signals.collect()]
 }

@@ -86,6 +86,12 @@ impl<T: Real, const D: usize> Sink for Typed<T, D> {
     fn set_guide_input(&mut self, guide: usize, motion: [f64; 3]) -> Result<(), InputError> {
         self.seen.simulation.set_guide(guide, motion.map(T::from_f64))
     }
+
+    fn set_signal_input(&mut self, signal: usize, value: f64) -> Result<(), InputError> {
+        self.seen.simulation.set_signal(signal, T::from_f64(value))?;
+        self.seen.readings().stale();
+        Ok(())
+    }
 }
 
 impl<T: Real, const D: usize> Inner for Typed<T, D> {

@@ -4,6 +4,7 @@ use super::failure::SimulationError;
 use mbs_core::effects::{Form, Value};
 use mbs_core::scene::{
     Coupling, CouplingId, Dimension, EffectId, EffectKind, GuideId, Motion, Scene, Signal,
+    SignalId, SignalKind,
 };
 use mbs_core::step::InputError;
 use std::sync::Arc;
@@ -30,6 +31,7 @@ impl InputId {
 pub(crate) trait Sink {
     fn set_effect_input(&mut self, effect: usize, value: [f64; 3]) -> Result<(), InputError>;
     fn set_guide_input(&mut self, guide: usize, motion: [f64; 3]) -> Result<(), InputError>;
+    fn set_signal_input(&mut self, signal: usize, value: f64) -> Result<(), InputError>;
 }
 
 /// What an input belongs to.
@@ -47,6 +49,8 @@ pub enum InputOwner {
         /// Its place behind the guides of the scene.
         sum: GuideId,
     },
+    /// A signal of the scene.
+    Signal(SignalId),
 }
 
 /// One input.
@@ -54,10 +58,10 @@ pub enum InputOwner {
 #[non_exhaustive]
 pub struct InputInfo {
     /// `NAME` of its effect, or `NAME.x` of a vector; `JOINT`, `JOINT.rate` and `JOINT.acceleration` of a guide, likewise of a
-    /// coupling by its name.
+    /// coupling by its name; `NAME` of a signal.
     pub name: String,
     /// Its unit; empty for the input of a user's law.
-    pub unit: &'static str,
+    pub unit: String,
     /// What it belongs to.
     pub owner: InputOwner,
     /// Which of the owner's numbers it is.
@@ -87,13 +91,13 @@ impl Inputs {
                     _ => format!("{}.{}", effect.name, ["x", "y", "z"][component]),
                 };
                 let owner = InputOwner::Effect(EffectId::new(e));
-                list.push(InputInfo { name, unit, owner, component, start });
+                list.push(InputInfo { name, unit: unit.to_owned(), owner, component, start });
             }
         }
         let mut motion =
             |name: &str, owner: InputOwner, units: [&'static str; 3], start: [f64; 3]| {
                 for (component, suffix) in ["", ".rate", ".acceleration"].into_iter().enumerate() {
-                    let (name, unit) = (format!("{name}{suffix}"), units[component]);
+                    let (name, unit) = (format!("{name}{suffix}"), units[component].to_owned());
                     let start = start[component];
                     list.push(InputInfo { name, unit, owner, component, start });
                 }
@@ -111,6 +115,12 @@ impl Inputs {
             let Some(Motion::Input(start)) = coupling.motion else { continue };
             let (coupling, sum, name) = (CouplingId::new(c), GuideId::new(sum), &coupling.name);
             motion(name, InputOwner::Coupling { coupling, sum }, [""; 3], start);
+        }
+        for (s, signal) in scene.signals.iter().enumerate() {
+            let SignalKind::Input { value: start, unit } = &signal.kind else { continue };
+            let owner = InputOwner::Signal(SignalId::new(s));
+            let (name, unit, start) = (signal.name.clone(), unit.clone(), *start);
+            list.push(InputInfo { name, unit, owner, component: 0, start });
         }
         let values = list.iter().map(|input| input.start).collect();
         Self { list: list.into(), values }
@@ -230,6 +240,7 @@ impl Inputs {
             InputOwner::Guide(guide) | InputOwner::Coupling { sum: guide, .. } => {
                 inner.set_guide_input(guide.index(), numbers)?;
             }
+            InputOwner::Signal(signal) => inner.set_signal_input(signal.index(), numbers[0])?,
         }
         Ok(())
     }

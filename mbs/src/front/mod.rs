@@ -49,6 +49,8 @@ pub type InitialCondition = scene::InitialCondition<Number>;
 pub type Guide = scene::Guide<Number>;
 /// A coupling: a sum of joint coordinates and lengths that holds.
 pub type Coupling = scene::Coupling<Number>;
+/// A number over time by name, which guides, couplings and effects follow.
+pub type NamedSignal = scene::NamedSignal<Number>;
 /// A force, a spring, friction, a tire, ...
 pub type Effect = scene::Effect<Number>;
 /// A quantity that is recorded.

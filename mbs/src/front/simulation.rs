@@ -177,7 +177,7 @@ impl Simulation {
         self.inner.watch_events().map_err(|error| self.stopped(error))
     }
 
-    /// Inputs that can be set between steps, in the order of effects, then guides.
+    /// Inputs that can be set between steps, in the order of effects, guides, couplings, then signals.
     #[must_use]
     pub fn inputs(&self) -> &[InputInfo] {
         self.inputs.list()

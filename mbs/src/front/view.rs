@@ -12,7 +12,7 @@ use crate::typed;
 use core::ops::ControlFlow;
 use mbs_core::Real;
 use mbs_core::control::Accepted;
-use mbs_core::scene::{EffectId, GuideId, Scene};
+use mbs_core::scene::{EffectId, GuideId, Scene, SignalId};
 use mbs_core::step::InputError;
 use std::sync::Arc;
 
@@ -122,7 +122,7 @@ pub struct RunInputs<'a> {
 }
 
 impl RunInputs<'_> {
-    /// All of them, in the order of effects, then guides.
+    /// All of them, in the order of effects, guides, couplings, then signals.
     #[must_use]
     pub fn list(&self) -> &[InputInfo] {
         self.inputs.list()
@@ -169,6 +169,13 @@ impl Sink for Pending {
         self.0.push((InputOwner::Guide(GuideId::new(guide)), motion));
         Ok(())
     }
+
+    fn set_signal_input(&mut self, signal: usize, value: f64) -> Result<(), InputError> {
+        let value = [value, 0.0, 0.0];
+        InputError::check(signal, &value)?;
+        self.0.push((InputOwner::Signal(SignalId::new(signal)), value));
+        Ok(())
+    }
 }
 
 impl Pending {
@@ -183,6 +190,7 @@ impl Pending {
                 InputOwner::Guide(guide) | InputOwner::Coupling { sum: guide, .. } => {
                     to.set_guide(guide.index(), numbers)?;
                 }
+                InputOwner::Signal(signal) => to.set_signal(signal.index(), numbers[0])?,
             }
         }
         Ok(())

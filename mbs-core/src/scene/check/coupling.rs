@@ -3,6 +3,7 @@
 use super::motion::check_law;
 use super::vector::Place;
 use crate::Real;
+use crate::inputs::SignalGraph;
 use crate::measure::{CouplingInput, given_values};
 use crate::scene::{
     Coupling, CouplingMeasure, CouplingTerm, Curve, Entry, Freedom, Scene, SceneError, SceneFault,
@@ -76,7 +77,7 @@ fn check_points<T: Real>(
     Ok(())
 }
 
-fn check_curve<T: Real>(curve: &Curve<T>, place: Place) -> Result<(), SceneError> {
+pub(super) fn check_curve<T: Real>(curve: &Curve<T>, place: Place) -> Result<(), SceneError> {
     let rows = match curve {
         Curve::Polynomial(coefficients) => {
             if coefficients.is_empty() {
@@ -112,6 +113,7 @@ pub(super) fn check_starts<T: Real>(scene: &Scene<T>) -> Result<(), SceneError> 
         return Ok(());
     }
     let given = given_values(scene);
+    let signals = SignalGraph::new(&scene.signals).values(T::ZERO);
     for (i, coupling) in scene.couplings.iter().enumerate() {
         let input = CouplingInput::new(coupling);
         let (mut sum, mut size) = (T::ZERO, T::ONE);
@@ -123,7 +125,7 @@ pub(super) fn check_starts<T: Real>(scene: &Scene<T>) -> Result<(), SceneError> 
                 true
             })
         });
-        let needed = input.sum_at(T::ZERO);
+        let needed = input.sum_at(T::ZERO, &signals);
         let tolerance = T::from_f64(AGREEMENT).max(T::from_f64(8.0) * T::EPSILON);
         if is_known && !((sum - needed).abs() <= tolerance * size) {
             let numbers = [sum, needed].map(T::to_f64);

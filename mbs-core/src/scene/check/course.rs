@@ -1,4 +1,4 @@
-//! Courses over time: constants and tables.
+//! Courses over time: constants, tables, inputs and signals by name.
 
 use super::vector::{Place, check_times, is_planar};
 use crate::Real;
@@ -8,7 +8,7 @@ use crate::scene::{SceneError, SceneFault, Signal};
 /// Finite numbers, in the plane where a vector is meant, zero where one number is; and increasing times. Without a form all are free.
 pub(super) fn check<T: Real>(
     course: &Signal<T>,
-    form: Option<SignalForm>,
+    (form, n_signals): (Option<SignalForm>, usize),
     place: Place,
 ) -> Result<(), SceneError> {
     let needed = form.map_or(3, |form| form.n_components(place.dimension));
@@ -31,12 +31,27 @@ pub(super) fn check<T: Real>(
             }
             check_times(rows.iter().map(|row| row.0), place)
         }
+        Signal::Named(signals) => {
+            let n = signals.iter().flatten().count();
+            let is_first = signals.iter().take(n).all(Option::is_some);
+            if n == 0 || !is_first || (form.is_some() && n != needed) {
+                return place.fault("signal", SceneFault::WrongCount { needed, found: n });
+            }
+            if signals.iter().flatten().any(|signal| signal.index() >= n_signals) {
+                return place.fault("signal", SceneFault::UnknownReference);
+            }
+            Ok(())
+        }
     }
 }
 
 impl Place {
-    /// A signal of three free numbers.
-    pub(crate) fn signal<T: Real>(self, signal: &Signal<T>) -> Result<(), SceneError> {
-        check(signal, None, self)
+    /// A signal of three free numbers, in a scene with a number of signals by name.
+    pub(crate) fn signal<T: Real>(
+        self,
+        signal: &Signal<T>,
+        n_signals: usize,
+    ) -> Result<(), SceneError> {
+        check(signal, (None, n_signals), self)
     }
 }

@@ -41,7 +41,7 @@ pub(super) fn check<T: Real>(
             Value::Six(six) => check_six(key, &six, place)?,
             Value::Signal(signal) => {
                 let Form::Signal(form) = field.form else { continue };
-                course::check(&signal, Some(form), place)?;
+                course::check(&signal, (Some(form), scene.signals.len()), place)?;
             }
             // checked with the joint
             Value::Coordinate(_) => {}

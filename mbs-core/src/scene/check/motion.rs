@@ -3,7 +3,7 @@
 use super::reference::known_body;
 use super::vector::{Place, check_times, is_planar};
 use crate::Real;
-use crate::inputs::GuideInput;
+use crate::inputs::{GuideInput, SignalGraph, curvatures};
 use crate::laws::guide::{largest_rate, spline};
 use crate::scene::{
     Entry, Guide, InitialCondition, InitialTarget, JointId, Motion, Scene, SceneError, SceneFault,
@@ -48,6 +48,8 @@ pub(super) fn check_law<T: Real>(law: &Motion<T>, place: Place) -> Result<(), Sc
         }
         Motion::Ramp { rate } => place.finite("ramp", *rate),
         Motion::Input(motion) => motion.iter().try_for_each(|x| place.finite("input", *x)),
+        // those of signals are looked at with the signals
+        Motion::Signal(_) => Ok(()),
     }
 }
 
@@ -57,28 +59,40 @@ const SLOPE: f64 = 1e-6;
 /// Tables that begin or end on a slope within a run of a duration: the rate jumps there, which is an impact.
 pub(super) fn check_ends<T: Real>(scene: &Scene<T>, duration: T) -> Result<(), SceneError> {
     for (i, guide) in scene.guides.iter().enumerate() {
-        let Motion::Table { rows, ends: TableEnds::Natural } = &guide.law else { continue };
-        let [Some(first), Some(last)] = [rows.first(), rows.last()] else { continue };
-        let input = GuideInput::new(&guide.law);
-        let rate = |t| spline(rows, input.curvature(), t).rate;
-        let least = T::from_f64(SLOPE) * largest_rate(rows, input.curvature());
-        // a run that ends with its table ends in motion, to the rounding of its own last time
-        let is_within = |t: T| t < duration * (T::ONE - T::EPSILON.sqrt());
-        let is_begun = first[0] > T::ZERO && first[0] <= duration;
-        let is_ended = last[0] >= T::ZERO && is_within(last[0]);
-        for (is_inside, is_end, row) in [(is_begun, false, 0), (is_ended, true, rows.len() - 1)] {
-            let (time, rate) = (rows[row][0], rate(rows[row][0]));
-            if is_inside && rate.abs() > least {
-                let [time, rate] = [time, rate].map(T::to_f64);
-                let fault = SceneFault::TableSlope { row, is_end, time, rate };
-                return scene.place(Entry::Guide(i)).fault("table", fault);
-            }
+        if let Motion::Table { rows, ends: TableEnds::Natural } = &guide.law {
+            check_slopes(rows, duration, scene.place(Entry::Guide(i)))?;
+        }
+    }
+    Ok(())
+}
+
+/// A natural spline that begins or ends on a slope within a run of a duration.
+pub(super) fn check_slopes<T: Real>(
+    rows: &[[T; 2]],
+    duration: T,
+    place: Place,
+) -> Result<(), SceneError> {
+    let [Some(first), Some(last)] = [rows.first(), rows.last()] else { return Ok(()) };
+    let curvature = curvatures(rows, TableEnds::Natural);
+    let rate = |t| spline(rows, &curvature, t).rate;
+    let least = T::from_f64(SLOPE) * largest_rate(rows, &curvature);
+    // a run that ends with its table ends in motion, to the rounding of its own last time
+    let is_within = |t: T| t < duration * (T::ONE - T::EPSILON.sqrt());
+    let is_begun = first[0] > T::ZERO && first[0] <= duration;
+    let is_ended = last[0] >= T::ZERO && is_within(last[0]);
+    for (is_inside, is_end, row) in [(is_begun, false, 0), (is_ended, true, rows.len() - 1)] {
+        let (time, rate) = (rows[row][0], rate(rows[row][0]));
+        if is_inside && rate.abs() > least {
+            let [time, rate] = [time, rate].map(T::to_f64);
+            return place.fault("table", SceneFault::TableSlope { row, is_end, time, rate });
         }
     }
     Ok(())
 }
 
 pub(super) fn check_initials<T: Real>(scene: &Scene<T>) -> Result<(), SceneError> {
+    let signals = SignalGraph::new(&scene.signals).values(T::ZERO);
+    let start = |guide: &Guide<T>| GuideInput::new(&guide.law).at(T::ZERO, &signals);
     let mut seen = Seen {
         value: vec![None; scene.joints.len()],
         rate: vec![None; scene.joints.len()],
@@ -87,7 +101,7 @@ pub(super) fn check_initials<T: Real>(scene: &Scene<T>) -> Result<(), SceneError
     };
     for guide in &scene.guides {
         if let Some(slot) = seen.guide.get_mut(guide.joint.index()) {
-            *slot = Some(guide);
+            *slot = Some(start(guide));
         }
     }
     for (i, initial) in scene.initials.iter().enumerate() {
@@ -97,19 +111,19 @@ pub(super) fn check_initials<T: Real>(scene: &Scene<T>) -> Result<(), SceneError
 }
 
 /// Which initial entry prescribed what, by joint or body.
-struct Seen<'a, T> {
+struct Seen<T> {
     value: Vec<Option<usize>>,
     rate: Vec<Option<usize>>,
     spin: Vec<Option<usize>>,
-    /// The guide of each joint.
-    guide: Vec<Option<&'a Guide<T>>>,
+    /// Value, rate and acceleration at the start of the guide of each joint.
+    guide: Vec<Option<[T; 3]>>,
 }
 
 fn check_initial<T: Real>(
     scene: &Scene<T>,
     i: usize,
     initial: &InitialCondition<T>,
-    seen: &mut Seen<'_, T>,
+    seen: &mut Seen<T>,
 ) -> Result<(), SceneError> {
     let place = scene.place(Entry::Initial(i));
     match &initial.target {
@@ -181,13 +195,13 @@ fn check_numbers<T: Real>(
 
 /// A guided joint starts as its guide does, within 1e-9 (or rounding, where that is coarser).
 fn agrees<T: Real>(
-    guide: Option<&Guide<T>>,
+    guide: Option<[T; 3]>,
     derivative: usize,
     (field, numbers): (&'static str, &[T]),
     place: Place,
 ) -> Result<(), SceneError> {
     let (Some(guide), Some(given)) = (guide, numbers.first()) else { return Ok(()) };
-    let expected = GuideInput::new(&guide.law).at(T::ZERO)[derivative];
+    let expected = guide[derivative];
     /// Largest relative difference of a joint's start from its guide's [-]. Chosen, not tuned.
     const AGREEMENT: f64 = 1e-9;
     let tolerance = T::from_f64(AGREEMENT).max(T::from_f64(8.0) * T::EPSILON);

@@ -2,6 +2,7 @@
 
 use crate::read::ReadFault;
 use crate::read::fields::{Fields, Read};
+use crate::read::signal::components;
 use crate::read::tree::{Item, Node};
 use mbs_core::effects::{Field, Form, SignalForm, Value};
 use mbs_core::scene::{AxisFrame, CalspanCoefficients, Joint, Number, PolynomialPiece, Signal};
@@ -48,11 +49,21 @@ pub(super) fn read(
     }))
 }
 
-/// `value`, with `input = true` one that is set between steps, or `table` with rows `[time, value]`; a vector may also stand flat: `[time, x, y, z]`.
+/// `value`, with `input = true` one that is set between steps, `signal` with a name or a list of them, or `table` with rows `[time, value]`; a vector may also stand flat: `[time, x, y, z]`.
 fn signal(fields: &Fields<'_>, form: SignalForm) -> Read<Option<Signal<Number>>> {
-    fields.exclusive("value", "table")?;
-    fields.exclusive("table", "input")?;
+    for [one, other] in [
+        ["value", "table"],
+        ["table", "input"],
+        ["value", "signal"],
+        ["table", "signal"],
+        ["input", "signal"],
+    ] {
+        fields.exclusive(one, other)?;
+    }
     let context = fields.context;
+    if let Some(item) = fields.get("signal") {
+        return components(&context, item).map(|signals| Some(Signal::Named(signals)));
+    }
     let is_scalar = form.n_components(context.dimension) == 1;
     let value = |item| {
         if is_scalar {

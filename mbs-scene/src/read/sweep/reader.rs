@@ -19,8 +19,13 @@ const SCALES: [&str; 2] = ["linear", "log"];
 /// How values are combined, and the parameters in the order of the file.
 pub(super) fn read(sweep: &SceneFile, scene: &SceneFile) -> Read<(Combine, Vec<Parameter>)> {
     let none = Names::default();
-    let context =
-        Context { document: sweep, dimension: Dimension::Planar, bodies: &none, joints: &none };
+    let context = Context {
+        document: sweep,
+        dimension: Dimension::Planar,
+        bodies: &none,
+        joints: &none,
+        signals: &none,
+    };
     Fields { context, header: &(0..0), members: sweep.root() }.allow(&TABLES, &[])?;
     let header = sweep.root().iter().find(|member| member.key == "sweep");
     let (combine, seed) = match header {

@@ -57,7 +57,7 @@ impl Writer<'_> {
                     Form::Signal(form) => form.n_components(self.scene.dimension) == 1,
                     _ => true,
                 };
-                self.signal(keys, signal, is_scalar);
+                self.course(keys, signal, is_scalar)?;
             }
             Value::Frame(frame) => {
                 keys.push_some(key, (*frame == AxisFrame::Body).then_some("body"))
@@ -79,8 +79,13 @@ impl Writer<'_> {
         if self.is_planar() { list([x, y, about].map(Node::from)) } else { numbers.into() }
     }
 
-    /// `value`, or `table` over time; an input by its value at the start.
-    fn signal(self, keys: &mut Keys, signal: &Signal<Number>, is_scalar: bool) {
+    /// `value`, `table` over time, or `signal` by name; an input by its value at the start.
+    fn course(
+        self,
+        keys: &mut Keys,
+        signal: &Signal<Number>,
+        is_scalar: bool,
+    ) -> Result<(), WriteError> {
         let value = |x: &[Number; 3]| if is_scalar { Node::from(&x[0]) } else { self.vector(x) };
         match signal {
             Signal::Constant(x) => keys.push("value", value(x)),
@@ -91,7 +96,14 @@ impl Writer<'_> {
                 keys.push("value", value(x));
                 keys.push("input", Node::Bool(true));
             }
+            Signal::Named(signals) => {
+                let names = signals.iter().flatten().map(|signal| self.signal_name(*signal));
+                let mut names = names.collect::<Result<Vec<_>, _>>()?;
+                let only = if is_scalar { names.pop() } else { None };
+                keys.push("signal", only.unwrap_or_else(|| list(names)));
+            }
         }
+        Ok(())
     }
 }
 

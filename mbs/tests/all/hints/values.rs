@@ -103,7 +103,7 @@ fn values() -> Vec<Row> {
         row(
             PLANAR,
             &[("table = [[0.0, 0.0], [1.0, 2.0]]\n", "")],
-            ["`value or table` is missing", "add one of them"],
+            ["`value, table or signal` is missing", "add one of them"],
             &[("joint = \"pin\"\n", "joint = \"pin\"\nvalue = 2.0\n")],
         ),
         row(

@@ -1,0 +1,253 @@
+//! The signals of a scene, prepared: value, rate and acceleration of each by the chain rule.
+//!
+//! ```text
+//! sum      [Σ f s, Σ f s', Σ f s'']
+//! product  [a b, a' b + a b', a'' b + 2 a' b' + a b'']
+//! curve    [f(s), f' s', f'' s'^2 + f' s'']
+//! step     s^3 (10 - 15 s + 6 s^2),  30 s^2 (1 - s)^2 / T,  60 s (1 - s) (1 - 2 s) / T^2
+//! chirp    phase 2π (f t + (f' - f) t^2 / (2 T)), beyond T with the last frequency
+//! ```
+
+use crate::Real;
+use crate::laws::guide;
+use crate::measure::{PreparedCurve, within};
+use crate::scene::{
+    Curve, Interpolation, NamedSignal, SignalId, SignalKind, TableEnds, signal_order,
+};
+use alloc::vec;
+use alloc::vec::Vec;
+
+/// The signals of a scene, prepared once.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SignalGraph<T> {
+    nodes: Vec<Node<T>>,
+    /// Each after those that it is made of.
+    order: Vec<usize>,
+    /// Index of each signal that is an input, and what it begins with.
+    inputs: Vec<(usize, T)>,
+}
+
+/// A signal, prepared.
+#[derive(Debug, Clone, PartialEq)]
+struct Node<T> {
+    kind: SignalKind<T>,
+    /// Of a spline or a curve.
+    curve: PreparedCurve<T>,
+    /// Its place among the inputs.
+    input: usize,
+}
+
+impl<T: Real> SignalGraph<T> {
+    /// Prepares signals. Those of a circle, which the check of a scene refuses, are zero.
+    ///
+    /// Cost: one tridiagonal elimination for each spline, and one pass over the signals.
+    #[must_use]
+    pub fn new(signals: &[NamedSignal<T>]) -> Self {
+        let (mut nodes, mut inputs) = (Vec::with_capacity(signals.len()), Vec::new());
+        for (i, NamedSignal { kind, .. }) in signals.iter().enumerate() {
+            nodes.push(Node { kind: kind.clone(), curve: curve(kind), input: inputs.len() });
+            if let SignalKind::Input { value, .. } = kind {
+                inputs.push((i, *value));
+            }
+        }
+        Self { nodes, order: signal_order(signals).unwrap_or_default(), inputs }
+    }
+
+    /// Number of signals.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        self.nodes.len()
+    }
+
+    /// Is there none?
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.nodes.is_empty()
+    }
+
+    /// Index of each signal that is an input, and what it begins with.
+    #[must_use]
+    pub fn inputs(&self) -> &[(usize, T)] {
+        &self.inputs
+    }
+
+    /// The first signal that is no constant.
+    #[must_use]
+    pub fn moving(&self) -> Option<SignalId> {
+        let is_moving = |node: &Node<T>| !matches!(node.kind, SignalKind::Constant(_));
+        self.nodes.iter().position(is_moving).map(SignalId::new)
+    }
+
+    /// Writes value, rate and acceleration of each signal at time `t`, with `inputs` in their order.
+    ///
+    /// Cost: one node for each signal; no allocation.
+    pub fn write(&self, t: T, inputs: &[T], values: &mut [[T; 3]]) {
+        for &i in &self.order {
+            let Some(node) = self.nodes.get(i) else { continue };
+            let value = node.at(t, inputs, values);
+            if let Some(to) = values.get_mut(i) {
+                *to = value;
+            }
+        }
+    }
+
+    /// Value, rate and acceleration of each signal at time `t`, inputs as they begin.
+    #[must_use]
+    pub fn values(&self, t: T) -> Vec<[T; 3]> {
+        let mut values = vec![[T::ZERO; 3]; self.len()];
+        self.write(t, &[], &mut values);
+        values
+    }
+}
+
+/// The spline of a table, or the function of a curve.
+fn curve<T: Real>(kind: &SignalKind<T>) -> PreparedCurve<T> {
+    match kind {
+        SignalKind::Curve { curve, .. } => PreparedCurve::new(Some(curve)),
+        SignalKind::Table { rows, interpolation: Interpolation::Spline(ends), periodic } => {
+            if *periodic {
+                return PreparedCurve::new(Some(&Curve::Periodic(rows.clone())));
+            }
+            let curvature = curvatures(rows, *ends);
+            PreparedCurve::Spline { knots: rows.clone(), curvature, period: T::ZERO }
+        }
+        _ => PreparedCurve::Identity,
+    }
+}
+
+/// Second derivatives at the knots of a spline.
+pub(crate) fn curvatures<T: Real>(rows: &[[T; 2]], ends: TableEnds) -> Vec<T> {
+    let (mut curvature, mut scratch) = (vec![T::ZERO; rows.len()], vec![T::ZERO; rows.len()]);
+    match ends {
+        TableEnds::Natural => guide::spline_curvatures(rows, &mut curvature, &mut scratch),
+        TableEnds::Level => guide::level_curvatures(rows, &mut curvature, &mut scratch),
+    }
+    curvature
+}
+
+/// The value of a signal among those of all; zero where there is none.
+pub(super) fn value_of<T: Real>(signal: SignalId, values: &[[T; 3]]) -> [T; 3] {
+    values.get(signal.index()).copied().unwrap_or([T::ZERO; 3])
+}
+
+impl<T: Real> Node<T> {
+    fn at(&self, t: T, inputs: &[T], values: &[[T; 3]]) -> [T; 3] {
+        let of = |signal: &SignalId| value_of(*signal, values);
+        let held = |value: T| [value, T::ZERO, T::ZERO];
+        match &self.kind {
+            SignalKind::Constant(value) => held(*value),
+            SignalKind::Input { value, .. } => {
+                held(inputs.get(self.input).copied().unwrap_or(*value))
+            }
+            SignalKind::Table { rows, interpolation, periodic } => match interpolation {
+                Interpolation::Spline(_) => self.curve.at(t),
+                way => pieces(rows, (*way == Interpolation::Hold, *periodic), t),
+            },
+            SignalKind::Sine { amplitude, frequency, phase, offset } => {
+                let m = guide::sine(*amplitude, *frequency, *phase, t);
+                [*offset + m.value, m.rate, m.acceleration]
+            }
+            SignalKind::Chirp { amplitude, frequency, to_frequency, duration, phase, offset } => {
+                let [turns, rate, growth] = swept([*frequency, *to_frequency], *duration, t);
+                let turn = T::TWO * T::PI;
+                let (sin, cos) = (turn * turns + *phase).sin_cos();
+                let (w, dw, a) = (turn * rate, turn * growth, *amplitude);
+                [*offset + a * sin, a * w * cos, a * (dw * cos - w * w * sin)]
+            }
+            SignalKind::Ramp { rate, start, end, rounding } => {
+                let begun = corner(t - *start, *rounding);
+                let ended = end.map_or([T::ZERO; 3], |end| corner(t - end, *rounding));
+                core::array::from_fn(|i| *rate * (begun[i] - ended[i]))
+            }
+            SignalKind::Step { from, to, at, rise } => step([*from, *to], (t - *at, *rise)),
+            SignalKind::Sum { of: signals, factors } => {
+                let parts = signals.iter().zip(factors);
+                parts.fold([T::ZERO; 3], |sum, (signal, &factor)| {
+                    let s = of(signal);
+                    core::array::from_fn(|i| sum[i] + factor * s[i])
+                })
+            }
+            SignalKind::Product { of: signals } => {
+                signals.iter().fold([T::ONE, T::ZERO, T::ZERO], |[a, da, dda], signal| {
+                    let [b, db, ddb] = of(signal);
+                    [a * b, da * b + a * db, dda * b + T::TWO * da * db + a * ddb]
+                })
+            }
+            SignalKind::Curve { of: signal, .. } => {
+                let [s, ds, dds] = of(signal);
+                let [f, df, ddf] = self.curve.at(s);
+                [f, df * ds, ddf * ds * ds + df * dds]
+            }
+            SignalKind::Clamp { of: signal, lower, upper } => {
+                let s = of(signal);
+                if s[0] < *lower {
+                    held(*lower)
+                } else if s[0] > *upper {
+                    held(*upper)
+                } else {
+                    s
+                }
+            }
+        }
+    }
+}
+
+/// Straight between rows, or each row held until the next.
+fn pieces<T: Real>(rows: &[[T; 2]], (is_held, is_periodic): (bool, bool), t: T) -> [T; 3] {
+    let period = match rows {
+        [first, .., last] if is_periodic => last[0] - first[0],
+        _ => T::ZERO,
+    };
+    let t = within(rows, period, t);
+    let next = rows.partition_point(|row| row[0] <= t);
+    match (next.checked_sub(1).and_then(|i| rows.get(i)), rows.get(next)) {
+        (Some(&[t0, x0]), Some(&[t1, x1])) if !is_held => {
+            let s = (t - t0) / (t1 - t0);
+            [x0 + (x1 - x0) * s, (x1 - x0) / (t1 - t0), T::ZERO]
+        }
+        (Some(&[_, x]), _) | (None, Some(&[_, x])) => [x, T::ZERO, T::ZERO],
+        (None, None) => [T::ZERO; 3],
+    }
+}
+
+/// Turns since the start of a frequency that goes from one to another in a duration, with their derivatives.
+fn swept<T: Real>([from, to]: [T; 2], duration: T, t: T) -> [T; 3] {
+    let growth = (to - from) / duration;
+    if t > duration {
+        return [(from + to) * T::HALF * duration + to * (t - duration), to, T::ZERO];
+    }
+    [(from + growth * T::HALF * t) * t, from + growth * t, growth]
+}
+
+/// max(x, 0), its corner rounded over a length, half before and half after zero: the rate rises by u^2 (3 - 2 u).
+fn corner<T: Real>(x: T, rounding: T) -> [T; 3] {
+    let half = rounding * T::HALF;
+    if x >= half {
+        return [x, T::ONE, T::ZERO];
+    }
+    if x <= -half {
+        return [T::ZERO; 3];
+    }
+    let (u, three) = ((x + half) / rounding, T::from_f64(3.0));
+    let rate = u * u * (three - T::TWO * u);
+    let acceleration = T::TWO * three * u * (T::ONE - u) / rounding;
+    [rounding * u * u * u * (T::ONE - u * T::HALF), rate, acceleration]
+}
+
+/// From one value to another in a time from zero on; without it a jump.
+fn step<T: Real>([from, to]: [T; 2], (t, rise): (T, T)) -> [T; 3] {
+    if t >= rise {
+        return [to, T::ZERO, T::ZERO];
+    }
+    if t <= T::ZERO {
+        return [from, T::ZERO, T::ZERO];
+    }
+    let number = T::from_f64;
+    let (s, height) = (t / rise, to - from);
+    let left = T::ONE - s;
+    [
+        from + height * (s * s * s * (number(10.0) - s * (number(15.0) - number(6.0) * s))),
+        height * number(30.0) * s * s * left * left / rise,
+        height * number(60.0) * s * left * (left - s) / (rise * rise),
+    ]
+}

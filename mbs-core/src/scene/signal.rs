@@ -1,0 +1,348 @@
+//! Signals: numbers over time by name, made of constants, tables, waves, ramps, steps and inputs, and of one another.
+//!
+//! ```text
+//! sum      Σ f_k s_k                      curve    f(s)
+//! product  s_1 s_2 ...                    clamp    min(max(s, lower), upper)
+//! ```
+//!
+//! Guides and couplings take signals that are twice differentiable; forces and torques take all.
+
+use crate::Real;
+use crate::scene::{Curve, SignalId, TableEnds};
+use alloc::string::String;
+use alloc::vec;
+use alloc::vec::Vec;
+use core::fmt::{self, Display, Formatter};
+
+/// A signal with its name.
+#[derive(Debug, Clone, PartialEq)]
+pub struct NamedSignal<T> {
+    /// Unique name among the signals.
+    pub name: String,
+    /// What it is.
+    pub kind: SignalKind<T>,
+}
+
+/// How a table goes between its rows.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Interpolation {
+    /// Cubic spline.
+    Spline(TableEnds),
+    /// Straight.
+    Linear,
+    /// The value of the last row that has passed.
+    Hold,
+}
+
+impl Interpolation {
+    /// Its name in scene files.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Spline(_) => "spline",
+            Self::Linear => "linear",
+            Self::Hold => "hold",
+        }
+    }
+}
+
+/// The kinds of signal.
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub enum SignalKind<T> {
+    /// The same at all times.
+    Constant(T),
+    /// Through rows (time, value); the end values are held outside, or the table repeats.
+    Table {
+        /// The rows [s, unit of the signal].
+        rows: Vec<[T; 2]>,
+        /// How it goes between them.
+        interpolation: Interpolation,
+        /// Does it repeat? Its last value is then its first.
+        periodic: bool,
+    },
+    /// offset + amplitude sin(2 pi frequency t + phase).
+    Sine {
+        /// Amplitude.
+        amplitude: T,
+        /// Frequency [Hz].
+        frequency: T,
+        /// Phase [rad].
+        phase: T,
+        /// Mean.
+        offset: T,
+    },
+    /// A sine whose frequency goes from one to another at a constant rate, and stays there.
+    Chirp {
+        /// Amplitude.
+        amplitude: T,
+        /// Frequency at the start [Hz].
+        frequency: T,
+        /// Frequency at the end of the duration [Hz].
+        to_frequency: T,
+        /// How long the frequency changes [s].
+        duration: T,
+        /// Phase at the start [rad].
+        phase: T,
+        /// Mean.
+        offset: T,
+    },
+    /// rate (t - start) between start and end, zero before and held after.
+    Ramp {
+        /// Rate [per s].
+        rate: T,
+        /// When it begins [s].
+        start: T,
+        /// When it ends [s]; `None`: never.
+        end: Option<T>,
+        /// Length of each rounded corner, half before it and half after it; the values beside it stay [s].
+        rounding: T,
+    },
+    /// From one value to another: from + (to - from) s^3 (10 - 15 s + 6 s^2), s = (t - at)/rise.
+    Step {
+        /// The value before.
+        from: T,
+        /// The value after.
+        to: T,
+        /// When it begins [s].
+        at: T,
+        /// How long it takes; zero is a jump [s].
+        rise: T,
+    },
+    /// The sum of signals, each with its factor.
+    Sum {
+        /// The signals.
+        of: Vec<SignalId>,
+        /// Their factors.
+        factors: Vec<T>,
+    },
+    /// The product of signals.
+    Product {
+        /// The signals.
+        of: Vec<SignalId>,
+    },
+    /// A function of a signal.
+    Curve {
+        /// The signal.
+        of: SignalId,
+        /// The function.
+        curve: Curve<T>,
+    },
+    /// A signal within limits.
+    Clamp {
+        /// The signal.
+        of: SignalId,
+        /// The lower limit.
+        lower: T,
+        /// The upper limit.
+        upper: T,
+    },
+    /// Held until it is set again between steps.
+    Input {
+        /// Its value at the start.
+        value: T,
+        /// Its unit, for people.
+        unit: String,
+    },
+}
+
+/// How smooth a signal is; the worst first.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Smoothness {
+    /// Its value jumps.
+    Jump,
+    /// Its rate jumps.
+    Corner,
+    /// It is twice differentiable, but for jumps of its acceleration.
+    Smooth,
+}
+
+/// Where a signal is not smooth.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SignalBreak {
+    /// The signal that makes it: the one that was asked about, or one that it is made of.
+    pub signal: SignalId,
+    /// Does the value jump, and not the rate alone?
+    pub is_jump: bool,
+    /// The first time [s]; `None`: not known beforehand.
+    pub time: Option<f64>,
+}
+
+impl<T> SignalKind<T> {
+    /// The signals that it is made of.
+    #[must_use]
+    pub fn operands(&self) -> &[SignalId] {
+        match self {
+            Self::Sum { of, .. } | Self::Product { of } => of,
+            Self::Curve { of, .. } | Self::Clamp { of, .. } => core::slice::from_ref(of),
+            _ => &[],
+        }
+    }
+
+    /// What makes it smooth, in the imperative.
+    pub(crate) const fn remedy(&self) -> &'static str {
+        match self {
+            Self::Step { .. } => "give it `rise`",
+            Self::Ramp { .. } => "give it `rounding`",
+            Self::Table { .. } => "give it `interpolation = \"spline\"`",
+            Self::Input { .. } => {
+                "give `input` in place of `signal`: it has rate and acceleration too"
+            }
+            _ => "follow another signal: a clamp has corners",
+        }
+    }
+
+    pub(crate) fn map<U>(&self, f: &mut impl FnMut(&T) -> U) -> SignalKind<U> {
+        match self {
+            Self::Constant(x) => SignalKind::Constant(f(x)),
+            Self::Table { rows: table, interpolation, periodic } => SignalKind::Table {
+                rows: table.iter().map(|[t, x]| [f(t), f(x)]).collect(),
+                interpolation: *interpolation,
+                periodic: *periodic,
+            },
+            Self::Sine { amplitude, frequency, phase, offset } => {
+                let [amplitude, frequency, phase, offset] =
+                    [amplitude, frequency, phase, offset].map(&mut *f);
+                SignalKind::Sine { amplitude, frequency, phase, offset }
+            }
+            Self::Chirp { amplitude, frequency, to_frequency, duration, phase, offset } => {
+                let [amplitude, frequency, to_frequency, duration, phase, offset] =
+                    [amplitude, frequency, to_frequency, duration, phase, offset].map(&mut *f);
+                SignalKind::Chirp { amplitude, frequency, to_frequency, duration, phase, offset }
+            }
+            Self::Ramp { rate, start, end, rounding } => SignalKind::Ramp {
+                rate: f(rate),
+                start: f(start),
+                end: end.as_ref().map(&mut *f),
+                rounding: f(rounding),
+            },
+            Self::Step { from, to, at, rise } => {
+                let [from, to, at, rise] = [from, to, at, rise].map(&mut *f);
+                SignalKind::Step { from, to, at, rise }
+            }
+            Self::Sum { of, factors } => {
+                SignalKind::Sum { of: of.clone(), factors: factors.iter().map(f).collect() }
+            }
+            Self::Product { of } => SignalKind::Product { of: of.clone() },
+            Self::Curve { of, curve } => SignalKind::Curve { of: *of, curve: curve.map(f) },
+            Self::Clamp { of, lower, upper } => {
+                SignalKind::Clamp { of: *of, lower: f(lower), upper: f(upper) }
+            }
+            Self::Input { value, unit } => {
+                SignalKind::Input { value: f(value), unit: unit.clone() }
+            }
+        }
+    }
+}
+
+impl<T: Real> SignalKind<T> {
+    /// How smooth it is for smooth operands from time zero on, and the first time of what is not.
+    fn own_break(&self) -> Option<(bool, Option<f64>)> {
+        let at = |is_jump, time: &T| Some((is_jump, Some(time.to_f64())));
+        let is_within = |time: &T| *time > T::ZERO;
+        match self {
+            Self::Table { rows, interpolation: Interpolation::Linear, .. } if rows.len() > 1 => {
+                at(false, rows.iter().map(|[t, _]| t).find(|t| is_within(t))?)
+            }
+            Self::Table { rows, interpolation: Interpolation::Hold, .. } => {
+                at(true, rows.iter().skip(1).map(|[t, _]| t).find(|t| is_within(t))?)
+            }
+            Self::Ramp { rate, start, end, rounding } if rounding.is_zero() && !rate.is_zero() => {
+                at(false, Some(start).into_iter().chain(end).find(|t| is_within(t))?)
+            }
+            Self::Step { from, to, at: time, rise } => {
+                if rise.is_zero() && from != to && is_within(time) { at(true, time) } else { None }
+            }
+            Self::Clamp { .. } => Some((false, None)),
+            Self::Input { .. } => Some((true, None)),
+            _ => None,
+        }
+    }
+}
+
+/// Signals so that each comes after those that it is made of.
+///
+/// Cost: one pass over the signals and what they are made of.
+///
+/// # Errors
+/// A circle of signals, in which each is made of the next, and the last of the first.
+pub fn signal_order<T>(signals: &[NamedSignal<T>]) -> Result<Vec<usize>, Vec<usize>> {
+    let n = signals.len();
+    let operands = |i: usize| {
+        let all = signals[i].kind.operands().iter();
+        all.map(|id| id.index()).filter(move |of| *of < n)
+    };
+    let mut users = vec![Vec::new(); n];
+    let mut open = vec![0_usize; n];
+    for i in 0..n {
+        operands(i).for_each(|of| users[of].push(i));
+        open[i] = operands(i).count();
+    }
+    let mut order: Vec<usize> = (0..n).filter(|&i| open[i] == 0).collect();
+    let mut done = 0;
+    while let Some(&i) = order.get(done) {
+        done += 1;
+        for &user in &users[i] {
+            open[user] -= 1;
+            if open[user] == 0 {
+                order.push(user);
+            }
+        }
+    }
+    let Some(start) = open.iter().position(|&left| left > 0) else { return Ok(order) };
+    let (mut way, mut seen) = (vec![start], vec![None; n]);
+    seen[start] = Some(0);
+    loop {
+        let last = way[way.len() - 1];
+        // what is left open is made of another that is left open
+        let Some(next) = operands(last).find(|&of| open[of] > 0) else { return Err(way) };
+        if let Some(first) = seen[next] {
+            return Err(way.split_off(first));
+        }
+        seen[next] = Some(way.len());
+        way.push(next);
+    }
+}
+
+/// Where each signal is not smooth, itself or by what it is made of: the worst, of equal ones the first that it is made of.
+///
+/// A spline is smooth within its rows; [`Scene::check_run`](crate::scene::Scene::check_run) looks at its ends.
+///
+/// Cost: one pass over the signals in their [order](signal_order).
+#[must_use]
+pub fn signal_breaks<T: Real>(
+    signals: &[NamedSignal<T>],
+    order: &[usize],
+) -> Vec<Option<SignalBreak>> {
+    let mut breaks: Vec<Option<SignalBreak>> = vec![None; signals.len()];
+    for &i in order {
+        let kind = &signals[i].kind;
+        let signal = SignalId::new(i);
+        let own = kind.own_break().map(|(is_jump, time)| SignalBreak { signal, is_jump, time });
+        let of = kind.operands().iter().filter_map(|of| *breaks.get(of.index())?);
+        breaks[i] = of.chain(own).reduce(|a, b| if b.is_jump && !a.is_jump { b } else { a });
+    }
+    breaks
+}
+
+impl Display for SignalBreak {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        let what = if self.is_jump { "jumps" } else { "has a corner" };
+        match self.time {
+            Some(time) => write!(f, "{what} at {time} s"),
+            None => write!(f, "{what}"),
+        }
+    }
+}
+
+impl SignalBreak {
+    /// The class of a signal by where it is not smooth.
+    #[must_use]
+    pub const fn class(broken: Option<&Self>) -> Smoothness {
+        match broken {
+            None => Smoothness::Smooth,
+            Some(Self { is_jump: true, .. }) => Smoothness::Jump,
+            Some(_) => Smoothness::Corner,
+        }
+    }
+}

@@ -1,0 +1,132 @@
+//! `[[signal]]`, and references to signals by name.
+
+use crate::read::coupling::{need_curve, one};
+use crate::read::fields::{Context, Fields, Read};
+use crate::read::motion::{read_ends, read_table};
+use crate::read::tree::{Item, Node};
+use mbs_core::scene::{Interpolation, NamedSignal, Number, SignalId, SignalKind};
+
+/// The kinds of signal, each with its keys.
+const KINDS: [(&str, &[&str]); 11] = [
+    ("constant", &["value"]),
+    ("table", &["table", "interpolation", "periodic", "ends"]),
+    ("sine", &["amplitude", "frequency", "phase", "offset"]),
+    ("chirp", &["amplitude", "frequency", "to_frequency", "duration", "phase", "offset"]),
+    ("ramp", &["rate", "start", "end", "rounding"]),
+    ("step", &["from", "to", "at", "rise"]),
+    ("sum", &["of", "factors"]),
+    ("product", &["of"]),
+    ("curve", &["of", "table", "periodic", "coefficients"]),
+    ("clamp", &["of", "lower", "upper"]),
+    ("input", &["value", "unit"]),
+];
+
+/// Reads a signal.
+pub(crate) fn read(fields: &Fields<'_>) -> Read<NamedSignal<Number>> {
+    let word = fields.word("kind")?;
+    let Some((_, keys)) = KINDS.iter().find(|(name, _)| *name == word.0) else {
+        return fields.unknown_word("kind", word, &KINDS.map(|(name, _)| name));
+    };
+    let elsewhere: Vec<&str> = KINDS.iter().flat_map(|(_, keys)| *keys).copied().collect();
+    fields.allow(&[&["name", "kind"], *keys].concat(), &elsewhere)?;
+    Ok(NamedSignal { name: fields.name()?, kind: kind(fields, word.0)? })
+}
+
+fn kind(fields: &Fields<'_>, word: &str) -> Read<SignalKind<Number>> {
+    let (number, or_zero) = (|key| fields.number(key), |key| fields.number_or_zero(key));
+    Ok(match word {
+        "constant" => SignalKind::Constant(number("value")?),
+        "table" => table(fields)?,
+        "sine" => SignalKind::Sine {
+            amplitude: number("amplitude")?,
+            frequency: number("frequency")?,
+            phase: or_zero("phase")?,
+            offset: or_zero("offset")?,
+        },
+        "chirp" => SignalKind::Chirp {
+            amplitude: number("amplitude")?,
+            frequency: number("frequency")?,
+            to_frequency: number("to_frequency")?,
+            duration: number("duration")?,
+            phase: or_zero("phase")?,
+            offset: or_zero("offset")?,
+        },
+        "ramp" => SignalKind::Ramp {
+            rate: number("rate")?,
+            start: or_zero("start")?,
+            end: fields.optional("end")?,
+            rounding: or_zero("rounding")?,
+        },
+        "step" => SignalKind::Step {
+            from: or_zero("from")?,
+            to: number("to")?,
+            at: or_zero("at")?,
+            rise: or_zero("rise")?,
+        },
+        "sum" => {
+            let of = list(fields)?;
+            let factors = match fields.get("factors") {
+                Some(item) => fields.context.numbers(item)?,
+                None => of.iter().map(|_| one()).collect(),
+            };
+            SignalKind::Sum { of, factors }
+        }
+        "product" => SignalKind::Product { of: list(fields)? },
+        "curve" => SignalKind::Curve { of: single(fields)?, curve: need_curve(fields)? },
+        "clamp" => SignalKind::Clamp {
+            of: single(fields)?,
+            lower: number("lower")?,
+            upper: number("upper")?,
+        },
+        _ => {
+            let unit = fields.get("unit").map_or(Ok(""), |item| fields.context.text(item))?;
+            SignalKind::Input { value: or_zero("value")?, unit: unit.to_owned() }
+        }
+    })
+}
+
+fn table(fields: &Fields<'_>) -> Read<SignalKind<Number>> {
+    let periodic = fields.flag("periodic", false)?;
+    let way = fields.get("interpolation").map(|_| fields.word("interpolation")).transpose()?;
+    let interpolation = match way {
+        None | Some(("spline", _)) => {
+            if periodic {
+                fields.exclusive("periodic", "ends")?;
+            }
+            Interpolation::Spline(read_ends(fields)?)
+        }
+        Some((name @ ("linear" | "hold"), _)) => {
+            fields.exclusive("interpolation", "ends")?;
+            if name == "hold" { Interpolation::Hold } else { Interpolation::Linear }
+        }
+        Some(word) => {
+            return fields.unknown_word("interpolation", word, &["spline", "linear", "hold"]);
+        }
+    };
+    Ok(SignalKind::Table { rows: read_table(fields)?, interpolation, periodic })
+}
+
+fn single(fields: &Fields<'_>) -> Read<SignalId> {
+    fields.context.signal(fields.need("of")?)
+}
+
+fn list(fields: &Fields<'_>) -> Read<Vec<SignalId>> {
+    let items = fields.context.list(fields.need("of")?, "a list of names of signals")?;
+    items.iter().map(|item| fields.context.signal(item)).collect()
+}
+
+/// The components of a signal: one name, or a list of them.
+pub(crate) fn components<'a>(context: &Context<'a>, item: &'a Item) -> Read<[Option<SignalId>; 3]> {
+    let items = match &item.node {
+        Node::List(items) if !items.is_empty() && items.len() <= 3 => &items[..],
+        Node::List(_) => return context.exactly::<3>(item, NAMES).map(|_| [None; 3]),
+        _ => core::slice::from_ref(item),
+    };
+    let mut signals = [None; 3];
+    for (signal, item) in signals.iter_mut().zip(items) {
+        *signal = Some(context.signal(item)?);
+    }
+    Ok(signals)
+}
+
+const NAMES: &str = "the name of a signal, or a list of names";

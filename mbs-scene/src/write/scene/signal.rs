@@ -1,0 +1,124 @@
+//! `[[signal]]`, and functions of time.
+
+use super::{Keys, Node, WriteError, Writer, curve, list};
+use mbs_core::scene::{
+    Interpolation, Motion, NamedSignal, Number, SignalId, SignalKind, TableEnds,
+};
+
+impl Writer<'_> {
+    pub(super) fn signal_name(self, id: SignalId) -> Result<Node, WriteError> {
+        let signal = self.scene.signals.get(id.index());
+        Ok(signal.ok_or(WriteError::UnknownReference("signal"))?.name.as_str().into())
+    }
+
+    /// The keys of a function of time.
+    pub(super) fn motion(self, keys: &mut Keys, law: &Motion<Number>) -> Result<(), WriteError> {
+        let mut parts = Keys::default();
+        match law {
+            Motion::Table { rows, ends } => {
+                keys.push("table", list(rows.iter().map(Node::from)));
+                if *ends == TableEnds::Level {
+                    keys.push("ends", "level");
+                }
+            }
+            Motion::Sine { amplitude, frequency, phase } => {
+                parts.push("amplitude", amplitude);
+                parts.push("frequency", frequency);
+                parts.push("phase", phase);
+                keys.push("sine", parts);
+            }
+            Motion::Ramp { rate } => {
+                parts.push("rate", rate);
+                keys.push("ramp", parts);
+            }
+            Motion::Input([value, rate, acceleration]) => {
+                parts.push("value", value);
+                parts.push("rate", rate);
+                parts.push("acceleration", acceleration);
+                keys.push("input", parts);
+            }
+            Motion::Signal(signal) => keys.push("signal", self.signal_name(*signal)?),
+        }
+        Ok(())
+    }
+
+    pub(super) fn signal(self, signal: &NamedSignal<Number>) -> Result<Keys, WriteError> {
+        let mut keys = Keys::default();
+        keys.push("name", signal.name.as_str());
+        let names = |of: &[SignalId]| {
+            let names: Result<Vec<_>, _> = of.iter().map(|of| self.signal_name(*of)).collect();
+            names.map(list)
+        };
+        let mut numbers = |kind, list: &[(&str, &Number)]| {
+            keys.push("kind", kind);
+            list.iter().for_each(|(key, x)| keys.push(key, *x));
+        };
+        match &signal.kind {
+            SignalKind::Constant(value) => numbers("constant", &[("value", value)]),
+            SignalKind::Table { rows, interpolation, periodic } => {
+                numbers("table", &[]);
+                keys.push("table", list(rows.iter().map(Node::from)));
+                keys.push("interpolation", interpolation.name());
+                if *periodic {
+                    keys.push("periodic", Node::Bool(true));
+                }
+                if *interpolation == Interpolation::Spline(TableEnds::Level) {
+                    keys.push("ends", "level");
+                }
+            }
+            SignalKind::Sine { amplitude, frequency, phase, offset } => numbers(
+                "sine",
+                &[
+                    ("amplitude", amplitude),
+                    ("frequency", frequency),
+                    ("phase", phase),
+                    ("offset", offset),
+                ],
+            ),
+            SignalKind::Chirp { amplitude, frequency, to_frequency, duration, phase, offset } => {
+                numbers(
+                    "chirp",
+                    &[
+                        ("amplitude", amplitude),
+                        ("frequency", frequency),
+                        ("to_frequency", to_frequency),
+                        ("duration", duration),
+                        ("phase", phase),
+                        ("offset", offset),
+                    ],
+                );
+            }
+            SignalKind::Ramp { rate, start, end, rounding } => {
+                numbers("ramp", &[("rate", rate), ("start", start), ("rounding", rounding)]);
+                keys.push_some("end", end.as_ref());
+            }
+            SignalKind::Step { from, to, at, rise } => {
+                numbers("step", &[("from", from), ("to", to), ("at", at), ("rise", rise)]);
+            }
+            SignalKind::Sum { of, factors } => {
+                numbers("sum", &[]);
+                keys.push("of", names(of)?);
+                keys.push("factors", list(factors.iter().map(Node::from)));
+            }
+            SignalKind::Product { of } => {
+                numbers("product", &[]);
+                keys.push("of", names(of)?);
+            }
+            SignalKind::Curve { of, curve: function } => {
+                numbers("curve", &[]);
+                keys.push("of", self.signal_name(*of)?);
+                curve(&mut keys, function);
+            }
+            SignalKind::Clamp { of, lower, upper } => {
+                numbers("clamp", &[("lower", lower), ("upper", upper)]);
+                keys.push("of", self.signal_name(*of)?);
+            }
+            SignalKind::Input { value, unit } => {
+                numbers("input", &[("value", value)]);
+                keys.push_some("unit", Some(unit.as_str()).filter(|unit| !unit.is_empty()));
+            }
+            _ => return Err(WriteError::InCode(format!("signal `{}`", signal.name))),
+        }
+        Ok(keys)
+    }
+}
