@@ -58,7 +58,7 @@ sine = { amplitude = 0.3, frequency = 1.0 }
 fn apart_on_controller(text: &str) -> Result<f64, LoadError> {
     type Small = Solver<f64, Planar, 4, 4, 4, 4, 64, 64, 4, 1>;
     let (tree, begin) = start::<Planar, 2>(&mbs_testkit::scene(text));
-    let collected = Collected::new(&tree, &begin, &[]);
+    let collected = Collected::new(&tree, &begin, &[]).expect("no signal moves");
     let flash = Checked::new(&collected.model())?;
     let bytes = bytes(&collected.model(), false).expect("a scene of tables");
     let tables = Tables::<f64, Planar, 4, 4, 4, 16, 4, 4, 4, 4>::read(&bytes)?;

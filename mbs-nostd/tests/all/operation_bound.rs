@@ -127,7 +127,7 @@ fn a_train_of_wheels_on_one_carrier_costs_a_work_linear_in_its_length() {
                 &format!("[[coupling]]\nkind = \"gear\"\njoints = {joints}\nteeth = [20, 21]\n");
         }
         let (tree, begin) = start::<Planar, 2>(&mbs_testkit::scene(&text));
-        let collected = Collected::new(&tree, &begin, &[]);
+        let collected = Collected::new(&tree, &begin, &[]).expect("no signal moves");
         operation_bound::step(&collected.model(), Bounds::default()).products
     };
     let [ten, twenty, forty] = [10, 20, 40].map(products);

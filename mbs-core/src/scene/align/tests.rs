@@ -34,6 +34,7 @@ fn ring(axes: &[[f64; 3]]) -> Scene<f64> {
         initials: Vec::new(),
         guides: Vec::new(),
         couplings: Vec::new(),
+        signals: Vec::new(),
         effects: Vec::new(),
         road: Default::default(),
         start: Default::default(),

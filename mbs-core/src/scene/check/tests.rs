@@ -32,6 +32,7 @@ fn planar() -> Scene<f64> {
         initials: Vec::new(),
         guides: Vec::new(),
         couplings: Vec::new(),
+        signals: Vec::new(),
         effects: Vec::new(),
         road: Default::default(),
         start: Default::default(),
