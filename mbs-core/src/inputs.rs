@@ -7,7 +7,7 @@ pub(crate) use signals::curvatures;
 
 use crate::Real;
 use crate::laws::guide;
-use crate::scene::{Motion, Scene, Signal};
+use crate::scene::{Guide, Motion, NamedSignal, Signal};
 use crate::step::InputError;
 use alloc::vec::Vec;
 use core::ops::Range;
@@ -26,9 +26,13 @@ pub struct Prescribed<T> {
 
 impl<T: Real> Prescribed<T> {
     /// The guides of a scene, then the sums of its couplings that are not always zero; its signals, and no other course.
-    pub(crate) fn new(scene: &Scene<T>, sums: impl Iterator<Item = GuideInput<T>>) -> Self {
-        let of_guides = scene.guides.iter().map(|guide| GuideInput::new(&guide.law));
-        let signals = SignalGraph::new(&scene.signals);
+    pub(crate) fn new(
+        guides: &[Guide<T>],
+        signals: &[NamedSignal<T>],
+        sums: impl Iterator<Item = GuideInput<T>>,
+    ) -> Self {
+        let of_guides = guides.iter().map(|guide| GuideInput::new(&guide.law));
+        let signals = SignalGraph::new(signals);
         Self { guides: of_guides.chain(sums).collect(), signals, courses: Vec::new() }
     }
 

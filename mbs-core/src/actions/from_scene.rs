@@ -22,7 +22,8 @@ impl<T: Real> Actions<T> {
             actions: Self {
                 list: Vec::new(),
                 prescribed: Prescribed::new(
-                    scene,
+                    &scene.guides,
+                    &scene.signals,
                     scene.couplings.iter().filter_map(|coupling| CouplingInput::new(coupling).sum),
                 ),
                 tables: Tables::empty(),

@@ -8,7 +8,7 @@
 //! configuration.
 
 use crate::Real;
-use crate::scene::{BodyId, JointId, Motion, Number};
+use crate::scene::{BodyId, Curve, JointId, Motion, Number};
 use alloc::string::String;
 use alloc::vec;
 use alloc::vec::Vec;
@@ -52,17 +52,6 @@ pub enum CouplingMeasure<T> {
         /// The points, reference configuration [m].
         points: Vec<(BodyId, [T; 3])>,
     },
-}
-
-/// A twice differentiable function.
-#[derive(Debug, Clone, PartialEq)]
-pub enum Curve<T> {
-    /// The natural cubic spline through (x, f); the end values are held outside.
-    Table(Vec<[T; 2]>),
-    /// The periodic cubic spline through (x, f); the last value is the first.
-    Periodic(Vec<[T; 2]>),
-    /// c0 + c1 x + c2 x^2 + ...
-    Polynomial(Vec<T>),
 }
 
 impl<T> CouplingMeasure<T> {

@@ -1,6 +1,6 @@
 //! Bodies, joints, initial conditions and guides.
 
-use crate::scene::{BodyId, Dimension, JointId, JointKind, NamedSignal, Road, SignalId};
+use crate::scene::{BodyId, Dimension, JointId, JointKind, NamedSignal, Road, SignalId, TableEnds};
 use alloc::string::String;
 use alloc::vec::Vec;
 
@@ -99,16 +99,6 @@ pub struct Guide<T> {
     pub joint: JointId,
     /// The law.
     pub law: Motion<T>,
-}
-
-/// How the spline of a table begins and ends.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum TableEnds {
-    /// Without curvature: the natural spline, which ends on a slope.
-    #[default]
-    Natural,
-    /// At rest: the clamped spline, with no rate at both ends.
-    Level,
 }
 
 /// A twice differentiable function of time.

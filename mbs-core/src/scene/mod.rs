@@ -15,6 +15,8 @@ pub(crate) mod check;
 #[cfg(feature = "alloc")]
 mod coupling;
 #[cfg(feature = "alloc")]
+mod curve;
+#[cfg(feature = "alloc")]
 mod data;
 mod dimension;
 #[cfg(feature = "alloc")]
@@ -48,13 +50,13 @@ pub use axes::transverse;
 #[cfg(feature = "alloc")]
 pub use build::StartedJoint;
 #[cfg(feature = "alloc")]
-pub use coupling::{Coupling, CouplingMeasure, CouplingTerm, Curve};
+pub use coupling::{Coupling, CouplingMeasure, CouplingTerm};
+#[cfg(feature = "alloc")]
+pub use curve::{Curve, TableEnds};
 #[cfg(feature = "alloc")]
 pub(crate) use data::Surroundings;
 #[cfg(feature = "alloc")]
-pub use data::{
-    Body, Guide, Inertia, InitialCondition, InitialTarget, Joint, Motion, Start, TableEnds,
-};
+pub use data::{Body, Guide, Inertia, InitialCondition, InitialTarget, Joint, Motion, Start};
 pub use dimension::Dimension;
 #[cfg(feature = "alloc")]
 pub use effect::{
