@@ -2,8 +2,9 @@
 //! moves, in every formulation, and by closed forms; and guides on every joint of a chain.
 
 use crate::common::oracle::{Way, disagreement, everything, methods, rows, rows_with_errors};
-use mbs::core::scene::{JointId, Quantity};
-use mbs_testkit::{quantities, scene};
+use crate::common::run;
+use mbs::Method;
+use mbs_testkit::scene;
 
 /// A body that hangs on the ground, or on a body that swings itself, by a joint with an effect.
 fn hung(is_planar: bool, kind: &str, [is_on_body, is_reversed]: [bool; 2], effect: &str) -> String {
@@ -124,6 +125,32 @@ fn every_method_agrees(is_planar: bool, kind: &str, effect: &str, is_on_body: &[
         }
     }
     assert!(faults.is_empty(), "{kind} {effect}\n{}", faults.join("\n"));
+}
+
+#[test]
+fn effects_on_each_coordinate_keep_the_energy_balance() {
+    for (kind, coordinate) in
+        [("cylindrical", "slide"), ("universal", "first"), ("universal", "second"), ("planar", "x")]
+    {
+        for effect in ON_ONE_ROTATION.iter().chain(&ON_ONE_COORDINATE) {
+            let effect = format!("{effect}\ncoordinate = \"{coordinate}\"");
+            let scene = scene(&hung(false, kind, [true, true], &effect));
+            for Way(formulation, integrator) in methods() {
+                let method = Method {
+                    formulation: Some(formulation.to_owned()),
+                    integrator: Some(integrator.to_owned()),
+                    step: Some(2e-4),
+                    ..Default::default()
+                };
+                let outcome = run(&scene, &method);
+                assert!(outcome.error.is_none(), "{kind} {effect} {formulation}");
+                let errors = &outcome.steps().energy_errors;
+                let worst = errors.iter().fold(0.0, |worst, error| f64::max(worst, error.abs()));
+                // of up to 50 J that a stop stores; errors fall with the square of the step
+                assert!(worst < 2e-3, "{kind} {effect} {formulation} {integrator}: {worst:e} J");
+            }
+        }
+    }
 }
 
 /// A body with its centre in the joint, its principal axes along the joint's, and what resists each coordinate.
