@@ -7,7 +7,7 @@ use mbs::folder::{Folder, WriteError, id, write_file};
 use mbs::record::{PilotReport, Provenance};
 use mbs::scene_file::SceneFile;
 use mbs::scene_file::format::significant;
-use mbs::{Method, ResolvedMethod, SettingsError};
+use mbs::{InputTableError, Method, ResolvedMethod, SettingsError};
 use std::fs::File;
 use std::io::{self, Read};
 use std::path::Path;
@@ -56,6 +56,25 @@ pub(crate) fn begin(
         .map_err(|e| refusal(&e, &document))?;
     let folder = out.map(|out| folder(out, files)).transpose()?;
     Ok(Begun { document, scene, settings, folder })
+}
+
+/// A scene whose inputs follow the table of a file; else the refusal.
+pub(crate) fn with_inputs(
+    document: &SceneFile,
+    table: &Path,
+) -> Result<(SceneFile, Scene<f64>), Refusal> {
+    let bytes = read(table, "table of inputs")?;
+    let document = mbs::with_inputs(document, &bytes, &table.display().to_string());
+    let document = document.map_err(|error| match error {
+        InputTableError::Table { file, place, message, hint } => {
+            Refusal::new("inputs-refused", message, hint).at(&file, place)
+        }
+        InputTableError::Read(error) => Refusal::read("scene-refused", &error),
+        other => Refusal::new("inputs-refused", other, "keep the inputs as they are"),
+    })?;
+    let scene = document.scene::<f64>();
+    let scene = scene.map_err(|error| Refusal::read("scene-refused", &error))?;
+    Ok((document, scene))
 }
 
 /// Takes a directory for results in these files; else the refusal.

@@ -83,6 +83,11 @@ pub(crate) struct Arguments {
     /// The errors of the steps add up.
     #[arg(long, value_name = "E", allow_hyphen_values = true)]
     tolerance: Option<f64>,
+    /// Table (CSV) that the scene's inputs follow: a first column `t` [s], then columns with names of inputs. Default: they keep their start.
+    ///
+    /// Values are linear between rows and held outside. A guide or a coupling follows the spline through its values.
+    #[arg(long, value_name = "FILE")]
+    inputs: Option<PathBuf>,
     /// Threads that share the work of a step in index-3, index-1, multi-index and classical. Default: 1.
     ///
     /// Results are the same to the last bit. Threads save time above some hundred bodies.
@@ -163,6 +168,7 @@ impl Arguments {
             ("tolerance", o.tolerance.map(|x| x.to_string())),
             ("precision", o.precision.clone()),
             ("integrator", o.integrator.clone()),
+            ("inputs", self.inputs.as_ref().map(|file| file.display().to_string())),
             ("error", self.error.map(|x| x.to_string())),
             ("deadline", self.deadline.map(|x| x.to_string())),
         ];
@@ -250,6 +256,9 @@ fn begin(arguments: &Arguments) -> Result<Run, Stop> {
     }
     let mut begun = files::begin(&arguments.scene, &overrides, (out, &FILES))?;
     begun.settings = kept.settle(begun.settings)?;
+    if let Some(table) = &arguments.inputs {
+        (begun.document, begun.scene) = files::with_inputs(&begun.document, table)?;
+    }
     arguments.keep.keep(out, &mut kept)?;
     let clock = &mut Processor::new(begun.settings.threads);
     let chosen = (&overrides, begun.settings.clone());

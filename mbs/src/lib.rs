@@ -52,9 +52,10 @@ pub use front::tree::{Matrix, Tree, TreeError, TreeErrorKind, TreeRange};
 pub use front::{
     Body, BodyMotion, Components, ContactEvent, Coordinates, Coupling, Effect, Energies,
     EquilibriumOptions, Error, FunctionId, Guide, Id, InitialCondition, InputId, InputInfo,
-    InputOwner, Joint, Mechanism, NamedSignal, Observer, Output, OutputFunction, Part, PathError,
-    PointMotion, Pose, Run, RunInputs, RunResult, SceneError, Simulation, SimulationError, Sizes,
-    Snapshot, StepReport, Table, UnknownName, View, Wrench, equilibrium, modes, run, run_with,
+    InputOwner, InputTableError, Joint, Mechanism, NamedSignal, Observer, Output, OutputFunction,
+    Part, PathError, PointMotion, Pose, Run, RunInputs, RunResult, SceneError, Simulation,
+    SimulationError, Sizes, Snapshot, StepReport, Table, UnknownName, View, Wrench, equilibrium,
+    modes, run, run_with, with_inputs,
 };
 pub use interrupt::Interrupt;
 pub use mbs_core::formulation::{Formulation, SwitchError};

@@ -17,6 +17,7 @@ mod generate;
 mod help;
 #[cfg(target_os = "linux")]
 mod hostile;
+mod inputs;
 #[cfg(not(any(feature = "f32", feature = "dd")))]
 mod lean;
 mod realtime;

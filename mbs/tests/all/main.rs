@@ -28,6 +28,7 @@ mod random;
 mod readings;
 mod realtime;
 mod reference;
+mod signals;
 mod states;
 mod threads;
 mod tree;

@@ -1,0 +1,278 @@
+//! Inputs that follow a table of times: a scene document in which they are tables.
+//!
+//! The first column is `t`, the others have the names of inputs. Values are linear between rows and held outside; the motion of a
+//! guide or a coupling is the cubic spline through its values.
+
+use super::inputs::{InputInfo, InputOwner, Inputs};
+use core::fmt::{self, Display, Formatter};
+use csv::{ReaderBuilder, StringRecord};
+use mbs_core::effects::Value;
+use mbs_core::scene::{
+    Effect, Interpolation, Motion, Number, Scene, Signal, SignalKind, TableEnds,
+};
+use mbs_scene::{Place, ReadError, SceneFile, WriteError, nearest_name};
+
+/// A table of inputs that is refused.
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub enum InputTableError {
+    /// The table; its file, the place in it, what is wrong, and what to do.
+    Table {
+        /// The file as it was named.
+        file: String,
+        /// Line, column and the line.
+        place: Place,
+        /// What is wrong.
+        message: String,
+        /// What to do.
+        hint: String,
+    },
+    /// The document is no scene.
+    Read(ReadError),
+    /// The scene has no text.
+    Write(WriteError),
+}
+
+impl Display for InputTableError {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Table { file, place, message, .. } => {
+                write!(f, "{file}:{}:{}: {message}", place.line, place.column)
+            }
+            Self::Read(error) => error.fmt(f),
+            Self::Write(error) => error.fmt(f),
+        }
+    }
+}
+
+impl core::error::Error for InputTableError {}
+
+/// The document of a scene whose inputs follow the table of a file.
+///
+/// ```
+/// use mbs::{InputTableError, scene_file::SceneFile, with_inputs};
+/// let scene = "[scene]\ndimension = 2\nduration = 1\n[[signal]]\nname = \"load\"\nkind = \"input\"\n";
+/// let document = SceneFile::parse(scene, "scene.toml")?;
+/// let document = with_inputs(&document, b"t,load\n0,0\n1,2.5\n", "load.csv")?;
+/// assert!(document.text().contains("table = [[0, 0], [1, 2.5]]"));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
+/// # Errors
+/// [`InputTableError`] for unknown names, columns that come twice, a first column other than `t`, times that do not increase, and
+/// numbers that are none.
+pub fn with_inputs(
+    document: &SceneFile,
+    csv: &[u8],
+    file: &str,
+) -> Result<SceneFile, InputTableError> {
+    let mut scene = document.numbers().map_err(InputTableError::Read)?;
+    let resolved = document.scene::<f64>().map_err(InputTableError::Read)?;
+    let inputs = Inputs::new(&resolved);
+    let text = String::from_utf8_lossy(csv);
+    let table = Table::read(Source { file, text: &text }, inputs.list())?;
+    for (k, info) in table.columns.iter().enumerate() {
+        if table.columns[..k].iter().all(|other| other.owner != info.owner) {
+            table.write(&mut scene, info.owner);
+        }
+    }
+    document.updated(&scene).map_err(InputTableError::Write)
+}
+
+/// The text of a table, and its file.
+#[derive(Clone, Copy)]
+struct Source<'a> {
+    file: &'a str,
+    text: &'a str,
+}
+
+impl Source<'_> {
+    /// A refusal at a field, from 0, of a line, from 1.
+    fn fault<R>(
+        self,
+        (line, field): (u64, usize),
+        message: String,
+        hint: impl Into<String>,
+    ) -> Result<R, InputTableError> {
+        let line = usize::try_from(line).unwrap_or(usize::MAX).max(1);
+        let text = self.text.lines().nth(line - 1).unwrap_or_default().to_owned();
+        // quotes may hide commas
+        let field = if text.contains('"') { 0 } else { field };
+        let before: usize = text.split(',').take(field).map(|s| s.chars().count() + 1).sum();
+        let rest: String = text.chars().skip(before).collect();
+        let width = rest.split(',').next().map_or(1, |s| s.chars().count().max(1));
+        let place = Place { line, column: before + 1, width, text };
+        let (file, hint) = (self.file.to_owned(), hint.into());
+        Err(InputTableError::Table { file, place, message, hint })
+    }
+}
+
+/// A table that was read.
+struct Table<'a> {
+    /// The input of each column behind the first.
+    columns: Vec<&'a InputInfo>,
+    /// Time and values.
+    rows: Vec<Vec<Number>>,
+}
+
+const HINT_TIME: &str = "begin each row with its time [s], later than that of the row before";
+
+impl<'a> Table<'a> {
+    fn read(source: Source<'_>, inputs: &'a [InputInfo]) -> Result<Self, InputTableError> {
+        let mut reader = ReaderBuilder::new();
+        let reader = reader.has_headers(false).flexible(true).trim(csv::Trim::All);
+        let mut reader = reader.from_reader(source.text.as_bytes());
+        let (mut columns, mut rows): (Option<Vec<&InputInfo>>, Vec<Vec<Number>>) =
+            (None, Vec::new());
+        let mut record = StringRecord::new();
+        loop {
+            let line = reader.position().line();
+            match reader.read_record(&mut record) {
+                Ok(true) => {}
+                Ok(false) => break,
+                Err(error) => return source.fault((line, 0), error.to_string(), "write CSV"),
+            }
+            let line = record.position().map_or(line, csv::Position::line);
+            let Some(columns) = &columns else {
+                columns = Some(head(source, (line, &record), inputs)?);
+                continue;
+            };
+            let row = row(source, (line, &record), columns.len() + 1)?;
+            let time = |row: &[Number]| row.first().map_or(f64::NAN, Number::to_f64);
+            if rows.last().is_some_and(|before| time(&row) <= time(before)) {
+                let message = format!("the time `{}` is not after that before it", &record[0]);
+                return source.fault((line, 0), message, HINT_TIME);
+            }
+            rows.push(row);
+        }
+        let n_lines = source.text.lines().count() as u64;
+        match columns {
+            Some(columns) if !rows.is_empty() => Ok(Self { columns, rows }),
+            _ => source.fault((n_lines, 0), "there is no row of values".into(), HINT_TIME),
+        }
+    }
+
+    /// Each row's time, and one of its columns.
+    fn pairs(&self, info: &InputInfo) -> Option<Vec<[Number; 2]>> {
+        let place = self.columns.iter().position(|column| *column == info)?;
+        Some(self.rows.iter().map(|row| [row[0].clone(), row[place + 1].clone()]).collect())
+    }
+
+    /// Puts all columns of an owner into the scene.
+    fn write(&self, scene: &mut Scene<Number>, owner: InputOwner) {
+        let own = || self.columns.iter().filter(|column| column.owner == owner);
+        let rows = own().next().and_then(|info| self.pairs(info)).unwrap_or_default();
+        match owner {
+            InputOwner::Effect(effect) => {
+                let values: Vec<_> = own().map(|info| (info.component, self.pairs(info))).collect();
+                set_effect(&mut scene.effects[effect], &rows, &values);
+            }
+            InputOwner::Guide(guide) => {
+                scene.guides[guide].law = Motion::Table { rows, ends: TableEnds::Natural };
+            }
+            InputOwner::Coupling { coupling, .. } => {
+                let motion = Motion::Table { rows, ends: TableEnds::Natural };
+                scene.couplings[coupling].motion = Some(motion);
+            }
+            InputOwner::Signal(signal) => {
+                let interpolation = Interpolation::Linear;
+                let kind = SignalKind::Table { rows, interpolation, periodic: false };
+                scene.signals[signal].kind = kind;
+            }
+        }
+    }
+}
+
+/// The inputs of the columns.
+fn head<'a>(
+    source: Source<'_>,
+    (line, record): (u64, &StringRecord),
+    inputs: &'a [InputInfo],
+) -> Result<Vec<&'a InputInfo>, InputTableError> {
+    if record.get(0) != Some("t") {
+        let message = format!("the first column is `{}`, not `t`", record.get(0).unwrap_or(""));
+        return source.fault((line, 0), message, "write the times [s] into a first column `t`");
+    }
+    let mut columns: Vec<&InputInfo> = Vec::new();
+    for (field, name) in record.iter().enumerate().skip(1) {
+        let at = (line, field);
+        let mut named = inputs.iter().filter(|input| input.name == name);
+        let (Some(info), other) = (named.next(), named.next()) else {
+            let known: Vec<_> = inputs.iter().map(|input| input.name.clone()).collect();
+            let message = format!("unknown input `{name}`");
+            return source.fault(at, message, nearest_name(name, &known, "inputs"));
+        };
+        if other.is_some() {
+            let message = format!("two inputs have the name `{name}`");
+            return source.fault(at, message, "rename one of them in the scene");
+        }
+        if columns.contains(&info) {
+            let message = format!("`{name}` has two columns");
+            return source.fault(at, message, "keep one of them");
+        }
+        let is_motion = matches!(info.owner, InputOwner::Guide(_) | InputOwner::Coupling { .. });
+        if is_motion && info.component > 0 {
+            let message = format!("`{name}` follows from the values of its guide or coupling");
+            let hint = "leave this column out: the motion is a spline through the values";
+            return source.fault(at, message, hint);
+        }
+        columns.push(info);
+    }
+    if columns.is_empty() {
+        let message = "there is no input beside `t`".to_owned();
+        let known: Vec<_> = inputs.iter().map(|input| input.name.clone()).collect();
+        return source.fault((line, 0), message, nearest_name("", &known, "inputs"));
+    }
+    Ok(columns)
+}
+
+/// The numbers of a row.
+fn row(
+    source: Source<'_>,
+    (line, record): (u64, &StringRecord),
+    needed: usize,
+) -> Result<Vec<Number>, InputTableError> {
+    if record.len() != needed {
+        let message = format!("expected {needed} numbers, found {}", record.len());
+        let last = record.len().min(needed) - 1;
+        return source.fault((line, last), message, "write a number for each column");
+    }
+    let mut row = Vec::with_capacity(needed);
+    for (field, text) in record.iter().enumerate() {
+        match Number::from_decimal(text).filter(|number| number.to_f64().is_finite()) {
+            Some(number) => row.push(number),
+            None => {
+                let message = format!("`{text}` is not a finite number");
+                return source.fault((line, field), message, "write a finite decimal number");
+            }
+        }
+    }
+    Ok(row)
+}
+
+/// Puts a table in place of an effect's input; components without a column keep their start.
+fn set_effect(
+    effect: &mut Effect<Number>,
+    times: &[[Number; 2]],
+    columns: &[(usize, Option<Vec<[Number; 2]>>)],
+) {
+    let table = |start: &[Number; 3]| {
+        let row = |(i, [t, _]): (usize, &[Number; 2])| {
+            let mut value = start.clone();
+            for (component, column) in columns {
+                if let Some([_, x]) = column.as_ref().and_then(|column| column.get(i)) {
+                    value[*component] = x.clone();
+                }
+            }
+            (t.clone(), value)
+        };
+        Signal::Table(times.iter().enumerate().map(row).collect())
+    };
+    let values = effect.kind.values().into_iter().map(|value| match value {
+        Value::Signal(Signal::Input(start)) => Value::Signal(table(&start)),
+        other => other,
+    });
+    if let Some(kind) = effect.kind.with(values) {
+        effect.kind = kind;
+    }
+}
