@@ -124,7 +124,8 @@ fn signals_are_computed_in_an_order_of_their_own_and_each_once() {
     let mut kinds: Vec<_> = (0..n).map(square).collect();
     kinds.push(SignalKind::Constant(1.0));
     let values = SignalGraph::new(&named(kinds)).values(0.0);
-    assert!(values.iter().all(|value| *value == [1.0, 0.0, 0.0]));
+    let bits = |value: [f64; 3]| value.map(f64::to_bits);
+    assert!(values.iter().all(|value| bits(*value) == bits([1.0, 0.0, 0.0])));
 }
 
 #[test]

@@ -4,7 +4,8 @@
 use crate::common::oracle::{Way, disagreement, everything, methods, rows, rows_with_errors};
 use crate::common::run;
 use mbs::Method;
-use mbs_testkit::scene;
+use mbs::core::scene::{JointId, Quantity};
+use mbs_testkit::{quantities, scene};
 
 /// A body that hangs on the ground, or on a body that swings itself, by a joint with an effect.
 fn hung(is_planar: bool, kind: &str, [is_on_body, is_reversed]: [bool; 2], effect: &str) -> String {
@@ -171,6 +172,66 @@ fn centred(kind: &str, is_planar: bool) -> (&'static str, Vec<(&'static str, f64
     }
 }
 
+/// Value and rate at the start, an effect, value and rate at the end.
+type Case = ([f64; 2], &'static str, [f64; 2]);
+
+/// A start, an effect, and value and rate after `t` [s]; and the frequency of the springs among them [rad/s].
+fn cases(inertia: f64, t: f64) -> (f64, [Case; 4]) {
+    let omega = (5.0 / inertia).sqrt();
+    // value and rate at the start, effect, value and rate at t
+    let cases = [
+        (
+            [0.0, 0.3],
+            "kind = \"torque\"\nvalue = 0.7",
+            [0.3 * t + 0.35 / inertia * t * t, 0.3 + 0.7 / inertia * t],
+        ),
+        (
+            [0.3, 0.0],
+            "kind = \"torsion-spring\"\nstiffness = 5.0\nfree_value = 0.1",
+            [0.1 + 0.2 * (omega * t).cos(), -0.2 * omega * (omega * t).sin()],
+        ),
+        (
+            [0.2, 1.5],
+            "kind = \"limit\"\nlower = -1.0\nupper = 0.2\nstiffness = 5.0",
+            [0.2 + 1.5 / omega * (omega * t).sin(), 1.5 * (omega * t).cos()],
+        ),
+        (
+            [0.2, 1.5],
+            "kind = \"friction\"\ncoulomb = 0.0\nviscous = 0.4",
+            [
+                0.2 + 1.5 * inertia / 0.4 * (1.0 - (-0.4 / inertia * t).exp()),
+                1.5 * (-0.4 / inertia * t).exp(),
+            ],
+        ),
+    ];
+    (omega, cases)
+}
+
+/// The scene of one body with one joint on the ground and one effect on a coordinate of it.
+fn alone(
+    (is_planar, kind): (bool, &str),
+    (axes, name): (&str, &str),
+    bodies: [&str; 2],
+    start: &[String; 2],
+    effect: &str,
+) -> String {
+    let origin = if is_planar { "[0.0, 0.0]" } else { "[0.0, 0.0, 0.0]" };
+    let at = if kind == "free" { String::new() } else { format!("at = {origin}\n") };
+    let inertia = if is_planar { "0.04" } else { "[0.02, 0.03, 0.04, 0.0, 0.0, 0.0]" };
+    format!(
+        "[scene]\nname = \"alone\"\ndimension = {}\nduration = 0.05\n\
+         [[body]]\nname = \"a\"\nmass = 2.0\ncenter = {origin}\ninertia = {inertia}\n\
+         [[joint]]\nname = \"j\"\nkind = \"{kind}\"\nbodies = {bodies:?}\n{at}{axes}\n\
+         [[initial]]\njoint = \"j\"\nvalue = {}\nrate = {}\n\
+         [[effect]]\njoint = \"j\"\ncoordinate = \"{name}\"\n{effect}\n\
+         [[output]]\nname = \"q\"\njoint = \"j\"\nquantity = \"value\"\n\
+         [[output]]\nname = \"v\"\njoint = \"j\"\nquantity = \"rate\"\n",
+        if is_planar { 2 } else { 3 },
+        start[0],
+        start[1],
+    )
+}
+
 #[test]
 fn effects_move_each_coordinate_alone_by_closed_form() {
     let t = 0.05;
@@ -188,33 +249,7 @@ fn effects_move_each_coordinate_alone_by_closed_form() {
             _ => coordinates.len(),
         };
         for (number, (name, inertia)) in coordinates.into_iter().enumerate() {
-            let omega = (5.0 / inertia).sqrt();
-            // value and rate at the start, effect, value and rate at t
-            let cases = [
-                (
-                    [0.0, 0.3],
-                    "kind = \"torque\"\nvalue = 0.7",
-                    [0.3 * t + 0.35 / inertia * t * t, 0.3 + 0.7 / inertia * t],
-                ),
-                (
-                    [0.3, 0.0],
-                    "kind = \"torsion-spring\"\nstiffness = 5.0\nfree_value = 0.1",
-                    [0.1 + 0.2 * (omega * t).cos(), -0.2 * omega * (omega * t).sin()],
-                ),
-                (
-                    [0.2, 1.5],
-                    "kind = \"limit\"\nlower = -1.0\nupper = 0.2\nstiffness = 5.0",
-                    [0.2 + 1.5 / omega * (omega * t).sin(), 1.5 * (omega * t).cos()],
-                ),
-                (
-                    [0.2, 1.5],
-                    "kind = \"friction\"\ncoulomb = 0.0\nviscous = 0.4",
-                    [
-                        0.2 + 1.5 * inertia / 0.4 * (1.0 - (-0.4 / inertia * t).exp()),
-                        1.5 * (-0.4 / inertia * t).exp(),
-                    ],
-                ),
-            ];
+            let (omega, cases) = cases(inertia, t);
             for (start, effect, expected) in cases {
                 for bodies in [["ground", "a"], ["a", "ground"]] {
                     let start = start.map(|x| {
@@ -222,23 +257,8 @@ fn effects_move_each_coordinate_alone_by_closed_form() {
                         all[number] = x;
                         format!("{all:?}")
                     });
-                    let origin = if is_planar { "[0.0, 0.0]" } else { "[0.0, 0.0, 0.0]" };
-                    let at =
-                        if kind == "free" { String::new() } else { format!("at = {origin}\n") };
-                    let inertia =
-                        if is_planar { "0.04" } else { "[0.02, 0.03, 0.04, 0.0, 0.0, 0.0]" };
-                    let scene = scene(&format!(
-                        "[scene]\nname = \"alone\"\ndimension = {}\nduration = 0.05\n\
-                         [[body]]\nname = \"a\"\nmass = 2.0\ncenter = {origin}\ninertia = {inertia}\n\
-                         [[joint]]\nname = \"j\"\nkind = \"{kind}\"\nbodies = {bodies:?}\n{at}{axes}\n\
-                         [[initial]]\njoint = \"j\"\nvalue = {}\nrate = {}\n\
-                         [[effect]]\njoint = \"j\"\ncoordinate = \"{name}\"\n{effect}\n\
-                         [[output]]\nname = \"q\"\njoint = \"j\"\nquantity = \"value\"\n\
-                         [[output]]\nname = \"v\"\njoint = \"j\"\nquantity = \"rate\"\n",
-                        if is_planar { 2 } else { 3 },
-                        start[0],
-                        start[1],
-                    ));
+                    let text = alone((is_planar, kind), (axes, name), bodies, &start, effect);
+                    let scene = scene(&text);
                     for &method in &methods() {
                         let rows = rows(&scene, method, (1e-4, t), 500);
                         let rows = rows.unwrap_or_else(|e| panic!("{kind} {name} {method:?}: {e}"));

@@ -45,10 +45,6 @@ impl Writer<'_> {
     pub(super) fn signal(self, signal: &NamedSignal<Number>) -> Result<Keys, WriteError> {
         let mut keys = Keys::default();
         keys.push("name", signal.name.as_str());
-        let names = |of: &[SignalId]| {
-            let names: Result<Vec<_>, _> = of.iter().map(|of| self.signal_name(*of)).collect();
-            names.map(list)
-        };
         let mut numbers = |kind, list: &[(&str, &Number)]| {
             keys.push("kind", kind);
             list.iter().for_each(|(key, x)| keys.push(key, *x));
@@ -95,30 +91,44 @@ impl Writer<'_> {
             SignalKind::Step { from, to, at, rise } => {
                 numbers("step", &[("from", from), ("to", to), ("at", at), ("rise", rise)]);
             }
-            SignalKind::Sum { of, factors } => {
-                numbers("sum", &[]);
-                keys.push("of", names(of)?);
-                keys.push("factors", list(factors.iter().map(Node::from)));
-            }
-            SignalKind::Product { of } => {
-                numbers("product", &[]);
-                keys.push("of", names(of)?);
-            }
-            SignalKind::Curve { of, curve: function } => {
-                numbers("curve", &[]);
-                keys.push("of", self.signal_name(*of)?);
-                curve(&mut keys, function);
-            }
-            SignalKind::Clamp { of, lower, upper } => {
-                numbers("clamp", &[("lower", lower), ("upper", upper)]);
-                keys.push("of", self.signal_name(*of)?);
-            }
             SignalKind::Input { value, unit } => {
                 numbers("input", &[("value", value)]);
                 keys.push_some("unit", Some(unit.as_str()).filter(|unit| !unit.is_empty()));
             }
-            _ => return Err(WriteError::InCode(format!("signal `{}`", signal.name))),
+            _ => self.combination(signal, &mut keys)?,
         }
         Ok(keys)
+    }
+
+    /// The keys of a signal that is made of others.
+    fn combination(self, signal: &NamedSignal<Number>, keys: &mut Keys) -> Result<(), WriteError> {
+        let names = |of: &[SignalId]| {
+            let names: Result<Vec<_>, _> = of.iter().map(|of| self.signal_name(*of)).collect();
+            names.map(list)
+        };
+        match &signal.kind {
+            SignalKind::Sum { of, factors } => {
+                keys.push("kind", "sum");
+                keys.push("of", names(of)?);
+                keys.push("factors", list(factors.iter().map(Node::from)));
+            }
+            SignalKind::Product { of } => {
+                keys.push("kind", "product");
+                keys.push("of", names(of)?);
+            }
+            SignalKind::Curve { of, curve: function } => {
+                keys.push("kind", "curve");
+                keys.push("of", self.signal_name(*of)?);
+                curve(keys, function);
+            }
+            SignalKind::Clamp { of, lower, upper } => {
+                keys.push("kind", "clamp");
+                keys.push("lower", lower);
+                keys.push("upper", upper);
+                keys.push("of", self.signal_name(*of)?);
+            }
+            _ => return Err(WriteError::InCode(format!("signal `{}`", signal.name))),
+        }
+        Ok(())
     }
 }
