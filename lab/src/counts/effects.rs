@@ -3,7 +3,7 @@
 use mbs_core::effects::{EFFECTS, Places, Row};
 use mbs_core::laws::body::{BodyMotion, UnitWrench};
 use mbs_core::laws::code::{self, Force as Given, Measured, MeasuredBody, Wrench};
-use mbs_core::laws::scalar::Measure;
+use mbs_core::laws::scalar::ScalarForce;
 use mbs_core::laws::user::{ScalarLaw, UserBodyLaw, UserScalarLaw, WrenchLaw};
 use mbs_core::scene::{
     Actuator, AeroDrag, AxisFrame, BodyId, BodyTorque, Bumper, Bushing, CalspanCoefficients,
@@ -28,6 +28,7 @@ pub(crate) fn all(dimension: Dimension) -> Vec<(String, EffectKind<f64>)> {
     let mut all = springs_and_forces(POINTS.map(flat), flat(CENTER));
     let six = [1.0, 1.0, depth, depth, depth, 1.0];
     all.extend(between(POINTS.map(flat), six));
+    all.extend(between_in_code(POINTS.map(flat)));
     all.extend(on_a_body(flat(CENTER), dimension));
     let (pair, body) = ((BODIES, POINTS.map(flat)), (COUPLER, flat(CENTER)));
     let places = Places { pair, body, joint: CRANK };
@@ -136,6 +137,13 @@ fn between(points: [[f64; 3]; 2], six: [f64; 6]) -> Vec<(&'static str, EffectKin
                 damping: six.map(|share| share * damping),
             }),
         ),
+    ]
+}
+
+/// Laws of a length or an angle in code.
+fn between_in_code(points: [[f64; 3]; 2]) -> Vec<(&'static str, EffectKind<f64>)> {
+    let (bodies, joint) = (BODIES, CRANK);
+    vec![
         (
             "own-length",
             EffectKind::Own(Own {
@@ -232,8 +240,8 @@ impl code::BodyLaw for Steady {
 }
 
 impl ScalarLaw<f64> for Steady {
-    fn evaluate(_: f64, _: f64, input: [f64; 3]) -> Measure<f64> {
-        Measure { tension: input[0], ..Measure::default() }
+    fn evaluate(_: f64, _: f64, input: [f64; 3]) -> ScalarForce<f64> {
+        ScalarForce { tension: input[0], ..ScalarForce::default() }
     }
     fn energy(value: f64, input: [f64; 3]) -> f64 {
         input[0] * value
@@ -245,7 +253,7 @@ impl ScalarLaw<f64> for Steady {
 
 impl WrenchLaw<f64> for Steady {
     fn evaluate(motion: &BodyMotion<f64>, input: [f64; 3]) -> UnitWrench<f64> {
-        let measure = Measure { tension: input[0], ..Measure::default() };
+        let measure = ScalarForce { tension: input[0], ..ScalarForce::default() };
         UnitWrench { force: motion.axis, moment: [0.0; 3], measure }
     }
 }
