@@ -329,13 +329,23 @@ fn difference(a: &Rows, b: &Rows, range: &std::ops::Range<usize>) -> f64 {
 }
 
 /// The least size of channels of each kind: from the mechanism's length and weight, and the time in which it moves.
-fn least_sizes(judged: &Judged) -> [f64; 12] {
+fn least_sizes(judged: &Judged) -> [f64; 14] {
     let mechanism = &judged.mechanism;
     let (l, t) = (mechanism.length(), judged.time);
     let m = mechanism.scene.bodies.iter().map(|b| b.mass).fold(0.0, f64::max);
     let force = m * l / (t * t);
-    let least =
-        [l, l, l / t, l / t, l / (t * t), l / (t * t), l, 1.0, l / t, 1.0 / t, force, force * l];
+    let energy = force * l;
+    // two for each kind: lengths and angles, forces and moments
+    let pairs = [
+        [l, l],
+        [l / t, l / t],
+        [l / (t * t), 1.0 / (t * t)],
+        [l, 1.0],
+        [l / t, 1.0 / t],
+        [force, force * l],
+        [energy, energy],
+    ];
+    let least: [f64; 14] = core::array::from_fn(|i| pairs[i / 2][i % 2]);
     least.map(|x| SMALLEST * x)
 }
 
