@@ -54,7 +54,7 @@ impl core::error::Error for InputTableError {}
 /// let scene = "[scene]\ndimension = 2\nduration = 1\n[[signal]]\nname = \"load\"\nkind = \"input\"\n";
 /// let document = SceneFile::parse(scene, "scene.toml")?;
 /// let document = with_inputs(&document, b"t,load\n0,0\n1,2.5\n", "load.csv")?;
-/// assert!(document.text().contains("table = [[0, 0], [1, 2.5]]"), "{}", document.text());
+/// assert!(document.text().contains("table = [[0.0, 0.0], [1.0, 2.5]]"));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 ///
