@@ -147,8 +147,17 @@ fn long(summary: &mut Summary) -> Result<(), String> {
     Ok(())
 }
 
+/// Folders whose files are modules by a macro: cargo does not find them by itself.
+const BY_MACRO: [&str; 2] = ["mbs-core/src/effects", "mbs-core/src/outputs/quantity"];
+
 fn format() -> Result<Outcome, String> {
-    component("fmt", "rustfmt", &["fmt", "--all", "--check"])
+    let mut args: Vec<String> = ["fmt", "--all", "--check", "--"].map(str::to_owned).to_vec();
+    for folder in BY_MACRO {
+        let files = std::fs::read_dir(process::root().join(folder)).map_err(|e| e.to_string())?;
+        args.extend(files.flatten().map(|file| file.path().display().to_string()));
+    }
+    let args: Vec<&str> = args.iter().map(String::as_str).collect();
+    component("fmt", "rustfmt", &args)
 }
 
 fn lints() -> Result<Outcome, String> {

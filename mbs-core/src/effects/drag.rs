@@ -9,7 +9,7 @@
 use crate::Real;
 use crate::algebra::{Vector, norm};
 use crate::laws::LawInputs;
-use crate::laws::body::{UnitWrench, BodyMotion, WrenchesLaw, put};
+use crate::laws::body::{BodyMotion, UnitWrench, WrenchesLaw, put};
 use crate::laws::entry::entry;
 use crate::laws::operations::Operations;
 use crate::laws::scalar::ScalarForce;

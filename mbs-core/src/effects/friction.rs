@@ -219,7 +219,10 @@ mod tests {
         for rate in [0.0, 5e-4, -2e-3, 1e-3, 5.0] {
             let slope = (LAW.force(rate + h).0 - LAW.force(rate - h).0) / (2.0 * h);
             let tangent = LAW.force(rate).1;
-            assert!((slope.max(0.0) - tangent).abs() < 1e-5 * (1.0 + tangent), "{rate}: {slope} {tangent}");
+            assert!(
+                (slope.max(0.0) - tangent).abs() < 1e-5 * (1.0 + tangent),
+                "{rate}: {slope} {tangent}"
+            );
         }
     }
 }

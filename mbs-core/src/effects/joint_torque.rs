@@ -18,7 +18,12 @@ entry!(TorqueLaw { course });
 impl<T: Real> TensionLaw<T> for TorqueLaw {
     #[inline]
     fn evaluate(&self, value: T, rate: T, law_inputs: &LawInputs<'_, T>) -> ScalarForce<T> {
-        ScalarForce { value, rate, tension: -law_inputs.course(self.course)[0], ..ScalarForce::default() }
+        ScalarForce {
+            value,
+            rate,
+            tension: -law_inputs.course(self.course)[0],
+            ..ScalarForce::default()
+        }
     }
 
     fn operations(&self) -> Operations {

@@ -16,7 +16,7 @@ mod law {
     use crate::Real;
     use crate::algebra::Vector;
     use crate::laws::LawInputs;
-    use crate::laws::body::{UnitWrench, BodyMotion, WrenchesLaw, put};
+    use crate::laws::body::{BodyMotion, UnitWrench, WrenchesLaw, put};
     use crate::laws::code::MeasuredBody;
     use crate::laws::entry::{Entry, EntryReader, EntryWriter};
     use crate::laws::operations::Operations;

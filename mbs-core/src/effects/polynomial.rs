@@ -1,12 +1,12 @@
 //! A force by a piecewise polynomial: see [`polynomial`](crate::laws::polynomial).
 
 use crate::Real;
-use crate::laws::entry::entry;
 use crate::laws::corner::LawCorner;
+use crate::laws::entry::entry;
 use crate::laws::operations::Operations;
 use crate::laws::polynomial::{energy, kinks, value};
 use crate::laws::scalar::{ScalarForce, TensionLaw};
-use crate::laws::{Part, LawInputs};
+use crate::laws::{LawInputs, Part};
 
 /// A piecewise polynomial of the value or of the rate.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

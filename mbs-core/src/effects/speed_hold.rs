@@ -10,7 +10,7 @@
 use crate::Real;
 use crate::algebra::Vector;
 use crate::laws::LawInputs;
-use crate::laws::body::{UnitWrench, BodyMotion, WrenchesLaw, put};
+use crate::laws::body::{BodyMotion, UnitWrench, WrenchesLaw, put};
 use crate::laws::entry::entry;
 use crate::laws::operations::Operations;
 use crate::laws::scalar::ScalarForce;

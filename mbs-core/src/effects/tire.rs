@@ -36,7 +36,8 @@ mod data {
 
     impl<T: Real> EffectModel<T> for Tire<T> {
         const LAW: &'static str = "see below";
-        const ABSENT: Option<[&'static str; 2]> = Some(["tires", "no tires and no road under them"]);
+        const ABSENT: Option<[&'static str; 2]> =
+            Some(["tires", "no tires and no road under them"]);
         const IS_ONE_SIDED: bool = true;
         const NEEDS_ROAD: bool = true;
 

@@ -3,11 +3,11 @@
 use crate::Real;
 use crate::algebra::Vector;
 use crate::laws::LawInputs;
-use crate::laws::body::{UnitWrench, BodyMotion, WrenchesLaw, put};
+use crate::laws::body::{BodyMotion, UnitWrench, WrenchesLaw, put};
 use crate::laws::entry::{Entry, EntryReader, EntryWriter};
 use crate::laws::operations::Operations;
-use crate::laws::user::{UserBodyLaw, UserScalarLaw};
 use crate::laws::scalar::{ScalarForce, TensionLaw};
+use crate::laws::user::{UserBodyLaw, UserScalarLaw};
 
 /// A user's own law of a value and its rate.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -72,7 +72,12 @@ impl<T: Real> TensionLaw<T> for UserScalarEntry<T> {
 
 impl<T: Real> WrenchesLaw<T> for UserBodyEntry<T> {
     /// The law at a motion, with the rate of its wrench.
-    fn evaluate(&self, motion: &BodyMotion<T>, law_inputs: &LawInputs<'_, T>, out: &mut [UnitWrench<T>]) {
+    fn evaluate(
+        &self,
+        motion: &BodyMotion<T>,
+        law_inputs: &LawInputs<'_, T>,
+        out: &mut [UnitWrench<T>],
+    ) {
         let mut action = (self.law.evaluate)(motion, law_inputs.course(self.course));
         let [force, moment] = [action.force, action.moment].map(Vector::<T, 3>::from);
         action.measure.rate =

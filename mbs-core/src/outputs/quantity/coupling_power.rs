@@ -11,7 +11,10 @@ pub(super) const ROW: QuantityRow =
 
 /// The coupling; with its sum, where that is driven.
 #[derive(Debug, Clone)]
-pub(in crate::outputs) struct CouplingPower<T: Real, const D: usize>(usize, Option<CoupledSum<T, D>>);
+pub(in crate::outputs) struct CouplingPower<T: Real, const D: usize>(
+    usize,
+    Option<CoupledSum<T, D>>,
+);
 
 impl<T: Real, const D: usize> Measured<T, D> for CouplingPower<T, D> {
     type Of = CouplingId;

@@ -7,7 +7,9 @@ use crate::scene::EffectId;
 use core::marker::PhantomData;
 
 pub(super) const ROW: QuantityRow =
-    QuantityRow::new("value", TargetKind::Effect, ComponentForm::Measured("")).of_effects().or("length");
+    QuantityRow::new("value", TargetKind::Effect, ComponentForm::Measured(""))
+        .of_effects()
+        .or("length");
 
 /// The effect.
 #[derive(Debug, Clone)]

@@ -7,7 +7,9 @@ use crate::scene::CouplingId;
 use core::marker::PhantomData;
 
 pub(super) const ROW: QuantityRow =
-    QuantityRow::new("effort", TargetKind::Coupling, ComponentForm::Force).of_reactions().or("force");
+    QuantityRow::new("effort", TargetKind::Coupling, ComponentForm::Force)
+        .of_reactions()
+        .or("force");
 
 /// The coupling.
 #[derive(Debug, Clone)]

@@ -4,7 +4,7 @@ use super::components::Component;
 use super::{Quantity, Target};
 use crate::effects::ActsOn;
 use crate::scene::{
-    BodyId, CouplingId, CouplingMeasure, EffectId, JointId, Number, Output, Scene, Vector3,
+    BodyId, CouplingId, CouplingMeasure, EffectId, Freedom, JointId, Number, Output, Scene, Vector3,
 };
 use alloc::vec::Vec;
 
@@ -34,9 +34,9 @@ impl<T: Clone> Quantity<T> {
 fn unit_of_sum<T>(scene: &Scene<T>, coupling: CouplingId) -> &'static str {
     let unit = |of: &CouplingMeasure<T>| {
         let Some((joint, number)) = of.coordinate() else { return "m" };
-        let kind = scene.joints.get(joint.index()).map(|joint| joint.kind);
-        let mut freedoms = kind.into_iter().flat_map(|kind| kind.numbered(scene.dimension));
-        freedoms.find(|(at, _)| *at == number).map_or("rad", |(_, freedom)| freedom.unit())
+        let joint = scene.joints.get(joint.index());
+        let freedom = joint.and_then(|joint| joint.kind.freedom(scene.dimension, number));
+        freedom.map_or("rad", Freedom::unit)
     };
     let mut units = scene.couplings[coupling.index()].terms.iter().map(|term| unit(&term.of));
     units.find(|unit| *unit == "m").unwrap_or("rad")

@@ -8,11 +8,15 @@ use crate::algebra::Vector;
 use alloc::vec::Vec;
 
 pub(super) const ROW: QuantityRow =
-    QuantityRow::new("potential-energy", TargetKind::Scene, ComponentForm::Number("J")).of_effects();
+    QuantityRow::new("potential-energy", TargetKind::Scene, ComponentForm::Number("J"))
+        .of_effects();
 
 /// The bodies, and gravity [m/s^2].
 #[derive(Debug, Clone)]
-pub(in crate::outputs) struct PotentialEnergy<T: Real, const D: usize>(Vec<BodyInertia<T, D>>, Vector<T, 3>);
+pub(in crate::outputs) struct PotentialEnergy<T: Real, const D: usize>(
+    Vec<BodyInertia<T, D>>,
+    Vector<T, 3>,
+);
 
 impl<T: Real, const D: usize> Measured<T, D> for PotentialEnergy<T, D> {
     type Of = ();
