@@ -14,10 +14,8 @@ use crate::link::{Link, LinkMotion};
 use crate::plan::Span;
 use crate::space::{Numbers, Space};
 use mbs_core::Real;
+pub use mbs_core::elements::NONE;
 use mbs_core::measure::{polynomial, spline_curve};
-
-/// Sentinel for "none" in a table of numbers.
-pub const NONE: u32 = u32::MAX;
 
 /// The row of a coupling.
 #[derive(Debug, Clone, Copy, PartialEq)]

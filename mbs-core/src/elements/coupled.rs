@@ -147,19 +147,20 @@ impl<T: Real> Coupled<T> {
         let before = |x: Span| combine::<T, D>(x.of(tables.pool), q);
         let change = |x: Span| combine::<T, D>(x.of(tables.pool), dq);
         let at = |x: Span| before(x) + change(x);
-        let value = self.evaluate_with(tables, at, (memory, sum), self.place.of_mut(jacobian));
-        let row = self.row as usize;
-        phi[row] = if self.is_linear {
-            let terms = self.terms.of(tables.terms).iter();
-            terms.fold(phi_n[row], |phi, term| {
-                let measures = term.measures.of(tables.measures).iter();
-                measures.fold(phi, |phi, measure| {
-                    phi + term.factor * measure.sign * increment(&measure.of, before, change)
-                })
-            })
-        } else {
-            value
-        };
+        let (gradient, row) = (self.place.of_mut(jacobian), self.row as usize);
+        if !self.is_linear {
+            phi[row] = self.evaluate_with(tables, at, (memory, sum), gradient);
+            return;
+        }
+        gradient.fill(T::ZERO);
+        phi[row] = phi_n[row];
+        for term in self.terms.of(tables.terms) {
+            for measure in term.measures.of(tables.measures) {
+                let weight = term.factor * measure.sign;
+                phi[row] += weight * increment(&measure.of, before, change);
+                add_measure_gradient(&measure.of, tables.pool, at, weight, gradient);
+            }
+        }
     }
 
     /// phi, with its gradient in `row`. What does not change in a step, the terms of the remembered angles and the sum, is one number;

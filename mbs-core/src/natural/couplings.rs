@@ -8,7 +8,8 @@ use super::row_builder::{CoupledDraft, GroupDraft, MeasureDraft, RowDraft, diffe
 use crate::Real;
 use crate::algebra::{Vector, norm};
 use crate::elements::{
-    CoupledTables, Curves, Measurand, NONE, Span, add_measure_gradient, combine, measured_value,
+    Coupled, CoupledTables, Curves, Measurand, NONE, Span, add_measure_gradient, combine,
+    measured_value,
 };
 use crate::measure::{CouplingInput, PreparedCurve, TermInput};
 use crate::model::{Owner, Terms};
@@ -61,8 +62,7 @@ impl<T: Real> Builder<'_, T> {
     fn coordinate_measure(&mut self, index: usize, number: usize) -> Option<MeasureDraft<T>> {
         let scene = self.scene;
         let joint = &scene.joints[index];
-        let mut freedoms = joint.kind.numbered(scene.dimension);
-        let (_, freedom) = freedoms.find(|(at, _)| *at == number)?;
+        let freedom = joint.kind.freedom(scene.dimension, number)?;
         match self.coordinate(joint, scene.dimension, freedom) {
             Coordinate::Angle { x1, x2, y, sign } => {
                 Some(MeasureDraft::Angle { x1, x2, y, sign, of: (index, number) })
@@ -160,6 +160,11 @@ impl<T: Real, const D: usize> NaturalModel<T, D> {
                 }
             }
         }
+    }
+
+    /// The rows of couplings whose sum is not always zero.
+    pub(super) fn driven(&self) -> impl Iterator<Item = &Coupled<T>> {
+        self.coupled.iter().filter(|row| row.guide != NONE)
     }
 
     /// The sum of a coupling in the course of time: value, rate and acceleration.

@@ -4,7 +4,7 @@ use super::forces::Measure;
 use super::model::NaturalModel;
 use crate::Real;
 use crate::algebra::norm;
-use crate::elements::{Measurand, NONE, Span, combine, measured_value};
+use crate::elements::{Measurand, Span, combine, measured_value};
 use crate::inputs::Prescribed;
 use crate::model::{Load, Model, Owner, ScalarForce, State, Tangent, Terms};
 use crate::team::Alone;
@@ -85,7 +85,7 @@ impl<T: Real, const D: usize> Model<T> for NaturalModel<T, D> {
         self.n_measures > 0 || !(self.point_forces.is_empty() && self.torques.is_empty())
     }
     fn has_guides(&self) -> bool {
-        !self.guided.is_empty() || self.coupled.iter().any(|row| row.guide != NONE)
+        !self.guided.is_empty() || self.driven().next().is_some()
     }
 
     fn inputs(&self) -> Option<&Prescribed<T>> {
@@ -183,7 +183,7 @@ impl<T: Real, const D: usize> Model<T> for NaturalModel<T, D> {
             let f = terms.guides[row.guide as usize];
             terms.phi_t[row.row as usize] = row.phi_t::<T, D>(&self.pool, q, f);
         }
-        for row in self.coupled.iter().filter(|row| row.guide != NONE) {
+        for row in self.driven() {
             terms.phi_t[row.row as usize] = row.phi_t(terms.guides[row.guide as usize]);
         }
     }
@@ -296,11 +296,9 @@ impl<T: Real, const D: usize> Model<T> for NaturalModel<T, D> {
             }
         }
         // A guide's force on the coordinates is -J^T lambda and J v = -phi_t: its power is lambda phi_t.
-        for row in &self.guided {
-            power += lambda[row.row as usize] * terms.phi_t[row.row as usize];
-        }
-        for row in self.coupled.iter().filter(|row| row.guide != NONE) {
-            power += lambda[row.row as usize] * terms.phi_t[row.row as usize];
+        let rows = self.guided.iter().map(|row| row.row).chain(self.driven().map(|row| row.row));
+        for row in rows {
+            power += lambda[row as usize] * terms.phi_t[row as usize];
         }
         power
     }

@@ -137,8 +137,7 @@ impl<T: Real, const D: usize> Part<T, D> {
         of: (usize, usize),
     ) -> Option<Self> {
         let joint = &scene.joints[of.0];
-        let mut freedoms = joint.kind.numbered(scene.dimension);
-        let (_, freedom) = freedoms.find(|(number, _)| *number == of.1)?;
+        let freedom = joint.kind.freedom(scene.dimension, of.1)?;
         let memory = model.coupled_angles().find(|angle| angle.0 == of);
         let of = PartKind::Coordinate {
             of: Coordinate::of_freedom(scene, model, (joint, freedom)),

@@ -70,6 +70,19 @@ fn rates(joints: &[&str]) -> String {
     joints.iter().map(one).collect()
 }
 
+/// Two wheels on the ground with these inertias, and what else there is.
+fn wheels(inertias: [f64; 2], others: &[&str]) -> String {
+    [
+        HEAD,
+        &body("w1", 1.0, [0.0, 0.0], inertias[0]),
+        &body("w2", 1.0, [1.0, 0.0], inertias[1]),
+        &revolute("a", ["ground", "w1"], [0.0, 0.0]),
+        &revolute("b", ["ground", "w2"], [1.0, 0.0]),
+        &others.concat(),
+    ]
+    .concat()
+}
+
 /// Two wheels in a housing on a free hinge; a motor from the housing on the first.
 fn housing() -> String {
     [
@@ -153,19 +166,8 @@ fn elements_between_two_coordinates_share_their_inertia() {
         let text = turn_and_slide(&format!("[[coupling]]\n{coupling}"));
         has_accelerations(coupling, &text, &expected(r));
     }
-    let two_wheels = |coupling: &str| {
-        [
-            HEAD.to_owned(),
-            body("w1", 1.0, [0.0, 0.0], 0.02),
-            body("w2", 1.0, [1.0, 0.0], 0.05),
-            revolute("a", ["ground", "w1"], [0.0, 0.0]),
-            revolute("b", ["ground", "w2"], [1.0, 0.0]),
-            coupling.to_owned(),
-            torque("a", 0.5),
-            rates(&["a", "b"]),
-        ]
-        .concat()
-    };
+    let two_wheels =
+        |coupling: &str| wheels([0.02, 0.05], &[coupling, &torque("a", 0.5), &rates(&["a", "b"])]);
     let expected = |r: f64| [0.5 / (0.02 + 0.05 * r * r), 0.5 * r / (0.02 + 0.05 * r * r)];
     for (r, coupling) in [
         (0.5, "kind = \"belt\"\njoints = [\"a\", \"b\"]\nradii = [0.1, 0.2]\n"),
@@ -348,16 +350,13 @@ fn half_the_step_has_a_quarter_of_the_error_with_gears_and_cams() {
 
 #[test]
 fn a_gear_keeps_its_ratio_over_many_hundred_turns() {
-    let text = [
-        HEAD.to_owned(),
-        body("w1", 1.0, [0.0, 0.0], 0.02),
-        body("w2", 1.0, [1.0, 0.0], 0.05),
-        revolute("a", ["ground", "w1"], [0.0, 0.0]),
-        revolute("b", ["ground", "w2"], [1.0, 0.0]),
-        "[[coupling]]\nkind = \"gear\"\njoints = [\"a\", \"b\"]\nteeth = [13, 17]\n".into(),
-        "[[initial]]\njoint = \"a\"\nrate = 100.0\n".into(),
-    ]
-    .concat();
+    let text = wheels(
+        [0.02, 0.05],
+        &[
+            "[[coupling]]\nkind = \"gear\"\njoints = [\"a\", \"b\"]\nteeth = [13, 17]\n",
+            "[[initial]]\njoint = \"a\"\nrate = 100.0\n",
+        ],
+    );
     let scene = scene(&text);
     for way in ways() {
         let rows = rows(&scene, way, (5e-4, 63.0), 1).unwrap_or_else(|e| panic!("{way:?}: {e}"));
@@ -369,18 +368,15 @@ fn a_gear_keeps_its_ratio_over_many_hundred_turns() {
 }
 
 #[test]
-fn a_driven_sum_prescribes_motion_and_takes_work() {
+fn a_driven_sum_prescribes_motion() {
     // a + b = 0.5 sin(2 pi t): with equal inertias both turn by half of it
-    let text = [
-        HEAD.to_owned(),
-        body("w1", 1.0, [0.0, 0.0], 0.02),
-        body("w2", 1.0, [1.0, 0.0], 0.02),
-        revolute("a", ["ground", "w1"], [0.0, 0.0]),
-        revolute("b", ["ground", "w2"], [1.0, 0.0]),
-        "[[coupling]]\nkind = \"linear\"\nterms = [{ joint = \"a\" }, { joint = \"b\" }]\nsine = { amplitude = 0.5, frequency = 1.0 }\n".into(),
-        "[[initial]]\njoint = \"a\"\nrate = 1.5707963267948966\n".into(),
-    ]
-    .concat();
+    let text = wheels(
+        [0.02, 0.02],
+        &[
+            "[[coupling]]\nkind = \"linear\"\nterms = [{ joint = \"a\" }, { joint = \"b\" }]\nsine = { amplitude = 0.5, frequency = 1.0 }\n",
+            "[[initial]]\njoint = \"a\"\nrate = 1.5707963267948966\n",
+        ],
+    );
     for way in ways() {
         let rows =
             rows(&scene(&text), way, (1e-3, 0.25), 1).unwrap_or_else(|e| panic!("{way:?}: {e}"));
@@ -395,16 +391,13 @@ fn a_driven_sum_prescribes_motion_and_takes_work() {
 
 #[test]
 fn turns_at_the_start_count_in_the_sum() {
-    let text = [
-        HEAD.to_owned(),
-        body("w1", 1.0, [0.0, 0.0], 0.02),
-        body("w2", 1.0, [1.0, 0.0], 0.05),
-        revolute("a", ["ground", "w1"], [0.0, 0.0]),
-        revolute("b", ["ground", "w2"], [1.0, 0.0]),
-        "[[coupling]]\nkind = \"gear\"\njoints = [\"a\", \"b\"]\nratio = 1.75\n".into(),
-        "[[initial]]\njoint = \"a\"\nvalue = -12.5\nrate = 1.0\n".into(),
-    ]
-    .concat();
+    let text = wheels(
+        [0.02, 0.05],
+        &[
+            "[[coupling]]\nkind = \"gear\"\njoints = [\"a\", \"b\"]\nratio = 1.75\n",
+            "[[initial]]\njoint = \"a\"\nvalue = -12.5\nrate = 1.0\n",
+        ],
+    );
     for way in ways() {
         let rows =
             rows(&scene(&text), way, (1e-3, 0.1), 1).unwrap_or_else(|e| panic!("{way:?}: {e}"));

@@ -1,12 +1,12 @@
 //! Couplings: their terms, and whether start values contradict them.
 
-use super::motion::check_law;
+use super::motion::{agreement, check_law};
 use super::vector::Place;
 use crate::Real;
 use crate::inputs::SignalGraph;
 use crate::measure::{CouplingInput, given_values};
 use crate::scene::{
-    Coupling, CouplingMeasure, CouplingTerm, Curve, Entry, Freedom, Scene, SceneError, SceneFault,
+    Coupling, CouplingMeasure, CouplingTerm, Curve, Entry, Scene, SceneError, SceneFault,
 };
 
 pub(super) fn check<T: Real>(scene: &Scene<T>) -> Result<(), SceneError> {
@@ -40,8 +40,7 @@ fn check_terms<T: Real>(
                 if *number >= n {
                     return place.fault("coordinate", SceneFault::UnknownCoordinate(n));
                 }
-                let mut freedoms = joint.kind.numbered(scene.dimension);
-                if !freedoms.any(|(at, freedom)| at == *number && freedom != Freedom::Ball) {
+                if joint.kind.freedom(scene.dimension, *number).is_none() {
                     return place.fault("coordinate", SceneFault::BallCoordinate);
                 }
             }
@@ -104,9 +103,6 @@ pub(super) fn check_curve<T: Real>(curve: &Curve<T>, place: Place) -> Result<(),
     Ok(())
 }
 
-/// Largest difference of a sum at the start from its value, relative to its terms [-]. Chosen, not tuned.
-const AGREEMENT: f64 = 1e-9;
-
 /// Where all coordinates of a coupling have start values, they give its sum.
 pub(super) fn check_starts<T: Real>(scene: &Scene<T>) -> Result<(), SceneError> {
     if scene.couplings.is_empty() {
@@ -126,8 +122,7 @@ pub(super) fn check_starts<T: Real>(scene: &Scene<T>) -> Result<(), SceneError> 
             })
         });
         let needed = input.sum_at(T::ZERO, &signals);
-        let tolerance = T::from_f64(AGREEMENT).max(T::from_f64(8.0) * T::EPSILON);
-        if is_known && !((sum - needed).abs() <= tolerance * size) {
+        if is_known && !((sum - needed).abs() <= agreement::<T>() * size) {
             let numbers = [sum, needed].map(T::to_f64);
             return scene.place(Entry::Coupling(i)).fault("value", SceneFault::SumAtStart(numbers));
         }

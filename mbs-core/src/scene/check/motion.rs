@@ -193,6 +193,13 @@ fn check_numbers<T: Real>(
     numbers.iter().try_for_each(|x| place.finite(field, *x))
 }
 
+/// Largest relative difference of start values from what guides and couplings say [-]; rounding, where that is coarser.
+pub(super) fn agreement<T: Real>() -> T {
+    /// Relative difference of numbers that a file gives with ten digits [-]. Chosen, not tuned.
+    const AGREEMENT: f64 = 1e-9;
+    T::from_f64(AGREEMENT).max(T::from_f64(8.0) * T::EPSILON)
+}
+
 /// A guided joint starts as its guide does, within 1e-9 (or rounding, where that is coarser).
 fn agrees<T: Real>(
     guide: Option<[T; 3]>,
@@ -202,10 +209,7 @@ fn agrees<T: Real>(
 ) -> Result<(), SceneError> {
     let (Some(guide), Some(given)) = (guide, numbers.first()) else { return Ok(()) };
     let expected = guide[derivative];
-    /// Largest relative difference of a joint's start from its guide's [-]. Chosen, not tuned.
-    const AGREEMENT: f64 = 1e-9;
-    let tolerance = T::from_f64(AGREEMENT).max(T::from_f64(8.0) * T::EPSILON);
-    if (*given - expected).abs() <= tolerance * expected.abs().max(T::ONE) {
+    if (*given - expected).abs() <= agreement::<T>() * expected.abs().max(T::ONE) {
         return Ok(());
     }
     let (given, guide) = (given.to_f64(), expected.to_f64());
