@@ -4,8 +4,8 @@ use crate::scene;
 use mbs_core::effects::{EFFECTS, Places, Row};
 use mbs_core::scene::{
     Actuator, AeroDrag, BodyId, Bumper, Bushing, CalspanCoefficients, Dimension, Effect,
-    EffectKind, Friction, JointId, Limit, Polynomial, PolynomialPiece, RoadFeature, Scene, Signal,
-    SpeedHold, Tire,
+    EffectKind, Friction, JointId, Limit, LongitudinalSlip, Polynomial, PolynomialPiece,
+    RoadFeature, Scene, Signal, SpeedHold, Tire,
 };
 
 const SPATIAL: &str = r#"
@@ -176,6 +176,7 @@ fn friction(joint: JointId) -> EffectKind<f64> {
         stribeck,
         viscous,
         regularisation,
+        factor: Signal::Constant([1.0, 0.0, 0.0]),
     })
 }
 
@@ -213,7 +214,27 @@ pub fn tire(dimension: Dimension, rolls: bool) -> EffectKind<f64> {
         damping: 5.0,
         rolling_resistance: if rolls { 0.1 } else { 0.0 },
         side: (rolls && is_spatial).then_some(side),
+        spin: None,
+        longitudinal: None,
     })
+}
+
+/// The wheel that rolls, with force by slip: it slips where its body does not turn as a wheel.
+fn driven(dimension: Dimension) -> EffectKind<f64> {
+    let mut kind = tire(dimension, true);
+    if let EffectKind::Tire(tire) = &mut kind {
+        tire.longitudinal = Some(LongitudinalSlip { stiffness: 90.0, friction: 0.7 });
+    }
+    kind
+}
+
+/// Friction that a table over time scales.
+fn brake(joint: JointId) -> EffectKind<f64> {
+    let mut kind = friction(joint);
+    if let EffectKind::Friction(friction) = &mut kind {
+        friction.factor = Signal::Table(vec![(0.0, [0.5, 0.0, 0.0]), (1.0, [2.5, 0.0, 0.0])]);
+    }
+    kind
 }
 
 /// Every kind of effect, with what it is.
@@ -246,6 +267,8 @@ pub fn every(dimension: Dimension) -> Vec<(&'static str, EffectKind<f64>)> {
         ("speed hold", speed_hold(dimension)),
         ("tire that is a spring", tire(dimension, false)),
         ("tire that rolls", tire(dimension, true)),
+        ("tire that is driven", driven(dimension)),
+        ("brake by a table", brake(JointId::new(0))),
     ];
     all.extend(examples(dimension, &all));
     all

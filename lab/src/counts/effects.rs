@@ -126,6 +126,7 @@ fn between(points: [[f64; 3]; 2], six: [f64; 6]) -> Vec<(&'static str, EffectKin
                 stribeck: 0.1,
                 viscous: 0.1,
                 regularisation: 0.01,
+                factor: Signal::Constant([1.0, 0.0, 0.0]),
             }),
         ),
         (
@@ -195,6 +196,8 @@ fn on_a_body(at: [f64; 3], dimension: Dimension) -> Vec<(&'static str, EffectKin
                 damping: 1.0,
                 rolling_resistance: 0.01,
                 side: axis.map(|_| CalspanCoefficients::iltis()),
+                spin: None,
+                longitudinal: None,
             }),
         ),
         (

@@ -51,6 +51,8 @@ impl EffectKind<f64> {
                 ) => Value::Signal(Signal::Input([1.0, 0.0, 0.0])),
                 Form::Frame => Value::Frame(AxisFrame::Body),
                 Form::Side => Value::Side(None),
+                Form::Spin => Value::Spin(None),
+                Form::Slip => Value::Slip(None),
                 Form::Name(_) => Value::Name(false),
                 Form::ForceLaw | Form::BodyLaw => return None,
             })

@@ -4,7 +4,8 @@
 
 use crate::laws::code::{BodyLaw, Code, ForceLaw};
 use crate::scene::{
-    AxisFrame, BodyId, CalspanCoefficients, Dimension, JointId, PolynomialPiece, Signal,
+    AxisFrame, BodyId, CalspanCoefficients, Dimension, JointId, LongitudinalSlip, PolynomialPiece,
+    Signal,
 };
 use alloc::vec::Vec;
 
@@ -68,6 +69,10 @@ pub enum Form {
     Frame,
     /// `"none"` or `"calspan"`, with its `coefficients`.
     Side,
+    /// A joint with one rotation, about which a wheel spins, or none.
+    Spin,
+    /// A table with `stiffness` and `friction`, or none.
+    Slip,
     /// Whether the effect has this one of the names of its kind.
     Name(&'static str),
     /// A user-defined law along a line or on a joint.
@@ -170,6 +175,10 @@ pub enum Value<T> {
     Frame(AxisFrame),
     /// Of [`Form::Side`].
     Side(Option<CalspanCoefficients<T>>),
+    /// Of [`Form::Spin`].
+    Spin(Option<JointId>),
+    /// Of [`Form::Slip`].
+    Slip(Option<LongitudinalSlip<T>>),
     /// Of [`Form::Name`].
     Name(bool),
     /// Of [`Form::ForceLaw`].
@@ -208,6 +217,11 @@ impl<T> Value<T> {
                 b: c.b.map(&mut *f),
                 skid: f(c.skid),
                 trail: c.trail.map(&mut *f),
+            })),
+            Self::Spin(joint) => Value::Spin(joint),
+            Self::Slip(slip) => Value::Slip(slip.map(|slip| LongitudinalSlip {
+                stiffness: f(slip.stiffness),
+                friction: f(slip.friction),
             })),
             Self::Name(is) => Value::Name(is),
             Self::ForceLaw(law) => Value::ForceLaw(law),

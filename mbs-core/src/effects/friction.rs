@@ -7,6 +7,8 @@
 //! C Coulomb, S static, r_s Stribeck rate, v viscous part, e the regularisation. The fall from S to C is the rational bell in
 //! place of Stribeck's exponential, which needs no exponential function and differs from it by less than 0.21 (S - C). Friction at
 //! rest is zero: what hangs on friction creeps at a rate of about e times load over S. All power is dissipated.
+//!
+//! A signal may scale C and S: a brake, or a clutch. Below zero it counts as zero.
 
 use crate::Real;
 use crate::laws::LawInputs;
@@ -27,9 +29,11 @@ pub struct FrictionLaw<T> {
     pub viscous: T,
     /// Rate below which friction falls with the rate [rad/s or m/s].
     pub regularisation: T,
+    /// The course whose first component scales Coulomb and static friction; `None`: nothing does.
+    pub course: Option<u32>,
 }
 
-entry!(FrictionLaw<T> { coulomb, r#static, stribeck, viscous, regularisation });
+entry!(FrictionLaw<T> { coulomb, r#static, stribeck, viscous, regularisation, course });
 
 impl<T: Real> FrictionLaw<T> {
     /// Force against the rate, and a derivative by it that does not fall below zero (where friction falls with the rate, a
@@ -66,6 +70,27 @@ impl<T: Real> FrictionLaw<T> {
         if level > T::ZERO { (foreseen / level).max(-T::ONE).min(T::ONE) } else { T::ZERO }
     }
 
+    /// The law with both levels scaled.
+    #[inline]
+    fn scaled(&self, share: T) -> Self {
+        Self { coulomb: self.coulomb * share, r#static: self.r#static * share, ..*self }
+    }
+
+    /// The law with the share of its levels that gave this force.
+    fn as_in(&self, measure: &ScalarForce<T>) -> Self {
+        if self.course.is_none() {
+            return *self;
+        }
+        let (share, root, level) = self.parts(measure.rate);
+        // At rest the force is zero, and its slope has the level.
+        let (whole, given) = if share.is_zero() {
+            (level / root, measure.damping - self.viscous)
+        } else {
+            (level * share, measure.tension - self.viscous * measure.rate)
+        };
+        if level > T::ZERO { self.scaled(given / whole) } else { *self }
+    }
+
     /// r / sqrt(r^2 + e^2), the root, and g.
     #[inline(always)]
     fn parts(&self, rate: T) -> (T, T, T) {
@@ -79,13 +104,30 @@ impl<T: Real> FrictionLaw<T> {
 
 impl<T: Real> TensionLaw<T> for FrictionLaw<T> {
     #[inline]
-    fn evaluate(&self, value: T, rate: T, _: &LawInputs<'_, T>) -> ScalarForce<T> {
-        let (tension, damping) = self.force(rate);
+    fn evaluate(&self, value: T, rate: T, law_inputs: &LawInputs<'_, T>) -> ScalarForce<T> {
+        let (tension, damping) = match self.course {
+            None => self.force(rate),
+            Some(course) => self.scaled(law_inputs.course(course)[0].max(T::ZERO)).force(rate),
+        };
         ScalarForce { value, rate, tension, damping, ..ScalarForce::default() }
     }
 
+    /// That to rest: the tangent vanishes where the motion is fast, and an iteration across rest would go to and fro.
+    #[inline]
+    fn secant(&self, measure: &ScalarForce<T>) -> T {
+        if measure.rate.is_zero() {
+            return measure.damping;
+        }
+        (measure.tension / measure.rate).max(measure.damping)
+    }
+
     fn operations(&self) -> Operations {
-        Operations::new(15, 7).and(5, 1, 0)
+        let scale = if self.course.is_some() { 2 } else { 0 };
+        Operations::new(15 + scale, 7).and(5, 1, 0)
+    }
+
+    fn fits(&self, _: &LawInputs<'_, T>, n_courses: usize) -> bool {
+        self.course.is_none_or(|course| (course as usize) < n_courses)
     }
 
     /// The slope by what the iterate `before` foresaw of its force: see [`slope`](FrictionLaw::slope). By the tangents at the ends
@@ -95,8 +137,9 @@ impl<T: Real> TensionLaw<T> for FrictionLaw<T> {
     fn look_back(&self, measure: &mut ScalarForce<T>, before: &ScalarForce<T>) {
         if before.rate != T::ZERO {
             let last = (before.rate, before.tension, before.damping);
-            let foreseen = self.foreseen(measure.rate, last);
-            measure.damping = self.slope(measure.rate, foreseen);
+            let law = self.as_in(measure);
+            let foreseen = law.foreseen(measure.rate, last);
+            measure.damping = law.slope(measure.rate, foreseen);
         }
     }
 }
@@ -126,11 +169,13 @@ mod data {
             viscous: T = Number(NotNegative), "N m s/rad or N s/m", ZERO;
             /// Rate below which friction falls to zero with the rate.
             regularisation: T = Number(Positive), "rad/s or m/s", Number("1e-3");
+            /// Factor of `coulomb` and `static`: of a brake, or a clutch. Below zero it counts as zero.
+            factor as "value": Signal<T> = Signal(Scalar), "-", Number("1");
         }
     }
 
     impl<T: Real> EffectModel<T> for Friction<T> {
-        const LAW: &'static str = "g(q̇) q̇/√(q̇² + e²) + v q̇, g = C + (S - C)/(1 + (q̇/s)²)";
+        const LAW: &'static str = "g(q̇) q̇/√(q̇² + e²) + v q̇, g = `value` (C + (S - C)/(1 + (q̇/s)²))";
         const ABSENT: Option<[&'static str; 2]> = Some(["friction", "no friction in joints"]);
 
         fn check(&self, _: Surroundings<'_, T>, place: Place) -> Result<(), SceneError> {
@@ -141,9 +186,22 @@ mod data {
             place.fault("static", SceneFault::StaticBelowCoulomb(levels))
         }
         fn actions(&self, to: &mut Compiler<'_, T>) {
-            let &Self { joint, coordinate, coulomb, r#static, regularisation, stribeck, viscous } =
-                self;
-            let law = FrictionLaw { coulomb, r#static, stribeck, viscous, regularisation };
+            let &Self {
+                joint,
+                coordinate,
+                coulomb,
+                r#static,
+                regularisation,
+                stribeck,
+                viscous,
+                ..
+            } = self;
+            let law =
+                FrictionLaw { coulomb, r#static, stribeck, viscous, regularisation, course: None };
+            let law = match &self.factor {
+                Signal::Constant([share, ..]) => law.scaled(share.max(T::ZERO)),
+                signal => FrictionLaw { course: Some(to.course(signal)), ..law },
+            };
             to.on_joint((joint, coordinate), law);
         }
         fn dissipates(&self) -> bool {
@@ -169,6 +227,7 @@ mod tests {
         stribeck: 0.1,
         viscous: 0.05,
         regularisation: 1e-3,
+        course: None,
     };
 
     #[test]

@@ -73,6 +73,9 @@ macro_rules! laws {
             /// The slope at an iterate, with the iterate `before`.
             #[inline]
             fn look_back(measure: &mut ScalarForce<T>, before: &ScalarForce<T>) -> ();
+            /// The slope by the rate for an iteration that does not look back; not below the tangent.
+            #[inline]
+            fn secant(measure: &ScalarForce<T>) -> T;
             /// May it stand in the way like a wall, with a force that begins somewhere?
             fn may_push() -> bool;
             /// How many gaps it has; none where it acts always.
@@ -128,6 +131,9 @@ macro_rules! laws {
             /// The slope of an action by the iterate `before`; the first one of a step has no rate.
             #[inline]
             fn look_back(action: usize, measure: &mut ScalarForce<T>, before: &ScalarForce<T>) -> ();
+            /// The slope of an action by its rate for an iteration that does not look back; not below the tangent.
+            #[inline]
+            fn secant(action: usize, measure: &ScalarForce<T>) -> T;
             /// Stored energy of an action [J].
             fn energy(action: usize, measure: &ScalarForce<T>) -> T;
             /// Power of an action that is not stored [W].

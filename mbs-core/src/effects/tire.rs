@@ -10,7 +10,8 @@ mod data {
     use super::TireLaw;
     use crate::algebra::unit;
     use crate::effects::data::*;
-    use crate::scene::CalspanCoefficients;
+    use crate::scene::check::is_parallel;
+    use crate::scene::{Axis, CalspanCoefficients, Joint, LongitudinalSlip};
 
     effect! {
         /// A wheel on the scene's road.
@@ -31,6 +32,10 @@ mod data {
             rolling_resistance: T = Number(NotNegative), "-", ZERO;
             /// Side force and aligning torque; without, only the radial force.
             side: Option<CalspanCoefficients<T>> = Side, "", Nothing;
+            /// The joint about which the wheel turns on the body that carries it; the tire then acts on the wheel.
+            spin: Option<JointId> = Spin, "", Nothing;
+            /// Force by slip along the wheel's plane, of the wheel that `spin` names, else of the body itself; without, it rolls freely.
+            longitudinal: Option<LongitudinalSlip<T>> = Slip, "", Nothing;
         }
     }
 
@@ -44,6 +49,7 @@ mod data {
         /// An axis where side force or rolling resistance asks for one; nothing across in the plane.
         fn check(&self, among: Surroundings<'_, T>, place: Place) -> Result<(), SceneError> {
             let side = self.side.as_ref();
+            self.check_spin(among, place)?;
             if among.dimension.count() == 2 {
                 if side.is_some() {
                     return place.fault("side", SceneFault::NeedsSpatial);
@@ -53,9 +59,12 @@ mod data {
                     None => Ok(()),
                 };
             }
-            match self.axis {
+            match self.wheel_axis(among) {
                 Some(axis) => place.axis("axis", axis)?,
-                None if side.is_some() || !self.rolling_resistance.is_zero() => {
+                None if side.is_some()
+                    || !self.rolling_resistance.is_zero()
+                    || self.longitudinal.is_some() =>
+                {
                     return place.fault("axis", SceneFault::Missing);
                 }
                 None => {}
@@ -64,18 +73,21 @@ mod data {
         }
         fn actions(&self, to: &mut Compiler<'_, T>) {
             let (roads, travel) = to.roads();
+            let axis = self.wheel_axis(to.among);
+            let body = self.wheel(to.among).map_or(self.body, |(_, wheel)| wheel);
             let law = TireLaw {
                 radius: self.radius,
                 radial: [self.stiffness, self.damping],
                 rolling: self.rolling_resistance,
                 side: self.side,
+                longitudinal: self.longitudinal,
                 road: roads[usize::from(self.center[1] < T::ZERO && !to.is_planar())],
                 travel,
                 up: to.among.dimension.count() - 1,
-                leans: self.axis.is_some() && !to.is_planar(),
+                leans: axis.is_some() && !to.is_planar(),
             };
-            let axis = self.axis.map_or_else(|| unit(2).into(), crate::actions::direction_of);
-            to.on_body((self.body, self.center), axis, law);
+            let axis = axis.map_or_else(|| unit(2).into(), crate::actions::direction_of);
+            to.on_body((body, self.center), axis, law);
         }
         fn stores_energy(&self) -> bool {
             !self.stiffness.is_zero()
@@ -91,8 +103,57 @@ mod data {
             if self.rolling_resistance > T::ZERO {
                 leave("rolling resistance");
             }
+            if self.longitudinal.take().is_some() {
+                leave("force by slip");
+            }
             self.rolling_resistance = T::ZERO;
             true
+        }
+    }
+
+    impl<T: Real> Tire<T> {
+        /// The joint about which the wheel turns, and the body that turns there: not the one that carries it, unless that is fixed.
+        fn wheel<'a>(&self, among: Surroundings<'a, T>) -> Option<(&'a Joint<T>, BodyId)> {
+            let joint = among.joints.get(self.spin?.index())?;
+            let other = match joint.bodies {
+                [carrier, wheel] if carrier == self.body => wheel,
+                [wheel, carrier] if carrier == self.body => wheel,
+                _ => return None,
+            };
+            Some((joint, if other == BodyId::Ground { self.body } else { other }))
+        }
+
+        /// The wheel's axis, where it is left out that of its joint.
+        fn wheel_axis(&self, among: Surroundings<'_, T>) -> Option<[T; 3]> {
+            if self.axis.is_some() || among.dimension.count() == 2 {
+                return self.axis;
+            }
+            self.wheel(among).map(|(joint, _)| joint.direction(Axis::First).into())
+        }
+
+        /// A joint of the carrier about the wheel's own axis, and slip that asks for it.
+        fn check_spin(&self, among: Surroundings<'_, T>, place: Place) -> Result<(), SceneError> {
+            if let Some(slip) = self.longitudinal {
+                place.positive("longitudinal", slip.stiffness)?;
+                place.positive("longitudinal", slip.friction)?;
+            }
+            if self.spin.is_none() {
+                return Ok(());
+            }
+            if self.longitudinal.is_none() {
+                return place.fault("spin", SceneFault::NotUsed);
+            }
+            let Some((joint, _)) = self.wheel(among) else {
+                return place.fault("spin", SceneFault::SpinElsewhere);
+            };
+            let is_about_another = |axis: [T; 3]| {
+                among.dimension.count() == 3
+                    && !is_parallel(axis, joint.direction(Axis::First).into())
+            };
+            match self.axis {
+                Some(axis) if is_about_another(axis) => place.fault("spin", SceneFault::SpinAxis),
+                _ => Ok(()),
+            }
         }
     }
 

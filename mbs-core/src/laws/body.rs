@@ -48,8 +48,8 @@ pub(crate) fn put<T>(out: &mut [UnitWrench<T>], place: usize, action: UnitWrench
     }
 }
 
-/// Most unit wrenches of a law on a body [-]: a tire has four.
-pub const MAX_ACTIONS: usize = 4;
+/// Most unit wrenches of a law on a body [-]: a tire has five.
+pub const MAX_ACTIONS: usize = 5;
 
 /// A law on one body. [`BodyLaw`] is one of all that there are.
 pub trait WrenchesLaw<T: Real>: Entry<T> + Copy {
@@ -77,6 +77,12 @@ pub trait WrenchesLaw<T: Real>: Entry<T> + Copy {
     /// The slope of an action by the iterate `before`; the first one of a step has no rate.
     #[inline]
     fn look_back(&self, _action: usize, _measure: &mut ScalarForce<T>, _before: &ScalarForce<T>) {}
+
+    /// The slope of an action by its rate for an iteration that does not look back; not below the tangent.
+    #[inline]
+    fn secant(&self, _action: usize, measure: &ScalarForce<T>) -> T {
+        measure.damping
+    }
 
     /// Stored energy of an action [J].
     fn energy(&self, _action: usize, _measure: &ScalarForce<T>) -> T {

@@ -68,6 +68,11 @@ pub struct Side<T> {
     pub stiffness: T,
 }
 
+/// -dFy/da of a wheel that rolls straight and upright at load `f` [N/rad]; not negative.
+pub fn cornering_stiffness<T: Real>(c: &Coefficients<T>, f: T) -> T {
+    side(c, f, T::ZERO, T::ZERO).stiffness
+}
+
 /// Side force and aligning torque at load `f` [N], slip angle and camber [rad]. No load, no force.
 pub fn side<T: Real>(c: &Coefficients<T>, f: T, slip: T, camber: T) -> Side<T> {
     if !(f > T::ZERO) {

@@ -20,6 +20,7 @@ pub mod polynomial;
 pub mod road;
 pub mod road_contact;
 pub mod scalar;
+pub mod slip;
 pub mod tire;
 pub mod user;
 

@@ -59,6 +59,12 @@ pub trait TensionLaw<T: Real>: Entry<T> + Copy {
     #[inline]
     fn look_back(&self, _measure: &mut ScalarForce<T>, _before: &ScalarForce<T>) {}
 
+    /// The slope by the rate for an iteration that does not look back; not below the tangent.
+    #[inline]
+    fn secant(&self, measure: &ScalarForce<T>) -> T {
+        measure.damping
+    }
+
     /// May it stand in the way like a wall, with a force that begins somewhere?
     fn may_push(&self) -> bool {
         false

@@ -8,6 +8,7 @@
 //! load         F / cos g, along n
 //! side         a = atan(v_y / v_e),  v_e = sqrt(v_x^2 + v_s^2),   Fy, Mz = Calspan(load, a, g), Mz v_x / v_e
 //! rolling      Fx = -r load v_x / v_e
+//! driven       slip (v_x - w R) / v_e, at R below the centre: see [`slip`](super::slip)
 //! ```
 //!
 //! The radial force is the one that does work on x: a force n F / cos g at the contact point and, where the road bends along its
@@ -18,9 +19,10 @@
 //! v_x is the centre's speed along the wheel's plane and the road, v_y that of the contact point, fixed in the carrier, across
 //! the plane. Where the carrier rolls, its tire slides sideways on the ground, and the side force does that work.
 //! The regularisation v_s = 0.1 m/s makes all forces continuous through standstill, where the side force is a damper; at 5 m/s
-//! it changes the slip angle by 2e-4 of itself. The wheel rolls freely, without slip along its plane. The angular momentum of
+//! it changes the slip angle by 2e-4 of itself. Without slip along its plane the wheel rolls freely. The angular momentum of
 //! its spin is that of a body of its own on the carrier, where a scene has one. The side force acts at the contact point,
-//! rolling resistance at the hub.
+//! rolling resistance at the hub. With slip the law acts on the body that spins; its force has the arm R, so that a wheel without
+//! slip turns by v_x / R, and what it takes is the slip's alone.
 //!
 //! Range: camber counts up to 84 degrees, where cos g is held at 0.1; a wheel whose centre is below the road is pushed out along
 //! n. Both keep the deflection continuous. Source: the open Iltis model of UCLouvain has the same contact point. It leaves the
@@ -37,6 +39,7 @@ use super::operations::{Operations, count};
 use super::road::Feature;
 use super::road_contact::{CELLS, RoadContact, most_heights, road_contact};
 use super::scalar::ScalarForce;
+use super::slip::{self, LongitudinalSlip};
 use super::{LawInputs, Part};
 use crate::Real;
 use crate::algebra::{Vector, cross, norm};
@@ -55,6 +58,8 @@ pub struct TireLaw<T> {
     pub rolling: T,
     /// Side force; `None`: none.
     pub side: Option<Coefficients<T>>,
+    /// Force by slip along its plane, of a wheel that spins; `None`: it rolls freely.
+    pub longitudinal: Option<LongitudinalSlip<T>>,
     /// The road's features.
     pub road: Part,
     /// The course whose vector is (way, speed, -) of a road that comes towards the wheel along -x.
@@ -115,18 +120,26 @@ const ROLLING: usize = 1;
 const SIDE: usize = 2;
 /// Place of the aligning torque.
 const ALIGNING: usize = 3;
+/// Place of the force by slip.
+const SLIP: usize = 4;
 
 /// Sliding has at least the slope of the secant where an iteration went across rest. The tangents alone vanish where sliding is fast: the
 /// iteration would oscillate.
 #[inline]
 fn look_back<T: Real>(action: usize, measure: &mut ScalarForce<T>, before: &ScalarForce<T>) {
+    if action == SLIP {
+        let foreseen = before.tension + before.damping * (measure.rate - before.rate);
+        let found = slip::slope((measure.tension, measure.rate), measure.value, foreseen);
+        measure.damping = found.unwrap_or(measure.damping);
+        return;
+    }
     if (action == ROLLING || action == SIDE) && measure.rate * before.rate < T::ZERO {
         let secant = (measure.tension - before.tension) / (measure.rate - before.rate);
         measure.damping = measure.damping.max(secant);
     }
 }
 
-entry!(TireLaw<T> { radius, radial, rolling, side, road, travel, up, leans });
+entry!(TireLaw<T> { radius, radial, rolling, side, longitudinal, road, travel, up, leans });
 
 impl<T: Real> TireLaw<T> {
     /// How far it is pressed in, and where it is over its road. Cost: that of the nearest point, and no force.
@@ -224,14 +237,32 @@ impl<T: Real> TireLaw<T> {
             forward,
         );
         put(out, ROLLING, rolling);
-        let Some(coefficients) = &self.side else { return };
         // -e: down in the wheel's plane.
         let down = (axis * lean - normal) * (T::ONE / width);
         let arm = down * stance.reach;
         let spin = Vector::<T, 3>::from(motion.spin);
         let sideways = across.dot(&(velocity + cross(&spin, &arm)));
+        let mut side_share = T::ONE;
+        if let Some(slip) = &self.longitudinal {
+            let stiffness =
+                self.side.as_ref().map_or(T::ZERO, |c| calspan::cornering_stiffness(c, load));
+            let arm = down * self.radius;
+            let slipping = along.dot(&(velocity + cross(&spin, &arm)));
+            let force = slip.force(load, slipping / effective, stiffness * sideways / effective);
+            side_share = force.side_share;
+            let mut along = line(along, arm, force.resistance, force.slope / effective, slipping);
+            // where the iterations look back for the slope
+            along.measure.value = force.scale * effective;
+            put(out, SLIP, along);
+        }
+        let Some(coefficients) = &self.side else { return };
         let slip = sideways.atan2(effective);
-        let side = calspan::side(coefficients, load, slip, lean.atan2(width));
+        let mut side = calspan::side(coefficients, load, slip, lean.atan2(width));
+        if self.longitudinal.is_some() {
+            side.force *= side_share;
+            side.torque *= side_share;
+            side.stiffness *= side_share;
+        }
         let by_speed = effective / (effective * effective + sideways * sideways);
         let sideways_force = line(across, arm, -side.force, side.stiffness * by_speed, sideways);
         put(out, SIDE, sideways_force);
@@ -263,9 +294,11 @@ impl<T: Real> TireLaw<T> {
 }
 
 impl<T: Real> WrenchesLaw<T> for TireLaw<T> {
-    /// Radial force; rolling resistance; side force and aligning torque.
+    /// Radial force; rolling resistance; side force and aligning torque; force by slip.
     fn n_actions(&self) -> usize {
-        if self.side.is_some() {
+        if self.longitudinal.is_some() {
+            5
+        } else if self.side.is_some() {
             4
         } else if self.rolling > T::ZERO {
             2
@@ -310,7 +343,16 @@ impl<T: Real> WrenchesLaw<T> for TireLaw<T> {
         let radial = bumper::OPERATIONS + Operations::new(4, 2);
         let rolling = Operations::new(71, 37).and(6, 3, 2);
         let side = Operations::new(33, 11).and(5, 0, 0);
-        stance + radial + rolling + side + nearest(self.road.of(law_inputs.features()))
+        let mut all =
+            stance + radial + rolling + side + nearest(self.road.of(law_inputs.features()));
+        if self.longitudinal.is_some() {
+            // the unit wrench, the force by slip, the cornering stiffness and what is left of the side force
+            all += Operations::new(30, 18)
+                + Operations::new(28, 11).and(9, 1, 0)
+                + Operations::new(24, 9).and(4, 0, 0)
+                + Operations::new(4, 0).and(1, 0, 0);
+        }
+        all
     }
 
     fn needs_rotation(&self) -> bool {
@@ -322,6 +364,15 @@ impl<T: Real> WrenchesLaw<T> for TireLaw<T> {
         if before.rate != T::ZERO {
             look_back(action, measure, before);
         }
+    }
+
+    /// Of the force by slip that to its zero: the tangent vanishes where all slides, and an iteration would go to and fro.
+    #[inline]
+    fn secant(&self, action: usize, measure: &ScalarForce<T>) -> T {
+        if action == SLIP && measure.rate != T::ZERO {
+            return (measure.tension / measure.rate).max(measure.damping);
+        }
+        measure.damping
     }
 
     /// Stored energy of an action [J].

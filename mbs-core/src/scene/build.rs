@@ -317,6 +317,7 @@ impl Effect<Number> {
             stribeck: regularisation.clone() * Number::from(STRIBECK_RATIO),
             viscous: Number::ZERO,
             regularisation,
+            factor: Signal::constant(1.0),
         })
     }
 
@@ -360,6 +361,8 @@ impl Effect<Number> {
             damping: damping.into(),
             rolling_resistance: Number::ZERO,
             side: None,
+            spin: None,
+            longitudinal: None,
         })
     }
 }
@@ -403,6 +406,12 @@ macro_rules! named {
 named!(Body, Coupling, Joint, NamedSignal, Effect, Output);
 
 impl Signal<Number> {
+    /// The same number at all times.
+    #[must_use]
+    pub fn constant(value: impl Into<Number>) -> Self {
+        Self::Constant([value.into(), Number::ZERO, Number::ZERO])
+    }
+
     /// A number that is set between steps; this at the start.
     #[must_use]
     pub fn input(start: impl Into<Number>) -> Self {

@@ -21,7 +21,7 @@ use crate::Real;
 use crate::scene::{Entry, Scene, SceneError, SceneFault};
 use alloc::vec::Vec;
 pub(crate) use reference::{check_coordinate, check_pair, known_body};
-pub(crate) use vector::Place;
+pub(crate) use vector::{Place, is_parallel};
 
 impl<T: Real> Scene<T> {
     /// Refuses a scene that cannot be meant: the first fault found, with its entry and key.

@@ -75,6 +75,7 @@ impl<T> PolynomialPiece<T> {
 }
 
 pub use crate::laws::calspan::Coefficients as CalspanCoefficients;
+pub use crate::laws::slip::LongitudinalSlip;
 
 /// The road under the tires: heights over the x axis, the same across it.
 #[derive(Debug, Clone, PartialEq, Default)]

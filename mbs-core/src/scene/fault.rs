@@ -131,6 +131,10 @@ pub enum SceneFault {
     PieceRange(usize),
     /// A piece of a polynomial (from 0) does not begin where the one before ends.
     PieceGap(usize),
+    /// A wheel's joint does not join its body to another.
+    SpinElsewhere,
+    /// A wheel's joint turns about another axis than the wheel's.
+    SpinAxis,
     /// Coefficients of a tire that its formulas divide by.
     CalspanRange,
     /// Points of a road do not go forward; the point (from 0) that is not beyond the one before.
@@ -226,6 +230,8 @@ impl SceneFault {
             Self::LongRounding { .. } => "make it at most half the length",
             Self::TightHollow { .. } => "round the hollow: more length or rounding, or less height",
             Self::Missing => "add it",
+            Self::SpinElsewhere => "name the joint by which the wheel turns on `body`",
+            Self::SpinAxis => "leave `axis` out: the wheel then has that of the joint",
             Self::NotUsed => "remove it",
         }
     }
@@ -347,6 +353,8 @@ impl SceneFault {
                 "makes a hollow of radius {hollow:.4} m, too tight for a wheel of radius {wheel} m"
             ),
             Self::Missing => write!(f, "is missing"),
+            Self::SpinElsewhere => write!(f, "does not join the tire's body to a wheel"),
+            Self::SpinAxis => write!(f, "turns about another axis than the tire's"),
             Self::NotUsed => write!(f, "has no meaning here"),
         }
     }

@@ -60,7 +60,8 @@ pub use data::{Body, Guide, Inertia, InitialCondition, InitialTarget, Joint, Mot
 pub use dimension::Dimension;
 #[cfg(feature = "alloc")]
 pub use effect::{
-    AxisFrame, CalspanCoefficients, PolynomialPiece, Road, RoadFeature, Signal, UserLaw,
+    AxisFrame, CalspanCoefficients, LongitudinalSlip, PolynomialPiece, Road, RoadFeature, Signal,
+    UserLaw,
 };
 #[cfg(feature = "alloc")]
 pub use error::{Entry, SceneError};

@@ -112,6 +112,8 @@ fn key(field: &Field) -> Option<String> {
             format!("`{key}`, `\"none\"` or `\"calspan\"`; `coefficients`, those of the Iltis")
         }
         Form::MaybeAxis => format!("`{key}`, none"),
+        Form::Spin => format!("`{key}`, the joint about which the wheel turns"),
+        Form::Slip => format!("`{key} = {{ stiffness, friction }}`, none"),
         _ => format!("`{key}`"),
     };
     let mut text = named;

@@ -82,7 +82,8 @@ impl<T: Real, S: Space<T>> BodyLoad<T, S> {
         let actions = part_mut(&mut actions, 0, self.law.n_actions())?;
         self.evaluate(at, actions)?;
         let arm = at.arm(self.link, &self.point)?;
-        for UnitWrench { force, moment, measure } in actions.iter() {
+        for (k, UnitWrench { force, moment, measure }) in actions.iter_mut().enumerate() {
+            measure.damping = self.law.secant(k, measure);
             let moment = S::spin_from(&Vector::from(*moment));
             let w = S::wrench(&arm, &S::point_from(&Vector::from(*force)))
                 + S::motion(moment, S::Point::zero());

@@ -11,7 +11,7 @@
 //!
 //! The first two are the linear part exactly. In the third the other link's acceleration counts as known, so that an iteration is
 //! left. It contracts, for M + 2 κ diag(w wᵀ) − κ (w₁ − w₂)(w₁ − w₂)ᵀ is positive definite.
-//! Accelerations that no longer change do not depend on κ: only the iterates do.
+//! Accelerations that no longer change do not depend on κ: only the iterates do. Friction and slip have the slope of their secants in it.
 
 use super::{Instant, Load, Reach};
 use crate::indexing::{Outside, at, at_mut};
@@ -33,7 +33,8 @@ impl<T: Real, S: Space<T>> Load<T, S> {
     ) -> Result<(), Outside> {
         match self {
             Self::Between { links, gauge, law } => {
-                let (measure, gradient) = gauge.evaluate(here, *links, law)?;
+                let (mut measure, gradient) = gauge.evaluate(here, *links, law)?;
+                measure.damping = law.secant(&measure);
                 let Some((end, gradient_end)) = outer(here, *links, &gradient)? else {
                     for (&link, w) in links.iter().zip(gradient).filter(|(link, _)| **link > 0) {
                         let link = link as usize;
@@ -50,7 +51,8 @@ impl<T: Real, S: Space<T>> Load<T, S> {
             }
             Self::Angle { link, law } => {
                 let [value, rate] = here.coordinate(*link)?;
-                let measure = law.evaluate(value, rate, &here.law_inputs);
+                let mut measure = law.evaluate(value, rate, &here.law_inputs);
+                measure.damping = law.secant(&measure);
                 at_mut(condensed, *link as usize)?.effort -= measure.tension;
                 resist_joint(here, *link, (reach.weight(&measure), zdd), condensed)
             }

@@ -5,7 +5,7 @@ mod value;
 use crate::read::ReadFault;
 use crate::read::fields::{Fields, Read};
 use mbs_core::effects::{Default, EFFECTS, Field, Form, Row, Value};
-use mbs_core::scene::{AxisFrame, Effect, EffectKind, Joint, Number};
+use mbs_core::scene::{AxisFrame, Effect, EffectKind, Joint, Number, Signal};
 
 const COMMON: [&str; 3] = ["name", "kind", "enabled"];
 
@@ -90,6 +90,13 @@ fn default(
         (Form::Six, Default::Number(text)) => {
             return Ok(Value::Six(core::array::from_fn(|_| decimal(text))));
         }
+        (Form::Signal(_), Default::Number(text)) => {
+            return Ok(Value::Signal(Signal::Constant([
+                decimal(text),
+                Number::ZERO,
+                Number::ZERO,
+            ])));
+        }
         (_, Default::Number(text)) => return Ok(Value::Number(decimal(text))),
         (_, Default::As(key)) => return other(key).map(Value::Number),
         (_, Default::Times(text, key)) => {
@@ -102,6 +109,8 @@ fn default(
         (Form::MaybeAxis, Default::Nothing) => return Ok(Value::MaybeAxis(None)),
         (Form::Frame, Default::Nothing) => return Ok(Value::Frame(AxisFrame::Global)),
         (Form::Side, Default::Nothing) => return Ok(Value::Side(None)),
+        (Form::Spin, Default::Nothing) => return Ok(Value::Spin(None)),
+        (Form::Slip, Default::Nothing) => return Ok(Value::Slip(None)),
         _ => {}
     }
     let key = match field.form {

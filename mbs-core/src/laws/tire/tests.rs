@@ -24,6 +24,7 @@ fn wheel(leans: bool) -> TireLaw<f64> {
         radial: [4.6e5, 800.0],
         rolling: 0.01,
         side: leans.then(Coefficients::iltis),
+        longitudinal: None,
         road: Part { first: 0, n: 2 },
         travel: None,
         up: 2,
@@ -278,6 +279,62 @@ fn nothing_pulls_a_wheel_down_and_one_off_the_road_is_free() {
                     }
                 }
             }
+        }
+    }
+}
+
+/// The wheel with force by slip.
+fn driven() -> TireLaw<f64> {
+    TireLaw {
+        longitudinal: Some(LongitudinalSlip { stiffness: 6e4, friction: 0.8 }),
+        ..wheel(true)
+    }
+}
+
+/// The motion with another rate about the wheel's axis [rad/s].
+fn spinning(motion: &BodyMotion<f64>, rate: f64) -> BodyMotion<f64> {
+    let axis = V::from(motion.axis);
+    let spin = V::from(motion.spin);
+    BodyMotion { spin: (spin + axis * (rate - spin.dot(&axis))).into(), ..*motion }
+}
+
+/// The rate at which a wheel has no slip [rad/s].
+fn free_rate(motion: &BodyMotion<f64>) -> f64 {
+    let slipping = |rate: f64| actions(&driven(), &spinning(motion, rate))[SLIP].measure.rate;
+    slipping(0.0) / (slipping(0.0) - slipping(1.0))
+}
+
+#[test]
+fn a_wheel_without_slip_has_the_forces_of_one_that_rolls_freely() {
+    for x in PLACES {
+        for angles in ANGLES {
+            let motion = motion(x, 0.01, angles);
+            let motion = spinning(&motion, free_rate(&motion));
+            let (slips, rolls) = (wrench(&driven(), &motion), wrench(&wheel(true), &motion));
+            for (slips, rolls) in slips.iter().zip(rolls) {
+                assert!(norm(&(slips - rolls)) < 1e-6, "x {x}, {angles:?}: {slips} {rolls}");
+            }
+        }
+    }
+}
+
+#[test]
+fn slip_drives_with_the_arm_of_the_radius_and_its_slope_is_that_of_differences() {
+    let tire = driven();
+    for angles in ANGLES {
+        let motion = motion(0.3, 0.01, angles);
+        let free = free_rate(&motion);
+        for faster in [-30.0, -3.0, -0.1, 0.0, 0.2, 2.0, 40.0] {
+            let at = |rate: f64| actions(&tire, &spinning(&motion, free + rate))[SLIP];
+            let (slip, h) = (at(faster), 1e-6);
+            let measure = slip.measure;
+            let case = format!("{angles:?}, {faster} rad/s");
+            assert!(measure.tension * measure.rate >= 0.0, "{case}: slip takes energy");
+            let arm = V::from(slip.moment).dot(&V::from(motion.axis));
+            assert!((arm.abs() - tire.radius).abs() < 1e-12, "{case}: {arm}");
+            let [before, after] = [-h, h].map(|h| at(faster + h).measure);
+            let slope = (after.tension - before.tension) / (after.rate - before.rate);
+            assert!((slope - measure.damping).abs() < 1e-4 * (1.0 + slope.abs()), "{case}");
         }
     }
 }

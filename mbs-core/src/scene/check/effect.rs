@@ -4,7 +4,7 @@ use super::course;
 use super::reference::{check_coordinate, check_pair, known_body};
 use super::vector::{Place, is_planar};
 use crate::Real;
-use crate::effects::{Form, Sign, Value};
+use crate::effects::{Form, JointNeed, Sign, Value};
 use crate::scene::{EffectKind, Scene, SceneError, SceneFault};
 
 pub(super) fn check<T: Real>(
@@ -46,7 +46,13 @@ pub(super) fn check<T: Real>(
             // checked with the joint
             Value::Coordinate(_) => {}
             // left to the kind
-            Value::MaybeAxis(_) | Value::Pieces(_) | Value::Side(_) => {}
+            Value::MaybeAxis(_) | Value::Pieces(_) | Value::Side(_) | Value::Slip(_) => {}
+            Value::Spin(joint) => {
+                let Some(joint) = joint else { continue };
+                let need = (JointNeed::Rotation, None);
+                check_coordinate(among, joint, need, place)
+                    .map_err(|error| SceneError { field: key, ..error })?;
+            }
             Value::Frame(_) | Value::Name(_) | Value::ForceLaw(_) | Value::BodyLaw(_) => {}
         }
     }

@@ -72,7 +72,7 @@ pub(super) fn largest<T: Real>(v: [T; 3]) -> T {
 const PARALLEL_ROUNDINGS: f64 = 64.0;
 
 /// Two directions agree or oppose, to rounding: |a × b| beside |a| |b| in largest components.
-pub(super) fn is_parallel<T: Real>(a: [T; 3], b: [T; 3]) -> bool {
+pub(crate) fn is_parallel<T: Real>(a: [T; 3], b: [T; 3]) -> bool {
     let (a, b) = (scaled(a), scaled(b));
     let cross = [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
     largest(cross) <= T::from_f64(PARALLEL_ROUNDINGS) * T::EPSILON

@@ -5,7 +5,9 @@ use crate::read::fields::{Fields, Read};
 use crate::read::signal::components;
 use crate::read::tree::{Item, Node};
 use mbs_core::effects::{Field, Form, SignalForm, Value};
-use mbs_core::scene::{AxisFrame, CalspanCoefficients, Joint, Number, PolynomialPiece, Signal};
+use mbs_core::scene::{
+    AxisFrame, CalspanCoefficients, Joint, LongitudinalSlip, Number, PolynomialPiece, Signal,
+};
 
 /// The value of a field of an effect of the kind `name`; `None` where its key is left out.
 pub(super) fn read(
@@ -34,6 +36,8 @@ pub(super) fn read(
         Form::Points(_) => Value::Points(fields.two_vectors(key)?),
         Form::Axis => Value::Axis(context.vector(item)?),
         Form::MaybeAxis => Value::MaybeAxis(Some(context.vector(item)?)),
+        Form::Spin => Value::Spin(Some(context.joint(item)?)),
+        Form::Slip => Value::Slip(Some(slip(fields, item)?)),
         Form::Number(_) => Value::Number(context.number(item)?),
         Form::Six => Value::Six(six(fields, item)?),
         Form::Pieces => {
@@ -115,6 +119,14 @@ fn six(fields: &Fields<'_>, item: &Item) -> Read<[Number; 6]> {
         return Ok([x, y, ZERO, ZERO, ZERO, about]);
     }
     context.numbers_of(item, "a list of six numbers: along x, y, z, then about x, y, z")
+}
+
+/// `{ stiffness = .., friction = .. }`.
+fn slip(fields: &Fields<'_>, item: &Item) -> Read<LongitudinalSlip<Number>> {
+    let table = fields.context.table(item, "a table: { stiffness = .., friction = .. }")?;
+    table.allow(&["stiffness", "friction"], &[])?;
+    let [stiffness, friction] = ["stiffness", "friction"].map(|key| table.number(key));
+    Ok(LongitudinalSlip { stiffness: stiffness?, friction: friction? })
 }
 
 /// `side = "calspan"` with `coefficients`, where they are left out those of the Iltis.

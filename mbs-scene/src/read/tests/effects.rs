@@ -163,6 +163,7 @@ fn effects_of_joints_have_their_defaults() {
             stribeck,
             viscous,
             regularisation,
+            factor: Signal::Constant([1.0, 0.0, 0.0]),
         })
     };
     assert_eq!(kinds[1], friction([2.0, 2.0, 0.01, 0.0, 1e-3]));
@@ -192,6 +193,8 @@ fn effects_in_the_plane_have_three_directions_and_no_axis() {
         damping: 0.0,
         rolling_resistance: 0.01,
         side: None,
+        spin: None,
+        longitudinal: None,
     });
     assert_eq!(kinds[5], tire);
 }
@@ -292,6 +295,82 @@ fn wrong_keys_of_effects_are_refused_with_the_right_ones() {
     refused(&e, "56:1", "`side = \"calspan\"` is missing", "add");
     let e = spoil(CART, "table = [[0, 0], [1, 50]]", "table = [[0, 0], [1, 50]]\nvalue = 1");
     refused(&e, "38:9", "both `value` and `table` are given", "keep one");
+}
+
+/// A car with a wheel on a hub, and the tire under it.
+const DRIVEN: &str = r#"[scene]
+dimension = 3
+duration = 1
+[[body]]
+name = "car"
+mass = 1000
+center = [0, 0, 0.6]
+inertia = [130, 1620, 1670, 0, 0, 0]
+[[body]]
+name = "wheel"
+mass = 20
+center = [0, 0, 0.3]
+inertia = [0.6, 1, 0.6, 0, 0, 0]
+[[joint]]
+name = "ride"
+kind = "prismatic"
+bodies = ["ground", "car"]
+at = [0, 0, 0.6]
+axis = [1, 0, 0]
+[[joint]]
+name = "hub"
+kind = "revolute"
+bodies = ["wheel", "car"]
+at = [0, 0, 0.3]
+axis = [0, 1, 0]
+[[effect]]
+kind = "tire"
+body = "car"
+center = [0, 0, 0.3]
+radius = 0.32
+stiffness = 2e5
+spin = "hub"
+longitudinal = { stiffness = 6e4, friction = 0.8 }
+[[effect]]
+kind = "friction"
+joint = "hub"
+coulomb = 900
+signal = "pedal"
+[[signal]]
+name = "pedal"
+kind = "constant"
+value = 0.5
+"#;
+
+#[test]
+fn a_driven_tire_has_its_joint_and_its_slip_and_a_brake_its_signal() {
+    let kinds = kinds(DRIVEN);
+    let EffectKind::Tire(Tire { axis, spin, longitudinal, .. }) = &kinds[0] else { panic!() };
+    let slip = LongitudinalSlip { stiffness: 6e4, friction: 0.8 };
+    assert_eq!((*axis, *spin, *longitudinal), (None, Some(JointId::new(1)), Some(slip)));
+    let EffectKind::Friction(Friction { factor, .. }) = &kinds[1] else { panic!() };
+    assert_eq!(*factor, Signal::from(SignalId::new(0)));
+}
+
+#[test]
+fn a_wheel_that_cannot_spin_as_the_scene_says_is_refused_at_its_place() {
+    let e = spoil(DRIVEN, "friction = 0.8", "frictoin = 0.8");
+    refused(&e, "33:35", "unknown key `frictoin`", "did you mean `friction`?");
+    let e = spoil(DRIVEN, "friction = 0.8 }", "friction = 0 }");
+    refused(&e, "33:16", "`longitudinal` must be larger than zero, but is 0", "larger than zero");
+    let e = spoil(DRIVEN, "longitudinal = {", "axis = [0, 0, 1]\nlongitudinal = {");
+    refused(&e, "32:8", "`spin` turns about another axis than the tire's", "leave `axis` out");
+    let e = spoil(DRIVEN, "spin = \"hub\"", "spin = \"ride\"");
+    let words = "`spin` is a joint with 0 rotations; exactly one is needed";
+    refused(&e, "32:8", words, "use a revolute");
+    let e = spoil(DRIVEN, "spin = \"hub\"", "spin = \"hup\"");
+    refused(&e, "32:8", "unknown joint `hup`", "did you mean `hub`?");
+    let e = spoil(DRIVEN, "longitudinal = { stiffness = 6e4, friction = 0.8 }\n", "");
+    refused(&e, "32:8", "`spin` has no meaning here", "remove it");
+    let e = spoil(DRIVEN, "bodies = [\"wheel\", \"car\"]", "bodies = [\"wheel\", \"ground\"]");
+    refused(&e, "32:8", "`spin` does not join the tire's body to a wheel", "turns on `body`");
+    let e = spoil(DRIVEN, "spin = \"hub\"\n", "");
+    refused(&e, "26:1", "`axis` is missing", "add");
 }
 
 /// A body on a cylindrical joint.

@@ -1,8 +1,10 @@
 //! `[[effect]]`: any kind with its keys, by the table of mbs-core.
 
 use super::{Keys, Node, WriteError, Writer, list};
-use mbs_core::effects::{Field, Form, Value};
-use mbs_core::scene::{AxisFrame, CalspanCoefficients, Effect, Number, PolynomialPiece, Signal};
+use mbs_core::effects::{Default, Field, Form, Value};
+use mbs_core::scene::{
+    AxisFrame, CalspanCoefficients, Effect, LongitudinalSlip, Number, PolynomialPiece, Signal,
+};
 
 impl Writer<'_> {
     pub(super) fn effect(self, effect: &Effect<Number>) -> Result<Keys, WriteError> {
@@ -52,6 +54,7 @@ impl Writer<'_> {
                 };
                 keys.push(key, list(pieces.iter().map(piece)));
             }
+            Value::Signal(signal) if is_default(field, signal) => {}
             Value::Signal(signal) => {
                 let is_scalar = match field.form {
                     Form::Signal(form) => form.n_components(self.scene.dimension) == 1,
@@ -67,6 +70,11 @@ impl Writer<'_> {
                 let given = side.as_ref().filter(|side| **side != CalspanCoefficients::of_iltis());
                 keys.push_some("coefficients", given.map(coefficients));
             }
+            Value::Spin(joint) => {
+                let name = joint.map(|joint| self.joint_name(joint)).transpose()?;
+                keys.push_some(key, name);
+            }
+            Value::Slip(slip) => keys.push_some(key, slip.as_ref().map(slip_keys)),
             // the kind's name says it
             _ => {}
         }
@@ -105,6 +113,19 @@ impl Writer<'_> {
         }
         Ok(())
     }
+}
+
+/// Is it the constant that holds where none of its keys stands?
+fn is_default(field: &Field, signal: &Signal<Number>) -> bool {
+    let Default::Number(text) = field.default else { return false };
+    matches!(signal, Signal::Constant([x, ..]) if Number::from_decimal(text).as_ref() == Some(x))
+}
+
+fn slip_keys(slip: &LongitudinalSlip<Number>) -> Keys {
+    let mut keys = Keys::default();
+    keys.push("stiffness", &slip.stiffness);
+    keys.push("friction", &slip.friction);
+    keys
 }
 
 fn coefficients(side: &CalspanCoefficients<Number>) -> Keys {

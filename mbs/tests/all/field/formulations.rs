@@ -3,7 +3,9 @@
 use super::{field, tilted};
 use crate::common::random::tree;
 use crate::common::{Bench, run_in};
-use mbs::core::scene::{BodyId, Dimension, Effect, EffectKind, Friction, Inertia, JointId, Scene};
+use mbs::core::scene::{
+    BodyId, Dimension, Effect, EffectKind, Friction, Inertia, JointId, Scene, Signal,
+};
 use mbs::core::step::StepError;
 use mbs::{Method, ResolvedMethod, StopError};
 
@@ -135,6 +137,7 @@ fn several_frictions_are_followed_in_natural_coordinates() {
                 stribeck: 1e-2,
                 viscous: 0.0,
                 regularisation: 1e-3,
+                factor: Signal::Constant([1.0, 0.0, 0.0]),
             });
             scene.effects.push(Effect { name: format!("f{joint}"), enabled: true, kind });
         }

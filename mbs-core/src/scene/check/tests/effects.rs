@@ -45,6 +45,8 @@ fn tire(radius: f64, axis: Option<[f64; 3]>, rolling_resistance: f64) -> EffectK
         damping: 0.0,
         rolling_resistance,
         side: None,
+        spin: None,
+        longitudinal: None,
     })
 }
 
@@ -115,6 +117,7 @@ fn limits_and_friction_need_one_coordinate_and_ordered_levels() {
             stribeck,
             viscous,
             regularisation,
+            factor: Signal::Constant([1.0, 0.0, 0.0]),
         })
     };
     let low = SceneFault::StaticBelowCoulomb([2.0, 3.0]);
@@ -186,6 +189,8 @@ fn a_tire_has_an_axis_where_it_needs_one() {
             damping,
             rolling_resistance,
             side,
+            spin: None,
+            longitudinal: None,
         })
     };
     let iltis = CalspanCoefficients::iltis();

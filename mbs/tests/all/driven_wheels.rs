@@ -1,0 +1,138 @@
+//! Wheels that drive and brake, against closed forms in every formulation.
+
+use crate::common::oracle::{Way, rows};
+use mbs_testkit::scene;
+
+/// Radius, height of the hub [m], radial stiffness [N/m]: pressed in by 20 mm, the wheel carries 4 kN.
+const TIRE: [f64; 3] = [0.32, 0.3, 2e5];
+const LOAD: f64 = 4000.0;
+/// Car and wheel [kg], the wheel's inertia [kg m^2].
+const MASSES: [f64; 3] = [380.0, 20.0, 1.1];
+
+/// A car on a rail along x, its wheel pressed on the road, in the plane or with y as the wheel's axis in space.
+fn car(dimension: usize, slip: &str, speed: f64, rate: f64, rest: &str) -> String {
+    let [radius, height, stiffness] = TIRE;
+    let [car, wheel, inertia] = MASSES;
+    let (hub, along, axis, inertias, spin) = if dimension == 2 {
+        (
+            format!("[0.0, {height}]"),
+            "[1.0, 0.0]",
+            String::new(),
+            ["1.0".into(), format!("{inertia:?}")],
+            "",
+        )
+    } else {
+        (
+            format!("[0.0, 0.0, {height}]"),
+            "[1.0, 0.0, 0.0]",
+            "axis = [0.0, 1.0, 0.0]\n".to_owned(),
+            [
+                "[1.0, 1.0, 1.0, 0.0, 0.0, 0.0]".into(),
+                format!("[0.7, {inertia:?}, 0.7, 0.0, 0.0, 0.0]"),
+            ],
+            "",
+        )
+    };
+    let [inertia_of_car, inertia_of_wheel] = &inertias;
+    format!(
+        "[scene]\nname = \"car\"\ndimension = {dimension}\nduration = 4.0\n\
+        [[body]]\nname = \"car\"\nmass = {car:?}\ncenter = {hub}\ninertia = {inertia_of_car}\n\
+        [[body]]\nname = \"wheel\"\nmass = {wheel:?}\ncenter = {hub}\ninertia = {inertia_of_wheel}\n\
+        [[joint]]\nname = \"rail\"\nkind = \"prismatic\"\nbodies = [\"ground\", \"car\"]\nat = {hub}\naxis = {along}\n\
+        [[joint]]\nname = \"hub\"\nkind = \"revolute\"\nbodies = [\"car\", \"wheel\"]\nat = {hub}\n{axis}\
+        [[effect]]\nkind = \"tire\"\nbody = \"car\"\ncenter = {hub}\nradius = {radius:?}\n\
+        stiffness = {stiffness:?}\nspin = \"hub\"\nlongitudinal = {slip}\n{spin}\
+        [[initial]]\njoint = \"rail\"\nrate = {speed:?}\n[[initial]]\njoint = \"hub\"\nrate = {rate:?}\n\
+        [[output]]\nname = \"x\"\njoint = \"rail\"\nquantity = \"value\"\n\
+        [[output]]\nname = \"v\"\njoint = \"rail\"\nquantity = \"rate\"\n\
+        [[output]]\nname = \"w\"\njoint = \"hub\"\nquantity = \"rate\"\n{rest}"
+    )
+}
+
+/// The last row by each formulation.
+fn ends(text: &str, step: f64, duration: f64) -> Vec<(Way, Vec<f64>)> {
+    let run = |formulation| {
+        let way = Way(formulation, "trapezoidal");
+        let rows = rows(&scene(text), way, (step, duration), 1000);
+        let rows = rows.unwrap_or_else(|e| panic!("{way:?}: {e}"));
+        (way, rows.last().expect("a row").1.to_vec())
+    };
+    ["index-3", "index-1", "classical", "state-space", "recursive"].map(run).to_vec()
+}
+
+/// Force by slip over load and friction, 1 - (1 - r/3)^3 up to r = 3.
+fn share(r: f64) -> f64 {
+    if r < 3.0 { 1.0 - (1.0 - r / 3.0).powi(3) } else { 1.0 }
+}
+
+#[test]
+fn locked_wheels_stop_where_friction_and_the_slip_near_rest_say() {
+    let (friction, stiffness, from) = (0.8, 6e4, 10.0);
+    let brake = "[[effect]]\nname = \"brake\"\nkind = \"friction\"\njoint = \"hub\"\ncoulomb = 2000.0\nsignal = \"pedal\"\n\
+        [[signal]]\nname = \"pedal\"\nkind = \"constant\"\nvalue = 1.0\n";
+    let slip = format!("{{ stiffness = {stiffness:?}, friction = {friction:?} }}");
+    let most = friction * LOAD;
+    let mass = MASSES[0] + MASSES[1];
+    // x = integral of v / a(v), a = force / mass; the midpoint rule, whose error falls by four: 1e-8 m
+    let force = |v: f64| most * share(stiffness * v / v.hypot(0.1) / most);
+    let n = 400_000;
+    let h = from / f64::from(n);
+    let x: f64 = (0..n).map(|i| (f64::from(i) + 0.5) * h).map(|v| mass * v / force(v) * h).sum();
+    // all friction to the end: v^2 mass / (2 most)
+    assert!((x - 6.25).abs() < 2e-3 && x > 6.25, "{x}");
+    for dimension in [2, 3] {
+        let text = car(dimension, &slip, from, 0.0, brake);
+        for (way, row) in ends(&text, 1e-3, 3.0) {
+            // of the step, and what the brake's own slip of 1e-3 rad/s times the radius leaves
+            assert!((row[0] - x).abs() < 1e-3, "{dimension}, {way:?}: {row:?}, not {x}");
+            assert!(row[1].abs() < 1e-3, "{dimension}, {way:?}: {row:?}");
+        }
+    }
+}
+
+#[test]
+fn a_torque_on_a_wheel_with_stiff_slip_drives_the_car() {
+    let (torque, from) = (180.0, 5.0);
+    let drive = format!("[[effect]]\nkind = \"torque\"\njoint = \"hub\"\nvalue = {torque:?}\n");
+    let [radius, ..] = TIRE;
+    let (mass, inertia) = (MASSES[0] + MASSES[1], MASSES[2]);
+    let a = torque * radius / (mass * radius * radius + inertia);
+    for dimension in [2, 3] {
+        // about z a wheel that rolls to +x turns backward, about y forward
+        let sign = if dimension == 2 { -1.0 } else { 1.0 };
+        let drive = drive.replace("180.0", &format!("{:?}", sign * torque));
+        let slip = "{ stiffness = 4e7, friction = 0.8 }";
+        let text = car(dimension, slip, from, sign * from / radius, &drive);
+        for (way, row) in ends(&text, 1e-3, 1.0) {
+            // slip of force over stiffness, 2e-5 at 5 m/s
+            let v = from + a;
+            assert!((row[1] - v).abs() < 2e-5 * v, "{dimension}, {way:?}: {row:?}, not {v}");
+            assert!((sign * row[2] * radius - v).abs() < 5e-5 * v, "{dimension}, {way:?}: {row:?}");
+        }
+    }
+}
+
+#[test]
+fn a_brake_by_a_signal_slows_a_wheel_by_its_impulse() {
+    // 1.1 kg m^2 at 40 rad/s; 10 N m times a ramp of the pedal over a second: 5 N m s
+    let text = "[scene]\nname = \"b\"\ndimension = 2\nduration = 1.0\n\
+        [[body]]\nname = \"w\"\nmass = 1.0\ncenter = [0.0, 0.0]\ninertia = 1.1\n\
+        [[joint]]\nname = \"a\"\nkind = \"revolute\"\nbodies = [\"ground\", \"w\"]\nat = [0.0, 0.0]\n\
+        [[effect]]\nkind = \"friction\"\njoint = \"a\"\ncoulomb = 10.0\nTABLE\n\
+        [[initial]]\njoint = \"a\"\nrate = 40.0\n\
+        [[output]]\nname = \"rate\"\njoint = \"a\"\nquantity = \"rate\"\n";
+    let tables = [
+        ("table = [[0.0, 0.0], [1.0, 1.0]]", 5.0),
+        // below zero it counts as zero
+        ("table = [[0.0, -1.0], [0.5, -1.0], [0.5000001, 1.0], [1.0, 1.0]]", 5.0),
+        ("value = 0.5", 5.0),
+        ("value = -1.0", 0.0),
+    ];
+    for (table, impulse) in tables {
+        for (way, row) in ends(&text.replace("TABLE", table), 1e-3, 1.0) {
+            let rate = 40.0 - impulse / 1.1;
+            // a jump within a step of 1 ms: its impulse
+            assert!((row[0] - rate).abs() < 1e-2, "{table}, {way:?}: {row:?}, not {rate}");
+        }
+    }
+}
