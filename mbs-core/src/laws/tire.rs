@@ -139,6 +139,21 @@ fn look_back<T: Real>(action: usize, measure: &mut ScalarForce<T>, before: &Scal
     }
 }
 
+/// A force at the end of an arm: its tension, damping and rate against the road, whose own velocity is `ground`.
+#[inline]
+fn line<T: Real>(
+    (direction, arm): (Vector<T, 3>, Vector<T, 3>),
+    [tension, damping, rate]: [T; 3],
+    ground: &Vector<T, 3>,
+) -> UnitWrench<T> {
+    let drift = direction.dot(ground);
+    UnitWrench {
+        force: direction.into(),
+        moment: cross(&arm, &direction).into(),
+        measure: ScalarForce { rate, tension, damping, drift, ..ScalarForce::default() },
+    }
+}
+
 entry!(TireLaw<T> { radius, radial, rolling, side, longitudinal, road, travel, up, leans });
 
 impl<T: Real> TireLaw<T> {
@@ -221,21 +236,9 @@ impl<T: Real> TireLaw<T> {
         let slow = T::from_f64(STANDSTILL);
         let effective = (forward * forward + slow * slow).sqrt();
         let resistance = self.rolling * load / effective;
-        let line = |direction: Vector<T, 3>, arm: Vector<T, 3>, tension: T, damping: T, rate: T| {
-            let drift = direction.dot(ground);
-            UnitWrench {
-                force: direction.into(),
-                moment: cross(&arm, &direction).into(),
-                measure: ScalarForce { rate, tension, damping, drift, ..ScalarForce::default() },
-            }
-        };
-        let rolling = line(
-            along,
-            Vector::zeros(),
-            resistance * forward,
-            resistance * slow * slow / (effective * effective),
-            forward,
-        );
+        let slope = resistance * slow * slow / (effective * effective);
+        let rolling =
+            line((along, Vector::zeros()), [resistance * forward, slope, forward], ground);
         put(out, ROLLING, rolling);
         // -e: down in the wheel's plane.
         let down = (axis * lean - normal) * (T::ONE / width);
@@ -243,17 +246,18 @@ impl<T: Real> TireLaw<T> {
         let spin = Vector::<T, 3>::from(motion.spin);
         let sideways = across.dot(&(velocity + cross(&spin, &arm)));
         let mut side_share = T::ONE;
-        if let Some(slip) = &self.longitudinal {
+        if let Some(law) = &self.longitudinal {
             let stiffness =
                 self.side.as_ref().map_or(T::ZERO, |c| calspan::cornering_stiffness(c, load));
             let arm = down * self.radius;
             let slipping = along.dot(&(velocity + cross(&spin, &arm)));
-            let force = slip.force(load, slipping / effective, stiffness * sideways / effective);
+            let force = law.force(load, slipping / effective, stiffness * sideways / effective);
             side_share = force.side_share;
-            let mut along = line(along, arm, force.resistance, force.slope / effective, slipping);
+            let slope = force.slope / effective;
+            let mut slip = line((along, arm), [force.resistance, slope, slipping], ground);
             // where the iterations look back for the slope
-            along.measure.value = force.scale * effective;
-            put(out, SLIP, along);
+            slip.measure.value = force.scale * effective;
+            put(out, SLIP, slip);
         }
         let Some(coefficients) = &self.side else { return };
         let slip = sideways.atan2(effective);
@@ -264,7 +268,8 @@ impl<T: Real> TireLaw<T> {
             side.stiffness *= side_share;
         }
         let by_speed = effective / (effective * effective + sideways * sideways);
-        let sideways_force = line(across, arm, -side.force, side.stiffness * by_speed, sideways);
+        let sideways_force = [-side.force, side.stiffness * by_speed, sideways];
+        let sideways_force = line((across, arm), sideways_force, ground);
         put(out, SIDE, sideways_force);
         let torque = side.torque * forward / effective;
         let aligning = UnitWrench {
