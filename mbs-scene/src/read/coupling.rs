@@ -8,12 +8,15 @@
 //! cam           x - f(y) = 0                rope          length + radius a = value
 //! ```
 
+mod named;
+
+use self::named::{Named, Needed};
 use crate::read::ReadFault;
 use crate::read::fields::{Context, Fields, Read};
 use crate::read::motion::{MOTION_KEYS, read_motion};
 use crate::read::tree::{Item, Node};
 use mbs_core::scene::{
-    Coupling, CouplingMeasure, CouplingTerm, Curve, Freedom, Joint, JointId, Motion, Number,
+    Axis, Coupling, CouplingMeasure, CouplingTerm, Curve, Freedom, Joint, Motion, Number,
 };
 
 /// The kinds of coupling.
@@ -27,10 +30,10 @@ const MAX_TEETH: u32 = 1_000_000;
 type Sum = (Vec<CouplingTerm<Number>>, Number, Option<Motion<Number>>);
 
 /// Reads a coupling; without a name it is called `coupling-N`, counted from 1.
-pub(crate) fn read(
+pub(crate) fn read<'a>(
     index: usize,
-    fields: &Fields<'_>,
-    joints: &[Joint<Number>],
+    fields: &Fields<'a>,
+    joints: &'a [Joint<Number>],
 ) -> Read<Coupling<Number>> {
     let kind = fields.word("kind")?;
     let held = |terms| (terms, Number::ZERO, None);
@@ -38,33 +41,38 @@ pub(crate) fn read(
         "gear" => held(gear(fields, joints)?),
         "rack" => {
             allow(fields, &["joints", "radius"])?;
-            let [pinion, rack] = pair(fields)?;
-            held(vec![term(rack, one()), term(pinion, minus(fields.number("radius")?))])
+            let [pinion, rack] = pair(fields, joints)?;
+            let radius = minus(fields.number("radius")?);
+            held(vec![rack.term(fields, Needed::Slide, one())?, pinion.turn(fields, radius)?])
         }
-        "screw" => held(screw(fields)?),
+        "screw" => held(screw(fields, joints)?),
         "belt" => {
             allow(fields, &["joints", "radii", "crossed"])?;
-            let ([first, second], [r1, r2]) = (pair(fields)?, radii(fields)?);
+            let ([first, second], [r1, r2]) = (pair(fields, joints)?, radii(fields)?);
             let r2 = if fields.flag("crossed", false)? { r2 } else { minus(r2) };
-            held(vec![term(first, r1), term(second, r2)])
+            held(vec![first.turn(fields, r1)?, second.turn(fields, r2)?])
         }
         "mimic" => {
             allow(fields, &["joint", "of", "factor", "offset"])?;
-            let joint = fields.context.joint(fields.need("joint")?)?;
-            let of = fields.context.joint(fields.need("of")?)?;
-            let factor = fields.number_or("factor", "1")?;
-            let terms = vec![term(joint, one()), term(of, minus(factor))];
+            let [joint, of] =
+                ["joint", "of"].map(|key| Named::new(fields, fields.need(key)?, joints));
+            let factor = minus(fields.number_or("factor", "1")?);
+            let terms = vec![
+                joint?.term(fields, Needed::Only, one())?,
+                of?.term(fields, Needed::Only, factor)?,
+            ];
             (terms, fields.number_or_zero("offset")?, None)
         }
-        "differential" => held(differential(fields)?),
+        "differential" => held(differential(fields, joints)?),
         "cam" => {
             allow(fields, &["joints", "table", "periodic", "coefficients"])?;
-            let [shaft, follower] = pair(fields)?;
+            let [shaft, follower] = pair(fields, joints)?;
             let curve = Some(need_curve(fields)?);
-            let of_shaft = CouplingTerm { curve, ..term(shaft, minus(one())) };
-            held(vec![term(follower, one()), of_shaft])
+            let of_shaft =
+                CouplingTerm { curve, ..shaft.term(fields, Needed::Only, minus(one()))? };
+            held(vec![follower.term(fields, Needed::Only, one())?, of_shaft])
         }
-        "rope" => rope(fields)?,
+        "rope" => rope(fields, joints)?,
         "linear" => {
             allow(fields, &[&["terms", "value"], &MOTION_KEYS[..]].concat())?;
             let list = fields.context.list(fields.need("terms")?, TERMS)?;
@@ -129,15 +137,10 @@ fn minus(x: Number) -> Number {
     Number::from_decimal(&text).unwrap_or(x)
 }
 
-fn term(joint: JointId, factor: Number) -> CouplingTerm<Number> {
-    let of = CouplingMeasure::Coordinate { joint, number: 0 };
-    CouplingTerm { factor, of, curve: None }
-}
-
-fn pair(fields: &Fields<'_>) -> Read<[JointId; 2]> {
-    let context = fields.context;
-    let [first, second] = context.exactly(fields.need("joints")?, "a list of two joint names")?;
-    Ok([context.joint(first)?, context.joint(second)?])
+fn pair<'a>(fields: &Fields<'a>, joints: &'a [Joint<Number>]) -> Read<[Named<'a>; 2]> {
+    let list = fields.need("joints")?;
+    let [first, second] = fields.context.exactly(list, "a list of two joint names")?;
+    Ok([Named::new(fields, first, joints)?, Named::new(fields, second, joints)?])
 }
 
 fn radii(fields: &Fields<'_>) -> Read<[Number; 2]> {
@@ -173,17 +176,17 @@ fn teeth<'a>(context: &Context<'a>, item: &'a Item) -> Read<[Number; 2]> {
 }
 
 /// Wheels in mesh: by teeth or radii with the sense of the mesh, or by a ratio.
-fn gear(fields: &Fields<'_>, joints: &[Joint<Number>]) -> Read<Vec<CouplingTerm<Number>>> {
+fn gear<'a>(fields: &Fields<'a>, joints: &'a [Joint<Number>]) -> Read<Vec<CouplingTerm<Number>>> {
     allow(fields, &["joints", "teeth", "radii", "ratio", "mesh"])?;
     for [one, other] in
         [["teeth", "radii"], ["teeth", "ratio"], ["radii", "ratio"], ["mesh", "ratio"]]
     {
         fields.exclusive(one, other)?;
     }
-    let [first, second] = pair(fields)?;
+    let [first, second] = pair(fields, joints)?;
     if let Some(ratio) = fields.get("ratio") {
         let ratio = fields.context.number(ratio)?;
-        return Ok(vec![term(second, one()), term(first, minus(ratio))]);
+        return Ok(vec![second.turn(fields, one())?, first.turn(fields, minus(ratio))?]);
     }
     let (item, sizes) = if let Some(item) = fields.get("teeth") {
         (item, teeth(&fields.context, item)?)
@@ -199,42 +202,49 @@ fn gear(fields: &Fields<'_>, joints: &[Joint<Number>]) -> Read<Vec<CouplingTerm<
         Some(("internal", _)) => true,
         Some(word) => return fields.unknown_word("mesh", word, &["external", "internal"]),
     };
-    let Some(sense) = sense(fields, [&joints[first.index()], &joints[second.index()]]) else {
+    let Some(sense) = sense(fields, [first, second])? else {
         return fields.context.fault(&item.span, ReadFault::AxesNotParallel);
     };
     let [n1, n2] = sizes;
     let n2 = if is_internal == (sense > 0.0) { minus(n2) } else { n2 };
-    Ok(vec![term(first, n1), term(second, n2)])
+    Ok(vec![first.turn(fields, n1)?, second.turn(fields, n2)?])
 }
 
 /// Largest sine of the angle of axes that are parallel [-]. Chosen, not tuned: digits of a file.
 const PARALLEL: f64 = 1e-6;
 
 /// The sign of the product of two axes that are parallel; of joints without an axis one, as the check refuses them.
-fn sense(fields: &Fields<'_>, joints: [&Joint<Number>; 2]) -> Option<f64> {
+fn sense(fields: &Fields<'_>, joints: [Named<'_>; 2]) -> Read<Option<f64>> {
     let dimension = fields.context.dimension;
-    let is_turn =
-        |joint: &&Joint<Number>| matches!(joint.kind.single(dimension), Some(Freedom::Turn(_)));
-    if fields.context.is_planar() || !joints.iter().all(is_turn) {
-        return Some(1.0);
+    if fields.context.is_planar() {
+        return Ok(Some(1.0));
     }
-    let axes =
-        joints.map(|joint| joint.axes[0].as_ref().map(|axis| axis.each_ref().map(Number::to_f64)));
-    let [Some(a), Some(b)] = axes else { return Some(1.0) };
+    let axis = |named: Named<'_>| {
+        let number = named.number(fields, Needed::Turn)?;
+        let turn = named.joint.kind.freedom(dimension, number);
+        let axis = match turn {
+            Some(Freedom::Turn(Axis::First)) => named.joint.axes[0].as_ref(),
+            Some(Freedom::Turn(Axis::Second)) => named.joint.axes[1].as_ref(),
+            _ => None,
+        };
+        Ok(axis.map(|axis| axis.each_ref().map(Number::to_f64)))
+    };
+    let [first, second] = joints;
+    let (Some(a), Some(b)) = (axis(first)?, axis(second)?) else { return Ok(Some(1.0)) };
     let dot: f64 = a.iter().zip(&b).map(|(x, y)| x * y).sum();
     let cross: f64 = [(1, 2), (2, 0), (0, 1)]
         .into_iter()
         .map(|(i, j)| a[i] * b[j] - a[j] * b[i])
         .map(|x| x * x)
         .sum();
-    (cross.sqrt() <= PARALLEL * dot.abs()).then_some(dot.signum())
+    Ok((cross.sqrt() <= PARALLEL * dot.abs()).then_some(dot.signum()))
 }
 
 /// 2 pi to more digits than any precision has.
 const TWO_PI: &str = "6.28318530717958647692528676655900576839433879875021";
 
 /// One cylindrical joint, or a turn and a slide.
-fn screw(fields: &Fields<'_>) -> Read<Vec<CouplingTerm<Number>>> {
+fn screw<'a>(fields: &Fields<'a>, joints: &'a [Joint<Number>]) -> Read<Vec<CouplingTerm<Number>>> {
     allow(fields, &["joint", "joints", "lead"])?;
     fields.exclusive("joint", "joints")?;
     let item = fields.need("lead")?;
@@ -246,39 +256,41 @@ fn screw(fields: &Fields<'_>) -> Read<Vec<CouplingTerm<Number>>> {
     let per_turn = Number::from_decimal(TWO_PI).unwrap_or(Number::ZERO);
     let (slide, turn) = match fields.get("joint") {
         Some(joint) => {
-            let joint = fields.context.joint(joint)?;
-            let turn = CouplingMeasure::Coordinate { joint, number: 1 };
-            (term(joint, per_turn), CouplingTerm { of: turn, ..term(joint, minus(lead)) })
+            let joint = Named::new(fields, joint, joints)?;
+            (joint, joint)
         }
         None if fields.get("joints").is_some() => {
-            let [turn, slide] = pair(fields)?;
-            (term(slide, per_turn), term(turn, minus(lead)))
+            let [turn, slide] = pair(fields, joints)?;
+            (slide, turn)
         }
         None => {
             let missing = ReadFault::Missing { key: "joint or joints" };
             return fields.context.fault(fields.header, missing);
         }
     };
-    Ok(vec![slide, turn])
+    Ok(vec![slide.term(fields, Needed::Slide, per_turn)?, turn.turn(fields, minus(lead))?])
 }
 
 /// Two wheels and the carrier of what runs between them.
-fn differential(fields: &Fields<'_>) -> Read<Vec<CouplingTerm<Number>>> {
+fn differential<'a>(
+    fields: &Fields<'a>,
+    joints: &'a [Joint<Number>],
+) -> Read<Vec<CouplingTerm<Number>>> {
     allow(fields, &["joints", "teeth"])?;
     let context = fields.context;
     let [a, b, cage] = context
         .exactly(fields.need("joints")?, "a list of three joint names: two wheels, the cage")?;
-    let [a, b, cage] = [context.joint(a)?, context.joint(b)?, context.joint(cage)?];
+    let turn = |item, factor| Named::new(fields, item, joints)?.turn(fields, factor);
     let [of_a, of_b] = match fields.get("teeth") {
         Some(item) => teeth(&context, item)?,
         None => [one(), one()],
     };
     let of_cage = minus(of_a.clone() + of_b.clone());
-    Ok(vec![term(a, of_a), term(b, of_b), term(cage, of_cage)])
+    Ok(vec![turn(a, of_a)?, turn(b, of_b)?, turn(cage, of_cage)?])
 }
 
 /// A line of constant length over points, or one that a drum takes in.
-fn rope(fields: &Fields<'_>) -> Read<Sum> {
+fn rope<'a>(fields: &Fields<'a>, joints: &'a [Joint<Number>]) -> Read<Sum> {
     allow(fields, &[&["points", "length", "drum"], &MOTION_KEYS[..]].concat())?;
     let context = fields.context;
     let points = read_points(fields, fields.need("points")?)?;
@@ -301,7 +313,8 @@ fn rope(fields: &Fields<'_>) -> Read<Sum> {
     if let Some(item) = fields.get("drum") {
         let drum = context.table(item, "a table: { joint = .., radius = .. }")?;
         drum.allow(&["joint", "radius"], &[])?;
-        terms.push(term(context.joint(drum.need("joint")?)?, drum.number("radius")?));
+        let joint = Named::new(&drum, drum.need("joint")?, joints)?;
+        terms.push(joint.turn(&drum, drum.number("radius")?)?);
     }
     Ok((terms, value, read_motion(fields)?))
 }
@@ -329,7 +342,7 @@ fn read_points<'a>(
 fn read_term<'a>(
     fields: &Fields<'a>,
     item: &'a Item,
-    joints: &[Joint<Number>],
+    joints: &'a [Joint<Number>],
 ) -> Read<CouplingTerm<Number>> {
     let context = fields.context;
     let term = context.table(item, "a term like { joint = \"j\", factor = 1.0 }")?;
@@ -339,12 +352,12 @@ fn read_term<'a>(
     let of = if let Some(points) = term.get("points") {
         CouplingMeasure::Length { points: read_points(fields, points)? }
     } else {
-        let joint = context.joint(term.need("joint")?)?;
+        let named = Named::new(&term, term.need("joint")?, joints)?;
         let number = match term.get("coordinate") {
-            Some(item) => term.coordinate(item, &joints[joint.index()])?,
-            None => 0,
+            Some(item) => term.coordinate(item, named.joint)?,
+            None => named.number(&term, Needed::Only)?,
         };
-        CouplingMeasure::Coordinate { joint, number }
+        CouplingMeasure::Coordinate { joint: named.id, number }
     };
     Ok(CouplingTerm { factor: term.number_or("factor", "1")?, of, curve: read_curve(&term)? })
 }

@@ -136,6 +136,13 @@ pub enum ReadFault {
     NoLead,
     /// Wheels in mesh whose axes are not parallel in the reference configuration.
     AxesNotParallel,
+    /// A joint that has not one coordinate of the kind that a coupling takes.
+    NotOneOf {
+        /// What is needed.
+        needed: &'static str,
+        /// The names of its coordinates.
+        known: Vec<&'static str>,
+    },
     /// A number that does not count anything.
     NotACount {
         /// The number as written.
@@ -245,6 +252,12 @@ impl Display for ReadFault {
                     "the axes of the two joints are not parallel in the reference configuration"
                 )
             }
+            Self::NotOneOf { needed, known } if known.is_empty() => {
+                write!(f, "the joint has no {needed}")
+            }
+            Self::NotOneOf { needed, known } => {
+                write!(f, "one {needed} is needed; the joint has: {}", known.join(", "))
+            }
             Self::NotACount { text, .. } => write!(f, "`{text}` does not count anything"),
             Self::Missing { key } => write!(f, "`{key}` is missing"),
             Self::Both { keys: [one, other] } => write!(f, "both `{one}` and `{other}` are given"),
@@ -295,6 +308,10 @@ impl ReadFault {
             Self::NoLead => "write how far the slide moves in one turn [m]".to_owned(),
             Self::AxesNotParallel => {
                 "give `ratio`, the second angle per first, with its sign".to_owned()
+            }
+            Self::NotOneOf { .. } => {
+                "name another joint, or write the sum as kind `linear`, with `coordinate` in its terms"
+                    .to_owned()
             }
             Self::NotACount { most, .. } => format!("write a whole number from 1 to {most}"),
             Self::Missing { key: "inertia" } => INERTIA.to_owned(),

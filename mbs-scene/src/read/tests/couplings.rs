@@ -101,7 +101,7 @@ fn every_kind_of_coupling_is_the_sum_that_it_says() {
         ),
         (
             "kind = \"differential\"\njoints = [\"a\", \"b\", \"c\"]\nteeth = [20, 30]",
-            vec![(20.0, 0, 0), (30.0, 1, 0), (-50.0, 2, 0)],
+            vec![(20.0, 0, 0), (30.0, 1, 0), (-50.0, 2, 1)],
             0.0,
         ),
         (
@@ -170,6 +170,30 @@ fn what_couples_nothing_is_refused_with_its_place() {
             "38:1",
             "`coordinate` is not there: the joint has 2 coordinates",
             "count the joint's coordinates from 0",
+        ),
+        (
+            "kind = \"linear\"\nterms = [{ joint = \"a\" }, { joint = \"c\" }]",
+            "40:37",
+            "one coordinate is needed; the joint has: slide, turn",
+            "name another joint, or write the sum as kind `linear`, with `coordinate` in its terms",
+        ),
+        (
+            "kind = \"mimic\"\njoint = \"c\"\nof = \"a\"",
+            "40:9",
+            "one coordinate is needed; the joint has: slide, turn",
+            "name another joint, or write the sum as kind `linear`, with `coordinate` in its terms",
+        ),
+        (
+            "kind = \"rack\"\njoints = [\"a\", \"b\"]\nradius = 0.1",
+            "40:16",
+            "the joint has no slide",
+            "name another joint, or write the sum as kind `linear`, with `coordinate` in its terms",
+        ),
+        (
+            "kind = \"screw\"\njoint = \"a\"\nlead = 0.1",
+            "40:9",
+            "the joint has no slide",
+            "name another joint, or write the sum as kind `linear`, with `coordinate` in its terms",
         ),
         (
             "kind = \"rope\"\npoints = [{ body = \"w\", at = [0, 0, 0] }]",
