@@ -93,7 +93,7 @@ terms = [{ points = [{ body = "ground", at = [2.0, 3.0] }, { body = "BODY", at =
 const SPATIAL_COUPLINGS: &str = r#"
 [[coupling]]
 kind = "linear"
-terms = [{ joint = "cross", factor = 3.0 }, { joint = "cross", coordinate = 1, factor = -2.0 }, { joint = "slide", factor = 0.5 }]
+terms = [{ joint = "cross", coordinate = 0, factor = 3.0 }, { joint = "cross", coordinate = 1, factor = -2.0 }, { joint = "slide", factor = 0.5 }]
 ramp = { rate = 0.4 }
 [[coupling]]
 kind = "screw"

@@ -416,7 +416,7 @@ drum = { joint = "winch", radius = 0.3 }
 [[coupling]]
 name = "driven"
 kind = "linear"
-terms = [{ joint = "cross", factor = 1.0 }, { joint = "guide", factor = 0.5, coefficients = [0.0, 1.0, 0.7] }]
+terms = [{ joint = "cross", coordinate = 0, factor = 1.0 }, { joint = "guide", factor = 0.5, coefficients = [0.0, 1.0, 0.7] }]
 sine = { amplitude = 0.2, frequency = 0.7 }
 "#;
 

@@ -252,9 +252,6 @@ impl Display for ReadFault {
                     "the axes of the two joints are not parallel in the reference configuration"
                 )
             }
-            Self::NotOneOf { needed, known } if known.is_empty() => {
-                write!(f, "the joint has no {needed}")
-            }
             Self::NotOneOf { needed, known } => {
                 write!(f, "one {needed} is needed; the joint has: {}", known.join(", "))
             }

@@ -186,13 +186,13 @@ fn what_couples_nothing_is_refused_with_its_place() {
         (
             "kind = \"rack\"\njoints = [\"a\", \"b\"]\nradius = 0.1",
             "40:16",
-            "the joint has no slide",
+            "one slide is needed; the joint has: turn",
             "name another joint, or write the sum as kind `linear`, with `coordinate` in its terms",
         ),
         (
             "kind = \"screw\"\njoint = \"a\"\nlead = 0.1",
             "40:9",
-            "the joint has no slide",
+            "one slide is needed; the joint has: turn",
             "name another joint, or write the sum as kind `linear`, with `coordinate` in its terms",
         ),
         (
