@@ -172,30 +172,6 @@ fn what_couples_nothing_is_refused_with_its_place() {
             "count the joint's coordinates from 0",
         ),
         (
-            "kind = \"linear\"\nterms = [{ joint = \"a\" }, { joint = \"c\" }]",
-            "40:37",
-            "one coordinate is needed; the joint has: slide, turn",
-            "name another joint, or write the sum as kind `linear`, with `coordinate` in its terms",
-        ),
-        (
-            "kind = \"mimic\"\njoint = \"c\"\nof = \"a\"",
-            "40:9",
-            "one coordinate is needed; the joint has: slide, turn",
-            "name another joint, or write the sum as kind `linear`, with `coordinate` in its terms",
-        ),
-        (
-            "kind = \"rack\"\njoints = [\"a\", \"b\"]\nradius = 0.1",
-            "40:16",
-            "one slide is needed; the joint has: turn",
-            "name another joint, or write the sum as kind `linear`, with `coordinate` in its terms",
-        ),
-        (
-            "kind = \"screw\"\njoint = \"a\"\nlead = 0.1",
-            "40:9",
-            "one slide is needed; the joint has: turn",
-            "name another joint, or write the sum as kind `linear`, with `coordinate` in its terms",
-        ),
-        (
             "kind = \"rope\"\npoints = [{ body = \"w\", at = [0, 0, 0] }]",
             "40:10",
             "expected 2 entries, found 1",
@@ -206,6 +182,36 @@ fn what_couples_nothing_is_refused_with_its_place() {
             "41:9",
             "`table` begins with 0 and ends with 1, but is periodic",
             "end the table with the value that it begins with",
+        ),
+    ] {
+        refused(&read(&with(coupling)).unwrap_err(), place, message, hint);
+    }
+}
+
+#[test]
+fn a_joint_without_exactly_one_coordinate_of_the_kind_is_refused_with_those_it_has() {
+    let hint =
+        "name another joint, or write the sum as kind `linear`, with `coordinate` in its terms";
+    for (coupling, place, message) in [
+        (
+            "kind = \"linear\"\nterms = [{ joint = \"a\" }, { joint = \"c\" }]",
+            "40:37",
+            "one coordinate is needed; the joint has: slide, turn",
+        ),
+        (
+            "kind = \"mimic\"\njoint = \"c\"\nof = \"a\"",
+            "40:9",
+            "one coordinate is needed; the joint has: slide, turn",
+        ),
+        (
+            "kind = \"rack\"\njoints = [\"a\", \"b\"]\nradius = 0.1",
+            "40:16",
+            "one slide is needed; the joint has: turn",
+        ),
+        (
+            "kind = \"screw\"\njoint = \"a\"\nlead = 0.1",
+            "40:9",
+            "one slide is needed; the joint has: turn",
         ),
     ] {
         refused(&read(&with(coupling)).unwrap_err(), place, message, hint);
