@@ -6,7 +6,7 @@
 //! ```
 //!
 //! u are three numbers that are set between steps. Where no allocation or no pointer that threads share can be had, laws are functions:
-//! [`own`](super::own).
+//! [`user`](super::user).
 
 use alloc::vec::Vec;
 use core::fmt::{self, Debug, Formatter};
