@@ -18,14 +18,14 @@ impl Listed {
     /// Its cases in `counts`: a user's own law may act in two ways.
     pub fn cases(self) -> Vec<String> {
         match self.module {
-            "own" => vec!["own-length".to_owned(), "own-body".to_owned()],
+            "user" => vec!["own-length".to_owned(), "own-body".to_owned()],
             module => vec![module.replace('_', "-")],
         }
     }
 
     /// Can tables of controllers have what its feature brings: its law, or what bushings measure?
     pub fn is_exported(self) -> bool {
-        let is_code = self.module == "own" || self.module.starts_with("law_on");
+        let is_code = self.module == "user" || self.module.starts_with("law_on");
         (self.has_law || self.module == "bushing") && !is_code
     }
 }
