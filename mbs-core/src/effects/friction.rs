@@ -76,19 +76,11 @@ impl<T: Real> FrictionLaw<T> {
         Self { coulomb: self.coulomb * share, r#static: self.r#static * share, ..*self }
     }
 
-    /// The law with the share of its levels that gave this force.
-    fn as_in(&self, measure: &ScalarForce<T>) -> Self {
-        if self.course.is_none() {
-            return *self;
-        }
-        let (share, root, level) = self.parts(measure.rate);
-        // At rest the force is zero, and its slope has the level.
-        let (whole, given) = if share.is_zero() {
-            (level / root, measure.damping - self.viscous)
-        } else {
-            (level * share, measure.tension - self.viscous * measure.rate)
-        };
-        if level > T::ZERO { self.scaled(given / whole) } else { *self }
+    /// The law with its levels of the moment.
+    #[inline]
+    fn now(&self, law_inputs: &LawInputs<'_, T>) -> Self {
+        let share = self.course.map(|course| law_inputs.course(course)[0].max(T::ZERO));
+        share.map_or(*self, |share| self.scaled(share))
     }
 
     /// r / sqrt(r^2 + e^2), the root, and g.
@@ -105,20 +97,13 @@ impl<T: Real> FrictionLaw<T> {
 impl<T: Real> TensionLaw<T> for FrictionLaw<T> {
     #[inline]
     fn evaluate(&self, value: T, rate: T, law_inputs: &LawInputs<'_, T>) -> ScalarForce<T> {
-        let (tension, damping) = match self.course {
-            None => self.force(rate),
-            Some(course) => self.scaled(law_inputs.course(course)[0].max(T::ZERO)).force(rate),
-        };
+        let (tension, damping) = self.now(law_inputs).force(rate);
         ScalarForce { value, rate, tension, damping, ..ScalarForce::default() }
     }
 
-    /// That to rest: the tangent vanishes where the motion is fast, and an iteration across rest would go to and fro.
     #[inline]
     fn secant(&self, measure: &ScalarForce<T>) -> T {
-        if measure.rate.is_zero() {
-            return measure.damping;
-        }
-        (measure.tension / measure.rate).max(measure.damping)
+        measure.secant()
     }
 
     fn operations(&self) -> Operations {
@@ -134,10 +119,15 @@ impl<T: Real> TensionLaw<T> for FrictionLaw<T> {
     /// alone, which know nothing of the rise between them, an iteration across rest goes to and fro. An iterate without a rate is
     /// none: the first one of a step has the tangent.
     #[inline]
-    fn look_back(&self, measure: &mut ScalarForce<T>, before: &ScalarForce<T>) {
+    fn look_back(
+        &self,
+        measure: &mut ScalarForce<T>,
+        before: &ScalarForce<T>,
+        law_inputs: &LawInputs<'_, T>,
+    ) {
         if before.rate != T::ZERO {
             let last = (before.rate, before.tension, before.damping);
-            let law = self.as_in(measure);
+            let law = self.now(law_inputs);
             let foreseen = law.foreseen(measure.rate, last);
             measure.damping = law.slope(measure.rate, foreseen);
         }

@@ -72,7 +72,7 @@ macro_rules! laws {
             fn power(measure: &ScalarForce<T>, law_inputs: &LawInputs<'_, T>) -> T;
             /// The slope at an iterate, with the iterate `before`.
             #[inline]
-            fn look_back(measure: &mut ScalarForce<T>, before: &ScalarForce<T>) -> ();
+            fn look_back(measure: &mut ScalarForce<T>, before: &ScalarForce<T>, law_inputs: &LawInputs<'_, T>) -> ();
             /// The slope by the rate for an iteration that does not look back; not below the tangent.
             #[inline]
             fn secant(measure: &ScalarForce<T>) -> T;

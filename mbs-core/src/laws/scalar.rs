@@ -29,6 +29,19 @@ pub struct ScalarForce<T> {
     pub drift: T,
 }
 
+impl<T: Real> ScalarForce<T> {
+    /// The slope of the tension to its zero at rest, not below the tangent: what falls with the rate, as friction and slip do, has a tangent
+    /// that vanishes where the motion is fast, and an iteration across rest by it would go to and fro.
+    #[inline]
+    #[must_use]
+    pub fn secant(&self) -> T {
+        if self.rate.is_zero() {
+            return self.damping;
+        }
+        (self.tension / self.rate).max(self.damping)
+    }
+}
+
 /// A law along a length or about an angle. [`Law`] is one of all that there are.
 pub trait TensionLaw<T: Real>: Entry<T> + Copy {
     /// Tension and its tangents at a value and its rate.
@@ -57,7 +70,13 @@ pub trait TensionLaw<T: Real>: Entry<T> + Copy {
 
     /// The slope at an iterate, with the iterate `before`; the first one of a step has no rate.
     #[inline]
-    fn look_back(&self, _measure: &mut ScalarForce<T>, _before: &ScalarForce<T>) {}
+    fn look_back(
+        &self,
+        _measure: &mut ScalarForce<T>,
+        _before: &ScalarForce<T>,
+        _supplies: &LawInputs<'_, T>,
+    ) {
+    }
 
     /// The slope by the rate for an iteration that does not look back; not below the tangent.
     #[inline]

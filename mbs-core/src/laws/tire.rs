@@ -245,28 +245,26 @@ impl<T: Real> TireLaw<T> {
         let arm = down * stance.reach;
         let spin = Vector::<T, 3>::from(motion.spin);
         let sideways = across.dot(&(velocity + cross(&spin, &arm)));
-        let mut side_share = T::ONE;
+        let (angle, camber) = (sideways.atan2(effective), lean.atan2(width));
+        let mut side = self.side.as_ref().map(|c| calspan::side(c, load, angle, camber));
         if let Some(law) = &self.longitudinal {
-            let stiffness =
+            let cornering =
                 self.side.as_ref().map_or(T::ZERO, |c| calspan::cornering_stiffness(c, load));
             let arm = down * self.radius;
             let slipping = along.dot(&(velocity + cross(&spin, &arm)));
-            let force = law.force(load, slipping / effective, stiffness * sideways / effective);
-            side_share = force.side_share;
+            let force = law.force(load, slipping / effective, cornering * sideways / effective);
+            if let Some(side) = &mut side {
+                side.force *= force.side_share;
+                side.torque *= force.side_share;
+                side.stiffness *= force.side_share;
+            }
             let slope = force.slope / effective;
             let mut slip = line((along, arm), [force.resistance, slope, slipping], ground);
             // where the iterations look back for the slope
             slip.measure.value = force.scale * effective;
             put(out, SLIP, slip);
         }
-        let Some(coefficients) = &self.side else { return };
-        let slip = sideways.atan2(effective);
-        let mut side = calspan::side(coefficients, load, slip, lean.atan2(width));
-        if self.longitudinal.is_some() {
-            side.force *= side_share;
-            side.torque *= side_share;
-            side.stiffness *= side_share;
-        }
+        let Some(side) = side else { return };
         let by_speed = effective / (effective * effective + sideways * sideways);
         let sideways_force = [-side.force, side.stiffness * by_speed, sideways];
         let sideways_force = line((across, arm), sideways_force, ground);
@@ -371,13 +369,9 @@ impl<T: Real> WrenchesLaw<T> for TireLaw<T> {
         }
     }
 
-    /// Of the force by slip that to its zero: the tangent vanishes where all slides, and an iteration would go to and fro.
     #[inline]
     fn secant(&self, action: usize, measure: &ScalarForce<T>) -> T {
-        if action == SLIP && measure.rate != T::ZERO {
-            return (measure.tension / measure.rate).max(measure.damping);
-        }
-        measure.damping
+        if action == SLIP { measure.secant() } else { measure.damping }
     }
 
     /// Stored energy of an action [J].

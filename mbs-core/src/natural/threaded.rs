@@ -93,7 +93,7 @@ impl<T: Real, const D: usize> NaturalModel<T, D> {
                 element.place = part.place(element.place);
                 let before = *measure;
                 *measure = element.evaluate::<D>(&self.pool, (q, v, angles), &law_inputs, jacobian);
-                element.law.look_back(measure, &before);
+                element.law.look_back(measure, &before, &law_inputs);
             }
             for element in part.body_elements(&self.body_elements) {
                 let mut element = *element;
