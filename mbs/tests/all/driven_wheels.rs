@@ -13,13 +13,12 @@ const MASSES: [f64; 3] = [380.0, 20.0, 1.1];
 fn car(dimension: usize, slip: &str, speed: f64, rate: f64, rest: &str) -> String {
     let [radius, height, stiffness] = TIRE;
     let [car, wheel, inertia] = MASSES;
-    let (hub, along, axis, inertias, spin) = if dimension == 2 {
+    let (hub, along, axis, inertias) = if dimension == 2 {
         (
             format!("[0.0, {height}]"),
             "[1.0, 0.0]",
             String::new(),
             ["1.0".into(), format!("{inertia:?}")],
-            "",
         )
     } else {
         (
@@ -30,7 +29,6 @@ fn car(dimension: usize, slip: &str, speed: f64, rate: f64, rest: &str) -> Strin
                 "[1.0, 1.0, 1.0, 0.0, 0.0, 0.0]".into(),
                 format!("[0.7, {inertia:?}, 0.7, 0.0, 0.0, 0.0]"),
             ],
-            "",
         )
     };
     let [inertia_of_car, inertia_of_wheel] = &inertias;
@@ -41,13 +39,16 @@ fn car(dimension: usize, slip: &str, speed: f64, rate: f64, rest: &str) -> Strin
         [[joint]]\nname = \"rail\"\nkind = \"prismatic\"\nbodies = [\"ground\", \"car\"]\nat = {hub}\naxis = {along}\n\
         [[joint]]\nname = \"hub\"\nkind = \"revolute\"\nbodies = [\"car\", \"wheel\"]\nat = {hub}\n{axis}\
         [[effect]]\nkind = \"tire\"\nbody = \"car\"\ncenter = {hub}\nradius = {radius:?}\n\
-        stiffness = {stiffness:?}\nspin = \"hub\"\nlongitudinal = {slip}\n{spin}\
+        stiffness = {stiffness:?}\nspin = \"hub\"\nlongitudinal = {slip}\n\
         [[initial]]\njoint = \"rail\"\nrate = {speed:?}\n[[initial]]\njoint = \"hub\"\nrate = {rate:?}\n\
         [[output]]\nname = \"x\"\njoint = \"rail\"\nquantity = \"value\"\n\
         [[output]]\nname = \"v\"\njoint = \"rail\"\nquantity = \"rate\"\n\
         [[output]]\nname = \"w\"\njoint = \"hub\"\nquantity = \"rate\"\n{rest}"
     )
 }
+
+/// Every formulation.
+const FORMULATIONS: [&str; 5] = ["index-3", "index-1", "classical", "state-space", "recursive"];
 
 /// The last row by each formulation.
 fn ends(text: &str, step: f64, duration: f64) -> Vec<(Way, Vec<f64>)> {
@@ -57,7 +58,7 @@ fn ends(text: &str, step: f64, duration: f64) -> Vec<(Way, Vec<f64>)> {
         let rows = rows.unwrap_or_else(|e| panic!("{way:?}: {e}"));
         (way, rows.last().expect("a row").1.to_vec())
     };
-    ["index-3", "index-1", "classical", "state-space", "recursive"].map(run).to_vec()
+    FORMULATIONS.map(run).to_vec()
 }
 
 /// Force by slip over load and friction, 1 - (1 - r/3)^3 up to r = 3.
@@ -164,7 +165,7 @@ fn a_car_that_drives_and_brakes_follows_equations_derived_apart_with_order_2() {
     // the reference's digits, and what the control of the step leaves
     let error = away("recursive", "radau5", 1e-3);
     assert!(error < 5e-8, "{error}");
-    for formulation in ["index-3", "index-1", "classical", "state-space", "recursive"] {
+    for formulation in FORMULATIONS {
         let [coarse, fine] = [1e-3, 5e-4].map(|step| away(formulation, "trapezoidal", step));
         // natural coordinates turn directions, whose errors at 25 rad/s are a hundred times those of angles
         assert!(coarse < 5e-5, "{formulation}: {coarse}");
