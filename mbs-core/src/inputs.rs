@@ -1,7 +1,9 @@
 //! Prescribed functions of time: guide laws and courses, prepared once.
 
+mod feedback;
 mod signals;
 
+pub use feedback::Feedback;
 pub use signals::SignalGraph;
 pub(crate) use signals::curvatures;
 

@@ -12,6 +12,7 @@ pub mod control;
 mod delegate;
 pub mod effects;
 pub mod elements;
+pub mod feedback;
 #[cfg(feature = "alloc")]
 pub mod formulation;
 #[cfg(feature = "alloc")]

@@ -36,6 +36,21 @@ pub struct Terms<T> {
     pub courses: Vec<[T; 3]>,
     /// Measured angles of the last step, with their turns: those of [`State::memory`].
     pub angles: Vec<T>,
+    /// States of signals at this instant, each with its rate.
+    pub signals: Vec<[T; 2]>,
+    /// The same at the start of the step: those of [`State::signals`].
+    pub signal_starts: Vec<[T; 2]>,
+    /// How long that is ago [s].
+    pub signal_dt: T,
+}
+
+impl<T: Real> Terms<T> {
+    /// States of signals start from those of `state`, `dt` [s] before the instant that is evaluated.
+    #[inline(always)]
+    pub fn begin_signals(&mut self, dt: T, state: &State<T>) {
+        self.signal_dt = dt;
+        self.signal_starts.copy_from_slice(&state.signals);
+    }
 }
 
 /// Weights of the tangent matrix T = M + damping C + stiffness (K + K_geo(lambda)) + J^T diag(penalty) J.
@@ -96,6 +111,10 @@ pub trait Model<T: Real>: Cliques + Sync {
     fn terms(&self) -> Terms<T>;
     /// Writes the unknowns' reference values and all constants.
     fn write_reference(&self, q: &mut [T]);
+    /// The states of signals as they begin, each with its rate; rates are given by an evaluation.
+    fn signal_states(&self) -> Vec<[T; 2]> {
+        Vec::new()
+    }
     /// Guides and courses, which say where the inputs of a state stand; `None`: it has none.
     fn inputs(&self) -> Option<&Prescribed<T>> {
         None
@@ -249,8 +268,8 @@ pub struct State<T> {
     pub inputs: Vec<T>,
     /// The inputs that accelerations, multipliers and power were made with.
     pub applied: Vec<T>,
-    /// Values of signals; none yet.
-    pub signals: Vec<T>,
+    /// States of signals that have one, each with its rate.
+    pub signals: Vec<[T; 2]>,
     /// Work done on the mechanism by dampers, courses and guides since the start [J].
     pub work: T,
     /// Their power at this instant [W].
@@ -280,7 +299,7 @@ impl<T: Real> State<T> {
             memory: zeros(model.n_memory()),
             applied: inputs.clone(),
             inputs,
-            signals: Vec::new(),
+            signals: model.signal_states(),
             work: T::ZERO,
             power: T::ZERO,
         }

@@ -4,6 +4,7 @@ use crate::check::{Checked, LoadError, Sizes};
 use crate::inputs::{Values, Written};
 use crate::ladder::DegradationLadder;
 use mbs_core::Real;
+use mbs_core::feedback::SignalStates;
 use mbs_core::step::{InputError, StepError};
 use mbs_recursive::bounded::{self, BoundedReport, Bounds, Watch};
 use mbs_recursive::link::{ArticulatedInertia, LinkMotion};
@@ -232,6 +233,7 @@ impl<
             z: self.z.get(..sizes.coordinates).unwrap_or(&[]),
             v: self.v.get(..sizes.freedoms).unwrap_or(&[]),
             a: self.a.get(..sizes.freedoms).unwrap_or(&[]),
+            signals: &[],
         };
         let work = (dt, &self.options, self.bounds);
         let report = bounded::step(&mechanism, &inputs, work, (start, watch), &mut s)?;
@@ -302,6 +304,7 @@ impl<
             lambda: first(lambda, n.rows)?,
             guides: first(&mut self.guides, n.guides)?,
             courses: first(&mut self.courses, n.courses)?,
+            signals: SignalStates { dt: T::ZERO, starts: &mut [], ends: &mut [] },
             z: first(&mut self.z, n.coordinates)?,
             v: first(v, n.freedoms)?,
             zdd: first(zdd, n.freedoms)?,

@@ -9,6 +9,7 @@ use mbs_core::Real;
 use mbs_core::laws::entry::Entry;
 use mbs_core::laws::{CurvatureEntry, FeatureEntry, KnotEntry, LawInputs, LawTables, PieceEntry};
 use mbs_recursive::coupled::{Couplings, SumTerm};
+use mbs_recursive::feedback::FeedbackSlices;
 use mbs_recursive::link::Link;
 use mbs_recursive::loads::Load;
 use mbs_recursive::loops::Loops;
@@ -206,6 +207,7 @@ impl<
                 },
                 loads: &self.loads,
                 tables,
+                feedback: FeedbackSlices::none(),
                 gravity: self.gravity,
                 base: self.base,
                 length: self.length,

@@ -103,6 +103,7 @@ pub fn step<T: Real, S: Space<T>>(
     }
     s.counts = Counts::default();
     inputs.evaluate(start.t + dt, s.guides, s.courses);
+    s.begin_signals(dt, start.signals).map_err(|outside| failure(m, outside.into()))?;
     let report = advance_by(m, (dt, options, bounds), (start, watch), s);
     let report = report.map_err(|fault| failure(m, fault))?;
     check_rotations(m, inputs, (&start, dt), s)?;

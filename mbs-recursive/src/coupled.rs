@@ -145,7 +145,7 @@ impl<T: Real, S: Space<T>> Couplings<'_, T, S> {
     }
 
     /// f, f' and f'' of a term's curve.
-    fn function(&self, curve: u32, x: T) -> Result<[T; 3], Outside> {
+    pub(crate) fn function(&self, curve: u32, x: T) -> Result<[T; 3], Outside> {
         if curve == NONE {
             return Ok([x, T::ONE, T::ZERO]);
         }

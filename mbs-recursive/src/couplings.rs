@@ -11,6 +11,7 @@ use crate::state::TreeState;
 use crate::tree::TreeModel;
 use mbs_core::Real;
 use mbs_core::algebra::{Vector, norm};
+use mbs_core::feedback::FeedbackOperation;
 use mbs_core::measure::CouplingInput;
 use mbs_core::scene::{BodyId, Scene};
 
@@ -64,6 +65,30 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
                 return Err(TreeError::CouplingGuided { coupling: i });
             }
         }
+        Ok(())
+    }
+
+    /// The links whose coordinates signals measure, and the functions of these signals.
+    ///
+    /// # Errors
+    /// [`TreeError::Signal`].
+    pub(crate) fn add_feedback(&mut self, scene: &Scene<T>) -> Result<(), TreeError> {
+        let mut feedback = self.prescribed.feedback();
+        if feedback.is_empty() {
+            return Ok(());
+        }
+        let links = self.coordinate_links(scene);
+        for &(joint, number) in &feedback.measured {
+            let link = links[joint].get(number).copied().flatten();
+            let link = link.filter(|&link| self.has_one_coordinate(link));
+            self.measured.push(link.ok_or(TreeError::Signal { joint })?);
+        }
+        for step in &mut feedback.steps {
+            if let FeedbackOperation::Curve { curve, .. } = &mut step.operation {
+                *curve = self.couplings.add_curve(&feedback.curves[*curve as usize]);
+            }
+        }
+        self.feedback = feedback;
         Ok(())
     }
 

@@ -26,6 +26,12 @@ pub enum TreeError {
         /// `scene.couplings[coupling]`.
         coupling: usize,
     },
+    /// A signal measures a joint that relative coordinates do not give as one number: it closes a loop in which every joint is asked for,
+    /// is free, or holds parts of one body together.
+    Signal {
+        /// `scene.joints[joint]`.
+        joint: usize,
+    },
     /// A coupling of guided joints alone, which their guides do not hold.
     CouplingGuided {
         /// `scene.couplings[coupling]`.
@@ -96,6 +102,10 @@ impl core::fmt::Display for TreeError {
             Self::Coupling { coupling } => {
                 write!(f, "coupling {coupling} is not built in relative coordinates: try index-3")
             }
+            Self::Signal { joint } => write!(
+                f,
+                "joint {joint}, which a signal measures, is not a relative coordinate here: try index-3"
+            ),
             Self::CouplingGuided { coupling } => write!(
                 f,
                 "the joints of coupling {coupling} are all guided, and their guides do not hold it: leave one of them out"

@@ -11,6 +11,7 @@
 //! ε = 1/α, bias + 2 μ Ω Φ̇ + Ω² Φ in place of the bias, and one sweep.
 
 use crate::fault::Fault;
+use crate::feedback::follow_motion;
 use crate::indexing::{Outside, at, at_mut, copy};
 use crate::inverse;
 use crate::link::ArticulatedInertia;
@@ -109,6 +110,7 @@ fn begin<'b, T: Real, S: Space<T>>(
 ) -> Result<&'b mut [ArticulatedInertia<T, S>], Outside> {
     s.counts.condensations += 1;
     passes::kinematics(m.links, (s.z, s.v, s.guides), s.placed)?;
+    follow_motion(m, s)?;
     passes::inertias(m.links, s.placed, s.condensed);
     Ok(core::mem::take(&mut s.condensed))
 }

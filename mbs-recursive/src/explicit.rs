@@ -2,7 +2,7 @@
 //! and the implicit collocation at Radau points have error control.
 //!
 //! ```text
-//! y = (z, ż, W),   y' = (ż or ½ q ω for rotations, z̈, power)
+//! y = (z, ż, x, W),   y' = (ż or ½ q ω for rotations, z̈, x', power)      x: states of signals
 //! ```
 //!
 //! Positions and velocities are projected on the loops after each accepted step, quaternions made unit at the end. The stages
@@ -55,6 +55,10 @@ impl<'r, 'a, 'b, T: Real, S: Space<T>, I: Inputs<T>> System<'r, 'a, 'b, T, S, I>
         self.inputs.evaluate(t, self.s.guides, self.s.courses);
         self.s.z.copy_from_slice(&y[..nz]);
         self.s.v.copy_from_slice(&y[nz..nz + nv]);
+        self.s.signals.dt = T::ZERO;
+        for (start, &x) in self.s.signals.starts.iter_mut().zip(&y[nz + nv..]) {
+            *start = [x, T::ZERO];
+        }
     }
 
     /// Projects the end of a step until no more than this share is left, with the inertias of its last stage.
@@ -126,7 +130,9 @@ impl<T: Real, S: Space<T>, I: Inputs<T>> Rates<T> for System<'_, '_, '_, T, S, I
         }
         coordinate_rates(self.m.links, self.s.z, self.s.v, &mut dy[..nz]);
         dy[nz..nz + nv].copy_from_slice(self.s.zdd);
-        dy[nz + nv] = energy_balance::power(self.m, self.s)
+        let (of_signals, work) = dy[nz + nv..].split_at_mut(self.s.signals.ends.len());
+        of_signals.iter_mut().zip(&*self.s.signals.ends).for_each(|(to, [_, rate])| *to = *rate);
+        work[0] = energy_balance::power(self.m, self.s)
             .map_err(|outside| failure(self.m, outside.into()))?;
         Ok(())
     }
@@ -156,7 +162,7 @@ impl<T: Real, S: Space<T>, I: Inputs<T>> Rates<T> for System<'_, '_, '_, T, S, I
 /// Components of y.
 #[must_use]
 pub fn n_components<T: Real, S: Space<T>>(m: &TreeSlices<'_, T, S>) -> usize {
-    m.n_coordinates + m.n_freedoms + 1
+    m.n_coordinates + m.n_freedoms + m.feedback.n_states + 1
 }
 
 /// z' from z and v.
@@ -192,7 +198,9 @@ fn begin<T: Real, S: Space<T>>(m: &TreeSlices<'_, T, S>, start: &Start<'_, T>, y
     let (nz, nv) = (m.n_coordinates, m.n_freedoms);
     y[..nz].copy_from_slice(start.z);
     y[nz..nz + nv].copy_from_slice(start.v);
-    y[nz + nv] = T::ZERO;
+    let (of_signals, work) = y[nz + nv..].split_at_mut(start.signals.len());
+    of_signals.iter_mut().zip(start.signals).for_each(|(to, [x, _])| *to = *x);
+    work[0] = T::ZERO;
 }
 
 /// Makes one step of order 4: the end is in `s.z`, `s.v`, `s.zdd`, `s.lambda`, the work done in the last place of `y`.

@@ -136,6 +136,7 @@ impl<T: Real, S: Space<T>> Tree<T, S> {
         state.work = self.state.work;
         state.power = self.state.power;
         state.applied.copy_from_slice(&self.state.applied);
+        state.signals.copy_from_slice(&self.state.signals);
         for &(place, angle) in &self.angles {
             state.memory[place] = match angle {
                 Angle::Of(link) => self.model.coordinate(&self.state, link),
@@ -285,7 +286,7 @@ fn walk<T: Real>(
 ) -> Restored {
     book.kind(3)?;
     // What is set goes with the natural state.
-    let TreeState { t, z, v, a, a_aux, lambda, inputs: _, applied, work, power } = state;
+    let TreeState { t, z, v, a, a_aux, lambda, inputs: _, applied, signals, work, power } = state;
     book.real("t", t)?;
     book.real("work", work)?;
     book.real("power", power)?;
@@ -294,7 +295,14 @@ fn walk<T: Real>(
     book.rows("a", a)?;
     book.rows("auxiliary", a_aux)?;
     book.rows("lambda", lambda)?;
-    book.vectors("inputs", applied.as_chunks_mut::<3>().0)?;
+    let (threes, ones) = applied.as_chunks_mut::<3>();
+    book.vectors("inputs", threes)?;
+    // Absent where there are none: files without signals are as they were.
+    for (name, numbers) in [("input of a signal", ones), ("signals", signals.as_flattened_mut())] {
+        if !numbers.is_empty() {
+            book.rows(name, numbers)?;
+        }
+    }
     let OfWorkspace { rank, pivots, pair, eighth, extrapolation, radau } = own;
     let mut count = *rank as u64;
     book.count("rank", &mut count)?;

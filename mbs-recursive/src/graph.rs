@@ -22,7 +22,7 @@ use core::cmp::{Ordering, Reverse};
 use mbs_core::Real;
 use mbs_core::actions::{Action, Actions};
 use mbs_core::cluster::Clusters;
-use mbs_core::scene::{BodyId, Freedom, Scene};
+use mbs_core::scene::{BodyId, Freedom, Scene, SignalKind};
 
 /// A step of the tree: a cluster and the joint it hangs by.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -94,6 +94,9 @@ pub(crate) fn span<T: Real>(
         if is_inner || joint.kind.is_free() || joint.kind.is_rigid() {
             continue;
         }
+        if demands.is_measured[j] {
+            return Err(TreeError::Signal { joint: j });
+        }
         if let Some(coupling) = demands.coupling[j] {
             return Err(TreeError::Coupling { coupling });
         }
@@ -112,13 +115,16 @@ struct Demands {
     effect: Vec<Option<usize>>,
     /// The first coupling that has a coordinate of it.
     coupling: Vec<Option<usize>>,
+    /// Does a signal measure it?
+    is_measured: Vec<bool>,
 }
 
 impl Demands {
     fn new<T: Real>(scene: &Scene<T>, actions: &Actions<T>) -> Self {
         let n = scene.joints.len();
         let (effect, coupling) = (vec![None; n], vec![None; n]);
-        let mut new = Self { is_guided: vec![false; n], effect, coupling };
+        let is_measured = vec![false; n];
+        let mut new = Self { is_guided: vec![false; n], effect, coupling, is_measured };
         for guide in &scene.guides {
             new.is_guided[guide.joint.index()] = true;
         }
@@ -126,6 +132,11 @@ impl Demands {
             let terms = coupling.terms.iter().filter(|term| !term.factor.is_zero());
             for (joint, _) in terms.filter_map(|term| term.of.coordinate()) {
                 new.coupling[joint.index()].get_or_insert(i);
+            }
+        }
+        for signal in &scene.signals {
+            if let SignalKind::Measure { joint, .. } = signal.kind {
+                new.is_measured[joint.index()] = true;
             }
         }
         for (effect, action) in &actions.list {
@@ -159,7 +170,7 @@ fn edges<T: Real>(
             });
         let rank = (
             !demands.is_guided[j],
-            demands.effect[j].is_none() && demands.coupling[j].is_none(),
+            demands.effect[j].is_none() && demands.coupling[j].is_none() && !demands.is_measured[j],
             is_massive,
             n_coordinates,
             is_on_line,

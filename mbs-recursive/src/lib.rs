@@ -21,6 +21,7 @@ mod error;
 mod evaluate;
 pub mod explicit;
 mod fault;
+pub mod feedback;
 #[cfg(feature = "alloc")]
 mod formulation;
 #[cfg(feature = "alloc")]

@@ -5,11 +5,11 @@ use crate::energy_balance;
 use crate::evaluate::{Level, accelerations, evaluate_rows};
 use crate::explicit;
 use crate::fault::failure;
+use crate::feedback::follow_motion;
 use crate::indexing::own;
 use crate::inverse;
 use crate::options::Options;
 use crate::passes::kinematics;
-use crate::slices::Start;
 use crate::slices::{Inputs, Store};
 use crate::space::{Numbers, Space};
 use crate::state::{Explicit, TreeState, Workspace};
@@ -37,7 +37,7 @@ pub fn step<T: Real, S: Space<T>>(
     model.take_inputs(options, state, workspace)?;
     let m = model.mechanism();
     let mut s = workspace.store();
-    let start = Start { t: state.t, z: &state.z, v: &state.v, a: &state.a };
+    let start = state.start();
     let start = (start, &state.a_aux[..]);
     let report = trapezoidal::step(&m, &model.inputs(state), (dt, options), start, &mut s);
     let report = report.map_err(|error| model.with_effect(error))?;
@@ -66,7 +66,7 @@ pub fn bounded_step<T: Real, S: Space<T>>(
     model.take_inputs(options, state, workspace)?;
     let m = model.mechanism();
     let mut s = workspace.store();
-    let start = Start { t: state.t, z: &state.z, v: &state.v, a: &state.a };
+    let start = state.start();
     let start = (start, &mut Unwatched);
     let report = bounded::step(&m, &model.inputs(state), (dt, options, bounds), start, &mut s);
     let report = report.map_err(|error| model.with_effect(error))?;
@@ -91,7 +91,7 @@ pub fn rk4_step<T: Real, S: Space<T>>(
     model.take_inputs(options, state, workspace)?;
     let m = model.mechanism();
     let (mut s, scratch) = workspace.parts();
-    let start = Start { t: state.t, z: &state.z, v: &state.v, a: &state.a };
+    let start = state.start();
     let memory = (start, &mut scratch.y[..], &mut scratch.scratch[..]);
     let report = explicit::rk4(&m, &model.inputs(state), (dt, options), memory, &mut s);
     let report = report.map_err(|error| model.with_effect(error))?;
@@ -202,7 +202,7 @@ fn controlled<T: Real, S: Space<T>, M: Method<T>>(
     let mut driver = known.unwrap_or_else(|| Adaptive::new(method(), first));
     let m = model.mechanism();
     let (mut s, scratch) = workspace.parts();
-    let start = Start { t: state.t, z: &state.z, v: &state.v, a: &state.a };
+    let start = state.start();
     let memory = (start, &mut scratch.y[..], &mut scratch.scratch[..]);
     let report =
         explicit::controlled(&m, &model.inputs(state), (dt, options, &mut driver), memory, &mut s);
@@ -242,6 +242,7 @@ fn take<T: Real, S: Space<T>>(
     state.z.copy_from_slice(s.z);
     state.v.copy_from_slice(s.v);
     state.lambda.copy_from_slice(s.lambda);
+    state.signals.copy_from_slice(s.signals.ends);
 }
 
 impl<T: Real, S: Space<T>> TreeModel<T, S> {
@@ -269,9 +270,11 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         s.z.copy_from_slice(&state.z);
         s.v.copy_from_slice(&state.v);
         self.inputs(state).evaluate(state.t, s.guides, s.courses);
+        own(s.begin_signals(T::ZERO, &state.signals));
         accelerations(&m, options, Level::Fine, &mut s).map_err(|fault| failure(&m, fault))?;
         state.set_accelerations(s.zdd);
         state.lambda.copy_from_slice(s.lambda);
+        state.signals.copy_from_slice(s.signals.ends);
         Ok(())
     }
 
@@ -298,6 +301,7 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         let before = own(energy_balance::potential(&m, &s.instant(&m)));
         let at_end = (&state.applied[..], &state.inputs[..]);
         self.prescribed.write_end(state.t, at_end, (s.guides, s.courses));
+        own(s.begin_signals(T::ZERO, &state.signals));
         accelerations(&m, options, Level::Fine, &mut s).map_err(|fault| failure(&m, fault))?;
         let after = own(energy_balance::potential(&m, &s.instant(&m)));
         state.power = own(energy_balance::power(&m, &mut s));
@@ -307,6 +311,7 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
             *a = new;
         }
         state.lambda.copy_from_slice(s.lambda);
+        state.signals.copy_from_slice(s.signals.ends);
         self.prescribed.apply(&state.inputs, &mut state.applied);
         Ok(true)
     }
@@ -331,6 +336,8 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         s.lambda.copy_from_slice(&state.lambda);
         self.prescribed.write(state.t, &state.applied, s.guides, s.courses);
         own(kinematics(&self.links, (s.z, s.v, s.guides), s.placed));
+        own(s.begin_signals(T::ZERO, &state.signals));
+        own(follow_motion(&self.mechanism(), s));
     }
 
     /// Puts a state with its accelerations into the scratch and finds the forces through all joints.

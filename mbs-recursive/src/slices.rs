@@ -1,10 +1,12 @@
 //! A mechanism and its scratch as slices, so that every step runs on memory of the caller's choice.
 
+use crate::feedback::FeedbackSlices;
 use crate::link::{ArticulatedInertia, Link, LinkMotion};
 use crate::loads::{Instant, Load};
 use crate::loops::{LoopStore, Loops};
 use crate::space::Space;
 use mbs_core::Real;
+use mbs_core::feedback::SignalStates;
 use mbs_core::laws::LawInputs;
 
 /// A mechanism in relative coordinates: constant.
@@ -18,6 +20,8 @@ pub struct TreeSlices<'a, T: Real, S: Space<T>> {
     pub loads: &'a [Load<T, S>],
     /// Tables of their laws, without courses: these are of an instant.
     pub tables: LawInputs<'a, T>,
+    /// Signals that follow the motion.
+    pub feedback: FeedbackSlices<'a, T>,
     /// Acceleration of gravity [m/s^2].
     pub gravity: S::Point,
     /// The point that positions are counted from, global axes [m].
@@ -63,6 +67,8 @@ pub struct Store<'a, T: Real, S: Space<T>> {
     pub guides: &'a mut [[T; 3]],
     /// Courses at the instant.
     pub courses: &'a mut [[T; 3]],
+    /// States of signals.
+    pub signals: SignalStates<'a, T>,
     /// Coordinates of the step being made.
     pub z: &'a mut [T],
     /// Velocities of the step being made.
@@ -114,4 +120,6 @@ pub struct Start<'a, T> {
     pub v: &'a [T],
     /// Accelerations.
     pub a: &'a [T],
+    /// States of signals, each with its rate.
+    pub signals: &'a [[T; 2]],
 }

@@ -75,6 +75,7 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
             (0..scene.bodies.len()).map(|body| natural.motion(scene, body, state)).collect();
         let mut start = self.read(scene, state.t, &motions);
         start.inputs.copy_from_slice(&state.inputs);
+        start.signals.copy_from_slice(&state.signals);
         self.take_turns(scene, natural, state, &mut start);
         self.settle(&mut start, &mut Workspace::new(self))?;
         Ok(start)
@@ -157,6 +158,7 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         s.z.copy_from_slice(&state.z);
         s.v.copy_from_slice(&state.v);
         self.inputs(state).evaluate(state.t, s.guides, s.courses);
+        own(s.begin_signals(T::ZERO, &state.signals));
         let fault = |fault| failure(&m, fault);
         if !self.rows.is_empty() {
             accelerations(&m, &options, Level::Once, &mut s).map_err(fault)?;
@@ -164,6 +166,7 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         }
         accelerations(&m, &options, Level::Fine, &mut s).map_err(fault)?;
         state.power = own(crate::energy_balance::power(&m, &mut s));
+        state.signals.copy_from_slice(s.signals.ends);
         state.applied.copy_from_slice(&state.inputs);
         state.z.copy_from_slice(s.z);
         state.v.copy_from_slice(s.v);
@@ -339,6 +342,7 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         s.z.copy_from_slice(&state.z);
         s.v.copy_from_slice(&state.v);
         self.prescribed.write(state.t, &state.applied, s.guides, s.courses);
+        own(s.begin_signals(T::ZERO, &state.signals));
         if accelerations(&m, &sharp, Level::Once, &mut s).is_err() {
             accelerations(&m, &options, Level::Once, &mut s).map_err(|fault| failure(&m, fault))?;
         }

@@ -4,12 +4,13 @@ use crate::anderson::history;
 use crate::explicit::n_components;
 use crate::link::{ArticulatedInertia, LinkMotion};
 use crate::loops::LoopStore;
-use crate::slices::{Counts, Store};
+use crate::slices::{Counts, Start, Store};
 use crate::space::{Numbers, Space};
 use crate::tree::TreeModel;
 use alloc::vec;
 use alloc::vec::Vec;
 use mbs_core::Real;
+use mbs_core::feedback::SignalStates;
 use mbs_core::inputs::Prescribed;
 use mbs_core::ode::{Adaptive, Extrapolation, Radau, Tableau, rk4_scratch};
 
@@ -35,6 +36,8 @@ pub struct TreeState<T> {
     pub inputs: Vec<T>,
     /// The inputs that accelerations, multipliers and power were made with.
     pub applied: Vec<T>,
+    /// States of signals that have one, each with its rate.
+    pub signals: Vec<[T; 2]>,
     /// Work done by dampers, courses and guides since the start [J].
     pub work: T,
     /// Their power at this instant [W].
@@ -56,9 +59,15 @@ impl<T: Real> TreeState<T> {
             lambda: vec![T::ZERO; model.rows.len()],
             inputs: model.prescribed.inputs(),
             applied: model.prescribed.inputs(),
+            signals: model.feedback.states(),
             work: T::ZERO,
             power: T::ZERO,
         }
+    }
+
+    /// What a step starts from.
+    pub(crate) fn start(&self) -> Start<'_, T> {
+        Start { t: self.t, z: &self.z, v: &self.v, a: &self.a, signals: &self.signals }
     }
 
     /// Accelerations that are known anew: auxiliary ones follow.
@@ -71,6 +80,7 @@ impl<T: Real> TreeState<T> {
     pub fn copy_from(&mut self, other: &Self) {
         self.copy_coordinates(other);
         self.inputs.copy_from_slice(&other.inputs);
+        self.signals.copy_from_slice(&other.signals);
         self.applied.copy_from_slice(&other.applied);
     }
 
@@ -111,6 +121,8 @@ pub struct Workspace<T: Real, S: Space<T>> {
     blocks: Vec<T>,
     gains: Vec<T>,
     inputs: Vec<[T; 3]>,
+    /// States of signals: at the start of a step, and at the instant.
+    signals: [Vec<[T; 2]>; 2],
     z: Vec<T>,
     /// v, z̈, response, scratch.
     freedoms: Vec<T>,
@@ -158,6 +170,7 @@ impl<T: Real, S: Space<T>> Workspace<T, S> {
             blocks: vec![T::ZERO; model.order.n_blocks],
             gains: vec![T::ZERO; 2 * model.order.n_gains],
             inputs: vec![[T::ZERO; 3]; n_guides + model.prescribed.n_courses()],
+            signals: [model.feedback.states(), model.feedback.states()],
             z: vec![T::ZERO; model.n_coordinates],
             freedoms: vec![T::ZERO; 4 * model.n_freedoms],
             history: vec![
@@ -203,6 +216,7 @@ impl<T: Real, S: Space<T>> Workspace<T, S> {
         let half = self.gains.len() / 2;
         let (gains, heads) = self.gains.split_at_mut(half);
         let (guides, courses) = self.inputs.split_at_mut(self.n_guides);
+        let [starts, ends] = &mut self.signals;
         let n = self.freedoms.len() / 4;
         let (v, rest) = self.freedoms.split_at_mut(n);
         let (zdd, rest) = rest.split_at_mut(n);
@@ -230,6 +244,7 @@ impl<T: Real, S: Space<T>> Workspace<T, S> {
             lambda,
             guides,
             courses,
+            signals: SignalStates { dt: T::ZERO, starts, ends },
             z: &mut self.z,
             v,
             zdd,

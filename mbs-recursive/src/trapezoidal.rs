@@ -66,10 +66,12 @@ pub fn step<T: Real, S: Space<T>>(
         inputs.evaluate(start.t, s.guides, s.courses);
         s.z.copy_from_slice(start.z);
         s.v.copy_from_slice(start.v);
+        s.begin_signals(T::ZERO, start.signals).map_err(|f| failure(m, f.into()))?;
         accelerations(m, options, Level::Once, s).map_err(|f| failure(m, f))?;
         projects = is_redundant(s);
     }
     inputs.evaluate(start.t + dt, s.guides, s.courses);
+    s.begin_signals(dt, start.signals).map_err(|f| failure(m, f.into()))?;
     s.zdd.copy_from_slice(start.a);
     let (iterations, correction, stop) = iterate(m, (dt, options), ((start, aux), projects), s)?;
     let mut violation = [T::ZERO; 3];

@@ -4,6 +4,7 @@ use crate::coupled::Couplings;
 use crate::coupling_tables::CouplingTables;
 use crate::error::TreeError;
 use crate::fault::Fault;
+use crate::feedback::FeedbackSlices;
 use crate::graph::{Branch, span};
 use crate::indexing::own;
 use crate::joint_facts::JointFacts;
@@ -22,7 +23,7 @@ use mbs_core::Real;
 use mbs_core::actions::{Actions, Tables};
 use mbs_core::algebra::{Matrix, Vector};
 use mbs_core::cluster::{Cluster, Clusters, scene_length};
-use mbs_core::inputs::Prescribed;
+use mbs_core::inputs::{Feedback, Prescribed};
 use mbs_core::laws::code::Codes;
 use mbs_core::model::Owner;
 use mbs_core::scene::align::aligned;
@@ -55,6 +56,9 @@ pub struct TreeModel<T: Real, S: Space<T>> {
     pub(crate) loops: Vec<ClosedLoop<T, S>>,
     pub(crate) rows: Vec<Row<T, S>>,
     pub(crate) couplings: CouplingTables<T, S>,
+    pub(crate) feedback: Feedback<T>,
+    /// The link of each coordinate that signals measure.
+    pub(crate) measured: Vec<u32>,
     pub(crate) order: Order,
     pub(crate) loads: Vec<Load<T, S>>,
     /// The effect of the scene that each load comes from.
@@ -107,6 +111,7 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
             tree.add_loop(scene, cut);
         }
         tree.add_couplings(scene)?;
+        tree.add_feedback(scene)?;
         let Self { links, loops, rows, couplings, .. } = &mut tree;
         tree.order = Order::new(links, loops, (rows, couplings));
         tree.add_loads(scene, &list)?;
@@ -148,6 +153,8 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
             loops: Vec::new(),
             rows: Vec::new(),
             couplings: CouplingTables::default(),
+            feedback: Feedback::default(),
+            measured: Vec::new(),
             order: Order::default(),
             loads: Vec::new(),
             effects: Vec::new(),
@@ -324,6 +331,11 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
             },
             loads: &self.loads,
             tables: self.tables.law_inputs(&[]),
+            feedback: FeedbackSlices {
+                steps: &self.feedback.steps,
+                links: &self.measured,
+                n_states: self.feedback.starts.len(),
+            },
             gravity: self.gravity,
             base: S::point_from(&self.base),
             length: self.length,

@@ -138,9 +138,9 @@ impl StopError {
     #[doc(hidden)]
     pub fn tree(error: TreeError) -> Self {
         let owner = match error {
-            TreeError::GuideCut { joint } | TreeError::EffectCut { joint, .. } => {
-                Some(Owner::Joint(joint))
-            }
+            TreeError::GuideCut { joint }
+            | TreeError::EffectCut { joint, .. }
+            | TreeError::Signal { joint } => Some(Owner::Joint(joint)),
             TreeError::Effect(ActionError::LeftOut { effect, .. }) => Some(Owner::Effect(effect)),
             TreeError::Coupling { coupling } | TreeError::CouplingGuided { coupling } => {
                 Some(Owner::Coupling(coupling))
@@ -430,6 +430,9 @@ fn write_tree(error: &TreeError, f: &mut core::fmt::Formatter<'_>) -> core::fmt:
         }
         TreeError::Coupling { .. } => {
             write!(f, "relative coordinates do not have this coupling: try index-3")
+        }
+        TreeError::Signal { .. } => {
+            write!(f, "a signal measures it, and it is no relative coordinate here: try index-3")
         }
         TreeError::CouplingGuided { .. } => {
             write!(

@@ -78,6 +78,7 @@ pub fn add_work<T: Real, M: Model<T>>(model: &M, dt: T, s: &mut State<T>, terms:
     if !s.memory.is_empty() {
         model.remember(&s.q, terms, &mut s.memory);
     }
+    s.signals.copy_from_slice(&terms.signals);
     if !(model.has_forces() || model.has_guides()) {
         return;
     }

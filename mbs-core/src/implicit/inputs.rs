@@ -31,6 +31,7 @@ pub fn load_at<T: Real, M: Model<T>>(
     terms: &mut Terms<T>,
 ) -> T {
     terms.angles.copy_from_slice(&s.memory);
+    terms.begin_signals(T::ZERO, s);
     if let Some(inputs) = model.inputs() {
         let of_effects = if is_new { &s.inputs } else { &s.applied };
         let at_end = (&s.applied[..], &of_effects[..]);
@@ -90,6 +91,7 @@ pub fn add_response<T: Real, M: Model<T>>(
     model.evaluate_phi_t(&s.q, terms);
     s.power = model.power(&s.q, &s.v, &s.reaction, terms);
     s.work += work;
+    s.signals.copy_from_slice(&terms.signals);
     if let Some(inputs) = model.inputs() {
         inputs.apply(&s.inputs, &mut s.applied);
     }

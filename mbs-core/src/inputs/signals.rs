@@ -8,11 +8,14 @@
 //! chirp    phase 2π (f t + (f' - f) t^2 / (2 T)), beyond T with the last frequency
 //! ```
 
+use super::feedback::Feedback;
 use crate::Real;
+use crate::feedback::{FeedbackOperation, chain, clamp, product};
 use crate::laws::guide;
 use crate::measure::{PreparedCurve, within};
 use crate::scene::{
-    Curve, Interpolation, NamedSignal, SignalId, SignalKind, TableEnds, signal_order,
+    Curve, Interpolation, NamedSignal, SignalId, SignalKind, TableEnds, signal_feedback,
+    signal_order,
 };
 use alloc::vec;
 use alloc::vec::Vec;
@@ -25,6 +28,8 @@ pub struct SignalGraph<T> {
     order: Vec<usize>,
     /// Index of each signal that is an input, and what it begins with.
     inputs: Vec<(usize, T)>,
+    /// Does it follow the motion?
+    follows: Vec<bool>,
 }
 
 /// A signal, prepared.
@@ -50,7 +55,9 @@ impl<T: Real> SignalGraph<T> {
                 inputs.push((i, *value));
             }
         }
-        Self { nodes, order: signal_order(signals).unwrap_or_default(), inputs }
+        let order = signal_order(signals).unwrap_or_default();
+        let follows = signal_feedback(signals, &order).iter().map(Option::is_some).collect();
+        Self { nodes, order, inputs, follows }
     }
 
     /// Number of signals.
@@ -78,16 +85,30 @@ impl<T: Real> SignalGraph<T> {
         self.nodes.iter().position(is_moving).map(SignalId::new)
     }
 
-    /// Writes value, rate and acceleration of each signal at time `t`, with `inputs` in their order.
+    /// Does a signal follow the motion, itself or by what it is made of?
+    #[must_use]
+    pub fn follows_motion(&self, signal: SignalId) -> bool {
+        self.follows.get(signal.index()).copied().unwrap_or(false)
+    }
+
+    /// Writes value, rate and acceleration of each signal at time `t`, with `inputs` in their order. Those that follow the motion stay
+    /// as they are: [`Feedback`](crate::inputs::Feedback) gives them.
     ///
     /// Cost: one node for each signal; no allocation.
     pub fn write(&self, t: T, inputs: &[T], values: &mut [[T; 3]]) {
-        for &i in &self.order {
+        for &i in self.order.iter().filter(|&&i| !self.follows[i]) {
             let Some(node) = self.nodes.get(i) else { continue };
             let value = node.at(t, inputs, values);
             if let Some(to) = values.get_mut(i) {
                 *to = value;
             }
+        }
+    }
+
+    /// Adds what gives those that follow the motion, in their order.
+    pub(super) fn add_feedback(&self, to: &mut Feedback<T>) {
+        for &i in self.order.iter().filter(|&&i| self.follows[i]) {
+            self.nodes[i].add_feedback(number(i), to);
         }
     }
 
@@ -123,6 +144,10 @@ pub(crate) fn curvatures<T: Real>(rows: &[[T; 2]], ends: TableEnds) -> Vec<T> {
         TableEnds::Level => guide::level_curvatures(rows, &mut curvature, &mut scratch),
     }
     curvature
+}
+
+fn number(i: usize) -> u32 {
+    u32::try_from(i).unwrap_or(u32::MAX)
 }
 
 /// The value of a signal among those of all; zero where there is none.
@@ -168,26 +193,79 @@ impl<T: Real> Node<T> {
                 })
             }
             SignalKind::Product { of: signals } => {
-                signals.iter().fold([T::ONE, T::ZERO, T::ZERO], |[a, da, dda], signal| {
-                    let [b, db, ddb] = of(signal);
-                    [a * b, da * b + a * db, dda * b + T::TWO * da * db + a * ddb]
-                })
+                let one = [T::ONE, T::ZERO, T::ZERO];
+                signals.iter().fold(one, |all, signal| product(all, of(signal)))
             }
             SignalKind::Curve { of: signal, .. } => {
-                let [s, ds, dds] = of(signal);
-                let [f, df, ddf] = self.curve.at(s);
-                [f, df * ds, ddf * ds * ds + df * dds]
-            }
-            SignalKind::Clamp { of: signal, lower, upper } => {
                 let s = of(signal);
-                if s[0] < *lower {
-                    held(*lower)
-                } else if s[0] > *upper {
-                    held(*upper)
-                } else {
-                    s
+                chain(self.curve.at(s[0]), s)
+            }
+            SignalKind::Clamp { of: signal, lower, upper } => clamp(of(signal), [*lower, *upper]),
+            // these follow the motion
+            SignalKind::Measure { .. }
+            | SignalKind::Lag { .. }
+            | SignalKind::Integral { .. }
+            | SignalKind::Pid { .. } => [T::ZERO; 3],
+        }
+    }
+}
+
+impl<T: Real> Node<T> {
+    /// Adds the operations that give the signal of this number.
+    fn add_feedback(&self, to: u32, feedback: &mut Feedback<T>) {
+        let id = |signal: &SignalId| number(signal.index());
+        let limit = |limit: Option<T>, sign: f64| {
+            limit.unwrap_or_else(|| T::from_f64(sign * f64::INFINITY))
+        };
+        match &self.kind {
+            SignalKind::Measure { joint, number, is_rate } => {
+                let number = feedback.measure((joint.index(), *number));
+                feedback.push(
+                    to,
+                    if *is_rate {
+                        FeedbackOperation::Rate { number }
+                    } else {
+                        FeedbackOperation::Value { number }
+                    },
+                );
+            }
+            SignalKind::Sum { of, factors } => {
+                feedback.push(to, FeedbackOperation::Constant(T::ZERO));
+                for (of, &factor) in of.iter().zip(factors) {
+                    feedback.push(to, FeedbackOperation::Add { from: id(of), factor });
                 }
             }
+            SignalKind::Product { of } => {
+                feedback.push(to, FeedbackOperation::Constant(T::ONE));
+                for of in of {
+                    feedback.push(to, FeedbackOperation::Multiply { from: id(of) });
+                }
+            }
+            SignalKind::Curve { of, .. } => {
+                let curve = feedback.curve(&self.curve);
+                feedback.push(to, FeedbackOperation::Curve { from: id(of), curve });
+            }
+            SignalKind::Clamp { of, lower, upper } => {
+                let limits = [*lower, *upper];
+                feedback.push(to, FeedbackOperation::Clamp { from: id(of), limits });
+            }
+            SignalKind::Lag { of, time, value } => {
+                let state = feedback.state(*value);
+                feedback.push(to, FeedbackOperation::Lag { from: id(of), state, time: *time });
+            }
+            SignalKind::Integral { of, lower, upper, value } => {
+                let state = feedback.state(*value);
+                let limits = [limit(*lower, -1.0), limit(*upper, 1.0)];
+                feedback.push(to, FeedbackOperation::Integral { from: id(of), state, limits });
+            }
+            SignalKind::Pid { of: [wanted, measured], p, i, d, limit: largest } => {
+                let state = feedback.state(T::ZERO);
+                let (from, gains) = ([id(wanted), id(measured)], [*p, *i, *d]);
+                let limit = limit(*largest, 1.0);
+                feedback.push(to, FeedbackOperation::Pid { from, state, gains, limit });
+            }
+            // these are of time and inputs
+            _ => {}
         }
     }
 }

@@ -3,7 +3,7 @@
 use super::basis::{Basis, Combination};
 use super::error::ModelError;
 use super::rigid::rigid_rows;
-use super::row_builder::{Constants, GroupDraft, RowDraft};
+use super::row_builder::{Constants, GroupDraft, MeasureDraft, RowDraft};
 use super::sharing::{Entity, EntityKind, Sharing};
 use super::thin_rods::ThinRods;
 use crate::Real;
@@ -28,6 +28,8 @@ pub(super) struct Builder<'a, T: Real> {
     pub(super) bases: Vec<Basis<T>>,
     pub(super) shared: Vec<Vec<usize>>,
     pub(super) groups: Vec<GroupDraft<T>>,
+    /// What signals measure.
+    pub(super) measured: Vec<MeasureDraft<T>>,
     /// Group of each joint that has rows.
     joint_group: Vec<Option<usize>>,
 }
@@ -57,6 +59,7 @@ impl<'a, T: Real> Builder<'a, T> {
             bases,
             shared,
             groups: Vec::new(),
+            measured: Vec::new(),
             joint_group: alloc::vec![None; scene.joints.len()],
         })
     }

@@ -31,7 +31,7 @@ impl<T: Real, const D: usize> Layout<T, D> {
         extend(&mut self.model.coupled_terms, terms.into_iter())
     }
 
-    fn signed(&mut self, draft: &MeasureDraft<T>, columns: &Columns<'_>) -> Signed<T> {
+    pub(super) fn signed(&mut self, draft: &MeasureDraft<T>, columns: &Columns<'_>) -> Signed<T> {
         match draft {
             MeasureDraft::Angle { x1, x2, y, sign, of } => {
                 let (x1, x2) = (self.span(x1, columns), self.span(x2, columns));

@@ -9,6 +9,7 @@ use crate::inputs::Prescribed;
 use crate::model::{Load, Model, Owner, ScalarForce, State, Tangent, Terms};
 use crate::team::Alone;
 use alloc::vec;
+use alloc::vec::Vec;
 use core::ops::Range;
 
 /// Calls a kernel with the number of unknowns of a group known to the compiler, where bodies, joints and effects between two bodies
@@ -82,10 +83,16 @@ impl<T: Real, const D: usize> Model<T> for NaturalModel<T, D> {
         self.n_memory
     }
     fn has_forces(&self) -> bool {
-        self.n_measures > 0 || !(self.point_forces.is_empty() && self.torques.is_empty())
+        self.n_measures > 0
+            || !self.feedback.is_empty()
+            || !(self.point_forces.is_empty() && self.torques.is_empty())
     }
     fn has_guides(&self) -> bool {
         !self.guided.is_empty() || self.driven().next().is_some()
+    }
+
+    fn signal_states(&self) -> Vec<[T; 2]> {
+        self.feedback.states()
     }
 
     fn inputs(&self) -> Option<&Prescribed<T>> {
@@ -108,6 +115,9 @@ impl<T: Real, const D: usize> Model<T> for NaturalModel<T, D> {
             guides: vec![[T::ZERO; 3]; self.prescribed.n_guides()],
             courses: vec![[T::ZERO; 3]; self.prescribed.n_courses()],
             angles: zeros(self.n_memory),
+            signals: self.feedback.states(),
+            signal_starts: self.feedback.states(),
+            signal_dt: T::ZERO,
         }
     }
 
@@ -144,6 +154,7 @@ impl<T: Real, const D: usize> Model<T> for NaturalModel<T, D> {
 
     fn set_inputs(&self, t: T, state: &State<T>, terms: &mut Terms<T>) {
         terms.angles.copy_from_slice(&state.memory);
+        terms.begin_signals(t - state.t, state);
         self.prescribed.write(t, &state.inputs, &mut terms.guides, &mut terms.courses);
         terms.measures.iter_mut().for_each(|measure| measure.rate = T::ZERO);
     }
@@ -161,7 +172,7 @@ impl<T: Real, const D: usize> Model<T> for NaturalModel<T, D> {
     }
 
     fn remember(&self, q: &[T], terms: &Terms<T>, memory: &mut [T]) {
-        for measure in &self.coupled_measures {
+        for measure in self.coupled_measures.iter().chain(&self.measured) {
             if let Measurand::Angle { memory: place, .. } = measure.of {
                 let at = |x: Span| combine::<T, D>(x.of(&self.pool), q);
                 memory[place as usize] = measured_value(&measure.of, at, &terms.angles);

@@ -28,6 +28,8 @@ impl<T: Real, const D: usize> NaturalModel<T, D> {
         builder.add_guides();
         builder.add_couplings();
         builder.add_effects(&actions.list)?;
-        Ok(layout(builder, actions))
+        let feedback = actions.prescribed.feedback();
+        builder.add_measured(&feedback);
+        Ok(layout(builder, actions, feedback))
     }
 }

@@ -16,6 +16,7 @@ use crate::actions::Actions;
 use crate::algebra::{Coef, Vector};
 use crate::cluster::Clusters;
 use crate::elements::{Coupled, Distance, Dot, Guided, GuidedMotion, Linear, NONE, Span, Term};
+use crate::inputs::Feedback;
 use crate::model::Owner;
 use alloc::vec;
 use alloc::vec::Vec;
@@ -24,15 +25,20 @@ use alloc::vec::Vec;
 pub(super) fn layout<T: Real, const D: usize>(
     builder: Builder<'_, T>,
     actions: Actions<T>,
+    feedback: Feedback<T>,
 ) -> NaturalModel<T, D> {
-    let Builder { entities, groups, clusters, bases, shared, length, .. } = builder;
+    let Builder { entities, groups, measured, clusters, bases, shared, length, .. } = builder;
     let owners = owners(&groups, &entities);
     let groups = merged(groups, &entities, D);
     let mut layout = Layout::<T, D>::new((entities, &owners), &groups, (clusters, length), actions);
     for group in layout.near_their_bodies(&groups) {
         layout.add(group);
     }
+    for draft in &measured {
+        layout.add_measured(draft);
+    }
     let mut model = layout.model;
+    model.feedback = feedback;
     number_measures(&mut model);
     model.angles.sort_by_key(|&(owner, _)| effect_of(owner));
     model.cursors = model.cursors();
@@ -57,7 +63,7 @@ const RECENT: usize = 16;
 
 /// Where a combination's columns are in the group at hand.
 pub(super) struct Columns<'a> {
-    slots: &'a [usize],
+    pub(super) slots: &'a [usize],
 }
 
 impl Columns<'_> {
@@ -111,6 +117,8 @@ impl<T: Real, const D: usize> Layout<T, D> {
             coupled_measures: Vec::new(),
             curves: Vec::new(),
             coupled_angles: Vec::new(),
+            measured: Vec::new(),
+            feedback: Feedback::default(),
             groups: Vec::new(),
             slots: Vec::new(),
             cliques: Vec::new(),

@@ -17,6 +17,7 @@ mod element;
 mod element_ranges;
 mod error;
 mod evaluate;
+mod feedback;
 mod forces;
 mod from_scene;
 mod group;

@@ -12,7 +12,7 @@ use crate::algebra::{Coef, Vector};
 use crate::blocks::Cliques;
 use crate::cluster::Clusters;
 use crate::elements::{Coupled, CoupledTerm, Distance, Dot, Guided, Linear, Signed, Term};
-use crate::inputs::Prescribed;
+use crate::inputs::{Feedback, Prescribed};
 use crate::laws::code::Codes;
 use crate::measure::PreparedCurve;
 use crate::model::Owner;
@@ -41,6 +41,9 @@ pub struct NaturalModel<T: Real, const D: usize> {
     pub(super) curves: Vec<PreparedCurve<T>>,
     /// Joint and coordinate of each angle that couplings remember, with its place.
     pub(super) coupled_angles: Vec<((usize, usize), T, u32)>,
+    /// What signals measure, and the operations that give them.
+    pub(super) measured: Vec<Signed<T>>,
+    pub(super) feedback: Feedback<T>,
     pub(super) groups: Vec<Group>,
     pub(super) slots: Vec<u32>,
     pub(super) cliques: Vec<u32>,

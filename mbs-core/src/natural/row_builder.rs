@@ -39,7 +39,7 @@ pub(crate) enum MeasureDraft<T: Real> {
 }
 
 impl<T: Real> MeasureDraft<T> {
-    fn combinations(&self) -> Vec<&Combination<T>> {
+    pub(super) fn combinations(&self) -> Vec<&Combination<T>> {
         match self {
             Self::Angle { x1, x2, y, .. } => alloc::vec![x1, x2, y],
             Self::Slide { x, y } => alloc::vec![x, y],

@@ -81,6 +81,7 @@ impl<T: Real, const D: usize> NaturalModel<T, D> {
         (q, v): (&[T], &[T]),
         terms: &mut Terms<T>,
     ) {
+        self.follow_motion((q, v), terms);
         let Terms { jacobian, force, measures, courses, angles, .. } = terms;
         let (courses, angles) = (&courses[..], &angles[..]);
         let (measures, body_measures) = measures.split_at_mut(self.measures.len());

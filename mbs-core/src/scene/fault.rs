@@ -112,6 +112,8 @@ pub enum SceneFault {
         /// What makes it smooth.
         remedy: &'static str,
     },
+    /// A controller needs the rate of a signal that has none which is known.
+    SignalNoRate,
     /// Times in a table do not increase; the row (from 0) that is not later than the one before.
     TableOrder(usize),
     /// The upper limit is below the lower one; both.
@@ -216,6 +218,7 @@ impl SceneFault {
             }
             Self::SignalCircle => "take one of its operands out",
             Self::SignalNotSmooth { remedy, .. } => remedy,
+            Self::SignalNoRate => "leave `d` out, or measure the value: its rate is known",
             Self::TableOrder(_) => "sort the rows by time and keep one row per time",
             Self::LimitOrder(_) => "write the upper limit first: [U, L] with U > L",
             Self::RangeOrder(_) => "write the lower end below the upper end",
@@ -320,6 +323,9 @@ impl SceneFault {
             Self::SignalCircle => write!(f, "needs itself"),
             Self::SignalNotSmooth { broken, .. } => {
                 write!(f, "follows signal {}, which {broken}", broken.signal.index() + 1)
+            }
+            Self::SignalNoRate => {
+                write!(f, "needs the rate of a measured rate, or of a controller: it is not known")
             }
             Self::TableOrder(row) => {
                 write!(f, "has times that do not increase at row {}", row + 1)

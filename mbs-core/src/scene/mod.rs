@@ -80,7 +80,8 @@ pub use mechanism::{Effect, Output, Scene};
 pub use number::{Number, Vector3};
 #[cfg(feature = "alloc")]
 pub use signal::{
-    Interpolation, NamedSignal, SignalBreak, SignalKind, Smoothness, signal_breaks, signal_order,
+    Interpolation, NamedSignal, SignalBreak, SignalKind, Smoothness, signal_breaks,
+    signal_feedback, signal_order,
 };
 #[cfg(feature = "alloc")]
 pub use solver::SolverTable;

@@ -3,12 +3,15 @@
 //! ```text
 //! sum      Σ f_k s_k                      curve    f(s)
 //! product  s_1 s_2 ...                    clamp    min(max(s, lower), upper)
+//! measure  a joint's coordinate or rate   lag      time x' = s - x
+//! integral x' = s, within limits          pid      p e + i x + d e',  x' = e = target - measured
 //! ```
 //!
-//! Guides and couplings take signals that are twice differentiable; forces and torques take all.
+//! Guides and couplings take signals of time that are twice differentiable; forces and torques take all. Those that follow the motion,
+//! and the states x, belong to the mechanism: a step is made with them, and undone with them.
 
 use crate::Real;
-use crate::scene::{Curve, SignalId, TableEnds};
+use crate::scene::{Curve, JointId, SignalId, TableEnds};
 use alloc::string::String;
 use alloc::vec;
 use alloc::vec::Vec;
@@ -144,6 +147,48 @@ pub enum SignalKind<T> {
         /// Its unit, for people.
         unit: String,
     },
+    /// A coordinate of a joint, or its rate.
+    Measure {
+        /// The joint.
+        joint: JointId,
+        /// Which of its coordinates, from 0.
+        number: usize,
+        /// Its rate, and not its value?
+        is_rate: bool,
+    },
+    /// A signal that comes late: time x' = s - x.
+    Lag {
+        /// The signal.
+        of: SignalId,
+        /// In this time a jump is followed to 63 percent [s].
+        time: T,
+        /// Its value at the start.
+        value: T,
+    },
+    /// The integral of a signal over time; at a limit it stops, and comes back as soon as the signal turns back.
+    Integral {
+        /// The signal.
+        of: SignalId,
+        /// The lower limit.
+        lower: Option<T>,
+        /// The upper limit.
+        upper: Option<T>,
+        /// Its value at the start.
+        value: T,
+    },
+    /// What a controller asks for: p e + i x + d e' with e = target - measured and x' = e.
+    Pid {
+        /// The wanted number, and the measured one.
+        of: [SignalId; 2],
+        /// Factor of the difference.
+        p: T,
+        /// Factor of the integral of the difference.
+        i: T,
+        /// Factor of the rate of the difference.
+        d: T,
+        /// Largest size of what it asks for; there the integral stops.
+        limit: Option<T>,
+    },
 }
 
 /// How smooth a signal is; the worst first.
@@ -164,6 +209,8 @@ pub struct SignalBreak {
     pub signal: SignalId,
     /// Does the value jump, and not the rate alone?
     pub is_jump: bool,
+    /// Does it follow the motion, whose accelerations are not known beforehand? It then counts as a jump.
+    pub is_feedback: bool,
     /// The first time [s]; `None`: not known beforehand.
     pub time: Option<f64>,
 }
@@ -174,9 +221,33 @@ impl<T> SignalKind<T> {
     pub fn operands(&self) -> &[SignalId] {
         match self {
             Self::Sum { of, .. } | Self::Product { of } => of,
-            Self::Curve { of, .. } | Self::Clamp { of, .. } => core::slice::from_ref(of),
+            Self::Curve { of, .. }
+            | Self::Clamp { of, .. }
+            | Self::Lag { of, .. }
+            | Self::Integral { of, .. } => core::slice::from_ref(of),
+            Self::Pid { of, .. } => of,
             _ => &[],
         }
+    }
+
+    /// Does it follow the motion by itself, or has it a state?
+    #[must_use]
+    pub const fn is_feedback(&self) -> bool {
+        matches!(
+            self,
+            Self::Measure { .. } | Self::Lag { .. } | Self::Integral { .. } | Self::Pid { .. }
+        )
+    }
+
+    /// Has it a state of its own, which is integrated with the motion?
+    #[must_use]
+    pub const fn has_state(&self) -> bool {
+        matches!(self, Self::Lag { .. } | Self::Integral { .. } | Self::Pid { .. })
+    }
+
+    /// Has it a rate that is known, where those have it that it is made of?
+    pub(crate) const fn has_rate(&self) -> bool {
+        !matches!(self, Self::Measure { is_rate: true, .. } | Self::Pid { .. })
     }
 
     /// What makes it smooth, in the imperative.
@@ -188,7 +259,8 @@ impl<T> SignalKind<T> {
             Self::Input { .. } => {
                 "give `input` in place of `signal`: it has rate and acceleration too"
             }
-            _ => "follow another signal: a clamp has corners",
+            Self::Clamp { .. } => "follow another signal: a clamp has corners",
+            _ => "follow a signal of time and inputs, or let a force or a torque follow this one",
         }
     }
 
@@ -231,6 +303,20 @@ impl<T> SignalKind<T> {
             Self::Input { value, unit } => {
                 SignalKind::Input { value: f(value), unit: unit.clone() }
             }
+            Self::Measure { joint, number, is_rate } => {
+                SignalKind::Measure { joint: *joint, number: *number, is_rate: *is_rate }
+            }
+            Self::Lag { of, time, value } => {
+                SignalKind::Lag { of: *of, time: f(time), value: f(value) }
+            }
+            Self::Integral { of, lower, upper, value } => {
+                let [lower, upper] = [lower, upper].map(|limit| limit.as_ref().map(&mut *f));
+                SignalKind::Integral { of: *of, lower, upper, value: f(value) }
+            }
+            Self::Pid { of, p, i, d, limit } => {
+                let [p, i, d] = [p, i, d].map(&mut *f);
+                SignalKind::Pid { of: *of, p, i, d, limit: limit.as_ref().map(f) }
+            }
         }
     }
 }
@@ -255,6 +341,7 @@ impl<T: Real> SignalKind<T> {
             }
             Self::Clamp { .. } => Some((false, None)),
             Self::Input { .. } => Some((true, None)),
+            kind if kind.is_feedback() => Some((true, None)),
             _ => None,
         }
     }
@@ -318,15 +405,44 @@ pub fn signal_breaks<T: Real>(
     for &i in order {
         let kind = &signals[i].kind;
         let signal = SignalId::new(i);
-        let own = kind.own_break().map(|(is_jump, time)| SignalBreak { signal, is_jump, time });
+        let is_feedback = kind.is_feedback();
+        let own = kind.own_break();
+        let own = own.map(|(is_jump, time)| SignalBreak { signal, is_jump, is_feedback, time });
         let of = kind.operands().iter().filter_map(|of| *breaks.get(of.index())?);
-        breaks[i] = of.chain(own).reduce(|a, b| if b.is_jump && !a.is_jump { b } else { a });
+        let rank = |of: &SignalBreak| (of.is_feedback, of.is_jump);
+        breaks[i] = of.chain(own).reduce(|a, b| if rank(&b) > rank(&a) { b } else { a });
     }
     breaks
 }
 
+/// The first signal that each follows the motion by, itself or one that it is made of; `None` of a signal of time and inputs.
+///
+/// Cost: one pass over the signals in their [order](signal_order).
+#[must_use]
+pub fn signal_feedback<T>(signals: &[NamedSignal<T>], order: &[usize]) -> Vec<Option<SignalId>> {
+    first_of(signals, order, SignalKind::is_feedback)
+}
+
+/// The first signal, itself or one that it is made of, for which `is_one` holds.
+pub(crate) fn first_of<T>(
+    signals: &[NamedSignal<T>],
+    order: &[usize],
+    is_one: impl Fn(&SignalKind<T>) -> bool,
+) -> Vec<Option<SignalId>> {
+    let mut first: Vec<Option<SignalId>> = vec![None; signals.len()];
+    for &i in order {
+        let kind = &signals[i].kind;
+        let of = kind.operands().iter().find_map(|of| *first.get(of.index())?);
+        first[i] = of.or_else(|| is_one(kind).then(|| SignalId::new(i)));
+    }
+    first
+}
+
 impl Display for SignalBreak {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        if self.is_feedback {
+            return f.write_str("follows the motion");
+        }
         let what = if self.is_jump { "jumps" } else { "has a corner" };
         match self.time {
             Some(time) => write!(f, "{what} at {time} s"),

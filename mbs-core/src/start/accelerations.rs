@@ -89,6 +89,7 @@ fn keep<T: Real, M: Model<T>>(model: &M, s: &mut State<T>, lambda: &[T], terms: 
     }
     s.phi.copy_from_slice(&terms.phi);
     model.remember(&s.q, terms, &mut s.memory);
+    s.signals.copy_from_slice(&terms.signals);
     s.applied.copy_from_slice(&s.inputs);
     s.power = model.power(&s.q, &s.v, &s.reaction, terms);
 }

@@ -151,6 +151,7 @@ fn constant<T: Real + Record, S: Axes<T>>(
          \x20       }},\n\
          \x20       loads: &LOADS,\n\
          \x20       tables: {law_inputs},\n\
+         \x20       feedback: FeedbackSlices::none(),\n\
          \x20       gravity: {},\n\
          \x20       base: {},\n\
          \x20       length: {},\n\

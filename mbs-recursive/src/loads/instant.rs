@@ -22,17 +22,25 @@ pub struct Instant<'a, T: Real, S: Space<T>> {
     pub base: S::Point,
 }
 
+/// Angle or slide of a joint with one coordinate, and its rate, by coordinates, velocities and guides.
+#[inline(always)]
+pub(crate) fn coordinate_of<T: Real, S: Space<T>>(
+    link: &Link<T, S>,
+    (z, v, guides): (&[T], &[T], &[[T; 3]]),
+) -> Result<[T; 2], Outside> {
+    Ok(match link.kind {
+        LinkKind::GuidedRevolute | LinkKind::GuidedPrismatic => {
+            let [value, rate, _] = *at(guides, link.v as usize)?;
+            [value, rate]
+        }
+        _ => [*at(z, link.z as usize)?, *at(v, link.v as usize)?],
+    })
+}
+
 impl<T: Real, S: Space<T>> Instant<'_, T, S> {
     /// Angle or slide of a joint with one coordinate, and its rate.
     pub(crate) fn coordinate(&self, link: u32) -> Result<[T; 2], Outside> {
-        let (link, (z, v, guides)) = (at(self.links, link as usize)?, self.coordinates);
-        Ok(match link.kind {
-            LinkKind::GuidedRevolute | LinkKind::GuidedPrismatic => {
-                let [value, rate, _] = *at(guides, link.v as usize)?;
-                [value, rate]
-            }
-            _ => [*at(z, link.z as usize)?, *at(v, link.v as usize)?],
-        })
+        coordinate_of(at(self.links, link as usize)?, self.coordinates)
     }
 
     /// Angle of a link against the ground, in the plane: the sum of the angles on the way there.

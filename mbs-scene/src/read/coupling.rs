@@ -16,7 +16,7 @@ use crate::read::fields::{Context, Fields, Read};
 use crate::read::motion::{MOTION_KEYS, read_motion};
 use crate::read::tree::{Item, Node};
 use mbs_core::scene::{
-    Axis, Coupling, CouplingMeasure, CouplingTerm, Curve, Freedom, Joint, Motion, Number,
+    Axis, Coupling, CouplingMeasure, CouplingTerm, Curve, Freedom, Joint, JointId, Motion, Number,
 };
 
 /// The kinds of coupling.
@@ -352,14 +352,23 @@ fn read_term<'a>(
     let of = if let Some(points) = term.get("points") {
         CouplingMeasure::Length { points: read_points(fields, points)? }
     } else {
-        let named = Named::new(&term, term.need("joint")?, joints)?;
-        let number = match term.get("coordinate") {
-            Some(item) => term.coordinate(item, named.joint)?,
-            None => named.number(&term, Needed::Only)?,
-        };
-        CouplingMeasure::Coordinate { joint: named.id, number }
+        let (joint, number) = measured_coordinate(&term, joints)?;
+        CouplingMeasure::Coordinate { joint, number }
     };
     Ok(CouplingTerm { factor: term.number_or("factor", "1")?, of, curve: read_curve(&term)? })
+}
+
+/// A joint and a coordinate of it, which need not be named where there is only one.
+pub(crate) fn measured_coordinate<'a>(
+    fields: &Fields<'a>,
+    joints: &'a [Joint<Number>],
+) -> Read<(JointId, usize)> {
+    let named = Named::new(fields, fields.need("joint")?, joints)?;
+    let number = match fields.get("coordinate") {
+        Some(item) => fields.coordinate(item, named.joint)?,
+        None => named.number(fields, Needed::Only)?,
+    };
+    Ok((named.id, number))
 }
 
 pub(crate) fn need_curve(fields: &Fields<'_>) -> Read<Curve<Number>> {

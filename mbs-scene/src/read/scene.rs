@@ -73,8 +73,8 @@ impl SceneFile {
                 .entries(&context, "initial", |_, fields| motion::read_initial(fields))?,
             guides: self.entries(&context, "guide", |_, fields| motion::read_guide(fields))?,
             couplings,
+            signals: self.entries(&context, "signal", |_, fields| signal::read(fields, &joints))?,
             joints,
-            signals: self.entries(&context, "signal", |_, fields| signal::read(fields))?,
             road: match self.top("road") {
                 Some(item) => road::read(&context.table(item, "a table: [road]")?)?,
                 None => Default::default(),

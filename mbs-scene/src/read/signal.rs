@@ -1,13 +1,13 @@
 //! `[[signal]]`, and references to signals by name.
 
-use crate::read::coupling::{need_curve, one};
+use crate::read::coupling::{measured_coordinate, need_curve, one};
 use crate::read::fields::{Context, Fields, Read};
 use crate::read::motion::{read_ends, read_table};
 use crate::read::tree::{Item, Node};
-use mbs_core::scene::{Interpolation, NamedSignal, Number, SignalId, SignalKind};
+use mbs_core::scene::{Interpolation, Joint, NamedSignal, Number, SignalId, SignalKind};
 
 /// The kinds of signal, each with its keys.
-const KINDS: [(&str, &[&str]); 11] = [
+const KINDS: [(&str, &[&str]); 15] = [
     ("constant", &["value"]),
     ("table", &["table", "interpolation", "periodic", "ends"]),
     ("sine", &["amplitude", "frequency", "phase", "offset"]),
@@ -19,20 +19,31 @@ const KINDS: [(&str, &[&str]); 11] = [
     ("curve", &["of", "table", "periodic", "coefficients"]),
     ("clamp", &["of", "lower", "upper"]),
     ("input", &["value", "unit"]),
+    ("measure", &["joint", "coordinate", "quantity"]),
+    ("lag", &["of", "time", "value"]),
+    ("integral", &["of", "lower", "upper", "value"]),
+    ("pid", &["target", "measured", "p", "i", "d", "limit"]),
 ];
 
 /// Reads a signal.
-pub(crate) fn read(fields: &Fields<'_>) -> Read<NamedSignal<Number>> {
+pub(crate) fn read<'a>(
+    fields: &Fields<'a>,
+    joints: &'a [Joint<Number>],
+) -> Read<NamedSignal<Number>> {
     let word = fields.word("kind")?;
     let Some((_, keys)) = KINDS.iter().find(|(name, _)| *name == word.0) else {
         return fields.unknown_word("kind", word, &KINDS.map(|(name, _)| name));
     };
     let elsewhere: Vec<&str> = KINDS.iter().flat_map(|(_, keys)| *keys).copied().collect();
     fields.allow(&[&["name", "kind"], *keys].concat(), &elsewhere)?;
-    Ok(NamedSignal { name: fields.name()?, kind: kind(fields, word.0)? })
+    Ok(NamedSignal { name: fields.name()?, kind: kind(fields, word.0, joints)? })
 }
 
-fn kind(fields: &Fields<'_>, word: &str) -> Read<SignalKind<Number>> {
+fn kind<'a>(
+    fields: &Fields<'a>,
+    word: &str,
+    joints: &'a [Joint<Number>],
+) -> Read<SignalKind<Number>> {
     let (number, or_zero) = (|key| fields.number(key), |key| fields.number_or_zero(key));
     Ok(match word {
         "constant" => SignalKind::Constant(number("value")?),
@@ -78,6 +89,23 @@ fn kind(fields: &Fields<'_>, word: &str) -> Read<SignalKind<Number>> {
             lower: number("lower")?,
             upper: number("upper")?,
         },
+        "measure" => measure(fields, joints)?,
+        "lag" => {
+            SignalKind::Lag { of: single(fields)?, time: number("time")?, value: or_zero("value")? }
+        }
+        "integral" => SignalKind::Integral {
+            of: single(fields)?,
+            lower: fields.optional("lower")?,
+            upper: fields.optional("upper")?,
+            value: or_zero("value")?,
+        },
+        "pid" => SignalKind::Pid {
+            of: [named(fields, "target")?, named(fields, "measured")?],
+            p: or_zero("p")?,
+            i: or_zero("i")?,
+            d: or_zero("d")?,
+            limit: fields.optional("limit")?,
+        },
         _ => {
             let unit = fields.get("unit").map_or(Ok(""), |item| fields.context.text(item))?;
             SignalKind::Input { value: or_zero("value")?, unit: unit.to_owned() }
@@ -106,8 +134,23 @@ fn table(fields: &Fields<'_>) -> Read<SignalKind<Number>> {
     Ok(SignalKind::Table { rows: read_table(fields)?, interpolation, periodic })
 }
 
+/// A coordinate of a joint, or its rate. A joint without one is left to the scene's check.
+fn measure<'a>(fields: &Fields<'a>, joints: &'a [Joint<Number>]) -> Read<SignalKind<Number>> {
+    let (joint, number) = measured_coordinate(fields, joints)?;
+    let is_rate = match fields.get("quantity").map(|_| fields.word("quantity")).transpose()? {
+        None | Some(("value", _)) => false,
+        Some(("rate", _)) => true,
+        Some(word) => return fields.unknown_word("quantity", word, &["value", "rate"]),
+    };
+    Ok(SignalKind::Measure { joint, number, is_rate })
+}
+
 fn single(fields: &Fields<'_>) -> Read<SignalId> {
-    fields.context.signal(fields.need("of")?)
+    named(fields, "of")
+}
+
+fn named(fields: &Fields<'_>, key: &'static str) -> Read<SignalId> {
+    fields.context.signal(fields.need(key)?)
 }
 
 fn list(fields: &Fields<'_>) -> Read<Vec<SignalId>> {

@@ -45,7 +45,7 @@ pub(crate) trait Parts: Tape {
             memory,
             inputs: _,
             applied,
-            signals: _,
+            signals,
             work,
             power,
         } = state;
@@ -53,7 +53,15 @@ pub(crate) trait Parts: Tape {
         [q, q_low, v, a, a_aux, lambda, lambda_previous, reaction, phi, memory]
             .into_iter()
             .try_for_each(|x| self.reals(x))?;
-        self.places(applied.as_chunks_mut::<3>().0, |tape, value| tape.reals(value))
+        let (threes, ones) = applied.as_chunks_mut::<3>();
+        self.places(threes, |tape, value| tape.reals(value))?;
+        // Absent where there are none: files without signals are as they were.
+        for numbers in [ones, signals.as_flattened_mut()] {
+            if !numbers.is_empty() {
+                self.reals(numbers)?;
+            }
+        }
+        Ok(())
     }
 }
 

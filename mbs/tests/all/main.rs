@@ -15,6 +15,7 @@ mod control;
 mod couplings;
 mod driven_wheels;
 mod energy;
+mod feedback;
 mod field;
 mod formulations;
 mod generate;

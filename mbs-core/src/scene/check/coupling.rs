@@ -6,7 +6,7 @@ use crate::Real;
 use crate::inputs::SignalGraph;
 use crate::measure::{CouplingInput, given_values};
 use crate::scene::{
-    Coupling, CouplingMeasure, CouplingTerm, Curve, Entry, Scene, SceneError, SceneFault,
+    Coupling, CouplingMeasure, CouplingTerm, Curve, Entry, JointId, Scene, SceneError, SceneFault,
 };
 
 pub(super) fn check<T: Real>(scene: &Scene<T>) -> Result<(), SceneError> {
@@ -30,19 +30,7 @@ fn check_terms<T: Real>(
         place.finite("factor", *factor)?;
         match of {
             CouplingMeasure::Coordinate { joint, number } => {
-                let Some(joint) = scene.joints.get(joint.index()) else {
-                    return place.fault("joint", SceneFault::UnknownReference);
-                };
-                let n = joint.kind.n_coordinates(scene.dimension);
-                if n == 0 {
-                    return place.fault("joint", SceneFault::NoCoordinate);
-                }
-                if *number >= n {
-                    return place.fault("coordinate", SceneFault::UnknownCoordinate(n));
-                }
-                if joint.kind.freedom(scene.dimension, *number).is_none() {
-                    return place.fault("coordinate", SceneFault::BallCoordinate);
-                }
+                check_measured(scene, (*joint, *number), place)?;
             }
             CouplingMeasure::Length { points } => check_points(scene, points, place)?,
         }
@@ -99,6 +87,28 @@ pub(super) fn check_curve<T: Real>(curve: &Curve<T>, place: Place) -> Result<(),
     {
         let ends = [first[1], last[1]].map(T::to_f64);
         return place.fault("table", SceneFault::PeriodicEnds(ends));
+    }
+    Ok(())
+}
+
+/// A coordinate that is measured as one number: its joint, and its number there.
+pub(super) fn check_measured<T>(
+    scene: &Scene<T>,
+    (joint, number): (JointId, usize),
+    place: Place,
+) -> Result<(), SceneError> {
+    let Some(joint) = scene.joints.get(joint.index()) else {
+        return place.fault("joint", SceneFault::UnknownReference);
+    };
+    let n = joint.kind.n_coordinates(scene.dimension);
+    if n == 0 {
+        return place.fault("joint", SceneFault::NoCoordinate);
+    }
+    if number >= n {
+        return place.fault("coordinate", SceneFault::UnknownCoordinate(n));
+    }
+    if joint.kind.freedom(scene.dimension, number).is_none() {
+        return place.fault("coordinate", SceneFault::BallCoordinate);
     }
     Ok(())
 }

@@ -1,9 +1,10 @@
 //! Signals: names, numbers, operands, and whether they are smooth where that is needed.
 
-use super::coupling::check_curve;
+use super::coupling::{check_curve, check_measured};
 use super::motion::check_slopes;
 use super::vector::{Place, check_times};
 use crate::Real;
+use crate::scene::signal::first_of;
 use crate::scene::{
     Entry, Interpolation, Motion, Scene, SceneError, SceneFault, SignalId, SignalKind, TableEnds,
     signal_breaks, signal_order,
@@ -22,6 +23,7 @@ pub(super) fn check<T: Real>(scene: &Scene<T>) -> Result<(), SceneError> {
             return scene.place(entry).fault("of", SceneFault::SignalCircle);
         }
     };
+    check_rates(scene, &order)?;
     let breaks = signal_breaks(&scene.signals, &order);
     for (entry, signal) in motions(scene) {
         let Some(broken) = breaks.get(signal.index()) else {
@@ -31,6 +33,18 @@ pub(super) fn check<T: Real>(scene: &Scene<T>) -> Result<(), SceneError> {
             let remedy = scene.signals[broken.signal].kind.remedy();
             let fault = SceneFault::SignalNotSmooth { broken, remedy };
             return scene.place(entry).fault("signal", fault);
+        }
+    }
+    Ok(())
+}
+
+/// A controller that answers to a rate needs signals whose rate is known.
+fn check_rates<T: Real>(scene: &Scene<T>, order: &[usize]) -> Result<(), SceneError> {
+    let unknown = first_of(&scene.signals, order, |kind| !kind.has_rate());
+    for (i, signal) in scene.signals.iter().enumerate() {
+        let SignalKind::Pid { of, d, .. } = &signal.kind else { continue };
+        if !d.is_zero() && of.iter().any(|of| unknown[of.index()].is_some()) {
+            return scene.place(Entry::Signal(i)).fault("d", SceneFault::SignalNoRate);
         }
     }
     Ok(())
@@ -108,6 +122,41 @@ fn check_kind<T: Real>(
             finite(&[("lower", lower), ("upper", upper)])?;
             ordered([*lower, *upper], "lower", place)
         }
+        _ => check_feedback(scene, kind, place),
+    }
+}
+
+/// Signals that follow the motion, or have a state.
+fn check_feedback<T: Real>(
+    scene: &Scene<T>,
+    kind: &SignalKind<T>,
+    place: Place,
+) -> Result<(), SceneError> {
+    match kind {
+        SignalKind::Measure { joint, number, .. } => {
+            check_measured(scene, (*joint, *number), place)
+        }
+        SignalKind::Lag { time, value, .. } => {
+            place.positive("time", *time)?;
+            place.finite("value", *value)
+        }
+        SignalKind::Integral { lower, upper, value, .. } => {
+            for (field, limit) in [("lower", lower), ("upper", upper)] {
+                limit.map_or(Ok(()), |limit| place.finite(field, limit))?;
+            }
+            place.finite("value", *value)?;
+            match (*lower, *upper) {
+                (Some(lower), Some(upper)) => ordered([lower, upper], "lower", place),
+                _ => Ok(()),
+            }
+        }
+        SignalKind::Pid { p, i, d, limit, .. } => {
+            for (field, x) in [("p", p), ("i", i), ("d", d)] {
+                place.finite(field, *x)?;
+            }
+            limit.map_or(Ok(()), |limit| place.positive("limit", limit))
+        }
+        _ => Ok(()),
     }
 }
 

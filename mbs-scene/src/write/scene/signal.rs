@@ -100,6 +100,42 @@ impl Writer<'_> {
         Ok(keys)
     }
 
+    /// The keys of a signal that follows the motion or has a state.
+    fn feedback(self, signal: &NamedSignal<Number>, keys: &mut Keys) -> Result<(), WriteError> {
+        match &signal.kind {
+            SignalKind::Measure { joint, number, is_rate } => {
+                keys.push("kind", "measure");
+                keys.push("joint", self.joint_name(*joint)?);
+                keys.push("coordinate", Node::Number(number.to_string()));
+                keys.push("quantity", if *is_rate { "rate" } else { "value" });
+            }
+            SignalKind::Lag { of, time, value } => {
+                keys.push("kind", "lag");
+                keys.push("time", time);
+                keys.push("value", value);
+                keys.push("of", self.signal_name(*of)?);
+            }
+            SignalKind::Integral { of, lower, upper, value } => {
+                keys.push("kind", "integral");
+                keys.push("value", value);
+                keys.push_some("lower", lower.as_ref());
+                keys.push_some("upper", upper.as_ref());
+                keys.push("of", self.signal_name(*of)?);
+            }
+            SignalKind::Pid { of: [target, measured], p, i, d, limit } => {
+                keys.push("kind", "pid");
+                for (key, x) in [("p", p), ("i", i), ("d", d)] {
+                    keys.push(key, x);
+                }
+                keys.push_some("limit", limit.as_ref());
+                keys.push("target", self.signal_name(*target)?);
+                keys.push("measured", self.signal_name(*measured)?);
+            }
+            _ => return Err(WriteError::InCode(format!("signal `{}`", signal.name))),
+        }
+        Ok(())
+    }
+
     /// The keys of a signal that is made of others.
     fn combination(self, signal: &NamedSignal<Number>, keys: &mut Keys) -> Result<(), WriteError> {
         let names = |of: &[SignalId]| {
@@ -127,7 +163,7 @@ impl Writer<'_> {
                 keys.push("upper", upper);
                 keys.push("of", self.signal_name(*of)?);
             }
-            _ => return Err(WriteError::InCode(format!("signal `{}`", signal.name))),
+            _ => return self.feedback(signal, keys),
         }
         Ok(())
     }

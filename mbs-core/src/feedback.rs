@@ -1,0 +1,249 @@
+//! Signals that follow the motion, as a list of operations on the courses of an instant.
+//!
+//! ```text
+//! lag       T x' = u - x:  x = (x_n + h/2 x'_n + h/(2 T) u) / (1 + h/(2 T))
+//! integral  x' = u:        x = x_n + h/2 (x'_n + u), within its limits; beyond one u counts only where it leads back
+//! pid       s = p e + i x + d e',  x' = e;  at the limit of s the integral stops, if e leads it further
+//! ```
+//!
+//! These are the trapezoidal rule over the step h, solved for its end: so states of signals have the motion's order, at each iterate. With
+//! h = 0 states are what they are, and their rates are those of a system of first order.
+
+use crate::Real;
+
+/// What is done to a course.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct FeedbackStep<T> {
+    /// The course.
+    pub to: u32,
+    /// What is done to its value, rate and acceleration.
+    pub operation: FeedbackOperation<T>,
+}
+
+/// Operations on value, rate and acceleration of a course.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum FeedbackOperation<T> {
+    /// A measured coordinate with its rate.
+    Value {
+        /// Which of those that are measured.
+        number: u32,
+    },
+    /// The rate of a measured coordinate.
+    Rate {
+        /// Which of those that are measured.
+        number: u32,
+    },
+    /// A number: where sums and products begin.
+    Constant(T),
+    /// Adds another course times a factor.
+    Add {
+        /// The other course.
+        from: u32,
+        /// The factor.
+        factor: T,
+    },
+    /// Multiplies by another course.
+    Multiply {
+        /// The other course.
+        from: u32,
+    },
+    /// A function of another course.
+    Curve {
+        /// The other course.
+        from: u32,
+        /// The number of the function.
+        curve: u32,
+    },
+    /// Another course within limits, the lower one first.
+    Clamp {
+        /// The other course.
+        from: u32,
+        /// The limits.
+        limits: [T; 2],
+    },
+    /// Another course, late.
+    Lag {
+        /// The other course.
+        from: u32,
+        /// Which of the states.
+        state: u32,
+        /// By this time [s].
+        time: T,
+    },
+    /// The integral of another course.
+    Integral {
+        /// The other course.
+        from: u32,
+        /// Which of the states.
+        state: u32,
+        /// Its limits, the lower one first; infinite: it has none.
+        limits: [T; 2],
+    },
+    /// What a controller asks for.
+    Pid {
+        /// The wanted course and the measured one.
+        from: [u32; 2],
+        /// Which of the states.
+        state: u32,
+        /// Factors of difference, integral and rate.
+        gains: [T; 3],
+        /// Largest size of what it asks for; infinite: there is none.
+        limit: T,
+    },
+    /// The value of another course becomes a component of a vector.
+    Component {
+        /// The other course.
+        from: u32,
+        /// Which component.
+        component: u32,
+    },
+}
+
+/// A value, rate and acceleration.
+type Signal<T> = [T; 3];
+
+/// Where states of signals come from and go to: each is a value with its rate.
+#[derive(Debug)]
+pub struct SignalStates<'a, T> {
+    /// Time since the start [s]; zero: states are those of the start.
+    pub dt: T,
+    /// States at the start.
+    pub starts: &'a mut [[T; 2]],
+    /// States at this instant.
+    pub ends: &'a mut [[T; 2]],
+}
+
+/// Carries out operations in their order on the courses of an instant.
+///
+/// `measure` gives a measured coordinate and its rate, `curve` a function's value and two derivatives. Courses and states that are not
+/// there count as zero.
+///
+/// Cost: a few products for each operation; no allocation.
+///
+/// # Errors
+/// What `measure` or `curve` cannot give.
+pub fn follow<T: Real, E>(
+    steps: &[FeedbackStep<T>],
+    mut measure: impl FnMut(u32) -> Result<[T; 2], E>,
+    curve: impl Fn(u32, T) -> Result<[T; 3], E>,
+    states: &mut SignalStates<'_, T>,
+    courses: &mut [Signal<T>],
+) -> Result<(), E> {
+    for step in steps {
+        let of = |number: u32| courses.get(number as usize).copied().unwrap_or([T::ZERO; 3]);
+        let mine = of(step.to);
+        let value = match step.operation {
+            FeedbackOperation::Value { number } => {
+                let [value, rate] = measure(number)?;
+                [value, rate, T::ZERO]
+            }
+            FeedbackOperation::Rate { number } => [measure(number)?[1], T::ZERO, T::ZERO],
+            FeedbackOperation::Constant(value) => [value, T::ZERO, T::ZERO],
+            FeedbackOperation::Add { from, factor } => {
+                let other = of(from);
+                core::array::from_fn(|k| mine[k] + factor * other[k])
+            }
+            FeedbackOperation::Multiply { from } => product(mine, of(from)),
+            FeedbackOperation::Curve { from, curve: number } => {
+                let s = of(from);
+                chain(curve(number, s[0])?, s)
+            }
+            FeedbackOperation::Clamp { from, limits } => clamp(of(from), limits),
+            FeedbackOperation::Lag { from, state, time } => {
+                states.with(state, |h, start| lag((h, time), start, of(from)[0]))
+            }
+            FeedbackOperation::Integral { from, state, limits } => {
+                states.with(state, |h, start| integral((h, limits), start, of(from)))
+            }
+            FeedbackOperation::Pid { from, state, gains, limit } => {
+                let ([wanted, wanted_t, _], [measured, measured_t, _]) = (of(from[0]), of(from[1]));
+                let e = [wanted - measured, wanted_t - measured_t];
+                states.with(state, |h, start| pid((h, gains, limit), start, e))
+            }
+            FeedbackOperation::Component { from, component } => {
+                let mut vector = mine;
+                if let Some(to) = vector.get_mut(component as usize) {
+                    *to = of(from)[0];
+                }
+                vector
+            }
+        };
+        if let Some(to) = courses.get_mut(step.to as usize) {
+            *to = value;
+        }
+    }
+    Ok(())
+}
+
+impl<T: Real> SignalStates<'_, T> {
+    /// Sets a state by the step's length and its start; what is left is its signal.
+    fn with(&mut self, state: u32, f: impl FnOnce(T, [T; 2]) -> (Signal<T>, [T; 2])) -> Signal<T> {
+        let start = self.starts.get(state as usize).copied().unwrap_or([T::ZERO; 2]);
+        let (signal, end) = f(self.dt, start);
+        if let Some(to) = self.ends.get_mut(state as usize) {
+            *to = end;
+        }
+        signal
+    }
+}
+
+/// The product of two signals.
+pub(crate) fn product<T: Real>([a, da, dda]: Signal<T>, [b, db, ddb]: Signal<T>) -> Signal<T> {
+    [a * b, da * b + a * db, dda * b + T::TWO * da * db + a * ddb]
+}
+
+/// A function, with two derivatives, of a signal.
+pub(crate) fn chain<T: Real>([f, df, ddf]: [T; 3], [_, ds, dds]: Signal<T>) -> Signal<T> {
+    [f, df * ds, ddf * ds * ds + df * dds]
+}
+
+/// A signal within limits.
+pub(crate) fn clamp<T: Real>(s: Signal<T>, [lower, upper]: [T; 2]) -> Signal<T> {
+    let held = |value: T| [value, T::ZERO, T::ZERO];
+    if s[0] < lower {
+        held(lower)
+    } else if s[0] > upper {
+        held(upper)
+    } else {
+        s
+    }
+}
+
+fn lag<T: Real>((h, time): (T, T), [x, rate]: [T; 2], u: T) -> (Signal<T>, [T; 2]) {
+    let share = h * T::HALF / time;
+    let x = (x + h * T::HALF * rate + share * u) / (T::ONE + share);
+    let rate = (u - x) / time;
+    ([x, rate, T::ZERO], [x, rate])
+}
+
+fn integral<T: Real>(
+    (h, [lower, upper]): (T, [T; 2]),
+    [x, rate]: [T; 2],
+    [u, u_t, _]: Signal<T>,
+) -> (Signal<T>, [T; 2]) {
+    let free = x + h * T::HALF * (rate + u);
+    let is_held = (free >= upper && u > T::ZERO) || (free <= lower && u < T::ZERO);
+    let x = free.max(lower).min(upper);
+    if is_held { ([x, T::ZERO, T::ZERO], [x, T::ZERO]) } else { ([x, u, u_t], [x, u]) }
+}
+
+fn pid<T: Real>(
+    (h, [p, i, d], limit): (T, [T; 3], T),
+    [x, rate]: [T; 2],
+    [e, e_t]: [T; 2],
+) -> (Signal<T>, [T; 2]) {
+    let asked = |x: T| p * e + i * x + d * e_t;
+    let held = |s: T| [s, T::ZERO, T::ZERO];
+    let free = x + h * T::HALF * (rate + e);
+    let wanted = asked(free);
+    let leads_on = i * e * wanted > T::ZERO;
+    if wanted.abs() <= limit {
+        return (held(wanted), [free, e]);
+    }
+    let s = if wanted > T::ZERO { limit } else { -limit };
+    if leads_on {
+        let x = x + h * T::HALF * rate;
+        return (held(s), [x, T::ZERO]);
+    }
+    (held(s), [free, e])
+}

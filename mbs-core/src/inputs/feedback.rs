@@ -1,0 +1,92 @@
+//! What gives the signals that follow the motion, and the courses that name them: built once from a scene.
+
+use super::Prescribed;
+use crate::Real;
+use crate::feedback::{FeedbackOperation, FeedbackStep};
+use crate::measure::PreparedCurve;
+use crate::scene::Signal;
+use alloc::vec::Vec;
+
+/// Signals that follow the motion: the operations that give them, with what these refer to.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Feedback<T> {
+    /// The operations, in their order.
+    pub steps: Vec<FeedbackStep<T>>,
+    /// Joint and number of each coordinate that is measured.
+    pub measured: Vec<(usize, usize)>,
+    /// What each state begins with.
+    pub starts: Vec<T>,
+    /// The functions.
+    pub curves: Vec<PreparedCurve<T>>,
+}
+
+impl<T: Real> Feedback<T> {
+    /// Is there no such signal?
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.steps.is_empty()
+    }
+
+    /// The states with their rates at the start, which an evaluation gives.
+    #[must_use]
+    pub fn states(&self) -> Vec<[T; 2]> {
+        self.starts.iter().map(|&start| [start, T::ZERO]).collect()
+    }
+
+    pub(super) fn push(&mut self, to: u32, operation: FeedbackOperation<T>) {
+        self.steps.push(FeedbackStep { to, operation });
+    }
+
+    /// The number of a measured coordinate.
+    pub(super) fn measure(&mut self, of: (usize, usize)) -> u32 {
+        let known = self.measured.iter().position(|measured| *measured == of);
+        number(known.unwrap_or_else(|| {
+            self.measured.push(of);
+            self.measured.len() - 1
+        }))
+    }
+
+    /// The number of a state that is added.
+    pub(super) fn state(&mut self, start: T) -> u32 {
+        self.starts.push(start);
+        number(self.starts.len() - 1)
+    }
+
+    /// The number of a function that is added.
+    pub(super) fn curve(&mut self, curve: &PreparedCurve<T>) -> u32 {
+        self.curves.push(curve.clone());
+        number(self.curves.len() - 1)
+    }
+}
+
+impl<T: Real> Prescribed<T> {
+    /// What gives the signals that follow the motion, and the courses that name them.
+    ///
+    /// Cost: one pass over signals and courses; allocates.
+    #[must_use]
+    pub fn feedback(&self) -> Feedback<T> {
+        let mut feedback = Feedback {
+            steps: Vec::new(),
+            measured: Vec::new(),
+            starts: Vec::new(),
+            curves: Vec::new(),
+        };
+        self.signals.add_feedback(&mut feedback);
+        for (i, (_, course)) in self.courses.iter().enumerate() {
+            let Signal::Named(of) = course.course() else { continue };
+            for (component, signal) in of.iter().enumerate() {
+                let Some(signal) = signal.filter(|of| self.signals.follows_motion(*of)) else {
+                    continue;
+                };
+                let (from, component) = (number(signal.index()), number(component));
+                let to = number(self.signals.len() + i);
+                feedback.push(to, FeedbackOperation::Component { from, component });
+            }
+        }
+        feedback
+    }
+}
+
+fn number(i: usize) -> u32 {
+    u32::try_from(i).unwrap_or(u32::MAX)
+}

@@ -1,0 +1,55 @@
+//! Signals that follow the motion, in natural coordinates: joint coordinates by points and directions.
+
+use super::build::Builder;
+use super::layout::{Columns, Layout};
+use super::model::NaturalModel;
+use super::row_builder::MeasureDraft;
+use crate::Real;
+use crate::elements::{Span, combine, measured_value, rate_and_bias};
+use crate::feedback::{SignalStates, follow};
+use crate::inputs::Feedback;
+use crate::model::Terms;
+use alloc::vec::Vec;
+use core::convert::Infallible;
+
+impl<T: Real> Builder<'_, T> {
+    /// What signals measure; the check of a scene refuses coordinates that nothing measures.
+    pub(super) fn add_measured(&mut self, feedback: &Feedback<T>) {
+        for &(joint, number) in &feedback.measured {
+            let draft = self.coordinate_measure(joint, number);
+            self.measured.extend(draft);
+        }
+    }
+}
+
+impl<T: Real, const D: usize> Layout<T, D> {
+    pub(super) fn add_measured(&mut self, draft: &MeasureDraft<T>) {
+        let entities = draft.combinations().into_iter().flatten();
+        let slots: Vec<usize> = entities.map(|(entity, _)| *entity).collect();
+        let measured = self.signed(draft, &Columns { slots: &slots });
+        self.model.measured.push(measured);
+    }
+}
+
+impl<T: Real, const D: usize> NaturalModel<T, D> {
+    /// Evaluates the signals that follow the motion at (q, v), and the courses that name them.
+    pub(super) fn follow_motion(&self, (q, v): (&[T], &[T]), terms: &mut Terms<T>) {
+        if self.feedback.is_empty() {
+            return;
+        }
+        let at = |x: Span| combine::<T, D>(x.of(&self.pool), q);
+        let rate = |x: Span| combine::<T, D>(x.of(&self.pool), v);
+        let Terms { angles, courses, signals, signal_starts, signal_dt, .. } = terms;
+        let measure = |number: u32| {
+            let Some(measured) = self.measured.get(number as usize) else {
+                return Ok([T::ZERO; 2]);
+            };
+            let value = measured_value(&measured.of, at, angles);
+            let [speed, _] = rate_and_bias(&measured.of, at, rate);
+            Ok::<_, Infallible>([measured.sign * value, measured.sign * speed])
+        };
+        let curve = |number: u32, x: T| Ok(self.feedback.curves[number as usize].at(x));
+        let mut states = SignalStates { dt: *signal_dt, starts: signal_starts, ends: signals };
+        let Ok(()) = follow(&self.feedback.steps, measure, curve, &mut states, courses);
+    }
+}

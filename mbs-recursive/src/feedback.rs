@@ -1,0 +1,60 @@
+//! Signals that follow the motion, in relative coordinates: joint coordinates are those of links.
+
+use crate::indexing::{Outside, at, copy};
+use crate::loads::coordinate_of;
+use crate::slices::{Store, TreeSlices};
+use crate::space::Space;
+use mbs_core::Real;
+use mbs_core::feedback::{FeedbackStep, follow};
+
+/// The operations that give signals which follow the motion, with the links whose coordinates they measure. Functions are those of
+/// [`Couplings`](crate::coupled::Couplings).
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct FeedbackSlices<'a, T> {
+    /// The operations.
+    pub steps: &'a [FeedbackStep<T>],
+    /// The link of each measured coordinate.
+    pub links: &'a [u32],
+    /// Number of states.
+    pub n_states: usize,
+}
+
+impl<T> FeedbackSlices<'_, T> {
+    /// Of a mechanism without such signals.
+    #[must_use]
+    pub const fn none() -> Self {
+        Self { steps: &[], links: &[], n_states: 0 }
+    }
+}
+
+impl<T: Real, S: Space<T>> Store<'_, T, S> {
+    /// States of signals start from `starts`, `dt` [s] before the instants that are evaluated.
+    #[inline(always)]
+    pub(crate) fn begin_signals(&mut self, dt: T, starts: &[[T; 2]]) -> Result<(), Outside> {
+        self.signals.dt = dt;
+        copy(starts, self.signals.starts)
+    }
+}
+
+/// Evaluates the signals that follow the motion, and the courses that name them, at (`s.z`, `s.v`).
+#[inline(always)]
+pub(crate) fn follow_motion<T: Real, S: Space<T>>(
+    m: &TreeSlices<'_, T, S>,
+    s: &mut Store<'_, T, S>,
+) -> Result<(), Outside> {
+    if m.feedback.steps.is_empty() { Ok(()) } else { evaluate(m, s) }
+}
+
+#[inline(never)]
+fn evaluate<T: Real, S: Space<T>>(
+    m: &TreeSlices<'_, T, S>,
+    s: &mut Store<'_, T, S>,
+) -> Result<(), Outside> {
+    let coordinates = (&*s.z, &*s.v, &*s.guides);
+    let measure = |number: u32| {
+        let link = *at(m.feedback.links, number as usize)?;
+        coordinate_of(at(m.links, link as usize)?, coordinates)
+    };
+    let curve = |number: u32, x: T| m.loops.couplings.function(number, x);
+    follow(m.feedback.steps, measure, curve, &mut s.signals, s.courses)
+}

@@ -1,0 +1,173 @@
+//! Signals that follow the motion: controllers, engine curves and late signals, against closed forms in every formulation.
+
+use crate::common::oracle::{Way, rows};
+use mbs::scene_file::SceneFile;
+use mbs_testkit::scene;
+
+/// Every formulation with the trapezoidal rule.
+const FORMULATIONS: [&str; 5] = ["index-3", "index-1", "classical", "state-space", "recursive"];
+/// Integrators of relative coordinates whose error is small beside any tolerance here.
+const ACCURATE: [&str; 3] = ["rk4", "rk853", "radau5"];
+
+/// A wheel of 2 kg m^2 on an axle: in the plane, or in space about an axis along no global one.
+fn wheel(dimension: usize, rest: &str) -> String {
+    let (point, inertia, axis) = if dimension == 2 {
+        ("[0.0, 0.0]", "2.0", "")
+    } else {
+        ("[0.0, 0.0, 0.0]", "[2.0, 2.0, 2.0, 0.0, 0.0, 0.0]", "axis = [0.48, 0.6, 0.64]\n")
+    };
+    format!(
+        "[scene]\ndimension = {dimension}\nduration = 1.0\ngravity = {point}\n\
+        [[body]]\nname = \"wheel\"\nmass = 1.0\ncenter = {point}\ninertia = {inertia}\n\
+        [[joint]]\nname = \"axle\"\nkind = \"revolute\"\nbodies = [\"ground\", \"wheel\"]\nat = {point}\n{axis}\
+        [[signal]]\nname = \"angle\"\nkind = \"measure\"\njoint = \"axle\"\n\
+        [[signal]]\nname = \"speed\"\nkind = \"measure\"\njoint = \"axle\"\nquantity = \"rate\"\n\
+        [[effect]]\nname = \"motor\"\nkind = \"torque\"\njoint = \"axle\"\nsignal = \"asked\"\n\
+        [[output]]\nname = \"angle\"\njoint = \"axle\"\nquantity = \"value\"\n\
+        [[output]]\nname = \"speed\"\njoint = \"axle\"\nquantity = \"rate\"\n{rest}"
+    )
+}
+
+/// The last row of a run.
+fn end(text: &str, way: Way, step: f64, duration: f64) -> Vec<f64> {
+    let steps = (duration / step).round() as usize;
+    let rows = rows(&scene(text), way, (step, duration), steps);
+    let rows = rows.unwrap_or_else(|e| panic!("{way:?}: {e}"));
+    rows.last().expect("a row").1.to_vec()
+}
+
+/// The error of the first output at two steps by each formulation, which must fall by four; and by accurate integrators.
+fn meets(text: &str, (duration, right): (f64, f64), allowed: f64) {
+    for formulation in FORMULATIONS {
+        let way = Way(formulation, "trapezoidal");
+        let [coarse, fine] =
+            [2e-3, 1e-3].map(|step| (end(text, way, step, duration)[0] - right).abs());
+        assert!(fine < allowed, "{formulation}: off by {fine:e}");
+        let order = (coarse / fine).log2();
+        assert!((order - 2.0).abs() < 0.15, "{formulation}: {coarse:e}, {fine:e}, order {order}");
+    }
+    for integrator in ACCURATE {
+        let found = end(text, Way("recursive", integrator), 1e-3, duration)[0];
+        assert!((found - right).abs() < 2e-9, "{integrator}: {found:.12}, not {right:.12}");
+    }
+}
+
+const SERVO: &str = "[[signal]]\nname = \"target\"\nkind = \"constant\"\nvalue = 1.0\n\
+    [[signal]]\nname = \"asked\"\nkind = \"pid\"\ntarget = \"target\"\nmeasured = \"angle\"\n\
+    p = 40.0\ni = 30.0\nd = 6.0\n[[initial]]\njoint = \"axle\"\nvalue = 0.0\nrate = 0.0\n";
+
+#[test]
+fn a_servo_turns_its_wheel_as_its_third_order_equation_says() {
+    // 2 w''' + 6 w'' + 40 w' + 30 w = 0 for w = angle - 1, by its three roots: machine-elements' figure
+    for dimension in [2, 3] {
+        meets(&wheel(dimension, SERVO), (1.0, 1.327_874_856), 1e-4);
+    }
+}
+
+/// `asked` as a signal of a kind, with others that it needs.
+fn asked(kind: &str, others: &str) -> String {
+    format!("[[signal]]\nname = \"asked\"\nkind = {kind}\n{others}")
+}
+
+/// A signal of a constant.
+fn constant(name: &str, value: f64) -> String {
+    format!("[[signal]]\nname = \"{name}\"\nkind = \"constant\"\nvalue = {value:?}\n")
+}
+
+#[test]
+fn an_engine_whose_torque_falls_with_its_speed_runs_up_as_an_exponential() {
+    // half throttle of 12 - 4 w on 2 kg m^2: w = 3 (1 - e^-t), angle 3 (t - 1 + e^-t)
+    let curve = "[[signal]]\nname = \"full\"\nkind = \"curve\"\nof = \"speed\"\ncoefficients = [12.0, -4.0]\n";
+    let others = format!("{curve}{}", constant("throttle", 0.5));
+    let text = wheel(3, &asked("\"product\"\nof = [\"throttle\", \"full\"]", &others));
+    meets(&text, (1.0, 3.0 * (-1.0_f64).exp()), 1e-5);
+}
+
+#[test]
+fn a_late_torque_follows_its_command_with_its_time() {
+    // 4 N m, late by 0.2 s, on 2 kg m^2: angle t^2 - 2 T t + 2 T^2 (1 - e^(-t/T))
+    let text = wheel(2, &asked("\"lag\"\nof = \"command\"\ntime = 0.2", &constant("command", 4.0)));
+    let t = 0.2_f64;
+    meets(&text, (1.0, 1.0 - 2.0 * t + 2.0 * t * t * (1.0 - (-5.0_f64).exp())), 1e-5);
+}
+
+#[test]
+fn a_controller_counts_the_turns_of_what_it_measures() {
+    // 2 w'' + 6 w' + 40 w = 0 from w = -10 rad, more than a turn: overdamped in nothing, 1.6 turns on the way
+    let pid = "\"pid\"\ntarget = \"target\"\nmeasured = \"angle\"\np = 40.0\nd = 6.0";
+    let text = wheel(3, &asked(pid, &constant("target", 10.0)));
+    let w = 17.75_f64.sqrt();
+    let left = (-1.5_f64).exp() * (w.cos() + 1.5 / w * w.sin());
+    meets(&text, (1.0, 10.0 * (1.0 - left)), 1e-3);
+}
+
+#[test]
+fn an_integral_stops_at_its_limit_and_comes_back_at_once() {
+    // the integral of 8 up to 4 N m at 0.5 s, on 2 kg m^2; then of -8 from 0.75 s
+    let command = "[[signal]]\nname = \"command\"\nkind = \"table\"\ninterpolation = \"hold\"\ntable = [[0.0, 8.0], [0.75, -8.0]]\n";
+    let kind = "\"integral\"\nof = \"command\"\nlower = -1.0\nupper = 4.0";
+    let text = wheel(2, &asked(kind, command));
+    // angle: 4 t^3/6 to 0.5 s, then t^2 + ..., then falling by -4 t^3/6
+    let (w1, a1) = (0.5, 0.5 / 6.0);
+    let (w2, a2) = (w1 + 2.0 * 0.25, a1 + w1 * 0.25 + 0.25 * 0.25);
+    let right = a2 + w2 * 0.25 + 0.25 * 0.25 - 4.0 / 6.0 * 0.25_f64.powi(3);
+    for formulation in FORMULATIONS {
+        let found = end(&text, Way(formulation, "trapezoidal"), 1e-3, 1.0)[0];
+        // the command jumps within a step of 1 ms: 8 (N m/s) 1 ms 0.25 s / 2 / 2 kg m^2
+        assert!((found - right).abs() < 1e-3, "{formulation}: {found}, not {right}");
+    }
+}
+
+/// The angle after `duration` of a wheel under p 40, i 30, d 6 with a limit, by equations of its own: RK4 at 20 us.
+/// `stops`: does its integral stop there?
+fn limited(limit: f64, stops: bool, duration: f64) -> f64 {
+    let rates = |[angle, speed, sum]: [f64; 3]| {
+        let (e, rate) = (1.0 - angle, -speed);
+        let wanted = 40.0 * e + 30.0 * sum + 6.0 * rate;
+        let is_over = wanted.abs() > limit;
+        let given = wanted.clamp(-limit, limit);
+        [speed, given / 2.0, if stops && is_over && e * wanted > 0.0 { 0.0 } else { e }]
+    };
+    let (mut y, h) = ([0.0; 3], 2e-5);
+    let add = |y: [f64; 3], k: [f64; 3], h: f64| std::array::from_fn(|i| y[i] + h * k[i]);
+    for _ in 0..(duration / h).round() as usize {
+        let k1 = rates(y);
+        let k2 = rates(add(y, k1, 0.5 * h));
+        let k3 = rates(add(y, k2, 0.5 * h));
+        let k4 = rates(add(y, k3, h));
+        y = std::array::from_fn(|i| y[i] + h / 6.0 * (k1[i] + 2.0 * (k2[i] + k3[i]) + k4[i]));
+    }
+    y[0]
+}
+
+#[test]
+fn a_controller_at_its_limit_does_not_wind_up() {
+    let text = wheel(2, &SERVO.replace("d = 6.0", "d = 6.0\nlimit = 3.0"));
+    let [right, wound_up] = [true, false].map(|stops| limited(3.0, stops, 2.0));
+    assert!(wound_up > right + 0.05, "{wound_up} and {right} are told apart");
+    for formulation in FORMULATIONS {
+        let found = end(&text, Way(formulation, "trapezoidal"), 1e-3, 2.0)[0];
+        // the end of the limit lies within a step
+        assert!((found - right).abs() < 1e-4, "{formulation}: {found}, not {right}");
+    }
+}
+
+#[test]
+fn signals_that_nothing_can_follow_are_refused_at_their_place() {
+    let guide = "[[guide]]\njoint = \"axle\"\nsignal = \"asked\"\n";
+    let start = "[[initial]]";
+    let cases = [
+        (SERVO.replace(start, &format!("{guide}{start}")), "`angle` follows the motion"),
+        (SERVO.replace("measured = \"angle\"", "measured = \"speed\""), "needs the rate"),
+        (SERVO.replace("target = \"target\"", "target = \"asked\""), "`asked` needs `asked`"),
+        (SERVO.replace("target = \"target\"", "target = \"goal\""), "unknown signal `goal`"),
+        (SERVO.replace("d = 6.0", "d = 6.0\nlimit = 0.0"), "limit"),
+        (SERVO.replace("d = 6.0", "filter = 6.0"), "filter"),
+    ];
+    for (rest, message) in cases {
+        let text = wheel(2, &rest);
+        let error = SceneFile::parse(&text, "scene.toml").and_then(|file| file.scene::<f64>());
+        let error = error.map(|_| ()).expect_err(message).to_string();
+        assert!(error.contains(message), "{message}: {error}");
+    }
+}
