@@ -40,6 +40,9 @@ macro_rules! delegate_model {
         fn has_guides(&self) -> bool {
             self.$model.has_guides()
         }
+        fn n_signal_states(&self) -> usize {
+            self.$model.n_signal_states()
+        }
         fn signal_states(&self) -> alloc::vec::Vec<[$T; 2]> {
             self.$model.signal_states()
         }

@@ -97,6 +97,46 @@ pub enum FeedbackOperation<T> {
         /// Which component.
         component: u32,
     },
+    /// The value of another course becomes a force on a measured coordinate, its first component; how it resists the coordinate and the
+    /// rate are the others.
+    Force {
+        /// The other course.
+        from: u32,
+        /// Which of those that are measured.
+        on: u32,
+    },
+}
+
+/// How a course answers to one of the measured coordinates; of several, the first that it is made of.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct CourseSlope<T> {
+    /// Which of those that are measured.
+    pub of: u32,
+    /// By the coordinate and by its rate.
+    pub by: [T; 2],
+}
+
+impl<T: Real> CourseSlope<T> {
+    /// Of a course that answers to none.
+    #[must_use]
+    pub const fn none() -> Self {
+        Self { of: u32::MAX, by: [T::ZERO; 2] }
+    }
+
+    fn scaled(self, factor: T) -> Self {
+        Self { of: self.of, by: self.by.map(|x| factor * x) }
+    }
+
+    /// With the part of another, if that is of the same coordinate, or this one answers to none.
+    fn plus(self, other: Self) -> Self {
+        if self.of == u32::MAX {
+            other
+        } else if self.of == other.of {
+            Self { of: self.of, by: core::array::from_fn(|k| self.by[k] + other.by[k]) }
+        } else {
+            self
+        }
+    }
 }
 
 /// A value, rate and acceleration.
@@ -111,6 +151,8 @@ pub struct SignalStates<'a, T> {
     pub starts: &'a mut [[T; 2]],
     /// States at this instant.
     pub ends: &'a mut [[T; 2]],
+    /// How each course answers to what is measured.
+    pub slopes: &'a mut [CourseSlope<T>],
 }
 
 /// Carries out operations in their order on the courses of an instant.
@@ -131,45 +173,83 @@ pub fn follow<T: Real, E>(
 ) -> Result<(), E> {
     for step in steps {
         let of = |number: u32| courses.get(number as usize).copied().unwrap_or([T::ZERO; 3]);
-        let mine = of(step.to);
-        let value = match step.operation {
+        let slope = |states: &SignalStates<'_, T>, number: u32| {
+            states.slopes.get(number as usize).copied().unwrap_or(CourseSlope::none())
+        };
+        let (mine, h) = (of(step.to), states.dt);
+        let (value, by) = match step.operation {
             FeedbackOperation::Value { number } => {
                 let [value, rate] = measure(number)?;
-                [value, rate, T::ZERO]
+                ([value, rate, T::ZERO], CourseSlope { of: number, by: [T::ONE, T::ZERO] })
             }
-            FeedbackOperation::Rate { number } => [measure(number)?[1], T::ZERO, T::ZERO],
-            FeedbackOperation::Constant(value) => [value, T::ZERO, T::ZERO],
+            FeedbackOperation::Rate { number } => {
+                let by = CourseSlope { of: number, by: [T::ZERO, T::ONE] };
+                ([measure(number)?[1], T::ZERO, T::ZERO], by)
+            }
+            FeedbackOperation::Constant(value) => ([value, T::ZERO, T::ZERO], CourseSlope::none()),
             FeedbackOperation::Add { from, factor } => {
                 let other = of(from);
-                core::array::from_fn(|k| mine[k] + factor * other[k])
+                let by = slope(states, step.to).plus(slope(states, from).scaled(factor));
+                (core::array::from_fn(|k| mine[k] + factor * other[k]), by)
             }
-            FeedbackOperation::Multiply { from } => product(mine, of(from)),
+            FeedbackOperation::Multiply { from } => {
+                let other = of(from);
+                let [left, right] = [slope(states, step.to), slope(states, from)];
+                (product(mine, other), left.scaled(other[0]).plus(right.scaled(mine[0])))
+            }
             FeedbackOperation::Curve { from, curve: number } => {
                 let s = of(from);
-                chain(curve(number, s[0])?, s)
+                let f = curve(number, s[0])?;
+                (chain(f, s), slope(states, from).scaled(f[1]))
             }
-            FeedbackOperation::Clamp { from, limits } => clamp(of(from), limits),
+            FeedbackOperation::Clamp { from, limits: [lower, upper] } => {
+                let s = of(from);
+                let is_free = s[0] >= lower && s[0] <= upper;
+                let by = if is_free { slope(states, from) } else { CourseSlope::none() };
+                (clamp(s, [lower, upper]), by)
+            }
             FeedbackOperation::Lag { from, state, time } => {
-                states.with(state, |h, start| lag((h, time), start, of(from)[0]))
+                let share = h * T::HALF / time;
+                let by = slope(states, from).scaled(share / (T::ONE + share));
+                let lag = states.with(state, |h, start| lag((h, time), start, of(from)[0]));
+                (lag, by)
             }
             FeedbackOperation::Integral { from, state, limits } => {
-                states.with(state, |h, start| integral((h, limits), start, of(from)))
+                let by = slope(states, from).scaled(h * T::HALF);
+                let sum = states.with(state, |h, start| integral((h, limits), start, of(from)));
+                (sum, by)
             }
             FeedbackOperation::Pid { from, state, gains, limit } => {
                 let ([wanted, wanted_t, _], [measured, measured_t, _]) = (of(from[0]), of(from[1]));
                 let e = [wanted - measured, wanted_t - measured_t];
-                states.with(state, |h, start| pid((h, gains, limit), start, e))
+                let asked = states.with(state, |h, start| pid((h, gains, limit), start, e));
+                let of_e = slope(states, from[1]).scaled(-T::ONE).plus(slope(states, from[0]));
+                let [p, i, d] = gains;
+                let by = of_e.scaled(p + i * h * T::HALF);
+                // the rate of what answers to a coordinate answers to the coordinate's rate
+                let by = CourseSlope { of: by.of, by: [by.by[0], by.by[1] + d * of_e.by[0]] };
+                let is_free = asked[0].abs() < limit;
+                (asked, if is_free { by } else { CourseSlope::none() })
             }
             FeedbackOperation::Component { from, component } => {
                 let mut vector = mine;
                 if let Some(to) = vector.get_mut(component as usize) {
                     *to = of(from)[0];
                 }
-                vector
+                (vector, CourseSlope::none())
+            }
+            FeedbackOperation::Force { from, on } => {
+                let by = slope(states, from);
+                // what pushes the way it is pushed is left to the iteration: the matrix stays definite
+                let resists = |slope: T| if by.of == on { (-slope).max(T::ZERO) } else { T::ZERO };
+                ([of(from)[0], resists(by.by[0]), resists(by.by[1])], CourseSlope::none())
             }
         };
         if let Some(to) = courses.get_mut(step.to as usize) {
             *to = value;
+        }
+        if let Some(to) = states.slopes.get_mut(step.to as usize) {
+            *to = by;
         }
     }
     Ok(())
@@ -184,6 +264,19 @@ impl<T: Real> SignalStates<'_, T> {
             *to = end;
         }
         signal
+    }
+}
+
+/// Notes the courses of these numbers, with their rates, behind the first `n_states` of `ends`.
+pub fn note_followed<T: Real>(
+    (signals, n_states): (&[u32], usize),
+    courses: &[Signal<T>],
+    ends: &mut [[T; 2]],
+) {
+    for (to, &signal) in ends.iter_mut().skip(n_states).zip(signals) {
+        if let Some(&[value, rate, _]) = courses.get(signal as usize) {
+            *to = [value, rate];
+        }
     }
 }
 

@@ -318,19 +318,28 @@ pub struct SignalInput<T> {
     course: Signal<T>,
     /// Speed of (speed t, speed, 0).
     travel: Option<T>,
+    /// Joint and number of the coordinate that it is a force on.
+    on: Option<(usize, usize)>,
 }
 
 impl<T: Real> SignalInput<T> {
     /// Prepares a course.
     #[must_use]
     pub fn new(course: &Signal<T>) -> Self {
-        Self { course: course.clone(), travel: None }
+        Self { course: course.clone(), travel: None, on: None }
     }
 
     /// The course (speed t, speed, 0) of a road.
     #[must_use]
     pub fn travel(speed: T) -> Self {
-        Self { course: Signal::Constant([T::ZERO; 3]), travel: Some(speed) }
+        Self { course: Signal::Constant([T::ZERO; 3]), travel: Some(speed), on: None }
+    }
+
+    /// The same as a force on a joint's coordinate.
+    #[must_use]
+    pub(crate) fn force_on(mut self, on: (usize, usize)) -> Self {
+        self.on = Some(on);
+        self
     }
 
     /// The course; of a road that moves a constant that is not read.

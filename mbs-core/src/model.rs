@@ -9,6 +9,7 @@
 
 use crate::Real;
 use crate::blocks::{BlockSource, Cliques};
+use crate::feedback::CourseSlope;
 use crate::inputs::Prescribed;
 pub use crate::laws::scalar::ScalarForce;
 use crate::team::{Alone, Team};
@@ -42,6 +43,8 @@ pub struct Terms<T> {
     pub signal_starts: Vec<[T; 2]>,
     /// How long that is ago [s].
     pub signal_dt: T,
+    /// How each course answers to what signals measure; none where no signal does.
+    pub course_slopes: Vec<CourseSlope<T>>,
 }
 
 impl<T: Real> Terms<T> {
@@ -111,7 +114,11 @@ pub trait Model<T: Real>: Cliques + Sync {
     fn terms(&self) -> Terms<T>;
     /// Writes the unknowns' reference values and all constants.
     fn write_reference(&self, q: &mut [T]);
-    /// The states of signals as they begin, each with its rate; rates are given by an evaluation.
+    /// Number of states of signals.
+    fn n_signal_states(&self) -> usize {
+        0
+    }
+    /// What a [state](State::signals) has of signals as they begin.
     fn signal_states(&self) -> Vec<[T; 2]> {
         Vec::new()
     }
@@ -268,7 +275,7 @@ pub struct State<T> {
     pub inputs: Vec<T>,
     /// The inputs that accelerations, multipliers and power were made with.
     pub applied: Vec<T>,
-    /// States of signals that have one, each with its rate.
+    /// States of signals that have one, then the signals that follow the motion, each with its rate.
     pub signals: Vec<[T; 2]>,
     /// Work done on the mechanism by dampers, courses and guides since the start [J].
     pub work: T,

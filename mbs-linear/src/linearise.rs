@@ -3,7 +3,7 @@
 //! ```text
 //! z'' = f(z, z'):   q(z) on the constraints, q'(z, z') with J q' + phi_t = 0,  M q'' + J^T lambda = Q,  J q'' + bias = 0
 //! K_r = -df/dz,   C_r = -df/dz'         (inertia 1, see `tangent_coordinates`)
-//! d/dt (z, z') = A (z, z') + ...,   A = [[0, 1], [-K_r, -C_r]]
+//! d/dt (z, z') = A (z, z') + ...,   A = [[0, 1], [-K_r, -C_r]]        (with states of signals: see `signals`)
 //! ```
 //!
 //! Derivatives are central differences of fourth order of the equations of motion themselves, not of the tangent that the
@@ -16,6 +16,7 @@
 
 use crate::error::LinearError;
 use crate::options::LinearOptions;
+use crate::signals::LinearSignals;
 use crate::tangent_coordinates::TangentCoordinates;
 use crate::workspace::Workspace;
 use alloc::vec;
@@ -52,20 +53,36 @@ pub struct Linear<T> {
     pub turning: T,
     /// Rounding to be expected in `stiffness` [1/s^2]: eigenvalues whose square is of this size are zero.
     pub noise: T,
+    /// The states of signals.
+    pub signals: LinearSignals<T>,
 }
 
 impl<T: Real> Linear<T> {
-    /// A of d/dt (z, z') = A (z, z'), 2f x 2f, column by column.
+    /// Order of the linearised motion: twice the freedoms, and the states of signals.
+    #[must_use]
+    pub const fn order(&self) -> usize {
+        2 * self.n_freedoms + self.signals.n
+    }
+
+    /// A of d/dt (z, z', x) = A (z, z', x) with the states x of signals, column by column.
     #[must_use]
     pub fn state_matrix(&self) -> Vec<T> {
-        let f = self.n_freedoms;
-        let mut a = vec![T::ZERO; 4 * f * f];
+        let (f, s, n) = (self.n_freedoms, self.signals.n, self.order());
+        let mut a = vec![T::ZERO; n * n];
         for j in 0..f {
-            a[(f + j) * 2 * f + j] = T::ONE;
+            a[(f + j) * n + j] = T::ONE;
             for i in 0..f {
-                a[j * 2 * f + f + i] = -self.stiffness[j * f + i];
-                a[(f + j) * 2 * f + f + i] = -self.damping[j * f + i];
+                a[j * n + f + i] = -self.stiffness[j * f + i];
+                a[(f + j) * n + f + i] = -self.damping[j * f + i];
             }
+        }
+        for j in 0..s {
+            let column = (2 * f + j) * n + f;
+            a[column..column + f].copy_from_slice(&self.signals.forces[j * f..][..f]);
+        }
+        for (column, rates) in a.chunks_exact_mut(n).zip(self.signals.rates.chunks_exact(s.max(1)))
+        {
+            column[2 * f..].copy_from_slice(rates);
         }
         a
     }
@@ -108,13 +125,14 @@ pub fn linearise<T: Real, M: Model<T>, S: SymmetricSolver<T>>(
         let slope = difference(h, |z| field.hurried(j, z))?;
         damping.extend(slope.into_iter().map(|x| -x));
     }
+    let signals = field.signals(reach)?;
     let noise = field.noise(&stiffness, reach);
     let basis = field.tangent.basis;
-    Ok(Linear { n_freedoms: f, stiffness, damping, basis, acceleration, turning, noise })
+    Ok(Linear { n_freedoms: f, stiffness, damping, basis, acceleration, turning, noise, signals })
 }
 
 /// (8 (f(h) - f(-h)) - (f(2h) - f(-2h))) / 12 h
-fn difference<T: Real>(
+pub(crate) fn difference<T: Real>(
     h: T,
     mut f: impl FnMut(T) -> Result<Vec<T>, LinearError>,
 ) -> Result<Vec<T>, LinearError> {
@@ -126,7 +144,7 @@ fn difference<T: Real>(
 
 /// z'' as a function of z and z'.
 pub(crate) struct Field<'a, T, M, S> {
-    model: &'a M,
+    pub(crate) model: &'a M,
     pub(crate) w: &'a mut Workspace<T, S>,
     start: &'a State<T>,
     pub(crate) tangent: TangentCoordinates<T>,
@@ -224,6 +242,18 @@ impl<'a, T: Real, M: Model<T>, S: SymmetricSolver<T>> Field<'a, T, M, S> {
         self.factor()
     }
 
+    /// Back to the state's own position.
+    pub(crate) fn return_to_start(&mut self) -> Result<(), LinearError> {
+        let q = self.start.q.clone();
+        self.return_to(&q)
+    }
+
+    /// z'' at the state's own velocity, where the position is the state's.
+    pub(crate) fn acceleration_at_start(&mut self) -> Result<Vec<T>, LinearError> {
+        let v = self.start.v.clone();
+        self.at_rest_of(&v)
+    }
+
     /// How far a change of z moves coordinates, in their sizes [-].
     pub(crate) fn extent(&self, change: &[T]) -> T {
         let mut way = vec![T::ZERO; self.w.n];
@@ -259,7 +289,7 @@ impl<'a, T: Real, M: Model<T>, S: SymmetricSolver<T>> Field<'a, T, M, S> {
     }
 
     /// z'' with one z' changed.
-    fn hurried(&mut self, freedom: usize, z: T) -> Result<Vec<T>, LinearError> {
+    pub(crate) fn hurried(&mut self, freedom: usize, z: T) -> Result<Vec<T>, LinearError> {
         self.v.copy_from_slice(&self.start.v);
         for (v, &b) in self.v.iter_mut().zip(self.tangent.direction(freedom)) {
             *v += b * z;

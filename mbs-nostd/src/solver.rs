@@ -304,7 +304,7 @@ impl<
             lambda: first(lambda, n.rows)?,
             guides: first(&mut self.guides, n.guides)?,
             courses: first(&mut self.courses, n.courses)?,
-            signals: SignalStates { dt: T::ZERO, starts: &mut [], ends: &mut [] },
+            signals: SignalStates { dt: T::ZERO, starts: &mut [], ends: &mut [], slopes: &mut [] },
             z: first(&mut self.z, n.coordinates)?,
             v: first(v, n.freedoms)?,
             zdd: first(zdd, n.freedoms)?,

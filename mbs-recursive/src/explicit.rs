@@ -56,7 +56,8 @@ impl<'r, 'a, 'b, T: Real, S: Space<T>, I: Inputs<T>> System<'r, 'a, 'b, T, S, I>
         self.s.z.copy_from_slice(&y[..nz]);
         self.s.v.copy_from_slice(&y[nz..nz + nv]);
         self.s.signals.dt = T::ZERO;
-        for (start, &x) in self.s.signals.starts.iter_mut().zip(&y[nz + nv..]) {
+        let states = &y[nz + nv..][..self.m.feedback.n_states];
+        for (start, &x) in self.s.signals.starts.iter_mut().zip(states) {
             *start = [x, T::ZERO];
         }
     }
@@ -130,7 +131,7 @@ impl<T: Real, S: Space<T>, I: Inputs<T>> Rates<T> for System<'_, '_, '_, T, S, I
         }
         coordinate_rates(self.m.links, self.s.z, self.s.v, &mut dy[..nz]);
         dy[nz..nz + nv].copy_from_slice(self.s.zdd);
-        let (of_signals, work) = dy[nz + nv..].split_at_mut(self.s.signals.ends.len());
+        let (of_signals, work) = dy[nz + nv..].split_at_mut(self.m.feedback.n_states);
         of_signals.iter_mut().zip(&*self.s.signals.ends).for_each(|(to, [_, rate])| *to = *rate);
         work[0] = energy_balance::power(self.m, self.s)
             .map_err(|outside| failure(self.m, outside.into()))?;
@@ -198,7 +199,7 @@ fn begin<T: Real, S: Space<T>>(m: &TreeSlices<'_, T, S>, start: &Start<'_, T>, y
     let (nz, nv) = (m.n_coordinates, m.n_freedoms);
     y[..nz].copy_from_slice(start.z);
     y[nz..nz + nv].copy_from_slice(start.v);
-    let (of_signals, work) = y[nz + nv..].split_at_mut(start.signals.len());
+    let (of_signals, work) = y[nz + nv..].split_at_mut(m.feedback.n_states);
     of_signals.iter_mut().zip(start.signals).for_each(|(to, [x, _])| *to = *x);
     work[0] = T::ZERO;
 }

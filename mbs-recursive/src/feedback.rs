@@ -5,7 +5,7 @@ use crate::loads::coordinate_of;
 use crate::slices::{Store, TreeSlices};
 use crate::space::Space;
 use mbs_core::Real;
-use mbs_core::feedback::{FeedbackStep, follow};
+use mbs_core::feedback::{FeedbackStep, follow, note_followed};
 
 /// The operations that give signals which follow the motion, with the links whose coordinates they measure. Functions are those of
 /// [`Couplings`](crate::coupled::Couplings).
@@ -17,13 +17,15 @@ pub struct FeedbackSlices<'a, T> {
     pub links: &'a [u32],
     /// Number of states.
     pub n_states: usize,
+    /// The signals that follow the motion, by their numbers among the courses.
+    pub signals: &'a [u32],
 }
 
 impl<T> FeedbackSlices<'_, T> {
     /// Of a mechanism without such signals.
     #[must_use]
     pub const fn none() -> Self {
-        Self { steps: &[], links: &[], n_states: 0 }
+        Self { steps: &[], links: &[], n_states: 0, signals: &[] }
     }
 }
 
@@ -56,5 +58,7 @@ fn evaluate<T: Real, S: Space<T>>(
         coordinate_of(at(m.links, link as usize)?, coordinates)
     };
     let curve = |number: u32, x: T| m.loops.couplings.function(number, x);
-    follow(m.feedback.steps, measure, curve, &mut s.signals, s.courses)
+    follow(m.feedback.steps, measure, curve, &mut s.signals, s.courses)?;
+    note_followed((m.feedback.signals, m.feedback.n_states), s.courses, s.signals.ends);
+    Ok(())
 }

@@ -10,7 +10,7 @@ use crate::tree::TreeModel;
 use alloc::vec;
 use alloc::vec::Vec;
 use mbs_core::Real;
-use mbs_core::feedback::SignalStates;
+use mbs_core::feedback::{CourseSlope, SignalStates};
 use mbs_core::inputs::Prescribed;
 use mbs_core::ode::{Adaptive, Extrapolation, Radau, Tableau, rk4_scratch};
 
@@ -36,7 +36,7 @@ pub struct TreeState<T> {
     pub inputs: Vec<T>,
     /// The inputs that accelerations, multipliers and power were made with.
     pub applied: Vec<T>,
-    /// States of signals that have one, each with its rate.
+    /// States of signals that have one, then the signals that follow the motion, each with its rate.
     pub signals: Vec<[T; 2]>,
     /// Work done by dampers, courses and guides since the start [J].
     pub work: T,
@@ -123,6 +123,7 @@ pub struct Workspace<T: Real, S: Space<T>> {
     inputs: Vec<[T; 3]>,
     /// States of signals: at the start of a step, and at the instant.
     signals: [Vec<[T; 2]>; 2],
+    course_slopes: Vec<CourseSlope<T>>,
     z: Vec<T>,
     /// v, z̈, response, scratch.
     freedoms: Vec<T>,
@@ -171,6 +172,7 @@ impl<T: Real, S: Space<T>> Workspace<T, S> {
             gains: vec![T::ZERO; 2 * model.order.n_gains],
             inputs: vec![[T::ZERO; 3]; n_guides + model.prescribed.n_courses()],
             signals: [model.feedback.states(), model.feedback.states()],
+            course_slopes: model.feedback.slopes(model.prescribed.n_courses()),
             z: vec![T::ZERO; model.n_coordinates],
             freedoms: vec![T::ZERO; 4 * model.n_freedoms],
             history: vec![
@@ -244,7 +246,7 @@ impl<T: Real, S: Space<T>> Workspace<T, S> {
             lambda,
             guides,
             courses,
-            signals: SignalStates { dt: T::ZERO, starts, ends },
+            signals: SignalStates { dt: T::ZERO, starts, ends, slopes: &mut self.course_slopes },
             z: &mut self.z,
             v,
             zdd,

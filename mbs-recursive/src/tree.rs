@@ -335,6 +335,7 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
                 steps: &self.feedback.steps,
                 links: &self.measured,
                 n_states: self.feedback.starts.len(),
+                signals: &self.feedback.signals,
             },
             gravity: self.gravity,
             base: S::point_from(&self.base),

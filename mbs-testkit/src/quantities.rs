@@ -1,7 +1,7 @@
 //! Every quantity that an output of a scene can have.
 
 use mbs_core::outputs::{QUANTITIES, Quantity, Target, TargetKind};
-use mbs_core::scene::{BodyId, CouplingId, EffectId, Inertia, JointId, Output, Scene};
+use mbs_core::scene::{BodyId, CouplingId, EffectId, Inertia, JointId, Output, Scene, SignalId};
 
 /// All quantities of centres of mass, bodies, joints, couplings, effects and the scene, in the order of the table.
 #[must_use]
@@ -23,6 +23,9 @@ pub fn every(scene: &Scene<f64>) -> Vec<Quantity<f64>> {
             }
             TargetKind::Effect => {
                 (0..scene.effects.len()).map(|i| Target::Effect(EffectId::new(i))).collect()
+            }
+            TargetKind::Signal => {
+                (0..scene.signals.len()).map(|i| Target::Signal(SignalId::new(i))).collect()
             }
             TargetKind::Scene => [Target::Scene].into(),
         };

@@ -175,7 +175,7 @@ const NOISE: f64 = 1e3;
 
 /// The eigenvalues of a linearised motion, conjugate ones once, from the slowest to the fastest.
 pub(crate) fn eigenvalues(linear: &Linear<f64>) -> Result<Vec<Mode>, StopError> {
-    let (n, a) = (2 * linear.n_freedoms, linear.state_matrix());
+    let (n, a) = (linear.order(), linear.state_matrix());
     if n == 0 {
         return Ok(Vec::new());
     }

@@ -3,6 +3,7 @@
 use super::{Action, Actions, Attachment};
 use crate::Real;
 use crate::algebra::{Vector, norm};
+use crate::effects::joint_torque::TorqueLaw;
 use crate::effects::laws::{CodeBodyLaw, CodeLaw};
 use crate::inputs::SignalInput;
 use crate::laws::Part;
@@ -100,16 +101,36 @@ impl<T: Real> Compiler<'_, T> {
         self.act(law, |law| Action::Along { ends, direction, offset: T::ZERO, of: None, law });
     }
 
+    /// Joint and number of the coordinate that an effect is on.
+    pub(crate) fn coordinate(
+        &self,
+        (id, coordinate): (JointId, Option<usize>),
+    ) -> Option<(usize, usize)> {
+        let joint = &self.among.joints[id.index()];
+        let number = coordinate.or_else(|| joint.kind.default_coordinate(self.among.dimension));
+        Some((id.index(), number?))
+    }
+
+    /// A force by a signal on a coordinate: one that follows the motion has slopes.
+    pub(crate) fn torque_law(
+        &mut self,
+        signal: &Signal<T>,
+        on: Option<(usize, usize)>,
+    ) -> TorqueLaw {
+        let Some(on) = on.filter(|_| self.actions.prescribed.follows_motion(signal)) else {
+            return TorqueLaw::new(self.course(signal));
+        };
+        TorqueLaw::following(self.input(SignalInput::new(signal).force_on(on)))
+    }
+
     /// A law of a joint's coordinate: the scene's check refuses joints without it.
     pub(crate) fn on_joint(
         &mut self,
         (id, coordinate): (JointId, Option<usize>),
         law: impl Into<Option<Law<T>>>,
     ) {
-        let (index, dimension) = (id.index(), self.among.dimension);
-        let joint = &self.among.joints[index];
-        let number = coordinate.or_else(|| joint.kind.default_coordinate(dimension));
-        let Some(number) = number else { return };
+        let Some((index, number)) = self.coordinate((id, coordinate)) else { return };
+        let (joint, dimension) = (&self.among.joints[index], self.among.dimension);
         match joint.kind.freedom(dimension, number) {
             Some(Freedom::Slide(axis)) => {
                 let direction = direction_of(joint.direction(axis).into());

@@ -25,7 +25,7 @@ mod data {
 
         fn actions(&self, to: &mut Compiler<'_, T>) {
             let course = to.course(&self.course);
-            to.length(self.bodies, self.points, TorqueLaw { course });
+            to.length(self.bodies, self.points, TorqueLaw::new(course));
         }
     }
 }

@@ -6,11 +6,33 @@ use crate::laws::entry::entry;
 use crate::laws::operations::Operations;
 use crate::laws::scalar::{ScalarForce, TensionLaw};
 
-/// A signal's first component, with the sign of growth.
+/// Added to the number of a course whose other components are its slopes [-]: the highest bit, which no number reaches.
+const RESISTS: u32 = 1 << 31;
+
+/// A course's first component, with the sign of growth. Where the course follows the motion, its other components are how it resists the
+/// coordinate and the rate.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct TorqueLaw {
-    /// Number of the signal among those of the model.
-    pub course: u32,
+    /// Number of the course among those of the model, with a bit for one that follows the motion.
+    course: u32,
+}
+
+impl TorqueLaw {
+    /// By a course of this number.
+    #[must_use]
+    pub const fn new(course: u32) -> Self {
+        Self { course }
+    }
+
+    /// By a course that follows the motion: its second and third component are the slopes of the force.
+    #[must_use]
+    pub const fn following(course: u32) -> Self {
+        Self { course: course | RESISTS }
+    }
+
+    const fn number(self) -> u32 {
+        self.course & !RESISTS
+    }
 }
 
 entry!(TorqueLaw { course });
@@ -18,12 +40,12 @@ entry!(TorqueLaw { course });
 impl<T: Real> TensionLaw<T> for TorqueLaw {
     #[inline]
     fn evaluate(&self, value: T, rate: T, law_inputs: &LawInputs<'_, T>) -> ScalarForce<T> {
-        ScalarForce {
-            value,
-            rate,
-            tension: -law_inputs.course(self.course)[0],
-            ..ScalarForce::default()
+        let [force, stiffness, damping] = law_inputs.course(self.number());
+        let tension = -force;
+        if self.course & RESISTS == 0 {
+            return ScalarForce { value, rate, tension, ..ScalarForce::default() };
         }
+        ScalarForce { value, rate, tension, stiffness, damping, ..ScalarForce::default() }
     }
 
     fn operations(&self) -> Operations {
@@ -31,7 +53,7 @@ impl<T: Real> TensionLaw<T> for TorqueLaw {
     }
 
     fn fits(&self, _: &LawInputs<'_, T>, n_courses: usize) -> bool {
-        (self.course as usize) < n_courses
+        (self.number() as usize) < n_courses
     }
 }
 
@@ -40,7 +62,6 @@ pub use data::JointTorque;
 
 #[cfg(feature = "alloc")]
 mod data {
-    use super::TorqueLaw;
     use crate::effects::data::*;
 
     effect! {
@@ -60,8 +81,9 @@ mod data {
         const HAS_BRANCHES: bool = false;
 
         fn actions(&self, to: &mut Compiler<'_, T>) {
-            let course = to.course(&self.course);
-            to.on_joint((self.joint, self.coordinate), TorqueLaw { course });
+            let on = (self.joint, self.coordinate);
+            let law = to.torque_law(&self.course, to.coordinate(on));
+            to.on_joint(on, law);
         }
     }
 }

@@ -2,7 +2,7 @@
 
 use super::Prescribed;
 use crate::Real;
-use crate::feedback::{FeedbackOperation, FeedbackStep};
+use crate::feedback::{CourseSlope, FeedbackOperation, FeedbackStep};
 use crate::measure::PreparedCurve;
 use crate::scene::Signal;
 use alloc::vec::Vec;
@@ -16,6 +16,8 @@ pub struct Feedback<T> {
     pub measured: Vec<(usize, usize)>,
     /// What each state begins with.
     pub starts: Vec<T>,
+    /// The signals that follow the motion, by their numbers.
+    pub signals: Vec<u32>,
     /// The functions.
     pub curves: Vec<PreparedCurve<T>>,
 }
@@ -27,10 +29,18 @@ impl<T: Real> Feedback<T> {
         self.steps.is_empty()
     }
 
-    /// The states with their rates at the start, which an evaluation gives.
+    /// What a state has of them: first their own states, then the signals, each with its rate. An evaluation gives rates and signals.
     #[must_use]
     pub fn states(&self) -> Vec<[T; 2]> {
-        self.starts.iter().map(|&start| [start, T::ZERO]).collect()
+        let mut states: Vec<_> = self.starts.iter().map(|&start| [start, T::ZERO]).collect();
+        states.resize(self.starts.len() + self.signals.len(), [T::ZERO; 2]);
+        states
+    }
+
+    /// Room for how each of `n` courses answers to what is measured; none where nothing follows the motion.
+    #[must_use]
+    pub fn slopes(&self, n: usize) -> Vec<CourseSlope<T>> {
+        alloc::vec![CourseSlope::none(); if self.is_empty() { 0 } else { n }]
     }
 
     pub(super) fn push(&mut self, to: u32, operation: FeedbackOperation<T>) {
@@ -60,6 +70,25 @@ impl<T: Real> Feedback<T> {
 }
 
 impl<T: Real> Prescribed<T> {
+    /// Writes the signals that follow the motion, as a [state](crate::model::State::signals) has them, among the courses:
+    /// [`write`](Self::write) keeps them, and gives them to the courses that name them.
+    pub fn write_followed(&self, signals: &[[T; 2]], courses: &mut [[T; 3]]) {
+        let following = self.signals.following();
+        let values = signals.iter().rev().take(following.clone().count()).rev();
+        for (signal, &[value, rate]) in following.zip(values) {
+            if let Some(to) = courses.get_mut(signal) {
+                *to = [value, rate, T::ZERO];
+            }
+        }
+    }
+
+    /// Does a course name a signal that follows the motion?
+    #[must_use]
+    pub fn follows_motion(&self, course: &Signal<T>) -> bool {
+        let Signal::Named(of) = course else { return false };
+        of.iter().flatten().any(|signal| self.signals.follows_motion(*signal))
+    }
+
     /// What gives the signals that follow the motion, and the courses that name them.
     ///
     /// Cost: one pass over signals and courses; allocates.
@@ -69,6 +98,7 @@ impl<T: Real> Prescribed<T> {
             steps: Vec::new(),
             measured: Vec::new(),
             starts: Vec::new(),
+            signals: self.signals.following().map(number).collect(),
             curves: Vec::new(),
         };
         self.signals.add_feedback(&mut feedback);
@@ -80,7 +110,11 @@ impl<T: Real> Prescribed<T> {
                 };
                 let (from, component) = (number(signal.index()), number(component));
                 let to = number(self.signals.len() + i);
-                feedback.push(to, FeedbackOperation::Component { from, component });
+                let operation = match course.on {
+                    Some(on) => FeedbackOperation::Force { from, on: feedback.measure(on) },
+                    None => FeedbackOperation::Component { from, component },
+                };
+                feedback.push(to, operation);
             }
         }
         feedback

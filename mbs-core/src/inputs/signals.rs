@@ -85,6 +85,11 @@ impl<T: Real> SignalGraph<T> {
         self.nodes.iter().position(is_moving).map(SignalId::new)
     }
 
+    /// The signals that follow the motion.
+    pub(super) fn following(&self) -> impl Iterator<Item = usize> + Clone + '_ {
+        self.follows.iter().enumerate().filter_map(|(i, &follows)| follows.then_some(i))
+    }
+
     /// Does a signal follow the motion, itself or by what it is made of?
     #[must_use]
     pub fn follows_motion(&self, signal: SignalId) -> bool {

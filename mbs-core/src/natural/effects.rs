@@ -110,7 +110,7 @@ impl<T: Real> Builder<'_, T> {
                             x1: self.direction(BodyId::Ground, x),
                             x2: self.direction(BodyId::Ground, y),
                             y: self.direction(me, x),
-                            law: Law::Torque(TorqueLaw { course: *course }),
+                            law: Law::Torque(TorqueLaw::new(*course)),
                         }
                     }
                     Dimension::Spatial => {

@@ -91,6 +91,10 @@ impl<T: Real, const D: usize> Model<T> for NaturalModel<T, D> {
         !self.guided.is_empty() || self.driven().next().is_some()
     }
 
+    fn n_signal_states(&self) -> usize {
+        self.feedback.starts.len()
+    }
+
     fn signal_states(&self) -> Vec<[T; 2]> {
         self.feedback.states()
     }
@@ -118,6 +122,7 @@ impl<T: Real, const D: usize> Model<T> for NaturalModel<T, D> {
             signals: self.feedback.states(),
             signal_starts: self.feedback.states(),
             signal_dt: T::ZERO,
+            course_slopes: self.feedback.slopes(self.prescribed.n_courses()),
         }
     }
 

@@ -6,7 +6,7 @@ use super::model::NaturalModel;
 use super::row_builder::MeasureDraft;
 use crate::Real;
 use crate::elements::{Span, combine, measured_value, rate_and_bias};
-use crate::feedback::{SignalStates, follow};
+use crate::feedback::{SignalStates, follow, note_followed};
 use crate::inputs::Feedback;
 use crate::model::Terms;
 use alloc::vec::Vec;
@@ -39,7 +39,7 @@ impl<T: Real, const D: usize> NaturalModel<T, D> {
         }
         let at = |x: Span| combine::<T, D>(x.of(&self.pool), q);
         let rate = |x: Span| combine::<T, D>(x.of(&self.pool), v);
-        let Terms { angles, courses, signals, signal_starts, signal_dt, .. } = terms;
+        let Terms { angles, courses, signals, signal_starts, signal_dt, course_slopes, .. } = terms;
         let measure = |number: u32| {
             let Some(measured) = self.measured.get(number as usize) else {
                 return Ok([T::ZERO; 2]);
@@ -49,7 +49,14 @@ impl<T: Real, const D: usize> NaturalModel<T, D> {
             Ok::<_, Infallible>([measured.sign * value, measured.sign * speed])
         };
         let curve = |number: u32, x: T| Ok(self.feedback.curves[number as usize].at(x));
-        let mut states = SignalStates { dt: *signal_dt, starts: signal_starts, ends: signals };
+        let mut states = SignalStates {
+            dt: *signal_dt,
+            starts: signal_starts,
+            ends: signals,
+            slopes: course_slopes,
+        };
         let Ok(()) = follow(&self.feedback.steps, measure, curve, &mut states, courses);
+        let of = (&self.feedback.signals[..], self.feedback.starts.len());
+        note_followed(of, courses, signals);
     }
 }

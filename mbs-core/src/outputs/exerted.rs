@@ -68,6 +68,11 @@ impl<T: Real, const D: usize> EffectWrenches<T, D> {
         loads.find_map(|load| load.scalar(state, &law_inputs)).unwrap_or_default()
     }
 
+    /// Value, rate and acceleration of a signal.
+    pub(super) fn signal(&self, signal: usize) -> [T; 3] {
+        self.loads.law_inputs().courses.get(signal).copied().unwrap_or([T::ZERO; 3])
+    }
+
     /// Energy stored in an effect, or in all [J].
     pub(super) fn energy(&self, effect: Option<usize>, state: &State<T>) -> T {
         let law_inputs = self.loads.law_inputs();

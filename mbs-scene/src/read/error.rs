@@ -271,9 +271,9 @@ impl Display for ReadFault {
 }
 
 /// What an output without an owner lacks.
-pub(crate) const OWNER: &str = "joint, body, coupling or effect";
+pub(crate) const OWNER: &str = "joint, body, coupling, effect or signal";
 const OF_WHOM: &str = "add `joint = \"...\"` for its value, rate or reaction, `body = \"...\"` with `at = [...]` for the position, velocity or \
-                       acceleration of a point, or the `coupling` or `effect`; the energy, momentum and center-of-mass are of the scene";
+                       acceleration of a point, or the `coupling`, `effect` or `signal`; the energy, momentum and center-of-mass are of the scene";
 const INERTIA: &str = "add `inertia`, about the centre of mass [kg m^2]: one number in the plane, six in space; a point mass that is welded \
                        to a body has zeros; a slender rod has \
                        `rod = { from = [...], to = [...] }` instead of `center` and `inertia`";

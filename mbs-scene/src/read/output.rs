@@ -8,7 +8,7 @@ use mbs_core::outputs::{QUANTITIES, Quantity, QuantityRow, Target, TargetKind};
 use mbs_core::scene::{CouplingId, EffectId, Number, Output, SolverTable};
 
 /// Keys that say what an output is of; one at most.
-const OWNERS: [&str; 4] = ["joint", "body", "coupling", "effect"];
+const OWNERS: [&str; 5] = ["joint", "body", "coupling", "effect", "signal"];
 
 /// Reads an output of a scene with these couplings and effects.
 pub(crate) fn read(
@@ -78,6 +78,7 @@ fn target(
         TargetKind::Joint => Target::Joint(fields.context.joint(owner()?)?),
         TargetKind::Coupling => Target::Coupling(CouplingId::new(place(couplings, "couplings")?)),
         TargetKind::Effect => Target::Effect(EffectId::new(place(effects, "effects")?)),
+        TargetKind::Signal => Target::Signal(fields.context.signal(owner()?)?),
         TargetKind::Scene => Target::Scene,
     })
 }

@@ -403,6 +403,7 @@ impl Writer<'_> {
                 let effect = effect.ok_or(WriteError::UnknownReference("effect"))?;
                 keys.push("effect", effect.name.as_str());
             }
+            Target::Signal(signal) => keys.push("signal", self.signal_name(signal)?),
             Target::Scene => {}
         }
         keys.push("quantity", output.quantity.row().name);

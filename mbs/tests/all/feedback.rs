@@ -2,6 +2,7 @@
 
 use crate::common::oracle::{Way, rows};
 use mbs::scene_file::SceneFile;
+use mbs::{Modes, Place, Search};
 use mbs_testkit::scene;
 
 /// Every formulation with the trapezoidal rule.
@@ -121,23 +122,14 @@ fn an_integral_stops_at_its_limit_and_comes_back_at_once() {
 /// The angle after `duration` of a wheel under p 40, i 30, d 6 with a limit, by equations of its own: RK4 at 20 us.
 /// `stops`: does its integral stop there?
 fn limited(limit: f64, stops: bool, duration: f64) -> f64 {
-    let rates = |[angle, speed, sum]: [f64; 3]| {
+    let rates = |_, [angle, speed, sum]: [f64; 3]| {
         let (e, rate) = (1.0 - angle, -speed);
         let wanted = 40.0 * e + 30.0 * sum + 6.0 * rate;
         let is_over = wanted.abs() > limit;
         let given = wanted.clamp(-limit, limit);
         [speed, given / 2.0, if stops && is_over && e * wanted > 0.0 { 0.0 } else { e }]
     };
-    let (mut y, h) = ([0.0; 3], 2e-5);
-    let add = |y: [f64; 3], k: [f64; 3], h: f64| std::array::from_fn(|i| y[i] + h * k[i]);
-    for _ in 0..(duration / h).round() as usize {
-        let k1 = rates(y);
-        let k2 = rates(add(y, k1, 0.5 * h));
-        let k3 = rates(add(y, k2, 0.5 * h));
-        let k4 = rates(add(y, k3, h));
-        y = std::array::from_fn(|i| y[i] + h / 6.0 * (k1[i] + 2.0 * (k2[i] + k3[i]) + k4[i]));
-    }
-    y[0]
+    rk4(rates, [0.0; 3], (duration, 2e-5))[0]
 }
 
 #[test]
@@ -169,5 +161,120 @@ fn signals_that_nothing_can_follow_are_refused_at_their_place() {
         let error = SceneFile::parse(&text, "scene.toml").and_then(|file| file.scene::<f64>());
         let error = error.map(|_| ()).expect_err(message).to_string();
         assert!(error.contains(message), "{message}: {error}");
+    }
+}
+
+#[test]
+fn a_stiff_controller_converges_where_its_damping_outweighs_the_inertia() {
+    // d h / 2 is five times the inertia; the target rises within 0.1 s
+    let servo = SERVO
+        .replace("p = 40.0\ni = 30.0\nd = 6.0", "p = 1e6\nd = 2e4")
+        .replace("kind = \"constant\"\nvalue = 1.0", "kind = \"step\"\nto = 1.0\nrise = 0.1");
+    let target = |t: f64| {
+        let s = t / 0.1;
+        let rate = 30.0 * s * s * (1.0 - s) * (1.0 - s) / 0.1;
+        (s * s * s * (10.0 - s * (15.0 - 6.0 * s)), rate)
+    };
+    let rates = |t: f64, [angle, speed]: [f64; 2]| {
+        let (wanted, rate) = target(t);
+        [speed, 0.5 * (1e6 * (wanted - angle) + 2e4 * (rate - speed))]
+    };
+    let right = rk4(rates, [0.0; 2], (0.08, 1e-5))[0];
+    for dimension in [2, 3] {
+        for formulation in FORMULATIONS {
+            let way = Way(formulation, "trapezoidal");
+            let found = end(&wheel(dimension, &servo), way, 1e-3, 0.08)[0];
+            // where the target is after 80 of its 100 steps: (h/T)^2
+            assert!((found - right).abs() < 1e-4, "{formulation}: {found}, not {right}");
+        }
+    }
+}
+
+/// The end of a duration in steps of a length by the method of order 4.
+fn rk4<const N: usize>(
+    rates: impl Fn(f64, [f64; N]) -> [f64; N],
+    mut y: [f64; N],
+    (duration, h): (f64, f64),
+) -> [f64; N] {
+    let add = |y: [f64; N], k: [f64; N], h: f64| std::array::from_fn(|i| y[i] + h * k[i]);
+    for n in 0..(duration / h).round() as u32 {
+        let t = h * f64::from(n);
+        let k1 = rates(t, y);
+        let k2 = rates(t + 0.5 * h, add(y, k1, 0.5 * h));
+        let k3 = rates(t + 0.5 * h, add(y, k2, 0.5 * h));
+        let k4 = rates(t + h, add(y, k3, h));
+        y = std::array::from_fn(|i| y[i] + h / 6.0 * (k1[i] + 2.0 * (k2[i] + k3[i]) + k4[i]));
+    }
+    y
+}
+
+/// Two rods in space on skew axes; the torque on the first answers to the turn of the second.
+fn crossed() -> String {
+    let rod = |name: &str, center: &str| {
+        format!(
+            "[[body]]\nname = \"{name}\"\nmass = 2.0\ncenter = {center}\n\
+            inertia = [0.2, 0.25, 0.3, 0.01, 0.02, 0.0]\n"
+        )
+    };
+    format!(
+        "[scene]\ndimension = 3\nduration = 1.0\n{}{}\
+        [[joint]]\nname = \"axle\"\nkind = \"revolute\"\nbodies = [\"ground\", \"one\"]\nat = [0.0, 0.0, 0.0]\naxis = [0.48, 0.6, 0.64]\n\
+        [[joint]]\nname = \"pin\"\nkind = \"cylindrical\"\nbodies = [\"two\", \"one\"]\nat = [0.8, 0.0, 0.0]\naxis = [0.0, 0.6, 0.8]\n\
+        [[effect]]\nname = \"hold\"\nkind = \"spring-damper\"\nbodies = [\"one\", \"two\"]\npoints = [[0.8, 0.0, 0.0], [0.8, 0.3, 0.4]]\n\
+        stiffness = 400.0\ndamping = 3.0\nfree_length = 0.5\n\
+        [[effect]]\nname = \"motor\"\nkind = \"torque\"\njoint = \"axle\"\nsignal = \"asked\"\n\
+        [[signal]]\nname = \"turn\"\nkind = \"measure\"\njoint = \"pin\"\ncoordinate = \"turn\"\n\
+        [[signal]]\nname = \"speed\"\nkind = \"measure\"\njoint = \"axle\"\nquantity = \"rate\"\n\
+        [[signal]]\nname = \"late\"\nkind = \"lag\"\nof = \"turn\"\ntime = 0.05\n\
+        [[signal]]\nname = \"asked\"\nkind = \"sum\"\nof = [\"late\", \"speed\"]\nfactors = [-3.0, -0.5]\n\
+        [[initial]]\njoint = \"pin\"\nrate = [0.0, 14.0]\n\
+        [[output]]\nname = \"angle\"\njoint = \"axle\"\nquantity = \"value\"\n\
+        [[output]]\nname = \"given\"\neffect = \"motor\"\nquantity = \"force\"\n\
+        [[output]]\nname = \"asked\"\nsignal = \"asked\"\n\
+        [[output]]\nname = \"turn\"\nsignal = \"turn\"\n\
+        [[output]]\nname = \"pin\"\njoint = \"pin\"\nquantity = \"value\"\n\
+        [[output]]\nname = \"power\"\neffect = \"motor\"\nquantity = \"power\"\n\
+        [[output]]\nname = \"rate\"\njoint = \"axle\"\nquantity = \"rate\"\n",
+        rod("one", "[0.4, 0.0, 0.0]"),
+        rod("two", "[0.8, 0.1, 0.3]"),
+    )
+}
+
+#[test]
+fn what_a_motor_gives_is_its_signal_and_turns_are_counted_in_every_formulation() {
+    let text = crossed();
+    let right = end(&text, Way("recursive", "rk853"), 1e-3, 1.0);
+    assert!(right[3].abs() > 7.0, "more than a turn: {right:?}");
+    for formulation in FORMULATIONS {
+        let way = Way(formulation, "trapezoidal");
+        let [coarse, fine] = [1e-3, 5e-4].map(|step| end(&text, way, step, 1.0));
+        let [asked, turn] = [fine[2], fine[3]];
+        assert!((fine[1] + asked).abs() < 1e-12 * asked.abs(), "{formulation}: {fine:?}");
+        // value, and slide and turn, of the joint
+        assert!((turn - fine[5]).abs() < 1e-9, "{formulation}: {fine:?}");
+        let (power, rate) = (fine[6], fine[7]);
+        assert!((power - asked * rate).abs() < 1e-9 * power.abs(), "{formulation}: {fine:?}");
+        for k in [0, 2, 3] {
+            let [before, after] = [coarse[k] - right[k], fine[k] - right[k]].map(f64::abs);
+            let order = (before / after).log2();
+            assert!(after < 1e-3, "{formulation}, {k}: {after:e}");
+            assert!((order - 2.0).abs() < 0.2, "{formulation}, {k}: {before:e}, {after:e}");
+        }
+    }
+}
+
+#[test]
+fn the_modes_of_a_servo_are_the_roots_of_its_cubic() {
+    let servo = SERVO.replace("value = 0.0\nrate = 0.0", "value = 1.0\nrate = 0.0");
+    for dimension in [2, 3] {
+        let scene = scene(&wheel(dimension, &servo));
+        let modes = Modes::new(&scene, Place::Initial, Search::default()).expect("modes");
+        // 2 s^3 + 6 s^2 + 40 s + 30 = 0
+        let right = [(-0.823_851, 0.0), (-1.088_075, 4.125_927)];
+        assert_eq!(modes.modes.len(), right.len(), "{:?}", modes.modes);
+        for (mode, (real, imaginary)) in modes.modes.iter().zip(right) {
+            let off = (mode.real - real).abs().max((mode.imaginary - imaginary).abs());
+            assert!(off < 1e-6, "{mode:?}");
+        }
     }
 }

@@ -138,6 +138,7 @@ impl<T: Real, const D: usize> Loads<T, D> {
 
     /// Sets the courses to those of a state's instant.
     pub(super) fn update(&mut self, state: &State<T>) {
+        self.prescribed.write_followed(&state.signals, &mut self.values);
         self.prescribed.write(state.t, &state.applied, &mut [], &mut self.values);
     }
 

@@ -62,6 +62,12 @@ macro_rules! list {
                 /// Power that an effect gives to bodies [W]; negative where it takes.
                 EffectPower in effect_power;
             }
+            of Signal(signal: SignalId) {
+                /// The value of a signal, in its unit.
+                SignalValue in signal_value;
+                /// The rate of a signal, where it is known; zero of a measured rate and of what a controller asks for.
+                SignalRate in signal_rate;
+            }
             scene {
                 /// Kinetic energy of all bodies [J].
                 KineticEnergy in kinetic_energy;

@@ -14,6 +14,6 @@ pub use components::{Component, ComponentForm};
 pub(super) use kind::{Instant, Maker};
 pub use row::{QuantityRow, Target, TargetKind};
 
-use crate::scene::{BodyId, CouplingId, EffectId, JointId};
+use crate::scene::{BodyId, CouplingId, EffectId, JointId, SignalId};
 
 list::list!(quantities);

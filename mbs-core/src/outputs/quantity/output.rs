@@ -4,7 +4,8 @@ use super::components::Component;
 use super::{Quantity, Target};
 use crate::effects::ActsOn;
 use crate::scene::{
-    BodyId, CouplingId, CouplingMeasure, EffectId, Freedom, JointId, Number, Output, Scene, Vector3,
+    BodyId, CouplingId, CouplingMeasure, EffectId, Freedom, JointId, Number, Output, Scene,
+    SignalId, SignalKind, Vector3,
 };
 use alloc::vec::Vec;
 
@@ -24,6 +25,7 @@ impl<T: Clone> Quantity<T> {
             }
             Target::Coupling(coupling) => (&[][..], Some(unit_of_sum(scene, coupling))),
             Target::Effect(effect) => (&[][..], unit_of_measure(scene, effect)),
+            Target::Signal(signal) => (&[][..], Some(unit_of_signal(scene, signal))),
             Target::Point(..) | Target::Body(_) | Target::Scene => (&[][..], None),
         };
         form.of(scene.dimension, freedoms, measured)
@@ -40,6 +42,28 @@ fn unit_of_sum<T>(scene: &Scene<T>, coupling: CouplingId) -> &'static str {
     };
     let mut units = scene.couplings[coupling.index()].terms.iter().map(|term| unit(&term.of));
     units.find(|unit| *unit == "m").unwrap_or("rad")
+}
+
+/// The unit of a signal: that of the coordinate that it measures, and of an input; `-` of what is made of others.
+fn unit_of_signal<T>(scene: &Scene<T>, signal: SignalId) -> &str {
+    match &scene.signals[signal.index()].kind {
+        SignalKind::Measure { joint, number, is_rate } => {
+            let joint = scene.joints.get(joint.index());
+            let freedom = joint.and_then(|joint| joint.kind.freedom(scene.dimension, *number));
+            match (freedom.map_or("rad", Freedom::unit), is_rate) {
+                ("m", true) => "m/s",
+                (_, true) => "rad/s",
+                (unit, false) => unit,
+            }
+        }
+        SignalKind::Input { unit, .. } if !unit.is_empty() => unit,
+        SignalKind::Lag { of, .. } | SignalKind::Clamp { of, .. }
+            if of.index() < signal.index() =>
+        {
+            unit_of_signal(scene, *of)
+        }
+        _ => "-",
+    }
 }
 
 /// The unit of the one number that an effect measures; `None` where it measures several.

@@ -1,7 +1,7 @@
 //! What a quantity says of itself, and what it is of.
 
 use super::components::ComponentForm;
-use crate::scene::{BodyId, CouplingId, EffectId, JointId};
+use crate::scene::{BodyId, CouplingId, EffectId, JointId, SignalId};
 
 /// What a quantity is of.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -16,6 +16,8 @@ pub enum Target<T> {
     Coupling(CouplingId),
     /// An effect.
     Effect(EffectId),
+    /// A signal.
+    Signal(SignalId),
     /// The whole scene.
     Scene,
 }
@@ -33,6 +35,8 @@ pub enum TargetKind {
     Coupling,
     /// An effect.
     Effect,
+    /// A signal.
+    Signal,
     /// The whole scene.
     Scene,
 }
@@ -47,6 +51,7 @@ impl TargetKind {
             Self::Joint => &["joint"],
             Self::Coupling => &["coupling"],
             Self::Effect => &["effect"],
+            Self::Signal => &["signal"],
             Self::Scene => &[],
         }
     }

@@ -34,6 +34,9 @@ pub(super) fn check<T: Real>(
             }
             Some(_) => Ok(()),
         },
-        Target::Coupling(_) | Target::Scene => Ok(()),
+        Target::Signal(signal) if signal.index() >= scene.signals.len() => {
+            place.fault("signal", SceneFault::UnknownReference)
+        }
+        Target::Coupling(_) | Target::Signal(_) | Target::Scene => Ok(()),
     }
 }

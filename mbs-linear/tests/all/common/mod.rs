@@ -46,7 +46,7 @@ impl<const D: usize> Case<D> {
     /// Eigenvalues with their imaginary part, if any, positive; sorted by size, then by real part.
     pub(crate) fn eigenvalues(&mut self, instant: Instant) -> Vec<(f64, f64)> {
         let linear = self.linear(instant).unwrap_or_else(|e| panic!("{e}"));
-        let (n, a) = (2 * linear.n_freedoms, linear.state_matrix());
+        let (n, a) = (linear.order(), linear.state_matrix());
         let a = Mat::from_fn(n, n, |i, j| a[j * n + i]);
         let values = a.eigenvalues().expect("the eigenvalues converge");
         let mut all: Vec<(f64, f64)> =

@@ -88,7 +88,7 @@ fn outputs_of_unknown_parts_are_refused_at_the_name() {
     refused(
         &e,
         &format!("{}:1", line - 2),
-        "`joint, body, coupling or effect` is missing",
+        "`joint, body, coupling, effect or signal` is missing",
         "`coupling` or `effect`",
     );
 }

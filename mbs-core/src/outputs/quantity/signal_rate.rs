@@ -1,0 +1,26 @@
+//! The rate of a signal.
+
+use super::kind::{Instant, Maker, Measured};
+use super::{ComponentForm, QuantityRow, TargetKind};
+use crate::Real;
+use crate::scene::SignalId;
+use core::marker::PhantomData;
+
+pub(super) const ROW: QuantityRow =
+    QuantityRow::new("rate", TargetKind::Signal, ComponentForm::Measured("/s")).of_effects();
+
+/// The signal.
+#[derive(Debug, Clone)]
+pub(in crate::outputs) struct SignalRate<T: Real, const D: usize>(usize, PhantomData<T>);
+
+impl<T: Real, const D: usize> Measured<T, D> for SignalRate<T, D> {
+    type Of = SignalId;
+
+    fn new(of: SignalId, _: &mut Maker<'_, T, D>) -> Self {
+        Self(of.index(), PhantomData)
+    }
+
+    fn write(&self, now: &Instant<'_, T, D>, out: &mut [T]) {
+        out[0] = now.effects.map_or(T::ZERO, |all| all.signal(self.0)[1]);
+    }
+}

@@ -1,0 +1,26 @@
+//! The value of a signal.
+
+use super::kind::{Instant, Maker, Measured};
+use super::{ComponentForm, QuantityRow, TargetKind};
+use crate::Real;
+use crate::scene::SignalId;
+use core::marker::PhantomData;
+
+pub(super) const ROW: QuantityRow =
+    QuantityRow::new("value", TargetKind::Signal, ComponentForm::Measured("")).of_effects();
+
+/// The signal.
+#[derive(Debug, Clone)]
+pub(in crate::outputs) struct SignalValue<T: Real, const D: usize>(usize, PhantomData<T>);
+
+impl<T: Real, const D: usize> Measured<T, D> for SignalValue<T, D> {
+    type Of = SignalId;
+
+    fn new(of: SignalId, _: &mut Maker<'_, T, D>) -> Self {
+        Self(of.index(), PhantomData)
+    }
+
+    fn write(&self, now: &Instant<'_, T, D>, out: &mut [T]) {
+        out[0] = now.effects.map_or(T::ZERO, |all| all.signal(self.0)[0]);
+    }
+}
