@@ -1,6 +1,8 @@
 //! Signals that follow the motion: controllers, engine curves and late signals, against closed forms in every formulation.
 
 use crate::common::oracle::{Way, rows};
+use mbs::core::outputs::Quantity;
+use mbs::core::scene::{BodyId, Output};
 use mbs::scene_file::SceneFile;
 use mbs::{Modes, Place, Search};
 use mbs_testkit::scene;
@@ -275,6 +277,68 @@ fn the_modes_of_a_servo_are_the_roots_of_its_cubic() {
         for (mode, (real, imaginary)) in modes.modes.iter().zip(right) {
             let off = (mode.real - real).abs().max((mode.imaginary - imaginary).abs());
             assert!(off < 1e-6, "{mode:?}");
+        }
+    }
+}
+
+/// Cross product.
+fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
+    let at = |i: usize, j: usize| a[i] * b[j] - a[j] * b[i];
+    [at(1, 2), at(2, 0), at(0, 1)]
+}
+
+#[test]
+fn the_servo_arm_ends_at_its_targets_with_the_torques_of_its_weight() {
+    let mut scene = mbs_testkit::file("servo-arm");
+    let targets = [0.4, 0.3, -0.5, 0.6, 0.5, -0.8];
+    scene.outputs.truncate(6);
+    let (bodies, n) = (scene.bodies.clone(), scene.bodies.len());
+    // each body's centre, the place of its joint, and a point a metre further on the joint's axis
+    let axes = [
+        [0.0, 0.0, 1.0],
+        [0.0, 1.0, 0.0],
+        [0.0, 1.0, 0.0],
+        [1.0, 0.0, 0.0],
+        [0.0, 1.0, 0.0],
+        [1.0, 0.0, 0.0],
+    ];
+    for (k, body) in bodies.iter().enumerate() {
+        let at = scene.joints[k].points[1];
+        let further = std::array::from_fn(|i| at[i] + axes[k][i]);
+        for (name, at) in [("centre", body.center), ("joint", at), ("axis", further)] {
+            let quantity = Quantity::Position { body: BodyId::Body(k), at };
+            scene.outputs.push(Output { name: format!("{name}-{k}"), quantity });
+        }
+    }
+    let joints: Vec<_> = (0..n).collect();
+    for &k in &joints {
+        let signal =
+            scene.signals.iter().position(|s| s.name == format!("servo-{}", scene.joints[k].name));
+        let signal = mbs::core::scene::SignalId::new(signal.expect("a servo"));
+        let quantity = Quantity::SignalValue { signal };
+        scene.outputs.push(Output { name: format!("torque-{k}"), quantity });
+    }
+    for formulation in ["index-3", "recursive"] {
+        let rows = rows(&scene, Way(formulation, "trapezoidal"), (2e-3, 6.0), 3000);
+        let rows = rows.unwrap_or_else(|e| panic!("{formulation}: {e}"));
+        let row = &rows.last().expect("a row").1;
+        let point = |body: usize, k: usize| -> [f64; 3] {
+            std::array::from_fn(|i| row[n + 9 * body + 3 * k + i])
+        };
+        for k in joints.iter().copied() {
+            assert!((row[k] - targets[k]).abs() < 1e-6, "{formulation}, {k}: {}", row[k]);
+            let (place, further) = (point(k, 1), point(k, 2));
+            let axis: [f64; 3] = std::array::from_fn(|i| further[i] - place[i]);
+            let moment: f64 = (k..n)
+                .map(|body| {
+                    let arm = std::array::from_fn(|i| point(body, 0)[i] - place[i]);
+                    let moment = cross(arm, [0.0, 0.0, -9.81 * bodies[body].mass]);
+                    (0..3).map(|i| axis[i] * moment[i]).sum::<f64>()
+                })
+                .sum();
+            let torque = row[n + 9 * n + k];
+            // what is left of the motion after six seconds
+            assert!((torque + moment).abs() < 1e-3, "{formulation}, {k}: {torque}, {moment}");
         }
     }
 }
