@@ -13,6 +13,7 @@ mod codes;
 mod contact;
 mod control;
 mod couplings;
+mod drive_line;
 mod driven_wheels;
 mod energy;
 mod feedback;
