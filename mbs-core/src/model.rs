@@ -326,7 +326,7 @@ impl<T: Real> State<T> {
         }
     }
 
-    /// Overwrites the `n` unknowns, the multipliers and everything else but constants, inputs and signals with another state, of a
+    /// Overwrites the `n` unknowns, the multipliers and everything else but constants and inputs with another state, of a
     /// model with the same unknowns and rows, without allocating.
     ///
     /// # Panics
@@ -343,6 +343,9 @@ impl<T: Real> State<T> {
         self.reaction.copy_from_slice(&other.reaction);
         self.phi.copy_from_slice(&other.phi);
         self.memory.copy_from_slice(&other.memory);
+        if self.signals.len() == other.signals.len() {
+            self.signals.copy_from_slice(&other.signals);
+        }
         (self.work, self.power) = (other.work, other.power);
     }
 
@@ -351,6 +354,5 @@ impl<T: Real> State<T> {
         self.copy_unknowns(other, other.q.len());
         self.inputs.copy_from_slice(&other.inputs);
         self.applied.copy_from_slice(&other.applied);
-        self.signals.copy_from_slice(&other.signals);
     }
 }

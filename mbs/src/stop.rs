@@ -256,6 +256,9 @@ impl StopError {
             }
             Self::Equilibrium(EquilibriumError::Undetermined { .. }, _)
             | Self::Linear(LinearError::NoInertia { .. }) => NO_INERTIA,
+            Self::Equilibrium(EquilibriumError::SignalsMove, _) => {
+                "let the integral measure what it drives, or take it out"
+            }
             Self::Equilibrium(EquilibriumError::NotNear, _) => {
                 "start nearer to it with [[initial]] values, or leave --near out: the search then goes down to a stable one"
             }
@@ -455,6 +458,12 @@ fn write_equilibrium(
         }
         EquilibriumError::NotNear => {
             write!(f, "there is no static equilibrium near the start")
+        }
+        EquilibriumError::SignalsMove => {
+            write!(
+                f,
+                "there is no static equilibrium: an integral or a lag among the signals goes on changing"
+            )
         }
         EquilibriumError::Escapes { .. } => {
             write!(f, "there is no static equilibrium: nothing holds the mechanism")

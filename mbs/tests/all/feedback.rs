@@ -342,3 +342,34 @@ fn the_servo_arm_ends_at_its_targets_with_the_torques_of_its_weight() {
         }
     }
 }
+
+#[test]
+fn an_equilibrium_is_one_of_integrals_and_lags_too() {
+    // 5 N m push the wheel away: the integral alone holds against them, at the target
+    let push = "[[effect]]\nname = \"push\"\nkind = \"torque\"\njoint = \"axle\"\nsignal = \"late\"\n\
+        [[signal]]\nname = \"late\"\nkind = \"lag\"\nof = \"five\"\ntime = 0.3\n\
+        [[signal]]\nname = \"five\"\nkind = \"constant\"\nvalue = 5.0\n\
+        [[output]]\nname = \"asked\"\nsignal = \"asked\"\n";
+    for dimension in [2, 3] {
+        let text = wheel(dimension, &format!("{SERVO}{push}"));
+        let text = text.replace("duration = 1.0", "duration = 1.0\nstart = \"equilibrium\"");
+        for formulation in FORMULATIONS {
+            let row = end(&text, Way(formulation, "trapezoidal"), 1e-2, 1.0);
+            let off = [row[0] - 1.0, row[1], row[2] + 5.0].map(f64::abs);
+            // the search ends at rounding of its differences
+            assert!(off.iter().all(|off| *off < 1e-8), "{dimension}, {formulation}: {row:?}");
+        }
+    }
+    // an integral of what nothing changes has no rest
+    let ramp = asked("\"integral\"\nof = \"five\"", &constant("five", 5.0));
+    let text = wheel(
+        2,
+        &format!(
+            "{ramp}[[effect]]\nkind = \"torsion-spring\"\njoint = \"axle\"\nstiffness = 9.0\n"
+        ),
+    );
+    let text = text.replace("duration = 1.0", "duration = 1.0\nstart = \"equilibrium\"");
+    let error = rows(&scene(&text), Way("index-3", "trapezoidal"), (1e-2, 1.0), 1);
+    let error = error.expect_err("no rest").to_string();
+    assert!(error.contains("goes on changing"), "{error}");
+}
