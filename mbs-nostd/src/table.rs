@@ -16,5 +16,6 @@ pub use mbs_recursive::link::{Link, LinkKind};
 pub use mbs_recursive::loads::{BodyLoad, Load, Measure};
 pub use mbs_recursive::loops::Loops;
 pub use mbs_recursive::plan::{End, LoopCoupling, Pair, Pass, Plan, Span, Station, Update};
+pub use mbs_recursive::rotor::LinkRotor;
 pub use mbs_recursive::rows::{ClosedLoop, Row};
 pub use mbs_recursive::slices::TreeSlices;

@@ -9,6 +9,7 @@ use crate::indexing::own;
 use crate::inverse;
 use crate::options::Options;
 use crate::passes::kinematics;
+use crate::rotor;
 use crate::slices::Start;
 use crate::slices::{Inputs, Store};
 use crate::space::{Numbers, Space};
@@ -318,8 +319,9 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         let m = self.mechanism();
         let mut s = workspace.store();
         self.place_in(state, &mut s);
+        let rotors = own(rotor::kinetic(&m, (s.v, s.guides)));
         [
-            energy_balance::kinetic(m.links, s.placed),
+            energy_balance::kinetic(m.links, s.placed) + rotors,
             own(energy_balance::potential(&m, &s.instant(&m))),
         ]
     }
@@ -341,6 +343,7 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         own(inverse::spread(m.links, s.placed, &state.a, s.a));
         own(evaluate_rows(&m, s));
         own(inverse::forces(&m, s));
+        own(rotor::add_efforts(&m, (&state.a, s.guides), s.condensed));
     }
 
     /// The force and moment [N, N m] of the first body of each joint on the second, at the joint's place on the second, global axes.

@@ -3,6 +3,7 @@
 use crate::link::{ArticulatedInertia, Link, LinkMotion};
 use crate::loads::{Instant, Load};
 use crate::loops::{LoopStore, Loops};
+use crate::rotor::LinkRotor;
 use crate::space::Space;
 use mbs_core::Real;
 use mbs_core::laws::LawInputs;
@@ -16,6 +17,8 @@ pub struct TreeSlices<'a, T: Real, S: Space<T>> {
     pub loops: Loops<'a, T, S>,
     /// The effects.
     pub loads: &'a [Load<T, S>],
+    /// The rotors, one a link.
+    pub rotors: &'a [LinkRotor<T>],
     /// Tables of their laws, without courses: these are of an instant.
     pub tables: LawInputs<'a, T>,
     /// Acceleration of gravity [m/s^2].

@@ -13,6 +13,7 @@ use crate::loops::{LoopStore, Loops, Regularisation, index};
 use crate::order::Order;
 use crate::passes;
 use crate::plan::Plan;
+use crate::rotor::LinkRotor;
 use crate::rows::{ClosedLoop, Row};
 use crate::slices::{Inputs, TreeSlices};
 use crate::space::{Numbers, Space};
@@ -57,6 +58,7 @@ pub struct TreeModel<T: Real, S: Space<T>> {
     pub(crate) couplings: CouplingTables<T, S>,
     pub(crate) order: Order,
     pub(crate) loads: Vec<Load<T, S>>,
+    pub(crate) rotors: Vec<LinkRotor<T>>,
     /// The effect of the scene that each load comes from.
     pub(crate) effects: Vec<usize>,
     pub(crate) prescribed: Prescribed<T>,
@@ -110,6 +112,7 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         let Self { links, loops, rows, couplings, .. } = &mut tree;
         tree.order = Order::new(links, loops, (rows, couplings));
         tree.add_loads(scene, &list)?;
+        tree.add_rotors(scene)?;
         Ok(tree)
     }
 
@@ -150,6 +153,7 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
             couplings: CouplingTables::default(),
             order: Order::default(),
             loads: Vec::new(),
+            rotors: Vec::new(),
             effects: Vec::new(),
             prescribed,
             tables,
@@ -323,6 +327,7 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
                 couplings: self.couplings.slices(),
             },
             loads: &self.loads,
+            rotors: &self.rotors,
             tables: self.tables.law_inputs(&[]),
             gravity: self.gravity,
             base: S::point_from(&self.base),

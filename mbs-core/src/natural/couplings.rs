@@ -59,7 +59,11 @@ impl<T: Real> Builder<'_, T> {
     }
 
     /// What measures a joint coordinate; the check of a scene refuses those that nothing measures.
-    fn coordinate_measure(&mut self, index: usize, number: usize) -> Option<MeasureDraft<T>> {
+    pub(super) fn coordinate_measure(
+        &mut self,
+        index: usize,
+        number: usize,
+    ) -> Option<MeasureDraft<T>> {
         let scene = self.scene;
         let joint = &scene.joints[index];
         let freedom = joint.kind.freedom(scene.dimension, number)?;

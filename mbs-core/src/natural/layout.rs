@@ -25,7 +25,7 @@ pub(super) fn layout<T: Real, const D: usize>(
     builder: Builder<'_, T>,
     actions: Actions<T>,
 ) -> NaturalModel<T, D> {
-    let Builder { entities, groups, clusters, bases, shared, length, .. } = builder;
+    let Builder { entities, groups, rotors, clusters, bases, shared, length, .. } = builder;
     let owners = owners(&groups, &entities);
     let groups = merged(groups, &entities, D);
     let mut layout = Layout::<T, D>::new((entities, &owners), &groups, (clusters, length), actions);
@@ -42,6 +42,7 @@ pub(super) fn layout<T: Real, const D: usize>(
     let owners = (&model.clusters, bases.as_slice(), shared.as_slice());
     model.carried = carriers(&layout.entities, owners, &model.entity_at);
     model.bases = bases;
+    model.place_rotors(&rotors);
     model
 }
 
@@ -111,6 +112,7 @@ impl<T: Real, const D: usize> Layout<T, D> {
             coupled_measures: Vec::new(),
             curves: Vec::new(),
             coupled_angles: Vec::new(),
+            rotors: Vec::new(),
             groups: Vec::new(),
             slots: Vec::new(),
             cliques: Vec::new(),

@@ -6,6 +6,7 @@ use super::forces::{BodyTorque, MeasureElement, PointForce};
 use super::group::Group;
 use super::incidence::Incidence;
 use super::on_body::BodyElement;
+use super::rotors::NaturalRotor;
 use crate::Real;
 use crate::actions::Tables;
 use crate::algebra::{Coef, Vector};
@@ -41,6 +42,7 @@ pub struct NaturalModel<T: Real, const D: usize> {
     pub(super) curves: Vec<PreparedCurve<T>>,
     /// Joint and coordinate of each angle that couplings remember, with its place.
     pub(super) coupled_angles: Vec<((usize, usize), T, u32)>,
+    pub(super) rotors: Vec<NaturalRotor<T>>,
     pub(super) groups: Vec<Group>,
     pub(super) slots: Vec<u32>,
     pub(super) cliques: Vec<u32>,

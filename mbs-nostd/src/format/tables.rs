@@ -9,6 +9,7 @@ use mbs_recursive::coupled::{CoupledRow, SumMeasure, SumTerm};
 use mbs_recursive::link::{Link, LinkKind};
 use mbs_recursive::loads::{BodyLoad, Load, Measure};
 use mbs_recursive::plan::{End, LoopCoupling, Pair, Pass, Span, Station, Update};
+use mbs_recursive::rotor::LinkRotor;
 use mbs_recursive::rows::{ClosedLoop, Row};
 
 record_enum!([] LinkKind = LinkKind {
@@ -38,6 +39,8 @@ record_struct!([T: Real + Record] SumTerm<T> = SumTerm { factor, curve, of });
 record_enum!([T: Real + Record] SumMeasure<T> = SumMeasure {
     0 Joint { link link, side side },
 });
+
+record_struct!([T: Real + Record] LinkRotor<T> = LinkRotor { link, inertia });
 
 record_struct!([] Span = Span { first, end });
 record_struct!([] Station = Station { passes, pairs, ends });

@@ -1,0 +1,107 @@
+//! Rotors that turn with a joint's coordinate: an inertia on the diagonal of the joint's own block.
+//!
+//! ```text
+//! D += I        τ += I z̈,   E = ½ I ż²          I: the rotor's inertia times the square of its ratio
+//! ```
+
+use crate::indexing::{Outside, at, at_mut};
+use crate::link::{ArticulatedInertia, Link};
+use crate::slices::TreeSlices;
+use crate::space::Space;
+use mbs_core::Real;
+
+/// What a rotor adds to the inertia of the coordinate of a link with one.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct LinkRotor<T> {
+    /// The link.
+    pub link: u32,
+    /// Inertia times the square of the ratio [kg m^2, of a slide kg].
+    pub inertia: T,
+}
+
+/// Adds the rotors' inertias to what resists the joints.
+#[inline]
+pub(crate) fn resist<T: Real, S: Space<T>>(
+    rotors: &[LinkRotor<T>],
+    condensed: &mut [ArticulatedInertia<T, S>],
+) -> Result<(), Outside> {
+    for rotor in rotors {
+        at_mut(condensed, rotor.link as usize)?.resistance += rotor.inertia;
+    }
+    Ok(())
+}
+
+/// Adds what the rotors' inertias do along their joints at accelerations `zdd` of the freedoms, as an effect's effort.
+pub(crate) fn add_efforts<T: Real, S: Space<T>>(
+    m: &TreeSlices<'_, T, S>,
+    (zdd, guides): (&[T], &[[T; 3]]),
+    condensed: &mut [ArticulatedInertia<T, S>],
+) -> Result<(), Outside> {
+    for rotor in m.rotors {
+        let acceleration = of_link(m.links, rotor.link, zdd, (guides, 2))?;
+        at_mut(condensed, rotor.link as usize)?.effort -= rotor.inertia * acceleration;
+    }
+    Ok(())
+}
+
+/// Kinetic energy of the rotors [J].
+pub(crate) fn kinetic<T: Real, S: Space<T>>(
+    m: &TreeSlices<'_, T, S>,
+    (v, guides): (&[T], &[[T; 3]]),
+) -> Result<T, Outside> {
+    let mut twice = T::ZERO;
+    for rotor in m.rotors {
+        let rate = of_link(m.links, rotor.link, v, (guides, 1))?;
+        twice += rotor.inertia * rate * rate;
+    }
+    Ok(twice * T::HALF)
+}
+
+/// The number of a link's coordinate among those of the freedoms; of a guided one that derivative of its guide.
+fn of_link<T: Real, S: Space<T>>(
+    links: &[Link<T, S>],
+    link: u32,
+    numbers: &[T],
+    (guides, derivative): (&[[T; 3]], usize),
+) -> Result<T, Outside> {
+    let link = at(links, link as usize)?;
+    if link.kind.is_guided() {
+        return Ok(*at(at(guides, link.v as usize)?, derivative)?);
+    }
+    Ok(*at(numbers, link.v as usize)?)
+}
+
+#[cfg(feature = "alloc")]
+mod build {
+    use super::LinkRotor;
+    use crate::error::TreeError;
+    use crate::space::Space;
+    use crate::tree::TreeModel;
+    use mbs_core::Real;
+    use mbs_core::measure::RotorInput;
+    use mbs_core::scene::Scene;
+
+    impl<T: Real, S: Space<T>> TreeModel<T, S> {
+        /// Adds the rotors of a scene, those of a link as one. Between parts of one body nothing turns.
+        ///
+        /// # Errors
+        /// [`TreeError::EffectCut`]: the rotor of a joint that carries no coordinate.
+        pub(crate) fn add_rotors(&mut self, scene: &Scene<T>) -> Result<(), TreeError> {
+            let links = self.coordinate_links(scene);
+            for RotorInput { effect, joint, number, inertia } in RotorInput::all(scene) {
+                let [first, second] = scene.joints[joint].bodies.map(|body| self.link(body));
+                let Some(link) = links[joint].get(number).copied().flatten() else {
+                    if first == second {
+                        continue;
+                    }
+                    return Err(TreeError::EffectCut { effect, joint });
+                };
+                match self.rotors.iter_mut().find(|rotor| rotor.link == link) {
+                    Some(rotor) => rotor.inertia += inertia,
+                    None => self.rotors.push(LinkRotor { link, inertia }),
+                }
+            }
+            Ok(())
+        }
+    }
+}
