@@ -15,7 +15,7 @@ use crate::slices::{Inputs, Store};
 use crate::space::{Numbers, Space};
 use crate::state::{Explicit, TreeState, Workspace};
 use crate::trapezoidal;
-use crate::tree::TreeModel;
+use crate::tree::{TreeModel, TreePlace};
 use mbs_core::Real;
 use mbs_core::algebra::{Vector, cross};
 use mbs_core::ode::{Adaptive, Extrapolation, Method, Radau, Tableau};
@@ -369,8 +369,7 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
             if self.links[link].kind == crate::link::LinkKind::Free {
                 continue;
             }
-            let c = &s.condensed[link];
-            let through = c.force - s.placed[link].freedom * c.effort;
+            let through = s.condensed[link].force - along(seat, &s);
             let force = S::point_into(&S::point(&through));
             let moment = S::spin_into(&S::spin(&through));
             // On the child about its origin, the joint's place on it; turned round, about the place on the parent side.
@@ -396,9 +395,19 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
     }
 
     /// The joint's place on the parent, from the base.
-    fn parent_place(&self, seat: &crate::tree::TreePlace, s: &Store<'_, T, S>) -> S::Point {
+    fn parent_place(&self, seat: &TreePlace, s: &Store<'_, T, S>) -> S::Point {
         let first = &self.links[seat.first as usize];
         let parent = &s.placed[first.parent as usize];
         parent.position + S::rotate(&parent.rotation, &first.offset)
     }
+}
+
+/// What effects and rotors do along the coordinates of a joint, on its last link about its origin.
+fn along<T: Real, S: Space<T>>(place: &TreePlace, s: &Store<'_, T, S>) -> S::Motion {
+    let mut sum = S::Motion::zero();
+    for link in place.first as usize..=place.link as usize {
+        let p = &s.placed[link];
+        sum = S::gathered(&sum, &-p.arm) + p.freedom * s.condensed[link].effort;
+    }
+    sum
 }

@@ -29,6 +29,7 @@ mod random;
 mod readings;
 mod realtime;
 mod reference;
+mod rotors;
 mod signals;
 mod states;
 mod threads;
