@@ -45,7 +45,7 @@ pub mod plan;
 mod project;
 #[cfg(feature = "alloc")]
 mod quantities;
-pub mod rotor;
+mod rotor;
 pub mod rows;
 #[cfg(feature = "alloc")]
 mod run;

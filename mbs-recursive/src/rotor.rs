@@ -5,19 +5,10 @@
 //! ```
 
 use crate::indexing::{Outside, at, at_mut};
-use crate::link::{ArticulatedInertia, Link};
+use crate::link::{ArticulatedInertia, Link, LinkRotor};
 use crate::slices::TreeSlices;
 use crate::space::Space;
 use mbs_core::Real;
-
-/// What a rotor adds to the inertia of the coordinate of a link with one.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct LinkRotor<T> {
-    /// The link.
-    pub link: u32,
-    /// Inertia times the square of the ratio [kg m^2, of a slide kg].
-    pub inertia: T,
-}
 
 /// Adds the rotors' inertias to what resists the joints.
 #[inline]
@@ -69,39 +60,4 @@ fn of_link<T: Real, S: Space<T>>(
         return Ok(*at(at(guides, link.v as usize)?, derivative)?);
     }
     Ok(*at(numbers, link.v as usize)?)
-}
-
-#[cfg(feature = "alloc")]
-mod build {
-    use super::LinkRotor;
-    use crate::error::TreeError;
-    use crate::space::Space;
-    use crate::tree::TreeModel;
-    use mbs_core::Real;
-    use mbs_core::measure::RotorInput;
-    use mbs_core::scene::Scene;
-
-    impl<T: Real, S: Space<T>> TreeModel<T, S> {
-        /// Adds the rotors of a scene, those of a link as one. Between parts of one body nothing turns.
-        ///
-        /// # Errors
-        /// [`TreeError::EffectCut`]: the rotor of a joint that carries no coordinate.
-        pub(crate) fn add_rotors(&mut self, scene: &Scene<T>) -> Result<(), TreeError> {
-            let links = self.coordinate_links(scene);
-            for RotorInput { effect, joint, number, inertia } in RotorInput::all(scene) {
-                let [first, second] = scene.joints[joint].bodies.map(|body| self.link(body));
-                let Some(link) = links[joint].get(number).copied().flatten() else {
-                    if first == second {
-                        continue;
-                    }
-                    return Err(TreeError::EffectCut { effect, joint });
-                };
-                match self.rotors.iter_mut().find(|rotor| rotor.link == link) {
-                    Some(rotor) => rotor.inertia += inertia,
-                    None => self.rotors.push(LinkRotor { link, inertia }),
-                }
-            }
-            Ok(())
-        }
-    }
 }

@@ -1,9 +1,8 @@
 //! A mechanism and its scratch as slices, so that every step runs on memory of the caller's choice.
 
-use crate::link::{ArticulatedInertia, Link, LinkMotion};
+use crate::link::{ArticulatedInertia, Link, LinkMotion, LinkRotor};
 use crate::loads::{Instant, Load};
 use crate::loops::{LoopStore, Loops};
-use crate::rotor::LinkRotor;
 use crate::space::Space;
 use mbs_core::Real;
 use mbs_core::laws::LawInputs;

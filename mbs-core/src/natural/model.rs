@@ -6,7 +6,6 @@ use super::forces::{BodyTorque, MeasureElement, PointForce};
 use super::group::Group;
 use super::incidence::Incidence;
 use super::on_body::BodyElement;
-use super::rotors::NaturalRotor;
 use crate::Real;
 use crate::actions::Tables;
 use crate::algebra::{Coef, Vector};
@@ -120,6 +119,19 @@ impl<T: Real, const D: usize> NaturalModel<T, D> {
     pub fn n_elements_by_kind(&self) -> [usize; 4] {
         [self.distances.len(), self.dots.len(), self.linears.len(), self.guided.len()]
     }
+}
+
+/// A rotor in the model.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct NaturalRotor<T> {
+    /// `scene.effects[effect]`.
+    pub effect: usize,
+    /// Its unknown, the joint's coordinate.
+    pub unknown: usize,
+    /// Its inertia at the joint [kg m^2, of a slide kg].
+    pub inertia: T,
+    /// The joint's coordinate, in the table of measures.
+    pub(super) measure: usize,
 }
 
 /// An unknown entity with one of the bodies that carry it.

@@ -8,7 +8,7 @@
 //! itself has the size of q, so that no tolerance depends on the ratio.
 
 use super::build::Builder;
-use super::model::NaturalModel;
+use super::model::{NaturalModel, NaturalRotor};
 use super::row_builder::{CoupledDraft, GroupDraft, MeasureDraft, RowDraft};
 use super::sharing::{Entity, EntityKind};
 use crate::Real;
@@ -19,19 +19,6 @@ use crate::model::{Owner, State};
 use crate::scene::BodyId;
 use alloc::vec;
 use alloc::vec::Vec;
-
-/// A rotor in the model.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct NaturalRotor<T> {
-    /// `scene.effects[effect]`.
-    pub effect: usize,
-    /// Its unknown, the joint's coordinate.
-    pub unknown: usize,
-    /// Its inertia at the joint [kg m^2, of a slide kg].
-    pub inertia: T,
-    /// The joint's coordinate, in the table of measures.
-    measure: usize,
-}
 
 impl<T: Real> Builder<'_, T> {
     /// Adds a group for each rotor: its mass, and the rows of its unknown.

@@ -6,10 +6,9 @@ use crate::inputs::{Motion, SignalLaw};
 use mbs_core::Real;
 use mbs_core::laws::Part;
 use mbs_recursive::coupled::{CoupledRow, SumMeasure, SumTerm};
-use mbs_recursive::link::{Link, LinkKind};
+use mbs_recursive::link::{Link, LinkKind, LinkRotor};
 use mbs_recursive::loads::{BodyLoad, Load, Measure};
 use mbs_recursive::plan::{End, LoopCoupling, Pair, Pass, Span, Station, Update};
-use mbs_recursive::rotor::LinkRotor;
 use mbs_recursive::rows::{ClosedLoop, Row};
 
 record_enum!([] LinkKind = LinkKind {
