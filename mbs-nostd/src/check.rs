@@ -185,6 +185,7 @@ impl<'a, T: Real, S: Space<T>> Checked<'a, T, S> {
         look.loops()?;
         look.plan()?;
         look.loads()?;
+        look.rotors()?;
         look.prescriptions(model)?;
         look.start(model)?;
         Ok(Self { model: *model, sizes })
@@ -381,6 +382,16 @@ impl<T: Real, S: Space<T>> Look<'_, '_, T, S> {
                 }
             };
             ensure(holds, "effects", i)?;
+        }
+        Ok(())
+    }
+
+    fn rotors(&self) -> Result<(), LoadError> {
+        for (i, rotor) in self.m.rotors.iter().enumerate() {
+            let joint = self.m.links.get(rotor.link as usize);
+            let has_one = joint
+                .is_some_and(|link| link.kind.is_guided() || link.kind.n_freedoms::<T, S>() == 1);
+            ensure(rotor.link > 0 && has_one, "rotors", i)?;
         }
         Ok(())
     }

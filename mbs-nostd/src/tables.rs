@@ -10,7 +10,7 @@ use mbs_core::laws::entry::Entry;
 use mbs_core::laws::{CurvatureEntry, FeatureEntry, KnotEntry, LawInputs, LawTables, PieceEntry};
 use mbs_recursive::coupled::{Couplings, SumTerm};
 use mbs_recursive::feedback::FeedbackSlices;
-use mbs_recursive::link::Link;
+use mbs_recursive::link::{Link, LinkRotor};
 use mbs_recursive::loads::Load;
 use mbs_recursive::loops::Loops;
 use mbs_recursive::plan::{End, LoopCoupling, Pair, Pass, Plan, Station, Update};
@@ -20,6 +20,8 @@ use mbs_recursive::space::Space;
 
 /// What a model's text begins with, and its version.
 pub(crate) const HEAD: [u32; 2] = [u32::from_le_bytes(*b"MBSN"), 2];
+/// The version of a text that ends with rotors [-].
+pub(crate) const WITH_ROTORS: u32 = 3;
 
 /// A model read from bytes: at most `L` links, `K` loops with `R` rows, `P` entries in each list of the plan, `E` effects.
 /// It has at most `X` entries in each table of laws, `I` guides and as many courses, `Q` coordinates and as many freedoms.
@@ -50,6 +52,7 @@ pub struct Tables<
     couplings: Vec<LoopCoupling, P>,
     updates: Vec<Update, P>,
     loads: Vec<Load<T, S>, E>,
+    rotors: Vec<LinkRotor<T>, L>,
     pieces: Vec<PieceEntry<T>, X>,
     features: Vec<FeatureEntry<T>, X>,
     road: (Vec<KnotEntry<T>, X>, Vec<CurvatureEntry<T>, X>),
@@ -124,7 +127,9 @@ impl<
         let from = &mut Reader::new(bytes);
         let head = <[u32; 4]>::read(from)?;
         let [magic, version, dimension, width] = head;
-        let is_known = [magic, version] == HEAD && (width == 4 || width == 8);
+        let is_known = magic == HEAD[0]
+            && (version == HEAD[1] || version == WITH_ROTORS)
+            && (width == 4 || width == 8);
         if !is_known || dimension as usize != S::DIMENSION {
             return Err(LoadError::Format);
         }
@@ -142,6 +147,7 @@ impl<
             couplings: list("couplings", from)?,
             updates: list("updates", from)?,
             loads: list("effects", from)?,
+            rotors: Vec::new(),
             pieces: entries::<T, _, X>("pieces", from)?,
             features: entries::<T, _, X>("parts of roads", from)?,
             road: (
@@ -164,6 +170,9 @@ impl<
             n: Record::read(from)?,
             t: Record::read(from)?,
         };
+        if version == WITH_ROTORS {
+            tables.rotors = list("rotors", from)?;
+        }
         if !from.is_at_end() {
             return Err(LoadError::Length);
         }
@@ -206,6 +215,7 @@ impl<
                     },
                 },
                 loads: &self.loads,
+                rotors: &self.rotors,
                 tables,
                 feedback: FeedbackSlices::none(),
                 gravity: self.gravity,

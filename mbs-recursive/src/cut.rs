@@ -10,6 +10,7 @@
 //! | link | (p·p − L²)/(2L); hinged: p·a |
 
 use crate::error::TreeError;
+use crate::link::LinkRotor;
 use crate::loads::{BodyLoad, Load, Measure};
 use crate::loops::index;
 use crate::rows::{ClosedLoop, Row};
@@ -20,6 +21,7 @@ use mbs_core::Real;
 use mbs_core::actions::{self, Action};
 use mbs_core::algebra::{Vector, norm};
 use mbs_core::laws::scalar::Law;
+use mbs_core::measure::RotorInput;
 use mbs_core::scene::{Axis, BodyId, Dimension, Joint, Scene, Translation, transverse};
 
 impl<T: Real, S: Space<T>> TreeModel<T, S> {
@@ -92,6 +94,28 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
             }
             // One load at most.
             self.effects.resize(self.loads.len(), *effect);
+        }
+        Ok(())
+    }
+
+    /// Adds the rotors of a scene, those of a link as one. Between parts of one body nothing turns.
+    ///
+    /// # Errors
+    /// [`TreeError::EffectCut`]: the rotor of a joint that carries no coordinate.
+    pub(crate) fn add_rotors(&mut self, scene: &Scene<T>) -> Result<(), TreeError> {
+        let links = self.coordinate_links(scene);
+        for RotorInput { effect, joint, number, inertia } in RotorInput::all(scene) {
+            let [first, second] = scene.joints[joint].bodies.map(|body| self.link(body));
+            let Some(link) = links[joint].get(number).copied().flatten() else {
+                if first == second {
+                    continue;
+                }
+                return Err(TreeError::EffectCut { effect, joint });
+            };
+            match self.rotors.iter_mut().find(|rotor| rotor.link == link) {
+                Some(rotor) => rotor.inertia += inertia,
+                None => self.rotors.push(LinkRotor { link, inertia }),
+            }
         }
         Ok(())
     }

@@ -46,6 +46,7 @@ pub mod plan;
 mod project;
 #[cfg(feature = "alloc")]
 mod quantities;
+mod rotor;
 pub mod rows;
 #[cfg(feature = "alloc")]
 mod run;

@@ -19,6 +19,7 @@ macro_rules! list {
             Actuator in actuator (all());
             Limit in limit (feature = "limit") tension Limit(LimitLaw<T>) = 4;
             Friction in friction (feature = "friction") tension Friction(FrictionLaw<T>) = 5;
+            Rotor in rotor (all());
             Bushing in bushing (feature = "bushing");
             AeroDrag in drag (feature = "drag") body Drag(DragLaw<T>) = 0;
             SpeedHold in speed_hold (feature = "speed-hold") body SpeedHold(SpeedHoldLaw<T>) = 1;

@@ -39,7 +39,7 @@ struct SumTerm<T: Real, const D: usize> {
 
 /// A measure between two bodies.
 #[derive(Debug, Clone)]
-struct Part<T: Real, const D: usize> {
+pub(super) struct Part<T: Real, const D: usize> {
     bodies: [BodyId; 2],
     of: PartKind<T, D>,
 }
@@ -131,7 +131,8 @@ impl<T: Real, const D: usize> Part<T, D> {
         }
     }
 
-    fn of_coordinate(
+    /// Of the coordinate of a joint with this number; `None` where no number measures it.
+    pub(super) fn of_coordinate(
         scene: &Scene<T>,
         model: &NaturalModel<T, D>,
         of: (usize, usize),
@@ -152,7 +153,7 @@ impl<T: Real, const D: usize> Part<T, D> {
     }
 
     /// Its value and its rate.
-    fn measure(&self, state: &State<T>) -> [T; 2] {
+    pub(super) fn measure(&self, state: &State<T>) -> [T; 2] {
         match &self.of {
             PartKind::Coordinate { of, memory, .. } => {
                 let last = memory.map_or(T::ZERO, |(place, sign)| sign * state.memory[place]);
@@ -170,7 +171,7 @@ impl<T: Real, const D: usize> Part<T, D> {
     }
 
     /// Hands out what does the work `weight` times the rate.
-    fn apply(&self, weight: T, state: &State<T>, mut take: impl FnMut(Applied<T>)) {
+    pub(super) fn apply(&self, weight: T, state: &State<T>, mut take: impl FnMut(Applied<T>)) {
         let [first, second] = self.bodies;
         let (wrench, places) = match &self.of {
             PartKind::Coordinate { of, at, .. } => {

@@ -137,6 +137,10 @@ pub enum SceneFault {
     SpinElsewhere,
     /// A wheel's joint turns about another axis than the wheel's.
     SpinAxis,
+    /// A rotor on a joint that constrains nothing.
+    FreeRotor,
+    /// The inertia of a rotor at its joint is zero or no number; it [kg m^2 or kg].
+    RotorRatio(f64),
     /// Coefficients of a tire that its formulas divide by.
     CalspanRange,
     /// Points of a road do not go forward; the point (from 0) that is not beyond the one before.
@@ -235,6 +239,10 @@ impl SceneFault {
             Self::Missing => "add it",
             Self::SpinElsewhere => "name the joint by which the wheel turns on `body`",
             Self::SpinAxis => "leave `axis` out: the wheel then has that of the joint",
+            Self::FreeRotor => "name a joint that has an axis",
+            Self::RotorRatio(_) => {
+                "write how far the rotor turns for each unit of the joint's coordinate"
+            }
             Self::NotUsed => "remove it",
         }
     }
@@ -361,6 +369,10 @@ impl SceneFault {
             Self::Missing => write!(f, "is missing"),
             Self::SpinElsewhere => write!(f, "does not join the tire's body to a wheel"),
             Self::SpinAxis => write!(f, "turns about another axis than the tire's"),
+            Self::FreeRotor => write!(f, "is a free joint, which holds no rotor"),
+            Self::RotorRatio(x) => {
+                write!(f, "makes an inertia of {x} at the joint: inertia times its square")
+            }
             Self::NotUsed => write!(f, "has no meaning here"),
         }
     }

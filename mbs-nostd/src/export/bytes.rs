@@ -2,7 +2,7 @@
 
 use crate::format::{Axes, Bytes, Record};
 use crate::model::Model;
-use crate::tables::HEAD;
+use crate::tables::{HEAD, WITH_ROTORS};
 use alloc::vec::Vec;
 use mbs_core::Real;
 use mbs_core::laws::entry::{Entry, EntryWriter};
@@ -30,7 +30,8 @@ pub fn bytes<T: Real + Record, S: Axes<T>>(
     let tables = m.tables.tables();
     let to = &mut Bytes { bytes: Vec::new(), is_single };
     let width = if is_single { 4 } else { 8 };
-    let done = HEAD.write(to)
+    let version = if m.rotors.is_empty() { HEAD[1] } else { WITH_ROTORS };
+    let done = [HEAD[0], version].write(to)
         && [S::DIMENSION, width].write(to)
         && to.list(m.links)
         && to.list(plan.stations)
@@ -62,7 +63,8 @@ pub fn bytes<T: Real + Record, S: Axes<T>>(
         && m.base.write(to)
         && m.length.write(to)
         && [m.n_coordinates, m.n_freedoms].write(to)
-        && begin.t.write(to);
+        && begin.t.write(to)
+        && (m.rotors.is_empty() || to.list(m.rotors));
     done.then(|| core::mem::take(&mut to.bytes))
 }
 

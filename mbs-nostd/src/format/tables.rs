@@ -6,7 +6,7 @@ use crate::inputs::{Motion, SignalLaw};
 use mbs_core::Real;
 use mbs_core::laws::Part;
 use mbs_recursive::coupled::{CoupledRow, SumMeasure, SumTerm};
-use mbs_recursive::link::{Link, LinkKind};
+use mbs_recursive::link::{Link, LinkKind, LinkRotor};
 use mbs_recursive::loads::{BodyLoad, Load, Measure};
 use mbs_recursive::plan::{End, LoopCoupling, Pair, Pass, Span, Station, Update};
 use mbs_recursive::rows::{ClosedLoop, Row};
@@ -38,6 +38,8 @@ record_struct!([T: Real + Record] SumTerm<T> = SumTerm { factor, curve, of });
 record_enum!([T: Real + Record] SumMeasure<T> = SumMeasure {
     0 Joint { link link, side side },
 });
+
+record_struct!([T: Real + Record] LinkRotor<T> = LinkRotor { link, inertia });
 
 record_struct!([] Span = Span { first, end });
 record_struct!([] Station = Station { passes, pairs, ends });

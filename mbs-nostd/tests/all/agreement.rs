@@ -90,6 +90,37 @@ fn couplings_of_joints_hold_on_a_controller_as_in_the_recursion() {
     assert!(apart < 1e-10, "{apart}");
 }
 
+const ROTORS: &str = r#"
+[[effect]]
+kind = "rotor"
+joint = "b"
+inertia = 1.0e-4
+ratio = 70.0
+
+[[effect]]
+kind = "rotor"
+joint = "hinge"
+inertia = 2.0e-4
+ratio = 30.0
+"#;
+
+#[test]
+fn rotors_turn_on_a_controller_as_in_the_recursion() {
+    assert_eq!(apart_on_controller(&format!("{GEARS}{ROTORS}")), Ok(0.0));
+    let arm =
+        std::fs::read_to_string(mbs_testkit::repository::path("geared-arm")).expect("a scene");
+    assert_eq!(apart_on_controller(&arm), Ok(0.0));
+    // texts without them are those of version 2
+    let version = |text: &str| {
+        let (tree, begin) = start::<Planar, 2>(&mbs_testkit::scene(text));
+        let collected = Collected::new(&tree, &begin, &[]).expect("no signal moves");
+        let bytes = bytes(&collected.model(), false).expect("a scene of tables");
+        u32::from_le_bytes([bytes[4], bytes[5], bytes[6], bytes[7]])
+    };
+    let off = ROTORS.replace("kind = \"rotor\"", "kind = \"rotor\"\nenabled = false");
+    assert_eq!([GEARS, &format!("{GEARS}{off}"), &arm].map(version), [2, 2, 3]);
+}
+
 #[test]
 fn a_cam_is_refused_for_a_controller_with_its_coupling() {
     let cam = DRIVEN.replace("factor = 0.5", "factor = 0.5, coefficients = [0.0, 1.0, 0.2]");

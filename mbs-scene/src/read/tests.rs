@@ -9,6 +9,7 @@ mod effects;
 mod outputs;
 mod random;
 mod road;
+mod rotors;
 mod signals;
 
 const PLANAR: &str = r#"[scene]

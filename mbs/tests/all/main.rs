@@ -31,6 +31,7 @@ mod random;
 mod readings;
 mod realtime;
 mod reference;
+mod rotors;
 mod signals;
 mod states;
 mod threads;
