@@ -120,6 +120,8 @@ pub enum SceneFault {
     LimitOrder([f64; 2]),
     /// The lower end of a range is not below its upper end; both.
     RangeOrder([f64; 2]),
+    /// A range, lower end first, has no number between its ends; both.
+    EmptyRange([f64; 2]),
     /// Static friction is less than Coulomb friction; both.
     StaticBelowCoulomb([f64; 2]),
     /// A polynomial has a piece without coefficients, or with too many.
@@ -222,6 +224,7 @@ impl SceneFault {
             Self::TableOrder(_) => "sort the rows by time and keep one row per time",
             Self::LimitOrder(_) => "write the upper limit first: [U, L] with U > L",
             Self::RangeOrder(_) => "write the lower end below the upper end",
+            Self::EmptyRange(_) => "write the lower end first: [lower, upper] with lower < upper",
             Self::StaticBelowCoulomb(_) => "leave `static` out, or make it at least `coulomb`",
             Self::PieceCoefficients { .. } => {
                 "write one to eight coefficients after the two ends: [lower, upper, c0, c1, ...]"
@@ -335,6 +338,9 @@ impl SceneFault {
             }
             Self::RangeOrder([lower, upper]) => {
                 write!(f, "is {lower}, which is not below the upper end {upper}")
+            }
+            Self::EmptyRange([lower, upper]) => {
+                write!(f, "has its lower end {lower} not below its upper end {upper}")
             }
             Self::StaticBelowCoulomb([static_, coulomb]) => {
                 write!(f, "is {static_}, which is less than the Coulomb friction {coulomb}")

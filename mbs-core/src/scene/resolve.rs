@@ -3,8 +3,8 @@
 use crate::Real;
 use crate::scene::{
     Body, CalspanCoefficients, Coupling, CouplingMeasure, CouplingTerm, Curve, Dimension, Effect,
-    Entry, Guide, Inertia, InitialCondition, InitialTarget, Joint, Motion, NamedSignal, Number,
-    Output, Road, RoadFeature, Scene, SceneError, SceneFault, SolverTable,
+    Entry, Guide, Inertia, InitialCondition, InitialTarget, Joint, JointLimits, Motion,
+    NamedSignal, Number, Output, Road, RoadFeature, Scene, SceneError, SceneFault, SolverTable,
 };
 use alloc::vec::Vec;
 
@@ -113,7 +113,16 @@ impl<T> Joint<T> {
             bodies: self.bodies,
             points: pair(&self.points, f),
             axes: self.axes.each_ref().map(|axis| axis.as_ref().map(|axis| all(axis, f))),
+            limits: self.limits.map(f),
         }
+    }
+}
+
+impl<T> JointLimits<T> {
+    fn map<U>(&self, f: &mut impl FnMut(&T) -> U) -> JointLimits<U> {
+        let range = self.range.as_ref().map(|range| all(range, f));
+        let [effort, velocity] = [&self.effort, &self.velocity].map(|x| x.as_ref().map(&mut *f));
+        JointLimits { range, effort, velocity }
     }
 }
 

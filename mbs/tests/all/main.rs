@@ -22,6 +22,7 @@ mod generate;
 mod hints;
 mod inputs;
 mod invariants;
+mod joint_limits;
 mod kinds;
 mod modes;
 mod observers;
