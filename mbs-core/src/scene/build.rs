@@ -322,7 +322,16 @@ impl Effect<Number> {
     pub fn limit(joint: JointId, range: [f64; 2], stiffness: f64, damping: f64) -> Self {
         let [lower, upper] = range.map(Number::from);
         let (stiffness, damping) = (stiffness.into(), damping.into());
-        Self::of(Limit { joint, coordinate: None, lower, upper, stiffness, damping })
+        let (coordinate, range) = (None, false);
+        Self::of(Limit { joint, coordinate, range, lower, upper, stiffness, damping })
+    }
+
+    /// Elastic stops at the ends of a joint's own [range](Joint::range), with a stiffness and a damping that follow from the mass that
+    /// the joint moves: they stop it within some 20 ms, and it does not rebound far.
+    pub fn stops(joint: JointId) -> Self {
+        let [lower, upper, stiffness, damping] = [(); 4].map(|()| Number::open());
+        let (coordinate, range) = (None, true);
+        Self::of(Limit { joint, coordinate, range, lower, upper, stiffness, damping })
     }
 
     /// Coulomb friction of a joint's coordinate [N m or N], smooth below a rate [rad/s or m/s]; the other numbers of the part may be

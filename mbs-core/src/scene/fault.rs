@@ -122,6 +122,10 @@ pub enum SceneFault {
     RangeOrder([f64; 2]),
     /// A range, lower end first, has no number between its ends; both.
     EmptyRange([f64; 2]),
+    /// The joint has no range that a limit could take.
+    NoRange,
+    /// A stiffness that follows from the mass that a coordinate moves, which nothing moves or which is guided.
+    NoMovedMass,
     /// Static friction is less than Coulomb friction; both.
     StaticBelowCoulomb([f64; 2]),
     /// A polynomial has a piece without coefficients, or with too many.
@@ -225,6 +229,10 @@ impl SceneFault {
             Self::LimitOrder(_) => "write the upper limit first: [U, L] with U > L",
             Self::RangeOrder(_) => "write the lower end below the upper end",
             Self::EmptyRange(_) => "write the lower end first: [lower, upper] with lower < upper",
+            Self::NoRange => {
+                "add `range = [lower, upper]` to the joint, or write `lower` and `upper`"
+            }
+            Self::NoMovedMass => "write `stiffness` and `damping`",
             Self::StaticBelowCoulomb(_) => "leave `static` out, or make it at least `coulomb`",
             Self::PieceCoefficients { .. } => {
                 "write one to eight coefficients after the two ends: [lower, upper, c0, c1, ...]"
@@ -342,6 +350,11 @@ impl SceneFault {
             Self::EmptyRange([lower, upper]) => {
                 write!(f, "has its lower end {lower} not below its upper end {upper}")
             }
+            Self::NoRange => write!(f, "is that of the joint, which has none"),
+            Self::NoMovedMass => write!(
+                f,
+                "is left out, but does not follow from the scene: the coordinate moves no mass of its own"
+            ),
             Self::StaticBelowCoulomb([static_, coulomb]) => {
                 write!(f, "is {static_}, which is less than the Coulomb friction {coulomb}")
             }

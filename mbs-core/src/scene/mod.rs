@@ -35,6 +35,8 @@ mod mechanism;
 #[cfg(feature = "alloc")]
 mod number;
 #[cfg(feature = "alloc")]
+mod open;
+#[cfg(feature = "alloc")]
 mod resolve;
 #[cfg(feature = "alloc")]
 mod signal;

@@ -14,7 +14,7 @@ impl Scene<Number> {
     /// Cost: a copy of the scene; beyond `f64` and below it that of reading each number.
     ///
     /// # Errors
-    /// What [`Scene::check`] refuses; [`SceneFault::InCode`] for an effect that is a law in code, which has a precision of its own. In
+    /// What [`Scene::check`] refuses; [`SceneFault::NoMovedMass`] for a stiffness that does not follow from the scene; [`SceneFault::InCode`] for an effect that is a law in code, which has a precision of its own. In
     /// space [`SceneFault::WrongCount`] for a vector that was given by two numbers.
     pub fn resolve<T: Real>(&self) -> Result<Scene<T>, SceneError> {
         let is_spatial = self.dimension == Dimension::Spatial;
@@ -28,7 +28,10 @@ impl Scene<Number> {
         // may be assumed
         scene.duration = self.duration.value();
         match scene.check() {
-            Ok(()) => Ok(scene),
+            Ok(()) => {
+                super::open::fill(self, &mut scene)?;
+                Ok(scene)
+            }
             Err(SceneError { fault: SceneFault::NotFinite, entry, field }) if has_two => {
                 let fault = SceneFault::WrongCount { needed: 3, found: 2 };
                 Err(SceneError { entry, field, fault })

@@ -69,3 +69,34 @@ fn turns_count_and_a_guide_that_reaches_the_end_of_its_range_does_not_leave_it()
         assert!(found.iter().any(|note| note == expected), "{}: {found:?}", kind.name());
     }
 }
+
+/// A pendulum of 2 kg and 0.4 kg m^2 about its centre, 0.5 m from its hinge, that falls into a stop.
+fn pendulum(stops: Effect) -> Mechanism {
+    let mut m = Mechanism::planar("stopped");
+    m.set_gravity([0.0, -9.81]).set_duration(1.0);
+    let bob = m.add(Body::planar([0.5, 0.0], 2.0, 0.4));
+    let hinge = m.add(Joint::revolute([GROUND, bob], [0.0, 0.0]).range(-0.6, 0.4).named("hinge"));
+    assert_eq!(hinge, JointId::new(0));
+    m.add(stops);
+    m
+}
+
+#[test]
+fn stops_without_numbers_are_those_of_the_moved_inertia() {
+    // about the hinge 0.4 + 2 0.5^2 kg m^2; tau is 20 ms
+    let (inertia, tau) = (0.9, 0.02);
+    let hinge = JointId::new(0);
+    let explicit = Effect::limit(hinge, [-0.6, 0.4], inertia / (tau * tau), 2.0 * inertia / tau);
+    for kind in FormulationKind::listed() {
+        let run = |stops| {
+            let method = Method { step: Some(1e-3), ..Method::new(kind) };
+            mbs::run(&pendulum(stops), &Run::new().method(method)).expect("it runs").table
+        };
+        let (found, expected) = (run(Effect::stops(hinge)), run(explicit.clone()));
+        let [found, expected] = [&found, &expected].map(|t| t.column("hinge").expect("a column"));
+        let off = found.iter().zip(expected).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+        assert!(off < 1e-9, "{}: {off:e}", kind.name());
+        let lowest = expected.iter().copied().fold(0.0, f64::min);
+        assert!(lowest < -0.6, "{}: it does not reach its stop: {lowest}", kind.name());
+    }
+}

@@ -31,6 +31,7 @@ mod random;
 mod readings;
 mod realtime;
 mod reference;
+mod ropes;
 mod signals;
 mod states;
 mod threads;
