@@ -14,7 +14,8 @@ fn atwood() -> Mechanism {
     for (body, at, name) in [(heavy, [0.0, -1.0], "down"), (light, [1.0, 0.5], "up")] {
         m.add(Joint::prismatic([GROUND, body], at).along([0.0, 1.0]).named(name));
     }
-    let points = [(heavy, [0.0, -1.0]), (GROUND, [0.0, 1.0]), (GROUND, [1.0, 1.0]), (light, [1.0, 0.5])];
+    let points =
+        [(heavy, [0.0, -1.0]), (GROUND, [0.0, 1.0]), (GROUND, [1.0, 1.0]), (light, [1.0, 0.5])];
     let points = points.map(|(body, [x, y])| (body, [x.into(), y.into(), 0.0.into()])).to_vec();
     let of = CouplingMeasure::Length { points };
     let line = CouplingTerm { factor: 1.0.into(), of, curve: None };
