@@ -60,6 +60,8 @@ pub enum SceneFault {
     NoCoordinate,
     /// The effect does not measure one number.
     NoMeasure,
+    /// The effect acts on both sides: it has no contact.
+    NoContact,
     /// The coordinate is not there; the number of coordinates that the joint has.
     UnknownCoordinate(usize),
     /// The coordinate is a component of a rotation, which is no angle of its own.
@@ -205,6 +207,7 @@ impl SceneFault {
             Self::NoMeasure => {
                 "ask for `force`, `energy` or `power`, or name an effect along a line or on a joint"
             }
+            Self::NoContact => "name a bumper, a limit or a tire",
             Self::UnknownCoordinate(_) => "count the joint's coordinates from 0",
             Self::NeedsCoordinate { .. } => "write one of these names",
             Self::BallCoordinate => "name a joint that turns about axes, such as a universal joint",
@@ -285,6 +288,7 @@ impl SceneFault {
                 f,
                 "is not measured by this effect, which acts on bodies in several directions"
             ),
+            Self::NoContact => write!(f, "is not known of this effect, which acts on both sides"),
             Self::UnknownCoordinate(n) => {
                 write!(
                     f,
