@@ -192,6 +192,10 @@ pub trait Model<T: Real>: Cliques + Sync {
     fn overturned(&self, _terms: &Terms<T>) -> Option<Owner> {
         None
     }
+    /// The part of a coupling's line that has no length left after a step `dq` from (q, v): coupling and part.
+    fn collapsed(&self, _q: &[T], _v: &[T], _dq: &[T]) -> Option<[usize; 2]> {
+        None
+    }
     /// What an unknown belongs to, for messages.
     fn owner_of_unknown(&self, unknown: usize) -> Owner;
     /// What a constraint row belongs to, for messages.

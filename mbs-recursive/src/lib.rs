@@ -8,6 +8,7 @@ pub mod anderson;
 #[cfg(feature = "alloc")]
 mod angles;
 pub mod bounded;
+mod collapse;
 pub mod coupled;
 #[cfg(feature = "alloc")]
 mod coupling_tables;

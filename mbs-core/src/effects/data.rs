@@ -1,6 +1,8 @@
 //! What the files of effects describe their data with.
 
-pub(super) use super::field::Default::{As, Needed, NeededWith, Nothing, Number, Times};
+pub(super) use super::field::Default::{
+    As, Needed, NeededWith, NeededWithout, Nothing, Number, Open, OpenWith, Times,
+};
 pub(super) use super::field::JointNeed::{Coordinate, Rotation};
 pub(super) use super::field::Sign::{Any, NotNegative, Positive};
 pub(super) use super::field::SignalForm::{Moment, Scalar, Three, Vector};

@@ -36,6 +36,7 @@ impl EffectKind<f64> {
                     number += 0.1;
                     Value::Number(number)
                 }
+                Form::Flag => Value::Flag(false),
                 // in the plane along x, y and about z
                 Form::Six => Value::Six([1.0, 1.0, 0.0, 0.0, 0.0, 1.0]),
                 Form::Pieces => Value::Pieces(vec![PolynomialPiece {

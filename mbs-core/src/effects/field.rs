@@ -59,6 +59,8 @@ pub enum Form {
     MaybeAxis,
     /// A number.
     Number(Sign),
+    /// True or false.
+    Flag,
     /// Along and about x, y, z; in the plane along x, y and about z. Not negative.
     Six,
     /// Pieces of a polynomial, `[lower, upper, c0, c1, ...]`.
@@ -139,6 +141,12 @@ pub enum Default {
     Times(&'static str, &'static str),
     /// Zero where the value of an earlier key is zero, else it must be written.
     NeededWith(&'static str),
+    /// It must be written, but where an earlier key is true: then neither may stand beside the other.
+    NeededWithout(&'static str),
+    /// It follows from the scene.
+    Open,
+    /// It follows from the scene where an earlier key does, else zero.
+    OpenWith(&'static str),
     /// Nothing, or the first of the words.
     Nothing,
 }
@@ -165,6 +173,8 @@ pub enum Value<T> {
     MaybeAxis(Option<[T; 3]>),
     /// Of [`Form::Number`].
     Number(T),
+    /// Of [`Form::Flag`].
+    Flag(bool),
     /// Of [`Form::Six`].
     Six([T; 6]),
     /// Of [`Form::Pieces`].
@@ -200,6 +210,7 @@ impl<T> Value<T> {
             Self::Axis(x) => Value::Axis(x.map(f)),
             Self::MaybeAxis(x) => Value::MaybeAxis(x.map(|x| x.map(f))),
             Self::Number(x) => Value::Number(f(x)),
+            Self::Flag(x) => Value::Flag(x),
             Self::Six(x) => Value::Six(x.map(f)),
             Self::Pieces(pieces) => {
                 let piece = |p: PolynomialPiece<T>| PolynomialPiece {

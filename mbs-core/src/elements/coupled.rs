@@ -278,6 +278,27 @@ fn increment<T: Real, const D: usize>(
     }
 }
 
+/// Squared length that is none, over the squared length at the other end of a step [-]: below it, rounding decides its direction.
+const NO_LENGTH: f64 = 1e-18;
+/// Distance at which the ends of a part meet in a step, over their way against each other [-]: a smaller one is not resolved by the step.
+const MEETING: f64 = 1e-2;
+
+/// Whether a part of a line has no length left at an end of a step, or its ends met on the way: its direction turns round there.
+///
+/// ```text
+/// d  the gap before, e after:   d.e < 0,   d.d' < 0,   |d x e| <= c |d - e|^2
+/// ```
+///
+/// `dots` are d.d, d.e, e.e and d.d'. Cost: ten operations.
+pub fn has_collapsed<T: Real>(dots: [T; 4]) -> bool {
+    let [dd, de, ee, shortening] = dots;
+    if dd.min(ee) <= T::from_f64(NO_LENGTH) * dd.max(ee) {
+        return true;
+    }
+    let way = (dd - T::TWO * de + ee) * T::from_f64(MEETING);
+    de < T::ZERO && shortening < T::ZERO && dd * ee - de * de <= way * way
+}
+
 /// row += weight grad m.
 pub fn add_measure_gradient<T: Real, const D: usize>(
     of: &Measurand<T>,

@@ -77,6 +77,15 @@ impl<T: Real, const D: usize> EffectWrenches<T, D> {
         loads.find_map(|load| load.scalar(state, &law_inputs)).unwrap_or_default()
     }
 
+    /// Whether a gap of an effect is below zero.
+    pub(super) fn is_in_contact(&self, effect: usize, state: &State<T>) -> bool {
+        let law_inputs = self.loads.law_inputs();
+        self.loads_of(Some(effect)).any(|load| {
+            let gaps = load.reading(state, &law_inputs).gaps;
+            gaps.iter().take(load.n_gaps()).any(|gap| gap.value < T::ZERO)
+        })
+    }
+
     /// Value, rate and acceleration of a signal.
     pub(super) fn signal(&self, signal: usize) -> [T; 3] {
         self.loads.law_inputs().courses.get(signal).copied().unwrap_or([T::ZERO; 3])

@@ -35,6 +35,8 @@ mod mechanism;
 #[cfg(feature = "alloc")]
 mod number;
 #[cfg(feature = "alloc")]
+mod open;
+#[cfg(feature = "alloc")]
 mod resolve;
 #[cfg(feature = "alloc")]
 mod signal;
@@ -56,7 +58,9 @@ pub use curve::{Curve, TableEnds};
 #[cfg(feature = "alloc")]
 pub(crate) use data::Surroundings;
 #[cfg(feature = "alloc")]
-pub use data::{Body, Guide, Inertia, InitialCondition, InitialTarget, Joint, Motion, Start};
+pub use data::{
+    Body, Guide, Inertia, InitialCondition, InitialTarget, Joint, JointLimits, Motion, Start,
+};
 pub use dimension::Dimension;
 #[cfg(feature = "alloc")]
 pub use effect::{

@@ -16,13 +16,22 @@ fn fields_have_keys_of_their_own_and_defaults_name_other_ones() {
         assert_eq!(keys.iter().collect::<BTreeSet<_>>().len(), keys.len(), "{}", row.module);
         for field in row.fields {
             assert!(field.meaning.trim().ends_with('.'), "{}: {}", row.module, field.key);
-            if let Default::As(key) | Default::Times(_, key) | Default::NeededWith(key) =
-                field.default
-            {
-                let other = row.fields.iter().find(|other| other.key == key);
-                let other = other.unwrap_or_else(|| panic!("{}: no key {key}", row.module));
-                assert!(matches!(other.default, Default::Needed | Default::Number(_)), "{key}");
-            }
+            let (Default::As(key)
+            | Default::Times(_, key)
+            | Default::NeededWith(key)
+            | Default::NeededWithout(key)
+            | Default::OpenWith(key)) = field.default
+            else {
+                continue;
+            };
+            let other = row.fields.iter().find(|other| other.key == key);
+            let other = other.unwrap_or_else(|| panic!("{}: no key {key}", row.module));
+            let is_known = match field.default {
+                Default::NeededWithout(_) => other.form == Form::Flag,
+                Default::OpenWith(_) => other.default == Default::Open,
+                _ => matches!(other.default, Default::Needed | Default::Number(_)),
+            };
+            assert!(is_known, "{key}");
         }
         assert!(row.names.is_empty() || !row.law.is_empty(), "{}: no law", row.module);
     }
@@ -112,6 +121,7 @@ fn key(field: &Field) -> Option<String> {
             format!("`{key}`, `\"none\"` or `\"calspan\"`; `coefficients`, those of the Iltis")
         }
         Form::MaybeAxis => format!("`{key}`, none"),
+        Form::Flag => format!("`{key} = true`, that of the joint"),
         Form::Spin => format!("`{key}`, the joint about which the wheel turns"),
         Form::Slip => format!("`{key} = {{ stiffness, friction }}`, none"),
         _ => format!("`{key}`"),
@@ -128,6 +138,9 @@ fn key(field: &Field) -> Option<String> {
         Default::As(other) => format!(", as `{other}`"),
         Default::Times(number, other) => format!(", {number} `{other}`"),
         Default::NeededWith(other) => format!(", needed with `{other}`"),
+        Default::NeededWithout(other) => format!(", needed without `{other}`"),
+        Default::Open => ", by the moved mass".to_owned(),
+        Default::OpenWith(other) => format!(", by the moved mass where `{other}` is, else 0"),
         Default::Needed | Default::Nothing => String::new(),
     };
     Some(text)

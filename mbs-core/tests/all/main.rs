@@ -3,6 +3,7 @@
 mod small;
 
 mod codes;
+mod coupling_kinds;
 mod effect_table;
 mod effects;
 mod efforts;

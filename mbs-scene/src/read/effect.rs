@@ -41,7 +41,14 @@ pub(crate) fn read(
     let written = all.iter().map(|field| value::read(fields, field, (word.0, joints)));
     let written: Vec<Option<Value<Number>>> = written.collect::<Read<_>>()?;
     let value = |i: usize| match &written[i] {
-        Some(value) => Ok(value.clone()),
+        Some(value) => {
+            if let Default::NeededWithout(flag) = all[i].default
+                && fields.flag(flag, false)?
+            {
+                fields.exclusive(flag, all[i].key)?;
+            }
+            Ok(value.clone())
+        }
         None => default(fields, (all, &written), i),
     };
     let values: Vec<_> = (0..all.len()).map(value).collect::<Read<_>>()?;
@@ -86,7 +93,18 @@ fn default(
         Ok(if let Value::Number(x) = value { x } else { Number::ZERO })
     };
     let decimal = |text: &str| Number::from_decimal(text).unwrap_or_default();
+    let is_open = |key: &str| other(key).map(|x| x.is_open());
+    let is_true = |key: &str| fields.flag(key, false);
     match (field.form, field.default) {
+        (_, Default::NeededWithout(key)) if is_true(key)? => {
+            return Ok(Value::Number(Number::open()));
+        }
+        (_, Default::Open) => return Ok(Value::Number(Number::open())),
+        (_, Default::OpenWith(key)) => {
+            let number = if is_open(key)? { Number::open() } else { Number::ZERO };
+            return Ok(Value::Number(number));
+        }
+        (Form::Flag, Default::Nothing) => return Ok(Value::Flag(false)),
         (Form::Six, Default::Number(text)) => {
             return Ok(Value::Six(core::array::from_fn(|_| decimal(text))));
         }

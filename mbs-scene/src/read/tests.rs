@@ -6,6 +6,7 @@ use mbs_core::scene::*;
 
 mod couplings;
 mod effects;
+mod limits;
 mod outputs;
 mod random;
 mod road;

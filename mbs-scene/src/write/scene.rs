@@ -15,7 +15,8 @@ use core::fmt::{self, Display, Formatter};
 use mbs_core::outputs::Target;
 use mbs_core::scene::{
     Body, BodyId, Coupling, CouplingMeasure, CouplingTerm, Curve, Dimension, Guide, Inertia,
-    InitialCondition, InitialTarget, Joint, JointId, Number, Output, Scene, SolverTable, Start,
+    InitialCondition, InitialTarget, Joint, JointId, JointLimits, Number, Output, Scene,
+    SolverTable, Start,
 };
 
 /// A scene that has no text.
@@ -299,6 +300,10 @@ impl Writer<'_> {
                 keys.push_some("direction", direction.as_ref().map(|d| self.vector(d)));
             }
         }
+        let JointLimits { range, effort, velocity } = &joint.limits;
+        keys.push_some("range", range.as_ref());
+        keys.push_some("effort_limit", effort.as_ref());
+        keys.push_some("velocity_limit", velocity.as_ref());
         Ok(keys)
     }
 

@@ -61,6 +61,8 @@ macro_rules! list {
                 EffectEnergy in effect_energy;
                 /// Power that an effect gives to bodies [W]; negative where it takes.
                 EffectPower in effect_power;
+                /// Whether a bumper, a limit or a tire is in contact [-]: one where a gap of it is below zero, else zero.
+                EffectContact in effect_contact;
             }
             of Signal(signal: SignalId) {
                 /// The value of a signal, in its unit.

@@ -1,6 +1,6 @@
 //! Outputs by what they measure, and the components of a quantity.
 
-use super::components::Component;
+use super::components::{Component, ComponentForm};
 use super::{Quantity, Target};
 use crate::effects::ActsOn;
 use crate::scene::{
@@ -24,6 +24,12 @@ impl<T: Clone> Quantity<T> {
                 (scene.joints[joint.index()].kind.freedoms(scene.dimension), None)
             }
             Target::Coupling(coupling) => (&[][..], Some(unit_of_sum(scene, coupling))),
+            Target::Effect(effect) if form == ComponentForm::Contact => {
+                if !scene.effects[effect.index()].kind.row().is_one_sided {
+                    return Vec::new();
+                }
+                (&[][..], None)
+            }
             Target::Effect(effect) => (&[][..], unit_of_measure(scene, effect)),
             Target::Signal(signal) => (&[][..], Some(unit_of_signal(scene, signal))),
             Target::Point(..) | Target::Body(_) | Target::Scene => (&[][..], None),

@@ -53,7 +53,11 @@ pub(super) fn check<T: Real>(
                 check_coordinate(among, joint, need, place)
                     .map_err(|error| SceneError { field: key, ..error })?;
             }
-            Value::Frame(_) | Value::Name(_) | Value::ForceLaw(_) | Value::BodyLaw(_) => {}
+            Value::Flag(_)
+            | Value::Frame(_)
+            | Value::Name(_)
+            | Value::ForceLaw(_)
+            | Value::BodyLaw(_) => {}
         }
     }
     effect.check(among, place)

@@ -39,6 +39,7 @@ pub(super) fn read(
         Form::Spin => Value::Spin(Some(context.joint(item)?)),
         Form::Slip => Value::Slip(Some(slip(fields, item)?)),
         Form::Number(_) => Value::Number(context.number(item)?),
+        Form::Flag => Value::Flag(fields.flag(key, false)?),
         Form::Six => Value::Six(six(fields, item)?),
         Form::Pieces => {
             let pieces = context.list(item, "a list of pieces [lower, upper, c0, c1, ...]")?;
