@@ -83,6 +83,8 @@ impl<T: Real> TensionLaw<T> for LimitLaw<T> {
 
 #[cfg(feature = "alloc")]
 pub use data::Limit;
+#[cfg(feature = "alloc")]
+pub(super) use data::check_range;
 
 #[cfg(feature = "alloc")]
 mod data {
@@ -107,6 +109,17 @@ mod data {
         }
     }
 
+    /// The lower end is below the upper one.
+    pub(in crate::effects) fn check_range<T: Real>(
+        [lower, upper]: [T; 2],
+        place: Place,
+    ) -> Result<(), SceneError> {
+        if lower < upper {
+            return Ok(());
+        }
+        place.fault("lower", SceneFault::RangeOrder([lower.to_f64(), upper.to_f64()]))
+    }
+
     impl<T: Real> EffectModel<T> for Limit<T> {
         const LAW: &'static str = "a bumper at each end";
         const ABSENT: Option<[&'static str; 2]> =
@@ -115,11 +128,7 @@ mod data {
         const ENDS: &'static [&'static str] = &["lower", "upper"];
 
         fn check(&self, _: Surroundings<'_, T>, place: Place) -> Result<(), SceneError> {
-            if self.lower < self.upper {
-                return Ok(());
-            }
-            let range = [self.lower.to_f64(), self.upper.to_f64()];
-            place.fault("lower", SceneFault::RangeOrder(range))
+            check_range([self.lower, self.upper], place)
         }
         fn actions(&self, to: &mut Compiler<'_, T>) {
             let &Self { joint, coordinate, lower, upper, stiffness, damping } = self;

@@ -54,6 +54,14 @@ impl<T: Real, const D: usize> Layout<T, D> {
                 self.model.angles.push((group.owner, memory));
                 self.add_measure(Measure::Angle { x1, x2, y, memory }, *law, group);
             }
+            EffectDraft::Sum { terms, law } => {
+                let first = self.model.n_memory;
+                let terms = self.coupled_terms(terms, columns);
+                let remembered = first..self.model.n_memory;
+                let owned = remembered.map(|place| (group.owner, index(place)));
+                self.model.angles.extend(owned);
+                self.add_measure(Measure::Sum { terms }, *law, group);
+            }
             EffectDraft::Force { point, frame, course } => {
                 let point = self.span(point, columns);
                 let frame = frame.as_ref().map(|f| self.frame(f, columns));

@@ -75,9 +75,7 @@ pub(crate) fn read<'a>(
         "rope" => rope(fields, joints)?,
         "linear" => {
             allow(fields, &[&["terms", "value"], &MOTION_KEYS[..]].concat())?;
-            let list = fields.context.list(fields.need("terms")?, TERMS)?;
-            let terms =
-                list.iter().map(|item| read_term(fields, item, joints)).collect::<Read<_>>()?;
+            let terms = read_terms(fields, fields.need("terms")?, joints)?;
             (terms, fields.number_or_zero("value")?, read_motion(fields)?)
         }
         _ => return fields.unknown_word("kind", kind, &KINDS),
@@ -336,6 +334,16 @@ fn read_points<'a>(
         return context.fault(&item.span, fault);
     }
     points.iter().map(point).collect()
+}
+
+/// The terms of a sum.
+pub(crate) fn read_terms<'a>(
+    fields: &Fields<'a>,
+    item: &'a Item,
+    joints: &'a [Joint<Number>],
+) -> Read<Vec<CouplingTerm<Number>>> {
+    let list = fields.context.list(item, TERMS)?;
+    list.iter().map(|item| read_term(fields, item, joints)).collect()
 }
 
 /// A term: a coordinate of a joint, or the length over points; a curve of it.

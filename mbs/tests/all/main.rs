@@ -31,6 +31,7 @@ mod realtime;
 mod reference;
 mod signals;
 mod states;
+mod sums;
 mod threads;
 mod tree;
 mod vehicle;
