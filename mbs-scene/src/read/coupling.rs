@@ -89,6 +89,10 @@ pub(crate) fn read<'a>(
 
 const TERMS: &str = "a list of terms like { joint = \"j\", factor = 1.0 }";
 
+/// The keys of a term.
+pub(crate) const TERM_KEYS: [&str; 7] =
+    ["joint", "coordinate", "points", "factor", "table", "periodic", "coefficients"];
+
 /// The keys of all kinds.
 const EVERY_KEY: [&str; 27] = [
     "joints",
@@ -354,8 +358,7 @@ fn read_term<'a>(
 ) -> Read<CouplingTerm<Number>> {
     let context = fields.context;
     let term = context.table(item, "a term like { joint = \"j\", factor = 1.0 }")?;
-    let keys = ["joint", "coordinate", "points", "factor", "table", "periodic", "coefficients"];
-    term.allow(&keys, &[])?;
+    term.allow(&TERM_KEYS, &[])?;
     term.exclusive("joint", "points")?;
     let of = if let Some(points) = term.get("points") {
         CouplingMeasure::Length { points: read_points(fields, points)? }

@@ -10,6 +10,7 @@ mod outputs;
 mod random;
 mod road;
 mod signals;
+mod sums;
 
 const PLANAR: &str = r#"[scene]
 name = "double pendulum"
