@@ -13,7 +13,7 @@ pub use mbs_core::laws::scalar::Law;
 pub use mbs_core::laws::{LawInputs, Part};
 pub use mbs_recursive::coupled::{CoupledRow, Couplings, SumMeasure, SumTerm};
 pub use mbs_recursive::link::{Link, LinkKind, LinkRotor};
-pub use mbs_recursive::loads::{BodyLoad, Load, Measure};
+pub use mbs_recursive::loads::{BodyLoad, Load, Measure, SumLoad};
 pub use mbs_recursive::loops::Loops;
 pub use mbs_recursive::plan::{End, LoopCoupling, Pair, Pass, Plan, Span, Station, Update};
 pub use mbs_recursive::rows::{ClosedLoop, Row};

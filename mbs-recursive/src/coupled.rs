@@ -295,6 +295,36 @@ impl<T: Real, S: Space<T>> Couplings<'_, T, S> {
         Ok(CoupledValue { row: sum, parts })
     }
 
+    /// Hands out the ends that a row has, without guides: at joints with their slopes, and at links with wrenches.
+    pub(crate) fn each_end(
+        &self,
+        row: &CoupledRow<T>,
+        here: Here<'_, T, S>,
+        mut take: impl FnMut(SumEnd<T, S>) -> Result<(), Outside>,
+    ) -> Result<(), Outside> {
+        for term in range(self.terms, row.terms.range())? {
+            let mut slope = term.factor;
+            if term.curve != NONE {
+                let [m, ..] = self.measure((&term.of, row.starts), here)?;
+                slope *= self.function(term.curve, m)?[1];
+            }
+            match term.of {
+                SumMeasure::Joint { link, .. } => take(SumEnd::Joint { link, slope })?,
+                SumMeasure::Line { points, .. } => {
+                    self.each_part((points, row.starts), here.1, |part| {
+                        let directions = [-part.direction, part.direction];
+                        for ((start, arm), n) in part.ends.iter().zip(directions) {
+                            let wrench = S::wrench(arm, &n) * slope;
+                            take(SumEnd::Link { link: start.link, wrench })?;
+                        }
+                        Ok(())
+                    })?;
+                }
+            }
+        }
+        Ok(())
+    }
+
     /// The links at which a row begins.
     pub(crate) fn starts_of(&self, row: &CoupledRow<T>) -> Result<&[LinkStart], Outside> {
         range(self.starts, row.starts.range())
@@ -364,6 +394,25 @@ fn line_end<T: Real, S: Space<T>>(
     let arm = S::rotate(&p.rotation, &of.point);
     let rate = S::point(&p.velocity) + S::cross(&S::spin(&p.velocity), &arm);
     Ok([p.position + arm, rate])
+}
+
+/// What grows a sum: a coordinate or a link, and how much.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum SumEnd<T: Real, S: Space<T>> {
+    /// The coordinate of a link.
+    Joint {
+        /// The link.
+        link: u32,
+        /// The growth by it.
+        slope: T,
+    },
+    /// A link's motion.
+    Link {
+        /// The link.
+        link: u32,
+        /// The growth by it.
+        wrench: S::Motion,
+    },
 }
 
 /// A part of a line.

@@ -11,7 +11,7 @@
 
 use crate::error::TreeError;
 use crate::link::LinkRotor;
-use crate::loads::{BodyLoad, Load, Measure};
+use crate::loads::{BodyLoad, Load, Measure, SumLoad};
 use crate::loops::index;
 use crate::rows::{ClosedLoop, Row};
 use crate::space::{Numbers, Space};
@@ -149,7 +149,7 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
     /// # Errors
     /// The joint whose angle it asks for in vain.
     fn load(
-        &self,
+        &mut self,
         (scene, coordinates): (&Scene<T>, &[Vec<Option<u32>>]),
         action: &Action<T>,
     ) -> Result<Option<Load<T, S>>, usize> {
@@ -171,6 +171,10 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
                 let direction = S::point_from(&Vector::from(*direction));
                 let gauge = Measure::Along { points, direction, offset: *offset };
                 Load::Between { links, gauge, law: *law }
+            }
+            Action::Sum { terms, law } => {
+                let (terms, starts) = self.add_terms((terms, T::ONE), coordinates)?;
+                Load::Sum(SumLoad { terms, starts, law: *law })
             }
             Action::Turn { bodies, law } => {
                 let links = bodies.map(|body| self.link(body));

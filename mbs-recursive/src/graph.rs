@@ -145,8 +145,16 @@ impl Demands {
             new.effect[rotor.joint].get_or_insert(rotor.effect);
         }
         for (effect, action) in &actions.list {
-            if let Action::Angle { joint, .. } = action {
-                new.effect[*joint].get_or_insert(*effect);
+            match action {
+                Action::Angle { joint, .. } => {
+                    new.effect[*joint].get_or_insert(*effect);
+                }
+                Action::Sum { terms, .. } => {
+                    for (joint, _) in terms.iter().filter_map(|term| term.coordinate) {
+                        new.effect[joint].get_or_insert(*effect);
+                    }
+                }
+                _ => {}
             }
         }
         new

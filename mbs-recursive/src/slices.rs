@@ -105,6 +105,7 @@ impl<'a, T: Real, S: Space<T>> Store<'a, T, S> {
             links: m.links,
             placed: self.placed,
             coordinates: (self.z, self.v, self.guides),
+            couplings: &m.loops.couplings,
             law_inputs: LawInputs { courses: self.courses, ..m.tables },
             base: m.base,
         }

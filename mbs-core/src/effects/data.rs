@@ -11,7 +11,9 @@ pub(super) use super::kind::EffectModel;
 pub(super) use crate::Real;
 pub(super) use crate::actions::{Action, Compiler};
 pub(super) use crate::scene::check::Place;
-pub(super) use crate::scene::{BodyId, JointId, SceneError, SceneFault, Signal, Surroundings};
+pub(super) use crate::scene::{
+    BodyId, CouplingTerm, JointId, SceneError, SceneFault, Signal, Surroundings,
+};
 
 /// Numbers that are zero where nothing is written.
 pub(super) const ZERO: super::Default = Number("0");

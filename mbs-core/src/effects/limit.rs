@@ -84,6 +84,8 @@ impl<T: Real> TensionLaw<T> for LimitLaw<T> {
 
 #[cfg(feature = "alloc")]
 pub use data::Limit;
+#[cfg(feature = "alloc")]
+pub(super) use data::check_range;
 
 #[cfg(feature = "alloc")]
 mod data {
@@ -122,6 +124,17 @@ mod data {
         }
     }
 
+    /// The lower end is below the upper one.
+    pub(in crate::effects) fn check_range<T: Real>(
+        [lower, upper]: [T; 2],
+        place: Place,
+    ) -> Result<(), SceneError> {
+        if lower < upper {
+            return Ok(());
+        }
+        place.fault("lower", SceneFault::RangeOrder([lower.to_f64(), upper.to_f64()]))
+    }
+
     impl<T: Real> EffectModel<T> for Limit<T> {
         const LAW: &'static str = "a bumper at each end";
         const ABSENT: Option<[&'static str; 2]> =
@@ -132,11 +145,7 @@ mod data {
         fn check(&self, among: Surroundings<'_, T>, place: Place) -> Result<(), SceneError> {
             match self.ends(among.joints) {
                 None => place.fault("range", SceneFault::NoRange),
-                Some([lower, upper]) if lower >= upper => {
-                    let range = [lower, upper].map(T::to_f64);
-                    place.fault("lower", SceneFault::RangeOrder(range))
-                }
-                Some(_) => Ok(()),
+                Some(ends) => check_range(ends, place),
             }
         }
         fn actions(&self, to: &mut Compiler<'_, T>) {

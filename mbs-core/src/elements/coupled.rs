@@ -122,6 +122,37 @@ impl<T: Real, F: Curves<T>> CoupledTables<'_, T, F> {
     }
 }
 
+impl<T: Real, F: Curves<T>> CoupledTables<'_, T, F> {
+    /// The sum of terms, its rate, and its gradient in `row`, which is zero before; angles are those nearest to `memory`.
+    #[inline(never)]
+    pub fn measure<const D: usize>(
+        &self,
+        terms: Span,
+        (q, v, memory): (&[T], &[T], &[T]),
+        row: &mut [T],
+    ) -> (T, T) {
+        let at = |x: Span| combine::<T, D>(x.of(self.pool), q);
+        let moving = |x: Span| combine::<T, D>(x.of(self.pool), v);
+        let (mut sum, mut rate) = (T::ZERO, T::ZERO);
+        for term in terms.of(self.terms) {
+            let measures = term.measures.of(self.measures);
+            let (mut m, mut m_t) = (T::ZERO, T::ZERO);
+            for measure in measures {
+                m += measure.sign * value(&measure.of, at, memory);
+                m_t += measure.sign * rate_and_bias(&measure.of, at, moving)[0];
+            }
+            let [f, slope, _] = self.function(term.curve, m);
+            sum += term.factor * f;
+            rate += term.factor * slope * m_t;
+            for measure in measures {
+                let weight = term.factor * slope * measure.sign;
+                add_measure_gradient(&measure.of, self.pool, at, weight, row);
+            }
+        }
+        (sum, rate)
+    }
+}
+
 impl<T: Real> Coupled<T> {
     /// Value and gradient at `q`; angles are those nearest to `memory`.
     pub fn evaluate<const D: usize>(

@@ -40,7 +40,8 @@ impl<T: Real> Builder<'_, T> {
         }
     }
 
-    fn coupled_draft(&mut self, term: &TermInput<T>, scale: T) -> CoupledDraft<T> {
+    /// A term, its factor over the largest one.
+    pub(super) fn coupled_draft(&mut self, term: &TermInput<T>, scale: T) -> CoupledDraft<T> {
         let measures = match (&term.of, term.coordinate) {
             (CouplingMeasure::Length { points }, _) => {
                 let parts = points.windows(2).map(|pair| {

@@ -189,7 +189,8 @@ impl<T: Real, const D: usize> Model<T> for NaturalModel<T, D> {
                 Measure::Rotation { number, memory: place, .. } => {
                     memory[(place + number) as usize] = measure.value;
                 }
-                Measure::Length { .. } | Measure::Along { .. } => {}
+                // the angles of a sum are those of measures
+                Measure::Length { .. } | Measure::Along { .. } | Measure::Sum { .. } => {}
             }
         }
     }

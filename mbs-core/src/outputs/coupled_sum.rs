@@ -55,20 +55,33 @@ enum PartKind<T: Real, const D: usize> {
 impl<T: Real, const D: usize> CoupledSum<T, D> {
     /// Of `scene.couplings[index]` in a scene that passed its check.
     pub(super) fn new(scene: &Scene<T>, model: &NaturalModel<T, D>, index: usize) -> Self {
-        let input = CouplingInput::new(&scene.couplings[index]);
+        Self::of_terms(scene, model, &CouplingInput::new(&scene.couplings[index]).terms)
+    }
+
+    /// Of these terms.
+    pub(super) fn of_terms(
+        scene: &Scene<T>,
+        model: &NaturalModel<T, D>,
+        terms: &[TermInput<T>],
+    ) -> Self {
         let (mut bodies, mut scale) = (Vec::new(), T::ZERO);
-        let terms = input.terms.into_iter().map(|term| {
-            let parts = Part::of_term(scene, model, &term);
+        let terms = terms.iter().map(|term| {
+            let parts = Part::of_term(scene, model, term);
             bodies.extend(parts.iter().flat_map(|part| part.bodies).filter_map(BodyId::index));
             let is_angle = parts.iter().any(Part::is_angle);
             let length = if is_angle { model.length() } else { T::ONE };
             scale = scale.max(term.factor.abs() / length);
-            SumTerm { factor: term.factor, curve: term.curve, parts }
+            SumTerm { factor: term.factor, curve: term.curve.clone(), parts }
         });
         let terms = terms.collect();
         bodies.sort_unstable();
         bodies.dedup();
         Self { terms, bodies, scale }
+    }
+
+    /// Is it an angle, without slides and lengths?
+    pub(super) fn is_angle(&self) -> bool {
+        self.terms.iter().flat_map(|term| &term.parts).all(Part::is_angle)
     }
 
     /// The moving bodies that it acts on, ascending.

@@ -185,7 +185,7 @@ impl<T> Curve<T> {
 }
 
 impl<T> CouplingTerm<T> {
-    fn map<U>(&self, f: &mut impl FnMut(&T) -> U) -> CouplingTerm<U> {
+    pub(crate) fn map<U>(&self, f: &mut impl FnMut(&T) -> U) -> CouplingTerm<U> {
         let curve = self.curve.as_ref().map(|curve| curve.map(f));
         let of = match &self.of {
             &CouplingMeasure::Coordinate { joint, number } => {

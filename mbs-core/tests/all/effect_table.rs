@@ -70,7 +70,9 @@ fn every_kind_is_tried_by_the_tests_of_effects() {
 fn the_document_has_the_fields_of_the_table() {
     let text = std::fs::read_to_string(DOCUMENT).expect("the document");
     let mut expected = text.clone();
-    for (heading, group) in [("Between two bodies", 0), ("On a joint", 1), ("On one body", 2)] {
+    for (heading, group) in
+        [("Between two bodies", 0), ("On a joint", 1), ("On a sum", 2), ("On one body", 3)]
+    {
         let section = expected.find(&format!("## {heading}\n")).expect("a section");
         let start = section + expected[section..].find("| kind |").expect("a table");
         let end = start + expected[start..].find("\n\n").expect("an end") + 1;
@@ -86,13 +88,14 @@ fn the_document_has_the_fields_of_the_table() {
     }
 }
 
-/// The kinds between two bodies, on a joint, on one body.
+/// The kinds between two bodies, on a joint, on a sum, on one body.
 fn table(group: usize) -> String {
     let mut text = "| kind | keys: unit, default | law and range |\n|---|---|---|\n".to_owned();
     let group_of = |row: &&Row| match row.fields.first().map(|field| field.form) {
         Some(Form::Bodies) => 0,
         Some(Form::Joint(_)) => 1,
-        _ => 2,
+        Some(Form::Terms) => 2,
+        _ => 3,
     };
     for row in EFFECTS.iter().filter(|row| group_of(row) == group) {
         let keys: Vec<_> = row.fields.iter().filter_map(key).collect();
@@ -108,7 +111,7 @@ fn key(field: &Field) -> Option<String> {
     let key = field.key;
     let named = match field.form {
         Form::Bodies | Form::Points(_) | Form::Name(_) => return None,
-        Form::Coordinate => return None,
+        Form::Coordinate | Form::Terms => return None,
         Form::Joint(JointNeed::Rotation) => {
             format!("`{key}` with one rotation, or with a `coordinate`")
         }

@@ -18,4 +18,5 @@ mod quantities;
 mod reactions;
 mod signals;
 mod start;
+mod sums;
 mod undetermined;

@@ -7,7 +7,7 @@ use mbs_core::Real;
 use mbs_core::laws::Part;
 use mbs_recursive::coupled::{CoupledRow, SumMeasure, SumTerm};
 use mbs_recursive::link::{Link, LinkKind, LinkRotor};
-use mbs_recursive::loads::{BodyLoad, Load, Measure};
+use mbs_recursive::loads::{BodyLoad, Load, Measure, SumLoad};
 use mbs_recursive::plan::{End, LoopCoupling, Pair, Pass, Span, Station, Update};
 use mbs_recursive::rows::{ClosedLoop, Row};
 
@@ -57,6 +57,7 @@ record_enum!([T: Real + Record, S: Axes<T>] Load<T, S> = Load {
     3 Force { link link, point point, course course, turns turns },
     4 Torque { link link, course course },
     5 BodyLoad { 0 load },
+    6 Sum { 0 load },
 });
 
 record_enum!([T: Real + Record, S: Axes<T>] Measure<T, S> = Measure {
@@ -67,6 +68,8 @@ record_enum!([T: Real + Record, S: Axes<T>] Measure<T, S> = Measure {
 });
 
 record_struct!([T: Real + Record, S: Axes<T>] BodyLoad<T, S> = BodyLoad { link, point, axis, law });
+
+record_struct!([T: Real + Record] SumLoad<T> = SumLoad { terms, starts, law });
 
 record_enum!([T: Real + Record] Motion<T> = Motion {
     0 Input { 0 motion },

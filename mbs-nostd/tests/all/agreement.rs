@@ -128,6 +128,20 @@ fn a_cam_is_refused_for_a_controller_with_its_coupling() {
     assert_eq!(refused, Err(LoadError::Coupling { coupling: 1 }));
 }
 
+#[test]
+fn laws_on_sums_act_on_a_controller_as_in_the_recursion() {
+    let spring =
+        "[[effect]]\nkind = \"torsion-spring\"\nstiffness = 9.0\ndamping = 0.3\nfree_value = 0.2\n";
+    let sum = "terms = [{ joint = \"a\", factor = 1.0 }, { joint = \"b\", factor = -2.5 }]\n";
+    let alone = GEARS.split("[[coupling]]").next().expect("what stands before");
+    for scene in [GEARS, alone] {
+        assert_eq!(apart_on_controller(&format!("{scene}{spring}{sum}")), Ok(0.0));
+    }
+    let curve = sum.replace("factor = 1.0", "factor = 1.0, coefficients = [0.0, 1.0, 0.2]");
+    let refused = apart_on_controller(&format!("{GEARS}{spring}{curve}"));
+    assert_eq!(refused, Err(LoadError::Sum { entry: 0 }));
+}
+
 /// Largest difference of a coordinate from the converged trapezoidal rule over 10 s [m or rad].
 fn apart(name: &str, evaluations: u32) -> f64 {
     let (tree, begin) = vehicle(name);

@@ -12,6 +12,7 @@ mod random;
 mod road;
 mod rotors;
 mod signals;
+mod sums;
 
 const PLANAR: &str = r#"[scene]
 name = "double pendulum"

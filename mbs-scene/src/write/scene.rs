@@ -354,13 +354,18 @@ impl Writer<'_> {
         let mut keys = Keys::default();
         keys.push("name", coupling.name.as_str());
         keys.push("kind", "linear");
-        let terms: Result<Vec<_>, _> = coupling.terms.iter().map(|term| self.term(term)).collect();
-        keys.push("terms", list(terms?));
+        keys.push("terms", self.terms(&coupling.terms)?);
         keys.push("value", &coupling.value);
         if let Some(law) = &coupling.motion {
             self.motion(&mut keys, law)?;
         }
         Ok(keys)
+    }
+
+    /// The terms of a sum.
+    fn terms(self, terms: &[CouplingTerm<Number>]) -> Result<Node, WriteError> {
+        let terms: Result<Vec<_>, _> = terms.iter().map(|term| self.term(term)).collect();
+        Ok(list(terms?))
     }
 
     fn term(self, term: &CouplingTerm<Number>) -> Result<Node, WriteError> {

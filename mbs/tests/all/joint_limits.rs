@@ -1,7 +1,8 @@
 //! Ranges and limits of joints: noted with joint and time, without effect on the motion.
 
 use mbs::{
-    Body, FormulationKind, GROUND, Guide, Joint, JointLimits, Mechanism, Method, Motion, Run,
+    Body, Effect, FormulationKind, GROUND, Guide, Joint, JointId, JointLimits, Mechanism, Method,
+    Motion, Run,
 };
 
 /// A wheel on a hinge without forces that turns at 2 rad/s, and its hinge; the way is 2 t.
@@ -55,7 +56,7 @@ fn turns_count_and_a_guide_that_reaches_the_end_of_its_range_does_not_leave_it()
     let amplitude = 7.0;
     let hinge = Joint::revolute([GROUND, wheel], [0.0, 0.0]).range(-amplitude, amplitude);
     let hinge = m.add(hinge.named("hinge"));
-    let sine =
+    let sine: Motion<f64> =
         Motion::Sine { amplitude: amplitude.into(), frequency: 0.25.into(), phase: 0.0.into() };
     m.add(Guide::new(hinge, sine));
     for kind in FormulationKind::listed() {

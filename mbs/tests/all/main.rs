@@ -36,6 +36,7 @@ mod ropes;
 mod rotors;
 mod signals;
 mod states;
+mod sums;
 mod threads;
 mod tree;
 mod vehicle;

@@ -1,5 +1,6 @@
 //! Ropes whose parts lose their length: every formulation stops there by name.
 
+use mbs::Error as _;
 use mbs::{
     Body, Coupling, CouplingMeasure, CouplingTerm, FormulationKind, GROUND, Joint, Mechanism,
     Method, Run,

@@ -31,8 +31,7 @@ pub(super) fn check<T: Real>(
             None => place.fault("effect", SceneFault::UnknownReference),
             Some(_) if quantity.components(scene).is_empty() => {
                 let is_contact = matches!(quantity, Quantity::EffectContact { .. });
-                let fault =
-                    if is_contact { SceneFault::NoContact } else { SceneFault::NoMeasure };
+                let fault = if is_contact { SceneFault::NoContact } else { SceneFault::NoMeasure };
                 place.fault("quantity", fault)
             }
             Some(_) => Ok(()),

@@ -43,6 +43,7 @@ impl Writer<'_> {
             Value::Coordinate(number) => {
                 keys.push_some(key, number.map(|number| Node::Number(number.to_string())));
             }
+            Value::Terms(terms) => keys.push(key, self.terms(terms)?),
             Value::Point(x) | Value::Axis(x) => keys.push(key, self.vector(x)),
             Value::Points(x) => keys.push(key, self.two(x)),
             Value::MaybeAxis(x) => keys.push_some(key, x.as_ref().map(|x| self.vector(x))),
