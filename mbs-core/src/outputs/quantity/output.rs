@@ -1,7 +1,7 @@
 //! Outputs by what they measure, and the components of a quantity.
 
 use super::components::{Component, ComponentForm};
-use super::{Quantity, Target};
+use super::{Quantity, RelativePoint, Target};
 use crate::effects::ActsOn;
 use crate::scene::{
     BodyId, CouplingId, CouplingMeasure, EffectId, Freedom, JointId, Number, Output, Scene,
@@ -32,7 +32,11 @@ impl<T: Clone> Quantity<T> {
             }
             Target::Effect(effect) => (&[][..], unit_of_measure(scene, effect)),
             Target::Signal(signal) => (&[][..], Some(unit_of_signal(scene, signal))),
-            Target::Point(..) | Target::Body(_) | Target::Scene => (&[][..], None),
+            Target::Point(..)
+            | Target::RelativePoint(_)
+            | Target::Body(_)
+            | Target::RelativeBody(..)
+            | Target::Scene => (&[][..], None),
         };
         form.of(scene.dimension, freedoms, measured)
     }
