@@ -88,7 +88,12 @@ fn outputs_may_be_seen_from_another_body() {
     let e = refusal("body = \"lower\"\nrelative_to = \"uper\"\nat = [2, 0]");
     refused(&e, &format!("{}:15", line + 1), "unknown body `uper`", "`upper`");
     let e = refusal("body = \"lower\"\nrelative_to = \"upper\"\nquantity = \"orientation\"");
-    refused(&e, &format!("{}:12", line + 2), "unknown quantity `orientation`", "`");
+    refused(
+        &e,
+        &format!("{}:12", line + 2),
+        "unknown quantity `orientation`",
+        "choices: position, velocity, acceleration, angular-velocity",
+    );
     let e = refusal("body = \"lower\"\nat = [2, 0]\norigin = [1, 0]");
     refused(&e, &format!("{}:1", line + 2), "`origin` has no meaning here", "keys");
 }
