@@ -1,6 +1,6 @@
 //! Every quantity that an output of a scene can have.
 
-use mbs_core::outputs::{QUANTITIES, Quantity, Target, TargetKind};
+use mbs_core::outputs::{QUANTITIES, Quantity, RelativePoint, Target, TargetKind};
 use mbs_core::scene::{BodyId, CouplingId, EffectId, Inertia, JointId, Output, Scene, SignalId};
 
 /// All quantities of centres of mass, bodies, joints, couplings, effects and the scene, in the order of the table.
@@ -11,9 +11,20 @@ pub fn every(scene: &Scene<f64>) -> Vec<Quantity<f64>> {
         _ => scene.bodies[body].center,
     };
     let bodies = || (0..scene.bodies.len()).map(|body| (BodyId::Body(body), center(body)));
+    let ground = [(BodyId::Ground, [0.0, 0.0, 0.0])];
     let all = QUANTITIES.iter().flat_map(|row| {
         let targets: Vec<_> = match row.target {
             TargetKind::Point => bodies().map(|(body, at)| Target::Point(body, at)).collect(),
+            TargetKind::RelativePoint => {
+                let seen = |((body, at), (relative_to, origin))| {
+                    Target::RelativePoint(RelativePoint { body, at, relative_to, origin })
+                };
+                bodies().zip(bodies().skip(1).chain(ground)).map(seen).collect()
+            }
+            TargetKind::RelativeBody => {
+                let others = bodies().skip(1).chain(ground);
+                bodies().zip(others).map(|(a, b)| Target::RelativeBody(a.0, b.0)).collect()
+            }
             TargetKind::Body => bodies().map(|(body, _)| Target::Body(body)).collect(),
             TargetKind::Joint => {
                 (0..scene.joints.len()).map(|joint| Target::Joint(JointId::new(joint))).collect()

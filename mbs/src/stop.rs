@@ -1,7 +1,9 @@
 //! Why a run stopped, in words and with names.
 
+mod linear;
 mod step;
 
+use self::linear::write_linear;
 use self::step::{step_hint, write_step};
 use crate::names::Names;
 use crate::tilt::AlmostDependent;
@@ -488,29 +490,6 @@ fn write_equilibrium(
         EquilibriumError::NotFinite { .. } => {
             write!(f, "a force became infinite or not a number")
         }
-        other => write!(f, "{other}"),
-    }
-}
-
-fn write_linear(error: &LinearError, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-    match error {
-        LinearError::NotClosed { violation } => write!(
-            f,
-            "next to this position the joints stay open by {} m (or rad)",
-            few(*violation)
-        ),
-        LinearError::Singular { .. } => write!(
-            f,
-            "the mechanism stands in a singular position: its branches have no common linearisation"
-        ),
-        LinearError::NoInertia { .. } => write!(
-            f,
-            "a force meets no inertia: a coordinate is neither determined by joints nor has mass"
-        ),
-        LinearError::NotSettled { left } => {
-            write!(f, "accelerations next to this position miss the joints by {} m/s^2", few(*left))
-        }
-        LinearError::NotFinite => write!(f, "a force became infinite or not a number"),
         other => write!(f, "{other}"),
     }
 }

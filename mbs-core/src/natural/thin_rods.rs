@@ -4,7 +4,7 @@ use crate::Real;
 use crate::actions::{Action, Actions};
 use crate::algebra::{Vector, norm};
 use crate::cluster::{Cluster, Clusters};
-use crate::outputs::Target;
+use crate::outputs::{RelativePoint, Target};
 use crate::scene::{BodyId, CouplingMeasure, InitialTarget, Scene};
 use alloc::vec;
 use alloc::vec::Vec;
@@ -36,8 +36,13 @@ impl<T: Real> ThinRods<T> {
         rods.ask_initials(scene);
         actions.list.iter().for_each(|(_, action)| rods.ask_action(scene, action));
         for output in &scene.outputs {
-            if let Target::Point(body, at) = output.quantity.target() {
-                rods.point(body, &at);
+            match output.quantity.target() {
+                Target::Point(body, at) => rods.point(body, &at),
+                Target::RelativePoint(RelativePoint { body, at, relative_to, origin }) => {
+                    rods.point(body, &at);
+                    rods.point(relative_to, &origin);
+                }
+                _ => {}
             }
         }
         rods

@@ -35,7 +35,7 @@ pub use exerted::EffectWrenches;
 pub use forces::Forces;
 pub use measure::{Measures, start_values};
 pub use quantity::{
-    Component, ComponentForm, QUANTITIES, Quantity, QuantityRow, Target, TargetKind,
+    Component, ComponentForm, QUANTITIES, Quantity, QuantityRow, RelativePoint, Target, TargetKind,
 };
 pub use reaction::{LARGEST_BLOCK, Reactions};
 pub use turns::Turns;

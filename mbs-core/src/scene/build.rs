@@ -127,28 +127,6 @@ impl Joint<Number> {
         self
     }
 
-    /// The range that its coordinate is meant to keep to [rad or m], from the reference configuration: data, without effect on the
-    /// motion. A run notes where it leaves it; a [`Limit`] pushes back.
-    #[must_use]
-    pub fn range(mut self, lower: impl Into<Number>, upper: impl Into<Number>) -> Self {
-        self.limits.range = Some([lower.into(), upper.into()]);
-        self
-    }
-
-    /// The largest force or moment that its drive has [N or N m]: data, without effect on the motion.
-    #[must_use]
-    pub fn effort_limit(mut self, effort: impl Into<Number>) -> Self {
-        self.limits.effort = Some(effort.into());
-        self
-    }
-
-    /// The largest rate that it is meant to have [rad/s or m/s]: data, without effect on the motion. A run notes where it is larger.
-    #[must_use]
-    pub fn velocity_limit(mut self, velocity: impl Into<Number>) -> Self {
-        self.limits.velocity = Some(velocity.into());
-        self
-    }
-
     /// The joint with its coordinate [rad or m] from the reference configuration, and its rate [rad/s or m/s], at the start: an initial
     /// condition in short. Joints of several coordinates take one of their own.
     pub fn start(self, value: impl Into<Number>, rate: impl Into<Number>) -> StartedJoint {
@@ -323,14 +301,6 @@ impl Effect<Number> {
         let [lower, upper] = range.map(Number::from);
         let (stiffness, damping) = (stiffness.into(), damping.into());
         let (coordinate, range) = (None, false);
-        Self::of(Limit { joint, coordinate, range, lower, upper, stiffness, damping })
-    }
-
-    /// Elastic stops at the ends of a joint's own [range](Joint::range), with a stiffness and a damping that follow from the mass that
-    /// the joint moves: they stop it within some 20 ms, and it does not rebound far.
-    pub fn stops(joint: JointId) -> Self {
-        let [lower, upper, stiffness, damping] = [(); 4].map(|()| Number::open());
-        let (coordinate, range) = (None, true);
         Self::of(Limit { joint, coordinate, range, lower, upper, stiffness, damping })
     }
 

@@ -31,6 +31,8 @@ mod id;
 mod inertia;
 mod joint;
 #[cfg(feature = "alloc")]
+mod joint_limits;
+#[cfg(feature = "alloc")]
 mod mechanism;
 #[cfg(feature = "alloc")]
 mod number;

@@ -66,13 +66,11 @@ at = [4.0, 0.0, 0.0]
 axis = [0.0, 0.0, 1.0]
 "#;
 
-const [A, B, C, S, Z]: [JointId; 5] = [
-    JointId::new(0),
-    JointId::new(1),
-    JointId::new(2),
-    JointId::new(3),
-    JointId::new(4),
-];
+const A: JointId = JointId::new(0);
+const B: JointId = JointId::new(1);
+const C: JointId = JointId::new(2);
+const S: JointId = JointId::new(3);
+const Z: JointId = JointId::new(4);
 
 /// The scene with the coupling of a text.
 fn read(text: &str) -> Scene<Number> {

@@ -6,9 +6,9 @@ use mbs_core::algebra::{Vector, norm, rotation};
 use mbs_core::outputs::{Forces, Measures};
 use mbs_core::rigid::RigidMotion;
 use mbs_core::scene::{
-    AxisFrame, BodyId, Bumper, Bushing, Coupling, CouplingId, CouplingMeasure, CouplingTerm, Dimension,
-    Effect, EffectId, EffectKind, Force, Inertia, JointId, JointKind, JointTorque, Limit, Motion,
-    Quantity, Scene, Signal, SpringDamper,
+    AxisFrame, BodyId, Bumper, Bushing, Coupling, CouplingId, CouplingMeasure, CouplingTerm,
+    Dimension, Effect, EffectId, EffectKind, Force, Inertia, JointId, JointKind, JointTorque,
+    Limit, Motion, Quantity, Scene, Signal, SpringDamper,
 };
 
 const G: f64 = 9.81;
@@ -200,8 +200,7 @@ fn stops_are_in_contact_beyond_their_range_alone() {
         // the tip of the rod at 2 sin from its height in the reference configuration, its bumper a tenth below
         let points = [[2.0, -1.0, 0.0], [2.0, 0.0, 0.0]];
         let (bodies, clearance) = ([GROUND, BodyId::Body(0)], 0.1);
-        let bumper =
-            add_effect(&mut s, Bumper { bodies, points, stiffness, damping, clearance });
+        let bumper = add_effect(&mut s, Bumper { bodies, points, stiffness, damping, clearance });
         let quantities = [effect, bumper].map(|effect| Quantity::EffectContact { effect });
         let length = ((2.0 * angle.cos() - 2.0).powi(2) + (2.0 * angle.sin() + 1.0).powi(2)).sqrt();
         let touches = f64::from(u8::from(length < 1.0 - clearance));

@@ -4,7 +4,7 @@ use crate::read::ReadFault;
 use crate::read::error::OWNER;
 use crate::read::fields::{Fields, Read};
 use crate::read::names::Names;
-use mbs_core::outputs::{QUANTITIES, Quantity, QuantityRow, Target, TargetKind};
+use mbs_core::outputs::{QUANTITIES, Quantity, QuantityRow, RelativePoint, Target, TargetKind};
 use mbs_core::scene::{CouplingId, EffectId, Number, Output, SolverTable};
 
 /// Keys that say what an output is of; one at most.
@@ -13,6 +13,7 @@ const OWNERS: [&str; 5] = ["joint", "body", "coupling", "effect", "signal"];
 /// Reads an output of a scene with these couplings and effects.
 pub(crate) fn read(
     fields: &Fields<'_>,
+    centers: &[[Number; 3]],
     couplings: &Names,
     effects: &Names,
 ) -> Read<Output<Number>> {
@@ -28,7 +29,11 @@ pub(crate) fn read(
     }
     let word = fields.get("quantity").map(|_| fields.word("quantity")).transpose()?;
     let has_owner = OWNERS.iter().any(|owner| fields.get(owner).is_some());
+    let is_relative = fields.get("relative_to").is_some();
     let is_here = |row: &&QuantityRow| match row.target.keys().first() {
+        Some(owner @ &"body") => {
+            fields.get(owner).is_some() && row.target.is_relative() == is_relative
+        }
         Some(owner) => fields.get(owner).is_some(),
         // only what the whole scene alone has needs no owner
         None => !has_owner && word.is_some_and(|word| row.has_name(word.0)),
@@ -48,7 +53,7 @@ pub(crate) fn read(
         return unknown();
     };
     fields.allow(&keys(kind.keys()), &keys(&every))?;
-    let target = target(fields, kind, [couplings, effects])?;
+    let target = target(fields, kind, (centers, [couplings, effects]))?;
     let Some(quantity) = Quantity::of(word.0, target) else { return unknown() };
     Ok(Output { name: fields.name()?, quantity })
 }
@@ -57,10 +62,11 @@ pub(crate) fn read(
 fn target(
     fields: &Fields<'_>,
     kind: TargetKind,
-    [couplings, effects]: [&Names; 2],
+    (centers, [couplings, effects]): (&[[Number; 3]], [&Names; 2]),
 ) -> Read<Target<Number>> {
     let owner = || fields.need(kind.keys().first().copied().unwrap_or_default());
     let body = || fields.context.moving_body(owner()?);
+    let frame = || fields.context.body(fields.need("relative_to")?);
     let place = |names: &Names, list: &'static str| {
         let item = owner()?;
         let name = fields.context.text(item)?;
@@ -74,7 +80,17 @@ fn target(
     };
     Ok(match kind {
         TargetKind::Point => Target::Point(body()?, fields.vector("at")?),
+        TargetKind::RelativePoint => {
+            let (body, at, relative_to) = (body()?, fields.vector("at")?, frame()?);
+            let center = || relative_to.index().and_then(|i| centers.get(i).cloned());
+            let origin = match fields.get("origin") {
+                Some(item) => fields.context.vector(item)?,
+                None => center().unwrap_or([const { Number::ZERO }; 3]),
+            };
+            Target::RelativePoint(RelativePoint { body, at, relative_to, origin })
+        }
         TargetKind::Body => Target::Body(body()?),
+        TargetKind::RelativeBody => Target::RelativeBody(body()?, frame()?),
         TargetKind::Joint => Target::Joint(fields.context.joint(owner()?)?),
         TargetKind::Coupling => Target::Coupling(CouplingId::new(place(couplings, "couplings")?)),
         TargetKind::Effect => Target::Effect(EffectId::new(place(effects, "effects")?)),

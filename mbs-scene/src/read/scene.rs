@@ -83,7 +83,7 @@ impl SceneFile {
             start: read_start(&header)?,
             effects,
             outputs: self.entries(&context, "output", |_, fields| {
-                output::read(fields, &of_couplings, &of_effects)
+                output::read(fields, &centers, &of_couplings, &of_effects)
             })?,
             solver: match self.top("solver") {
                 Some(item) => output::read_solver(&context.table(item, "a table: [solver]")?)?,

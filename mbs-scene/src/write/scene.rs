@@ -12,7 +12,7 @@ use super::toml;
 use crate::read::SceneFile;
 use crate::read::tree::{Item, Member, Node};
 use core::fmt::{self, Display, Formatter};
-use mbs_core::outputs::Target;
+use mbs_core::outputs::{RelativePoint, Target};
 use mbs_core::scene::{
     Body, BodyId, Coupling, CouplingMeasure, CouplingTerm, Curve, Dimension, Guide, Inertia,
     InitialCondition, InitialTarget, Joint, JointId, JointLimits, Number, Output, Scene,
@@ -401,7 +401,17 @@ impl Writer<'_> {
                 keys.push("body", self.body_name(body)?);
                 keys.push("at", self.vector(&at));
             }
+            Target::RelativePoint(RelativePoint { body, at, relative_to, origin }) => {
+                keys.push("body", self.body_name(body)?);
+                keys.push("at", self.vector(&at));
+                keys.push("relative_to", self.body_name(relative_to)?);
+                keys.push("origin", self.vector(&origin));
+            }
             Target::Body(body) => keys.push("body", self.body_name(body)?),
+            Target::RelativeBody(body, relative_to) => {
+                keys.push("body", self.body_name(body)?);
+                keys.push("relative_to", self.body_name(relative_to)?);
+            }
             Target::Joint(joint) => keys.push("joint", self.joint_name(joint)?),
             Target::Coupling(coupling) => {
                 let coupling = self.scene.couplings.get(coupling.index());

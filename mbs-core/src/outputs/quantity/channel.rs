@@ -2,6 +2,7 @@
 
 use super::Quantity;
 use super::kind::{Followed, Instant, Maker, Measured};
+use super::seen::SeenPoint;
 use crate::Real;
 
 super::list::list!(channels);

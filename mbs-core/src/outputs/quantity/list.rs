@@ -15,6 +15,18 @@ macro_rules! list {
                 /// Acceleration of a point of a body [m/s^2], global axes.
                 Acceleration in acceleration;
             }
+            relative {
+                /// Position of a point of a body from the origin of another body, in that body's axes [m].
+                RelativePosition in relative_position;
+                /// Velocity of a point of a body against another body that moves and turns, in that body's axes [m/s].
+                RelativeVelocity in relative_velocity;
+                /// Acceleration of a point of a body against another body that moves and turns, in that body's axes [m/s^2].
+                RelativeAcceleration in relative_acceleration;
+            }
+            turning {
+                /// Angular velocity of a body against another body, in that body's axes [rad/s]; in the plane one number.
+                RelativeAngularVelocity in relative_angular_velocity;
+            }
             of Body(body: BodyId) {
                 /// Angular velocity of a body [rad/s], global axes; in the plane one number. Of a thin rod that balls alone hold, the part across it.
                 AngularVelocity in angular_velocity;

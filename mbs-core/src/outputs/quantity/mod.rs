@@ -7,12 +7,13 @@ mod kind;
 mod list;
 mod output;
 mod row;
+mod seen;
 mod table;
 
 pub(super) use channel::Channel;
 pub use components::{Component, ComponentForm};
 pub(super) use kind::{Instant, Maker};
-pub use row::{QuantityRow, Target, TargetKind};
+pub use row::{QuantityRow, RelativePoint, Target, TargetKind};
 
 use crate::scene::{BodyId, CouplingId, EffectId, JointId, SignalId};
 

@@ -1,7 +1,7 @@
 //! Outputs by what they measure, and the components of a quantity.
 
 use super::components::{Component, ComponentForm};
-use super::{Quantity, Target};
+use super::{Quantity, RelativePoint, Target};
 use crate::effects::{ActsOn, Value};
 use crate::scene::{
     BodyId, CouplingId, CouplingMeasure, CouplingTerm, EffectId, Freedom, JointId, Number, Output,
@@ -35,7 +35,11 @@ impl<T: Clone> Quantity<T> {
             }
             Target::Effect(effect) => (&[][..], unit_of_measure(scene, effect)),
             Target::Signal(signal) => (&[][..], Some(unit_of_signal(scene, signal))),
-            Target::Point(..) | Target::Body(_) | Target::Scene => (&[][..], None),
+            Target::Point(..)
+            | Target::RelativePoint(_)
+            | Target::Body(_)
+            | Target::RelativeBody(..)
+            | Target::Scene => (&[][..], None),
         };
         form.of(scene.dimension, freedoms, measured)
     }

@@ -8,8 +8,12 @@ use crate::scene::{BodyId, CouplingId, EffectId, JointId, SignalId};
 pub enum Target<T> {
     /// The material point of a body that is at this place in the reference configuration [m].
     Point(BodyId, [T; 3]),
+    /// The same, seen from another body.
+    RelativePoint(RelativePoint<T>),
     /// A body.
     Body(BodyId),
+    /// A body, seen from another one.
+    RelativeBody(BodyId, BodyId),
     /// A joint.
     Joint(JointId),
     /// A coupling.
@@ -22,13 +26,30 @@ pub enum Target<T> {
     Scene,
 }
 
+/// A material point of a body, seen from another body.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct RelativePoint<T> {
+    /// The body.
+    pub body: BodyId,
+    /// Its point in the reference configuration [m].
+    pub at: [T; 3],
+    /// The other body: its axes are the global ones of the reference configuration, and turn with it.
+    pub relative_to: BodyId,
+    /// The point of the other body that positions are counted from, in the reference configuration [m].
+    pub origin: [T; 3],
+}
+
 /// What a kind of quantity is of.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum TargetKind {
     /// A material point of a body.
     Point,
+    /// A material point of a body, seen from another body.
+    RelativePoint,
     /// A body.
     Body,
+    /// A body, seen from another one.
+    RelativeBody,
     /// A joint.
     Joint,
     /// A coupling.
@@ -47,13 +68,23 @@ impl TargetKind {
     pub const fn keys(self) -> &'static [&'static str] {
         match self {
             Self::Point => &["body", "at"],
+            Self::RelativePoint => &["body", "at", "relative_to", "origin"],
             Self::Body => &["body"],
+            Self::RelativeBody => &["body", "relative_to"],
             Self::Joint => &["joint"],
             Self::Coupling => &["coupling"],
             Self::Effect => &["effect"],
             Self::Signal => &["signal"],
             Self::Scene => &[],
         }
+    }
+}
+
+impl TargetKind {
+    /// Is it seen from another body?
+    #[must_use]
+    pub const fn is_relative(self) -> bool {
+        matches!(self, Self::RelativePoint | Self::RelativeBody)
     }
 }
 

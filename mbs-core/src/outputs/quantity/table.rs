@@ -4,12 +4,16 @@
 macro_rules! quantities {
     (
         point { $($(#[doc = $point_doc:literal])+ $Point:ident in $point:ident;)* }
+        relative { $($(#[doc = $relative_doc:literal])+ $Relative:ident in $relative:ident;)* }
+        turning { $($(#[doc = $turning_doc:literal])+ $Turning:ident in $turning:ident;)* }
         $(of $Target:ident($id:ident: $Id:ident) {
             $($(#[doc = $doc:literal])+ $Kind:ident in $module:ident;)*
         })*
         scene { $($(#[doc = $scene_doc:literal])+ $Scene:ident in $scene:ident;)* }
     ) => {
         $(mod $point;)*
+        $(mod $relative;)*
+        $(mod $turning;)*
         $($(mod $module;)*)*
         $(mod $scene;)*
 
@@ -24,6 +28,19 @@ macro_rules! quantities {
                     body: BodyId,
                     /// Point in the reference configuration [m].
                     at: [T; 3],
+                },
+            )*
+            $(
+                $(#[doc = $relative_doc])+
+                $Relative(RelativePoint<T>),
+            )*
+            $(
+                $(#[doc = $turning_doc])+
+                $Turning {
+                    /// Body.
+                    body: BodyId,
+                    /// The other body.
+                    relative_to: BodyId,
                 },
             )*
             $($(
@@ -41,10 +58,12 @@ macro_rules! quantities {
 
         /// Every kind of quantity, in the order of the format.
         pub const QUANTITIES: &[QuantityRow] =
-            &[$($point::ROW,)* $($($module::ROW,)*)* $($scene::ROW,)*];
+            &[$($point::ROW,)* $($relative::ROW,)* $($turning::ROW,)* $($($module::ROW,)*)* $($scene::ROW,)*];
 
         const _: () = {
             $(assert!(matches!($point::ROW.target, TargetKind::Point));)*
+            $(assert!(matches!($relative::ROW.target, TargetKind::RelativePoint));)*
+            $(assert!(matches!($turning::ROW.target, TargetKind::RelativeBody));)*
             $($(assert!(matches!($module::ROW.target, TargetKind::$Target));)*)*
             $(assert!(matches!($scene::ROW.target, TargetKind::Scene));)*
         };
@@ -55,6 +74,8 @@ macro_rules! quantities {
             pub const fn row(&self) -> &'static QuantityRow {
                 match self {
                     $(Self::$Point { .. } => &$point::ROW,)*
+                    $(Self::$Relative(_) => &$relative::ROW,)*
+                    $(Self::$Turning { .. } => &$turning::ROW,)*
                     $($(Self::$Kind { .. } => &$module::ROW,)*)*
                     $(Self::$Scene => &$scene::ROW,)*
                 }
@@ -73,6 +94,10 @@ macro_rules! quantities {
             pub fn of(name: &str, target: Target<T>) -> Option<Self> {
                 Some(match target {
                     $(Target::Point(body, at) if $point::ROW.has_name(name) => Self::$Point { body, at },)*
+                    $(Target::RelativePoint(of) if $relative::ROW.has_name(name) => Self::$Relative(of),)*
+                    $(Target::RelativeBody(body, relative_to) if $turning::ROW.has_name(name) => {
+                        Self::$Turning { body, relative_to }
+                    })*
                     $($(Target::$Target($id) if $module::ROW.has_name(name) => Self::$Kind { $id },)*)*
                     $(Target::Scene if $scene::ROW.has_name(name) => Self::$Scene,)*
                     _ => return None,
@@ -87,6 +112,8 @@ macro_rules! quantities {
             {
                 match self {
                     $(Self::$Point { body, at } => Target::Point(*body, at.clone()),)*
+                    $(Self::$Relative(of) => Target::RelativePoint(of.clone()),)*
+                    $(Self::$Turning { body, relative_to } => Target::RelativeBody(*body, *relative_to),)*
                     $($(Self::$Kind { $id } => Target::$Target(*$id),)*)*
                     $(Self::$Scene => Target::Scene,)*
                 }
@@ -97,6 +124,15 @@ macro_rules! quantities {
                 match self {
                     $(Self::$Point { body, at } => {
                         Quantity::$Point { body: *body, at: at.each_ref().map(f) }
+                    })*
+                    $(Self::$Relative(of) => Quantity::$Relative(RelativePoint {
+                        body: of.body,
+                        at: of.at.each_ref().map(&mut *f),
+                        relative_to: of.relative_to,
+                        origin: of.origin.each_ref().map(f),
+                    }),)*
+                    $(Self::$Turning { body, relative_to } => {
+                        Quantity::$Turning { body: *body, relative_to: *relative_to }
                     })*
                     $($(Self::$Kind { $id } => Quantity::$Kind { $id: *$id },)*)*
                     $(Self::$Scene => Quantity::$Scene,)*
@@ -110,6 +146,8 @@ macro_rules! quantities {
 macro_rules! constructors {
     (
         point { $($(#[doc = $point_doc:literal])+ $Point:ident in $point:ident;)* }
+        relative { $($(#[doc = $relative_doc:literal])+ $Relative:ident in $relative:ident;)* }
+        turning { $($(#[doc = $turning_doc:literal])+ $Turning:ident in $turning:ident;)* }
         $(of $Target:ident($id:ident: $Id:ident) {
             $($(#[doc = $doc:literal])+ $Kind:ident in $module:ident;)*
         })*
@@ -120,6 +158,23 @@ macro_rules! constructors {
                 $(#[doc = $point_doc])+
                 pub fn $point(body: BodyId, at: impl Into<Vector3>) -> Self {
                     Self::new(Quantity::$Point { body, at: at.into().0 })
+                }
+            )*
+            $(
+                $(#[doc = $relative_doc])+
+                pub fn $relative<P: Into<Vector3>>(
+                    (body, at): (BodyId, P),
+                    (relative_to, origin): (BodyId, P),
+                ) -> Self {
+                    let (at, origin) = (at.into().0, origin.into().0);
+                    Self::new(Quantity::$Relative(RelativePoint { body, at, relative_to, origin }))
+                }
+            )*
+            $(
+                $(#[doc = $turning_doc])+
+                #[must_use]
+                pub fn $turning(body: BodyId, relative_to: BodyId) -> Self {
+                    Self::new(Quantity::$Turning { body, relative_to })
                 }
             )*
             $($(
@@ -144,6 +199,8 @@ macro_rules! constructors {
 macro_rules! channels {
     (
         point { $($(#[doc = $point_doc:literal])+ $Point:ident in $point:ident;)* }
+        relative { $($(#[doc = $relative_doc:literal])+ $Relative:ident in $relative:ident;)* }
+        turning { $($(#[doc = $turning_doc:literal])+ $Turning:ident in $turning:ident;)* }
         $(of $Target:ident($id:ident: $Id:ident) {
             $($(#[doc = $doc:literal])+ $Kind:ident in $module:ident;)*
         })*
@@ -153,6 +210,8 @@ macro_rules! channels {
         #[derive(Debug, Clone)]
         pub(in crate::outputs) enum Channel<T: Real, const D: usize> {
             $($Point(super::$point::$Point<T, D>),)*
+            $($Relative(super::$relative::$Relative<T, D>),)*
+            $($Turning(super::$turning::$Turning<T, D>),)*
             $($($Kind(super::$module::$Kind<T, D>),)*)*
             $($Scene(super::$scene::$Scene<T, D>),)*
         }
@@ -163,6 +222,12 @@ macro_rules! channels {
                     $(Quantity::$Point { body, at } => {
                         Self::$Point(Measured::new(from.model.point(body, at), from))
                     })*
+                    $(Quantity::$Relative(of) => {
+                        Self::$Relative(Measured::new(SeenPoint::new(&of, from), from))
+                    })*
+                    $(Quantity::$Turning { body, relative_to } => {
+                        Self::$Turning(Measured::new([body, relative_to], from))
+                    })*
                     $($(Quantity::$Kind { $id } => Self::$Kind(Measured::new($id, from)),)*)*
                     $(Quantity::$Scene => Self::$Scene(Measured::new((), from)),)*
                 }
@@ -171,6 +236,8 @@ macro_rules! channels {
             pub(in crate::outputs) fn write(&self, now: &Instant<'_, T, D>, out: &mut [T]) {
                 match self {
                     $(Self::$Point(channel) => channel.write(now, out),)*
+                    $(Self::$Relative(channel) => channel.write(now, out),)*
+                    $(Self::$Turning(channel) => channel.write(now, out),)*
                     $($(Self::$Kind(channel) => channel.write(now, out),)*)*
                     $(Self::$Scene(channel) => channel.write(now, out),)*
                 }
@@ -179,6 +246,8 @@ macro_rules! channels {
             pub(in crate::outputs) fn followed(&self) -> Option<&Followed<T, D>> {
                 match self {
                     $(Self::$Point(channel) => channel.followed(),)*
+                    $(Self::$Relative(channel) => channel.followed(),)*
+                    $(Self::$Turning(channel) => channel.followed(),)*
                     $($(Self::$Kind(channel) => channel.followed(),)*)*
                     $(Self::$Scene(channel) => channel.followed(),)*
                 }

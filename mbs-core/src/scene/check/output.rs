@@ -3,8 +3,8 @@
 use super::reference::known_body;
 use super::vector::Place;
 use crate::Real;
-use crate::outputs::{Quantity, Target};
-use crate::scene::{Scene, SceneError, SceneFault};
+use crate::outputs::{Quantity, RelativePoint, Target};
+use crate::scene::{BodyId, Scene, SceneError, SceneFault};
 
 pub(super) fn check<T: Real>(
     scene: &Scene<T>,
@@ -15,6 +15,16 @@ pub(super) fn check<T: Real>(
         Target::Point(body, at) => {
             known_body(scene.surroundings(), body, place)?;
             place.vector("at", at)
+        }
+        Target::RelativePoint(RelativePoint { body, at, relative_to, origin }) => {
+            known_body(scene.surroundings(), body, place)?;
+            place.vector("at", at)?;
+            known_frame(scene, relative_to, place)?;
+            place.vector("origin", origin)
+        }
+        Target::RelativeBody(body, relative_to) => {
+            known_body(scene.surroundings(), body, place)?;
+            known_frame(scene, relative_to, place)
         }
         Target::Body(body) => known_body(scene.surroundings(), body, place).map(drop),
         Target::Joint(joint) => match scene.joints.get(joint.index()) {
@@ -40,5 +50,15 @@ pub(super) fn check<T: Real>(
             place.fault("signal", SceneFault::UnknownReference)
         }
         Target::Coupling(_) | Target::Signal(_) | Target::Scene => Ok(()),
+    }
+}
+
+/// A body that is there, or the ground.
+fn known_frame<T>(scene: &Scene<T>, body: BodyId, place: Place) -> Result<(), SceneError> {
+    match body {
+        BodyId::Body(i) if i >= scene.bodies.len() => {
+            place.fault("relative_to", SceneFault::UnknownReference)
+        }
+        _ => Ok(()),
     }
 }

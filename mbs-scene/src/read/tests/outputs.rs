@@ -1,6 +1,7 @@
 //! Outputs of couplings, effects and the whole scene.
 
 use super::{PLANAR, read, refused};
+use mbs_core::outputs::RelativePoint;
 use mbs_core::scene::*;
 
 const COUPLING: &str = "[[coupling]]\nname = \"mesh\"\nkind = \"gear\"\njoints = [\"pivot\", \"elbow\"]\nteeth = [40, 17]\n\
@@ -47,6 +48,54 @@ fn outputs_of_parts_and_of_the_scene_are_read_by_name_with_their_defaults() {
         let scene = read(&with(output)).unwrap_or_else(|e| panic!("{output}: {e}"));
         assert_eq!(scene.outputs.last().expect("an output").quantity, expected, "{output}");
     }
+}
+
+#[test]
+fn outputs_may_be_seen_from_another_body() {
+    let read_one = |output: &str| {
+        let scene = read(&with(output)).unwrap_or_else(|e| panic!("{output}: {e}"));
+        scene.outputs.last().expect("an output").quantity.clone()
+    };
+    let [upper, lower] = [0, 1].map(BodyId::Body);
+    let seen = |relative_to, origin| RelativePoint {
+        body: lower,
+        at: [2.0, 0.0, 0.0],
+        relative_to,
+        origin,
+    };
+    let point = "body = \"lower\"\nat = [2, 0]\n";
+    // from the centre of mass, where no origin is written
+    assert_eq!(
+        read_one(&format!("{point}relative_to = \"upper\"")),
+        Quantity::RelativePosition(seen(upper, [0.5, 0.0, 0.0]))
+    );
+    assert_eq!(
+        read_one(&format!(
+            "{point}relative_to = \"upper\"\norigin = [1, 0]\nquantity = \"velocity\""
+        )),
+        Quantity::RelativeVelocity(seen(upper, [1.0, 0.0, 0.0]))
+    );
+    assert_eq!(
+        read_one(&format!("{point}relative_to = \"ground\"\nquantity = \"acceleration\"")),
+        Quantity::RelativeAcceleration(seen(BodyId::Ground, [0.0; 3]))
+    );
+    assert_eq!(
+        read_one("body = \"lower\"\nrelative_to = \"upper\"\nquantity = \"angular-velocity\""),
+        Quantity::RelativeAngularVelocity { body: lower, relative_to: upper }
+    );
+    let refusal = |output: &str| read(&with(output)).expect_err("it is refused");
+    let line = with("").lines().count();
+    let e = refusal("body = \"lower\"\nrelative_to = \"uper\"\nat = [2, 0]");
+    refused(&e, &format!("{}:15", line + 1), "unknown body `uper`", "`upper`");
+    let e = refusal("body = \"lower\"\nrelative_to = \"upper\"\nquantity = \"orientation\"");
+    refused(
+        &e,
+        &format!("{}:12", line + 2),
+        "unknown quantity `orientation`",
+        "choices: position, velocity, acceleration, angular-velocity",
+    );
+    let e = refusal("body = \"lower\"\nat = [2, 0]\norigin = [1, 0]");
+    refused(&e, &format!("{}:1", line + 2), "`origin` has no meaning here", "keys");
 }
 
 #[test]

@@ -52,6 +52,7 @@ fn every_quantity_of_the_table_reads_back_as_it_was_written() {
     for row in QUANTITIES {
         let key = |key: &&str| match *key {
             "at" => "at = [1, 2, 3]\n".to_owned(),
+            "origin" => "origin = [4, 5, 6]\n".to_owned(),
             owner => format!("{owner} = \"one\"\n"),
         };
         let keys: String = row.target.keys().iter().map(key).collect();

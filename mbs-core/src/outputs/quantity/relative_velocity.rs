@@ -1,0 +1,25 @@
+//! Velocity of a material point as seen from another body.
+
+use super::kind::{Instant, Maker, Measured};
+use super::seen::SeenPoint;
+use super::{ComponentForm, QuantityRow, TargetKind};
+use crate::Real;
+
+pub(super) const ROW: QuantityRow =
+    QuantityRow::new("velocity", TargetKind::RelativePoint, ComponentForm::Vector("m/s"));
+
+/// The point.
+#[derive(Debug, Clone)]
+pub(in crate::outputs) struct RelativeVelocity<T: Real, const D: usize>(SeenPoint<T, D>);
+
+impl<T: Real, const D: usize> Measured<T, D> for RelativeVelocity<T, D> {
+    type Of = SeenPoint<T, D>;
+
+    fn new(of: SeenPoint<T, D>, _: &mut Maker<'_, T, D>) -> Self {
+        Self(of)
+    }
+
+    fn write(&self, now: &Instant<'_, T, D>, out: &mut [T]) {
+        self.0.velocity(now.state, out);
+    }
+}
