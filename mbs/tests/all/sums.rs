@@ -258,3 +258,84 @@ fn what_carries_all_joints_of_a_sum_gets_the_opposite_of_its_torques() {
         }
     }
 }
+
+/// Two wheels and a slider in a housing on a hinge, about axes of any direction, with smooth laws on sums of them, of a line and of a curve.
+fn machine() -> String {
+    let body = |name: &str, x: f64, inertia: f64| {
+        format!(
+            "[[body]]\nname = \"{name}\"\nmass = 1.0\ncenter = [{x:?}, 0.1, 0.0]\ninertia = [{inertia:?}, 0.06, 0.05, 0.002, 0.0, 0.001]\n"
+        )
+    };
+    let joint = |name: &str, kind: &str, bodies: [&str; 2], x: f64, axis: [f64; 3]| {
+        format!(
+            "[[joint]]\nname = \"{name}\"\nkind = \"{kind}\"\nbodies = {bodies:?}\nat = [{x:?}, 0.0, 0.0]\naxis = {axis:?}\n\
+             [[output]]\nname = \"{name}\"\njoint = \"{name}\"\nquantity = \"value\"\n\
+             [[output]]\nname = \"{name}-rate\"\njoint = \"{name}\"\nquantity = \"rate\"\n"
+        )
+    };
+    let sum = "{ joint = \"a\", factor = 1.0 }, { joint = \"b\", factor = -2.0 }, { joint = \"s\", factor = 3.0 }";
+    let others = "{ points = [{ body = \"ground\", at = [0.0, 1.0, 0.0] }, { body = \"w0\", at = [0.3, 0.2, 0.1] }, { body = \"w2\", at = [0.5, 0.2, 0.1] }] }, \
+                  { joint = \"a\", coefficients = [0.0, 0.2, 0.1] }";
+    [
+        "[scene]\nname = \"m\"\ndimension = 3\nduration = 0.1\ngravity = [0.0, 0.0, -9.81]\n".to_owned(),
+        body("housing", 0.0, 0.2),
+        body("w0", 0.3, 0.07),
+        body("w1", -0.3, 0.08),
+        body("w2", 0.5, 0.09),
+        joint("h", "revolute", ["ground", "housing"], 0.0, [0.1, 0.3, 1.0]),
+        joint("a", "revolute", ["housing", "w0"], 0.3, [0.36, 0.48, 0.8]),
+        joint("b", "revolute", ["housing", "w1"], -0.3, [1.0, -0.4, 0.2]),
+        joint("s", "prismatic", ["housing", "w2"], 0.5, [0.2, 0.5, -0.6]),
+        format!("[[effect]]\nname = \"e\"\nkind = \"torsion-spring\"\nterms = [{sum}]\nstiffness = 20.0\ndamping = 0.2\nfree_value = 0.3\n"),
+        format!("[[effect]]\nkind = \"friction\"\nterms = [{sum}]\ncoulomb = 0.4\nregularisation = 0.5\n"),
+        format!("[[effect]]\nname = \"f\"\nkind = \"polynomial-spring\"\nterms = [{others}]\ncoefficients = [[-9.0, 9.0, 0.5, 30.0, 4.0]]\n"),
+        "[[initial]]\njoint = \"a\"\nvalue = 7.0\nrate = 3.0\n[[initial]]\njoint = \"h\"\nrate = -1.0\n".to_owned(),
+        outputs_of("e"),
+        outputs_of("f"),
+    ]
+    .concat()
+}
+
+#[test]
+fn natural_and_relative_coordinates_agree_on_sums_to_nine_digits() {
+    let (scene, duration) = (scene(&machine()), 0.1);
+    let exact = rows(&scene, Way("recursive", "rk853"), (1e-3, duration), 10).expect("it runs");
+    for way in [Way("index-3", "trapezoidal"), Way("recursive", "trapezoidal")] {
+        let run = |n: u32| {
+            let every = 10 * n as usize;
+            rows(&scene, way, (1e-3 / f64::from(n), duration), every).expect("it runs")
+        };
+        let [one, two, four] = [1, 2, 4].map(run);
+        let mut worst = 0.0_f64;
+        for (i, (t, row)) in exact.iter().enumerate() {
+            for (k, expected) in row.iter().enumerate() {
+                let [a, b, c] = [&one, &two, &four].map(|rows| rows[i].1[k]);
+                // errors in h^2 and h^4 taken out
+                let [ab, bc] = [[a, b], [b, c]].map(|[x, y]| y + (y - x) / 3.0);
+                let found = bc + (bc - ab) / 15.0;
+                let error = (found - expected).abs() / (1.0 + expected.abs());
+                worst = worst.max(error);
+                assert!(error < 1e-9, "{way:?}, {t}, {k}: {found} {expected}, of {a} {b} {c}");
+            }
+        }
+        println!("{way:?}: {worst:.1e}");
+    }
+}
+
+#[test]
+fn the_energy_of_laws_on_sums_balances() {
+    for (way, most) in [(("recursive", "rk853"), 1e-9), (("index-3", "trapezoidal"), 1e-4)] {
+        let method = mbs::Method {
+            formulation: Some(way.0.to_owned()),
+            integrator: Some(way.1.to_owned()),
+            step: Some(5e-4),
+            duration: Some(1.0),
+            ..mbs::Method::default()
+        };
+        let outcome = crate::common::run(&scene(&machine()), &method);
+        assert!(outcome.error.is_none(), "{way:?}");
+        let error = outcome.summary.energy.max_error;
+        println!("{way:?}: {error:.1e} J");
+        assert!(error < most, "{way:?}: {error} J");
+    }
+}
