@@ -194,10 +194,10 @@ mod data {
             self,
             factor: &Signal<T>,
             to: &mut Compiler<'_, T>,
-        ) -> FrictionLaw<T> {
+        ) -> Self {
             match factor {
                 Signal::Constant([share, ..]) => self.scaled(share.max(T::ZERO)),
-                signal => FrictionLaw { course: Some(to.course(signal)), ..self },
+                signal => Self { course: Some(to.course(signal)), ..self },
             }
         }
     }

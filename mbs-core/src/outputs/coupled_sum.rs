@@ -9,8 +9,7 @@
 //! ```
 
 use super::coordinate::Coordinate;
-use super::load::Applied;
-use super::wrench::Wrench;
+use super::wrench::{Applied, Wrench};
 use crate::Real;
 use crate::algebra::{Vector, norm, raised};
 use crate::measure::{CouplingInput, PreparedCurve, TermInput};

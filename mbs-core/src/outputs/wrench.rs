@@ -20,6 +20,9 @@ use crate::scene::{
 };
 use alloc::vec::Vec;
 
+/// Where a wrench acts: a body and, for a force, a point.
+pub(super) type Applied<T> = (BodyId, Option<Vector<T, 3>>, Wrench<T>);
+
 /// A force and a moment about the joint's place [N, N m], or about a body's centre of mass.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Wrench<T: Real> {

@@ -56,7 +56,7 @@ fn run(text: &str, (step, duration): (f64, f64)) -> Vec<(Way, Rows)> {
 fn outputs_of(effect: &str) -> String {
     let one = |quantity: &&str| {
         format!(
-            "[[output]]\nname = \"e-{quantity}\"\neffect = \"{effect}\"\nquantity = \"{quantity}\"\n"
+            "[[output]]\nname = \"{effect}-{quantity}\"\neffect = \"{effect}\"\nquantity = \"{quantity}\"\n"
         )
     };
     ["value", "rate", "force", "energy", "power"].iter().map(one).collect()

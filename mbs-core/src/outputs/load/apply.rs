@@ -9,6 +9,7 @@
 //! ```
 
 use super::super::frame::Frame;
+use super::super::wrench::Applied;
 use super::{Load, Measure, Wrench};
 use crate::Real;
 use crate::algebra::{Matrix, Vector, norm, raised, rotation_gradient, rotation_vector, unit};
@@ -18,9 +19,6 @@ use crate::laws::scalar::Law;
 use crate::model::State;
 use crate::natural::{Affine, unwrap_rotation};
 use crate::scene::BodyId;
-
-/// Where a wrench acts: a body and, for a force, a point.
-pub(in crate::outputs) type Applied<T> = (BodyId, Option<Vector<T, 3>>, Wrench<T>);
 
 /// Where a wrench acts on both bodies (`None`: a moment alone), and the wrench on the first.
 type Pull<T> = ([Option<Vector<T, 3>>; 2], Wrench<T>);

@@ -4,7 +4,6 @@ mod apply;
 mod gap;
 mod work;
 
-pub(super) use apply::Applied;
 pub(super) use gap::{Gap, MOST_GAPS, N_READING, Reading};
 
 use super::coordinate::Coordinate;
