@@ -6,9 +6,10 @@ use crate::inputs::{Motion, Prescriptions, SignalLaw};
 use crate::model::{Model, StartState};
 use heapless::Vec;
 use mbs_core::Real;
+use mbs_core::feedback::FeedbackStep;
 use mbs_core::laws::entry::Entry;
 use mbs_core::laws::{CurvatureEntry, FeatureEntry, KnotEntry, LawInputs, LawTables, PieceEntry};
-use mbs_recursive::coupled::{Couplings, SumTerm};
+use mbs_recursive::coupled::{Couplings, CurveTable, SumTerm};
 use mbs_recursive::feedback::FeedbackSlices;
 use mbs_recursive::link::Link;
 use mbs_recursive::loads::Load;
@@ -19,10 +20,11 @@ use mbs_recursive::slices::TreeSlices;
 use mbs_recursive::space::Space;
 
 /// What a model's text begins with, and its version.
-pub(crate) const HEAD: [u32; 2] = [u32::from_le_bytes(*b"MBSN"), 2];
+pub(crate) const HEAD: [u32; 2] = [u32::from_le_bytes(*b"MBSN"), 3];
 
 /// A model read from bytes: at most `L` links, `K` loops with `R` rows, `P` entries in each list of the plan, `E` effects.
-/// It has at most `X` entries in each table of laws, `I` guides and as many courses, `Q` coordinates and as many freedoms.
+/// It has at most `X` entries in each table of laws, `I` guides and as many courses, `Q` coordinates and as many freedoms. There are at
+/// most `F` operations on signals, and as many states, functions and measured coordinates of these.
 ///
 /// Models in flash need no such memory: `mbs export --rust` writes them as constants.
 #[derive(Debug, Clone)]
@@ -37,6 +39,7 @@ pub struct Tables<
     const X: usize,
     const I: usize,
     const Q: usize,
+    const F: usize = 0,
 > {
     sizes: Sizes,
     links: Vec<Link<T, S>, L>,
@@ -57,10 +60,15 @@ pub struct Tables<
     courses: Vec<SignalLaw<T>, I>,
     knots: (Vec<[T; 2], X>, Vec<T, X>),
     course_rows: Vec<[T; 4], X>,
+    operations: Vec<FeedbackStep<T>, F>,
+    measured: Vec<u32, F>,
+    curves: Vec<CurveTable<T>, F>,
+    curve_knots: (Vec<[T; 2], X>, Vec<T, X>),
     rungs: Vec<u32, E>,
     z: Vec<T, Q>,
     v: Vec<T, Q>,
     a: Vec<T, Q>,
+    states: Vec<[T; 2], F>,
     floor: [T; 2],
     n_cut: u32,
     gravity: S::Point,
@@ -112,7 +120,8 @@ impl<
     const X: usize,
     const I: usize,
     const Q: usize,
-> Tables<T, S, L, K, R, P, E, X, I, Q>
+    const F: usize,
+> Tables<T, S, L, K, R, P, E, X, I, Q, F>
 {
     /// Reads a model, and checks that every number in its tables points into them.
     ///
@@ -152,10 +161,15 @@ impl<
             courses: list("courses", from)?,
             knots: (list("knots", from)?, list("knots", from)?),
             course_rows: list("rows of courses", from)?,
+            operations: list("operations on signals", from)?,
+            measured: list("measured coordinates", from)?,
+            curves: list("curves", from)?,
+            curve_knots: (list("knots of curves", from)?, list("numbers of curves", from)?),
             rungs: list("rungs", from)?,
             z: list("coordinates", from)?,
             v: list("freedoms", from)?,
             a: list("freedoms", from)?,
+            states: list("states of signals", from)?,
             floor: Record::read(from)?,
             n_cut: Record::read(from)?,
             gravity: Record::read(from)?,
@@ -202,12 +216,20 @@ impl<
                     couplings: Couplings {
                         n_cut: self.n_cut,
                         terms: &self.terms,
+                        curves: &self.curves,
+                        knots: &self.curve_knots.0,
+                        numbers: &self.curve_knots.1,
                         ..Couplings::none()
                     },
                 },
                 loads: &self.loads,
                 tables,
-                feedback: FeedbackSlices::none(),
+                feedback: FeedbackSlices {
+                    steps: &self.operations,
+                    links: &self.measured,
+                    n_states: self.states.len(),
+                    signals: &[],
+                },
                 gravity: self.gravity,
                 base: self.base,
                 length: self.length,
@@ -220,7 +242,13 @@ impl<
                 knots: (&self.knots.0, &self.knots.1),
                 rows: &self.course_rows,
             },
-            start: StartState { t: self.t, z: &self.z, v: &self.v, a: &self.a },
+            start: StartState {
+                t: self.t,
+                z: &self.z,
+                v: &self.v,
+                a: &self.a,
+                signals: &self.states,
+            },
             rungs: &self.rungs,
         }
     }

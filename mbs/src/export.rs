@@ -28,7 +28,7 @@ pub enum ExportError {
     Effect(String),
     /// A coupling of this name is not written for controllers: it has a length, a curve, or joints on more than two branches.
     Coupling(String),
-    /// A signal of this name is not constant, and tables have no others.
+    /// A signal of this name is a wave, a ramp, a step or a table that holds or repeats, or a guide follows it that is no spline.
     Signal(String),
     /// A ladder names what the scene has not, or is no price list.
     Ladder(String),
@@ -48,7 +48,11 @@ impl core::fmt::Display for ExportError {
                 )
             }
             Self::Signal(name) => {
-                write!(f, "signal `{name}` is not constant, and tables have no signals of time")
+                write!(
+                    f,
+                    "signal `{name}` cannot be written for a controller: it is a wave, a ramp, a step or a table that holds or repeats, or a \
+                     guide follows it that is no spline"
+                )
             }
             Self::Ladder(what) => write!(f, "{what}"),
         }

@@ -115,6 +115,6 @@ pub static MODEL: Model<'static, Scalar, Axes> = Model {
         knots: (&KNOTS, &CURVATURES),
         rows: &COURSE_ROWS,
     },
-    start: StartState { t: 0.0, z: &Z, v: &V, a: &A },
+    start: StartState { t: 0.0, z: &Z, v: &V, a: &A, signals: &[] },
     rungs: &RUNGS,
 };
