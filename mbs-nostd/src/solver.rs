@@ -18,7 +18,7 @@ use mbs_recursive::{Options, Outside};
 /// rows of loops. It has at most `B` numbers in blocks of Λ, `N` gains, `G` guides and `C` courses; `M` states of signals, and where
 /// there are operations on signals at most `F` courses.
 ///
-/// Its size is about 130 numbers for each link, 46 for each row, 10 for each freedom, and one for each of the others.
+/// Its size is about 130 numbers for each link, 46 for each row, 10 for each freedom, and at most six for each of the others.
 #[derive(Debug, Clone)]
 pub struct Solver<
     T: Real,

@@ -111,7 +111,7 @@ fn couplings_stay_below_the_bound() {
 }
 
 #[test]
-fn operations_on_signals_stay_below_the_bound_and_meet_it_without_limits() {
+fn operations_on_signals_stay_below_the_bound() {
     for text in [ARM, LINE] {
         let bounds = Bounds { evaluations: 2, ..Bounds::default() };
         is_bound("signals", counted_of::<Planar, 2>(&mbs_testkit::scene(text), bounds));

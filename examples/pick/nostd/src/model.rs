@@ -103,6 +103,7 @@ pub static MODEL: Model<'static, Scalar, Axes> = Model {
         },
         loads: &LOADS,
         tables: LawInputs::courses(&[]),
+        feedback: FeedbackSlices::none(),
         gravity: vector([0.0, -9.81]),
         base: vector([0.0, 0.0]),
         length: 2.0,
