@@ -1,6 +1,6 @@
 //! The scene of these examples: two uniform rods of 1 m and 1 kg, let go from the horizontal.
 
-use mbs_core::scene::{Body, BodyId, Dimension, Inertia, Joint, JointKind, Scene, SolverTable};
+use mbs_core::scene::{Body, BodyId, Dimension, Inertia, Joint, JointKind, JointLimits, Scene, SolverTable};
 
 /// Where the tip is in the reference configuration [m].
 pub const TIP: [f64; 3] = [2.0, 0.0, 0.0];
@@ -35,6 +35,7 @@ pub fn double_pendulum() -> Scene<f64> {
         bodies,
         points: [at; 2],
         axes: [None; 2],
+        limits: JointLimits::NONE,
     };
     let (pivot, elbow) = ([0.0; 3], [1.0, 0.0, 0.0]);
     let (upper, lower) = (BodyId::Body(0), BodyId::Body(1));

@@ -23,7 +23,7 @@ impl Now<'_> {
     }
 
     /// The coordinate that effects of a joint act on.
-    fn turn(&self, joint: usize) -> Row {
+    pub(crate) fn turn(&self, joint: usize) -> Row {
         let number = self.scene.joints[joint].rotation(self.scene.planar).unwrap_or(0);
         self.coordinates(joint).swap_remove(number)
     }
@@ -102,6 +102,8 @@ impl Now<'_> {
             Effect::JointTorque(joint, torque) => {
                 loads.along(&self.turn(*joint), signal(torque, self.t)[0]);
             }
+            // an inertia, no force
+            Effect::Rotor(..) => {}
             Effect::BodyTorque(body, torque) => {
                 loads.wrench(Some(*body), ZERO, signal(torque, self.t));
             }

@@ -9,7 +9,7 @@
 use crate::dense::{Factors, Square};
 use crate::loads::{Loads, Now};
 use crate::rows::{Frame, Places, Row};
-use crate::scene::Scene;
+use crate::scene::{Effect, Scene};
 use crate::vector::{Vector, ZERO, add, cross, dot, product, sub, times, transpose};
 
 /// A state of motion.
@@ -149,6 +149,16 @@ impl Mechanism {
         rows
     }
 
+    /// The inertias of rotors, each with the coordinate that it turns with.
+    pub(crate) fn rotors(&self, now: &Now<'_>) -> Vec<(f64, Row)> {
+        let effects = self.scene.effects.iter();
+        let rotors = effects.filter_map(|effect| match effect {
+            Effect::Rotor(joint, inertia) => Some((*inertia, now.turn(*joint))),
+            _ => None,
+        });
+        rotors.collect()
+    }
+
     /// Inertia of a body in global axes.
     pub(crate) fn inertia(&self, b: usize, places: &Places) -> [[f64; 3]; 3] {
         let turn = &places.of(Some(b)).turn;
@@ -177,8 +187,8 @@ impl Mechanism {
         entries
     }
 
-    /// Factors [[M, -Jᵀ], [J, 0]] as scaled.
-    pub(crate) fn saddle(&self, places: &Places, rows: &[Row]) -> Saddle {
+    /// Factors [[M, -Jᵀ], [J, 0]] as scaled, M = bodies + Σ I g gᵀ of rotors.
+    pub(crate) fn saddle(&self, places: &Places, rows: &[Row], rotors: &[(f64, Row)]) -> Saddle {
         let mut matrix = Square::zero(self.n + rows.len());
         for (b, of) in self.columns.iter().enumerate() {
             let inertia = self.inertia(b, places);
@@ -191,6 +201,14 @@ impl Mechanism {
                         _ => 0.0,
                     };
                     *matrix.at(r, c) = entry * self.scales[r] * self.scales[c];
+                }
+            }
+        }
+        for (inertia, row) in rotors {
+            let entries = self.dense_row(row);
+            for (r, x) in &entries {
+                for (c, y) in &entries {
+                    *matrix.at(*r, *c) += inertia * x * y;
                 }
             }
         }
@@ -248,8 +266,15 @@ impl Mechanism {
     pub fn evaluate(&self, state: &State) -> Moved {
         let places = self.places(state);
         let now = self.now(state, &places);
-        let Loads { mut on, potential, mut power } = now.loads();
+        let mut loads = now.loads();
+        let rotors = self.rotors(&now);
         let mut kinetic = 0.0;
+        for (inertia, row) in &rotors {
+            // g · I (g · a + bias)
+            loads.along(row, -inertia * row.bias);
+            kinetic += 0.5 * inertia * row.rate(&places).powi(2);
+        }
+        let Loads { mut on, potential, mut power } = loads;
         for (b, frame) in state.frames.iter().enumerate() {
             let momentum = times(&self.inertia(b, &places), frame.w);
             kinetic += self.kinetic_energy(b, state, &places);
@@ -257,7 +282,7 @@ impl Mechanism {
             (0..3).for_each(|i| on[b][i + 3] -= gyroscopic[i]);
         }
         let (owners, rows): (Vec<usize>, Vec<Row>) = self.rows(&now).into_iter().unzip();
-        let saddle = self.saddle(&places, &rows);
+        let saddle = self.saddle(&places, &rows, &rotors);
         let right: Vec<f64> = rows.iter().map(|r| r.given[1] - r.bias).collect();
         let (accelerations, multipliers, unmet) = self.solve(&saddle, &on, &right);
         let mut reactions = vec![[0.0; 6]; self.scene.joints.len()];

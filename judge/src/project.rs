@@ -18,9 +18,9 @@ impl Mechanism {
     pub fn project(&self, state: &mut State) {
         for _ in 0..2 {
             let places = self.places(state);
-            let rows: Vec<Row> =
-                self.rows(&self.now(state, &places)).into_iter().map(|r| r.1).collect();
-            let saddle = self.saddle(&places, &rows);
+            let now = self.now(state, &places);
+            let rows: Vec<Row> = self.rows(&now).into_iter().map(|r| r.1).collect();
+            let saddle = self.saddle(&places, &rows, &self.rotors(&now));
             let right: Vec<f64> = rows.iter().map(|r| -r.value).collect();
             let none = vec![[0.0; 6]; state.frames.len()];
             let (moves, _, _) = self.solve(&saddle, &none, &right);
@@ -33,10 +33,10 @@ impl Mechanism {
     /// Brings velocities onto the constraints, and on more rows that are to have rates.
     pub(crate) fn project_velocities(&self, state: &mut State, held: &[Row]) -> f64 {
         let places = self.places(state);
-        let mut rows: Vec<Row> =
-            self.rows(&self.now(state, &places)).into_iter().map(|r| r.1).collect();
+        let now = self.now(state, &places);
+        let mut rows: Vec<Row> = self.rows(&now).into_iter().map(|r| r.1).collect();
         rows.extend_from_slice(held);
-        let saddle = self.saddle(&places, &rows);
+        let saddle = self.saddle(&places, &rows, &self.rotors(&now));
         let right: Vec<f64> = rows.iter().map(|r| r.given[0] - r.rate(&places)).collect();
         let none = vec![[0.0; 6]; state.frames.len()];
         let (changes, _, unmet) = self.solve(&saddle, &none, &right);

@@ -114,6 +114,10 @@ fn joint(mut table: Table, name: String, names: &Names, all: &[Body]) -> Read<Jo
     if kind == Kind::Universal {
         axes = table.two_vectors("axes")?;
     }
+    // what a joint is meant to keep to does not act on its motion
+    for key in ["range", "effort_limit", "velocity_limit"] {
+        let _ = table.take(key);
+    }
     table.done(&name)?;
     axes[0] = unit(axes[0]);
     axes[1] = match kind {

@@ -91,6 +91,10 @@ pub(crate) fn effect(mut table: Table, names: &Names) -> Read<Option<Effect>> {
             let numbers = [t.number("speed")?, t.number("gain")?, t.number("limit")?];
             Effect::SpeedHold(names.body(&t.text("body")?)?, unit(t.vector("direction")?), numbers)
         }
+        "rotor" => {
+            let (inertia, ratio) = (t.number("inertia")?, t.number("ratio")?);
+            Effect::Rotor(names.joint(&t.text("joint")?)?, inertia * ratio * ratio)
+        }
         "tire" => Effect::Tire(tire(t, names)?),
         other => return fault(format!("no effect `{other}`")),
     };

@@ -230,6 +230,8 @@ pub enum Effect {
     SpeedHold(usize, Vector, [f64; 3]),
     /// A wheel.
     Tire(Tire),
+    /// Joint; the rotor's inertia times the square of its ratio.
+    Rotor(usize, f64),
 }
 
 impl Effect {
@@ -246,6 +248,7 @@ impl Effect {
             Self::TorsionSpring(..) => "torsion-spring",
             Self::JointTorque(..) => "torque on a joint",
             Self::BodyTorque(..) => "torque on a body",
+            Self::Rotor(..) => "rotor",
             Self::Limit(..) => "limit",
             Self::Friction(..) => "friction",
             Self::Force(..) => "force",

@@ -1,7 +1,7 @@
 //! The start: what is written holds, the rest follows by the least mass-weighted change from the reference configuration and from rest.
 //!
 //! ```text
-//! least  Σ ½ ∫ |displacement of each particle|² dm = Σ ½ m |r - r₀|² + tr S - tr R S,   S = ½ tr(I) E - I
+//! least  Σ ½ ∫ |displacement of each particle|² dm = Σ ½ m |r - r₀|² + tr S - tr R S + Σ ½ I θ² of rotors,   S = ½ tr(I) E - I
 //! ```
 //!
 //! Newton's method on the conditions of the least change, with second derivatives by differences; held values grow from zero in stages,
@@ -178,12 +178,17 @@ impl Mechanism {
         };
         let mut sum: Vec<[f64; 6]> =
             state.frames.iter().zip(&self.scene.bodies).map(gradient).collect();
-        for (row, lambda) in rows.iter().zip(multipliers) {
+        let mut add = |row: &Row, factor: f64| {
             for (body, part) in &row.parts {
                 if let Some(b) = body {
-                    sum[*b].iter_mut().zip(part).for_each(|(x, p)| *x -= lambda * p);
+                    sum[*b].iter_mut().zip(part).for_each(|(x, p)| *x += factor * p);
                 }
             }
+        };
+        rows.iter().zip(multipliers).for_each(|(row, lambda)| add(row, -lambda));
+        let places = self.places(state);
+        for (inertia, row) in self.rotors(&self.now(state, &places)) {
+            add(&row, inertia * row.value);
         }
         sum
     }

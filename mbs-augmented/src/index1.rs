@@ -20,7 +20,9 @@ use constrain::{constrain, velocities};
 use mbs_core::implicit::ConstraintLevel;
 use mbs_core::integrator::{Rule, is_far};
 use mbs_core::model::{Model, State};
-use mbs_core::step::{Step, StepError, StepReport, Stop, check_rotations, largest, largest_or_nan};
+use mbs_core::step::{
+    Step, StepError, StepReport, Stop, check_lines, check_rotations, largest, largest_or_nan,
+};
 use mbs_core::team::{add_product, norm_inf, set_sum, subtract};
 use mbs_core::{Real, SpdSolver};
 
@@ -57,6 +59,7 @@ pub fn step<T: Real, M: Model<T>, S: SpdSolver<T>>(
     let projector = w.projector(model, ConstraintLevel::Acceleration);
     let acceleration = projector.project(limits, options.max_sweeps)?;
     check_rotations(model, w.terms())?;
+    check_lines(model, s, &w.end.dq)?;
     w.commit(model, (&rule, options.compensated, T::ONE), s);
     let violation = [norm_inf(model.team(), &w.terms().phi), velocity, acceleration];
     Ok(w.report(newton, violation))

@@ -24,7 +24,7 @@ use crate::workspace::Workspace;
 use mbs_core::implicit::Newton;
 use mbs_core::integrator::{Rule, is_far};
 use mbs_core::model::{Model, State};
-use mbs_core::step::{Step, StepError, StepReport, Stop, check_rotations, step_scale};
+use mbs_core::step::{Step, StepError, StepReport, Stop, check_lines, check_rotations, step_scale};
 use mbs_core::team::{add_product, set_sum};
 use mbs_core::{Real, SpdSolver};
 use project::project;
@@ -50,6 +50,7 @@ pub fn step<T: Real, M: Model<T>, S: SpdSolver<T>>(
     let (newton, since) = solve(model, (&rule, length), (options, Filtered), s, w)?;
     let violation = project(model, (&rule, since, length), options, w)?;
     check_rotations(model, w.terms())?;
+    check_lines(model, s, &w.end.dq)?;
     w.commit(model, (&rule, options.compensated, rule.acceleration), s);
     Ok(w.report(newton, violation))
 }

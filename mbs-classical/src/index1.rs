@@ -22,7 +22,7 @@ use mbs_core::implicit::{ConstraintLevel, Newton, ResidualLimits};
 use mbs_core::integrator::{Rule, is_far};
 use mbs_core::model::{Model, State};
 use mbs_core::step::{
-    Step, StepError, StepReport, Stop, check_guides, check_rotations, step_scale,
+    Step, StepError, StepReport, Stop, check_guides, check_lines, check_rotations, step_scale,
 };
 use mbs_core::team::{norm_inf, on_stretches};
 use mbs_core::{Real, SymmetricSolver};
@@ -70,6 +70,7 @@ pub fn step<T: Real, M: Model<T>, S: SymmetricSolver<T>>(
         [norm_inf(model.team(), &w.terms.phi), velocity, acceleration]
     };
     check_rotations(model, &w.terms)?;
+    check_lines(model, s, &w.end.dq)?;
     w.commit(model, (&rule, options.compensated, T::ONE), s);
     Ok(StepReport::of_newton(newton, w.counts, violation))
 }

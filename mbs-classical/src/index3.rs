@@ -19,7 +19,7 @@ use crate::workspace::{Mass, Workspace};
 use mbs_core::implicit::Newton;
 use mbs_core::integrator::{Rule, is_far};
 use mbs_core::model::{Model, State};
-use mbs_core::step::{Step, StepError, StepReport, Stop, check_rotations, step_scale};
+use mbs_core::step::{Step, StepError, StepReport, Stop, check_lines, check_rotations, step_scale};
 use mbs_core::team::on_stretches;
 use mbs_core::{Real, SymmetricSolver};
 
@@ -63,6 +63,7 @@ pub fn step<T: Real, M: Model<T>, S: SymmetricSolver<T>>(
         options.max_sweeps,
     )?;
     check_rotations(model, &w.terms)?;
+    check_lines(model, s, &w.end.dq)?;
     w.commit(model, (&rule, options.compensated, rule.acceleration), s);
     Ok(StepReport::of_newton(newton, w.counts, violation))
 }

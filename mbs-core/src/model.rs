@@ -192,6 +192,10 @@ pub trait Model<T: Real>: Cliques + Sync {
     fn overturned(&self, _terms: &Terms<T>) -> Option<Owner> {
         None
     }
+    /// The part of a coupling's line that has no length left after a step `dq` from (q, v): coupling and part.
+    fn collapsed(&self, _q: &[T], _v: &[T], _dq: &[T]) -> Option<[usize; 2]> {
+        None
+    }
     /// What an unknown belongs to, for messages.
     fn owner_of_unknown(&self, unknown: usize) -> Owner;
     /// What a constraint row belongs to, for messages.
@@ -326,7 +330,7 @@ impl<T: Real> State<T> {
         }
     }
 
-    /// Overwrites the `n` unknowns, the multipliers and everything else but constants, inputs and signals with another state, of a
+    /// Overwrites the `n` unknowns, the multipliers and everything else but constants and inputs with another state, of a
     /// model with the same unknowns and rows, without allocating.
     ///
     /// # Panics
@@ -343,6 +347,9 @@ impl<T: Real> State<T> {
         self.reaction.copy_from_slice(&other.reaction);
         self.phi.copy_from_slice(&other.phi);
         self.memory.copy_from_slice(&other.memory);
+        if self.signals.len() == other.signals.len() {
+            self.signals.copy_from_slice(&other.signals);
+        }
         (self.work, self.power) = (other.work, other.power);
     }
 
@@ -351,6 +358,5 @@ impl<T: Real> State<T> {
         self.copy_unknowns(other, other.q.len());
         self.inputs.copy_from_slice(&other.inputs);
         self.applied.copy_from_slice(&other.applied);
-        self.signals.copy_from_slice(&other.signals);
     }
 }

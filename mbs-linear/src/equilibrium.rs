@@ -430,12 +430,14 @@ impl<'a, T: Real, M: Model<T>, S: SymmetricSolver<T>> Search<'a, T, M, S> {
     /// Writes what was found into the state.
     pub(crate) fn finish(mut self, from: &[T], s: &mut State<T>) -> Equilibrium<T> {
         let report = self.report(from);
-        let Search { q, lambda, w, .. } = self;
+        let Search { model, q, lambda, w, .. } = self;
         s.q.copy_from_slice(&q);
         s.q_low.fill(T::ZERO);
         s.a.fill(T::ZERO);
         s.a_aux.fill(T::ZERO);
         s.memory.copy_from_slice(&w.terms.angles);
+        model.evaluate_forces(&s.q, &s.v, &mut w.terms);
+        s.signals.copy_from_slice(&w.terms.signals);
         s.applied.copy_from_slice(&s.inputs);
         s.phi.copy_from_slice(&w.terms.phi);
         for to in [&mut s.lambda, &mut s.lambda_previous, &mut s.reaction] {

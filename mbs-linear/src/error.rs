@@ -17,6 +17,8 @@ pub enum EquilibriumError {
     },
     /// Newton's method from the state leads to no equilibrium.
     NotNear,
+    /// Integrals or lags among the signals find no rest.
+    SignalsMove,
     /// Nothing holds it: the mechanism fell or drove farther than a million times the scene's length.
     Escapes {
         /// The coordinate that went farthest.
@@ -52,6 +54,10 @@ impl core::fmt::Display for EquilibriumError {
             Self::NotNear => write!(
                 f,
                 "no equilibrium was found near the start; start nearer to it, or let the search go down"
+            ),
+            Self::SignalsMove => write!(
+                f,
+                "no equilibrium was found: an integral or a lag among the signals goes on changing; let it measure what it drives, or take it out"
             ),
             Self::Escapes { .. } => write!(
                 f,

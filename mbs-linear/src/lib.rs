@@ -24,6 +24,6 @@ pub use mbs_core::saddle::Saddle;
 pub use mbs_core::step::OptionError;
 pub use near::equilibrium_near;
 pub use options::{LinearOptions, Options};
-pub use signals::LinearSignals;
+pub use signals::{LinearSignals, rest_signals};
 pub use svd::{Svd, singular_values};
 pub use workspace::Workspace;

@@ -80,8 +80,8 @@ impl<T: Real> Linear<T> {
             let column = (2 * f + j) * n + f;
             a[column..column + f].copy_from_slice(&self.signals.forces[j * f..][..f]);
         }
-        for (column, rates) in a.chunks_exact_mut(n).zip(self.signals.rates.chunks_exact(s.max(1)))
-        {
+        let of_signals = self.signals.rates.chunks_exact(s.max(1));
+        for (column, rates) in a.chunks_exact_mut(n.max(1)).zip(of_signals) {
             column[2 * f..].copy_from_slice(rates);
         }
         a
@@ -92,6 +92,8 @@ impl<T: Real> Linear<T> {
 const SWEEPS: u32 = 60;
 /// Largest move that closes the constraints, relative to a difference [-]: their curvature takes some 1e-4.
 const CURVED: f64 = 0.1;
+/// Move that is rounding, in units of rounding of the coordinates [-]. Chosen, not tuned.
+const ROUNDED: f64 = 16.0;
 /// Rounding of accelerations, in units of rounding of their terms [-]. Chosen, not tuned.
 const NOISE: f64 = 16.0;
 /// Violation at which stalled sweeps may end, relative to rounding of a row [-]. Chosen, not tuned.
@@ -281,7 +283,9 @@ impl<'a, T: Real, M: Model<T>, S: SymmetricSolver<T>> Field<'a, T, M, S> {
             field.w.extent(&way)
         };
         let freedom = change.iter().position(|&z| z != T::ZERO).unwrap_or(0);
-        if extent(self, &open) > extent(self, &self.start.q) * T::from_f64(CURVED) {
+        let rounding = (T::ONE + self.w.extent(&self.q[..n])) * T::EPSILON;
+        let least = rounding * T::from_f64(ROUNDED);
+        if extent(self, &open) > least + extent(self, &self.start.q) * T::from_f64(CURVED) {
             return Err(LinearError::Singular { freedom });
         }
         self.factor()?;

@@ -101,7 +101,7 @@ fn newton<T: Real, M: Model<T>, S: SymmetricSolver<T>>(
     Err(EquilibriumError::NotNear)
 }
 
-fn failed(error: LinearError) -> EquilibriumError {
+pub(crate) fn failed(error: LinearError) -> EquilibriumError {
     match error {
         LinearError::NoInertia { unknown } => EquilibriumError::Undetermined { unknown },
         LinearError::NotFinite => EquilibriumError::NotFinite { unknown: 0 },
@@ -110,7 +110,7 @@ fn failed(error: LinearError) -> EquilibriumError {
 }
 
 /// A square matrix after elimination with complete pivoting.
-struct Pivoted<T> {
+pub(crate) struct Pivoted<T> {
     n: usize,
     /// L and U, column by column, in the order of the pivots.
     lu: Vec<T>,
@@ -123,7 +123,7 @@ struct Pivoted<T> {
 
 impl<T: Real> Pivoted<T> {
     /// Eliminates until all that is left is no larger than `least`.
-    fn new(n: usize, lu: Vec<T>, least: T) -> Self {
+    pub(crate) fn new(n: usize, lu: Vec<T>, least: T) -> Self {
         let order = || (0..n).collect::<Vec<usize>>();
         let mut new = Self { n, lu, rows: order(), columns: order(), rank: 0, least };
         while new.rank < n && new.eliminate() {
@@ -177,7 +177,7 @@ impl<T: Real> Pivoted<T> {
     }
 
     /// x with A x = b, where a direction that was not eliminated has `least` for its stiffness.
-    fn solve(&self, b: &[T]) -> Vec<T> {
+    pub(crate) fn solve(&self, b: &[T]) -> Vec<T> {
         let (n, rank) = (self.n, self.rank);
         let mut y: Vec<T> = self.rows.iter().map(|&i| b[i]).collect();
         for k in 0..rank {

@@ -4,11 +4,15 @@
 //! z'' = f(z, z', x),   x' = g(z, z', x):     A = [[0, 1, 0], [-K_r, -C_r, df/dx], [dg/dz, dg/dz', dg/dx]]
 //! ```
 
-use crate::error::LinearError;
-use crate::linearise::{Field, difference};
+use crate::error::{EquilibriumError, LinearError};
+use crate::linearise::{Field, Instant, Linear, difference, linearise};
+use crate::near::{Pivoted, equilibrium_near, failed};
+use crate::options::{LinearOptions, Options};
+use crate::workspace::Workspace;
 use alloc::vec;
 use alloc::vec::Vec;
-use mbs_core::model::Model;
+use mbs_core::algebra::norm_inf;
+use mbs_core::model::{Model, State};
 use mbs_core::{Real, SymmetricSolver};
 
 /// What the states of signals do to a linearised motion, and the motion to them; matrices are stored column by column.
@@ -68,5 +72,73 @@ impl<T: Real, M: Model<T>, S: SymmetricSolver<T>> Field<'_, T, M, S> {
     fn signal_rates(&self) -> Vec<T> {
         let states = &self.w.terms.signals[..self.model.n_signal_states()];
         states.iter().map(|[_, rate]| *rate).collect()
+    }
+}
+
+/// Steps at most until the states of signals rest [-]: one or two where signals are linear. Chosen, not tuned.
+const STEPS: u32 = 20;
+/// Change of the states that is rest, relative to them or to one [-]: differences give ten digits.
+const RESTING: f64 = 1e-9;
+/// Part of the rates that no change of the states takes away, and that is none [-]: differences give ten digits.
+const LEFT: f64 = 1e-6;
+/// Slope of the rates that is rounding, relative to the largest [-]. Chosen, not tuned.
+const NO_SLOPE: f64 = 1e-12;
+
+/// Moves the states of signals and the mechanism, which is in equilibrium with them as they are, to where these states rest too:
+/// what is integrated is zero, and lags have caught up. Nothing without states.
+///
+/// Cost: a linearisation and a search near the state for each step.
+///
+/// # Errors
+/// [`EquilibriumError::SignalsMove`] where they find no rest, or that of a search; the state is then not to be used.
+pub fn rest_signals<T: Real, M: Model<T>, S: SymmetricSolver<T>>(
+    model: &M,
+    options: &Options<T>,
+    s: &mut State<T>,
+    w: &mut Workspace<T, S>,
+) -> Result<(), EquilibriumError> {
+    let n = model.n_signal_states();
+    for _ in 0..STEPS {
+        let rates: Vec<T> = s.signals[..n].iter().map(|[_, rate]| *rate).collect();
+        if rates.iter().all(|rate| rate.is_zero()) {
+            return Ok(());
+        }
+        let how = (Instant::Rest, &LinearOptions::default());
+        let linear = linearise(model, how, s, w).map_err(failed)?;
+        let change = linear.rest(&rates).ok_or(EquilibriumError::SignalsMove)?;
+        let mut is_small = true;
+        for (state, change) in s.signals.iter_mut().zip(change) {
+            is_small &= change.abs() <= T::from_f64(RESTING) * (T::ONE + state[0].abs());
+            state[0] += change;
+        }
+        equilibrium_near(model, options, s, w)?;
+        if is_small {
+            return Ok(());
+        }
+    }
+    Err(EquilibriumError::SignalsMove)
+}
+
+impl<T: Real> Linear<T> {
+    /// The change of the signals' states that takes these rates to zero, while the mechanism stays in equilibrium: z = K^-1 (df/dx) x.
+    /// `None` where no change does.
+    fn rest(&self, rates: &[T]) -> Option<Vec<T>> {
+        let (f, n, of) = (self.n_freedoms, self.signals.n, &self.signals);
+        let stiffness = Pivoted::new(f, self.stiffness.clone(), self.noise);
+        let mut slopes = of.rates[2 * f * n..].to_vec();
+        for (slopes, forces) in slopes.chunks_exact_mut(n).zip(of.forces.chunks_exact(f.max(1))) {
+            for (z, by) in stiffness.solve(forces).iter().zip(of.rates.chunks_exact(n)) {
+                slopes.iter_mut().zip(by).for_each(|(slope, &by)| *slope += *z * by);
+            }
+        }
+        let largest = slopes.iter().fold(T::ZERO, |most, x| most.max(x.abs()));
+        let matrix = Pivoted::new(n, slopes.clone(), largest * T::from_f64(NO_SLOPE));
+        let change: Vec<T> = matrix.solve(rates).into_iter().map(|x| -x).collect();
+        let mut left = rates.to_vec();
+        for (column, x) in slopes.chunks_exact(n).zip(&change) {
+            left.iter_mut().zip(column).for_each(|(left, &slope)| *left += slope * *x);
+        }
+        let is_met = norm_inf(&left) <= norm_inf(rates) * T::from_f64(LEFT);
+        is_met.then_some(change)
     }
 }

@@ -9,7 +9,7 @@ use mbs_core::effects::bushing;
 use mbs_core::laws::Part;
 use mbs_recursive::coupled::{CoupledRow, NONE, SumMeasure};
 use mbs_recursive::link::LinkKind;
-use mbs_recursive::loads::{Load, Measure};
+use mbs_recursive::loads::{Load, Measure, SumLoad};
 use mbs_recursive::plan::Span;
 use mbs_recursive::rows::{ClosedLoop, Row};
 use mbs_recursive::slices::TreeSlices;
@@ -40,6 +40,11 @@ pub enum LoadError {
         /// `scene.couplings[coupling]`.
         coupling: usize,
     },
+    /// An effect on a sum with lengths or curves, which no controller has.
+    Sum {
+        /// The entry in the table of effects.
+        entry: usize,
+    },
     /// The text is not a model of this version and dimension.
     Format,
     /// The text has a law that this build leaves out, or the text is not what a model is written as.
@@ -67,6 +72,10 @@ impl core::fmt::Display for LoadError {
             Self::Coupling { coupling } => {
                 write!(f, "coupling {coupling} cannot be written for a controller")
             }
+            Self::Sum { entry } => write!(
+                f,
+                "the sum of entry {entry} of the table of effects has a length or a curve, and cannot be written for a controller"
+            ),
             Self::Format => {
                 write!(f, "not a model of this version, or of the other dimension")
             }
@@ -197,6 +206,7 @@ impl<'a, T: Real, S: Space<T>> Checked<'a, T, S> {
         look.loops()?;
         look.plan()?;
         look.loads()?;
+        look.rotors()?;
         look.prescriptions(model)?;
         look.signals(model)?;
         look.start(model)?;
@@ -301,18 +311,36 @@ impl<T: Real, S: Space<T>> Look<'_, '_, T, S> {
         ensure(is_known && lap.n == 1 && !terms.is_empty(), "loops", i)?;
         for term in terms {
             let SumMeasure::Joint { link, side } = term.of else { return Err(unheld(lap)) };
-            let joint = self.m.links.get(link as usize);
-            let holds = link > 0
-                && joint.is_some_and(|link| match link.kind.n_freedoms::<T, S>() {
-                    0 => side == NONE,
-                    n => n == 1,
-                });
-            ensure(holds, "loops", i)?;
+            ensure(
+                self.has_one(link).is_some_and(|is_guided| !is_guided || side == NONE),
+                "loops",
+                i,
+            )?;
             if term.curve != NONE || (side != NONE && side > 1) {
                 return Err(unheld(lap));
             }
         }
         Ok(())
+    }
+
+    /// Is a link that has one coordinate guided? Others have none.
+    fn has_one(&self, link: u32) -> Option<bool> {
+        let kind = self.m.links.get(link as usize).filter(|_| link > 0)?.kind;
+        let n = kind.n_freedoms::<T, S>();
+        (n < 2).then_some(n == 0)
+    }
+
+    /// A sum of joint coordinates without curves.
+    fn sum(&self, (i, sum): (usize, &SumLoad<T>)) -> Result<(), LoadError> {
+        let terms = self.m.loops.couplings.terms.get(sum.terms.range());
+        ensure(terms.is_some_and(|terms| !terms.is_empty()), "effects", i)?;
+        for term in terms.unwrap_or(&[]) {
+            let (SumMeasure::Joint { link, .. }, NONE) = (term.of, term.curve) else {
+                return Err(LoadError::Sum { entry: i });
+            };
+            ensure(self.has_one(link).is_some(), "effects", i)?;
+        }
+        ensure(sum.law.fits(&self.m.tables, self.sizes.courses), "effects", i)
     }
 
     fn plan(&self) -> Result<(), LoadError> {
@@ -385,6 +413,10 @@ impl<T: Real, S: Space<T>> Look<'_, '_, T, S> {
                 Load::Force { link, course, .. } | Load::Torque { link, course } => {
                     is_link(*link) && is_course(*course)
                 }
+                Load::Sum(sum) => {
+                    self.sum((i, sum))?;
+                    true
+                }
                 Load::BodyLoad(load) => {
                     is_link(load.link) && load.law.fits(&self.m.tables, self.sizes.courses)
                 }
@@ -400,6 +432,13 @@ impl<T: Real, S: Space<T>> Look<'_, '_, T, S> {
             .links
             .get(link as usize)
             .is_some_and(|link| link.kind.is_guided() || link.kind.n_freedoms::<T, S>() == 1)
+    }
+
+    fn rotors(&self) -> Result<(), LoadError> {
+        for (i, rotor) in self.m.rotors.iter().enumerate() {
+            ensure(rotor.link > 0 && self.has_one_coordinate(rotor.link), "rotors", i)?;
+        }
+        Ok(())
     }
 
     fn prescriptions(&self, model: &Model<'_, T, S>) -> Result<(), LoadError> {

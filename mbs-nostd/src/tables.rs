@@ -11,7 +11,7 @@ use mbs_core::laws::entry::Entry;
 use mbs_core::laws::{CurvatureEntry, FeatureEntry, KnotEntry, LawInputs, LawTables, PieceEntry};
 use mbs_recursive::coupled::{Couplings, CurveTable, SumTerm};
 use mbs_recursive::feedback::FeedbackSlices;
-use mbs_recursive::link::Link;
+use mbs_recursive::link::{Link, LinkRotor};
 use mbs_recursive::loads::Load;
 use mbs_recursive::loops::Loops;
 use mbs_recursive::plan::{End, LoopCoupling, Pair, Pass, Plan, Station, Update};
@@ -20,7 +20,11 @@ use mbs_recursive::slices::TreeSlices;
 use mbs_recursive::space::Space;
 
 /// What a model's text begins with, and its version.
-pub(crate) const HEAD: [u32; 2] = [u32::from_le_bytes(*b"MBSN"), 3];
+pub(crate) const HEAD: [u32; 2] = [u32::from_le_bytes(*b"MBSN"), 2];
+/// Added to the version of a text that ends with rotors [-].
+pub(crate) const WITH_ROTORS: u32 = 1;
+/// Added to the version of a text that ends with operations on signals [-].
+pub(crate) const WITH_SIGNALS: u32 = 2;
 
 /// A model read from bytes: at most `L` links, `K` loops with `R` rows, `P` entries in each list of the plan, `E` effects.
 /// It has at most `X` entries in each table of laws, `I` guides and as many courses, `Q` coordinates and as many freedoms. There are at
@@ -53,6 +57,7 @@ pub struct Tables<
     couplings: Vec<LoopCoupling, P>,
     updates: Vec<Update, P>,
     loads: Vec<Load<T, S>, E>,
+    rotors: Vec<LinkRotor<T>, L>,
     pieces: Vec<PieceEntry<T>, X>,
     features: Vec<FeatureEntry<T>, X>,
     road: (Vec<KnotEntry<T>, X>, Vec<CurvatureEntry<T>, X>),
@@ -133,7 +138,9 @@ impl<
         let from = &mut Reader::new(bytes);
         let head = <[u32; 4]>::read(from)?;
         let [magic, version, dimension, width] = head;
-        let is_known = [magic, version] == HEAD && (width == 4 || width == 8);
+        let parts = version.wrapping_sub(HEAD[1]);
+        let is_known =
+            magic == HEAD[0] && parts <= WITH_ROTORS + WITH_SIGNALS && (width == 4 || width == 8);
         if !is_known || dimension as usize != S::DIMENSION {
             return Err(LoadError::Format);
         }
@@ -151,6 +158,7 @@ impl<
             couplings: list("couplings", from)?,
             updates: list("updates", from)?,
             loads: list("effects", from)?,
+            rotors: Vec::new(),
             pieces: entries::<T, _, X>("pieces", from)?,
             features: entries::<T, _, X>("parts of roads", from)?,
             road: (
@@ -161,15 +169,15 @@ impl<
             courses: list("courses", from)?,
             knots: (list("knots", from)?, list("knots", from)?),
             course_rows: list("rows of courses", from)?,
-            operations: list("operations on signals", from)?,
-            measured: list("measured coordinates", from)?,
-            curves: list("curves", from)?,
-            curve_knots: (list("knots of curves", from)?, list("numbers of curves", from)?),
+            operations: Vec::new(),
+            measured: Vec::new(),
+            curves: Vec::new(),
+            curve_knots: (Vec::new(), Vec::new()),
             rungs: list("rungs", from)?,
             z: list("coordinates", from)?,
             v: list("freedoms", from)?,
             a: list("freedoms", from)?,
-            states: list("states of signals", from)?,
+            states: Vec::new(),
             floor: Record::read(from)?,
             n_cut: Record::read(from)?,
             gravity: Record::read(from)?,
@@ -178,6 +186,16 @@ impl<
             n: Record::read(from)?,
             t: Record::read(from)?,
         };
+        if parts & WITH_ROTORS != 0 {
+            tables.rotors = list("rotors", from)?;
+        }
+        if parts & WITH_SIGNALS != 0 {
+            tables.operations = list("operations on signals", from)?;
+            tables.measured = list("measured coordinates", from)?;
+            tables.curves = list("curves", from)?;
+            tables.curve_knots = (list("knots of curves", from)?, list("numbers of curves", from)?);
+            tables.states = list("states of signals", from)?;
+        }
         if !from.is_at_end() {
             return Err(LoadError::Length);
         }
@@ -223,6 +241,7 @@ impl<
                     },
                 },
                 loads: &self.loads,
+                rotors: &self.rotors,
                 tables,
                 feedback: FeedbackSlices {
                     steps: &self.operations,

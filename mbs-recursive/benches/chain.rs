@@ -5,7 +5,9 @@
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 use mbs_core::Real;
 use mbs_core::real::Lanes;
-use mbs_core::scene::{Body, BodyId, Dimension, Inertia, Joint, JointKind, Scene, SolverTable};
+use mbs_core::scene::{
+    Body, BodyId, Dimension, Inertia, Joint, JointKind, JointLimits, Scene, SolverTable,
+};
 use mbs_recursive::space::Space;
 use mbs_recursive::{Options, Planar, Spatial, TreeModel, TreeState, Workspace};
 
@@ -37,6 +39,7 @@ fn revolute<T: Real>(bodies: [BodyId; 2], at: [f64; 3], axis: Option<[f64; 3]>) 
         bodies,
         points: [at; 2],
         axes: [axis, None],
+        limits: JointLimits::NONE,
     }
 }
 

@@ -15,6 +15,7 @@ use crate::plan::Span;
 use crate::space::{Numbers, Space};
 use mbs_core::Real;
 pub use mbs_core::elements::NONE;
+use mbs_core::elements::has_collapsed;
 use mbs_core::measure::{polynomial, spline_curve};
 
 /// The row of a coupling.
@@ -224,6 +225,34 @@ impl<T: Real, S: Space<T>> Couplings<'_, T, S> {
         Ok(())
     }
 
+    /// The part of a row's lines that has no length left, or whose ends met, while the links went from one place to another.
+    pub(crate) fn collapsed(
+        &self,
+        row: &CoupledRow<T>,
+        [from, to]: [&[LinkMotion<T, S>]; 2],
+    ) -> Result<Option<usize>, Outside> {
+        let starts = range(self.starts, row.starts.range())?;
+        let mut part = 0;
+        for term in range(self.terms, row.terms.range())? {
+            let SumMeasure::Line { points, .. } = term.of else { continue };
+            for pair in range(self.points, points.range())?.windows(2) {
+                let [first, second] = pair else { continue };
+                let gap = |placed| {
+                    let ([a, rate_a], [b, rate_b]) =
+                        (line_end(starts, first, placed)?, line_end(starts, second, placed)?);
+                    Ok([b - a, rate_b - rate_a])
+                };
+                let ([before, rate], [after, _]) = (gap(from)?, gap(to)?);
+                let (dd, de, ee) = (before.dot(&before), before.dot(&after), after.dot(&after));
+                if has_collapsed([dd, de, ee, before.dot(&rate)]) {
+                    return Ok(Some(part));
+                }
+                part += 1;
+            }
+        }
+        Ok(None)
+    }
+
     /// Evaluates row `k` of a coupling; its gradients are written where they are wanted, of `n_rows` rows.
     pub(crate) fn evaluate(
         &self,
@@ -264,6 +293,36 @@ impl<T: Real, S: Space<T>> Couplings<'_, T, S> {
             add(at(guides, row.guide as usize)?.map(|s| -s * row.inverse));
         }
         Ok(CoupledValue { row: sum, parts })
+    }
+
+    /// Hands out the ends that a row has, without guides: at joints with their slopes, and at links with wrenches.
+    pub(crate) fn each_end(
+        &self,
+        row: &CoupledRow<T>,
+        here: Here<'_, T, S>,
+        mut take: impl FnMut(SumEnd<T, S>) -> Result<(), Outside>,
+    ) -> Result<(), Outside> {
+        for term in range(self.terms, row.terms.range())? {
+            let mut slope = term.factor;
+            if term.curve != NONE {
+                let [m, ..] = self.measure((&term.of, row.starts), here)?;
+                slope *= self.function(term.curve, m)?[1];
+            }
+            match term.of {
+                SumMeasure::Joint { link, .. } => take(SumEnd::Joint { link, slope })?,
+                SumMeasure::Line { points, .. } => {
+                    self.each_part((points, row.starts), here.1, |part| {
+                        let directions = [-part.direction, part.direction];
+                        for ((start, arm), n) in part.ends.iter().zip(directions) {
+                            let wrench = S::wrench(arm, &n) * slope;
+                            take(SumEnd::Link { link: start.link, wrench })?;
+                        }
+                        Ok(())
+                    })?;
+                }
+            }
+        }
+        Ok(())
     }
 
     /// The links at which a row begins.
@@ -322,6 +381,38 @@ impl<T: Real, S: Space<T>> Couplings<'_, T, S> {
         let here = here.filter(|&(link, side, _)| (link as usize, side) == (i, by));
         Ok(here.map(|(_, _, slope)| slope).reduce(|sum, slope| sum + slope))
     }
+}
+
+/// Where a point of a line is, and its velocity.
+fn line_end<T: Real, S: Space<T>>(
+    starts: &[LinkStart],
+    of: &LinePoint<T, S>,
+    placed: &[LinkMotion<T, S>],
+) -> Result<[S::Point; 2], Outside> {
+    let start = at(starts, of.start as usize)?;
+    let p = at(placed, start.link as usize)?;
+    let arm = S::rotate(&p.rotation, &of.point);
+    let rate = S::point(&p.velocity) + S::cross(&S::spin(&p.velocity), &arm);
+    Ok([p.position + arm, rate])
+}
+
+/// What grows a sum: a coordinate or a link, and how much.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum SumEnd<T: Real, S: Space<T>> {
+    /// The coordinate of a link.
+    Joint {
+        /// The link.
+        link: u32,
+        /// The growth by it.
+        slope: T,
+    },
+    /// A link's motion.
+    Link {
+        /// The link.
+        link: u32,
+        /// The growth by it.
+        wrench: S::Motion,
+    },
 }
 
 /// A part of a line.

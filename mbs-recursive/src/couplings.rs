@@ -9,11 +9,12 @@ use crate::rows::{ClosedLoop, Row};
 use crate::space::{Numbers, Space};
 use crate::state::TreeState;
 use crate::tree::TreeModel;
+use alloc::vec::Vec;
 use mbs_core::Real;
 use mbs_core::algebra::{Vector, norm};
 use mbs_core::feedback::FeedbackOperation;
-use mbs_core::measure::CouplingInput;
-use mbs_core::scene::{BodyId, Scene};
+use mbs_core::measure::{CouplingInput, TermInput};
+use mbs_core::scene::{BodyId, CouplingMeasure, Scene};
 
 impl<T: Real, S: Space<T>> TreeModel<T, S> {
     /// Adds the rows of couplings behind those of cut joints.
@@ -31,30 +32,8 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
             let input = CouplingInput::new(coupling);
             let sum = input.sum.is_some().then_some(guide);
             guide += usize::from(sum.is_some());
-            let (first_term, first_start) =
-                (self.couplings.terms.len(), self.couplings.starts.len());
-            for term in &input.terms {
-                let of = match (&term.of, term.coordinate) {
-                    (_, Some((joint, number))) => {
-                        let link = links[joint].get(number).copied().flatten();
-                        let link = link.filter(|&link| self.has_one_coordinate(link));
-                        let link = link.ok_or(TreeError::Coupling { coupling: i })?;
-                        let is_guided = self.links[link as usize].kind.is_guided();
-                        SumMeasure::Joint { link, side: if is_guided { NONE } else { 0 } }
-                    }
-                    (mbs_core::scene::CouplingMeasure::Length { points }, None) => {
-                        self.line(points, first_start)
-                    }
-                    // A coordinate has its place.
-                    (mbs_core::scene::CouplingMeasure::Coordinate { .. }, None) => continue,
-                };
-                let curve = self.couplings.add_curve(&term.curve);
-                let factor = term.factor / input.scale();
-                self.couplings.terms.push(SumTerm { factor, curve, of });
-            }
-            let terms = Span { first: index(first_term), end: index(self.couplings.terms.len()) };
-            let starts =
-                Span { first: index(first_start), end: index(self.couplings.starts.len()) };
+            let added = self.add_terms((&input.terms, input.scale()), &links);
+            let (terms, starts) = added.map_err(|_| TreeError::Coupling { coupling: i })?;
             let is_angle = self.is_angle(terms);
             let inverse = T::ONE / input.scale();
             let guide = sum.map_or(NONE, index);
@@ -90,6 +69,37 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         }
         self.feedback = feedback;
         Ok(())
+    }
+
+    /// Adds terms, their factors over `scale`, to the tables: the terms, and the links of their lines.
+    ///
+    /// # Errors
+    /// The joint whose coordinate no link has alone.
+    pub(crate) fn add_terms(
+        &mut self,
+        (terms, scale): (&[TermInput<T>], T),
+        links: &[Vec<Option<u32>>],
+    ) -> Result<(Span, Span), usize> {
+        let (first_term, first_start) = (self.couplings.terms.len(), self.couplings.starts.len());
+        for term in terms {
+            let of = match (&term.of, term.coordinate) {
+                (_, Some((joint, number))) => {
+                    let link = links[joint].get(number).copied().flatten();
+                    let link = link.filter(|&link| self.has_one_coordinate(link));
+                    let link = link.ok_or(joint)?;
+                    let is_guided = self.links[link as usize].kind.is_guided();
+                    SumMeasure::Joint { link, side: if is_guided { NONE } else { 0 } }
+                }
+                (CouplingMeasure::Length { points }, None) => self.line(points, first_start),
+                // A coordinate has its place.
+                (CouplingMeasure::Coordinate { .. }, None) => continue,
+            };
+            let curve = self.couplings.add_curve(&term.curve);
+            self.couplings.terms.push(SumTerm { factor: term.factor / scale, curve, of });
+        }
+        let terms = Span { first: index(first_term), end: index(self.couplings.terms.len()) };
+        let starts = Span { first: index(first_start), end: index(self.couplings.starts.len()) };
+        Ok((terms, starts))
     }
 
     fn has_one_coordinate(&self, link: u32) -> bool {

@@ -10,7 +10,8 @@
 //! | link | (p·p − L²)/(2L); hinged: p·a |
 
 use crate::error::TreeError;
-use crate::loads::{BodyLoad, Load, Measure};
+use crate::link::LinkRotor;
+use crate::loads::{BodyLoad, Load, Measure, SumLoad};
 use crate::loops::index;
 use crate::rows::{ClosedLoop, Row};
 use crate::space::{Numbers, Space};
@@ -20,6 +21,7 @@ use mbs_core::Real;
 use mbs_core::actions::{self, Action};
 use mbs_core::algebra::{Vector, norm};
 use mbs_core::laws::scalar::Law;
+use mbs_core::measure::RotorInput;
 use mbs_core::scene::{Axis, BodyId, Dimension, Joint, Scene, Translation, transverse};
 
 impl<T: Real, S: Space<T>> TreeModel<T, S> {
@@ -96,6 +98,28 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         Ok(())
     }
 
+    /// Adds the rotors of a scene, those of a link as one. Between parts of one body nothing turns.
+    ///
+    /// # Errors
+    /// [`TreeError::EffectCut`]: the rotor of a joint that carries no coordinate.
+    pub(crate) fn add_rotors(&mut self, scene: &Scene<T>) -> Result<(), TreeError> {
+        let links = self.coordinate_links(scene);
+        for RotorInput { effect, joint, number, inertia } in RotorInput::all(scene) {
+            let [first, second] = scene.joints[joint].bodies.map(|body| self.link(body));
+            let Some(link) = links[joint].get(number).copied().flatten() else {
+                if first == second {
+                    continue;
+                }
+                return Err(TreeError::EffectCut { effect, joint });
+            };
+            match self.rotors.iter_mut().find(|rotor| rotor.link == link) {
+                Some(rotor) => rotor.inertia += inertia,
+                None => self.rotors.push(LinkRotor { link, inertia }),
+            }
+        }
+        Ok(())
+    }
+
     /// A law of a turn: on the coordinate of the link that turns there. A free joint in the plane has no link between its bodies: their
     /// angles differ by its own. Between parts of one body nothing turns.
     ///
@@ -125,7 +149,7 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
     /// # Errors
     /// The joint whose angle it asks for in vain.
     fn load(
-        &self,
+        &mut self,
         (scene, coordinates): (&Scene<T>, &[Vec<Option<u32>>]),
         action: &Action<T>,
     ) -> Result<Option<Load<T, S>>, usize> {
@@ -147,6 +171,10 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
                 let direction = S::point_from(&Vector::from(*direction));
                 let gauge = Measure::Along { points, direction, offset: *offset };
                 Load::Between { links, gauge, law: *law }
+            }
+            Action::Sum { terms, law } => {
+                let (terms, starts) = self.add_terms((terms, T::ONE), coordinates)?;
+                Load::Sum(SumLoad { terms, starts, law: *law })
             }
             Action::Turn { bodies, law } => {
                 let links = bodies.map(|body| self.link(body));

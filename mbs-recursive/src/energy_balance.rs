@@ -4,6 +4,7 @@ use crate::indexing::{Outside, at};
 use crate::inverse;
 use crate::link::{Link, LinkMotion};
 use crate::loads::Instant;
+use crate::rotor;
 use crate::slices::{Store, TreeSlices};
 use crate::space::{Numbers, Space};
 use mbs_core::Real;
@@ -50,6 +51,7 @@ pub fn power<T: Real, S: Space<T>>(
     }
     if m.links.iter().skip(1).any(|link| link.kind.is_guided()) {
         inverse::forces(m, s)?;
+        rotor::add_efforts(m, (s.zdd, s.guides), s.condensed)?;
         for (i, link) in m.links.iter().enumerate().skip(1) {
             if link.kind.is_guided() {
                 let mut effort = [T::ZERO];

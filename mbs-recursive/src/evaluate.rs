@@ -19,6 +19,7 @@ use crate::loads::Reach;
 use crate::loops::{Regularisation, index};
 use crate::options::{Closure, Options};
 use crate::passes;
+use crate::rotor;
 use crate::slices::{Store, TreeSlices};
 use crate::space::{Numbers, Space};
 use mbs_core::Real;
@@ -112,6 +113,7 @@ fn begin<'b, T: Real, S: Space<T>>(
     passes::kinematics(m.links, (s.z, s.v, s.guides), s.placed)?;
     follow_motion(m, s)?;
     passes::inertias(m.links, s.placed, s.condensed);
+    rotor::resist(m.rotors, s.condensed)?;
     Ok(core::mem::take(&mut s.condensed))
 }
 

@@ -8,6 +8,7 @@
 //! Positions and velocities are projected on the loops after each accepted step, quaternions made unit at the end. The stages
 //! are those of [`mbs_core::ode`].
 
+use crate::collapse::check_lines;
 use crate::energy_balance;
 use crate::evaluate::{Level, accelerations, is_redundant, is_tight};
 use crate::fault::failure;
@@ -226,6 +227,7 @@ pub fn rk4<T: Real, S: Space<T>>(
     system.clean(start.t + dt, y, project::rounding())?;
     let report = system.finish(start.t + dt, y)?;
     check_rotations(m, inputs, (&start, dt), s)?;
+    check_lines(m, inputs, (&start, dt), s)?;
     Ok(report)
 }
 
@@ -273,5 +275,6 @@ pub fn controlled<T: Real, S: Space<T>, M: Method<T>>(
     report.steps = count(after.accepted - before.accepted);
     report.rejected = count(after.rejected - before.rejected);
     check_rotations(m, inputs, (&start, dt), s)?;
+    check_lines(m, inputs, (&start, dt), s)?;
     Ok(report)
 }

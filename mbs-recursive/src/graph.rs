@@ -4,7 +4,8 @@
 //! joint that comes first in this order (Prim), so that it depends on the scene alone:
 //!
 //! 1. guided joints, since their motion is prescribed;
-//! 2. revolute joints with an effect about their axis, since it acts along a coordinate; joints of couplings, which are sums of coordinates;
+//! 2. revolute joints with an effect about their axis, since it acts along a coordinate; joints with a rotor; joints of couplings, which
+//!    are sums of coordinates;
 //! 3. joints of bodies without mass, so that these end no branch where that can be avoided;
 //! 4. joints with few freedoms, so that few equations are left where the others are cut;
 //! 5. balls off the line of a thin rod, about which it has inertia in every direction;
@@ -22,6 +23,7 @@ use core::cmp::{Ordering, Reverse};
 use mbs_core::Real;
 use mbs_core::actions::{Action, Actions};
 use mbs_core::cluster::Clusters;
+use mbs_core::measure::RotorInput;
 use mbs_core::scene::{BodyId, Freedom, Scene, SignalKind};
 
 /// A step of the tree: a cluster and the joint it hangs by.
@@ -139,9 +141,20 @@ impl Demands {
                 new.is_measured[joint.index()] = true;
             }
         }
+        for rotor in RotorInput::all(scene) {
+            new.effect[rotor.joint].get_or_insert(rotor.effect);
+        }
         for (effect, action) in &actions.list {
-            if let Action::Angle { joint, .. } = action {
-                new.effect[*joint].get_or_insert(*effect);
+            match action {
+                Action::Angle { joint, .. } => {
+                    new.effect[*joint].get_or_insert(*effect);
+                }
+                Action::Sum { terms, .. } => {
+                    for (joint, _) in terms.iter().filter_map(|term| term.coordinate) {
+                        new.effect[joint].get_or_insert(*effect);
+                    }
+                }
+                _ => {}
             }
         }
         new

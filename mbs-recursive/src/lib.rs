@@ -8,6 +8,7 @@ pub mod anderson;
 #[cfg(feature = "alloc")]
 mod angles;
 pub mod bounded;
+mod collapse;
 pub mod coupled;
 #[cfg(feature = "alloc")]
 mod coupling_tables;
@@ -46,6 +47,7 @@ pub mod plan;
 mod project;
 #[cfg(feature = "alloc")]
 mod quantities;
+mod rotor;
 pub mod rows;
 #[cfg(feature = "alloc")]
 mod run;

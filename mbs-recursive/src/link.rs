@@ -135,7 +135,7 @@ pub struct ArticulatedInertia<T: Real, S: Space<T>> {
     pub drive: S::Motion,
     /// Torque or force of effects along a joint of one freedom.
     pub effort: T,
-    /// What effects add to bᵀ I b of a joint of one freedom: their resistance to its acceleration within a step.
+    /// What rotors and effects add to bᵀ I b of a joint of one freedom: effects by their resistance to its acceleration within a step.
     pub resistance: T,
 }
 
@@ -153,4 +153,13 @@ impl<T: Real, S: Space<T>> ArticulatedInertia<T, S> {
             resistance: T::ZERO,
         }
     }
+}
+
+/// What a rotor adds to the inertia of the coordinate of a link with one.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct LinkRotor<T> {
+    /// The link.
+    pub link: u32,
+    /// Inertia times the square of the ratio [kg m^2, of a slide kg].
+    pub inertia: T,
 }

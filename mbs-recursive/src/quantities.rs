@@ -13,6 +13,7 @@ use crate::inverse;
 use crate::loops::Loops;
 use crate::options::Options;
 use crate::passes::kinematics;
+use crate::rotor;
 use crate::slices::{Store, TreeSlices};
 use crate::space::{Numbers, Space};
 use crate::state::{TreeState, Workspace};
@@ -94,6 +95,8 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         let a = if terms == EffortTerms::Gravity { &*s.v } else { &state.a };
         own(inverse::spread(m.links, s.placed, a, s.a));
         own(inverse::forces(&m, &mut s));
+        let a = if terms == EffortTerms::Gravity { &*s.v } else { &state.a };
+        own(rotor::add_efforts(&m, (a, s.guides), s.condensed));
         for (i, link) in self.links.iter().enumerate().skip(1) {
             if !link.kind.is_guided() {
                 let out = &mut efforts[link.v as usize..];
@@ -116,7 +119,14 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
     ) {
         let mut s = workspace.store();
         self.place_in(state, &mut s);
-        inverse::mass_matrix(&self.links, s.placed, s.condensed, self.n_freedoms, mass);
+        let n = self.n_freedoms;
+        inverse::mass_matrix(&self.links, s.placed, s.condensed, n, mass);
+        for rotor in &self.rotors {
+            let link = &self.links[rotor.link as usize];
+            if !link.kind.is_guided() {
+                mass[link.v as usize * (n + 1)] += rotor.inertia;
+            }
+        }
     }
 
     /// Evaluates accelerations and multipliers of a state under efforts along the freedoms and gravity, without effects.

@@ -10,11 +10,12 @@ use crate::indexing::own;
 use crate::inverse;
 use crate::options::Options;
 use crate::passes::kinematics;
+use crate::rotor;
 use crate::slices::{Inputs, Store};
 use crate::space::{Numbers, Space};
 use crate::state::{Explicit, TreeState, Workspace};
 use crate::trapezoidal;
-use crate::tree::TreeModel;
+use crate::tree::{TreeModel, TreePlace};
 use mbs_core::Real;
 use mbs_core::algebra::{Vector, cross};
 use mbs_core::ode::{Adaptive, Extrapolation, Method, Radau, Tableau};
@@ -323,8 +324,9 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         let m = self.mechanism();
         let mut s = workspace.store();
         self.place_in(state, &mut s);
+        let rotors = own(rotor::kinetic(&m, (s.v, s.guides)));
         [
-            energy_balance::kinetic(m.links, s.placed),
+            energy_balance::kinetic(m.links, s.placed) + rotors,
             own(energy_balance::potential(&m, &s.instant(&m))),
         ]
     }
@@ -348,6 +350,7 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         own(inverse::spread(m.links, s.placed, &state.a, s.a));
         own(evaluate_rows(&m, s));
         own(inverse::forces(&m, s));
+        own(rotor::add_efforts(&m, (&state.a, s.guides), s.condensed));
     }
 
     /// The force and moment [N, N m] of the first body of each joint on the second, at the joint's place on the second, global axes.
@@ -373,8 +376,7 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
             if self.links[link].kind == crate::link::LinkKind::Free {
                 continue;
             }
-            let c = &s.condensed[link];
-            let through = c.force - s.placed[link].freedom * c.effort;
+            let through = s.condensed[link].force - along(seat, &s);
             let force = S::point_into(&S::point(&through));
             let moment = S::spin_into(&S::spin(&through));
             // On the child about its origin, the joint's place on it; turned round, about the place on the parent side.
@@ -400,9 +402,19 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
     }
 
     /// The joint's place on the parent, from the base.
-    fn parent_place(&self, seat: &crate::tree::TreePlace, s: &Store<'_, T, S>) -> S::Point {
+    fn parent_place(&self, seat: &TreePlace, s: &Store<'_, T, S>) -> S::Point {
         let first = &self.links[seat.first as usize];
         let parent = &s.placed[first.parent as usize];
         parent.position + S::rotate(&parent.rotation, &first.offset)
     }
+}
+
+/// What effects and rotors do along the coordinates of a joint, on its last link about its origin.
+fn along<T: Real, S: Space<T>>(place: &TreePlace, s: &Store<'_, T, S>) -> S::Motion {
+    let mut sum = S::Motion::zero();
+    for link in place.first as usize..=place.link as usize {
+        let p = &s.placed[link];
+        sum = S::gathered(&sum, &-p.arm) + p.freedom * s.condensed[link].effort;
+    }
+    sum
 }

@@ -1,7 +1,7 @@
 //! A mechanism and its scratch as slices, so that every step runs on memory of the caller's choice.
 
 use crate::feedback::FeedbackSlices;
-use crate::link::{ArticulatedInertia, Link, LinkMotion};
+use crate::link::{ArticulatedInertia, Link, LinkMotion, LinkRotor};
 use crate::loads::{Instant, Load};
 use crate::loops::{LoopStore, Loops};
 use crate::space::Space;
@@ -18,6 +18,8 @@ pub struct TreeSlices<'a, T: Real, S: Space<T>> {
     pub loops: Loops<'a, T, S>,
     /// The effects.
     pub loads: &'a [Load<T, S>],
+    /// The rotors, one a link.
+    pub rotors: &'a [LinkRotor<T>],
     /// Tables of their laws, without courses: these are of an instant.
     pub tables: LawInputs<'a, T>,
     /// Signals that follow the motion.
@@ -103,6 +105,7 @@ impl<'a, T: Real, S: Space<T>> Store<'a, T, S> {
             links: m.links,
             placed: self.placed,
             coordinates: (self.z, self.v, self.guides),
+            couplings: &m.loops.couplings,
             law_inputs: LawInputs { courses: self.courses, ..m.tables },
             base: m.base,
         }

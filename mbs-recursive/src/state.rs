@@ -80,7 +80,6 @@ impl<T: Real> TreeState<T> {
     pub fn copy_from(&mut self, other: &Self) {
         self.copy_coordinates(other);
         self.inputs.copy_from_slice(&other.inputs);
-        self.signals.copy_from_slice(&other.signals);
         self.applied.copy_from_slice(&other.applied);
     }
 
@@ -92,6 +91,9 @@ impl<T: Real> TreeState<T> {
         self.a.copy_from_slice(&other.a);
         self.a_aux.copy_from_slice(&other.a_aux);
         self.lambda.copy_from_slice(&other.lambda);
+        if self.signals.len() == other.signals.len() {
+            self.signals.copy_from_slice(&other.signals);
+        }
         self.work = other.work;
         self.power = other.power;
     }

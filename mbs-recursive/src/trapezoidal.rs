@@ -18,6 +18,7 @@
 pub use crate::slices::Start;
 
 use crate::anderson::Mixing;
+use crate::collapse::check_lines;
 use crate::evaluate::{Level, accelerations, accelerations_ahead, is_redundant, note_rank};
 use crate::fault::failure;
 use crate::indexing::{Outside, at, at_mut, copy};
@@ -84,6 +85,7 @@ pub fn step<T: Real, S: Space<T>>(
         violation = violations(m, s);
     }
     check_rotations(m, inputs, (&start, dt), s)?;
+    check_lines(m, inputs, (&start, dt), s)?;
     Ok(StepReport {
         iterations,
         factorizations: s.counts.condensations,

@@ -8,7 +8,7 @@ use crate::feedback::FeedbackSlices;
 use crate::graph::{Branch, span};
 use crate::indexing::own;
 use crate::joint_facts::JointFacts;
-use crate::link::{ArticulatedInertia, Link, LinkKind, LinkMotion};
+use crate::link::{ArticulatedInertia, Link, LinkKind, LinkMotion, LinkRotor};
 use crate::loads::Load;
 use crate::loops::{LoopStore, Loops, Regularisation, index};
 use crate::order::Order;
@@ -61,6 +61,7 @@ pub struct TreeModel<T: Real, S: Space<T>> {
     pub(crate) measured: Vec<u32>,
     pub(crate) order: Order,
     pub(crate) loads: Vec<Load<T, S>>,
+    pub(crate) rotors: Vec<LinkRotor<T>>,
     /// The effect of the scene that each load comes from.
     pub(crate) effects: Vec<usize>,
     pub(crate) prescribed: Prescribed<T>,
@@ -115,6 +116,7 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         let Self { links, loops, rows, couplings, .. } = &mut tree;
         tree.order = Order::new(links, loops, (rows, couplings));
         tree.add_loads(scene, &list)?;
+        tree.add_rotors(scene)?;
         Ok(tree)
     }
 
@@ -157,6 +159,7 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
             measured: Vec::new(),
             order: Order::default(),
             loads: Vec::new(),
+            rotors: Vec::new(),
             effects: Vec::new(),
             prescribed,
             tables,
@@ -330,6 +333,7 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
                 couplings: self.couplings.slices(),
             },
             loads: &self.loads,
+            rotors: &self.rotors,
             tables: self.tables.law_inputs(&[]),
             feedback: FeedbackSlices {
                 steps: &self.feedback.steps,

@@ -86,7 +86,7 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         from: &State<T>,
         state: &mut TreeState<T>,
     ) {
-        if scene.couplings.is_empty() {
+        if natural.coupled_angles().next().is_none() {
             return;
         }
         let links = self.coordinate_links(scene);
@@ -131,6 +131,7 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
             links: &self.links,
             placed: &[],
             coordinates: (&state.z, &state.v, &guides),
+            couplings: &self.mechanism().loops.couplings,
             law_inputs: LawInputs::courses(&[]),
             base: S::Point::zero(),
         })

@@ -20,8 +20,8 @@ use mbs_core::algebra::norm_inf;
 use mbs_core::integrator::{Rule, is_far};
 use mbs_core::model::{Load, Model, State, System, Tangent};
 use mbs_core::step::{
-    Counts, Step, StepError, StepReport, Stop, add_work, check_guides, check_rotations, largest,
-    largest_or_nan, step_scale, take_coordinates,
+    Counts, Step, StepError, StepReport, Stop, add_work, check_guides, check_lines,
+    check_rotations, largest, largest_or_nan, step_scale, take_coordinates,
 };
 use mbs_core::{FactorError, Real, SpdSolver};
 
@@ -103,6 +103,7 @@ fn attempt<T: Real, M: Model<T>>(
     let newton = iterate(model, (rule, length), options, s, w)?;
     check_guides(model, &w.q, &w.terms)?;
     check_rotations(model, &w.terms)?;
+    check_lines(model, s, &w.dq)?;
     let violation = check_violation(model, length, w)?;
     Ok((newton, violation))
 }

@@ -158,6 +158,7 @@ fn limit(joint: JointId, lower: f64, upper: f64) -> EffectKind<f64> {
     EffectKind::Limit(Limit {
         joint,
         coordinate: None,
+        range: false,
         lower,
         upper,
         stiffness: 40.0,

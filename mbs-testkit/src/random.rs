@@ -3,7 +3,7 @@
 use crate::scenes::empty;
 use mbs_core::scene::{
     Body, BodyId, Dimension, Effect, EffectKind, Freedom, Guide, Inertia, InitialCondition,
-    InitialTarget, Joint, JointId, JointKind, Motion, Scene, SpringDamper,
+    InitialTarget, Joint, JointId, JointKind, JointLimits, Motion, Scene, SpringDamper,
 };
 
 /// A small generator of the same numbers on every machine (xorshift64*), by its state, which is not zero.
@@ -180,6 +180,7 @@ fn joint(
         bodies,
         points: [place; 2],
         axes,
+        limits: JointLimits::NONE,
     }
 }
 
@@ -299,7 +300,14 @@ pub fn loops(seed: u64, dimension: Dimension, n: usize, n_loops: usize) -> Scene
             (false, Dimension::Planar) => (JointKind::Revolute, [middle; 2]),
             (false, Dimension::Spatial) => (JointKind::Spherical, [middle; 2]),
         };
-        scene.joints.push(Joint { name, kind, bodies, points, axes: [None; 2] });
+        scene.joints.push(Joint {
+            name,
+            kind,
+            bodies,
+            points,
+            axes: [None; 2],
+            limits: JointLimits::NONE,
+        });
         added += 1;
     }
     scene.effects.push(spring(&mut random, &scene, dimension));

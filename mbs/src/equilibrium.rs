@@ -7,7 +7,9 @@ use mbs_core::natural::NaturalModel;
 use mbs_core::scene::{Scene, Start};
 use mbs_core::start::{Assembled, restart};
 use mbs_core::{Cliques, Real, SpdSolver};
-use mbs_linear::{Equilibrium, Options, Saddle, Workspace, equilibrium, equilibrium_near};
+use mbs_linear::{
+    Equilibrium, Options, Saddle, Workspace, equilibrium, equilibrium_near, rest_signals,
+};
 use mbs_sparse::{Indefinite, Multifrontal};
 
 /// Scratch of a static or linear analysis of a model.
@@ -82,6 +84,10 @@ fn transfer<T: Real, const D: usize>(
 ) {
     let motions: Vec<_> = (0..scene.bodies.len()).map(|b| from.motion(scene, b, state)).collect();
     to.take_motions(&motions, &mut to.terms(), target);
+    // The signals are those of the same scene, whatever effects it has.
+    if target.signals.len() == state.signals.len() {
+        target.signals.copy_from_slice(&state.signals);
+    }
 }
 
 fn settle_model<T: Real, const D: usize>(
@@ -95,6 +101,10 @@ fn settle_model<T: Real, const D: usize>(
         Search::Down => equilibrium(model, &options, state, &mut workspace),
         Search::Near => equilibrium_near(model, &options, state, &mut workspace),
     };
+    let found = found.and_then(|found| {
+        rest_signals(model, &options, state, &mut workspace)?;
+        Ok(found)
+    });
     found.map_err(|error| {
         let n = model.n_unknowns();
         StopError::equilibrium(

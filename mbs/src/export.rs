@@ -3,7 +3,8 @@
 use crate::settings::ResolvedMethod;
 use crate::simulation::Simulation;
 use crate::stop::StopError;
-use mbs_core::scene::{Dimension, Scene};
+use mbs_core::effects::Value as EffectValue;
+use mbs_core::scene::{CouplingMeasure, CouplingTerm, Dimension, Effect, Scene};
 use mbs_nostd::LoadError;
 use mbs_nostd::export::{Collected, MovingSignal, bytes, source};
 use mbs_nostd::format::Axes;
@@ -28,6 +29,8 @@ pub enum ExportError {
     Effect(String),
     /// A coupling of this name is not written for controllers: it has a length, a curve, or joints on more than two branches.
     Coupling(String),
+    /// An effect of this name is on a sum with a length or a curve, which is not written for controllers.
+    Sum(String),
     /// A signal of this name is a wave, a ramp, a step or a table that holds or repeats, or a guide follows it that is no spline.
     Signal(String),
     /// A ladder names what the scene has not, or is no price list.
@@ -45,6 +48,12 @@ impl core::fmt::Display for ExportError {
                 write!(
                     f,
                     "coupling `{name}` cannot be written for a controller: it has lengths, curves, or joints on more than two branches"
+                )
+            }
+            Self::Sum(name) => {
+                write!(
+                    f,
+                    "effect `{name}` cannot be written for a controller: its sum has lengths or curves"
                 )
             }
             Self::Signal(name) => {
@@ -113,10 +122,25 @@ fn in_space<S: Axes<f64>, const D: usize>(
         LoadError::Coupling { coupling } => {
             ExportError::Coupling(scene.couplings[coupling].name.clone())
         }
+        LoadError::Sum { .. } => ExportError::Sum(on_sum(scene)),
         _ => in_code(),
     })?;
     let bytes = bytes(&model, is_single).ok_or_else(in_code)?;
     Ok(Exported { rust, bytes })
+}
+
+/// The name of the first enabled effect on a sum with a length or a curve.
+fn on_sum<T: Clone>(scene: &Scene<T>) -> String {
+    let has_other = |term: &CouplingTerm<T>| {
+        term.curve.is_some() || matches!(term.of, CouplingMeasure::Length { .. })
+    };
+    let is_it = |effect: &&Effect<T>| {
+        effect.enabled
+            && effect.kind.values().iter().any(
+                |value| matches!(value, EffectValue::Terms(terms) if terms.iter().any(has_other)),
+            )
+    };
+    scene.effects.iter().find(is_it).map(|effect| effect.name.clone()).unwrap_or_default()
 }
 
 /// The degrade ladder of a list of effect costs, the JSON of `mbs explain`. It has effects whose absence the run survives and

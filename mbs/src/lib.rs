@@ -16,6 +16,7 @@ pub mod folder;
 mod friction;
 mod front;
 mod interrupt;
+mod joint_limits;
 mod methods;
 mod modes;
 mod named;
@@ -62,8 +63,8 @@ pub use mbs_core::formulation::{Formulation, SwitchError};
 pub use mbs_core::laws::code::{BodyLaw, Force, ForceLaw, Measured, MeasuredBody};
 pub use mbs_core::scene::{
     BodyId, CouplingId, CouplingMeasure, CouplingTerm, Curve, EffectId, EffectKind, GROUND,
-    GuideId, InitialId, Interpolation, JointId, Motion, Number, OutputId, PolynomialPiece, Road,
-    RoadFeature, Signal, SignalId, SignalKind, TableEnds, Vector3,
+    GuideId, InitialId, Interpolation, JointId, JointLimits, Motion, Number, OutputId,
+    PolynomialPiece, Road, RoadFeature, Signal, SignalId, SignalKind, TableEnds, Vector3,
 };
 pub use mbs_scene::{ReadError, WriteError};
 pub use methods::{FORMULATIONS, FormulationKind, PenaltyUse, Row};

@@ -1,7 +1,8 @@
 //! Names of what errors are about.
 
+use core::fmt::Display;
 use mbs_core::model::Owner;
-use mbs_core::scene::{BodyId, Scene};
+use mbs_core::scene::{BodyId, Coupling, CouplingMeasure, Scene};
 
 /// Names of bodies and joints, and which joint holds which body: what errors need to speak.
 #[derive(Debug, Clone)]
@@ -9,6 +10,8 @@ pub struct Names {
     bodies: Vec<String>,
     joints: Vec<String>,
     couplings: Vec<String>,
+    /// The bodies at the ends of the parts of each coupling's lines; `None`: the ground.
+    parts: Vec<Vec<[Option<usize>; 2]>>,
     pub(crate) effects: Vec<String>,
     pub(crate) outputs: Vec<String>,
     /// First joint in the file that touches each body.
@@ -30,10 +33,21 @@ impl Names {
             bodies: scene.bodies.iter().map(|b| b.name.clone()).collect(),
             joints: scene.joints.iter().map(|j| j.name.clone()).collect(),
             couplings: scene.couplings.iter().map(|c| c.name.clone()).collect(),
+            parts: scene.couplings.iter().map(parts).collect(),
             effects: scene.effects.iter().map(|e| e.name.clone()).collect(),
             outputs: scene.outputs.iter().map(|o| o.name.clone()).collect(),
             joint_of_body,
         }
+    }
+
+    /// What happened to a part of a coupling's line, with the names of the coupling and of the bodies at its ends.
+    pub(crate) fn rope_part(&self, coupling: usize, part: usize, what: &impl Display) -> String {
+        let name = self.couplings.get(coupling).map_or("", String::as_str);
+        let ends = self.parts.get(coupling).and_then(|parts| parts.get(part));
+        let body =
+            |b: Option<usize>| b.and_then(|b| self.bodies.get(b)).map_or("ground", String::as_str);
+        let [from, to] = ends.map_or(["", ""], |ends| ends.map(body));
+        format!("`{name}`: from `{from}` to `{to}`, part {}, {what}", part + 1)
     }
 
     /// Joint and body names of an owner.
@@ -48,4 +62,15 @@ impl Names {
             Owner::Coupling(c) => (self.couplings.get(c).cloned(), None),
         }
     }
+}
+
+/// The bodies at the ends of the parts of a coupling's lines, in order.
+fn parts<T>(coupling: &Coupling<T>) -> Vec<[Option<usize>; 2]> {
+    let lines = coupling.terms.iter().filter_map(|term| match &term.of {
+        CouplingMeasure::Length { points } => Some(points),
+        CouplingMeasure::Coordinate { .. } => None,
+    });
+    lines
+        .flat_map(|points| points.windows(2).map(|pair| [pair[0].0, pair[1].0].map(BodyId::index)))
+        .collect()
 }

@@ -103,6 +103,7 @@ impl StopError {
             | StepError::RankLost { row: r, .. } => Some(row(r as usize)),
             StepError::TurnTooLarge { joint, .. } => Some(Owner::Joint(joint as usize)),
             StepError::Overturned { effect } => Some(Owner::Effect(effect as usize)),
+            StepError::RopeCollapsed { coupling, .. } => Some(Owner::Coupling(coupling as usize)),
             _ => None,
         };
         Self::Step(error, owner)
@@ -201,6 +202,7 @@ impl StopError {
             Self::Step(StepError::StepTooSmall { .. }, _) => "step-too-small",
             Self::Step(StepError::TurnTooLarge { .. }, _) => "turn-too-large",
             Self::Step(StepError::Overturned { .. }, _) => "overturned",
+            Self::Step(StepError::RopeCollapsed { .. }, _) => "rope-collapsed",
             Self::Step(StepError::Law { .. }, _) => "law-not-finite",
             Self::Step(..) => "step-failed",
             Self::AlmostDependent(_) => "almost-dependent",
@@ -256,6 +258,9 @@ impl StopError {
             }
             Self::Equilibrium(EquilibriumError::Undetermined { .. }, _)
             | Self::Linear(LinearError::NoInertia { .. }) => NO_INERTIA,
+            Self::Equilibrium(EquilibriumError::SignalsMove, _) => {
+                "let the integral measure what it drives, or take it out"
+            }
             Self::Equilibrium(EquilibriumError::NotNear, _) => {
                 "start nearer to it with [[initial]] values, or leave --near out: the search then goes down to a stable one"
             }
@@ -328,7 +333,12 @@ impl StopError {
             Self::Step(StepError::Law { effect }, _) => names.effects.get(*effect as usize),
             _ => None,
         };
-        let message = named.map_or_else(|| self.to_string(), |name| format!("`{name}`: {self}"));
+        let message = match self {
+            &Self::Step(StepError::RopeCollapsed { coupling, part }, _) => {
+                names.rope_part(coupling as usize, part as usize, self)
+            }
+            _ => named.map_or_else(|| self.to_string(), |name| format!("`{name}`: {self}")),
+        };
         let hint = match self {
             Self::Observer { hint, .. } if !hint.is_empty() => hint,
             _ => self.hint(),
@@ -455,6 +465,12 @@ fn write_equilibrium(
         }
         EquilibriumError::NotNear => {
             write!(f, "there is no static equilibrium near the start")
+        }
+        EquilibriumError::SignalsMove => {
+            write!(
+                f,
+                "there is no static equilibrium: an integral or a lag among the signals goes on changing"
+            )
         }
         EquilibriumError::Escapes { .. } => {
             write!(f, "there is no static equilibrium: nothing holds the mechanism")

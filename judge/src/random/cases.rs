@@ -28,8 +28,8 @@ const LONGEST: f64 = 5e-4;
 /// Longest step, relative to the time in which a body turns a radian or its motion changes by the mechanism's size [-]. Chosen, not tuned.
 const TIME_FRACTION: f64 = 0.01;
 
-/// What acts beside the effects: nothing, and three laws of guides.
-const OTHERS: [&str; 5] = ["nothing", "sine", "ramp", "table", "level-table"];
+/// What acts beside the effects that are drawn: nothing, laws of guides, and a rotor.
+const OTHERS: [&str; 6] = ["nothing", "sine", "ramp", "table", "level-table", "rotor"];
 
 /// All cases.
 #[must_use]

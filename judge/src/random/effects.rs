@@ -179,6 +179,7 @@ impl Effects<'_> {
                 });
                 Some(format!("kind = \"torque\"\nbody = \"b{b}\"\n{signal}"))
             }
+            "rotor" => self.rotor(),
             "limit" => self.limit(),
             "friction" => self.friction(),
             "force" | "force-body" => {
@@ -212,6 +213,20 @@ impl Effects<'_> {
             }
             _ => Some(self.tire(kind == "tire-side")),
         }
+    }
+
+    /// As heavy at the joint as a body, on joints with one turn or slide.
+    fn rotor(&mut self) -> Option<String> {
+        let j = self.joint(&[Kind::Revolute, Kind::Prismatic])?;
+        let ratio = self.dice.logarithmic(5.0, 200.0);
+        let mut inertia = self.draft.mass * self.dice.between(0.1, 1.0);
+        if self.draft.links[j].kind == Kind::Revolute {
+            inertia *= 0.1 * self.draft.length * self.draft.length;
+        }
+        let inertia = inertia / (ratio * ratio);
+        Some(format!(
+            "kind = \"rotor\"\njoint = \"j{j}\"\ninertia = {inertia:?}\nratio = {ratio:?}"
+        ))
     }
 
     fn spring_damper(&mut self) -> String {

@@ -110,6 +110,7 @@ fn between(points: [[f64; 3]; 2], six: [f64; 6]) -> Vec<(&'static str, EffectKin
             EffectKind::Limit(Limit {
                 joint,
                 coordinate: None,
+                range: false,
                 lower: -1.0,
                 upper: 1.0,
                 stiffness,

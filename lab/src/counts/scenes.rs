@@ -42,6 +42,7 @@ fn four_bar(dimension: Dimension) -> Scene<f64> {
         bodies,
         points: [at; 2],
         axes: if is_planar { [None; 2] } else { axes },
+        limits: Default::default(),
     };
     let [crank, coupler, rocker] = [0, 1, 2].map(BodyId::Body);
     let (x, y, z) = (Some([1.0, 0.0, 0.0]), Some([0.0, 1.0, 0.0]), Some([0.0, 0.0, 1.0]));

@@ -18,7 +18,7 @@ use crate::workspace::Workspace;
 use mbs_core::implicit::ConstraintLevel;
 use mbs_core::integrator::Integrator;
 use mbs_core::model::{Model, State};
-use mbs_core::step::{Step, StepError, StepReport, check_rotations};
+use mbs_core::step::{Step, StepError, StepReport, check_lines, check_rotations};
 use mbs_core::team::norm_inf;
 use mbs_core::{Real, SpdSolver};
 use projection::{Published, project};
@@ -124,6 +124,7 @@ fn published<T: Real, M: Model<T>, S: SpdSolver<T>>(
         balance(model, eq, (&end.a, &scale.weights), multipliers);
     }
     check_rotations(model, w.terms())?;
+    check_lines(model, s, &w.end.dq)?;
     w.commit(model, (&rule, false, rule.acceleration), s);
     Ok(w.report(newton, violation))
 }

@@ -10,7 +10,8 @@ use crate::laws::Part;
 use crate::laws::body::BodyLaw;
 use crate::laws::code::{BodyLaw as BodyCode, Code, ForceLaw};
 use crate::laws::scalar::Law;
-use crate::scene::{BodyId, Dimension, Freedom, JointId, Signal, Surroundings};
+use crate::measure::TermInput;
+use crate::scene::{BodyId, CouplingTerm, Dimension, Freedom, JointId, Signal, Surroundings};
 
 /// What the kinds of effect add their actions to.
 pub(crate) struct Compiler<'a, T> {
@@ -144,6 +145,11 @@ impl<T: Real> Compiler<'_, T> {
             }
             Some(Freedom::Ball) | None => {}
         }
+    }
+
+    /// A law of a sum of joint coordinates and lengths.
+    pub(crate) fn on_sum(&mut self, terms: &[CouplingTerm<T>], law: impl Into<Option<Law<T>>>) {
+        self.act(law, |law| Action::Sum { terms: TermInput::all(terms), law });
     }
 
     /// A law on a body at a point, with a direction, a unit vector.

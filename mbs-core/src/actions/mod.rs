@@ -16,6 +16,7 @@ pub use tables::Tables;
 use crate::inputs::Prescribed;
 use crate::laws::body::BodyLaw;
 use crate::laws::scalar::Law;
+use crate::measure::TermInput;
 use crate::scene::BodyId;
 use alloc::vec::Vec;
 
@@ -51,6 +52,13 @@ pub enum Action<T> {
         joint: usize,
         /// The number of the turn among the joint's coordinates.
         number: usize,
+        /// The law.
+        law: Law<T>,
+    },
+    /// A law of a sum of joint coordinates and lengths, each counted from the reference configuration.
+    Sum {
+        /// Its terms whose factor is not zero.
+        terms: Vec<TermInput<T>>,
         /// The law.
         law: Law<T>,
     },

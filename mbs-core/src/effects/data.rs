@@ -1,6 +1,8 @@
 //! What the files of effects describe their data with.
 
-pub(super) use super::field::Default::{As, Needed, NeededWith, Nothing, Number, Times};
+pub(super) use super::field::Default::{
+    As, Needed, NeededWith, NeededWithout, Nothing, Number, Open, OpenWith, Times,
+};
 pub(super) use super::field::JointNeed::{Coordinate, Rotation};
 pub(super) use super::field::Sign::{Any, NotNegative, Positive};
 pub(super) use super::field::SignalForm::{Moment, Scalar, Three, Vector};
@@ -9,7 +11,9 @@ pub(super) use super::kind::EffectModel;
 pub(super) use crate::Real;
 pub(super) use crate::actions::{Action, Compiler};
 pub(super) use crate::scene::check::Place;
-pub(super) use crate::scene::{BodyId, JointId, SceneError, SceneFault, Signal, Surroundings};
+pub(super) use crate::scene::{
+    BodyId, CouplingTerm, JointId, SceneError, SceneFault, Signal, Surroundings,
+};
 
 /// Numbers that are zero where nothing is written.
 pub(super) const ZERO: super::Default = Number("0");

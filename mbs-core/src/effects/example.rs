@@ -1,7 +1,9 @@
 //! An example of any kind, made of its fields alone: for tests and measurements that go over all kinds.
 
 use super::{EFFECTS, Field, Form, Sign, SignalForm, Value};
-use crate::scene::{AxisFrame, BodyId, EffectKind, JointId, PolynomialPiece, Signal};
+use crate::scene::{
+    AxisFrame, BodyId, CouplingMeasure, CouplingTerm, EffectKind, JointId, PolynomialPiece, Signal,
+};
 use alloc::vec;
 use alloc::vec::Vec;
 
@@ -28,6 +30,14 @@ impl EffectKind<f64> {
                 Form::Body => Value::Body(places.body.0),
                 Form::Joint(_) => Value::Joint(places.joint),
                 Form::Coordinate => Value::Coordinate(None),
+                Form::Terms => {
+                    let of = CouplingMeasure::Coordinate { joint: places.joint, number: 0 };
+                    let (bodies, points) = places.pair;
+                    let points = vec![(bodies[0], points[0]), (bodies[1], points[1])];
+                    let line = CouplingMeasure::Length { points };
+                    let term = |(factor, of)| CouplingTerm { factor, of, curve: None };
+                    Value::Terms([(1.5, of), (-0.5, line)].map(term).to_vec())
+                }
                 Form::Point => Value::Point(places.body.1),
                 Form::Points(_) => Value::Points(places.pair.1),
                 Form::Axis => Value::Axis([1.0, 0.0, 0.0]),
@@ -36,6 +46,7 @@ impl EffectKind<f64> {
                     number += 0.1;
                     Value::Number(number)
                 }
+                Form::Flag => Value::Flag(false),
                 // in the plane along x, y and about z
                 Form::Six => Value::Six([1.0, 1.0, 0.0, 0.0, 0.0, 1.0]),
                 Form::Pieces => Value::Pieces(vec![PolynomialPiece {

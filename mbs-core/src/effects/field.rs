@@ -4,8 +4,8 @@
 
 use crate::laws::code::{BodyLaw, Code, ForceLaw};
 use crate::scene::{
-    AxisFrame, BodyId, CalspanCoefficients, Dimension, JointId, LongitudinalSlip, PolynomialPiece,
-    Signal,
+    AxisFrame, BodyId, CalspanCoefficients, CouplingTerm, Dimension, JointId, LongitudinalSlip,
+    PolynomialPiece, Signal,
 };
 use alloc::vec::Vec;
 
@@ -49,6 +49,8 @@ pub enum Form {
     Joint(JointNeed),
     /// A coordinate of the joint, by name or number from 0; `None`: the one that the joint's need means.
     Coordinate,
+    /// The terms of a sum of joint coordinates and lengths, as those of a coupling.
+    Terms,
     /// A place in the reference configuration.
     Point,
     /// Two places, one per body; with the flag they must differ.
@@ -59,6 +61,8 @@ pub enum Form {
     MaybeAxis,
     /// A number.
     Number(Sign),
+    /// True or false.
+    Flag,
     /// Along and about x, y, z; in the plane along x, y and about z. Not negative.
     Six,
     /// Pieces of a polynomial, `[lower, upper, c0, c1, ...]`.
@@ -139,6 +143,12 @@ pub enum Default {
     Times(&'static str, &'static str),
     /// Zero where the value of an earlier key is zero, else it must be written.
     NeededWith(&'static str),
+    /// It must be written, but where an earlier key is true: then neither may stand beside the other.
+    NeededWithout(&'static str),
+    /// It follows from the scene.
+    Open,
+    /// It follows from the scene where an earlier key does, else zero.
+    OpenWith(&'static str),
     /// Nothing, or the first of the words.
     Nothing,
 }
@@ -155,6 +165,8 @@ pub enum Value<T> {
     Joint(JointId),
     /// Of [`Form::Coordinate`].
     Coordinate(Option<usize>),
+    /// Of [`Form::Terms`].
+    Terms(Vec<CouplingTerm<T>>),
     /// Of [`Form::Point`].
     Point([T; 3]),
     /// Of [`Form::Points`].
@@ -165,6 +177,8 @@ pub enum Value<T> {
     MaybeAxis(Option<[T; 3]>),
     /// Of [`Form::Number`].
     Number(T),
+    /// Of [`Form::Flag`].
+    Flag(bool),
     /// Of [`Form::Six`].
     Six([T; 6]),
     /// Of [`Form::Pieces`].
@@ -187,7 +201,7 @@ pub enum Value<T> {
     BodyLaw(Code<dyn BodyLaw>),
 }
 
-impl<T> Value<T> {
+impl<T: Clone> Value<T> {
     /// The same with every number as `f` gives it.
     pub fn map<U>(self, f: &mut impl FnMut(T) -> U) -> Value<U> {
         match self {
@@ -195,11 +209,16 @@ impl<T> Value<T> {
             Self::Body(body) => Value::Body(body),
             Self::Joint(joint) => Value::Joint(joint),
             Self::Coordinate(number) => Value::Coordinate(number),
+            Self::Terms(terms) => {
+                let mut f = |x: &T| f(x.clone());
+                Value::Terms(terms.iter().map(|term| term.map(&mut f)).collect())
+            }
             Self::Point(x) => Value::Point(x.map(f)),
             Self::Points(x) => Value::Points(x.map(|x| x.map(&mut *f))),
             Self::Axis(x) => Value::Axis(x.map(f)),
             Self::MaybeAxis(x) => Value::MaybeAxis(x.map(|x| x.map(f))),
             Self::Number(x) => Value::Number(f(x)),
+            Self::Flag(x) => Value::Flag(x),
             Self::Six(x) => Value::Six(x.map(f)),
             Self::Pieces(pieces) => {
                 let piece = |p: PolynomialPiece<T>| PolynomialPiece {

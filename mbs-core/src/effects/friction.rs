@@ -154,6 +154,8 @@ impl<T: Real> TensionLaw<T> for FrictionLaw<T> {
 
 #[cfg(feature = "alloc")]
 pub use data::Friction;
+#[cfg(feature = "alloc")]
+pub(super) use data::{check_levels, leave_levels};
 
 #[cfg(feature = "alloc")]
 mod data {
@@ -182,16 +184,48 @@ mod data {
         }
     }
 
+    /// Static friction is not below that of fast motion.
+    pub(in crate::effects) fn check_levels<T: Real>(
+        [slow, fast]: [T; 2],
+        place: Place,
+    ) -> Result<(), SceneError> {
+        if slow >= fast {
+            return Ok(());
+        }
+        place.fault("static", SceneFault::StaticBelowCoulomb([slow.to_f64(), fast.to_f64()]))
+    }
+
+    /// Takes out dry friction, and says so where there is some.
+    pub(in crate::effects) fn leave_levels<T: Real>(
+        levels: [&mut T; 2],
+        leave: &mut dyn FnMut(&'static str),
+    ) {
+        if levels.iter().any(|level| **level > T::ZERO) {
+            leave("dry friction");
+        }
+        levels.into_iter().for_each(|level| *level = T::ZERO);
+    }
+
+    impl<T: Real> FrictionLaw<T> {
+        /// The law with both levels times a signal.
+        pub(in crate::effects) fn by(
+            self,
+            factor: &Signal<T>,
+            to: &mut Compiler<'_, T>,
+        ) -> FrictionLaw<T> {
+            match factor {
+                Signal::Constant([share, ..]) => self.scaled(share.max(T::ZERO)),
+                signal => FrictionLaw { course: Some(to.course(signal)), ..self },
+            }
+        }
+    }
+
     impl<T: Real> EffectModel<T> for Friction<T> {
         const LAW: &'static str = "g(q̇) q̇/√(q̇² + e²) + v q̇, g = `value` (C + (S - C)/(1 + (q̇/s)²))";
         const ABSENT: Option<[&'static str; 2]> = Some(["friction", "no friction in joints"]);
 
         fn check(&self, _: Surroundings<'_, T>, place: Place) -> Result<(), SceneError> {
-            if self.r#static >= self.coulomb {
-                return Ok(());
-            }
-            let levels = [self.r#static.to_f64(), self.coulomb.to_f64()];
-            place.fault("static", SceneFault::StaticBelowCoulomb(levels))
+            check_levels([self.r#static, self.coulomb], place)
         }
         fn actions(&self, to: &mut Compiler<'_, T>) {
             let &Self {
@@ -206,20 +240,15 @@ mod data {
             } = self;
             let law =
                 FrictionLaw { coulomb, r#static, stribeck, viscous, regularisation, course: None };
-            let law = match &self.factor {
-                Signal::Constant([share, ..]) => law.scaled(share.max(T::ZERO)),
-                signal => FrictionLaw { course: Some(to.course(signal)), ..law },
-            };
+            let law = law.by(&self.factor, to);
             to.on_joint((joint, coordinate), law);
         }
         fn dissipates(&self) -> bool {
             true
         }
         fn rest(&mut self, leave: &mut dyn FnMut(&'static str)) -> bool {
-            if self.coulomb > T::ZERO || self.r#static > T::ZERO {
-                leave("dry friction");
-            }
-            (self.coulomb, self.r#static) = (T::ZERO, T::ZERO);
+            let levels = [&mut self.coulomb, &mut self.r#static];
+            leave_levels(levels, leave);
             self.viscous > T::ZERO
         }
     }

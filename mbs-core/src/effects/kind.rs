@@ -4,7 +4,7 @@ use super::{EffectData, EffectKind, Field, Value};
 use crate::Real;
 use crate::actions::Compiler;
 use crate::scene::check::Place;
-use crate::scene::{BodyId, JointId, SceneError, Surroundings, UserLaw};
+use crate::scene::{BodyId, CouplingMeasure, JointId, SceneError, Surroundings, UserLaw};
 use alloc::vec::Vec;
 
 /// What a kind of effect does, and what it says of itself.
@@ -125,6 +125,12 @@ impl<T: Clone> EffectKind<T> {
                 Value::Point(x) => {
                     places.extend(bodies.iter().map(|b| (field.key, *b, x.clone())));
                 }
+                Value::Terms(terms) => {
+                    for term in terms {
+                        let CouplingMeasure::Length { points } = term.of else { continue };
+                        places.extend(points.into_iter().map(|(b, x)| (field.key, b, x)));
+                    }
+                }
                 _ => {}
             }
         }
@@ -139,6 +145,8 @@ pub enum ActsOn {
     Line,
     /// A joint, by one number.
     Joint(JointId),
+    /// A sum of joint coordinates and lengths, by one number.
+    Sum,
     /// One body or two, by several numbers.
     Bodies,
 }
@@ -158,6 +166,7 @@ impl<T: Clone> EffectKind<T> {
         let on = values.iter().find_map(|value| match value {
             Value::Points(_) => Some(ActsOn::Line),
             Value::Joint(joint) => Some(ActsOn::Joint(*joint)),
+            Value::Terms(_) => Some(ActsOn::Sum),
             _ => None,
         });
         on.unwrap_or(ActsOn::Bodies)

@@ -2,6 +2,7 @@
 //!
 //! ```text
 //! tension = F(m - upper, m') above the range,   -F(lower - m, -m') below it,   0 within
+//! left out: stiffness m/tau^2, damping 2 m/tau     m: the mass that the coordinate moves alone, tau: 20 ms
 //! ```
 
 use crate::Real;
@@ -83,11 +84,14 @@ impl<T: Real> TensionLaw<T> for LimitLaw<T> {
 
 #[cfg(feature = "alloc")]
 pub use data::Limit;
+#[cfg(feature = "alloc")]
+pub(super) use data::check_range;
 
 #[cfg(feature = "alloc")]
 mod data {
     use super::LimitLaw;
     use crate::effects::data::*;
+    use crate::scene::Joint;
 
     effect! {
         /// Elastic stops of a joint's coordinate.
@@ -96,15 +100,39 @@ mod data {
             joint: JointId = Joint(Coordinate), "", Needed;
             /// Its coordinate; needed where it has several.
             coordinate: Option<usize> = Coordinate, "", Nothing;
+            /// Whether the stops are at the ends of the joint's own range, whatever `lower` and `upper` are.
+            range: bool = Flag, "", Nothing;
             /// Coordinate below which the lower stop pushes.
-            lower: T = Number(Any), "rad or m", Needed;
+            lower: T = Number(Any), "rad or m", NeededWithout("range");
             /// Coordinate above which the upper stop pushes.
-            upper: T = Number(Any), "rad or m", Needed;
+            upper: T = Number(Any), "rad or m", NeededWithout("range");
             /// Stiffness.
-            stiffness: T = Number(NotNegative), "N m/rad or N/m", Needed;
+            stiffness: T = Number(NotNegative), "N m/rad or N/m", Open;
             /// Damping while in contact.
-            damping: T = Number(NotNegative), "N m s/rad or N s/m", ZERO;
+            damping: T = Number(NotNegative), "N m s/rad or N s/m", OpenWith("stiffness");
         }
+    }
+
+    impl<T: Real> Limit<T> {
+        /// Where the stops are; `None` where they are those of a joint's range, and the joint has none.
+        #[must_use]
+        pub fn ends(&self, joints: &[Joint<T>]) -> Option<[T; 2]> {
+            if !self.range {
+                return Some([self.lower, self.upper]);
+            }
+            joints.get(self.joint.index()).and_then(|joint| joint.limits.range)
+        }
+    }
+
+    /// The lower end is below the upper one.
+    pub(in crate::effects) fn check_range<T: Real>(
+        [lower, upper]: [T; 2],
+        place: Place,
+    ) -> Result<(), SceneError> {
+        if lower < upper {
+            return Ok(());
+        }
+        place.fault("lower", SceneFault::RangeOrder([lower.to_f64(), upper.to_f64()]))
     }
 
     impl<T: Real> EffectModel<T> for Limit<T> {
@@ -114,15 +142,15 @@ mod data {
         const IS_ONE_SIDED: bool = true;
         const ENDS: &'static [&'static str] = &["lower", "upper"];
 
-        fn check(&self, _: Surroundings<'_, T>, place: Place) -> Result<(), SceneError> {
-            if self.lower < self.upper {
-                return Ok(());
+        fn check(&self, among: Surroundings<'_, T>, place: Place) -> Result<(), SceneError> {
+            match self.ends(among.joints) {
+                None => place.fault("range", SceneFault::NoRange),
+                Some(ends) => check_range(ends, place),
             }
-            let range = [self.lower.to_f64(), self.upper.to_f64()];
-            place.fault("lower", SceneFault::RangeOrder(range))
         }
         fn actions(&self, to: &mut Compiler<'_, T>) {
-            let &Self { joint, coordinate, lower, upper, stiffness, damping } = self;
+            let &Self { joint, coordinate, stiffness, damping, .. } = self;
+            let Some([lower, upper]) = self.ends(to.among.joints) else { return };
             to.on_joint((joint, coordinate), LimitLaw { lower, upper, stiffness, damping });
         }
         fn stores_energy(&self) -> bool {

@@ -19,10 +19,16 @@ macro_rules! list {
             Actuator in actuator (all());
             Limit in limit (feature = "limit") tension Limit(LimitLaw<T>) = 4;
             Friction in friction (feature = "friction") tension Friction(FrictionLaw<T>) = 5;
+            Rotor in rotor (all());
             Bushing in bushing (feature = "bushing");
             AeroDrag in drag (feature = "drag") body Drag(DragLaw<T>) = 0;
             SpeedHold in speed_hold (feature = "speed-hold") body SpeedHold(SpeedHoldLaw<T>) = 1;
             Tire in tire (feature = "tire") body Tire(TireLaw<T>) = 2;
+            SumSpring in sum_spring (all());
+            SumTorque in sum_torque (all());
+            SumLimit in sum_limit (feature = "limit");
+            SumFriction in sum_friction (feature = "friction");
+            SumPolynomial in sum_polynomial (feature = "polynomial");
             Own in user (feature = "own-laws") tension Own(UserScalarEntry<T>) = 6 body Own(UserBodyEntry<T>) = 3;
             LawOnLine in law_on_line (feature = "own-laws") tension Code(CodeLaw<T>) = 7;
             LawOnJoint in law_on_joint (feature = "own-laws");

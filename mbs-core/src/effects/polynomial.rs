@@ -70,6 +70,8 @@ impl<T: Real> TensionLaw<T> for PolynomialLaw {
 
 #[cfg(feature = "alloc")]
 pub use data::Polynomial;
+#[cfg(feature = "alloc")]
+pub(super) use data::{DAMPER, SPRING, check_pieces, law_of};
 
 #[cfg(feature = "alloc")]
 mod data {
@@ -80,11 +82,12 @@ mod data {
     use alloc::vec::Vec;
 
     const KEY: &str = "coefficients";
-    const DAMPER: &str = "polynomial-damper";
+    pub(in crate::effects) const SPRING: &str = "polynomial-spring";
+    pub(in crate::effects) const DAMPER: &str = "polynomial-damper";
 
     effect! {
         /// A piecewise polynomial between two body points: tension of the length (a spring) or of its rate (a damper).
-        pub struct Polynomial<T> = ["polynomial-spring", DAMPER] {
+        pub struct Polynomial<T> = [SPRING, DAMPER] {
             /// First and second body.
             bodies: [BodyId; 2] = Bodies, "", Needed;
             /// One point per body, reference configuration.
@@ -98,11 +101,54 @@ mod data {
         }
     }
 
+    /// Pieces in increasing order, without gaps, each with coefficients.
+    pub(in crate::effects) fn check_pieces<T: Real>(
+        pieces: &[PolynomialPiece<T>],
+        place: Place,
+    ) -> Result<(), SceneError> {
+        if pieces.is_empty() {
+            return place.fault(KEY, SceneFault::WrongCount { needed: 1, found: 0 });
+        }
+        let mut end = None;
+        for (i, piece) in pieces.iter().enumerate() {
+            let PolynomialPiece { lower, upper, coefficients } = piece;
+            for x in [lower, upper].into_iter().chain(coefficients) {
+                place.finite(KEY, *x)?;
+            }
+            if coefficients.is_empty() || coefficients.len() > MAX_COEFFICIENTS {
+                let found = coefficients.len();
+                return place.fault(KEY, SceneFault::PieceCoefficients { piece: i, found });
+            }
+            if !(lower < upper) {
+                return place.fault(KEY, SceneFault::PieceRange(i));
+            }
+            if end.is_some_and(|end| end != *lower) {
+                return place.fault(KEY, SceneFault::PieceGap(i));
+            }
+            end = Some(*upper);
+        }
+        Ok(())
+    }
+
+    /// The law of these pieces, which are added to the tables.
+    pub(in crate::effects) fn law_of<T: Real>(
+        pieces: &[PolynomialPiece<T>],
+        of_rate: bool,
+        to: &mut Compiler<'_, T>,
+    ) -> PolynomialLaw {
+        let all = &mut to.actions.tables.pieces;
+        let first = all.len();
+        let piece = |p: &PolynomialPiece<T>| Piece::new([p.lower, p.upper], &p.coefficients);
+        all.extend(pieces.iter().filter_map(piece));
+        link(&mut all[first..]);
+        PolynomialLaw { pieces: crate::actions::part(first, all.len()), of_rate }
+    }
+
     impl<T: Real> EffectModel<T> for Polynomial<T> {
         const LAW: &'static str = "tension Σ cₖ Lᵏ of a spring, Σ cₖ L̇ᵏ of a damper, positive pulls; one to eight coefficients a piece";
 
         fn name(&self) -> &'static str {
-            if self.of_rate { DAMPER } else { "polynomial-spring" }
+            if self.of_rate { DAMPER } else { SPRING }
         }
         /// At least one piece; each has coefficients, a range, and begins where the one before ends. Small jumps of the value between
         /// pieces are as published data have them: they pass.
@@ -112,37 +158,10 @@ mod data {
                 Some(direction) => place.axis("direction", direction)?,
                 None => place.apart("points", self.points)?,
             }
-            if self.pieces.is_empty() {
-                return place.fault(KEY, SceneFault::WrongCount { needed: 1, found: 0 });
-            }
-            let mut end = None;
-            for (i, piece) in self.pieces.iter().enumerate() {
-                let PolynomialPiece { lower, upper, coefficients } = piece;
-                for x in [lower, upper].into_iter().chain(coefficients) {
-                    place.finite(KEY, *x)?;
-                }
-                if coefficients.is_empty() || coefficients.len() > MAX_COEFFICIENTS {
-                    let found = coefficients.len();
-                    return place.fault(KEY, SceneFault::PieceCoefficients { piece: i, found });
-                }
-                if !(lower < upper) {
-                    return place.fault(KEY, SceneFault::PieceRange(i));
-                }
-                if end.is_some_and(|end| end != *lower) {
-                    return place.fault(KEY, SceneFault::PieceGap(i));
-                }
-                end = Some(*upper);
-            }
-            Ok(())
+            check_pieces(&self.pieces, place)
         }
         fn actions(&self, to: &mut Compiler<'_, T>) {
-            let all = &mut to.actions.tables.pieces;
-            let first = all.len();
-            let piece = |p: &PolynomialPiece<T>| Piece::new([p.lower, p.upper], &p.coefficients);
-            all.extend(self.pieces.iter().filter_map(piece));
-            link(&mut all[first..]);
-            let pieces = crate::actions::part(first, all.len());
-            let law = PolynomialLaw { pieces, of_rate: self.of_rate };
+            let law = law_of(&self.pieces, self.of_rate, to);
             match self.direction {
                 None => to.length(self.bodies, self.points, law),
                 Some(d) => {

@@ -122,6 +122,37 @@ impl<T: Real, F: Curves<T>> CoupledTables<'_, T, F> {
     }
 }
 
+impl<T: Real, F: Curves<T>> CoupledTables<'_, T, F> {
+    /// The sum of terms, its rate, and its gradient in `row`, which is zero before; angles are those nearest to `memory`.
+    #[inline(never)]
+    pub fn measure<const D: usize>(
+        &self,
+        terms: Span,
+        (q, v, memory): (&[T], &[T], &[T]),
+        row: &mut [T],
+    ) -> (T, T) {
+        let at = |x: Span| combine::<T, D>(x.of(self.pool), q);
+        let moving = |x: Span| combine::<T, D>(x.of(self.pool), v);
+        let (mut sum, mut rate) = (T::ZERO, T::ZERO);
+        for term in terms.of(self.terms) {
+            let measures = term.measures.of(self.measures);
+            let (mut m, mut m_t) = (T::ZERO, T::ZERO);
+            for measure in measures {
+                m += measure.sign * value(&measure.of, at, memory);
+                m_t += measure.sign * rate_and_bias(&measure.of, at, moving)[0];
+            }
+            let [f, slope, _] = self.function(term.curve, m);
+            sum += term.factor * f;
+            rate += term.factor * slope * m_t;
+            for measure in measures {
+                let weight = term.factor * slope * measure.sign;
+                add_measure_gradient(&measure.of, self.pool, at, weight, row);
+            }
+        }
+        (sum, rate)
+    }
+}
+
 impl<T: Real> Coupled<T> {
     /// Value and gradient at `q`; angles are those nearest to `memory`.
     pub fn evaluate<const D: usize>(
@@ -276,6 +307,27 @@ fn increment<T: Real, const D: usize>(
             if lengths == T::ZERO { T::ZERO } else { dx.dot(&(before + before + dx)) / lengths }
         }
     }
+}
+
+/// Squared length that is none, over the squared length at the other end of a step [-]: below it, rounding decides its direction.
+const NO_LENGTH: f64 = 1e-18;
+/// Distance at which the ends of a part meet in a step, over their way against each other [-]: a smaller one is not resolved by the step.
+const MEETING: f64 = 1e-2;
+
+/// Whether a part of a line has no length left at an end of a step, or its ends met on the way: its direction turns round there.
+///
+/// ```text
+/// d  the gap before, e after:   d.e < 0,   d.d' < 0,   |d x e| <= c |d - e|^2
+/// ```
+///
+/// `dots` are d.d, d.e, e.e and d.d'. Cost: ten operations.
+pub fn has_collapsed<T: Real>(dots: [T; 4]) -> bool {
+    let [dd, de, ee, shortening] = dots;
+    if dd.min(ee) <= T::from_f64(NO_LENGTH) * dd.max(ee) {
+        return true;
+    }
+    let way = (dd - T::TWO * de + ee) * T::from_f64(MEETING);
+    de < T::ZERO && shortening < T::ZERO && dd * ee - de * de <= way * way
 }
 
 /// row += weight grad m.

@@ -23,7 +23,7 @@ pub(crate) use combination::add_gradient;
 pub use combination::{Span, Term, combine};
 pub use coupled::{
     Coupled, CoupledTables, CoupledTerm, Curves, Measurand, NONE, Signed, add_measure_gradient,
-    rate_and_bias, value as measured_value,
+    has_collapsed, rate_and_bias, value as measured_value,
 };
 pub use distance::Distance;
 pub use dot::Dot;

@@ -7,7 +7,7 @@ mod inputs;
 mod newton;
 mod violation;
 
-pub use commit::{add_work, check_guides, check_rotations, commit, take_coordinates};
+pub use commit::{add_work, check_guides, check_lines, check_rotations, commit, take_coordinates};
 pub use end::StepEnd;
 pub use inputs::{add_response, has_new_inputs, load_at, solve_response};
 pub use newton::Newton;

@@ -3,7 +3,7 @@
 use super::PreparedCurve;
 use crate::Real;
 use crate::inputs::GuideInput;
-use crate::scene::{Coupling, CouplingMeasure, Motion};
+use crate::scene::{Coupling, CouplingMeasure, CouplingTerm, Motion};
 use alloc::vec::Vec;
 
 /// A coupling, prepared.
@@ -32,17 +32,10 @@ impl<T: Real> CouplingInput<T> {
     /// Prepares a coupling.
     #[must_use]
     pub fn new(coupling: &Coupling<T>) -> Self {
-        let terms = coupling.terms.iter().filter(|term| !term.factor.is_zero());
-        let terms = terms.map(|term| TermInput {
-            factor: term.factor,
-            of: term.of.clone(),
-            coordinate: term.of.coordinate().map(|(joint, number)| (joint.index(), number)),
-            curve: PreparedCurve::new(term.curve.as_ref()),
-        });
         let still = Motion::Ramp { rate: T::ZERO };
         let law = coupling.motion.as_ref().unwrap_or(&still);
         let sum = coupling.has_sum().then(|| GuideInput::new(law).shifted_by(coupling.value));
-        Self { terms: terms.collect(), sum }
+        Self { terms: TermInput::all(&coupling.terms), sum }
     }
 
     /// What the sum is at time `t` [s], with the values of the scene's signals there.
@@ -55,5 +48,20 @@ impl<T: Real> CouplingInput<T> {
     #[must_use]
     pub fn scale(&self) -> T {
         self.terms.iter().fold(T::ZERO, |most, term| most.max(term.factor.abs()))
+    }
+}
+
+impl<T: Real> TermInput<T> {
+    /// Prepares the terms whose factor is not zero.
+    #[must_use]
+    pub fn all(terms: &[CouplingTerm<T>]) -> Vec<Self> {
+        let terms = terms.iter().filter(|term| !term.factor.is_zero());
+        let prepared = terms.map(|term| Self {
+            factor: term.factor,
+            of: term.of.clone(),
+            coordinate: term.of.coordinate().map(|(joint, number)| (joint.index(), number)),
+            curve: PreparedCurve::new(term.curve.as_ref()),
+        });
+        prepared.collect()
     }
 }

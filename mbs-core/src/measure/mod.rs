@@ -7,6 +7,8 @@ mod coupling;
 mod curve;
 #[cfg(feature = "alloc")]
 mod given;
+#[cfg(feature = "alloc")]
+mod rotor;
 
 #[cfg(feature = "alloc")]
 pub use coupling::{CouplingInput, TermInput};
@@ -17,3 +19,5 @@ pub(crate) use curve::within;
 pub use curve::{polynomial, polynomial_change, spline_change, spline_curve};
 #[cfg(feature = "alloc")]
 pub use given::given_values;
+#[cfg(feature = "alloc")]
+pub use rotor::RotorInput;

@@ -10,6 +10,7 @@ use crate::Real;
 use crate::actions::Actions;
 use crate::algebra::Vector;
 use crate::cluster::{Clusters, scene_length};
+use crate::measure::RotorInput;
 use crate::model::Owner;
 use crate::scene::{BodyId, Dimension, Scene};
 use alloc::vec::Vec;
@@ -30,6 +31,8 @@ pub(super) struct Builder<'a, T: Real> {
     pub(super) groups: Vec<GroupDraft<T>>,
     /// What signals measure.
     pub(super) measured: Vec<MeasureDraft<T>>,
+    /// Rotors, each with its entity.
+    pub(super) rotors: Vec<(usize, RotorInput<T>)>,
     /// Group of each joint that has rows.
     joint_group: Vec<Option<usize>>,
 }
@@ -60,6 +63,7 @@ impl<'a, T: Real> Builder<'a, T> {
             shared,
             groups: Vec::new(),
             measured: Vec::new(),
+            rotors: Vec::new(),
             joint_group: alloc::vec![None; scene.joints.len()],
         })
     }

@@ -9,7 +9,7 @@ use crate::Real;
 use crate::algebra::{Vector, norm};
 use crate::elements::{
     Coupled, CoupledTables, Curves, Measurand, NONE, Span, add_measure_gradient, combine,
-    measured_value,
+    has_collapsed, measured_value,
 };
 use crate::measure::{CouplingInput, PreparedCurve, TermInput};
 use crate::model::{Owner, Terms};
@@ -40,7 +40,8 @@ impl<T: Real> Builder<'_, T> {
         }
     }
 
-    fn coupled_draft(&mut self, term: &TermInput<T>, scale: T) -> CoupledDraft<T> {
+    /// A term, its factor over the largest one.
+    pub(super) fn coupled_draft(&mut self, term: &TermInput<T>, scale: T) -> CoupledDraft<T> {
         let measures = match (&term.of, term.coordinate) {
             (CouplingMeasure::Length { points }, _) => {
                 let parts = points.windows(2).map(|pair| {
@@ -164,6 +165,29 @@ impl<T: Real, const D: usize> NaturalModel<T, D> {
                 }
             }
         }
+    }
+
+    /// The part of a row's lines that has no length left after a step `dq` from (q, v).
+    pub(super) fn collapsed_part(
+        &self,
+        row: &Coupled<T>,
+        (q, v, dq): (&[T], &[T], &[T]),
+    ) -> Option<usize> {
+        let terms = row.terms.of(&self.coupled_terms).iter();
+        let measures = terms.flat_map(|term| term.measures.of(&self.coupled_measures));
+        let gaps = measures.filter_map(|measure| match measure.of {
+            Measurand::Length { x, .. } => Some(x),
+            Measurand::Angle { .. } | Measurand::Slide { .. } => None,
+        });
+        let is_collapsed = |x: Span| {
+            let of = |coordinates: &[T]| combine::<T, D>(x.of(&self.pool), coordinates);
+            let (before, change) = (of(q), of(dq));
+            let after = before + change;
+            let squares = [before.dot(&before), before.dot(&after), after.dot(&after)];
+            let [dd, de, ee] = squares;
+            has_collapsed([dd, de, ee, before.dot(&of(v))])
+        };
+        gaps.into_iter().position(is_collapsed)
     }
 
     /// The rows of couplings whose sum is not always zero.

@@ -5,7 +5,7 @@ use super::forces::{BodyTorque, Measure, MeasureElement, PointForce};
 use super::group::{Group, index};
 use super::layout::{Columns, Layout, extend};
 use super::on_body::BodyElement;
-use super::row_builder::{EffectDraft, GroupDraft};
+use super::row_builder::{CoupledDraft, EffectDraft, GroupDraft};
 use crate::Real;
 use crate::elements::Span;
 use crate::laws::scalar::Law;
@@ -54,6 +54,7 @@ impl<T: Real, const D: usize> Layout<T, D> {
                 self.model.angles.push((group.owner, memory));
                 self.add_measure(Measure::Angle { x1, x2, y, memory }, *law, group);
             }
+            EffectDraft::Sum { terms, law } => self.add_sum((terms, *law), columns, group),
             EffectDraft::Force { point, frame, course } => {
                 let point = self.span(point, columns);
                 let frame = frame.as_ref().map(|f| self.frame(f, columns));
@@ -100,6 +101,20 @@ impl<T: Real, const D: usize> Layout<T, D> {
                 group.has_body_law = true;
             }
         }
+    }
+
+    fn add_sum(
+        &mut self,
+        (terms, law): (&[CoupledDraft<T>], Law<T>),
+        columns: &Columns<'_>,
+        group: &Group,
+    ) {
+        let first = self.model.n_memory;
+        let terms = self.coupled_terms(terms, columns);
+        let remembered = first..self.model.n_memory;
+        let owned = remembered.map(|place| (group.owner, index(place)));
+        self.model.angles.extend(owned);
+        self.add_measure(Measure::Sum { terms }, law, group);
     }
 
     fn frame(&mut self, directions: &[Combination<T>], columns: &Columns<'_>) -> [Span; 3] {

@@ -54,6 +54,10 @@ impl<T: Real> Builder<'_, T> {
                     _ => return Ok(()),
                 }
             }
+            Action::Sum { terms, law } => {
+                let terms = terms.iter().map(|term| self.coupled_draft(term, T::ONE)).collect();
+                EffectDraft::Sum { terms, law: *law }
+            }
             Action::Turn { bodies: [first, second], law } => {
                 let [x, y] = [0, 1].map(unit);
                 let (x1, x2) = (self.direction(*first, x), self.direction(*first, y));

@@ -189,7 +189,8 @@ impl<T: Real, const D: usize> Model<T> for NaturalModel<T, D> {
                 Measure::Rotation { number, memory: place, .. } => {
                     memory[(place + number) as usize] = measure.value;
                 }
-                Measure::Length { .. } | Measure::Along { .. } => {}
+                // the angles of a sum are those of measures
+                Measure::Length { .. } | Measure::Along { .. } | Measure::Sum { .. } => {}
             }
         }
     }
@@ -334,6 +335,16 @@ impl<T: Real, const D: usize> Model<T> for NaturalModel<T, D> {
             !(square <= turn * turn)
         };
         self.rotations.iter().find(is_over).map(|&(_, owner)| owner)
+    }
+
+    fn collapsed(&self, q: &[T], v: &[T], dq: &[T]) -> Option<[usize; 2]> {
+        self.coupled.iter().find_map(|row| {
+            let part = self.collapsed_part(row, (q, v, dq))?;
+            match self.row_owner[row.row as usize] {
+                Owner::Coupling(coupling) => Some([coupling, part]),
+                _ => None,
+            }
+        })
     }
 
     fn owner_of_unknown(&self, unknown: usize) -> Owner {

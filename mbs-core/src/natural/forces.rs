@@ -9,7 +9,7 @@
 use super::rotation::{rotation, unwrap};
 use crate::Real;
 use crate::algebra::{Vector, cross, lowered, norm, raised};
-use crate::elements::{Span, Term, combine};
+use crate::elements::{CoupledTables, Curves, Span, Term, combine};
 use crate::laws::LawInputs;
 use crate::laws::scalar::{Law, ScalarForce};
 
@@ -24,6 +24,8 @@ pub(crate) enum Measure<T> {
     Rotation { frames: [[Span; 3]; 2], number: u32, memory: u32 },
     /// Angle of y in the frame x1, x2, unwrapped against `memory`.
     Angle { x1: Span, x2: Span, y: Span, memory: u32 },
+    /// The sum of terms, in the table of those of couplings.
+    Sum { terms: Span },
 }
 
 /// A scalar law along a gauge, with its gradient's place in the Jacobian store.
@@ -56,11 +58,12 @@ impl<T: Real> MeasureElement<T> {
     /// Value, rate, gradient and law at (q, v).
     pub(crate) fn evaluate<const D: usize>(
         &self,
-        pool: &[Term<T>],
+        tables: &CoupledTables<'_, T, impl Curves<T>>,
         (q, v, memory): (&[T], &[T], &[T]),
         law_inputs: &LawInputs<'_, T>,
         jacobian: &mut [T],
     ) -> ScalarForce<T> {
+        let pool = tables.pool;
         let row = self.place.of_mut(jacobian);
         row.fill(T::ZERO);
         let (value, rate) = match self.gauge {
@@ -79,6 +82,7 @@ impl<T: Real> MeasureElement<T> {
                 let spans = [x1.of(pool), x2.of(pool), y.of(pool)];
                 angle::<T, D>(spans, q, v, memory[turn as usize], row)
             }
+            Measure::Sum { terms } => tables.measure::<D>(terms, (q, v, memory), row),
         };
         let measure = self.law.evaluate(value, rate, law_inputs);
         match self.gauge {

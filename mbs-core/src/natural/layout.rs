@@ -27,7 +27,8 @@ pub(super) fn layout<T: Real, const D: usize>(
     actions: Actions<T>,
     feedback: Feedback<T>,
 ) -> NaturalModel<T, D> {
-    let Builder { entities, groups, measured, clusters, bases, shared, length, .. } = builder;
+    let Builder { entities, groups, measured, rotors, clusters, bases, shared, length, .. } =
+        builder;
     let owners = owners(&groups, &entities);
     let groups = merged(groups, &entities, D);
     let mut layout = Layout::<T, D>::new((entities, &owners), &groups, (clusters, length), actions);
@@ -48,6 +49,7 @@ pub(super) fn layout<T: Real, const D: usize>(
     let owners = (&model.clusters, bases.as_slice(), shared.as_slice());
     model.carried = carriers(&layout.entities, owners, &model.entity_at);
     model.bases = bases;
+    model.place_rotors(&rotors);
     model
 }
 
@@ -119,6 +121,7 @@ impl<T: Real, const D: usize> Layout<T, D> {
             coupled_angles: Vec::new(),
             measured: Vec::new(),
             feedback: Feedback::default(),
+            rotors: Vec::new(),
             groups: Vec::new(),
             slots: Vec::new(),
             cliques: Vec::new(),

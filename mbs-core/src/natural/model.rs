@@ -44,6 +44,7 @@ pub struct NaturalModel<T: Real, const D: usize> {
     /// What signals measure, and the operations that give them.
     pub(super) measured: Vec<Signed<T>>,
     pub(super) feedback: Feedback<T>,
+    pub(super) rotors: Vec<NaturalRotor<T>>,
     pub(super) groups: Vec<Group>,
     pub(super) slots: Vec<u32>,
     pub(super) cliques: Vec<u32>,
@@ -121,6 +122,19 @@ impl<T: Real, const D: usize> NaturalModel<T, D> {
     pub fn n_elements_by_kind(&self) -> [usize; 4] {
         [self.distances.len(), self.dots.len(), self.linears.len(), self.guided.len()]
     }
+}
+
+/// A rotor in the model.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct NaturalRotor<T> {
+    /// `scene.effects[effect]`.
+    pub effect: usize,
+    /// Its unknown, the joint's coordinate.
+    pub unknown: usize,
+    /// Its inertia at the joint [kg m^2, of a slide kg].
+    pub inertia: T,
+    /// The joint's coordinate, in the table of measures.
+    pub(super) measure: usize,
 }
 
 /// An unknown entity with one of the bodies that carry it.

@@ -70,6 +70,7 @@ impl<T: Real, const D: usize> NaturalModel<T, D> {
             self.evaluate_forces(&s.q, &s.v, terms);
             self.remember(&s.q, terms, &mut s.memory);
         }
+        self.write_rotors(s);
     }
 
     /// The rigid clusters of the scene's bodies.
@@ -82,6 +83,9 @@ impl<T: Real, const D: usize> NaturalModel<T, D> {
     pub(crate) fn sizes(&self) -> Vec<T> {
         let mut sizes = alloc::vec![T::ONE; self.n_unknowns()];
         for at in self.carried.iter().filter_map(Carried::point) {
+            sizes[at..at + D].fill(self.length());
+        }
+        for at in self.rotors_on_slides() {
             sizes[at..at + D].fill(self.length());
         }
         sizes

@@ -48,6 +48,12 @@ impl<T: Real> MeasureDraft<T> {
     }
 }
 
+/// The combinations that the terms of a sum touch.
+fn combinations_of<T: Real>(terms: &[CoupledDraft<T>]) -> Vec<&Combination<T>> {
+    let measures = terms.iter().flat_map(|term| &term.measures);
+    measures.flat_map(MeasureDraft::combinations).collect()
+}
+
 impl<T: Real> RowDraft<T> {
     /// The combinations whose entities the row touches.
     pub(crate) fn combinations(&self) -> Vec<&Combination<T>> {
@@ -56,10 +62,7 @@ impl<T: Real> RowDraft<T> {
             Self::Dot { x, y, .. } | Self::GuidedSlide { x, y, .. } => alloc::vec![x, y],
             Self::Linear { x } => alloc::vec![x],
             Self::GuidedAngle { x1, x2, y, .. } => alloc::vec![x1, x2, y],
-            Self::Coupled { terms, .. } => {
-                let measures = terms.iter().flat_map(|term| &term.measures);
-                measures.flat_map(MeasureDraft::combinations).collect()
-            }
+            Self::Coupled { terms, .. } => combinations_of(terms),
         }
     }
 
@@ -96,6 +99,10 @@ pub(crate) enum EffectDraft<T: Real> {
         y: Combination<T>,
         law: Law<T>,
     },
+    Sum {
+        terms: Vec<CoupledDraft<T>>,
+        law: Law<T>,
+    },
     Force {
         point: Combination<T>,
         frame: Option<Vec<Combination<T>>>,
@@ -120,6 +127,7 @@ impl<T: Real> EffectDraft<T> {
             Self::Along { x, d, .. } => alloc::vec![x, d],
             Self::Rotation { frames, .. } => frames.iter().flatten().collect(),
             Self::Angle { x1, x2, y, .. } => alloc::vec![x1, x2, y],
+            Self::Sum { terms, .. } => combinations_of(terms),
             Self::Force { point, frame, .. } | Self::BodyLoad { point, frame, .. } => {
                 let mut all = alloc::vec![point];
                 all.extend(frame.iter().flatten());

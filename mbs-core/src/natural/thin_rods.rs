@@ -5,7 +5,7 @@ use crate::actions::{Action, Actions};
 use crate::algebra::{Vector, norm};
 use crate::cluster::{Cluster, Clusters};
 use crate::outputs::Target;
-use crate::scene::{BodyId, InitialTarget, Scene};
+use crate::scene::{BodyId, CouplingMeasure, InitialTarget, Scene};
 use alloc::vec;
 use alloc::vec::Vec;
 
@@ -109,6 +109,9 @@ impl<T: Real> ThinRods<T> {
             }
             Action::Constant { at: (body, at), .. } => self.point(BodyId::Body(*body), at),
             Action::Torque { body, .. } => self.rotation(BodyId::Body(*body)),
+            Action::Sum { terms, .. } => {
+                terms.iter().for_each(|term| self.ask_measure(scene, &term.of));
+            }
             Action::Angle { joint, .. } => {
                 scene.joints[*joint].bodies.into_iter().for_each(|body| self.rotation(body));
             }
@@ -117,6 +120,18 @@ impl<T: Real> ThinRods<T> {
             }
             Action::BodyLoad { at: (body, at), law, .. } => {
                 self.point_turning(*body, at, law.needs_rotation());
+            }
+        }
+    }
+
+    fn ask_measure(&mut self, scene: &Scene<T>, of: &CouplingMeasure<T>) {
+        match of {
+            CouplingMeasure::Length { points } => {
+                points.iter().for_each(|(b, p)| self.point(*b, p));
+            }
+            CouplingMeasure::Coordinate { joint, .. } => {
+                let joint = &scene.joints[joint.index()];
+                joint.bodies.into_iter().for_each(|body| self.rotation(body));
             }
         }
     }

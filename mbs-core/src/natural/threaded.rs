@@ -87,13 +87,13 @@ impl<T: Real, const D: usize> NaturalModel<T, D> {
         let (measures, body_measures) = measures.split_at_mut(self.measures.len());
         let out = Out { jacobian, force, measures, body_measures, ..Out::default() };
         self.on_parts(team, out, |part, out| {
-            let law_inputs = self.tables.law_inputs(courses);
+            let (law_inputs, tables) = (self.tables.law_inputs(courses), self.coupled_tables());
             let Out { jacobian, force, measures, body_measures, .. } = out;
             for (element, measure) in part.measures(&self.measures).iter().zip(measures) {
                 let mut element = *element;
                 element.place = part.place(element.place);
                 let before = *measure;
-                *measure = element.evaluate::<D>(&self.pool, (q, v, angles), &law_inputs, jacobian);
+                *measure = element.evaluate::<D>(&tables, (q, v, angles), &law_inputs, jacobian);
                 element.law.look_back(measure, &before, &law_inputs);
             }
             for element in part.body_elements(&self.body_elements) {

@@ -39,7 +39,7 @@ struct SumTerm<T: Real, const D: usize> {
 
 /// A measure between two bodies.
 #[derive(Debug, Clone)]
-struct Part<T: Real, const D: usize> {
+pub(super) struct Part<T: Real, const D: usize> {
     bodies: [BodyId; 2],
     of: PartKind<T, D>,
 }
@@ -55,20 +55,33 @@ enum PartKind<T: Real, const D: usize> {
 impl<T: Real, const D: usize> CoupledSum<T, D> {
     /// Of `scene.couplings[index]` in a scene that passed its check.
     pub(super) fn new(scene: &Scene<T>, model: &NaturalModel<T, D>, index: usize) -> Self {
-        let input = CouplingInput::new(&scene.couplings[index]);
+        Self::of_terms(scene, model, &CouplingInput::new(&scene.couplings[index]).terms)
+    }
+
+    /// Of these terms.
+    pub(super) fn of_terms(
+        scene: &Scene<T>,
+        model: &NaturalModel<T, D>,
+        terms: &[TermInput<T>],
+    ) -> Self {
         let (mut bodies, mut scale) = (Vec::new(), T::ZERO);
-        let terms = input.terms.into_iter().map(|term| {
-            let parts = Part::of_term(scene, model, &term);
+        let terms = terms.iter().map(|term| {
+            let parts = Part::of_term(scene, model, term);
             bodies.extend(parts.iter().flat_map(|part| part.bodies).filter_map(BodyId::index));
             let is_angle = parts.iter().any(Part::is_angle);
             let length = if is_angle { model.length() } else { T::ONE };
             scale = scale.max(term.factor.abs() / length);
-            SumTerm { factor: term.factor, curve: term.curve, parts }
+            SumTerm { factor: term.factor, curve: term.curve.clone(), parts }
         });
         let terms = terms.collect();
         bodies.sort_unstable();
         bodies.dedup();
         Self { terms, bodies, scale }
+    }
+
+    /// Is it an angle, without slides and lengths?
+    pub(super) fn is_angle(&self) -> bool {
+        self.terms.iter().flat_map(|term| &term.parts).all(Part::is_angle)
     }
 
     /// The moving bodies that it acts on, ascending.
@@ -131,7 +144,8 @@ impl<T: Real, const D: usize> Part<T, D> {
         }
     }
 
-    fn of_coordinate(
+    /// Of the coordinate of a joint with this number; `None` where no number measures it.
+    pub(super) fn of_coordinate(
         scene: &Scene<T>,
         model: &NaturalModel<T, D>,
         of: (usize, usize),
@@ -152,7 +166,7 @@ impl<T: Real, const D: usize> Part<T, D> {
     }
 
     /// Its value and its rate.
-    fn measure(&self, state: &State<T>) -> [T; 2] {
+    pub(super) fn measure(&self, state: &State<T>) -> [T; 2] {
         match &self.of {
             PartKind::Coordinate { of, memory, .. } => {
                 let last = memory.map_or(T::ZERO, |(place, sign)| sign * state.memory[place]);
@@ -170,7 +184,7 @@ impl<T: Real, const D: usize> Part<T, D> {
     }
 
     /// Hands out what does the work `weight` times the rate.
-    fn apply(&self, weight: T, state: &State<T>, mut take: impl FnMut(Applied<T>)) {
+    pub(super) fn apply(&self, weight: T, state: &State<T>, mut take: impl FnMut(Applied<T>)) {
         let [first, second] = self.bodies;
         let (wrench, places) = match &self.of {
             PartKind::Coordinate { of, at, .. } => {

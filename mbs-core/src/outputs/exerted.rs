@@ -2,6 +2,7 @@
 
 use super::frame::Frame;
 use super::load::{Load, Loads};
+use super::rotor::RotorTorque;
 use super::wrench::Wrench;
 use crate::Real;
 use crate::algebra::Matrix;
@@ -17,6 +18,7 @@ pub struct EffectWrenches<T: Real, const D: usize> {
     loads: Loads<T, D>,
     /// The effect of each load.
     effects: Vec<usize>,
+    rotors: Vec<RotorTorque<T, D>>,
     frames: Vec<Frame<T, D>>,
     ground: Frame<T, D>,
 }
@@ -30,7 +32,8 @@ impl<T: Real, const D: usize> EffectWrenches<T, D> {
         let (loads, effects) = Loads::new(scene, model)?;
         let frame = |body| Frame::new(scene, model, body);
         let frames = (0..scene.bodies.len()).map(|body| frame(BodyId::Body(body))).collect();
-        Ok(Self { loads, effects, frames, ground: frame(BodyId::Ground) })
+        let rotors = RotorTorque::all(scene, model);
+        Ok(Self { loads, effects, rotors, frames, ground: frame(BodyId::Ground) })
     }
 
     /// Sets the functions of time that effects follow to those of a state.
@@ -58,14 +61,29 @@ impl<T: Real, const D: usize> EffectWrenches<T, D> {
             load.apply((state, &law_inputs), turned, |(_, _, wrench)| last = wrench);
             sum.add(&last);
         }
+        if let Some(rotor) = self.rotor(effect) {
+            rotor.apply(state, |(_, _, wrench)| sum = wrench);
+        }
         sum
     }
 
     /// The number that an effect along a line or on a joint measures, its rate and its tension; zero of what measures none.
     pub(super) fn scalar(&self, effect: usize, state: &State<T>) -> ScalarForce<T> {
+        if let Some(rotor) = self.rotor(effect) {
+            return rotor.scalar(state);
+        }
         let law_inputs = self.loads.law_inputs();
         let mut loads = self.loads_of(Some(effect));
         loads.find_map(|load| load.scalar(state, &law_inputs)).unwrap_or_default()
+    }
+
+    /// Whether a gap of an effect is below zero.
+    pub(super) fn is_in_contact(&self, effect: usize, state: &State<T>) -> bool {
+        let law_inputs = self.loads.law_inputs();
+        self.loads_of(Some(effect)).any(|load| {
+            let gaps = load.reading(state, &law_inputs).gaps;
+            gaps.iter().take(load.n_gaps()).any(|gap| gap.value < T::ZERO)
+        })
     }
 
     /// Value, rate and acceleration of a signal.
@@ -73,8 +91,11 @@ impl<T: Real, const D: usize> EffectWrenches<T, D> {
         self.loads.law_inputs().courses.get(signal).copied().unwrap_or([T::ZERO; 3])
     }
 
-    /// Energy stored in an effect, or in all [J].
+    /// Energy stored in an effect, or in all but rotors [J]; of a rotor its kinetic energy.
     pub(super) fn energy(&self, effect: Option<usize>, state: &State<T>) -> T {
+        if let Some(rotor) = effect.and_then(|effect| self.rotor(effect)) {
+            return rotor.kinetic_energy(state);
+        }
         let law_inputs = self.loads.law_inputs();
         let turned = |body| self.turned(body, state);
         let loads = self.loads_of(effect);
@@ -83,10 +104,18 @@ impl<T: Real, const D: usize> EffectWrenches<T, D> {
 
     /// Power that an effect gives to bodies [W].
     pub(super) fn power(&self, effect: usize, state: &State<T>) -> T {
+        if let Some(rotor) = self.rotor(effect) {
+            return rotor.power(state);
+        }
         let law_inputs = self.loads.law_inputs();
         let turned = |body| self.turned(body, state);
         let loads = self.loads_of(Some(effect));
         loads.fold(T::ZERO, |sum, load| sum + load.power((state, &law_inputs), turned))
+    }
+
+    /// An effect that is a rotor.
+    fn rotor(&self, effect: usize) -> Option<&RotorTorque<T, D>> {
+        self.rotors.iter().find(|rotor| rotor.effect == effect)
     }
 
     /// The parts of an effect, or of all.

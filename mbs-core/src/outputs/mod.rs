@@ -23,6 +23,7 @@ mod minimum_norm;
 mod motion;
 mod quantity;
 mod reaction;
+mod rotor;
 mod turns;
 mod wrench;
 

@@ -4,7 +4,7 @@
 //! on body b, about its centre of mass c:
 //!   sum_j +-R_j + applied = [m (c'' - g);  I omega' + omega x I omega]
 //! R_j = W_j r_j       W_j: the wrenches that joint j can transmit, at its place on the second body
-//! applied             effects, and c_k f_k' lambda of each term of a coupling, with its effort lambda unknown
+//! applied             effects, rotors by their inertia, and c_k f_k' lambda of each term of a coupling, with its effort lambda unknown
 //! ```
 //!
 //! Welded bodies are bodies like all others. The solution is the smallest one, in forces and moments over the scene's length.
@@ -15,6 +15,7 @@ use super::inertia::BodyInertia;
 use super::leaf_elimination::{Block, eliminate_leaves};
 use super::load::{Applied, Loads};
 use super::minimum_norm::MinimumNorm;
+use super::rotor::RotorTorque;
 use super::wrench::{Wrench, WrenchBasis};
 use crate::Real;
 use crate::algebra::{Matrix, Vector, cross, raised};
@@ -37,6 +38,7 @@ pub struct Reactions<T: Real, const D: usize> {
     joints: Vec<WrenchBasis<T, D>>,
     couplings: Vec<CoupledSum<T, D>>,
     loads: Loads<T, D>,
+    rotors: Vec<RotorTorque<T, D>>,
     blocks: Vec<Block>,
     length: T,
     system: MinimumNorm<T>,
@@ -92,6 +94,7 @@ impl<T: Real, const D: usize> Reactions<T, D> {
             bodies: (0..scene.bodies.len()).map(|b| Balance::new(scene, model, b)).collect(),
             gravity: scene.gravity.map_or_else(Vector::zeros, Vector::from),
             loads: Loads::new(scene, model).map_err(ModelError::from)?.0,
+            rotors: RotorTorque::all(scene, model),
             length: model.length(),
             system: MinimumNorm::new(rows, columns),
             directions: Vec::with_capacity(columns),
@@ -177,7 +180,7 @@ impl<T: Real, const D: usize> Reactions<T, D> {
     }
 
     fn apply_loads(&mut self, state: &State<T>) {
-        let Self { bodies, loads, .. } = self;
+        let Self { bodies, loads, rotors, .. } = self;
         let (loads, law_inputs) = loads.at(state);
         for load in loads {
             let mut given: [Option<Applied<T>>; 2] = [None, None];
@@ -187,6 +190,9 @@ impl<T: Real, const D: usize> Reactions<T, D> {
                 given[free] = Some(applied);
             });
             given.into_iter().flatten().for_each(|applied| take_off(bodies, applied));
+        }
+        for rotor in rotors {
+            rotor.apply(state, |applied| take_off(bodies, applied));
         }
     }
 

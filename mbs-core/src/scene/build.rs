@@ -7,9 +7,10 @@ use crate::laws::code::{BodyLaw, ForceLaw};
 use crate::scene::{
     Actuator, AeroDrag, Axis, AxisFrame, Body, BodyId, BodyTorque, Bumper, Bushing, Coupling,
     Dimension, Effect, EffectKind, Force, Freedom, Friction, Guide, Inertia, InitialCondition,
-    InitialTarget, Joint, JointId, JointKind, JointTorque, LawOnBody, LawOnJoint, LawOnLine, Limit,
-    Motion, NamedSignal, Number, Output, Polynomial, PolynomialPiece, Road, RoadFeature, Rotation,
-    Signal, SignalId, SignalKind, SpeedHold, SpringDamper, Tire, TorsionSpring, Vector3,
+    InitialTarget, Joint, JointId, JointKind, JointLimits, JointTorque, LawOnBody, LawOnJoint,
+    LawOnLine, Limit, Motion, NamedSignal, Number, Output, Polynomial, PolynomialPiece, Road,
+    RoadFeature, Rotation, Signal, SignalId, SignalKind, SpeedHold, SpringDamper, Tire,
+    TorsionSpring, Vector3,
 };
 use alloc::string::String;
 use alloc::vec::Vec;
@@ -55,7 +56,12 @@ impl Body<Number> {
 impl Joint<Number> {
     fn at(kind: JointKind, bodies: [BodyId; 2], at: impl Into<Vector3>) -> Self {
         let at = at.into().0;
-        Self { name: String::new(), kind, bodies, points: [at.clone(), at], axes: [None, None] }
+        Self::placed(kind, bodies, [at.clone(), at])
+    }
+
+    fn placed(kind: JointKind, bodies: [BodyId; 2], points: [[Number; 3]; 2]) -> Self {
+        let (name, axes, limits) = (String::new(), [None, None], JointLimits::NONE);
+        Self { name, kind, bodies, points, axes, limits }
     }
 
     /// A hinge at a point [m]; in space about an axis, [`about`](Self::about).
@@ -100,9 +106,7 @@ impl Joint<Number> {
 
     /// A link without mass between a point of each body [m]; hinged at the first one [`about`](Self::about) an axis, if it has one.
     pub fn distance<P: Into<Vector3>>(bodies: [BodyId; 2], points: [P; 2]) -> Self {
-        let points = points.map(|point| point.into().0);
-        let (name, kind) = (String::new(), JointKind::Distance);
-        Self { name, kind, bodies, points, axes: [None, None] }
+        Self::placed(JointKind::Distance, bodies, points.map(|point| point.into().0))
     }
 
     /// The axis of its rotation; of a universal joint the first, then the second; of a planar one the normal.
@@ -120,6 +124,28 @@ impl Joint<Number> {
         let slides = self.kind.freedoms(Dimension::Spatial);
         let is_second = slides.first() == Some(&Freedom::Slide(Axis::Second));
         self.axes[usize::from(is_second)] = Some(direction.into().0);
+        self
+    }
+
+    /// The range that its coordinate is meant to keep to [rad or m], from the reference configuration: data, without effect on the
+    /// motion. A run notes where it leaves it; a [`Limit`] pushes back.
+    #[must_use]
+    pub fn range(mut self, lower: impl Into<Number>, upper: impl Into<Number>) -> Self {
+        self.limits.range = Some([lower.into(), upper.into()]);
+        self
+    }
+
+    /// The largest force or moment that its drive has [N or N m]: data, without effect on the motion.
+    #[must_use]
+    pub fn effort_limit(mut self, effort: impl Into<Number>) -> Self {
+        self.limits.effort = Some(effort.into());
+        self
+    }
+
+    /// The largest rate that it is meant to have [rad/s or m/s]: data, without effect on the motion. A run notes where it is larger.
+    #[must_use]
+    pub fn velocity_limit(mut self, velocity: impl Into<Number>) -> Self {
+        self.limits.velocity = Some(velocity.into());
         self
     }
 
@@ -296,7 +322,16 @@ impl Effect<Number> {
     pub fn limit(joint: JointId, range: [f64; 2], stiffness: f64, damping: f64) -> Self {
         let [lower, upper] = range.map(Number::from);
         let (stiffness, damping) = (stiffness.into(), damping.into());
-        Self::of(Limit { joint, coordinate: None, lower, upper, stiffness, damping })
+        let (coordinate, range) = (None, false);
+        Self::of(Limit { joint, coordinate, range, lower, upper, stiffness, damping })
+    }
+
+    /// Elastic stops at the ends of a joint's own [range](Joint::range), with a stiffness and a damping that follow from the mass that
+    /// the joint moves: they stop it within some 20 ms, and it does not rebound far.
+    pub fn stops(joint: JointId) -> Self {
+        let [lower, upper, stiffness, damping] = [(); 4].map(|()| Number::open());
+        let (coordinate, range) = (None, true);
+        Self::of(Limit { joint, coordinate, range, lower, upper, stiffness, damping })
     }
 
     /// Coulomb friction of a joint's coordinate [N m or N], smooth below a rate [rad/s or m/s]; the other numbers of the part may be

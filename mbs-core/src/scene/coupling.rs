@@ -8,10 +8,13 @@
 //! configuration.
 
 use crate::Real;
-use crate::scene::{BodyId, Curve, JointId, Motion, Number};
+use crate::scene::{BodyId, Curve, JointId, Motion, Number, Vector3};
 use alloc::string::String;
 use alloc::vec;
 use alloc::vec::Vec;
+
+/// 2 pi to more digits than any precision has.
+const TWO_PI: &str = "6.28318530717958647692528676655900576839433879875021";
 
 /// A relation of joint coordinates and lengths that holds.
 #[derive(Debug, Clone, PartialEq)]
@@ -109,6 +112,74 @@ impl Coupling<Number> {
     pub fn gear(joints: [JointId; 2], teeth: [u32; 2]) -> Self {
         let [first, second] = teeth.map(f64::from);
         Self::linear([(joints[0], first), (joints[1], second)])
+    }
+
+    /// A wheel inside a ring of teeth, about axes of the same sense: both turn alike, `teeth[0]` of the first for `teeth[1]` of the second.
+    #[must_use]
+    pub fn internal_gear(joints: [JointId; 2], teeth: [u32; 2]) -> Self {
+        let [first, second] = teeth.map(f64::from);
+        Self::linear([(joints[0], first), (joints[1], -second)])
+    }
+
+    /// A belt over two wheels of these radii [m] about axes of the same sense, which turn alike.
+    #[must_use]
+    pub fn belt(joints: [JointId; 2], radii: [f64; 2]) -> Self {
+        Self::linear([(joints[0], radii[0]), (joints[1], -radii[1])])
+    }
+
+    /// A crossed belt: its wheels turn against each other.
+    #[must_use]
+    pub fn crossed_belt(joints: [JointId; 2], radii: [f64; 2]) -> Self {
+        Self::linear([(joints[0], radii[0]), (joints[1], radii[1])])
+    }
+
+    /// A screw in a cylindrical joint: it slides by `lead` [m] in a turn.
+    #[must_use]
+    pub fn screw(joint: JointId, lead: f64) -> Self {
+        Self::screw_of((joint, 1), (joint, 0), lead)
+    }
+
+    /// A screw that turns in its first joint and moves the slide of the second by `lead` [m] in a turn.
+    #[must_use]
+    pub fn screw_between([turn, slide]: [JointId; 2], lead: f64) -> Self {
+        Self::screw_of((turn, 0), (slide, 0), lead)
+    }
+
+    /// 2 pi s - lead a = 0, of joint coordinates by number.
+    fn screw_of(turn: (JointId, usize), slide: (JointId, usize), lead: f64) -> Self {
+        let per_turn = Number::from_decimal(TWO_PI).unwrap_or(Number::ZERO);
+        Self::of(vec![
+            CouplingTerm::of_joint(slide.0, slide.1, per_turn),
+            CouplingTerm::of_joint(turn.0, turn.1, -lead),
+        ])
+    }
+
+    /// The first joint's coordinate is `factor` times the second's.
+    #[must_use]
+    pub fn mimic([joint, of]: [JointId; 2], factor: f64) -> Self {
+        Self::linear([(joint, 1.0), (of, -factor)])
+    }
+
+    /// Two wheels with these teeth, and the carrier of what runs between them: Na (a - c) + Nb (b - c) = 0.
+    #[must_use]
+    pub fn differential([a, b, cage]: [JointId; 3], teeth: [u32; 2]) -> Self {
+        let [of_a, of_b] = teeth.map(f64::from);
+        Self::linear([(a, of_a), (b, of_b), (cage, -(of_a + of_b))])
+    }
+
+    /// A line of constant length over points of bodies [m], without friction: it pulls and pushes.
+    #[must_use]
+    pub fn rope<P: Into<Vector3>>(points: impl IntoIterator<Item = (BodyId, P)>) -> Self {
+        let points = points.into_iter().map(|(body, at)| (body, at.into().0)).collect();
+        let of = CouplingMeasure::Length { points };
+        Self::of(vec![CouplingTerm { factor: 1.into(), of, curve: None }])
+    }
+
+    /// The same rope, of which a drum of this radius [m] takes in as much as its joint turns.
+    #[must_use]
+    pub fn with_drum(mut self, joint: JointId, radius: f64) -> Self {
+        self.terms.push(CouplingTerm::of_joint(joint, 0, radius));
+        self
     }
 
     /// A rack: the slide of the second joint is `radius` [m] times the angle of the first.

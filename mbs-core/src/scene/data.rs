@@ -60,6 +60,41 @@ pub struct Joint<T> {
     /// body, its second in the second. A planar joint has its normal, then its first translation; a link has `axes[0]` when it
     /// is hinged. Unused ones are `None`. A planar revolute has none (its axis is +z).
     pub axes: [Option<[T; 3]>; 2],
+    /// What its coordinate, rate and effort are meant to keep to.
+    pub limits: JointLimits<T>,
+}
+
+/// What the only coordinate of a joint, its rate and its effort are meant to keep to: data, without effect on the motion.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct JointLimits<T> {
+    /// Lower and upper end of the coordinate, from the reference configuration [rad or m].
+    pub range: Option<[T; 2]>,
+    /// Largest force or moment along the coordinate [N m or N].
+    pub effort: Option<T>,
+    /// Largest rate, in both senses [rad/s or m/s].
+    pub velocity: Option<T>,
+}
+
+impl<T> JointLimits<T> {
+    /// No limit at all.
+    pub const NONE: Self = Self { range: None, effort: None, velocity: None };
+
+    /// The first key of scene files that is given; `None`: there is no limit at all.
+    #[must_use]
+    pub const fn first_key(&self) -> Option<&'static str> {
+        match self {
+            Self { range: Some(_), .. } => Some("range"),
+            Self { effort: Some(_), .. } => Some("effort_limit"),
+            Self { velocity: Some(_), .. } => Some("velocity_limit"),
+            _ => None,
+        }
+    }
+}
+
+impl<T> Default for JointLimits<T> {
+    fn default() -> Self {
+        Self::NONE
+    }
 }
 
 /// One `[[initial]]` entry: what is written holds exactly at the start.

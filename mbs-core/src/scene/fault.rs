@@ -60,6 +60,8 @@ pub enum SceneFault {
     NoCoordinate,
     /// The effect does not measure one number.
     NoMeasure,
+    /// The effect acts on both sides: it has no contact.
+    NoContact,
     /// The coordinate is not there; the number of coordinates that the joint has.
     UnknownCoordinate(usize),
     /// The coordinate is a component of a rotation, which is no angle of its own.
@@ -120,6 +122,12 @@ pub enum SceneFault {
     LimitOrder([f64; 2]),
     /// The lower end of a range is not below its upper end; both.
     RangeOrder([f64; 2]),
+    /// A range, lower end first, has no number between its ends; both.
+    EmptyRange([f64; 2]),
+    /// The joint has no range that a limit could take.
+    NoRange,
+    /// A stiffness that follows from the mass that a coordinate moves, which nothing moves or which is guided.
+    NoMovedMass,
     /// Static friction is less than Coulomb friction; both.
     StaticBelowCoulomb([f64; 2]),
     /// A polynomial has a piece without coefficients, or with too many.
@@ -137,6 +145,10 @@ pub enum SceneFault {
     SpinElsewhere,
     /// A wheel's joint turns about another axis than the wheel's.
     SpinAxis,
+    /// A rotor on a joint that constrains nothing.
+    FreeRotor,
+    /// The inertia of a rotor at its joint is zero or no number; it [kg m^2 or kg].
+    RotorRatio(f64),
     /// Coefficients of a tire that its formulas divide by.
     CalspanRange,
     /// Points of a road do not go forward; the point (from 0) that is not beyond the one before.
@@ -199,6 +211,7 @@ impl SceneFault {
             Self::NoMeasure => {
                 "ask for `force`, `energy` or `power`, or name an effect along a line or on a joint"
             }
+            Self::NoContact => "name a bumper, a limit or a tire",
             Self::UnknownCoordinate(_) => "count the joint's coordinates from 0",
             Self::NeedsCoordinate { .. } => "write one of these names",
             Self::BallCoordinate => "name a joint that turns about axes, such as a universal joint",
@@ -222,6 +235,11 @@ impl SceneFault {
             Self::TableOrder(_) => "sort the rows by time and keep one row per time",
             Self::LimitOrder(_) => "write the upper limit first: [U, L] with U > L",
             Self::RangeOrder(_) => "write the lower end below the upper end",
+            Self::EmptyRange(_) => "write the lower end first: [lower, upper] with lower < upper",
+            Self::NoRange => {
+                "add `range = [lower, upper]` to the joint, or write `lower` and `upper`"
+            }
+            Self::NoMovedMass => "write `stiffness` and `damping`",
             Self::StaticBelowCoulomb(_) => "leave `static` out, or make it at least `coulomb`",
             Self::PieceCoefficients { .. } => {
                 "write one to eight coefficients after the two ends: [lower, upper, c0, c1, ...]"
@@ -235,6 +253,10 @@ impl SceneFault {
             Self::Missing => "add it",
             Self::SpinElsewhere => "name the joint by which the wheel turns on `body`",
             Self::SpinAxis => "leave `axis` out: the wheel then has that of the joint",
+            Self::FreeRotor => "name a joint that has an axis",
+            Self::RotorRatio(_) => {
+                "write how far the rotor turns for each unit of the joint's coordinate"
+            }
             Self::NotUsed => "remove it",
         }
     }
@@ -274,6 +296,7 @@ impl SceneFault {
                 f,
                 "is not measured by this effect, which acts on bodies in several directions"
             ),
+            Self::NoContact => write!(f, "is not known of this effect, which acts on both sides"),
             Self::UnknownCoordinate(n) => {
                 write!(
                     f,
@@ -336,6 +359,14 @@ impl SceneFault {
             Self::RangeOrder([lower, upper]) => {
                 write!(f, "is {lower}, which is not below the upper end {upper}")
             }
+            Self::EmptyRange([lower, upper]) => {
+                write!(f, "has its lower end {lower} not below its upper end {upper}")
+            }
+            Self::NoRange => write!(f, "is that of the joint, which has none"),
+            Self::NoMovedMass => write!(
+                f,
+                "is left out, but does not follow from the scene: the coordinate moves no mass of its own"
+            ),
             Self::StaticBelowCoulomb([static_, coulomb]) => {
                 write!(f, "is {static_}, which is less than the Coulomb friction {coulomb}")
             }
@@ -361,6 +392,10 @@ impl SceneFault {
             Self::Missing => write!(f, "is missing"),
             Self::SpinElsewhere => write!(f, "does not join the tire's body to a wheel"),
             Self::SpinAxis => write!(f, "turns about another axis than the tire's"),
+            Self::FreeRotor => write!(f, "is a free joint, which holds no rotor"),
+            Self::RotorRatio(x) => {
+                write!(f, "makes an inertia of {x} at the joint: inertia times its square")
+            }
             Self::NotUsed => write!(f, "has no meaning here"),
         }
     }

@@ -34,6 +34,9 @@ mod joint;
 mod mechanism;
 #[cfg(feature = "alloc")]
 mod number;
+mod on_terms;
+#[cfg(feature = "alloc")]
+mod open;
 #[cfg(feature = "alloc")]
 mod resolve;
 #[cfg(feature = "alloc")]
@@ -56,7 +59,9 @@ pub use curve::{Curve, TableEnds};
 #[cfg(feature = "alloc")]
 pub(crate) use data::Surroundings;
 #[cfg(feature = "alloc")]
-pub use data::{Body, Guide, Inertia, InitialCondition, InitialTarget, Joint, Motion, Start};
+pub use data::{
+    Body, Guide, Inertia, InitialCondition, InitialTarget, Joint, JointLimits, Motion, Start,
+};
 pub use dimension::Dimension;
 #[cfg(feature = "alloc")]
 pub use effect::{

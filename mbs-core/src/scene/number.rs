@@ -41,6 +41,8 @@ enum Source {
     Double,
     /// Not given, but assumed: the third component of a vector of two numbers.
     Absent,
+    /// Not given: it follows from the scene where that is resolved.
+    Open,
 }
 
 impl Number {
@@ -82,6 +84,18 @@ impl Number {
         Self { near, source: Some(Box::new(Source::Absent)) }
     }
 
+    /// A number that follows from the scene, and is computed where that is [resolved](crate::scene::Scene::resolve); zero until then.
+    #[must_use]
+    pub fn open() -> Self {
+        Self { near: 0.0, source: Some(Box::new(Source::Open)) }
+    }
+
+    /// Whether it follows from the scene.
+    #[must_use]
+    pub fn is_open(&self) -> bool {
+        matches!(self.source.as_deref(), Some(Source::Open))
+    }
+
     /// Whether it was assumed, not given.
     #[must_use]
     pub fn is_absent(&self) -> bool {
@@ -118,7 +132,7 @@ impl Number {
             Some(Source::Text(text)) => read(text),
             Some(Source::Sum(a, b)) => a.value::<T>() + b.value::<T>(),
             Some(Source::Product(a, b)) => a.value::<T>() * b.value::<T>(),
-            Some(Source::Double | Source::Absent) => T::from_f64(self.near),
+            Some(Source::Double | Source::Absent | Source::Open) => T::from_f64(self.near),
         }
     }
 
@@ -126,7 +140,9 @@ impl Number {
     #[must_use]
     pub fn text(&self) -> String {
         match self.source.as_deref() {
-            None | Some(Source::Double | Source::Absent) => format!("{:?}", self.near),
+            None | Some(Source::Double | Source::Absent | Source::Open) => {
+                format!("{:?}", self.near)
+            }
             Some(Source::Text(text)) => String::from(&**text),
             Some(Source::Sum(..) | Source::Product(..)) => {
                 let text = format!("{:.COMPUTED_DIGITS$e}", self.value::<DoubleDouble>());

@@ -3,8 +3,8 @@
 use crate::Real;
 use crate::scene::{
     Body, CalspanCoefficients, Coupling, CouplingMeasure, CouplingTerm, Curve, Dimension, Effect,
-    Entry, Guide, Inertia, InitialCondition, InitialTarget, Joint, Motion, NamedSignal, Number,
-    Output, Road, RoadFeature, Scene, SceneError, SceneFault, SolverTable,
+    Entry, Guide, Inertia, InitialCondition, InitialTarget, Joint, JointLimits, Motion,
+    NamedSignal, Number, Output, Road, RoadFeature, Scene, SceneError, SceneFault, SolverTable,
 };
 use alloc::vec::Vec;
 
@@ -14,7 +14,7 @@ impl Scene<Number> {
     /// Cost: a copy of the scene; beyond `f64` and below it that of reading each number.
     ///
     /// # Errors
-    /// What [`Scene::check`] refuses; [`SceneFault::InCode`] for an effect that is a law in code, which has a precision of its own. In
+    /// What [`Scene::check`] refuses; [`SceneFault::NoMovedMass`] for a stiffness that does not follow from the scene; [`SceneFault::InCode`] for an effect that is a law in code, which has a precision of its own. In
     /// space [`SceneFault::WrongCount`] for a vector that was given by two numbers.
     pub fn resolve<T: Real>(&self) -> Result<Scene<T>, SceneError> {
         let is_spatial = self.dimension == Dimension::Spatial;
@@ -28,7 +28,10 @@ impl Scene<Number> {
         // may be assumed
         scene.duration = self.duration.value();
         match scene.check() {
-            Ok(()) => Ok(scene),
+            Ok(()) => {
+                super::open::fill(self, &mut scene)?;
+                Ok(scene)
+            }
             Err(SceneError { fault: SceneFault::NotFinite, entry, field }) if has_two => {
                 let fault = SceneFault::WrongCount { needed: 3, found: 2 };
                 Err(SceneError { entry, field, fault })
@@ -113,7 +116,16 @@ impl<T> Joint<T> {
             bodies: self.bodies,
             points: pair(&self.points, f),
             axes: self.axes.each_ref().map(|axis| axis.as_ref().map(|axis| all(axis, f))),
+            limits: self.limits.map(f),
         }
+    }
+}
+
+impl<T> JointLimits<T> {
+    fn map<U>(&self, f: &mut impl FnMut(&T) -> U) -> JointLimits<U> {
+        let range = self.range.as_ref().map(|range| all(range, f));
+        let [effort, velocity] = [&self.effort, &self.velocity].map(|x| x.as_ref().map(&mut *f));
+        JointLimits { range, effort, velocity }
     }
 }
 
@@ -173,7 +185,7 @@ impl<T> Curve<T> {
 }
 
 impl<T> CouplingTerm<T> {
-    fn map<U>(&self, f: &mut impl FnMut(&T) -> U) -> CouplingTerm<U> {
+    pub(crate) fn map<U>(&self, f: &mut impl FnMut(&T) -> U) -> CouplingTerm<U> {
         let curve = self.curve.as_ref().map(|curve| curve.map(f));
         let of = match &self.of {
             &CouplingMeasure::Coordinate { joint, number } => {

@@ -98,6 +98,7 @@ impl<T: Real, S: SpdSolver<T>, const D: usize> Assembly<'_, T, S, D> {
             let tau = T::from_f64(f64::from(stage) / f64::from(stages));
             self.problem.model.write_motions(&placement.motions(tau), s);
             self.remember(s);
+            self.problem.model.write_rotors(s);
         }
         self.drive(&s.q, T::ONE);
         self.problem.scale_rows();

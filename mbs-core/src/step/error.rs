@@ -66,6 +66,13 @@ pub enum StepError {
         /// The effect in the scene.
         effect: u32,
     },
+    /// A part of a coupling's line, such as a rope's, has no length left: it has no direction.
+    RopeCollapsed {
+        /// The coupling in the scene.
+        coupling: u32,
+        /// The part, from 0 in the order of the coupling's points.
+        part: u32,
+    },
     /// A user-defined law with data gave a number that is infinite or NaN.
     #[cfg(feature = "alloc")]
     Law {
@@ -172,6 +179,11 @@ impl core::fmt::Display for StepError {
             Self::Overturned { .. } => write!(
                 f,
                 "the effect is turned by more than a whole turn, where its law ends: give the joint's axis a torsion spring"
+            ),
+            Self::RopeCollapsed { part, .. } => write!(
+                f,
+                "part {} of the rope has no length left, so that its direction is not known: end its motion before, by a limit or a bumper",
+                part + 1
             ),
             #[cfg(feature = "alloc")]
             Self::Law { .. } => write!(

@@ -7,7 +7,7 @@ mod scan;
 
 #[cfg(feature = "alloc")]
 pub use crate::implicit::{
-    add_response, add_work, check_guides, check_rotations, has_new_inputs, load_at,
+    add_response, add_work, check_guides, check_lines, check_rotations, has_new_inputs, load_at,
     take_coordinates,
 };
 pub use error::{InputError, OptionError, StepError};

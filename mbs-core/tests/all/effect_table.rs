@@ -16,13 +16,22 @@ fn fields_have_keys_of_their_own_and_defaults_name_other_ones() {
         assert_eq!(keys.iter().collect::<BTreeSet<_>>().len(), keys.len(), "{}", row.module);
         for field in row.fields {
             assert!(field.meaning.trim().ends_with('.'), "{}: {}", row.module, field.key);
-            if let Default::As(key) | Default::Times(_, key) | Default::NeededWith(key) =
-                field.default
-            {
-                let other = row.fields.iter().find(|other| other.key == key);
-                let other = other.unwrap_or_else(|| panic!("{}: no key {key}", row.module));
-                assert!(matches!(other.default, Default::Needed | Default::Number(_)), "{key}");
-            }
+            let (Default::As(key)
+            | Default::Times(_, key)
+            | Default::NeededWith(key)
+            | Default::NeededWithout(key)
+            | Default::OpenWith(key)) = field.default
+            else {
+                continue;
+            };
+            let other = row.fields.iter().find(|other| other.key == key);
+            let other = other.unwrap_or_else(|| panic!("{}: no key {key}", row.module));
+            let is_known = match field.default {
+                Default::NeededWithout(_) => other.form == Form::Flag,
+                Default::OpenWith(_) => other.default == Default::Open,
+                _ => matches!(other.default, Default::Needed | Default::Number(_)),
+            };
+            assert!(is_known, "{key}");
         }
         assert!(row.names.is_empty() || !row.law.is_empty(), "{}: no law", row.module);
     }
@@ -61,7 +70,9 @@ fn every_kind_is_tried_by_the_tests_of_effects() {
 fn the_document_has_the_fields_of_the_table() {
     let text = std::fs::read_to_string(DOCUMENT).expect("the document");
     let mut expected = text.clone();
-    for (heading, group) in [("Between two bodies", 0), ("On a joint", 1), ("On one body", 2)] {
+    for (heading, group) in
+        [("Between two bodies", 0), ("On a joint", 1), ("On a sum", 2), ("On one body", 3)]
+    {
         let section = expected.find(&format!("## {heading}\n")).expect("a section");
         let start = section + expected[section..].find("| kind |").expect("a table");
         let end = start + expected[start..].find("\n\n").expect("an end") + 1;
@@ -77,13 +88,14 @@ fn the_document_has_the_fields_of_the_table() {
     }
 }
 
-/// The kinds between two bodies, on a joint, on one body.
+/// The kinds between two bodies, on a joint, on a sum, on one body.
 fn table(group: usize) -> String {
     let mut text = "| kind | keys: unit, default | law and range |\n|---|---|---|\n".to_owned();
     let group_of = |row: &&Row| match row.fields.first().map(|field| field.form) {
         Some(Form::Bodies) => 0,
         Some(Form::Joint(_)) => 1,
-        _ => 2,
+        Some(Form::Terms) => 2,
+        _ => 3,
     };
     for row in EFFECTS.iter().filter(|row| group_of(row) == group) {
         let keys: Vec<_> = row.fields.iter().filter_map(key).collect();
@@ -99,7 +111,7 @@ fn key(field: &Field) -> Option<String> {
     let key = field.key;
     let named = match field.form {
         Form::Bodies | Form::Points(_) | Form::Name(_) => return None,
-        Form::Coordinate => return None,
+        Form::Coordinate | Form::Terms => return None,
         Form::Joint(JointNeed::Rotation) => {
             format!("`{key}` with one rotation, or with a `coordinate`")
         }
@@ -112,6 +124,7 @@ fn key(field: &Field) -> Option<String> {
             format!("`{key}`, `\"none\"` or `\"calspan\"`; `coefficients`, those of the Iltis")
         }
         Form::MaybeAxis => format!("`{key}`, none"),
+        Form::Flag => format!("`{key} = true`, that of the joint"),
         Form::Spin => format!("`{key}`, the joint about which the wheel turns"),
         Form::Slip => format!("`{key} = {{ stiffness, friction }}`, none"),
         _ => format!("`{key}`"),
@@ -128,6 +141,9 @@ fn key(field: &Field) -> Option<String> {
         Default::As(other) => format!(", as `{other}`"),
         Default::Times(number, other) => format!(", {number} `{other}`"),
         Default::NeededWith(other) => format!(", needed with `{other}`"),
+        Default::NeededWithout(other) => format!(", needed without `{other}`"),
+        Default::Open => ", by the moved mass".to_owned(),
+        Default::OpenWith(other) => format!(", by the moved mass where `{other}` is, else 0"),
         Default::Needed | Default::Nothing => String::new(),
     };
     Some(text)

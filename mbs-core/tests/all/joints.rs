@@ -5,7 +5,7 @@ use mbs_core::Cliques;
 use mbs_core::algebra::{Matrix, Vector};
 use mbs_core::model::Model;
 use mbs_core::outputs::{JointWrenches, Wrench};
-use mbs_core::scene::{Dimension, Freedom, Inertia, JOINTS, Joint, JointKind};
+use mbs_core::scene::{Dimension, Freedom, Inertia, JOINTS, Joint, JointKind, JointLimits};
 use mbs_testkit::Random;
 use std::collections::BTreeSet;
 
@@ -23,7 +23,8 @@ fn random(kind: JointKind, dimension: Dimension, random: &mut Random) -> Joint<f
     };
     let points = [vector(); 2];
     let axes = kind.needs_axes(dimension).map(|is_needed| is_needed.then(&mut vector));
-    Joint { name: String::new(), kind, bodies: [GROUND; 2], points, axes }
+    let limits = JointLimits::NONE;
+    Joint { name: String::new(), kind, bodies: [GROUND; 2], points, axes, limits }
 }
 
 /// The motions that a freedom allows, as (velocity of the joint's place, angular velocity).

@@ -3,6 +3,7 @@
 mod small;
 
 mod codes;
+mod coupling_kinds;
 mod effect_table;
 mod effects;
 mod efforts;
@@ -17,4 +18,5 @@ mod quantities;
 mod reactions;
 mod signals;
 mod start;
+mod sums;
 mod undetermined;

@@ -6,8 +6,8 @@ use mbs_core::algebra::{Vector, norm, rotation};
 use mbs_core::outputs::{Forces, Measures};
 use mbs_core::rigid::RigidMotion;
 use mbs_core::scene::{
-    AxisFrame, BodyId, Bushing, Coupling, CouplingId, CouplingMeasure, CouplingTerm, Dimension,
-    Effect, EffectId, EffectKind, Force, Inertia, JointId, JointKind, JointTorque, Motion,
+    AxisFrame, BodyId, Bumper, Bushing, Coupling, CouplingId, CouplingMeasure, CouplingTerm, Dimension,
+    Effect, EffectId, EffectKind, Force, Inertia, JointId, JointKind, JointTorque, Limit, Motion,
     Quantity, Scene, Signal, SpringDamper,
 };
 
@@ -187,6 +187,29 @@ fn a_spring_pulls_stores_and_gives_what_its_law_says() {
     // nothing of one that is switched off
     s.effects[0].enabled = false;
     assert_near(&measured::<2>(&s, &quantities[..5]), &[0.0; 5]);
+}
+
+#[test]
+fn stops_are_in_contact_beyond_their_range_alone() {
+    for (angle, expected) in [(0.0, 0.0), (0.29, 0.0), (0.31, 1.0), (-0.21, 1.0), (-0.19, 0.0)] {
+        let mut s = pendulum(angle, 1.5);
+        let (lower, upper, stiffness, damping) = (-0.2, 0.3, 100.0, 0.0);
+        let (joint, coordinate, range) = (JointId::new(0), None, false);
+        let kind = Limit { joint, coordinate, range, lower, upper, stiffness, damping };
+        let effect = add_effect(&mut s, kind);
+        // the tip of the rod at 2 sin from its height in the reference configuration, its bumper a tenth below
+        let points = [[2.0, -1.0, 0.0], [2.0, 0.0, 0.0]];
+        let (bodies, clearance) = ([GROUND, BodyId::Body(0)], 0.1);
+        let bumper =
+            add_effect(&mut s, Bumper { bodies, points, stiffness, damping, clearance });
+        let quantities = [effect, bumper].map(|effect| Quantity::EffectContact { effect });
+        let length = ((2.0 * angle.cos() - 2.0).powi(2) + (2.0 * angle.sin() + 1.0).powi(2)).sqrt();
+        let touches = f64::from(u8::from(length < 1.0 - clearance));
+        assert_near(&measured::<2>(&s, &quantities), &[expected, touches]);
+        // nothing of one that is switched off
+        s.effects[0].enabled = false;
+        assert_near(&measured::<2>(&s, &quantities[..1]), &[0.0]);
+    }
 }
 
 #[test]

@@ -5,7 +5,7 @@ use mbs_core::algebra::{Vector, rotation};
 use mbs_core::outputs::{LARGEST_BLOCK, ReactionError, Reactions};
 use mbs_core::scene::{
     AxisFrame, BodyId, BodyTorque, Dimension, Effect, EffectKind, Force, Inertia, Joint, JointId,
-    JointKind, JointTorque, Motion, Scene, Signal, SpringDamper, TorsionSpring,
+    JointKind, JointLimits, JointTorque, Motion, Scene, Signal, SpringDamper, TorsionSpring,
 };
 
 const G: f64 = 9.81;
@@ -281,7 +281,8 @@ fn every_joint() -> Scene<f64> {
     }
     let points = [[4.0, 1.0, -0.5], [4.2, 0.1, 0.3]];
     let (name, bodies) = ("link".into(), [GROUND, last]);
-    s.joints.push(Joint { name, kind: JointKind::Distance, bodies, points, axes: [Some(a), None] });
+    let (kind, axes, limits) = (JointKind::Distance, [Some(a), None], JointLimits::NONE);
+    s.joints.push(Joint { name, kind, bodies, points, axes, limits });
     for (joint, rate) in [(0, vec![0.8]), (2, vec![0.3, -0.6]), (5, vec![0.5])] {
         hold(&mut s, joint, &[], &rate);
     }

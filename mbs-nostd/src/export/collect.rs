@@ -177,6 +177,7 @@ pub fn needs<T: Real, S: Space<T>>(model: &Model<'_, T, S>) -> Vec<&'static str>
             Load::Between { gauge: Measure::Rotation { .. }, .. } => Some("bushing"),
             Load::Between { law, .. } | Load::Angle { law, .. } => law.feature(),
             Load::BodyLoad(load) => load.law.feature(),
+            Load::Sum(load) => load.law.feature(),
             _ => None,
         };
         needed.extend(feature);

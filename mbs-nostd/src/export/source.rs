@@ -156,6 +156,7 @@ fn constant<T: Real + Record, S: Axes<T>>(
          \x20           couplings: Couplings {{ n_cut: {}, terms: &TERMS, {curves}..Couplings::none() }},\n\
          \x20       }},\n\
          \x20       loads: &LOADS,\n\
+         \x20       rotors: &ROTORS,\n\
          \x20       tables: {law_inputs},\n\
          \x20       feedback: {feedback},\n\
          \x20       gravity: {},\n\
@@ -199,6 +200,7 @@ fn lists<T: Real + Record, S: Axes<T>>(model: &Model<'_, T, S>, to: &mut String)
     table("COUPLINGS", "LoopCoupling", plan.couplings, to);
     table("UPDATES", "Update", plan.updates, to);
     table("LOADS", "Load<Scalar, Axes>", m.loads, to);
+    table("ROTORS", "LinkRotor<Scalar>", m.rotors, to);
     table("GUIDES", "Motion<Scalar>", laws.guides, to);
     table("COURSES", "SignalLaw<Scalar>", laws.courses, to);
     table("KNOTS", "[Scalar; 2]", laws.knots.0, to);

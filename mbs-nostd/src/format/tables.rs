@@ -6,8 +6,8 @@ use crate::inputs::Motion;
 use mbs_core::Real;
 use mbs_core::laws::Part;
 use mbs_recursive::coupled::{CoupledRow, SumMeasure, SumTerm};
-use mbs_recursive::link::{Link, LinkKind};
-use mbs_recursive::loads::{BodyLoad, Load, Measure};
+use mbs_recursive::link::{Link, LinkKind, LinkRotor};
+use mbs_recursive::loads::{BodyLoad, Load, Measure, SumLoad};
 use mbs_recursive::plan::{End, LoopCoupling, Pair, Pass, Span, Station, Update};
 use mbs_recursive::rows::{ClosedLoop, Row};
 
@@ -39,6 +39,8 @@ record_enum!([T: Real + Record] SumMeasure<T> = SumMeasure {
     0 Joint { link link, side side },
 });
 
+record_struct!([T: Real + Record] LinkRotor<T> = LinkRotor { link, inertia });
+
 record_struct!([] Span = Span { first, end });
 record_struct!([] Station = Station { passes, pairs, ends });
 record_struct!([] Pass = Pass { lap, side, gain });
@@ -55,6 +57,7 @@ record_enum!([T: Real + Record, S: Axes<T>] Load<T, S> = Load {
     3 Force { link link, point point, course course, turns turns },
     4 Torque { link link, course course },
     5 BodyLoad { 0 load },
+    6 Sum { 0 load },
 });
 
 record_enum!([T: Real + Record, S: Axes<T>] Measure<T, S> = Measure {
@@ -65,6 +68,8 @@ record_enum!([T: Real + Record, S: Axes<T>] Measure<T, S> = Measure {
 });
 
 record_struct!([T: Real + Record, S: Axes<T>] BodyLoad<T, S> = BodyLoad { link, point, axis, law });
+
+record_struct!([T: Real + Record] SumLoad<T> = SumLoad { terms, starts, law });
 
 record_enum!([T: Real + Record] Motion<T> = Motion {
     0 Input { 0 motion },

@@ -100,11 +100,56 @@ fn couplings_of_joints_hold_on_a_controller_as_in_the_recursion() {
     }
 }
 
+const ROTORS: &str = r#"
+[[effect]]
+kind = "rotor"
+joint = "b"
+inertia = 1.0e-4
+ratio = 70.0
+
+[[effect]]
+kind = "rotor"
+joint = "hinge"
+inertia = 2.0e-4
+ratio = 30.0
+"#;
+
+#[test]
+fn rotors_turn_on_a_controller_as_in_the_recursion() {
+    assert_eq!(apart_on_controller(&format!("{GEARS}{ROTORS}")), Ok(0.0));
+    let arm =
+        std::fs::read_to_string(mbs_testkit::repository::path("geared-arm")).expect("a scene");
+    assert_eq!(apart_on_controller(&arm), Ok(0.0));
+    // texts without them are those of version 2
+    let version = |text: &str| {
+        let (tree, begin) = start::<Planar, 2>(&mbs_testkit::scene(text));
+        let collected = Collected::new(&tree, &begin, &[]).expect("no signal moves");
+        let bytes = bytes(&collected.model(), false).expect("a scene of tables");
+        u32::from_le_bytes([bytes[4], bytes[5], bytes[6], bytes[7]])
+    };
+    let off = ROTORS.replace("kind = \"rotor\"", "kind = \"rotor\"\nenabled = false");
+    assert_eq!([GEARS, &format!("{GEARS}{off}"), &arm].map(version), [2, 2, 3]);
+}
+
 #[test]
 fn a_cam_is_refused_for_a_controller_with_its_coupling() {
     let cam = DRIVEN.replace("factor = 0.5", "factor = 0.5, coefficients = [0.0, 1.0, 0.2]");
     let refused = apart_on_controller(&format!("{GEARS}{cam}"));
     assert_eq!(refused, Err(LoadError::Coupling { coupling: 1 }));
+}
+
+#[test]
+fn laws_on_sums_act_on_a_controller_as_in_the_recursion() {
+    let spring =
+        "[[effect]]\nkind = \"torsion-spring\"\nstiffness = 9.0\ndamping = 0.3\nfree_value = 0.2\n";
+    let sum = "terms = [{ joint = \"a\", factor = 1.0 }, { joint = \"b\", factor = -2.5 }]\n";
+    let alone = GEARS.split("[[coupling]]").next().expect("what stands before");
+    for scene in [GEARS, alone] {
+        assert_eq!(apart_on_controller(&format!("{scene}{spring}{sum}")), Ok(0.0));
+    }
+    let curve = sum.replace("factor = 1.0", "factor = 1.0, coefficients = [0.0, 1.0, 0.2]");
+    let refused = apart_on_controller(&format!("{GEARS}{spring}{curve}"));
+    assert_eq!(refused, Err(LoadError::Sum { entry: 0 }));
 }
 
 /// Largest difference of a coordinate from the converged trapezoidal rule over 10 s [m or rad].

@@ -76,6 +76,7 @@ fn the_formula_is_the_count_of_every_step_without_branching_effects() {
     is_exact::<Planar, 2>("n-four-bar-10");
     is_exact::<Planar, 2>("andrews");
     is_exact::<Planar, 2>("planar-rows");
+    is_exact::<Planar, 2>("geared-arm");
     is_exact::<Spatial, 3>("free-body");
     is_exact::<Spatial, 3>("spatial-four-bar");
     is_exact::<Spatial, 3>("rssr");

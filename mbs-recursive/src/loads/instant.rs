@@ -1,5 +1,6 @@
 //! What loads are evaluated from: places, velocities and inputs of one instant.
 
+use crate::coupled::{Couplings, Here};
 use crate::indexing::{Outside, at};
 use crate::link::{Link, LinkKind, LinkMotion};
 use crate::space::Space;
@@ -16,6 +17,8 @@ pub struct Instant<'a, T: Real, S: Space<T>> {
     pub placed: &'a [LinkMotion<T, S>],
     /// Coordinates, velocities, guides.
     pub coordinates: (&'a [T], &'a [T], &'a [[T; 3]]),
+    /// Tables of sums.
+    pub couplings: &'a Couplings<'a, T, S>,
     /// Vectors of the courses, and tables.
     pub law_inputs: LawInputs<'a, T>,
     /// The point that positions are counted from, global axes [m].
@@ -38,6 +41,11 @@ pub(crate) fn coordinate_of<T: Real, S: Space<T>>(
 }
 
 impl<T: Real, S: Space<T>> Instant<'_, T, S> {
+    /// The mechanism, as sums see it.
+    pub(super) fn mechanism(&self) -> Here<'_, T, S> {
+        (self.links, self.placed, self.coordinates)
+    }
+
     /// Angle or slide of a joint with one coordinate, and its rate.
     pub(crate) fn coordinate(&self, link: u32) -> Result<[T; 2], Outside> {
         coordinate_of(at(self.links, link as usize)?, self.coordinates)

@@ -11,6 +11,7 @@ mod instant;
 mod measure;
 mod reach;
 mod rotation;
+mod sum;
 mod tangent;
 
 pub use body_load::BodyLoad;
@@ -19,6 +20,7 @@ pub(crate) use instant::coordinate_of;
 pub use measure::Measure;
 pub use reach::Reach;
 pub(crate) use rotation::check_rotations;
+pub use sum::SumLoad;
 
 use crate::indexing::{Outside, at_mut};
 use crate::link::ArticulatedInertia;
@@ -74,6 +76,8 @@ pub enum Load<T: Real, S: Space<T>> {
     },
     /// A law on one body.
     BodyLoad(BodyLoad<T, S>),
+    /// A law of a sum of coordinates and lengths.
+    Sum(SumLoad<T>),
 }
 
 impl<T: Real, S: Space<T>> Load<T, S> {
@@ -81,7 +85,7 @@ impl<T: Real, S: Space<T>> Load<T, S> {
     #[cfg(feature = "alloc")]
     pub(crate) fn is_idle(&self) -> bool {
         match self {
-            Self::Between { .. } => false,
+            Self::Between { .. } | Self::Sum(_) => false,
             Self::Angle { link, .. }
             | Self::Constant { link, .. }
             | Self::Force { link, .. }
@@ -127,6 +131,7 @@ impl<T: Real, S: Space<T>> Load<T, S> {
                 push(*link, S::motion(at.torque(*course)?, S::Point::zero()))
             }
             Self::BodyLoad(load) => push(load.link, load.wrench(at)?),
+            Self::Sum(load) => load.apply(at, condensed),
         }
     }
 
@@ -143,6 +148,7 @@ impl<T: Real, S: Space<T>> Load<T, S> {
             Self::Constant { link, point, force } => -force.dot(&at.place(*link, point)?),
             Self::Force { .. } | Self::Torque { .. } => T::ZERO,
             Self::BodyLoad(load) => load.potential(at)?,
+            Self::Sum(load) => load.potential(at)?,
         })
     }
 
@@ -168,6 +174,7 @@ impl<T: Real, S: Space<T>> Load<T, S> {
                 at.torque(*course)?.dot(&S::spin(&at.placed(*link)?.velocity))
             }
             Self::BodyLoad(load) => load.power(at)?,
+            Self::Sum(load) => load.power(at)?,
         })
     }
 }

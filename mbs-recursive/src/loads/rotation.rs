@@ -114,7 +114,7 @@ fn check<T: Real, S: Space<T>>(
 }
 
 fn instant<'a, T: Real, S: Space<T>>(
-    m: &TreeSlices<'a, T, S>,
+    m: &'a TreeSlices<'_, T, S>,
     coordinates: (&'a [T], &'a [T], &'a [[T; 3]]),
     placed: &'a [crate::link::LinkMotion<T, S>],
 ) -> Instant<'a, T, S> {
@@ -122,6 +122,7 @@ fn instant<'a, T: Real, S: Space<T>>(
         links: m.links,
         placed,
         coordinates,
+        couplings: &m.loops.couplings,
         law_inputs: LawInputs::courses(&[]),
         base: m.base,
     }

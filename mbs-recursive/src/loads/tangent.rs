@@ -7,6 +7,7 @@
 //! on one link, or against the ground      I += κ w wᵀ,   p += w (f − κ w·a*)
 //! across a joint of one freedom           bᵀ I b += κ (w·b)²,   τ += κ (w·b)² z̈*
 //! between other links                     as on one link, for each of the two
+//! along a sum                             as on one link, for each of its ends
 //! ```
 //!
 //! The first two are the linear part exactly. In the third the other link's acceleration counts as known, so that an iteration is
@@ -60,6 +61,7 @@ impl<T: Real, S: Space<T>> Load<T, S> {
                 let link = load.link as usize;
                 load.apply_ahead(here, (reach, at(a, link)?), at_mut(condensed, link)?)
             }
+            Self::Sum(load) => load.apply_ahead(here, (reach, zdd, a), condensed),
             Self::Constant { .. } | Self::Force { .. } | Self::Torque { .. } => {
                 self.apply(here, condensed)
             }

@@ -67,6 +67,7 @@ impl Bench {
             links: m.links,
             placed: &self.placed,
             coordinates: (z, v, &[]),
+            couplings: &m.loops.couplings,
             law_inputs: LawInputs { courses: &[], ..m.tables },
             base: m.base,
         };
@@ -122,21 +123,25 @@ const X: [[f64; 3]; 4] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [0.
 /// A step of 0.2 s.
 const REACH: Reach<f64> = Reach { place: 0.01, speed: 0.1 };
 
-/// The distance that a spring between two points has at [`Z`], where it carries no force and turning it takes none.
-fn slack(first: &str, second: &str, points: [[f64; 2]; 2]) -> String {
-    let mut bench = Bench::new(&spring(first, second, points, 0.0));
+/// What a spring of this stiffness measures at [`Z`], where it is larger than zero: V = k L² / 2 without free length.
+fn at_z(effect: &str, stiffness: f64) -> f64 {
+    let mut bench = Bench::new(effect);
     let m = bench.model.mechanism();
     passes::kinematics(m.links, (&Z, &[0.0; 3], &[]), &mut bench.placed).expect("tables that fit");
     let at = Instant {
         links: m.links,
         placed: &bench.placed,
         coordinates: (&Z, &[0.0; 3], &[]),
+        couplings: &m.loops.couplings,
         law_inputs: LawInputs { courses: &[], ..m.tables },
         base: m.base,
     };
-    // V = k L² / 2 without free length.
-    let length = (2.0 * m.loads[0].potential(&at).expect("tables that fit") / 70.0).sqrt();
-    spring(first, second, points, length)
+    (2.0 * m.loads[0].potential(&at).expect("tables that fit") / stiffness).sqrt()
+}
+
+/// A spring between two points as long as it is at [`Z`], where it carries no force and turning it takes none.
+fn slack(first: &str, second: &str, points: [[f64; 2]; 2]) -> String {
+    spring(first, second, points, at_z(&spring(first, second, points, 0.0), 70.0))
 }
 
 #[test]
@@ -148,6 +153,7 @@ fn tangents_against_the_ground_and_across_joints_are_those_of_the_forces() {
         slack("b0", "b1", [[0.4, 0.3], [1.8, 0.2]]),
         slack("b2", "b1", [[2.7, 0.3], [1.2, 0.3]]),
         hinge.to_owned(),
+        hinge.replace("joint = \"j1\"", "terms = [{ joint = \"j1\", factor = -1.5 }]"),
     ];
     for effect in &effects {
         let mut bench = Bench::new(effect);
@@ -164,10 +170,9 @@ fn tangents_against_the_ground_and_across_joints_are_those_of_the_forces() {
     }
 }
 
-#[test]
-fn between_other_links_the_tangent_is_enough_for_the_iteration_to_contract() {
-    let mut bench = Bench::new(&slack("b0", "b2", [[0.4, 0.3], [2.8, 0.2]]));
-    // (M + T̃)⁻¹ (T̃ − T) contracts for every M where 2 T̃ − T is not negative; along a whole cone of directions here.
+/// Checks that (M + T̃)⁻¹ (T̃ − T) contracts for every M: 2 T̃ − T is not negative, along a whole cone of directions here.
+fn contracts(effect: &str) {
+    let mut bench = Bench::new(effect);
     for i in 0..200_u32 {
         let t = f64::from(i);
         let x = [(0.37 * t).sin(), (0.61 * t).sin(), (1.13 * t).cos()];
@@ -178,4 +183,25 @@ fn between_other_links_the_tangent_is_enough_for_the_iteration_to_contract() {
         assert!(2.0 * work(&told) - work(&found) > -1e-7, "{x:?}");
         assert!(work(&found) > -1e-7, "{x:?}");
     }
+}
+
+#[test]
+fn between_other_links_the_tangent_is_enough_for_the_iteration_to_contract() {
+    contracts(&slack("b0", "b2", [[0.4, 0.3], [2.8, 0.2]]));
+}
+
+#[test]
+fn along_a_sum_the_tangent_is_enough_for_the_iteration_to_contract() {
+    // no tension at Z, where the turning of lines would add to the differences
+    let joints = "{ joint = \"j0\", factor = 0.7 }, { joint = \"j1\", factor = 1.0 }, { joint = \"j2\", factor = -2.0 }";
+    let sum = 0.7 * Z[0] + Z[1] - 2.0 * Z[2];
+    let of = |terms: &str, free: f64| {
+        format!(
+            "kind = \"torsion-spring\"\nterms = [{terms}]\nstiffness = 30.0\ndamping = 4.0\nfree_value = {free:?}\n"
+        )
+    };
+    contracts(&of(joints, sum));
+    contracts(&of("{ joint = \"j0\" }, { joint = \"j2\", factor = -1.0 }", Z[0] - Z[2]));
+    let line = "{ points = [{ body = \"b0\", at = [0.4, 0.3] }, { body = \"ground\", at = [1.0, 2.0] }, { body = \"b2\", at = [2.8, 0.2] }] }";
+    contracts(&of(line, at_z(&of(line, 0.0), 30.0)));
 }

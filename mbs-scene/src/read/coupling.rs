@@ -75,9 +75,7 @@ pub(crate) fn read<'a>(
         "rope" => rope(fields, joints)?,
         "linear" => {
             allow(fields, &[&["terms", "value"], &MOTION_KEYS[..]].concat())?;
-            let list = fields.context.list(fields.need("terms")?, TERMS)?;
-            let terms =
-                list.iter().map(|item| read_term(fields, item, joints)).collect::<Read<_>>()?;
+            let terms = read_terms(fields, fields.need("terms")?, joints)?;
             (terms, fields.number_or_zero("value")?, read_motion(fields)?)
         }
         _ => return fields.unknown_word("kind", kind, &KINDS),
@@ -90,6 +88,10 @@ pub(crate) fn read<'a>(
 }
 
 const TERMS: &str = "a list of terms like { joint = \"j\", factor = 1.0 }";
+
+/// The keys of a term.
+pub(crate) const TERM_KEYS: [&str; 7] =
+    ["joint", "coordinate", "points", "factor", "table", "periodic", "coefficients"];
 
 /// The keys of all kinds.
 const EVERY_KEY: [&str; 27] = [
@@ -338,6 +340,16 @@ fn read_points<'a>(
     points.iter().map(point).collect()
 }
 
+/// The terms of a sum.
+pub(crate) fn read_terms<'a>(
+    fields: &Fields<'a>,
+    item: &'a Item,
+    joints: &'a [Joint<Number>],
+) -> Read<Vec<CouplingTerm<Number>>> {
+    let list = fields.context.list(item, TERMS)?;
+    list.iter().map(|item| read_term(fields, item, joints)).collect()
+}
+
 /// A term: a coordinate of a joint, or the length over points; a curve of it.
 fn read_term<'a>(
     fields: &Fields<'a>,
@@ -346,8 +358,7 @@ fn read_term<'a>(
 ) -> Read<CouplingTerm<Number>> {
     let context = fields.context;
     let term = context.table(item, "a term like { joint = \"j\", factor = 1.0 }")?;
-    let keys = ["joint", "coordinate", "points", "factor", "table", "periodic", "coefficients"];
-    term.allow(&keys, &[])?;
+    term.allow(&TERM_KEYS, &[])?;
     term.exclusive("joint", "points")?;
     let of = if let Some(points) = term.get("points") {
         CouplingMeasure::Length { points: read_points(fields, points)? }

@@ -41,7 +41,14 @@ pub(crate) fn read(
     let written = all.iter().map(|field| value::read(fields, field, (word.0, joints)));
     let written: Vec<Option<Value<Number>>> = written.collect::<Read<_>>()?;
     let value = |i: usize| match &written[i] {
-        Some(value) => Ok(value.clone()),
+        Some(value) => {
+            if let Default::NeededWithout(flag) = all[i].default
+                && fields.flag(flag, false)?
+            {
+                fields.exclusive(flag, all[i].key)?;
+            }
+            Ok(value.clone())
+        }
         None => default(fields, (all, &written), i),
     };
     let values: Vec<_> = (0..all.len()).map(value).collect::<Read<_>>()?;
@@ -51,21 +58,29 @@ pub(crate) fn read(
     }
 }
 
-/// Kinds that share a name differ by their first key.
+/// Kinds that share a name differ by their first key. One on a sum has no key of the others.
 fn choose(fields: &Fields<'_>, named: &[usize]) -> Read<usize> {
     let first = |row: usize| EFFECTS[row].fields.first().map_or("", |field| field.key);
-    match *named {
-        [one, other] => {
-            fields.exclusive(first(one), first(other))?;
-            let is_there = |row: &usize| fields.get(first(*row)).is_some();
-            match [one, other].into_iter().find(is_there) {
-                Some(row) => Ok(row),
-                None => {
-                    fields.context.fault(fields.header, ReadFault::Missing { key: "body or joint" })
-                }
-            }
+    let is_sum =
+        |row: usize| EFFECTS[row].fields.first().map(|field| field.form) == Some(Form::Terms);
+    for (i, &one) in named.iter().enumerate() {
+        named[i + 1..].iter().try_for_each(|&other| fields.exclusive(first(one), first(other)))?;
+    }
+    let is_there = |row: &usize| fields.get(first(*row)).is_some();
+    if let Some(&row) = named.iter().find(|row| is_there(row)) {
+        if is_sum(row) {
+            let keys = |row: usize| EFFECTS[row].fields.iter().flat_map(Field::keys);
+            let others = named.iter().flat_map(|&other| keys(other));
+            let foreign = others.filter(|key| keys(row).all(|own| own != *key));
+            foreign.into_iter().try_for_each(|key| fields.exclusive(first(row), key))?;
         }
-        _ => Ok(named[0]),
+        return Ok(row);
+    }
+    // without a sum it is of the others
+    let mut others = named.iter().copied().filter(|&row| !is_sum(row));
+    match (others.next(), others.next()) {
+        (Some(row), None) => Ok(row),
+        _ => fields.context.fault(fields.header, ReadFault::Missing { key: "body or joint" }),
     }
 }
 
@@ -86,7 +101,18 @@ fn default(
         Ok(if let Value::Number(x) = value { x } else { Number::ZERO })
     };
     let decimal = |text: &str| Number::from_decimal(text).unwrap_or_default();
+    let is_open = |key: &str| other(key).map(|x| x.is_open());
+    let is_true = |key: &str| fields.flag(key, false);
     match (field.form, field.default) {
+        (_, Default::NeededWithout(key)) if is_true(key)? => {
+            return Ok(Value::Number(Number::open()));
+        }
+        (_, Default::Open) => return Ok(Value::Number(Number::open())),
+        (_, Default::OpenWith(key)) => {
+            let number = if is_open(key)? { Number::open() } else { Number::ZERO };
+            return Ok(Value::Number(number));
+        }
+        (Form::Flag, Default::Nothing) => return Ok(Value::Flag(false)),
         (Form::Six, Default::Number(text)) => {
             return Ok(Value::Six(core::array::from_fn(|_| decimal(text))));
         }

@@ -1,9 +1,11 @@
 //! `[[joint]]`.
 
 use crate::read::fields::{Fields, Read};
-use mbs_core::scene::{BodyId, Dimension, Joint, JointKind, Number};
+use mbs_core::scene::{BodyId, Dimension, Joint, JointKind, JointLimits, Number};
 
 const KEYS: [&str; 8] = ["name", "kind", "bodies", "at", "axis", "axes", "points", "direction"];
+/// Keys that every joint may have; the check says which have no meaning.
+const LIMITS: [&str; 3] = ["range", "effort_limit", "velocity_limit"];
 
 /// Reads a joint; `centers` are the bodies' centres of mass, where a free joint is placed by default.
 pub(crate) fn read(fields: &Fields<'_>, centers: &[[Number; 3]]) -> Read<Joint<Number>> {
@@ -17,6 +19,7 @@ pub(crate) fn read(fields: &Fields<'_>, centers: &[[Number; 3]]) -> Read<Joint<N
     let mut known = vec!["name", "kind", "bodies", place];
     known.extend((0..2).filter(|&i| needed[i] || has_hinge && i == 0).map(|i| axis_keys[i]));
     known.dedup();
+    known.extend(LIMITS);
     fields.allow(&known, &KEYS)?;
     let bodies = fields.pair()?;
     let points = if kind.is_link() {
@@ -38,7 +41,16 @@ pub(crate) fn read(fields: &Fields<'_>, centers: &[[Number; 3]]) -> Read<Joint<N
             |key: &str| fields.get(key).map(|item| fields.context.vector(item)).transpose();
         [vector("axis")?, vector("direction")?]
     };
-    Ok(Joint { name: fields.name()?, kind, bodies, points, axes })
+    Ok(Joint { name: fields.name()?, kind, bodies, points, axes, limits: read_limits(fields)? })
+}
+
+fn read_limits(fields: &Fields<'_>) -> Read<JointLimits<Number>> {
+    let range = |item| fields.context.numbers_of(item, "a list of two numbers: [lower, upper]");
+    Ok(JointLimits {
+        range: fields.get("range").map(range).transpose()?,
+        effort: fields.optional("effort_limit")?,
+        velocity: fields.optional("velocity_limit")?,
+    })
 }
 
 fn read_kind(fields: &Fields<'_>) -> Read<JointKind> {

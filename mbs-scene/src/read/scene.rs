@@ -1,5 +1,6 @@
 //! The scene that a file means, table by table; and the places of its entries.
 
+use crate::read::coupling::TERM_KEYS;
 use crate::read::document::SceneFile;
 use crate::read::fields::{Context, Fields, Read};
 use crate::read::names::Names;
@@ -119,7 +120,13 @@ impl SceneFile {
             Entry::Effect(i) => entries("effect", i),
             Entry::Output(i) => entries("output", i),
         };
-        let value = |members: &'a [Member]| members.iter().find(|m| m.key == field);
+        let of_key = |members: &'a [Member], key: &str| members.iter().find(|m| m.key == key);
+        // what an effect has not itself stands in its terms
+        let is_of_term = matches!(entry, Entry::Effect(_)) && TERM_KEYS.contains(&field);
+        let value = |members: &'a [Member]| {
+            let terms = || of_key(members, "terms").filter(|_| is_of_term);
+            of_key(members, field).or_else(terms)
+        };
         match &item?.node {
             Node::Table(members) => value(members).map(|m| &m.item).or(item),
             _ => item,

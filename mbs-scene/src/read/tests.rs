@@ -6,10 +6,13 @@ use mbs_core::scene::*;
 
 mod couplings;
 mod effects;
+mod limits;
 mod outputs;
 mod random;
 mod road;
+mod rotors;
 mod signals;
+mod sums;
 
 const PLANAR: &str = r#"[scene]
 name = "double pendulum"

@@ -15,7 +15,8 @@ use core::fmt::{self, Display, Formatter};
 use mbs_core::outputs::Target;
 use mbs_core::scene::{
     Body, BodyId, Coupling, CouplingMeasure, CouplingTerm, Curve, Dimension, Guide, Inertia,
-    InitialCondition, InitialTarget, Joint, JointId, Number, Output, Scene, SolverTable, Start,
+    InitialCondition, InitialTarget, Joint, JointId, JointLimits, Number, Output, Scene,
+    SolverTable, Start,
 };
 
 /// A scene that has no text.
@@ -299,6 +300,10 @@ impl Writer<'_> {
                 keys.push_some("direction", direction.as_ref().map(|d| self.vector(d)));
             }
         }
+        let JointLimits { range, effort, velocity } = &joint.limits;
+        keys.push_some("range", range.as_ref());
+        keys.push_some("effort_limit", effort.as_ref());
+        keys.push_some("velocity_limit", velocity.as_ref());
         Ok(keys)
     }
 
@@ -349,13 +354,18 @@ impl Writer<'_> {
         let mut keys = Keys::default();
         keys.push("name", coupling.name.as_str());
         keys.push("kind", "linear");
-        let terms: Result<Vec<_>, _> = coupling.terms.iter().map(|term| self.term(term)).collect();
-        keys.push("terms", list(terms?));
+        keys.push("terms", self.terms(&coupling.terms)?);
         keys.push("value", &coupling.value);
         if let Some(law) = &coupling.motion {
             self.motion(&mut keys, law)?;
         }
         Ok(keys)
+    }
+
+    /// The terms of a sum.
+    fn terms(self, terms: &[CouplingTerm<Number>]) -> Result<Node, WriteError> {
+        let terms: Result<Vec<_>, _> = terms.iter().map(|term| self.term(term)).collect();
+        Ok(list(terms?))
     }
 
     fn term(self, term: &CouplingTerm<Number>) -> Result<Node, WriteError> {

@@ -89,6 +89,7 @@ impl<T: Real, const D: usize> Record<'_, T, D> {
         self.animation.walk(tape)?;
         self.measures.walk(tape)?;
         self.walk_contacts(simulation, tape)?;
+        self.limits.walk(tape)?;
         self.counts.walk(tape)?;
         self.alarm.walk(tape)?;
         let mut cpu = cpu;

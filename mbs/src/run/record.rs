@@ -7,6 +7,7 @@ use crate::checkpoint::{CheckpointWriter, Identity};
 use crate::driver::StepObserver;
 use crate::energy_alarm::Alarm;
 use crate::friction::Frictions;
+use crate::joint_limits::LimitWatch;
 use crate::record::{Channel, ControlSummary, RealtimeSummary, StepRow};
 use crate::recorder::{RecordRows, Recorder, StepMark};
 use crate::settings::{Lengths, ResolvedMethod};
@@ -54,6 +55,7 @@ pub(super) struct Record<'a, T: Real, const D: usize> {
     pub(super) lengths: Lengths<T>,
     pub(super) measures: Channels<T, D>,
     pub(super) contacts: Contacts<T, D>,
+    pub(super) limits: LimitWatch<T, D>,
     pub(super) recorder: Recorder,
     pub(super) animation: AnimationRecorder<T, D>,
     values: Vec<T>,
@@ -98,6 +100,7 @@ impl<'a, T: Real, const D: usize> Record<'a, T, D> {
             n_measured: measures.lengths().sum(),
             measures,
             contacts: contacts.map_err(|e| StopError::Start(e.into()))?,
+            limits: LimitWatch::new(scene, simulation.model())?,
             recorder: Recorder::new(channels, n_rows, simulation.invariant().initial(), keep),
             animation: AnimationRecorder::new(scene, simulation.model(), settings.duration),
             values: vec![T::ZERO; n],
@@ -124,6 +127,7 @@ impl<'a, T: Real, const D: usize> Record<'a, T, D> {
         self.mark = StepMark { energies, violation, ..StepMark::default() };
         self.recorder.mark(&self.mark);
         self.contacts.start(simulation.state());
+        self.limits.watch(simulation);
         self.row(simulation, false)
     }
 
@@ -196,6 +200,7 @@ impl<'a, T: Real, const D: usize> Record<'a, T, D> {
             tracked = tracked.and(columns.follow(simulation));
         }
         self.contacts.watch(simulation.state());
+        self.limits.watch(simulation);
         self.mark = StepMark {
             t,
             energies: accepted.attempt.energies,

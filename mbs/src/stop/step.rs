@@ -42,6 +42,9 @@ pub(super) fn write_step(error: &StepError, f: &mut core::fmt::Formatter<'_>) ->
         StepError::Overturned { .. } => {
             write!(f, "the effect is turned by more than a whole turn, where its law ends")
         }
+        StepError::RopeCollapsed { .. } => {
+            write!(f, "the rope has no length left, so that its direction is not known")
+        }
         StepError::OppositeBranch { .. } => {
             write!(f, "the guided angle jumped half a turn away from its guide")
         }
@@ -72,6 +75,9 @@ pub(super) fn step_hint(error: &StepError) -> &'static str {
         }
         StepError::Overturned { .. } => {
             "a bushing in space ends at a whole turn: hold the turning by a joint, with a torsion spring about its axis"
+        }
+        StepError::RopeCollapsed { .. } => {
+            "end its motion before the points meet, by a `limit` of a joint or a `bumper` between the points, or end the run"
         }
         StepError::Law { .. } => {
             "give a finite force, tangent and energy wherever the law is asked; if the motion should not lead there, try a smaller step"

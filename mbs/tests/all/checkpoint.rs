@@ -90,6 +90,7 @@ fn every_formulation_resumes_to_the_same_bits() {
         ("spatial-four-bar", 1e-3),
         ("iltis-suspension", 1e-3),
         ("quarter-car", 1e-3),
+        ("servo-arm", 1e-3),
     ];
     for formulation in FormulationKind::ALL {
         for (name, step) in scenes {
@@ -110,7 +111,7 @@ fn every_integrator_resumes_to_the_same_bits() {
     let pairs = implicit.map(|i| ("index-3", i)).into_iter();
     let relative = implicit.into_iter().chain(first_order).map(|i| ("recursive", i));
     for (formulation, integrator) in pairs.chain(relative) {
-        for name in ["double-pendulum", "spatial-four-bar", "iltis-suspension"] {
+        for name in ["double-pendulum", "spatial-four-bar", "iltis-suspension", "servo-arm"] {
             let overrides = with(formulation, 0.5);
             let integrator = Some(integrator.to_owned());
             split(name, &Method { integrator, step: Some(1e-3), ..overrides }, 0.12);

@@ -395,6 +395,7 @@ fn a_limit_reports_which_end_was_touched_and_watching_allocates_nothing() {
     bounce.scene.effects[0].kind = EffectKind::Limit(Limit {
         joint: JointId::new(0),
         coordinate: None,
+        range: false,
         lower: -0.05,
         upper: 0.1,
         stiffness,

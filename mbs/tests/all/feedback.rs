@@ -1,6 +1,8 @@
 //! Signals that follow the motion: controllers, engine curves and late signals, against closed forms in every formulation.
 
 use crate::common::oracle::{Way, rows};
+use mbs::core::outputs::Quantity;
+use mbs::core::scene::{BodyId, Output};
 use mbs::scene_file::SceneFile;
 use mbs::{Modes, Place, Search};
 use mbs_testkit::scene;
@@ -277,4 +279,97 @@ fn the_modes_of_a_servo_are_the_roots_of_its_cubic() {
             assert!(off < 1e-6, "{mode:?}");
         }
     }
+}
+
+/// Cross product.
+fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
+    let at = |i: usize, j: usize| a[i] * b[j] - a[j] * b[i];
+    [at(1, 2), at(2, 0), at(0, 1)]
+}
+
+#[test]
+fn the_servo_arm_ends_at_its_targets_with_the_torques_of_its_weight() {
+    let mut scene = mbs_testkit::file("servo-arm");
+    let targets = [0.4, 0.3, -0.5, 0.6, 0.5, -0.8];
+    scene.outputs.truncate(6);
+    let (bodies, n) = (scene.bodies.clone(), scene.bodies.len());
+    // each body's centre, the place of its joint, and a point a metre further on the joint's axis
+    let axes = [
+        [0.0, 0.0, 1.0],
+        [0.0, 1.0, 0.0],
+        [0.0, 1.0, 0.0],
+        [1.0, 0.0, 0.0],
+        [0.0, 1.0, 0.0],
+        [1.0, 0.0, 0.0],
+    ];
+    for (k, body) in bodies.iter().enumerate() {
+        let at = scene.joints[k].points[1];
+        let further = std::array::from_fn(|i| at[i] + axes[k][i]);
+        for (name, at) in [("centre", body.center), ("joint", at), ("axis", further)] {
+            let quantity = Quantity::Position { body: BodyId::Body(k), at };
+            scene.outputs.push(Output { name: format!("{name}-{k}"), quantity });
+        }
+    }
+    let joints: Vec<_> = (0..n).collect();
+    for &k in &joints {
+        let signal =
+            scene.signals.iter().position(|s| s.name == format!("servo-{}", scene.joints[k].name));
+        let signal = mbs::core::scene::SignalId::new(signal.expect("a servo"));
+        let quantity = Quantity::SignalValue { signal };
+        scene.outputs.push(Output { name: format!("torque-{k}"), quantity });
+    }
+    for formulation in ["index-3", "recursive"] {
+        let rows = rows(&scene, Way(formulation, "trapezoidal"), (2e-3, 6.0), 3000);
+        let rows = rows.unwrap_or_else(|e| panic!("{formulation}: {e}"));
+        let row = &rows.last().expect("a row").1;
+        let point = |body: usize, k: usize| -> [f64; 3] {
+            std::array::from_fn(|i| row[n + 9 * body + 3 * k + i])
+        };
+        for k in joints.iter().copied() {
+            assert!((row[k] - targets[k]).abs() < 1e-6, "{formulation}, {k}: {}", row[k]);
+            let (place, further) = (point(k, 1), point(k, 2));
+            let axis: [f64; 3] = std::array::from_fn(|i| further[i] - place[i]);
+            let moment: f64 = (k..n)
+                .map(|body| {
+                    let arm = std::array::from_fn(|i| point(body, 0)[i] - place[i]);
+                    let moment = cross(arm, [0.0, 0.0, -9.81 * bodies[body].mass]);
+                    (0..3).map(|i| axis[i] * moment[i]).sum::<f64>()
+                })
+                .sum();
+            let torque = row[n + 9 * n + k];
+            // what is left of the motion after six seconds
+            assert!((torque + moment).abs() < 1e-3, "{formulation}, {k}: {torque}, {moment}");
+        }
+    }
+}
+
+#[test]
+fn an_equilibrium_is_one_of_integrals_and_lags_too() {
+    // 5 N m push the wheel away: the integral alone holds against them, at the target
+    let push = "[[effect]]\nname = \"push\"\nkind = \"torque\"\njoint = \"axle\"\nsignal = \"late\"\n\
+        [[signal]]\nname = \"late\"\nkind = \"lag\"\nof = \"five\"\ntime = 0.3\n\
+        [[signal]]\nname = \"five\"\nkind = \"constant\"\nvalue = 5.0\n\
+        [[output]]\nname = \"asked\"\nsignal = \"asked\"\n";
+    for dimension in [2, 3] {
+        let text = wheel(dimension, &format!("{SERVO}{push}"));
+        let text = text.replace("duration = 1.0", "duration = 1.0\nstart = \"equilibrium\"");
+        for formulation in FORMULATIONS {
+            let row = end(&text, Way(formulation, "trapezoidal"), 1e-2, 1.0);
+            let off = [row[0] - 1.0, row[1], row[2] + 5.0].map(f64::abs);
+            // the search ends at rounding of its differences
+            assert!(off.iter().all(|off| *off < 1e-8), "{dimension}, {formulation}: {row:?}");
+        }
+    }
+    // an integral of what nothing changes has no rest
+    let ramp = asked("\"integral\"\nof = \"five\"", &constant("five", 5.0));
+    let text = wheel(
+        2,
+        &format!(
+            "{ramp}[[effect]]\nkind = \"torsion-spring\"\njoint = \"axle\"\nstiffness = 9.0\n"
+        ),
+    );
+    let text = text.replace("duration = 1.0", "duration = 1.0\nstart = \"equilibrium\"");
+    let error = rows(&scene(&text), Way("index-3", "trapezoidal"), (1e-2, 1.0), 1);
+    let error = error.expect_err("no rest").to_string();
+    assert!(error.contains("goes on changing"), "{error}");
 }

@@ -83,7 +83,8 @@ fn a_scene_without_length_is_no_scene_to_step() {
 
 #[test]
 fn a_clone_steps_to_the_same_bits_and_leaves_the_original_as_it_is() {
-    for name in ["double-pendulum", "two-four-bars", "quarter-car", "iltis-suspension"] {
+    for name in ["double-pendulum", "two-four-bars", "quarter-car", "iltis-suspension", "servo-arm"]
+    {
         let scene = scene(name);
         for formulation in FormulationKind::ALL {
             match scene.dimension {

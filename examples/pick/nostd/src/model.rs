@@ -74,6 +74,7 @@ static ENDS: [End; 0] = [];
 static COUPLINGS: [LoopCoupling; 0] = [];
 static UPDATES: [Update; 0] = [];
 static LOADS: [Load<Scalar, Axes>; 0] = [];
+static ROTORS: [LinkRotor<Scalar>; 0] = [];
 static GUIDES: [Motion<Scalar>; 0] = [];
 static COURSES: [SignalLaw<Scalar>; 0] = [];
 static KNOTS: [[Scalar; 2]; 0] = [];
@@ -102,6 +103,7 @@ pub static MODEL: Model<'static, Scalar, Axes> = Model {
             couplings: Couplings { n_cut: 4294967295, terms: &TERMS, ..Couplings::none() },
         },
         loads: &LOADS,
+        rotors: &ROTORS,
         tables: LawInputs::courses(&[]),
         feedback: FeedbackSlices::none(),
         gravity: vector([0.0, -9.81]),

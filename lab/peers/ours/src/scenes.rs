@@ -44,7 +44,7 @@ pub(crate) fn add_joint<T: Real>(
     let [needs_axis, _] = kind.needs_axes(scene.dimension);
     let axis = needs_axis.then_some([T::ZERO, T::ZERO, T::ONE]);
     let points = [[x, y, T::ZERO]; 2];
-    scene.joints.push(Joint { name: String::new(), kind, bodies, points, axes: [axis, None] });
+    scene.joints.push(Joint { name: String::new(), kind, bodies, points, axes: [axis, None], limits: Default::default() });
 }
 
 /// Adds a rod along x with its joint, 1 m from its parent's; returns the body.

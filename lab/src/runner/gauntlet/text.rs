@@ -54,5 +54,5 @@ fn joint(joint: &Joint, draft: &Draft) -> mbs::Joint {
     for (to, axis) in axes.iter_mut().zip(&joint.axes).take(second) {
         *to = Some(draft.vector(*axis).0);
     }
-    mbs::Joint { name: String::new(), kind, bodies, points, axes }
+    mbs::Joint { name: String::new(), kind, bodies, points, axes, limits: Default::default() }
 }

@@ -41,6 +41,11 @@ impl<T: Real, const D: usize> Load<T, D> {
                     take((bodies[1], at[1], wrench.scaled(-T::ONE)));
                 }
             }
+            Self::Sum { sum, law } => {
+                let [value, rate] = sum.measure(state);
+                let tension = law.evaluate(value, rate, law_inputs).tension;
+                sum.apply(-tension, state, take);
+            }
             Self::Constant { body, point, force } => {
                 let at = raised(&point.value(&state.q));
                 take((BodyId::Body(*body), Some(at), push(*force)));

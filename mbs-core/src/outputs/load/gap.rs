@@ -55,7 +55,7 @@ impl<T: Real, const D: usize> Load<T, D> {
     /// How many gaps it has; none where it acts always.
     pub(in crate::outputs) fn n_gaps(&self) -> usize {
         match self {
-            Self::Between { law, .. } => law.n_gaps(),
+            Self::Between { law, .. } | Self::Sum { law, .. } => law.n_gaps(),
             Self::OnBody { law, .. } => law.n_gaps(),
             _ => 0,
         }
@@ -64,7 +64,7 @@ impl<T: Real, const D: usize> Load<T, D> {
     /// The depth over which the damper of its contact fades in [m or rad], if it has one.
     pub(in crate::outputs) fn fade(&self) -> Option<f64> {
         let has_fade = match self {
-            Self::Between { law, .. } => law.has_fade(),
+            Self::Between { law, .. } | Self::Sum { law, .. } => law.has_fade(),
             Self::OnBody { law, .. } => law.has_fade(),
             _ => false,
         };
@@ -74,7 +74,7 @@ impl<T: Real, const D: usize> Load<T, D> {
     /// Can its law have kinks besides those of its gaps?
     pub(in crate::outputs) fn may_have_kinks(&self) -> bool {
         match self {
-            Self::Between { law, .. } => law.may_have_kinks(),
+            Self::Between { law, .. } | Self::Sum { law, .. } => law.may_have_kinks(),
             Self::OnBody { law, .. } => law.may_have_kinks(),
             _ => false,
         }
@@ -87,7 +87,7 @@ impl<T: Real, const D: usize> Load<T, D> {
         mut take: impl FnMut(LawCorner<T>),
     ) {
         match self {
-            Self::Between { law, .. } => law.kinks(law_inputs, &mut take),
+            Self::Between { law, .. } | Self::Sum { law, .. } => law.kinks(law_inputs, &mut take),
             Self::OnBody { law, .. } => law.kinks(law_inputs, &mut take),
             _ => {}
         }
@@ -103,7 +103,11 @@ impl<T: Real, const D: usize> Load<T, D> {
 
     /// Does it measure an angle [rad], not a length [m]?
     pub(in crate::outputs) fn is_angular(&self) -> bool {
-        matches!(self, Self::Between { gauge: Measure::Angle { .. }, .. })
+        match self {
+            Self::Between { gauge, .. } => matches!(gauge, Measure::Angle { .. }),
+            Self::Sum { sum, .. } => sum.is_angle(),
+            _ => false,
+        }
     }
 
     /// What of it is watched, at a state. Cost: one length or angle, or one wheel's nearest point of the road.
@@ -115,8 +119,10 @@ impl<T: Real, const D: usize> Load<T, D> {
         let of = |[value, rate]: [T; 2]| Gap { value, rate };
         let mut reading = Reading::default();
         match self {
-            Self::Between { gauge, law, .. } if self.n_gaps() > 0 || self.may_have_kinks() => {
-                let [value, rate] = gauge.measure(state);
+            Self::Between { law, .. } | Self::Sum { law, .. }
+                if self.n_gaps() > 0 || self.may_have_kinks() =>
+            {
+                let [value, rate] = self.measure(state);
                 reading.gaps = law.gaps(value, rate).map(of);
                 reading.place[0] = Gap { value, rate };
             }

@@ -8,6 +8,7 @@ pub(super) use apply::Applied;
 pub(super) use gap::{Gap, MOST_GAPS, N_READING, Reading};
 
 use super::coordinate::Coordinate;
+use super::coupled_sum::CoupledSum;
 use super::frame::Frame;
 use super::wrench::Wrench;
 use crate::Real;
@@ -39,6 +40,8 @@ pub(super) struct Loads<T: Real, const D: usize> {
 pub(super) enum Load<T: Real, const D: usize> {
     /// A law of what is measured between two bodies.
     Between { bodies: [BodyId; 2], gauge: Measure<T, D>, law: Law<T> },
+    /// A law of a sum of joint coordinates and lengths.
+    Sum { sum: CoupledSum<T, D>, law: Law<T> },
     /// A force in fixed directions.
     Constant { body: usize, point: Affine<T, D>, force: Vector<T, 3> },
     /// A force that follows a course.
@@ -178,6 +181,9 @@ impl<T: Real, const D: usize> Load<T, D> {
                 let axis = turn.axis().filter(|_| is_single).map(|axis| joint.direction(axis));
                 let gauge = Measure::Angle { axis, angle, memory: model.memory_of_effect(effect) };
                 (joint.bodies, gauge, law)
+            }
+            Action::Sum { terms, law } => {
+                return Self::Sum { sum: CoupledSum::of_terms(scene, model, terms), law: *law };
             }
             Action::Turn { bodies, law } => {
                 let angle = Coordinate::between(model, *bodies);

@@ -16,14 +16,23 @@ use crate::model::State;
 use crate::scene::BodyId;
 
 impl<T: Real, const D: usize> Load<T, D> {
+    /// The one number that its law is of, and its rate; zeros where there is none.
+    pub(super) fn measure(&self, state: &State<T>) -> [T; 2] {
+        match self {
+            Self::Between { gauge, .. } => gauge.measure(state),
+            Self::Sum { sum, .. } => sum.measure(state),
+            _ => [T::ZERO; 2],
+        }
+    }
+
     /// What a law of one number gives; `None` of what is none.
     pub(in crate::outputs) fn scalar(
         &self,
         state: &State<T>,
         law_inputs: &LawInputs<'_, T>,
     ) -> Option<ScalarForce<T>> {
-        let Self::Between { gauge, law, .. } = self else { return None };
-        let [value, rate] = gauge.measure(state);
+        let (Self::Between { law, .. } | Self::Sum { law, .. }) = self else { return None };
+        let [value, rate] = self.measure(state);
         let tension = law.evaluate(value, rate, law_inputs).tension;
         Some(ScalarForce { value, rate, tension, ..ScalarForce::default() })
     }
@@ -35,7 +44,9 @@ impl<T: Real, const D: usize> Load<T, D> {
         turned: impl Fn(BodyId) -> Matrix<T, 3>,
     ) -> T {
         match self {
-            Self::Between { gauge, law, .. } => law.energy(gauge.measure(state)[0], law_inputs),
+            Self::Between { law, .. } | Self::Sum { law, .. } => {
+                law.energy(self.measure(state)[0], law_inputs)
+            }
             Self::Constant { point, force, .. } => -force.dot(&raised(&point.value(&state.q))),
             Self::Force { .. } | Self::Torque { .. } => T::ZERO,
             Self::OnBody { body, point, frame, axis, law } => {
@@ -61,8 +72,8 @@ impl<T: Real, const D: usize> Load<T, D> {
         turned: impl Fn(BodyId) -> Matrix<T, 3>,
     ) -> T {
         match self {
-            Self::Between { gauge, law, .. } => {
-                let [value, rate] = gauge.measure(state);
+            Self::Between { law, .. } | Self::Sum { law, .. } => {
+                let [value, rate] = self.measure(state);
                 -law.evaluate(value, rate, law_inputs).tension * rate
             }
             Self::Constant { point, .. } | Self::Force { point, .. } => {

@@ -29,6 +29,8 @@ pub enum ComponentForm {
     Number(&'static str),
     /// One number that a coupling or an effect measures, with what follows its unit; nothing of an effect that measures several.
     Measured(&'static str),
+    /// One number of an effect that acts on one side only; nothing of others.
+    Contact,
     /// The force on what is measured; of an effect that measures several numbers, its wrench.
     Force,
     /// `w`, `x`, `y`, `z` of a quaternion; in the plane an angle.
@@ -65,6 +67,7 @@ impl ComponentForm {
             Self::Coordinates(per) => coordinates(&|unit| format!("{unit}{per}")),
             Self::Efforts => coordinates(&|unit| effort(unit).into()),
             Self::Number(unit) => [one("", unit)].into(),
+            Self::Contact => [one("", "-")].into(),
             Self::Measured(per) => {
                 measured.map(|unit| one("", &format!("{unit}{per}"))).into_iter().collect()
             }

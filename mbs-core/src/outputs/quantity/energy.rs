@@ -1,6 +1,7 @@
 //! Kinetic and potential energy.
 
 use super::super::inertia::{self, BodyInertia};
+use super::super::rotor::{self, RotorTorque};
 use super::kind::{Instant, Maker, Measured};
 use super::{ComponentForm, QuantityRow, TargetKind};
 use crate::Real;
@@ -10,21 +11,26 @@ use alloc::vec::Vec;
 pub(super) const ROW: QuantityRow =
     QuantityRow::new("energy", TargetKind::Scene, ComponentForm::Number("J")).of_effects();
 
-/// The bodies, and gravity [m/s^2].
+/// The bodies, the rotors, and gravity [m/s^2].
 #[derive(Debug, Clone)]
-pub(in crate::outputs) struct Energy<T: Real, const D: usize>(Vec<BodyInertia<T, D>>, Vector<T, 3>);
+pub(in crate::outputs) struct Energy<T: Real, const D: usize>(
+    Vec<BodyInertia<T, D>>,
+    Vec<RotorTorque<T, D>>,
+    Vector<T, 3>,
+);
 
 impl<T: Real, const D: usize> Measured<T, D> for Energy<T, D> {
     type Of = ();
 
     fn new((): (), from: &mut Maker<'_, T, D>) -> Self {
         let gravity = from.scene.gravity.map_or_else(Vector::zeros, Vector::from);
-        Self(from.bodies(), gravity)
+        Self(from.bodies(), from.rotors(), gravity)
     }
 
     fn write(&self, now: &Instant<'_, T, D>, out: &mut [T]) {
         out[0] = inertia::kinetic_energy(&self.0, now.state)
-            + inertia::potential_energy(&self.0, &self.1, now.state)
+            + rotor::kinetic_energy(&self.1, now.state)
+            + inertia::potential_energy(&self.0, &self.2, now.state)
             + now.effects.map_or(T::ZERO, |all| all.energy(None, now.state));
     }
 }

@@ -4,6 +4,7 @@ use super::super::coordinate::Coordinate;
 use super::super::exerted::EffectWrenches;
 use super::super::inertia::BodyInertia;
 use super::super::reaction::Reactions;
+use super::super::rotor::RotorTorque;
 use crate::Real;
 use crate::model::State;
 use crate::natural::NaturalModel;
@@ -64,6 +65,11 @@ impl<T: Real, const D: usize> Maker<'_, T, D> {
     pub(super) fn bodies(&self) -> Vec<BodyInertia<T, D>> {
         let of = |body| BodyInertia::new(self.scene, self.model, body);
         (0..self.scene.bodies.len()).map(of).collect()
+    }
+
+    /// All rotors.
+    pub(super) fn rotors(&self) -> Vec<RotorTorque<T, D>> {
+        RotorTorque::all(self.scene, self.model)
     }
 }
 

@@ -1,6 +1,7 @@
-//! Kinetic energy of all bodies.
+//! Kinetic energy of all bodies and rotors.
 
 use super::super::inertia::{self, BodyInertia};
+use super::super::rotor::{self, RotorTorque};
 use super::kind::{Instant, Maker, Measured};
 use super::{ComponentForm, QuantityRow, TargetKind};
 use crate::Real;
@@ -9,18 +10,22 @@ use alloc::vec::Vec;
 pub(super) const ROW: QuantityRow =
     QuantityRow::new("kinetic-energy", TargetKind::Scene, ComponentForm::Number("J"));
 
-/// The bodies.
+/// The bodies, and the rotors.
 #[derive(Debug, Clone)]
-pub(in crate::outputs) struct KineticEnergy<T: Real, const D: usize>(Vec<BodyInertia<T, D>>);
+pub(in crate::outputs) struct KineticEnergy<T: Real, const D: usize>(
+    Vec<BodyInertia<T, D>>,
+    Vec<RotorTorque<T, D>>,
+);
 
 impl<T: Real, const D: usize> Measured<T, D> for KineticEnergy<T, D> {
     type Of = ();
 
     fn new((): (), from: &mut Maker<'_, T, D>) -> Self {
-        Self(from.bodies())
+        Self(from.bodies(), from.rotors())
     }
 
     fn write(&self, now: &Instant<'_, T, D>, out: &mut [T]) {
-        out[0] = inertia::kinetic_energy(&self.0, now.state);
+        out[0] = inertia::kinetic_energy(&self.0, now.state)
+            + rotor::kinetic_energy(&self.1, now.state);
     }
 }

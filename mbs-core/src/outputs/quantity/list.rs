@@ -57,10 +57,12 @@ macro_rules! list {
                 EffectValue in effect_value;
                 /// The rate of the length or coordinate of an effect [m/s or rad/s].
                 EffectRate in effect_rate;
-                /// Energy stored in an effect [J]; of a constant force, minus its product with the position of its point.
+                /// Energy stored in an effect [J]; of a constant force, minus its product with the position of its point; of a rotor its kinetic energy.
                 EffectEnergy in effect_energy;
                 /// Power that an effect gives to bodies [W]; negative where it takes.
                 EffectPower in effect_power;
+                /// Whether a bumper, a limit or a tire is in contact [-]: one where a gap of it is below zero, else zero.
+                EffectContact in effect_contact;
             }
             of Signal(signal: SignalId) {
                 /// The value of a signal, in its unit.
@@ -69,7 +71,7 @@ macro_rules! list {
                 SignalRate in signal_rate;
             }
             scene {
-                /// Kinetic energy of all bodies [J].
+                /// Kinetic energy of all bodies and rotors [J].
                 KineticEnergy in kinetic_energy;
                 /// Potential energy of gravity, zero at the origin, and of all effects [J].
                 PotentialEnergy in potential_energy;
@@ -77,9 +79,9 @@ macro_rules! list {
                 Energy in energy;
                 /// Centre of mass of all bodies [m].
                 CenterOfMass in center_of_mass;
-                /// Momentum of all bodies [kg m/s].
+                /// Momentum of all bodies [kg m/s]; a rotor has none.
                 Momentum in momentum;
-                /// Angular momentum of all bodies about their centre of mass [kg m^2/s], global axes; in the plane one number.
+                /// Angular momentum of all bodies about their centre of mass [kg m^2/s], global axes; in the plane one number. Rotors are left out.
                 AngularMomentum in angular_momentum;
             }
         }

@@ -1,11 +1,11 @@
 //! Outputs by what they measure, and the components of a quantity.
 
-use super::components::Component;
+use super::components::{Component, ComponentForm};
 use super::{Quantity, Target};
-use crate::effects::ActsOn;
+use crate::effects::{ActsOn, Value};
 use crate::scene::{
-    BodyId, CouplingId, CouplingMeasure, EffectId, Freedom, JointId, Number, Output, Scene,
-    SignalId, SignalKind, Vector3,
+    BodyId, CouplingId, CouplingMeasure, CouplingTerm, EffectId, Freedom, JointId, Number, Output,
+    Scene, SignalId, SignalKind, Vector3,
 };
 use alloc::vec::Vec;
 
@@ -23,7 +23,16 @@ impl<T: Clone> Quantity<T> {
             Target::Joint(joint) => {
                 (scene.joints[joint.index()].kind.freedoms(scene.dimension), None)
             }
-            Target::Coupling(coupling) => (&[][..], Some(unit_of_sum(scene, coupling))),
+            Target::Coupling(coupling) => {
+                let terms = &scene.couplings[coupling.index()].terms;
+                (&[][..], Some(unit_of_sum(scene, terms)))
+            }
+            Target::Effect(effect) if form == ComponentForm::Contact => {
+                if !scene.effects[effect.index()].kind.row().is_one_sided {
+                    return Vec::new();
+                }
+                (&[][..], None)
+            }
             Target::Effect(effect) => (&[][..], unit_of_measure(scene, effect)),
             Target::Signal(signal) => (&[][..], Some(unit_of_signal(scene, signal))),
             Target::Point(..) | Target::Body(_) | Target::Scene => (&[][..], None),
@@ -32,15 +41,15 @@ impl<T: Clone> Quantity<T> {
     }
 }
 
-/// The unit of a coupling's sum: that of its slides and lengths, whose factors are numbers, else that of its angles.
-fn unit_of_sum<T>(scene: &Scene<T>, coupling: CouplingId) -> &'static str {
+/// The unit of a sum: that of its slides and lengths, whose factors are numbers, else that of its angles.
+fn unit_of_sum<T>(scene: &Scene<T>, terms: &[CouplingTerm<T>]) -> &'static str {
     let unit = |of: &CouplingMeasure<T>| {
         let Some((joint, number)) = of.coordinate() else { return "m" };
         let joint = scene.joints.get(joint.index());
         let freedom = joint.and_then(|joint| joint.kind.freedom(scene.dimension, number));
         freedom.map_or("rad", Freedom::unit)
     };
-    let mut units = scene.couplings[coupling.index()].terms.iter().map(|term| unit(&term.of));
+    let mut units = terms.iter().map(|term| unit(&term.of));
     units.find(|unit| *unit == "m").unwrap_or("rad")
 }
 
@@ -68,12 +77,17 @@ fn unit_of_signal<T>(scene: &Scene<T>, signal: SignalId) -> &str {
 
 /// The unit of the one number that an effect measures; `None` where it measures several.
 fn unit_of_measure<T: Clone>(scene: &Scene<T>, effect: EffectId) -> Option<&'static str> {
-    match scene.effects[effect.index()].kind.acts_on() {
+    let kind = &scene.effects[effect.index()].kind;
+    match kind.acts_on() {
         ActsOn::Line => Some("m"),
         ActsOn::Joint(joint) => {
             let joint = scene.joints.get(joint.index())?;
             Some(joint.kind.single(scene.dimension).map_or("rad", |freedom| freedom.unit()))
         }
+        ActsOn::Sum => kind.values().iter().find_map(|value| match value {
+            Value::Terms(terms) => Some(unit_of_sum(scene, terms)),
+            _ => None,
+        }),
         ActsOn::Bodies => None,
     }
 }

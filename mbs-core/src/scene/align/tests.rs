@@ -1,7 +1,7 @@
 //! Axes that are meant to be parallel, and those that are not.
 
 use super::*;
-use crate::scene::{Dimension, Joint, JointKind, Scene};
+use crate::scene::{Dimension, Joint, JointKind, JointLimits, Scene};
 use alloc::string::String;
 
 /// Hinges of a closed row of bodies, ground, 0, 1, ..., ground, with these axes; one more hangs from the last body.
@@ -14,6 +14,7 @@ fn ring(axes: &[[f64; 3]]) -> Scene<f64> {
         bodies,
         points: [[0.0; 3]; 2],
         axes: [Some(axis), None],
+        limits: JointLimits::NONE,
     };
     let mut joints: Vec<_> = (0..n).map(|i| hinge([body(i), body(i + 1)], axes[i])).collect();
     let last = BodyId::Body(n - 2);

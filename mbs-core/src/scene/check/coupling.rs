@@ -6,13 +6,13 @@ use crate::Real;
 use crate::inputs::SignalGraph;
 use crate::measure::{CouplingInput, given_values};
 use crate::scene::{
-    Coupling, CouplingMeasure, CouplingTerm, Curve, Entry, JointId, Scene, SceneError, SceneFault,
+    CouplingMeasure, CouplingTerm, Curve, Entry, JointId, Scene, SceneError, SceneFault,
 };
 
 pub(super) fn check<T: Real>(scene: &Scene<T>) -> Result<(), SceneError> {
     for (i, coupling) in scene.couplings.iter().enumerate() {
         let place = scene.place(Entry::Coupling(i));
-        check_terms(scene, coupling, place)?;
+        check_terms(scene, &coupling.terms, place)?;
         place.finite("value", coupling.value)?;
         if let Some(motion) = &coupling.motion {
             check_law(motion, place)?;
@@ -21,12 +21,13 @@ pub(super) fn check<T: Real>(scene: &Scene<T>) -> Result<(), SceneError> {
     Ok(())
 }
 
-fn check_terms<T: Real>(
+/// Each term has a measure, and one a factor.
+pub(super) fn check_terms<T: Real>(
     scene: &Scene<T>,
-    coupling: &Coupling<T>,
+    terms: &[CouplingTerm<T>],
     place: Place,
 ) -> Result<(), SceneError> {
-    for CouplingTerm { factor, of, curve } in &coupling.terms {
+    for CouplingTerm { factor, of, curve } in terms {
         place.finite("factor", *factor)?;
         match of {
             CouplingMeasure::Coordinate { joint, number } => {
@@ -38,7 +39,7 @@ fn check_terms<T: Real>(
             check_curve(curve, place)?;
         }
     }
-    if coupling.terms.iter().all(|term| term.factor.is_zero()) {
+    if terms.iter().all(|term| term.factor.is_zero()) {
         return place.fault("terms", SceneFault::NoTerm);
     }
     Ok(())

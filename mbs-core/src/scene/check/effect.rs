@@ -1,8 +1,8 @@
 //! Effects: references and numbers, field by field, then what the kind itself refuses.
 
-use super::course;
 use super::reference::{check_coordinate, check_pair, known_body};
 use super::vector::{Place, is_planar};
+use super::{coupling, course};
 use crate::Real;
 use crate::effects::{Form, JointNeed, Sign, Value};
 use crate::scene::{EffectKind, Scene, SceneError, SceneFault};
@@ -43,6 +43,7 @@ pub(super) fn check<T: Real>(
                 let Form::Signal(form) = field.form else { continue };
                 course::check(&signal, (Some(form), scene.signals.len()), place)?;
             }
+            Value::Terms(terms) => coupling::check_terms(scene, &terms, place)?,
             // checked with the joint
             Value::Coordinate(_) => {}
             // left to the kind
@@ -53,7 +54,11 @@ pub(super) fn check<T: Real>(
                 check_coordinate(among, joint, need, place)
                     .map_err(|error| SceneError { field: key, ..error })?;
             }
-            Value::Frame(_) | Value::Name(_) | Value::ForceLaw(_) | Value::BodyLaw(_) => {}
+            Value::Flag(_)
+            | Value::Frame(_)
+            | Value::Name(_)
+            | Value::ForceLaw(_)
+            | Value::BodyLaw(_) => {}
         }
     }
     effect.check(among, place)

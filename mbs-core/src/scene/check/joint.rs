@@ -3,7 +3,7 @@
 use super::reference::check_pair;
 use super::vector::{Place, is_parallel, is_planar};
 use crate::Real;
-use crate::scene::{Joint, Scene, SceneError, SceneFault};
+use crate::scene::{Joint, JointLimits, Scene, SceneError, SceneFault};
 
 pub(super) fn check<T: Real>(
     scene: &Scene<T>,
@@ -22,7 +22,30 @@ pub(super) fn check<T: Real>(
             return place.fault("at", SceneFault::PointsDiffer);
         }
     }
-    check_axes(joint, place)
+    check_axes(joint, place)?;
+    check_limits(joint, place)
+}
+
+/// Limits are of a joint with one coordinate; both ends of a range are in order, the others above zero.
+fn check_limits<T: Real>(joint: &Joint<T>, place: Place) -> Result<(), SceneError> {
+    let JointLimits { range, effort, velocity } = &joint.limits;
+    let Some(first) = joint.limits.first_key() else { return Ok(()) };
+    if joint.kind.single(place.dimension).is_none() {
+        let n = joint.kind.n_coordinates(place.dimension);
+        return place.fault(first, SceneFault::NoSingleCoordinate(n));
+    }
+    if let Some([lower, upper]) = *range {
+        place.finite("range", lower)?;
+        place.finite("range", upper)?;
+        if lower >= upper {
+            let ends = [lower, upper].map(T::to_f64);
+            return place.fault("range", SceneFault::EmptyRange(ends));
+        }
+    }
+    for (key, number) in [("effort_limit", effort), ("velocity_limit", velocity)] {
+        number.map_or(Ok(()), |number| place.positive(key, number))?;
+    }
+    Ok(())
 }
 
 fn check_axes<T: Real>(joint: &Joint<T>, place: Place) -> Result<(), SceneError> {

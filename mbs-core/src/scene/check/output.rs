@@ -30,7 +30,9 @@ pub(super) fn check<T: Real>(
         Target::Effect(effect) => match scene.effects.get(effect.index()) {
             None => place.fault("effect", SceneFault::UnknownReference),
             Some(_) if quantity.components(scene).is_empty() => {
-                place.fault("quantity", SceneFault::NoMeasure)
+                let is_contact = matches!(quantity, Quantity::EffectContact { .. });
+                let fault = if is_contact { SceneFault::NoContact } else { SceneFault::NoMeasure };
+                place.fault("quantity", fault)
             }
             Some(_) => Ok(()),
         },

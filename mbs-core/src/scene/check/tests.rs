@@ -13,7 +13,8 @@ fn body(name: &str, mass: f64, inertia: Inertia<f64>) -> Body<f64> {
 }
 
 fn joint(name: &str, kind: JointKind, bodies: [BodyId; 2]) -> Joint<f64> {
-    Joint { name: name.into(), kind, bodies, points: [[0.0; 3]; 2], axes: [None, None] }
+    let (points, axes, limits) = ([[0.0; 3]; 2], [None, None], JointLimits::NONE);
+    Joint { name: name.into(), kind, bodies, points, axes, limits }
 }
 
 fn planar() -> Scene<f64> {
@@ -351,7 +352,14 @@ fn any_joint() -> impl Strategy<Value = Joint<f64>> {
     let axis = || proptest::option::of(any_vector());
     let kind = (0..JointKind::ALL.len()).prop_map(|i| JointKind::ALL[i]);
     (kind, [reference(), reference()], [any_vector(), any_vector()], [axis(), axis()]).prop_map(
-        |(kind, bodies, points, axes)| Joint { name: "j".into(), kind, bodies, points, axes },
+        |(kind, bodies, points, axes)| Joint {
+            name: "j".into(),
+            kind,
+            bodies,
+            points,
+            axes,
+            limits: JointLimits::NONE,
+        },
     )
 }
 

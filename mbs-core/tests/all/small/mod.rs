@@ -4,7 +4,7 @@ use mbs_core::model::State;
 use mbs_core::natural::NaturalModel;
 use mbs_core::scene::{
     Body, BodyId, Dimension, Guide, Inertia, InitialCondition, InitialTarget, Joint, JointId,
-    JointKind, Motion, Output, Quantity, Scene,
+    JointKind, JointLimits, Motion, Output, Quantity, Scene,
 };
 use mbs_testkit::scenes::empty;
 
@@ -43,7 +43,8 @@ pub(crate) fn add_joint(
     axes: [Option<[f64; 3]>; 2],
 ) -> usize {
     let name = format!("joint {}", scene.joints.len());
-    scene.joints.push(Joint { name, kind, bodies, points: [at, at], axes });
+    let limits = JointLimits::NONE;
+    scene.joints.push(Joint { name, kind, bodies, points: [at, at], axes, limits });
     scene.joints.len() - 1
 }
 

@@ -1,6 +1,6 @@
 //! Seeded random mechanisms with every kind of joint.
 
-use mbs_core::scene::{Body, BodyId, Dimension, Inertia, Joint, JointKind, Scene};
+use mbs_core::scene::{Body, BodyId, Dimension, Inertia, Joint, JointKind, JointLimits, Scene};
 use mbs_testkit::Random;
 use mbs_testkit::scenes::empty;
 
@@ -47,7 +47,7 @@ pub(crate) fn joint(
     let mut axis = || Some(vector(random, dimension));
     let [first, second] = kind.needs_axes(dimension);
     let axes = [first || kind.is_link(), second].map(|is_used| is_used.then(&mut axis).flatten());
-    Joint { name: String::new(), kind, bodies, points: [at; 2], axes }
+    Joint { name: String::new(), kind, bodies, points: [at; 2], axes, limits: JointLimits::NONE }
 }
 
 /// A tree of `n` bodies, some of them reached from their second body.

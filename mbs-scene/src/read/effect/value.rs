@@ -1,6 +1,7 @@
 //! The value of a field, by its form.
 
 use crate::read::ReadFault;
+use crate::read::coupling::read_terms;
 use crate::read::fields::{Fields, Read};
 use crate::read::signal::components;
 use crate::read::tree::{Item, Node};
@@ -32,6 +33,7 @@ pub(super) fn read(
             let joint = &joints[context.joint(fields.need("joint")?)?.index()];
             Value::Coordinate(Some(fields.coordinate(item, joint)?))
         }
+        Form::Terms => Value::Terms(read_terms(fields, item, joints)?),
         Form::Point => Value::Point(context.vector(item)?),
         Form::Points(_) => Value::Points(fields.two_vectors(key)?),
         Form::Axis => Value::Axis(context.vector(item)?),
@@ -39,6 +41,7 @@ pub(super) fn read(
         Form::Spin => Value::Spin(Some(context.joint(item)?)),
         Form::Slip => Value::Slip(Some(slip(fields, item)?)),
         Form::Number(_) => Value::Number(context.number(item)?),
+        Form::Flag => Value::Flag(fields.flag(key, false)?),
         Form::Six => Value::Six(six(fields, item)?),
         Form::Pieces => {
             let pieces = context.list(item, "a list of pieces [lower, upper, c0, c1, ...]")?;

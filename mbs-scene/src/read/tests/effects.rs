@@ -147,6 +147,7 @@ fn effects_of_joints_have_their_defaults() {
     let limit = EffectKind::Limit(Limit {
         joint: JointId::new(0),
         coordinate: None,
+        range: false,
         lower: -0.2,
         upper: 0.3,
         stiffness: 1e5,

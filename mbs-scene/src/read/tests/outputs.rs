@@ -84,11 +84,14 @@ fn outputs_of_unknown_parts_are_refused_at_the_name() {
     let message =
         "`quantity` is not measured by this effect, which acts on bodies in several directions";
     refused(&e, &format!("{}:12", line + 1), message, "`force`");
+    let e = refusal("effect = \"strut\"\nquantity = \"contact\"");
+    let message = "`quantity` is not known of this effect, which acts on both sides";
+    refused(&e, &format!("{}:12", line + 1), message, "a bumper, a limit or a tire");
     let e = refusal("quantity = \"position\"");
     refused(
         &e,
         &format!("{}:1", line - 2),
         "`joint, body, coupling, effect or signal` is missing",
-        "`coupling` or `effect`",
+        "`coupling`, `effect` or `signal`",
     );
 }

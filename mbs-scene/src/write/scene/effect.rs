@@ -43,10 +43,14 @@ impl Writer<'_> {
             Value::Coordinate(number) => {
                 keys.push_some(key, number.map(|number| Node::Number(number.to_string())));
             }
+            Value::Terms(terms) => keys.push(key, self.terms(terms)?),
             Value::Point(x) | Value::Axis(x) => keys.push(key, self.vector(x)),
             Value::Points(x) => keys.push(key, self.two(x)),
             Value::MaybeAxis(x) => keys.push_some(key, x.as_ref().map(|x| self.vector(x))),
-            Value::Number(x) => keys.push_some(key, (!x.is_computed()).then_some(x)),
+            Value::Number(x) => {
+                keys.push_some(key, (!x.is_computed() && !x.is_open()).then_some(x));
+            }
+            Value::Flag(is) => keys.push_some(key, is.then_some(Node::Bool(true))),
             Value::Six(x) => keys.push(key, self.six(x)),
             Value::Pieces(pieces) => {
                 let piece = |PolynomialPiece { lower, upper, coefficients }: &_| {

@@ -4,7 +4,7 @@ pub(crate) use mbs_testkit::repository::path;
 use std::path::{Path, PathBuf};
 
 /// Scenes of the repository, without those of vehicles.
-pub(crate) const SCENES: [&str; 18] = [
+pub(crate) const SCENES: [&str; 20] = [
     "simple-pendulum",
     "double-pendulum",
     "two-four-bars",
@@ -23,6 +23,8 @@ pub(crate) const SCENES: [&str; 18] = [
     "planetary-gear",
     "cam-follower",
     "crane",
+    "servo-arm",
+    "geared-arm",
 ];
 
 /// An empty directory for one test.

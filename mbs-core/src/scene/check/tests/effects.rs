@@ -86,6 +86,7 @@ fn limits_and_friction_need_one_coordinate_and_ordered_levels() {
         EffectKind::Limit(Limit {
             joint,
             coordinate: None,
+            range: false,
             lower,
             upper: 1.0,
             stiffness: 1.0,

@@ -1,6 +1,6 @@
 //! Mechanisms in code: bodies by name, joints between them, the same in plane and space.
 
-use mbs_core::scene::{Body, BodyId, Dimension, Inertia, Joint, JointKind, Scene};
+use mbs_core::scene::{Body, BodyId, Dimension, Inertia, Joint, JointKind, JointLimits, Scene};
 use mbs_study::redundancy::{Diagnosis, Linkage, Nature, diagnose, reference};
 use mbs_testkit::scenes::empty;
 
@@ -53,7 +53,7 @@ impl Build {
         axes: [Option<Point>; 2],
     ) -> usize {
         let name = format!("joint-{}", self.0.joints.len());
-        self.0.joints.push(Joint { name, kind, bodies, points, axes });
+        self.0.joints.push(Joint { name, kind, bodies, points, axes, limits: JointLimits::NONE });
         self.0.joints.len() - 1
     }
 

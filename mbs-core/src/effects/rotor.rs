@@ -1,0 +1,49 @@
+//! Inertia of a rotor that turns with a coordinate of a joint, by a ratio: that of a motor behind a gear.
+//!
+//! ```text
+//! E = inertia (ratio q')^2 / 2          nothing else: no moment on the housing but that about the joint's axis
+//! ```
+//!
+//! It is an inertia and no force: models take it from [`RotorInput`](crate::measure::RotorInput).
+
+#[cfg(feature = "alloc")]
+pub use data::Rotor;
+
+#[cfg(feature = "alloc")]
+mod data {
+    use crate::effects::data::*;
+    use crate::measure::RotorInput;
+
+    effect! {
+        /// A rotor that turns by ratio times a joint's coordinate: kinetic energy inertia (ratio rate)² / 2.
+        pub struct Rotor<T> = ["rotor"] {
+            /// The joint.
+            joint: JointId = Joint(Coordinate), "", Needed;
+            /// Its coordinate; needed where it has several.
+            coordinate: Option<usize> = Coordinate, "", Nothing;
+            /// Inertia of the rotor about its axis.
+            inertia: T = Number(Positive), "kg m²", Needed;
+            /// How far the rotor turns for each unit of the coordinate.
+            ratio: T = Number(Any), "- or rad/m", Needed;
+        }
+    }
+
+    impl<T: Real> EffectModel<T> for Rotor<T> {
+        const LAW: &'static str = "adds `inertia` `ratio`² to the inertia of the coordinate";
+        const HAS_BRANCHES: bool = false;
+
+        fn check(&self, among: Surroundings<'_, T>, place: Place) -> Result<(), SceneError> {
+            let is_free = |joint: &crate::scene::Joint<T>| joint.kind.is_free();
+            if among.joints.get(self.joint.index()).is_some_and(is_free) {
+                return place.fault("joint", SceneFault::FreeRotor);
+            }
+            let at_joint = RotorInput::at_joint(self);
+            if at_joint.is_finite() && at_joint > T::ZERO {
+                return Ok(());
+            }
+            place.fault("ratio", SceneFault::RotorRatio(at_joint.to_f64()))
+        }
+
+        fn actions(&self, _: &mut Compiler<'_, T>) {}
+    }
+}

@@ -1,0 +1,36 @@
+//! The rotors of a scene: what each adds to the inertia of a joint coordinate.
+
+use crate::Real;
+use crate::effects::{EffectKind, Rotor};
+use crate::scene::Scene;
+
+/// An enabled rotor.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct RotorInput<T> {
+    /// `scene.effects[effect]`.
+    pub effect: usize,
+    /// The joint.
+    pub joint: usize,
+    /// The number of its coordinate.
+    pub number: usize,
+    /// Inertia times the square of the ratio [kg m^2, of a slide kg].
+    pub inertia: T,
+}
+
+impl<T: Real> RotorInput<T> {
+    /// Those of a checked scene, in the order of its effects.
+    pub fn all(scene: &Scene<T>) -> impl Iterator<Item = Self> + '_ {
+        let effects = scene.effects.iter().enumerate().filter(|(_, effect)| effect.enabled);
+        effects.filter_map(|(effect, of)| {
+            let EffectKind::Rotor(rotor) = &of.kind else { return None };
+            let joint = rotor.joint.index();
+            let number = rotor.coordinate.unwrap_or(0);
+            Some(Self { effect, joint, number, inertia: Self::at_joint(rotor) })
+        })
+    }
+
+    /// What a rotor adds to the inertia of its coordinate.
+    pub(crate) fn at_joint(rotor: &Rotor<T>) -> T {
+        rotor.inertia * rotor.ratio * rotor.ratio
+    }
+}

@@ -1,0 +1,27 @@
+//! Whether an effect that acts on one side only is in contact.
+
+use super::kind::{Instant, Maker, Measured};
+use super::{ComponentForm, QuantityRow, TargetKind};
+use crate::Real;
+use crate::scene::EffectId;
+use core::marker::PhantomData;
+
+pub(super) const ROW: QuantityRow =
+    QuantityRow::new("contact", TargetKind::Effect, ComponentForm::Contact).of_effects();
+
+/// The effect.
+#[derive(Debug, Clone)]
+pub(in crate::outputs) struct EffectContact<T: Real, const D: usize>(usize, PhantomData<T>);
+
+impl<T: Real, const D: usize> Measured<T, D> for EffectContact<T, D> {
+    type Of = EffectId;
+
+    fn new(of: EffectId, _: &mut Maker<'_, T, D>) -> Self {
+        Self(of.index(), PhantomData)
+    }
+
+    fn write(&self, now: &Instant<'_, T, D>, out: &mut [T]) {
+        let is_in_contact = now.effects.is_some_and(|all| all.is_in_contact(self.0, now.state));
+        out[0] = if is_in_contact { T::ONE } else { T::ZERO };
+    }
+}

@@ -1,0 +1,69 @@
+//! Rotors at a state: the torque of their inertia on both bodies of the joint, and their kinetic energy.
+//!
+//! ```text
+//! on the coordinate   -inertia q''          E = inertia q'^2 / 2          inertia: at the joint
+//! ```
+
+use super::coupled_sum::Part;
+use super::load::Applied;
+use crate::Real;
+use crate::laws::scalar::ScalarForce;
+use crate::measure::RotorInput;
+use crate::model::State;
+use crate::natural::NaturalModel;
+use crate::scene::Scene;
+use alloc::vec::Vec;
+
+/// A rotor.
+#[derive(Debug, Clone)]
+pub(super) struct RotorTorque<T: Real, const D: usize> {
+    /// `scene.effects[effect]`.
+    pub(super) effect: usize,
+    inertia: T,
+    unknown: usize,
+    of: Part<T, D>,
+}
+
+impl<T: Real, const D: usize> RotorTorque<T, D> {
+    /// All enabled rotors of a scene that passed its check.
+    pub(super) fn all(scene: &Scene<T>, model: &NaturalModel<T, D>) -> Vec<Self> {
+        let rotors = RotorInput::all(scene).filter_map(|rotor| {
+            let RotorInput { effect, joint, number, inertia } = rotor;
+            let unknown = model.rotors().iter().find(|at| at.effect == effect)?.unknown;
+            let of = Part::of_coordinate(scene, model, (joint, number))?;
+            Some(Self { effect, inertia, unknown, of })
+        });
+        rotors.collect()
+    }
+
+    /// Hands out what it does to the bodies of its joint.
+    pub(super) fn apply(&self, state: &State<T>, take: impl FnMut(Applied<T>)) {
+        self.of.apply(-self.inertia * state.a[self.unknown], state, take);
+    }
+
+    /// The joint's coordinate, its rate, and the torque against its growth.
+    pub(super) fn scalar(&self, state: &State<T>) -> ScalarForce<T> {
+        let [value, rate] = self.of.measure(state);
+        let tension = self.inertia * state.a[self.unknown];
+        ScalarForce { value, rate, tension, ..ScalarForce::default() }
+    }
+
+    /// Its kinetic energy [J].
+    pub(super) fn kinetic_energy(&self, state: &State<T>) -> T {
+        let rate = state.v[self.unknown];
+        self.inertia * rate * rate * T::HALF
+    }
+
+    /// The power that it gives to bodies [W].
+    pub(super) fn power(&self, state: &State<T>) -> T {
+        -self.inertia * state.a[self.unknown] * state.v[self.unknown]
+    }
+}
+
+/// The kinetic energy of rotors [J].
+pub(super) fn kinetic_energy<T: Real, const D: usize>(
+    rotors: &[RotorTorque<T, D>],
+    state: &State<T>,
+) -> T {
+    rotors.iter().fold(T::ZERO, |sum, rotor| sum + rotor.kinetic_energy(state))
+}

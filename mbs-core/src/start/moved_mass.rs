@@ -1,0 +1,69 @@
+//! The mass that a joint coordinate moves alone, in the reference configuration.
+//!
+//! ```text
+//! m = min v^T M v   with   J v = 0,  g v = 1          = 1 / (g P g^T), P the inverse mass on the constraints
+//! ```
+//!
+//! It is twice the kinetic energy of the smallest velocities at which the coordinate has the rate one: those of a start.
+
+use super::hold::StartRow;
+use super::problem::Problem;
+use super::sweeps::Assembly;
+use crate::Real;
+use crate::dense::Dense;
+use crate::model::{Model, State};
+use crate::natural::NaturalModel;
+use crate::scene::{
+    Coupling, CouplingMeasure, CouplingTerm, Dimension, Guide, JointId, Motion, Scene,
+};
+use alloc::string::String;
+use alloc::vec;
+use alloc::vec::Vec;
+
+/// The mass that a coordinate, by joint and number, moves where all others follow freely [kg or kg m^2]; guides stand still and couplings
+/// hold. `None` where it moves none, or cannot move.
+///
+/// Cost: a model of the scene, and a dense factorisation of its coordinates, (12 bodies)^3/3 products in space.
+#[must_use]
+pub fn moved_mass<T: Real>(scene: &Scene<T>, of: (JointId, usize)) -> Option<T> {
+    let moving = moving(scene, of);
+    let mass = match scene.dimension {
+        Dimension::Planar => twice_energy::<T, 2>(&moving),
+        Dimension::Spatial => twice_energy::<T, 3>(&moving),
+    };
+    mass.filter(|mass| *mass > T::ZERO && mass.is_finite())
+}
+
+/// The scene without effects and start values, at rest but for one coordinate, whose rate is one.
+fn moving<T: Real>(scene: &Scene<T>, (joint, number): (JointId, usize)) -> Scene<T> {
+    let guide = |guide: &Guide<T>| Guide { joint: guide.joint, law: Motion::Input([T::ZERO; 3]) };
+    let held =
+        |coupling: &Coupling<T>| Coupling { value: T::ZERO, motion: None, ..coupling.clone() };
+    let of = CouplingMeasure::Coordinate { joint, number };
+    let rate_of_one = Coupling {
+        name: String::new(),
+        terms: vec![CouplingTerm { factor: T::ONE, of, curve: None }],
+        value: T::ZERO,
+        motion: Some(Motion::Ramp { rate: T::ONE }),
+    };
+    Scene {
+        bodies: scene.bodies.clone(),
+        joints: scene.joints.clone(),
+        guides: scene.guides.iter().map(guide).collect(),
+        couplings: scene.couplings.iter().map(held).chain([rate_of_one]).collect(),
+        gravity: None,
+        signals: Vec::new(),
+        ..Scene::empty("", scene.dimension, T::ONE)
+    }
+}
+
+fn twice_energy<T: Real, const D: usize>(scene: &Scene<T>) -> Option<T> {
+    let model = NaturalModel::<T, D>::new(scene).ok()?;
+    let mut state = State::at_rest(&model);
+    let problem = Problem::new(&model, StartRow::all(scene, &model));
+    let solver = Dense::new(&problem);
+    let mut assembly = Assembly::new(problem, solver, &state);
+    assembly.drive(&state.q, T::ONE);
+    assembly.velocities(&mut state).ok()?;
+    Some(T::TWO * model.kinetic_energy(&state.v))
+}

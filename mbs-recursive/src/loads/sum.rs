@@ -1,0 +1,136 @@
+//! A law of a sum of coordinates and lengths: a spring, a stop or a clutch between several joints.
+//!
+//! ```text
+//! m = Σ cₖ fₖ(mₖ)        its terms stand in the table of those of couplings
+//! joint                  τ = −g f,    g = c f'          along its coordinate
+//! line                   −g f n at the end of a part, its opposite at the beginning
+//! ahead                  as f answers by κ, each end answers alone by κ n/2 w wᵀ, of n ends that move
+//! ```
+//!
+//! The last is enough for the iteration to contract: (Σ xₖ)² is at most n Σ xₖ². Of one end it is n = 2, the answer itself.
+
+use super::{Instant, Reach};
+use crate::coupled::{CoupledRow, NONE, SumEnd};
+use crate::indexing::{Outside, at, at_mut};
+use crate::link::ArticulatedInertia;
+use crate::plan::Span;
+use crate::space::Space;
+use mbs_core::Real;
+use mbs_core::laws::scalar::{Law, ScalarForce};
+
+/// A law of a sum.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SumLoad<T> {
+    /// Its terms.
+    pub terms: Span,
+    /// The links on which its lines have points.
+    pub starts: Span,
+    /// The law.
+    pub law: Law<T>,
+}
+
+impl<T: Real> SumLoad<T> {
+    /// The sum as a row whose value it is.
+    fn row(&self) -> CoupledRow<T> {
+        CoupledRow {
+            terms: self.terms,
+            starts: self.starts,
+            guide: NONE,
+            value: T::ZERO,
+            inverse: T::ONE,
+            is_angle: false,
+        }
+    }
+
+    /// The law at the sum.
+    pub(super) fn evaluate<S: Space<T>>(
+        &self,
+        here: &Instant<'_, T, S>,
+    ) -> Result<ScalarForce<T>, Outside> {
+        let value = here.couplings.evaluate((&self.row(), 0, 1), here.mechanism(), None)?;
+        let [sum, rate, _] = value.row;
+        Ok(self.law.evaluate(sum, rate, &here.law_inputs))
+    }
+
+    /// Adds its forces.
+    #[inline(never)]
+    pub(super) fn apply<S: Space<T>>(
+        &self,
+        here: &Instant<'_, T, S>,
+        condensed: &mut [ArticulatedInertia<T, S>],
+    ) -> Result<(), Outside> {
+        let tension = self.evaluate(here)?.tension;
+        here.couplings.each_end(&self.row(), here.mechanism(), |end| {
+            match end {
+                SumEnd::Joint { link, slope } => {
+                    at_mut(condensed, link as usize)?.effort -= slope * tension;
+                }
+                SumEnd::Link { link, wrench } => {
+                    at_mut(condensed, link as usize)?.force += wrench * tension;
+                }
+            }
+            Ok(())
+        })
+    }
+
+    /// Adds its forces, and how they answer to accelerations.
+    #[inline(never)]
+    pub(super) fn apply_ahead<S: Space<T>>(
+        &self,
+        here: &Instant<'_, T, S>,
+        (reach, zdd, a): (Reach<T>, &[T], &[S::Motion]),
+        condensed: &mut [ArticulatedInertia<T, S>],
+    ) -> Result<(), Outside> {
+        let mut measure = self.evaluate(here)?;
+        measure.damping = self.law.secant(&measure);
+        let (row, mut ends) = (self.row(), T::ZERO);
+        let moves = |end: &SumEnd<T, S>| match end {
+            SumEnd::Joint { link, .. } => Ok(!at(here.links, *link as usize)?.kind.is_guided()),
+            SumEnd::Link { link, .. } => Ok(*link > 0),
+        };
+        here.couplings.each_end(&row, here.mechanism(), |end| {
+            if moves(&end)? {
+                ends += T::ONE;
+            }
+            Ok(())
+        })?;
+        let ends = ends.max(T::TWO) * T::HALF;
+        here.couplings.each_end(&row, here.mechanism(), |end| {
+            let is_free = moves(&end)?;
+            match end {
+                SumEnd::Joint { link, slope } => {
+                    let c = at_mut(condensed, link as usize)?;
+                    c.effort -= slope * measure.tension;
+                    if is_free {
+                        let weight = reach.weight(&measure) * ends * slope * slope;
+                        let v = at(here.links, link as usize)?.v as usize;
+                        c.resistance += weight;
+                        c.effort += weight * *at(zdd, v)?;
+                    }
+                }
+                SumEnd::Link { link, wrench } => {
+                    let measure = ScalarForce {
+                        stiffness: measure.stiffness * ends,
+                        damping: measure.damping * ends,
+                        ..measure
+                    };
+                    let a = at(a, link as usize)?;
+                    if is_free {
+                        reach.resist(at_mut(condensed, link as usize)?, (&wrench, a), &measure);
+                    }
+                }
+            }
+            Ok(())
+        })
+    }
+
+    /// Stored energy [J].
+    pub(super) fn potential<S: Space<T>>(&self, here: &Instant<'_, T, S>) -> Result<T, Outside> {
+        Ok(self.law.energy(self.evaluate(here)?.value, &here.law_inputs))
+    }
+
+    /// Power that is not stored [W].
+    pub(super) fn power<S: Space<T>>(&self, here: &Instant<'_, T, S>) -> Result<T, Outside> {
+        Ok(self.law.power(&self.evaluate(here)?, &here.law_inputs))
+    }
+}

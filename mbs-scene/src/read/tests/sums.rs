@@ -1,0 +1,129 @@
+//! Effects on sums: every kind reads its terms and is written as it was read; faults have their place.
+
+use super::{read, refused};
+use crate::{SceneFile, to_toml};
+use mbs_core::effects::{ActsOn, Value};
+use mbs_core::scene::*;
+
+const JOINTS: &str = r#"[scene]
+dimension = 3
+duration = 1.0
+[[body]]
+name = "w"
+mass = 1.0
+center = [0.0, 0.0, 0.0]
+inertia = [1.0, 1.0, 1.0, 0.0, 0.0, 0.0]
+[[body]]
+name = "v"
+mass = 1.0
+center = [1.0, 0.0, 0.0]
+inertia = [1.0, 1.0, 1.0, 0.0, 0.0, 0.0]
+[[body]]
+name = "u"
+mass = 1.0
+center = [2.0, 0.0, 0.0]
+inertia = [1.0, 1.0, 1.0, 0.0, 0.0, 0.0]
+[[joint]]
+name = "a"
+kind = "revolute"
+bodies = ["ground", "w"]
+at = [0.0, 0.0, 0.0]
+axis = [0.0, 0.0, 2.0]
+[[joint]]
+name = "c"
+kind = "cylindrical"
+bodies = ["ground", "u"]
+at = [2.0, 0.0, 0.0]
+axis = [1.0, 0.0, 0.0]
+[[joint]]
+name = "fix"
+kind = "weld"
+bodies = ["ground", "v"]
+at = [1.0, 0.0, 0.0]
+"#;
+
+fn with(effect: &str) -> String {
+    format!("{JOINTS}[[effect]]\n{effect}\n")
+}
+
+const TERMS: &str =
+    "terms = [{ joint = \"a\" }, { joint = \"c\", coordinate = \"turn\", factor = -2.0 }]\n";
+
+#[test]
+fn every_kind_on_a_sum_is_written_as_it_was_read() {
+    let line = "terms = [{ joint = \"a\", coefficients = [0.0, 0.1] }, { points = [{ body = \"w\", at = [0, 0, 0] }, { body = \"u\", at = [2, 0, 0] }] }]\n";
+    for rest in [
+        "kind = \"torsion-spring\"\nstiffness = 3.0\nfree_value = 0.2",
+        "kind = \"spring-damper\"\ndamping = 3.0",
+        "kind = \"torque\"\ntable = [[0.0, 1.0], [1.0, 2.0]]",
+        "kind = \"limit\"\nlower = -0.1\nupper = 0.2\nstiffness = 3.0",
+        "kind = \"friction\"\ncoulomb = 3.0\nvalue = 0.5",
+        "kind = \"polynomial-spring\"\ncoefficients = [[-1.0, 1.0, 0.0, 2.0]]",
+        "kind = \"polynomial-damper\"\ncoefficients = [[-1.0, 1.0, 0.0, 2.0]]",
+    ] {
+        for terms in [TERMS, line] {
+            let text = with(&format!("{terms}{rest}"));
+            let scene = read(&text).unwrap_or_else(|e| panic!("{}", e.render()));
+            assert_eq!(scene.effects[0].kind.acts_on(), ActsOn::Sum, "{rest}");
+            let file = SceneFile::parse(&text, "s.toml").expect("it reads");
+            let written = to_toml(&file.numbers().expect("numbers")).expect("it is written");
+            let again = read(&written).unwrap_or_else(|e| panic!("{}\n{written}", e.render()));
+            assert_eq!(again.effects, scene.effects, "{written}");
+        }
+    }
+    let scene = read(&with(&format!("{TERMS}kind = \"torque\"\nvalue = 1.0"))).expect("it reads");
+    let Value::Terms(terms) = &scene.effects[0].kind.values()[0] else { panic!("terms") };
+    let of = |term: &CouplingTerm<f64>| (term.factor, term.of.coordinate());
+    let joint = |joint, number| Some((JointId::new(joint), number));
+    assert_eq!([of(&terms[0]), of(&terms[1])], [(1.0, joint(0, 0)), (-2.0, joint(1, 1))]);
+}
+
+#[test]
+fn an_effect_of_a_joint_is_taken_to_a_sum_in_code() {
+    let (a, c) = (JointId::new(0), JointId::new(1));
+    let terms = vec![CouplingTerm::of_joint(a, 0, 1.0), CouplingTerm::of_joint(c, 1, -2.0)];
+    let clutch = Effect::friction(a, 3.0, 1e-3).on_terms(terms.clone());
+    let EffectKind::SumFriction(of) = clutch.kind else { panic!("friction on a sum") };
+    assert_eq!((of.terms, of.coulomb.to_f64()), (terms.clone(), 3.0));
+    let spring = Effect::torsion_spring(a, 3.0, 0.1, 0.2).on_terms(terms.clone());
+    assert!(matches!(spring.kind, EffectKind::SumSpring(_)));
+    let drag = Effect::aero_drag(BodyId::Body(0), [0.0, 0.0, 0.0], 1.0, 1.2);
+    assert_eq!(drag.clone().on_terms(terms), drag);
+}
+
+#[test]
+fn sums_that_measure_nothing_are_refused_at_their_place() {
+    let cases = [
+        ("terms = [{ joint = \"b\" }]", "37:20", "unknown joint `b`", ""),
+        ("terms = [{ joint = \"c\" }]", "37:20", "`slide`, `turn`", ""),
+        (
+            "terms = [{ joint = \"c\", coordinate = \"trun\" }]",
+            "37:38",
+            "unknown coordinate `trun`",
+            "did you mean `turn`?",
+        ),
+        ("terms = [{ joint = \"c\", coordinate = 2 }]", "37:9", "`coordinate`", ""),
+        ("terms = [{ joint = \"a\" }]\njoint = \"a\"", "38:9", "`terms` and `joint`", ""),
+        ("terms = [{ joint = \"a\" }]\ncoordinate = 0", "38:14", "`terms` and `coordinate`", ""),
+        ("terms = []", "37:9", "no term", ""),
+        ("terms = [{ joint = \"a\", factor = 0.0 }]", "37:9", "no term", ""),
+        ("terms = [{ joint = \"fix\" }]", "37:9", "without coordinates", ""),
+        (
+            "terms = [{ joint = \"a\", fcator = 1.0 }]",
+            "37:25",
+            "unknown key `fcator`",
+            "did you mean `factor`?",
+        ),
+        ("terms = 3", "37:9", "a list of terms", ""),
+    ];
+    for (terms, place, message, hint) in cases {
+        let text = with(&format!("{terms}\nkind = \"friction\"\ncoulomb = 1.0"));
+        let e = read(&text).unwrap_err();
+        eprintln!("{}", e.render());
+        refused(&e, place, message, hint);
+    }
+    let text = with("kind = \"friction\"\ncoulomb = 1.0");
+    refused(&read(&text).unwrap_err(), "36:1", "`joint` is missing", "");
+    let text = with(&format!("{TERMS}kind = \"limit\"\nlower = 1.0\nupper = 0.0\nstiffness = 1.0"));
+    refused(&read(&text).unwrap_err(), "39:9", "`lower`", "");
+}

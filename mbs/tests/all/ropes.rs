@@ -1,0 +1,63 @@
+//! Ropes whose parts lose their length: every formulation stops there by name.
+
+use mbs::Error as _;
+use mbs::{
+    Body, Coupling, CouplingMeasure, CouplingTerm, FormulationKind, GROUND, Joint, Mechanism,
+    Method, Run,
+};
+
+/// 3 kg and 2 kg on a rope over two points of the ground; the lighter one hangs half a metre below its point.
+fn atwood() -> Mechanism {
+    let mut m = Mechanism::planar("atwood");
+    m.set_gravity([0.0, -9.81]).set_duration(2.0);
+    let [heavy, light] = [([0.0, -1.0], 3.0), ([1.0, 0.5], 2.0)]
+        .map(|(at, mass)| m.add(Body::planar(at, mass, 0.1)));
+    for (body, at, name) in [(heavy, [0.0, -1.0], "down"), (light, [1.0, 0.5], "up")] {
+        m.add(Joint::prismatic([GROUND, body], at).along([0.0, 1.0]).named(name));
+    }
+    let points =
+        [(heavy, [0.0, -1.0]), (GROUND, [0.0, 1.0]), (GROUND, [1.0, 1.0]), (light, [1.0, 0.5])];
+    let points = points.map(|(body, [x, y])| (body, [x.into(), y.into(), 0.0.into()])).to_vec();
+    let of = CouplingMeasure::Length { points };
+    let line = CouplingTerm { factor: 1.0.into(), of, curve: None };
+    m.add(Coupling::of(vec![line]).named("hoist"));
+    m
+}
+
+#[test]
+fn a_part_that_has_no_length_left_stops_the_run_in_every_formulation() {
+    // a = g (3 - 2)/(3 + 2), and half a metre is passed at t = sqrt(1/a)
+    let meeting = (1.0_f64 / 1.962).sqrt();
+    for kind in FormulationKind::listed() {
+        let method = Method { step: Some(1e-3), ..Method::new(kind) };
+        let result = mbs::run(&atwood(), &Run::new().method(method)).expect("it starts");
+        let stop = result.stop.unwrap_or_else(|| panic!("{} does not stop", kind.name()));
+        assert_eq!(stop.code(), "rope-collapsed", "{}: {stop}", kind.name());
+        let message = stop.to_string();
+        for part in ["`hoist`", "from `ground` to `body-2`", "part 3", "no length left"] {
+            assert!(message.contains(part), "{}: {message}", kind.name());
+        }
+        let time = *result.table.time().last().expect("a row");
+        assert!((0.0..2e-3).contains(&(meeting - time)), "{}: {time}, {meeting}", kind.name());
+    }
+}
+
+#[test]
+fn a_part_that_only_turns_keeps_its_rope() {
+    // a mass on one rope swings through more than half a turn
+    let mut m = Mechanism::planar("swing");
+    m.set_gravity([0.0, -9.81]).set_duration(1.5);
+    let bob = m.add(Body::planar([0.3, 0.0], 1.0, 1e-3));
+    m.add(Joint::free([GROUND, bob], [0.3, 0.0]).named("way"));
+    let points = vec![
+        (GROUND, [0.0.into(), 0.0.into(), 0.0.into()]),
+        (bob, [0.3.into(), 0.0.into(), 0.0.into()]),
+    ];
+    let of = CouplingMeasure::Length { points };
+    m.add(Coupling::of(vec![CouplingTerm { factor: 1.0.into(), of, curve: None }]).named("rope"));
+    for kind in FormulationKind::listed() {
+        let method = Method { step: Some(5e-3), ..Method::new(kind) };
+        let result = mbs::run(&m, &Run::new().method(method)).expect("it starts");
+        assert!(result.stop.is_none(), "{}: {:?}", kind.name(), result.stop);
+    }
+}

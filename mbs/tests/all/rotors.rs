@@ -1,0 +1,46 @@
+//! Rotor inertia against closed forms and equations of motion derived by hand, in every formulation.
+
+mod arm;
+mod closed_forms;
+mod joints;
+mod states;
+
+use crate::common::oracle::{Rows, Way, rows};
+use mbs_testkit::scene;
+
+/// Every formulation.
+const FORMULATIONS: [&str; 5] = ["index-3", "index-1", "classical", "state-space", "recursive"];
+
+fn head(dimension: usize, gravity: &str) -> String {
+    format!(
+        "[scene]\nname = \"r\"\ndimension = {dimension}\nduration = 10.0\ngravity = {gravity}\n"
+    )
+}
+
+fn rotor(joint: &str, inertia: f64, ratio: f64) -> String {
+    format!(
+        "[[effect]]\nname = \"rotor-{joint}\"\nkind = \"rotor\"\njoint = \"{joint}\"\ninertia = {inertia:?}\n\
+         ratio = {ratio:?}\n"
+    )
+}
+
+fn output(joint: &str, quantity: &str) -> String {
+    format!(
+        "[[output]]\nname = \"{joint}-{quantity}\"\njoint = \"{joint}\"\nquantity = \"{quantity}\"\n"
+    )
+}
+
+fn initial(joint: &str, value: f64, rate: f64) -> String {
+    format!("[[initial]]\njoint = \"{joint}\"\nvalue = {value:?}\nrate = {rate:?}\n")
+}
+
+/// A run by a formulation with its trapezoidal rule.
+fn run(text: &str, formulation: &'static str, step: f64, duration: f64) -> Rows {
+    let way = Way(formulation, "trapezoidal");
+    let rows = rows(&scene(text), way, (step, duration), 1);
+    rows.unwrap_or_else(|e| panic!("{formulation}: {e}"))
+}
+
+fn last(rows: &[(f64, Vec<f64>)]) -> &[f64] {
+    &rows.last().expect("a row").1
+}
