@@ -173,10 +173,7 @@ pub fn follow<T: Real, E>(
 ) -> Result<(), E> {
     for step in steps {
         let of = |number: u32| courses.get(number as usize).copied().unwrap_or([T::ZERO; 3]);
-        let slope = |states: &SignalStates<'_, T>, number: u32| {
-            states.slopes.get(number as usize).copied().unwrap_or(CourseSlope::none())
-        };
-        let (mine, h) = (of(step.to), states.dt);
+        let mine = of(step.to);
         let (value, by) = match step.operation {
             FeedbackOperation::Value { number } => {
                 let [value, rate] = measure(number)?;
@@ -189,48 +186,28 @@ pub fn follow<T: Real, E>(
             FeedbackOperation::Constant(value) => ([value, T::ZERO, T::ZERO], CourseSlope::none()),
             FeedbackOperation::Add { from, factor } => {
                 let other = of(from);
-                let by = slope(states, step.to).plus(slope(states, from).scaled(factor));
+                let by = states.slope(step.to).plus(states.slope(from).scaled(factor));
                 (core::array::from_fn(|k| mine[k] + factor * other[k]), by)
             }
             FeedbackOperation::Multiply { from } => {
                 let other = of(from);
-                let [left, right] = [slope(states, step.to), slope(states, from)];
+                let [left, right] = [states.slope(step.to), states.slope(from)];
                 (product(mine, other), left.scaled(other[0]).plus(right.scaled(mine[0])))
             }
             FeedbackOperation::Curve { from, curve: number } => {
                 let s = of(from);
                 let f = curve(number, s[0])?;
-                (chain(f, s), slope(states, from).scaled(f[1]))
+                (chain(f, s), states.slope(from).scaled(f[1]))
             }
             FeedbackOperation::Clamp { from, limits: [lower, upper] } => {
                 let s = of(from);
                 let is_free = s[0] >= lower && s[0] <= upper;
-                let by = if is_free { slope(states, from) } else { CourseSlope::none() };
+                let by = if is_free { states.slope(from) } else { CourseSlope::none() };
                 (clamp(s, [lower, upper]), by)
             }
-            FeedbackOperation::Lag { from, state, time } => {
-                let share = h * T::HALF / time;
-                let by = slope(states, from).scaled(share / (T::ONE + share));
-                let lag = states.with(state, |h, start| lag((h, time), start, of(from)[0]));
-                (lag, by)
-            }
-            FeedbackOperation::Integral { from, state, limits } => {
-                let by = slope(states, from).scaled(h * T::HALF);
-                let sum = states.with(state, |h, start| integral((h, limits), start, of(from)));
-                (sum, by)
-            }
-            FeedbackOperation::Pid { from, state, gains, limit } => {
-                let ([wanted, wanted_t, _], [measured, measured_t, _]) = (of(from[0]), of(from[1]));
-                let e = [wanted - measured, wanted_t - measured_t];
-                let asked = states.with(state, |h, start| pid((h, gains, limit), start, e));
-                let of_e = slope(states, from[1]).scaled(-T::ONE).plus(slope(states, from[0]));
-                let [p, i, d] = gains;
-                let by = of_e.scaled(p + i * h * T::HALF);
-                // the rate of what answers to a coordinate answers to the coordinate's rate
-                let by = CourseSlope { of: by.of, by: [by.by[0], by.by[1] + d * of_e.by[0]] };
-                let is_free = asked[0].abs() < limit;
-                (asked, if is_free { by } else { CourseSlope::none() })
-            }
+            FeedbackOperation::Lag { .. }
+            | FeedbackOperation::Integral { .. }
+            | FeedbackOperation::Pid { .. } => integrate(step.operation, of, states),
             FeedbackOperation::Component { from, component } => {
                 let mut vector = mine;
                 if let Some(to) = vector.get_mut(component as usize) {
@@ -239,7 +216,7 @@ pub fn follow<T: Real, E>(
                 (vector, CourseSlope::none())
             }
             FeedbackOperation::Force { from, on } => {
-                let by = slope(states, from);
+                let by = states.slope(from);
                 // what pushes the way it is pushed is left to the iteration: the matrix stays definite
                 let resists = |slope: T| if by.of == on { (-slope).max(T::ZERO) } else { T::ZERO };
                 ([of(from)[0], resists(by.by[0]), resists(by.by[1])], CourseSlope::none())
@@ -255,7 +232,48 @@ pub fn follow<T: Real, E>(
     Ok(())
 }
 
+/// The operations with a state; others give nothing.
+#[inline(always)]
+fn integrate<T: Real>(
+    operation: FeedbackOperation<T>,
+    of: impl Fn(u32) -> Signal<T>,
+    states: &mut SignalStates<'_, T>,
+) -> (Signal<T>, CourseSlope<T>) {
+    let h = states.dt;
+    match operation {
+        FeedbackOperation::Lag { from, state, time } => {
+            let share = h * T::HALF / time;
+            let by = states.slope(from).scaled(share / (T::ONE + share));
+            let lag = states.with(state, |h, start| lag((h, time), start, of(from)[0]));
+            (lag, by)
+        }
+        FeedbackOperation::Integral { from, state, limits } => {
+            let by = states.slope(from).scaled(h * T::HALF);
+            let sum = states.with(state, |h, start| integral((h, limits), start, of(from)));
+            (sum, by)
+        }
+        FeedbackOperation::Pid { from, state, gains, limit } => {
+            let ([wanted, wanted_t, _], [measured, measured_t, _]) = (of(from[0]), of(from[1]));
+            let e = [wanted - measured, wanted_t - measured_t];
+            let asked = states.with(state, |h, start| pid((h, gains, limit), start, e));
+            let of_e = states.slope(from[1]).scaled(-T::ONE).plus(states.slope(from[0]));
+            let [p, i, d] = gains;
+            let by = of_e.scaled(p + i * h * T::HALF);
+            // the rate of what answers to a coordinate answers to the coordinate's rate
+            let by = CourseSlope { of: by.of, by: [by.by[0], by.by[1] + d * of_e.by[0]] };
+            let is_free = asked[0].abs() < limit;
+            (asked, if is_free { by } else { CourseSlope::none() })
+        }
+        _ => ([T::ZERO; 3], CourseSlope::none()),
+    }
+}
+
 impl<T: Real> SignalStates<'_, T> {
+    /// How a course answers.
+    fn slope(&self, number: u32) -> CourseSlope<T> {
+        self.slopes.get(number as usize).copied().unwrap_or(CourseSlope::none())
+    }
+
     /// Sets a state by the step's length and its start; what is left is its signal.
     fn with(&mut self, state: u32, f: impl FnOnce(T, [T; 2]) -> (Signal<T>, [T; 2])) -> Signal<T> {
         let start = self.starts.get(state as usize).copied().unwrap_or([T::ZERO; 2]);

@@ -1,5 +1,7 @@
 //! Models are checked once, when they are loaded: afterwards every number in their tables points into them.
 
+mod signals;
+
 use crate::inputs::{Motion, SignalLaw};
 use crate::model::Model;
 use mbs_core::Real;
@@ -107,6 +109,10 @@ pub struct Sizes {
     pub guides: usize,
     /// Courses.
     pub courses: usize,
+    /// States of signals.
+    pub states: usize,
+    /// Courses, where there are operations on them; else none.
+    pub followed: usize,
 }
 
 impl Sizes {
@@ -124,6 +130,8 @@ impl Sizes {
             ("gains", self.gains, room.gains),
             ("guides", self.guides, room.guides),
             ("courses", self.courses, room.courses),
+            ("states of signals", self.states, room.states),
+            ("courses with operations", self.followed, room.followed),
         ] {
             if needed > capacity {
                 return Err(LoadError::Capacity { of, needed, capacity });
@@ -164,6 +172,8 @@ impl Sizes {
             gains,
             guides: 0,
             courses: 0,
+            states: m.feedback.n_states,
+            followed: 0,
         }
     }
 }
@@ -184,9 +194,11 @@ impl<'a, T: Real, S: Space<T>> Checked<'a, T, S> {
     /// [`LoadError::Index`] names the table and the entry.
     pub fn new(model: &Model<'a, T, S>) -> Result<Self, LoadError> {
         let prescriptions = &model.prescriptions;
+        let courses = prescriptions.courses.len();
         let sizes = Sizes {
             guides: prescriptions.guides.len(),
-            courses: prescriptions.courses.len(),
+            courses,
+            followed: if model.mechanism.feedback.steps.is_empty() { 0 } else { courses },
             ..Sizes::of(&model.mechanism)
         };
         let look = Look { m: &model.mechanism, sizes };
@@ -196,6 +208,7 @@ impl<'a, T: Real, S: Space<T>> Checked<'a, T, S> {
         look.loads()?;
         look.rotors()?;
         look.prescriptions(model)?;
+        look.signals(model)?;
         look.start(model)?;
         Ok(Self { model: *model, sizes })
     }
@@ -394,11 +407,7 @@ impl<T: Real, S: Space<T>> Look<'_, '_, T, S> {
                         && law.fits(&self.m.tables, self.sizes.courses)
                 }
                 Load::Angle { link, law } => {
-                    let joint = self.m.links.get(*link as usize);
-                    let has_one = joint.is_some_and(|link| {
-                        link.kind.is_guided() || link.kind.n_freedoms::<T, S>() == 1
-                    });
-                    has_one && law.fits(&self.m.tables, self.sizes.courses)
+                    self.has_one_coordinate(*link) && law.fits(&self.m.tables, self.sizes.courses)
                 }
                 Load::Constant { link, .. } => is_link(*link),
                 Load::Force { link, course, .. } | Load::Torque { link, course } => {
@@ -417,12 +426,17 @@ impl<T: Real, S: Space<T>> Look<'_, '_, T, S> {
         Ok(())
     }
 
+    /// Has a link's joint one coordinate?
+    fn has_one_coordinate(&self, link: u32) -> bool {
+        self.m
+            .links
+            .get(link as usize)
+            .is_some_and(|link| link.kind.is_guided() || link.kind.n_freedoms::<T, S>() == 1)
+    }
+
     fn rotors(&self) -> Result<(), LoadError> {
         for (i, rotor) in self.m.rotors.iter().enumerate() {
-            let joint = self.m.links.get(rotor.link as usize);
-            let has_one = joint
-                .is_some_and(|link| link.kind.is_guided() || link.kind.n_freedoms::<T, S>() == 1);
-            ensure(rotor.link > 0 && has_one, "rotors", i)?;
+            ensure(rotor.link > 0 && self.has_one_coordinate(rotor.link), "rotors", i)?;
         }
         Ok(())
     }
@@ -436,8 +450,16 @@ impl<T: Real, S: Space<T>> Look<'_, '_, T, S> {
             ensure(holds, "guides", i)?;
         }
         for (i, law) in laws.courses.iter().enumerate() {
-            let SignalLaw::Table(part) = law else { continue };
-            ensure(is_part(*part, laws.rows.len()), "courses", i)?;
+            let (knots, curvatures) = laws.knots;
+            let holds = match law {
+                SignalLaw::Table(part) => is_part(*part, laws.rows.len()),
+                SignalLaw::Line(part) => is_part(*part, knots.len()),
+                SignalLaw::Spline(part) => {
+                    is_part(*part, knots.len()) && is_part(*part, curvatures.len())
+                }
+                _ => true,
+            };
+            ensure(holds, "courses", i)?;
         }
         Ok(())
     }

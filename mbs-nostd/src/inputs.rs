@@ -28,7 +28,7 @@ pub enum Motion<T> {
     Table(Part),
 }
 
-/// The vector of an effect as a function of time.
+/// The vector of an effect, or value, rate and acceleration of a signal, as a function of time.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum SignalLaw<T> {
     /// Written between steps; this at the start.
@@ -39,6 +39,10 @@ pub enum SignalLaw<T> {
     Travel(T),
     /// A part of the rows, linear between them.
     Table(Part),
+    /// Straight between a part of the knots, with its rate.
+    Line(Part),
+    /// Cubic spline through a part of the knots, with the curvatures of its ends, and its derivatives.
+    Spline(Part),
 }
 
 /// All guides and courses of a model.
@@ -48,7 +52,7 @@ pub struct Prescriptions<'a, T> {
     pub guides: &'a [Motion<T>],
     /// The courses.
     pub courses: &'a [SignalLaw<T>],
-    /// Knots (time, value) of the guides, and the second derivatives there.
+    /// Knots (time, value) of guides and signals, and the second derivatives there.
     pub knots: (&'a [[T; 2]], &'a [T]),
     /// Rows (time, vector) of the courses.
     pub rows: &'a [[T; 4]],
@@ -158,9 +162,14 @@ fn guide_at<T: Real>(
             guide::sine(*amplitude, *frequency, *phase, t)
         }
         Motion::Ramp { rate } => guide::ramp(*rate, t),
-        Motion::Table(part) => guide::spline(part.of(laws.knots.0), part.of(laws.knots.1), t),
+        Motion::Table(part) => return spline(*part, laws, t),
     };
     [motion.value, motion.rate, motion.acceleration]
+}
+
+fn spline<T: Real>(part: Part, laws: &Prescriptions<'_, T>, t: T) -> [T; 3] {
+    let at = guide::spline(part.of(laws.knots.0), part.of(laws.knots.1), t);
+    [at.value, at.rate, at.acceleration]
 }
 
 fn course_at<T: Real>(
@@ -173,6 +182,8 @@ fn course_at<T: Real>(
         SignalLaw::Input(_) => return written,
         SignalLaw::Constant(value) => return *value,
         SignalLaw::Travel(speed) => return [*speed * t, *speed, T::ZERO],
+        SignalLaw::Line(part) => return guide::straight(part.of(laws.knots.0), t),
+        SignalLaw::Spline(part) => return spline(*part, laws, t),
         SignalLaw::Table(part) => part.of(laws.rows),
     };
     guide::linear(rows, |&[t, x, y, z]| (t, [x, y, z]), t)

@@ -30,4 +30,6 @@ pub struct StartState<'a, T> {
     pub v: &'a [T],
     /// Accelerations.
     pub a: &'a [T],
+    /// States of signals, each with its rate.
+    pub signals: &'a [[T; 2]],
 }

@@ -4,7 +4,7 @@ use crate::check::{Checked, LoadError, Sizes};
 use crate::inputs::{Values, Written};
 use crate::ladder::DegradationLadder;
 use mbs_core::Real;
-use mbs_core::feedback::SignalStates;
+use mbs_core::feedback::{CourseSlope, SignalStates};
 use mbs_core::step::{InputError, StepError};
 use mbs_recursive::bounded::{self, BoundedReport, Bounds, Watch};
 use mbs_recursive::link::{ArticulatedInertia, LinkMotion};
@@ -15,9 +15,10 @@ use mbs_recursive::trapezoidal::Start;
 use mbs_recursive::{Options, Outside};
 
 /// State, scratch and inputs of a model with at most `L` links (the ground among them), `Z` coordinates, `V` freedoms and `R`
-/// rows of loops. It has at most `B` numbers in blocks of Λ, `N` gains, `G` guides and `C` courses.
+/// rows of loops. It has at most `B` numbers in blocks of Λ, `N` gains, `G` guides and `C` courses; `M` states of signals, and where
+/// there are operations on signals at most `F` courses.
 ///
-/// Its size is about 130 numbers for each link, 46 for each row, 10 for each freedom, and one for each of the others.
+/// Its size is about 130 numbers for each link, 46 for each row, 10 for each freedom, and at most six for each of the others.
 #[derive(Debug, Clone)]
 pub struct Solver<
     T: Real,
@@ -30,6 +31,8 @@ pub struct Solver<
     const N: usize,
     const G: usize,
     const C: usize,
+    const M: usize = 0,
+    const F: usize = 0,
 > {
     /// Choices for the steps.
     pub options: Options<T>,
@@ -43,8 +46,9 @@ pub struct Solver<
     v: [T; V],
     a: [T; V],
     lambda: [T; R],
+    signals: [[T; 2]; M],
     inputs: Values<G, C, T>,
-    scratch: Scratch<T, S, L, Z, V, R, B, N, G, C>,
+    scratch: Scratch<T, S, L, Z, V, R, B, N, G, C, M, F>,
 }
 
 #[derive(Debug, Clone)]
@@ -59,6 +63,8 @@ struct Scratch<
     const N: usize,
     const G: usize,
     const C: usize,
+    const M: usize,
+    const F: usize,
 > {
     placed: [LinkMotion<T, S>; L],
     trial: [LinkMotion<T, S>; L],
@@ -73,6 +79,9 @@ struct Scratch<
     gains: [[T; N]; 2],
     guides: [[T; 3]; G],
     courses: [[T; 3]; C],
+    /// States of signals at the start of a step, and at the instant.
+    states: [[[T; 2]; M]; 2],
+    slopes: [CourseSlope<T>; F],
     z: [T; Z],
     /// v, z̈, response, scratch.
     freedoms: [[T; V]; 4],
@@ -90,7 +99,9 @@ impl<
     const N: usize,
     const G: usize,
     const C: usize,
-> Solver<T, S, L, Z, V, R, B, N, G, C>
+    const M: usize,
+    const F: usize,
+> Solver<T, S, L, Z, V, R, B, N, G, C, M, F>
 {
     /// A solver at the beginning of a model.
     ///
@@ -107,6 +118,8 @@ impl<
             gains: N,
             guides: G,
             courses: C,
+            states: M,
+            followed: F,
         })?;
         let zero = S::Motion::zero();
         let from = &model.model().start;
@@ -117,10 +130,11 @@ impl<
             ladder: DegradationLadder::default(),
             sizes,
             t: from.t,
-            z: taken(from.z),
-            v: taken(from.v),
-            a: taken(from.a),
+            z: taken(from.z, T::ZERO),
+            v: taken(from.v, T::ZERO),
+            a: taken(from.a, T::ZERO),
             lambda: [T::ZERO; R],
+            signals: taken(from.signals, [T::ZERO; 2]),
             inputs: Values::new(&model.model().prescriptions),
             scratch: Scratch {
                 placed: [LinkMotion::ground(); L],
@@ -134,6 +148,8 @@ impl<
                 gains: [[T::ZERO; N]; 2],
                 guides: [[T::ZERO; 3]; G],
                 courses: [[T::ZERO; 3]; C],
+                states: [[[T::ZERO; 2]; M]; 2],
+                slopes: [CourseSlope::none(); F],
                 z: [T::ZERO; Z],
                 freedoms: [[T::ZERO; V]; 4],
                 rank: 0,
@@ -145,7 +161,10 @@ impl<
     pub fn restart(&mut self, model: &Checked<'_, T, S>) {
         let from = &model.model().start;
         self.t = from.t;
-        (self.z, self.v, self.a) = (taken(from.z), taken(from.v), taken(from.a));
+        self.z = taken(from.z, T::ZERO);
+        self.v = taken(from.v, T::ZERO);
+        self.a = taken(from.a, T::ZERO);
+        self.signals = taken(from.signals, [T::ZERO; 2]);
         self.inputs.restart(&model.model().prescriptions);
     }
 
@@ -174,7 +193,14 @@ impl<
         self.lambda.get(..self.sizes.rows).unwrap_or(&[])
     }
 
-    /// Writes the vector of a course from now on: the next step is made with it from its beginning.
+    /// States of signals, each with its rate.
+    pub fn signal_states(&self) -> &[[T; 2]] {
+        self.signals.get(..self.sizes.states).unwrap_or(&[])
+    }
+
+    /// Writes the vector of a course from now on: the next step is made with it from its beginning. The scene's signals are the first
+    /// courses, in their order, and those of effects follow. A signal's vector is its value, its rate and its acceleration: zeros
+    /// where the value is held.
     ///
     /// # Errors
     /// [`InputError`] where there is no such course, it is no input, or a component is not finite. Nothing is written then.
@@ -221,11 +247,11 @@ impl<
             let place = (
                 self.z.get(..sizes.coordinates).unwrap_or(&[]),
                 self.v.get(..sizes.freedoms).unwrap_or(&[]),
+                self.signals.get(..sizes.states).unwrap_or(&[]),
             );
             bounded::begin(&mechanism, (&self.options, self.bounds), place, &mut s)?;
-            for (to, from) in self.a.iter_mut().zip(&*s.zdd) {
-                *to = *from;
-            }
+            put(s.zdd, &mut self.a);
+            put(s.signals.ends, &mut self.signals);
             self.inputs.has_new = false;
         }
         let start = Start {
@@ -233,7 +259,7 @@ impl<
             z: self.z.get(..sizes.coordinates).unwrap_or(&[]),
             v: self.v.get(..sizes.freedoms).unwrap_or(&[]),
             a: self.a.get(..sizes.freedoms).unwrap_or(&[]),
-            signals: &[],
+            signals: self.signals.get(..sizes.states).unwrap_or(&[]),
         };
         let work = (dt, &self.options, self.bounds);
         let report = bounded::step(&mechanism, &inputs, work, (start, watch), &mut s)?;
@@ -244,10 +270,9 @@ impl<
             (&mut self.a, &*s.zdd),
             (&mut self.lambda, &*s.lambda),
         ] {
-            for (to, from) in to.iter_mut().zip(from) {
-                *to = *from;
-            }
+            put(from, to);
         }
+        put(s.signals.ends, &mut self.signals);
         self.t += dt;
         self.inputs.ended = self.inputs.guides;
         self.ladder.note(report.is_cut_short, n_rungs);
@@ -272,7 +297,9 @@ impl<
     const N: usize,
     const G: usize,
     const C: usize,
-> Scratch<T, S, L, Z, V, R, B, N, G, C>
+    const M: usize,
+    const F: usize,
+> Scratch<T, S, L, Z, V, R, B, N, G, C, M, F>
 {
     /// The scratch as slices of a model's sizes.
     fn store(&mut self, n: &Sizes) -> Result<Store<'_, T, S>, Outside> {
@@ -281,6 +308,7 @@ impl<
         let [l, lambda_response, lambda, scales, pivots] = &mut self.multipliers;
         let [gains, heads] = &mut self.gains;
         let [v, zdd, v_response, scratch] = &mut self.freedoms;
+        let [starts, ends] = &mut self.states;
         Ok(Store {
             placed: first(&mut self.placed, n.links)?,
             trial: first(&mut self.trial, n.links)?,
@@ -304,7 +332,12 @@ impl<
             lambda: first(lambda, n.rows)?,
             guides: first(&mut self.guides, n.guides)?,
             courses: first(&mut self.courses, n.courses)?,
-            signals: SignalStates { dt: T::ZERO, starts: &mut [], ends: &mut [], slopes: &mut [] },
+            signals: SignalStates {
+                dt: T::ZERO,
+                starts: first(starts, n.states)?,
+                ends: first(ends, n.states)?,
+                slopes: first(&mut self.slopes, n.followed)?,
+            },
             z: first(&mut self.z, n.coordinates)?,
             v: first(v, n.freedoms)?,
             zdd: first(zdd, n.freedoms)?,
@@ -316,11 +349,17 @@ impl<
     }
 }
 
-/// The numbers of a slice, with zeros behind them.
-fn taken<T: Real, const N: usize>(from: &[T]) -> [T; N] {
-    let mut to = [T::ZERO; N];
+/// The entries of a slice, with zeros behind them.
+fn taken<X: Copy, const N: usize>(from: &[X], zero: X) -> [X; N] {
+    let mut to = [zero; N];
+    put(from, &mut to);
+    to
+}
+
+/// Entries over the first ones of another list.
+#[inline(always)]
+fn put<X: Copy>(from: &[X], to: &mut [X]) {
     for (to, from) in to.iter_mut().zip(from) {
         *to = *from;
     }
-    to
 }

@@ -5,13 +5,15 @@ pub use crate::{
 };
 pub use mbs_core::algebra::vector;
 pub use mbs_core::effects::laws::*;
+pub use mbs_core::feedback::{FeedbackOperation, FeedbackStep};
 pub use mbs_core::laws::body::BodyLaw;
 pub use mbs_core::laws::calspan::Coefficients;
 pub use mbs_core::laws::polynomial::Piece;
 pub use mbs_core::laws::road::Feature;
 pub use mbs_core::laws::scalar::Law;
 pub use mbs_core::laws::{LawInputs, Part};
-pub use mbs_recursive::coupled::{CoupledRow, Couplings, SumMeasure, SumTerm};
+pub use mbs_recursive::coupled::{CoupledRow, Couplings, CurveTable, SumMeasure, SumTerm};
+pub use mbs_recursive::feedback::FeedbackSlices;
 pub use mbs_recursive::link::{Link, LinkKind, LinkRotor};
 pub use mbs_recursive::loads::{BodyLoad, Load, Measure, SumLoad};
 pub use mbs_recursive::loops::Loops;

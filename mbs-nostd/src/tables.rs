@@ -6,9 +6,10 @@ use crate::inputs::{Motion, Prescriptions, SignalLaw};
 use crate::model::{Model, StartState};
 use heapless::Vec;
 use mbs_core::Real;
+use mbs_core::feedback::FeedbackStep;
 use mbs_core::laws::entry::Entry;
 use mbs_core::laws::{CurvatureEntry, FeatureEntry, KnotEntry, LawInputs, LawTables, PieceEntry};
-use mbs_recursive::coupled::{Couplings, SumTerm};
+use mbs_recursive::coupled::{Couplings, CurveTable, SumTerm};
 use mbs_recursive::feedback::FeedbackSlices;
 use mbs_recursive::link::{Link, LinkRotor};
 use mbs_recursive::loads::Load;
@@ -20,11 +21,14 @@ use mbs_recursive::space::Space;
 
 /// What a model's text begins with, and its version.
 pub(crate) const HEAD: [u32; 2] = [u32::from_le_bytes(*b"MBSN"), 2];
-/// The version of a text that ends with rotors [-].
-pub(crate) const WITH_ROTORS: u32 = 3;
+/// Added to the version of a text that ends with rotors [-].
+pub(crate) const WITH_ROTORS: u32 = 1;
+/// Added to the version of a text that ends with operations on signals [-].
+pub(crate) const WITH_SIGNALS: u32 = 2;
 
 /// A model read from bytes: at most `L` links, `K` loops with `R` rows, `P` entries in each list of the plan, `E` effects.
-/// It has at most `X` entries in each table of laws, `I` guides and as many courses, `Q` coordinates and as many freedoms.
+/// It has at most `X` entries in each table of laws, `I` guides and as many courses, `Q` coordinates and as many freedoms. There are at
+/// most `F` operations on signals, and as many states, functions and measured coordinates of these.
 ///
 /// Models in flash need no such memory: `mbs export --rust` writes them as constants.
 #[derive(Debug, Clone)]
@@ -39,6 +43,7 @@ pub struct Tables<
     const X: usize,
     const I: usize,
     const Q: usize,
+    const F: usize = 0,
 > {
     sizes: Sizes,
     links: Vec<Link<T, S>, L>,
@@ -60,10 +65,15 @@ pub struct Tables<
     courses: Vec<SignalLaw<T>, I>,
     knots: (Vec<[T; 2], X>, Vec<T, X>),
     course_rows: Vec<[T; 4], X>,
+    operations: Vec<FeedbackStep<T>, F>,
+    measured: Vec<u32, F>,
+    curves: Vec<CurveTable<T>, F>,
+    curve_knots: (Vec<[T; 2], X>, Vec<T, X>),
     rungs: Vec<u32, E>,
     z: Vec<T, Q>,
     v: Vec<T, Q>,
     a: Vec<T, Q>,
+    states: Vec<[T; 2], F>,
     floor: [T; 2],
     n_cut: u32,
     gravity: S::Point,
@@ -115,7 +125,8 @@ impl<
     const X: usize,
     const I: usize,
     const Q: usize,
-> Tables<T, S, L, K, R, P, E, X, I, Q>
+    const F: usize,
+> Tables<T, S, L, K, R, P, E, X, I, Q, F>
 {
     /// Reads a model, and checks that every number in its tables points into them.
     ///
@@ -127,9 +138,9 @@ impl<
         let from = &mut Reader::new(bytes);
         let head = <[u32; 4]>::read(from)?;
         let [magic, version, dimension, width] = head;
-        let is_known = magic == HEAD[0]
-            && (version == HEAD[1] || version == WITH_ROTORS)
-            && (width == 4 || width == 8);
+        let parts = version.wrapping_sub(HEAD[1]);
+        let is_known =
+            magic == HEAD[0] && parts <= WITH_ROTORS + WITH_SIGNALS && (width == 4 || width == 8);
         if !is_known || dimension as usize != S::DIMENSION {
             return Err(LoadError::Format);
         }
@@ -158,10 +169,15 @@ impl<
             courses: list("courses", from)?,
             knots: (list("knots", from)?, list("knots", from)?),
             course_rows: list("rows of courses", from)?,
+            operations: Vec::new(),
+            measured: Vec::new(),
+            curves: Vec::new(),
+            curve_knots: (Vec::new(), Vec::new()),
             rungs: list("rungs", from)?,
             z: list("coordinates", from)?,
             v: list("freedoms", from)?,
             a: list("freedoms", from)?,
+            states: Vec::new(),
             floor: Record::read(from)?,
             n_cut: Record::read(from)?,
             gravity: Record::read(from)?,
@@ -170,8 +186,15 @@ impl<
             n: Record::read(from)?,
             t: Record::read(from)?,
         };
-        if version == WITH_ROTORS {
+        if parts & WITH_ROTORS != 0 {
             tables.rotors = list("rotors", from)?;
+        }
+        if parts & WITH_SIGNALS != 0 {
+            tables.operations = list("operations on signals", from)?;
+            tables.measured = list("measured coordinates", from)?;
+            tables.curves = list("curves", from)?;
+            tables.curve_knots = (list("knots of curves", from)?, list("numbers of curves", from)?);
+            tables.states = list("states of signals", from)?;
         }
         if !from.is_at_end() {
             return Err(LoadError::Length);
@@ -211,13 +234,21 @@ impl<
                     couplings: Couplings {
                         n_cut: self.n_cut,
                         terms: &self.terms,
+                        curves: &self.curves,
+                        knots: &self.curve_knots.0,
+                        numbers: &self.curve_knots.1,
                         ..Couplings::none()
                     },
                 },
                 loads: &self.loads,
                 rotors: &self.rotors,
                 tables,
-                feedback: FeedbackSlices::none(),
+                feedback: FeedbackSlices {
+                    steps: &self.operations,
+                    links: &self.measured,
+                    n_states: self.states.len(),
+                    signals: &[],
+                },
                 gravity: self.gravity,
                 base: self.base,
                 length: self.length,
@@ -230,7 +261,13 @@ impl<
                 knots: (&self.knots.0, &self.knots.1),
                 rows: &self.course_rows,
             },
-            start: StartState { t: self.t, z: &self.z, v: &self.v, a: &self.a },
+            start: StartState {
+                t: self.t,
+                z: &self.z,
+                v: &self.v,
+                a: &self.a,
+                signals: &self.states,
+            },
             rungs: &self.rungs,
         }
     }

@@ -114,8 +114,8 @@ pub fn step<T: Real, S: Space<T>>(
     }
 }
 
-/// Accelerations and multipliers at (`z`, `v`) with the guides and courses of `s`, in `s.zdd` and `s.lambda`. Where inputs were set since
-/// the last step, the next one begins with these.
+/// Accelerations and multipliers at (`z`, `v`) with the guides and courses of `s`, in `s.zdd` and `s.lambda`; states of signals are
+/// `signals`, and in `s.signals.ends` with their rates. Where inputs were set since the last step, the next one begins with these.
 ///
 /// Cost: one evaluation; no allocation.
 ///
@@ -124,10 +124,11 @@ pub fn step<T: Real, S: Space<T>>(
 pub fn begin<T: Real, S: Space<T>>(
     m: &TreeSlices<'_, T, S>,
     (options, bounds): (&Options<T>, Bounds),
-    (z, v): (&[T], &[T]),
+    (z, v, signals): (&[T], &[T], &[[T; 2]]),
     s: &mut Store<'_, T, S>,
 ) -> Result<(), StepError> {
     let place = |s: &mut Store<'_, T, S>| -> Result<(), Fault<T>> {
+        s.begin_signals(T::ZERO, signals)?;
         copy(z, s.z)?;
         copy(v, s.v)?;
         accelerations(m, options, Level::Fixed(bounds.sweeps), s).map(drop)

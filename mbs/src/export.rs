@@ -31,7 +31,7 @@ pub enum ExportError {
     Coupling(String),
     /// An effect of this name is on a sum with a length or a curve, which is not written for controllers.
     Sum(String),
-    /// A signal of this name is not constant, and tables have no others.
+    /// A signal of this name is a wave, a ramp, a step or a table that holds or repeats, or a guide follows it that is no spline.
     Signal(String),
     /// A ladder names what the scene has not, or is no price list.
     Ladder(String),
@@ -57,7 +57,11 @@ impl core::fmt::Display for ExportError {
                 )
             }
             Self::Signal(name) => {
-                write!(f, "signal `{name}` is not constant, and tables have no signals of time")
+                write!(
+                    f,
+                    "signal `{name}` cannot be written for a controller: it is a wave, a ramp, a step or a table that holds or repeats, or a \
+                     guide follows it that is no spline"
+                )
             }
             Self::Ladder(what) => write!(f, "{what}"),
         }

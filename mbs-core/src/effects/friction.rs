@@ -35,13 +35,29 @@ pub struct FrictionLaw<T> {
 
 entry!(FrictionLaw<T> { coulomb, r#static, stribeck, viscous, regularisation, course });
 
+/// What force and slope at a rate are made of.
+#[derive(Debug, Clone, Copy)]
+struct FrictionParts<T> {
+    /// r / sqrt(r^2 + e^2).
+    share: T,
+    /// sqrt(r^2 + e^2).
+    root: T,
+    /// g.
+    level: T,
+    /// r / r_s.
+    s: T,
+    /// 1 / (1 + s^2).
+    bell: T,
+}
+
 impl<T: Real> FrictionLaw<T> {
     /// Force against the rate, and a derivative by it that does not fall below zero (where friction falls with the rate, a
     /// tangent with its negative slope could lose definiteness).
     #[inline]
     pub fn force(&self, rate: T) -> (T, T) {
-        let (share, _, level) = self.parts(rate);
-        (level * share + self.viscous * rate, self.slope(rate, share))
+        let parts = self.parts(rate);
+        let FrictionParts { share, level, .. } = parts;
+        (level * share + self.viscous * rate, self.slope_of(parts, share))
     }
 
     /// The derivative with another share of the level, from -1 to 1, in one of the two places of r / sqrt(r^2 + e^2) in it:
@@ -54,9 +70,12 @@ impl<T: Real> FrictionLaw<T> {
     /// that of the rate, it converges as fast (Chan, Golub and Mulet 1999).
     #[inline]
     pub fn slope(&self, rate: T, w: T) -> T {
-        let (share, root, level) = self.parts(rate);
-        let s = rate / self.stribeck;
-        let bell = T::ONE / (T::ONE + s * s);
+        self.slope_of(self.parts(rate), w)
+    }
+
+    #[inline(always)]
+    fn slope_of(&self, parts: FrictionParts<T>, w: T) -> T {
+        let FrictionParts { share, root, level, s, bell } = parts;
         let rise = self.r#static - self.coulomb;
         let fall = share * rise * T::TWO * s * bell * bell / self.stribeck;
         (level / root * (T::ONE - w * share) - fall + self.viscous).max(T::ZERO)
@@ -65,7 +84,7 @@ impl<T: Real> FrictionLaw<T> {
     /// What [`slope`](Self::slope) takes where an iteration came from the `before` to this rate: its force and slope there.
     #[inline]
     pub fn foreseen(&self, rate: T, (before, force, slope): (T, T, T)) -> T {
-        let (_, _, level) = self.parts(rate);
+        let level = self.parts(rate).level;
         let foreseen = force + slope * (rate - before) - self.viscous * rate;
         if level > T::ZERO { (foreseen / level).max(-T::ONE).min(T::ONE) } else { T::ZERO }
     }
@@ -83,14 +102,13 @@ impl<T: Real> FrictionLaw<T> {
         share.map_or(*self, |share| self.scaled(share))
     }
 
-    /// r / sqrt(r^2 + e^2), the root, and g.
     #[inline(always)]
-    fn parts(&self, rate: T) -> (T, T, T) {
+    fn parts(&self, rate: T) -> FrictionParts<T> {
         let (e, s) = (self.regularisation, rate / self.stribeck);
         let bell = T::ONE / (T::ONE + s * s);
         let level = self.coulomb + (self.r#static - self.coulomb) * bell;
         let root = (rate * rate + e * e).sqrt();
-        (rate / root, root, level)
+        FrictionParts { share: rate / root, root, level, s, bell }
     }
 }
 
@@ -108,7 +126,7 @@ impl<T: Real> TensionLaw<T> for FrictionLaw<T> {
 
     fn operations(&self) -> Operations {
         let scale = if self.course.is_some() { 2 } else { 0 };
-        Operations::new(15 + scale, 7).and(5, 1, 0)
+        Operations::new(15 + scale, 9).and(5, 1, 0)
     }
 
     fn fits(&self, _: &LawInputs<'_, T>, n_courses: usize) -> bool {

@@ -4,7 +4,7 @@ use super::Prescribed;
 use crate::Real;
 use crate::feedback::{CourseSlope, FeedbackOperation, FeedbackStep};
 use crate::measure::PreparedCurve;
-use crate::scene::Signal;
+use crate::scene::{Signal, SignalId};
 use alloc::vec::Vec;
 
 /// Signals that follow the motion: the operations that give them, with what these refer to.
@@ -94,6 +94,32 @@ impl<T: Real> Prescribed<T> {
     /// Cost: one pass over signals and courses; allocates.
     #[must_use]
     pub fn feedback(&self) -> Feedback<T> {
+        let follows = |signal| self.signals.follows_motion(signal);
+        self.operations(follows, follows)
+    }
+
+    /// What gives all signals that are made of others or follow the motion, and are not constant. The courses that name those or other
+    /// signals that are not constant follow. For steps on tables, where functions of time and inputs are courses by themselves.
+    ///
+    /// States and measured coordinates have the numbers that they have in [`feedback`](Self::feedback).
+    ///
+    /// Cost: one pass over signals and courses; allocates.
+    #[must_use]
+    pub fn program(&self) -> Feedback<T> {
+        let moves = |signal| !self.signals.is_constant(signal);
+        let is_made = |signal: SignalId| {
+            let kind = self.signals.kinds().nth(signal.index());
+            kind.is_some_and(|(kind, _)| !kind.operands().is_empty() || kind.is_feedback())
+        };
+        self.operations(|signal| moves(signal) && is_made(signal), moves)
+    }
+
+    /// The operations that give the signals that are taken, and the components of courses by those that are named.
+    fn operations(
+        &self,
+        is_taken: impl Fn(SignalId) -> bool,
+        is_named: impl Fn(SignalId) -> bool,
+    ) -> Feedback<T> {
         let mut feedback = Feedback {
             steps: Vec::new(),
             measured: Vec::new(),
@@ -101,18 +127,18 @@ impl<T: Real> Prescribed<T> {
             signals: self.signals.following().map(number).collect(),
             curves: Vec::new(),
         };
-        self.signals.add_feedback(&mut feedback);
+        self.signals.add_feedback(is_taken, &mut feedback);
         for (i, (_, course)) in self.courses.iter().enumerate() {
             let Signal::Named(of) = course.course() else { continue };
             for (component, signal) in of.iter().enumerate() {
-                let Some(signal) = signal.filter(|of| self.signals.follows_motion(*of)) else {
-                    continue;
-                };
+                let Some(signal) = signal.filter(|of| is_named(*of)) else { continue };
                 let (from, component) = (number(signal.index()), number(component));
                 let to = number(self.signals.len() + i);
                 let operation = match course.on {
-                    Some(on) => FeedbackOperation::Force { from, on: feedback.measure(on) },
-                    None => FeedbackOperation::Component { from, component },
+                    Some(on) if self.signals.follows_motion(signal) => {
+                        FeedbackOperation::Force { from, on: feedback.measure(on) }
+                    }
+                    _ => FeedbackOperation::Component { from, component },
                 };
                 feedback.push(to, operation);
             }

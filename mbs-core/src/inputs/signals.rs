@@ -30,6 +30,8 @@ pub struct SignalGraph<T> {
     inputs: Vec<(usize, T)>,
     /// Does it follow the motion?
     follows: Vec<bool>,
+    /// Is it the same at all times?
+    constant: Vec<bool>,
 }
 
 /// A signal, prepared.
@@ -57,7 +59,15 @@ impl<T: Real> SignalGraph<T> {
         }
         let order = signal_order(signals).unwrap_or_default();
         let follows = signal_feedback(signals, &order).iter().map(Option::is_some).collect();
-        Self { nodes, order, inputs, follows }
+        let mut constant = vec![false; nodes.len()];
+        for &i in &order {
+            let kind = &nodes[i].kind;
+            let is_made = !kind.operands().is_empty() && !kind.is_feedback();
+            let are_constant =
+                kind.operands().iter().all(|of| constant.get(of.index()).is_none_or(|x| *x));
+            constant[i] = matches!(kind, SignalKind::Constant(_)) || (is_made && are_constant);
+        }
+        Self { nodes, order, inputs, follows, constant }
     }
 
     /// Number of signals.
@@ -78,11 +88,15 @@ impl<T: Real> SignalGraph<T> {
         &self.inputs
     }
 
-    /// The first signal that is no constant.
+    /// The kind of each signal, with the spline of a table or the function of a curve.
+    pub fn kinds(&self) -> impl Iterator<Item = (&SignalKind<T>, &PreparedCurve<T>)> {
+        self.nodes.iter().map(|node| (&node.kind, &node.curve))
+    }
+
+    /// Is a signal the same at all times: a constant, or made of such?
     #[must_use]
-    pub fn moving(&self) -> Option<SignalId> {
-        let is_moving = |node: &Node<T>| !matches!(node.kind, SignalKind::Constant(_));
-        self.nodes.iter().position(is_moving).map(SignalId::new)
+    pub fn is_constant(&self, signal: SignalId) -> bool {
+        self.constant.get(signal.index()).copied().unwrap_or(true)
     }
 
     /// The signals that follow the motion.
@@ -110,9 +124,9 @@ impl<T: Real> SignalGraph<T> {
         }
     }
 
-    /// Adds what gives those that follow the motion, in their order.
-    pub(super) fn add_feedback(&self, to: &mut Feedback<T>) {
-        for &i in self.order.iter().filter(|&&i| self.follows[i]) {
+    /// Adds what gives those that are taken, in their order.
+    pub(super) fn add_feedback(&self, is_taken: impl Fn(SignalId) -> bool, to: &mut Feedback<T>) {
+        for &i in self.order.iter().filter(|&&i| is_taken(SignalId::new(i))) {
             self.nodes[i].add_feedback(number(i), to);
         }
     }
@@ -282,15 +296,12 @@ fn pieces<T: Real>(rows: &[[T; 2]], (is_held, is_periodic): (bool, bool), t: T) 
         _ => T::ZERO,
     };
     let t = within(rows, period, t);
-    let next = rows.partition_point(|row| row[0] <= t);
-    match (next.checked_sub(1).and_then(|i| rows.get(i)), rows.get(next)) {
-        (Some(&[t0, x0]), Some(&[t1, x1])) if !is_held => {
-            let s = (t - t0) / (t1 - t0);
-            [x0 + (x1 - x0) * s, (x1 - x0) / (t1 - t0), T::ZERO]
-        }
-        (Some(&[_, x]), _) | (None, Some(&[_, x])) => [x, T::ZERO, T::ZERO],
-        (None, None) => [T::ZERO; 3],
+    if is_held {
+        let next = rows.partition_point(|row| row[0] <= t);
+        let held = next.checked_sub(1).and_then(|i| rows.get(i)).or(rows.first());
+        return [held.map_or(T::ZERO, |row| row[1]), T::ZERO, T::ZERO];
     }
+    guide::straight(rows, t)
 }
 
 /// Turns since the start of a frequency that goes from one to another in a duration, with their derivatives.

@@ -123,6 +123,21 @@ pub fn largest_rate<T: Real>(table: &[[T; 2]], curvature: &[T]) -> T {
     })
 }
 
+/// Value, rate and acceleration of a table (time, value), straight between its rows and held outside.
+///
+/// Cost: one binary search; no allocation.
+pub fn straight<T: Real>(rows: &[[T; 2]], t: T) -> [T; 3] {
+    let next = rows.partition_point(|row| row[0] <= t);
+    match (next.checked_sub(1).and_then(|i| rows.get(i)), rows.get(next)) {
+        (Some(&[t0, x0]), Some(&[t1, x1])) => {
+            let s = (t - t0) / (t1 - t0);
+            [x0 + (x1 - x0) * s, (x1 - x0) / (t1 - t0), T::ZERO]
+        }
+        (Some(&[_, x]), None) | (None, Some(&[_, x])) => [x, T::ZERO, T::ZERO],
+        (None, None) => [T::ZERO; 3],
+    }
+}
+
 /// The vector of a table, linear between its rows; `row` gives time and vector of one. Before the first and after the last row the
 /// end value is held; an empty table is zero.
 ///

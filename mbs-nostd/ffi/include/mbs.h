@@ -51,7 +51,8 @@ size_t mbs_align(void);
 int mbs_init(void *memory, size_t size, const uint8_t *model, size_t n, mbs_solver **solver);
 
 /* Inputs, between steps: a guide's value, rate and acceleration at the end of the next step; a course's vector,
- * with which the next step is made from its beginning. */
+ * with which the next step is made from its beginning. The scene's signals are the first courses, in their order, and
+ * an input among them is { value, 0, 0 }. */
 int mbs_set_guide(mbs_solver *solver, size_t guide, const mbs_real motion[3]);
 int mbs_set_input(mbs_solver *solver, size_t course, const mbs_real value[3]);
 #define mbs_set_course mbs_set_input /* its former name */

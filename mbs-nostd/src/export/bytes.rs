@@ -2,7 +2,7 @@
 
 use crate::format::{Axes, Bytes, Record};
 use crate::model::Model;
-use crate::tables::{HEAD, WITH_ROTORS};
+use crate::tables::{HEAD, WITH_ROTORS, WITH_SIGNALS};
 use alloc::vec::Vec;
 use mbs_core::Real;
 use mbs_core::laws::entry::{Entry, EntryWriter};
@@ -17,6 +17,17 @@ impl Bytes {
     fn list<X: Record>(&mut self, list: &[X]) -> bool {
         list.len().write(self) && list.iter().all(|entry| entry.write(self))
     }
+
+    /// Operations on signals, with what they refer to.
+    fn signals<T: Real + Record, S: Axes<T>>(&mut self, model: &Model<'_, T, S>) -> bool {
+        let (feedback, couplings) = (&model.mechanism.feedback, &model.mechanism.loops.couplings);
+        self.list(feedback.steps)
+            && self.list(feedback.links)
+            && self.list(couplings.curves)
+            && self.list(couplings.knots)
+            && self.list(couplings.numbers)
+            && self.list(model.start.signals)
+    }
 }
 
 /// The bytes of a model, in single or double precision; `None` if it has an effect that cannot be written, as a law of a user's own.
@@ -30,7 +41,9 @@ pub fn bytes<T: Real + Record, S: Axes<T>>(
     let tables = m.tables.tables();
     let to = &mut Bytes { bytes: Vec::new(), is_single };
     let width = if is_single { 4 } else { 8 };
-    let version = if m.rotors.is_empty() { HEAD[1] } else { WITH_ROTORS };
+    let (has_rotors, has_signals) = (!m.rotors.is_empty(), !m.feedback.steps.is_empty());
+    let version =
+        HEAD[1] + u32::from(has_rotors) * WITH_ROTORS + u32::from(has_signals) * WITH_SIGNALS;
     let done = [HEAD[0], version].write(to)
         && [S::DIMENSION, width].write(to)
         && to.list(m.links)
@@ -64,7 +77,8 @@ pub fn bytes<T: Real + Record, S: Axes<T>>(
         && m.length.write(to)
         && [m.n_coordinates, m.n_freedoms].write(to)
         && begin.t.write(to)
-        && (m.rotors.is_empty() || to.list(m.rotors));
+        && (!has_rotors || to.list(m.rotors))
+        && (!has_signals || to.signals(model));
     done.then(|| core::mem::take(&mut to.bytes))
 }
 

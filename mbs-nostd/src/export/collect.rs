@@ -1,34 +1,19 @@
 //! A tree's tables in the order in which its effects may be dropped.
 
+use super::signals::{MovingSignal, SignalTables, add_laws, held};
 use crate::inputs::{Motion, Prescriptions, SignalLaw};
 use crate::model::{Model, StartState};
 use alloc::vec::Vec;
 use mbs_core::Real;
 use mbs_core::inputs::Prescribed;
 use mbs_core::laws::Part;
-use mbs_core::scene::{Motion as SceneLaw, Signal, SignalId};
+use mbs_core::scene::{Motion as SceneLaw, Signal};
 use mbs_recursive::loads::{Load, Measure};
 use mbs_recursive::loops::Loops;
 use mbs_recursive::rows::Row;
 use mbs_recursive::slices::TreeSlices;
 use mbs_recursive::space::Space;
 use mbs_recursive::{TreeModel, TreeState};
-
-/// A signal of time, or one that is set, which tables do not have.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct MovingSignal {
-    /// The signal.
-    pub signal: SignalId,
-}
-
-impl core::fmt::Display for MovingSignal {
-    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-        let number = self.signal.index() + 1;
-        write!(f, "signal {number} is not constant, and tables have no signals of time")
-    }
-}
-
-impl core::error::Error for MovingSignal {}
 
 /// A model whose tables are partly those of a tree, partly its own.
 #[derive(Debug, Clone)]
@@ -41,6 +26,7 @@ pub struct Collected<'a, T: Real, S: Space<T>> {
     knots: Vec<[T; 2]>,
     curvatures: Vec<T>,
     rows: Vec<[T; 4]>,
+    signals: SignalTables<T>,
     rungs: Vec<u32>,
     /// The equations of loops; those of couplings have what their guides add to a law.
     lap_rows: Vec<Row<T, S>>,
@@ -55,15 +41,12 @@ impl<'a, T: Real, S: Space<T>> Collected<'a, T, S> {
     /// in front; each has a rung.
     ///
     /// # Errors
-    /// [`MovingSignal`]: tables have signals that are constant, and no others.
+    /// [`MovingSignal`]: tables have no waves, ramps, steps and periodic tables, and no guides that follow signals.
     pub fn new(
         tree: &'a TreeModel<T, S>,
         state: &'a TreeState<T>,
         ladder: &[usize],
     ) -> Result<Self, MovingSignal> {
-        if let Some(signal) = tree.prescribed().signals().moving() {
-            return Err(MovingSignal { signal });
-        }
         let mechanism = tree.mechanism();
         let mut model = Self {
             mechanism,
@@ -74,11 +57,12 @@ impl<'a, T: Real, S: Space<T>> Collected<'a, T, S> {
             knots: Vec::new(),
             curvatures: Vec::new(),
             rows: Vec::new(),
+            signals: SignalTables::new(tree.prescribed(), &mechanism),
             rungs: Vec::new(),
             lap_rows: mechanism.loops.rows.to_vec(),
         };
         model.order(tree.effect_of_load(), ladder);
-        model.prescribe(tree.prescribed());
+        model.prescribe(tree.prescribed())?;
         Ok(model)
     }
 
@@ -97,14 +81,16 @@ impl<'a, T: Real, S: Space<T>> Collected<'a, T, S> {
         self.rungs.reverse();
     }
 
-    fn prescribe(&mut self, prescribed: &Prescribed<T>) {
+    fn prescribe(&mut self, prescribed: &Prescribed<T>) -> Result<(), MovingSignal> {
         for row in &mut self.lap_rows {
             let Row::Coupled(row) = row else { continue };
             let guide = prescribed.guides().get(row.guide as usize);
             row.value = guide.and_then(|guide| guide.offset()).map_or(T::ZERO, |x| x * row.inverse);
         }
-        let signals = prescribed.signals().values(T::ZERO);
-        self.courses.extend(signals.iter().map(|value| SignalLaw::Constant(*value)));
+        // signals that are not constant are added to courses by operations
+        let signals = held(prescribed.signals());
+        let knots = (&mut self.knots, &mut self.curvatures);
+        add_laws(prescribed.signals(), &signals, (&mut self.courses, knots))?;
         for guide in prescribed.guides() {
             let law = match guide.law() {
                 SceneLaw::Input(motion) => Motion::Input(*motion),
@@ -112,13 +98,18 @@ impl<'a, T: Real, S: Space<T>> Collected<'a, T, S> {
                     Motion::Sine { amplitude: *amplitude, frequency: *frequency, phase: *phase }
                 }
                 SceneLaw::Ramp { rate } => Motion::Ramp { rate: *rate },
-                // the signal is constant
-                SceneLaw::Signal(_) => {
-                    let first = index(self.knots.len());
-                    self.knots.push([T::ZERO, guide.at(T::ZERO, &signals)[0]]);
-                    self.curvatures.push(T::ZERO);
-                    Motion::Table(Part { first, n: 1 })
-                }
+                SceneLaw::Signal(signal) => match self.courses.get(signal.index()) {
+                    Some(SignalLaw::Spline(part)) => Motion::Table(*part),
+                    Some(SignalLaw::Constant([value, ..]))
+                        if prescribed.signals().is_constant(*signal) =>
+                    {
+                        let first = index(self.knots.len());
+                        self.knots.push([T::ZERO, *value]);
+                        self.curvatures.push(T::ZERO);
+                        Motion::Table(Part { first, n: 1 })
+                    }
+                    _ => return Err(MovingSignal { signal: *signal }),
+                },
                 SceneLaw::Table { rows: table, .. } => {
                     let first = index(self.knots.len());
                     self.knots.extend_from_slice(table);
@@ -142,6 +133,7 @@ impl<'a, T: Real, S: Space<T>> Collected<'a, T, S> {
             };
             self.courses.push(law);
         }
+        Ok(())
     }
 
     /// The model.
@@ -150,7 +142,12 @@ impl<'a, T: Real, S: Space<T>> Collected<'a, T, S> {
         Model {
             mechanism: TreeSlices {
                 loads: &self.loads,
-                loops: Loops { rows: &self.lap_rows, ..self.mechanism.loops },
+                loops: Loops {
+                    rows: &self.lap_rows,
+                    couplings: self.signals.couplings(&self.mechanism.loops.couplings),
+                    ..self.mechanism.loops
+                },
+                feedback: self.signals.feedback(self.mechanism.feedback.links),
                 ..self.mechanism
             },
             prescriptions: Prescriptions {
@@ -164,6 +161,7 @@ impl<'a, T: Real, S: Space<T>> Collected<'a, T, S> {
                 z: &self.state.z,
                 v: &self.state.v,
                 a: &self.state.a,
+                signals: self.signals.starts(&self.state.signals),
             },
             rungs: &self.rungs,
         }

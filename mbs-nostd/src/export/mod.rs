@@ -2,10 +2,12 @@
 
 mod bytes;
 mod collect;
+mod signals;
 mod source;
 
 pub use crate::format::Bytes;
 pub use bytes::bytes;
-pub use collect::{Collected, MovingSignal, needs};
+pub use collect::{Collected, needs};
+pub use signals::MovingSignal;
 pub use source::source;
 pub(crate) use source::{Source, close, name, open};

@@ -103,7 +103,7 @@ pub fn source<T: Real + Record, S: Axes<T>>(
          /// Plane or space.\n\
          pub type Axes = {space};\n\
          /// A solver of just the size of [`MODEL`]: {} links with the ground, {} coordinates, {} freedoms, {} rows of loops.\n\
-         pub type ModelSolver = Solver<Scalar, Axes, {}, {}, {}, {}, {}, {}, {}, {}>;\n\n",
+         pub type ModelSolver = Solver<Scalar, Axes, {}, {}, {}, {}, {}, {}, {}, {}{}>;\n\n",
         sizes.links,
         sizes.coordinates,
         sizes.freedoms,
@@ -115,18 +115,24 @@ pub fn source<T: Real + Record, S: Axes<T>>(
         sizes.blocks,
         sizes.gains,
         sizes.guides,
-        sizes.courses
+        sizes.courses,
+        if sizes.followed > 0 {
+            format!(", {}, {}", sizes.states, sizes.followed)
+        } else {
+            String::new()
+        }
     );
     lists(model, &mut to);
     let law_inputs = law_inputs(m.tables, &mut to);
-    constant(model, &law_inputs, &mut to);
+    let signals = signals(model, &mut to);
+    constant(model, (&law_inputs, signals), &mut to);
     Ok(to)
 }
 
 /// The constant that holds all tables.
 fn constant<T: Real + Record, S: Axes<T>>(
     model: &Model<'_, T, S>,
-    law_inputs: &str,
+    (law_inputs, [curves, feedback, states]): (&str, [&str; 3]),
     to: &mut String,
 ) {
     let m = &model.mechanism;
@@ -147,12 +153,12 @@ fn constant<T: Real + Record, S: Axes<T>>(
          \x20               updates: &UPDATES,\n\
          \x20           }},\n\
          \x20           floor: {},\n\
-         \x20           couplings: Couplings {{ n_cut: {}, terms: &TERMS, ..Couplings::none() }},\n\
+         \x20           couplings: Couplings {{ n_cut: {}, terms: &TERMS, {curves}..Couplings::none() }},\n\
          \x20       }},\n\
          \x20       loads: &LOADS,\n\
          \x20       rotors: &ROTORS,\n\
          \x20       tables: {law_inputs},\n\
-         \x20       feedback: FeedbackSlices::none(),\n\
+         \x20       feedback: {feedback},\n\
          \x20       gravity: {},\n\
          \x20       base: {},\n\
          \x20       length: {},\n\
@@ -165,7 +171,7 @@ fn constant<T: Real + Record, S: Axes<T>>(
          \x20       knots: (&KNOTS, &CURVATURES),\n\
          \x20       rows: &COURSE_ROWS,\n\
          \x20   }},\n\
-         \x20   start: StartState {{ t: {}, z: &Z, v: &V, a: &A }},\n\
+         \x20   start: StartState {{ t: {}, z: &Z, v: &V, a: &A, signals: {states} }},\n\
          \x20   rungs: &RUNGS,\n\
          }};\n",
         value(&m.loops.floor),
@@ -204,6 +210,28 @@ fn lists<T: Real + Record, S: Axes<T>>(model: &Model<'_, T, S>, to: &mut String)
     table("Z", "Scalar", begin.z, to);
     table("V", "Scalar", begin.v, to);
     table("A", "Scalar", begin.a, to);
+}
+
+/// The tables of signals, if there are operations on them: what couplings, feedback and start have of them.
+fn signals<T: Real + Record, S: Axes<T>>(
+    model: &Model<'_, T, S>,
+    to: &mut String,
+) -> [&'static str; 3] {
+    let (feedback, couplings) = (&model.mechanism.feedback, &model.mechanism.loops.couplings);
+    if feedback.steps.is_empty() {
+        return ["", "FeedbackSlices::none()", "&[]"];
+    }
+    table("OPERATIONS", "FeedbackStep<Scalar>", feedback.steps, to);
+    table("MEASURED", "u32", feedback.links, to);
+    table("STATES", "[Scalar; 2]", model.start.signals, to);
+    table("CURVES", "CurveTable<Scalar>", couplings.curves, to);
+    table("CURVE_KNOTS", "[Scalar; 2]", couplings.knots, to);
+    table("CURVE_NUMBERS", "Scalar", couplings.numbers, to);
+    [
+        "curves: &CURVES, knots: &CURVE_KNOTS, numbers: &CURVE_NUMBERS, ",
+        "FeedbackSlices { steps: &OPERATIONS, links: &MEASURED, n_states: STATES.len(), signals: &[] }",
+        "&STATES",
+    ]
 }
 
 /// The tables of laws that are not empty, and the expression that holds them.

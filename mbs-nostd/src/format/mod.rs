@@ -10,6 +10,7 @@ mod bytes;
 mod laws;
 mod macros;
 mod numbers;
+mod signals;
 mod tables;
 
 #[cfg(feature = "export")]

@@ -2,7 +2,7 @@
 
 use super::macros::{record_enum, record_struct};
 use super::{Axes, Record};
-use crate::inputs::{Motion, SignalLaw};
+use crate::inputs::Motion;
 use mbs_core::Real;
 use mbs_core::laws::Part;
 use mbs_recursive::coupled::{CoupledRow, SumMeasure, SumTerm};
@@ -75,12 +75,5 @@ record_enum!([T: Real + Record] Motion<T> = Motion {
     0 Input { 0 motion },
     1 Sine { amplitude amplitude, frequency frequency, phase phase },
     2 Ramp { rate rate },
-    3 Table { 0 part },
-});
-
-record_enum!([T: Real + Record] SignalLaw<T> = SignalLaw {
-    0 Input { 0 value },
-    1 Constant { 0 value },
-    2 Travel { 0 speed },
     3 Table { 0 part },
 });

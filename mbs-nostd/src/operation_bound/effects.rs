@@ -12,6 +12,9 @@ const fn ops(products: u64, sums: u64) -> Operations {
     Operations::new(products, sums)
 }
 
+/// A cubic spline with its derivatives.
+pub(super) const SPLINE: Operations = ops(22, 14).and(4, 0, 0);
+
 /// Guides and courses at an instant.
 pub(super) fn inputs<T>(laws: &Prescriptions<'_, T>) -> Operations {
     let mut sum = Operations::NONE;
@@ -20,7 +23,7 @@ pub(super) fn inputs<T>(laws: &Prescriptions<'_, T>) -> Operations {
             Motion::Input(_) => Operations::NONE,
             Motion::Sine { .. } => ops(9, 1).and(0, 0, 1),
             Motion::Ramp { .. } => ops(1, 0),
-            Motion::Table(_) => ops(22, 14).and(4, 0, 0),
+            Motion::Table(_) => SPLINE,
         };
     }
     for course in laws.courses {
@@ -28,6 +31,8 @@ pub(super) fn inputs<T>(laws: &Prescriptions<'_, T>) -> Operations {
             SignalLaw::Input(_) | SignalLaw::Constant(_) => Operations::NONE,
             SignalLaw::Travel(_) => ops(1, 0),
             SignalLaw::Table(_) => ops(3, 8).and(1, 0, 0),
+            SignalLaw::Line(_) => ops(1, 6).and(2, 0, 0),
+            SignalLaw::Spline(_) => SPLINE,
         };
     }
     sum

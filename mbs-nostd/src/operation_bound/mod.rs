@@ -4,7 +4,7 @@
 //! step         inputs + (E + 1) reach + E evaluation + P projection          E evaluations, P projections, σ further sweeps
 //!              (+ inputs + evaluation where courses are written between steps)
 //! evaluation   Σ links [place, inertia, eliminate, advance, (+ inward shift unless on the ground)]
-//!              + Σ loops [rows, passes, elimination, opening, residual] + rotors + effects [spread, forces ahead] + σ (response + residual)
+//!              + Σ loops [rows, passes, elimination, opening, residual] + rotors + signals + effects [spread, forces ahead] + σ (response + residual)
 //! response     Σ links [impulse, advance (+ shift)] + Σ loops [passes and eliminations of l alone, opening]
 //! projection   Σ links place + Σ loops rows + 2 response + move
 //! ```
@@ -18,6 +18,7 @@
 mod effects;
 mod joints;
 mod loops;
+mod signals;
 
 use crate::inputs::SignalLaw;
 use crate::model::Model;
@@ -47,6 +48,7 @@ pub fn step<T: Real, S: Space<T>>(model: &Model<'_, T, S>, bounds: Bounds) -> Op
         evaluation += joints::evaluation::<T, S>(link);
     }
     evaluation += Operations::new(0, count(m.rotors.len()));
+    evaluation += signals::evaluation(m);
     if !m.loads.is_empty() {
         for link in skip_ground(m.links) {
             evaluation += joints::spread::<T, S>(link.kind);

@@ -88,6 +88,16 @@ fn couplings_of_joints_hold_on_a_controller_as_in_the_recursion() {
     let held = format!("{GEARS}{}", DRIVEN.replace("sine", "value = 0.1\nsine"));
     let apart = apart_on_controller(&held).expect("a model");
     assert!(apart < 1e-10, "{apart}");
+    for signal in [
+        "kind = \"constant\"\nvalue = 0.2",
+        "kind = \"table\"\ntable = [[0.0, 0.0], [0.6, 0.4]]\nends = \"level\"",
+    ] {
+        let followed = DRIVEN
+            .replace("sine = { amplitude = 0.3, frequency = 1.0 }", "signal = \"s\"\nvalue = 0.1");
+        let signal = format!("[[signal]]\nname = \"s\"\n{signal}\n");
+        let apart = apart_on_controller(&format!("{GEARS}{followed}{signal}")).expect("a model");
+        assert!(apart < 1e-10, "{signal}{apart}");
+    }
 }
 
 const ROTORS: &str = r#"

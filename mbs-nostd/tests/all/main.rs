@@ -5,3 +5,4 @@ mod support;
 mod agreement;
 mod inputs;
 mod operation_bound;
+mod signals;

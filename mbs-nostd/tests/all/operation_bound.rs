@@ -1,5 +1,6 @@
 //! The bound, by a number that counts what is done with it.
 
+use crate::signals::{ARM, LINE};
 use crate::support::counted::{Counted, done};
 use crate::support::start;
 use mbs_core::scene::Scene;
@@ -10,8 +11,8 @@ use mbs_nostd::{Bounds, Planar, Solver, Spatial, Tables, Unwatched};
 use mbs_recursive::rows::Row;
 use mbs_testkit::file;
 
-type Room<S> = Solver<Counted, S, 64, 80, 48, 160, 4096, 4096, 2, 8>;
-type RoomTables<S> = Tables<Counted, S, 64, 48, 160, 512, 64, 64, 8, 80>;
+type Room<S> = Solver<Counted, S, 64, 80, 48, 160, 4096, 4096, 2, 24, 4, 24>;
+type RoomTables<S> = Tables<Counted, S, 64, 48, 160, 512, 64, 64, 24, 80, 40>;
 
 /// A scene of the repository or of this test.
 fn scene(name: &str) -> Scene<f64> {
@@ -107,6 +108,14 @@ fn couplings_stay_below_the_bound() {
     for (sweeps, projections) in [(0, 1), (2, 2)] {
         let bounds = Bounds { evaluations: 2, sweeps, projections };
         is_bound("couplings", counted_of::<Planar, 2>(&mbs_testkit::scene(text), bounds));
+    }
+}
+
+#[test]
+fn operations_on_signals_stay_below_the_bound() {
+    for text in [ARM, LINE] {
+        let bounds = Bounds { evaluations: 2, ..Bounds::default() };
+        is_bound("signals", counted_of::<Planar, 2>(&mbs_testkit::scene(text), bounds));
     }
 }
 

@@ -120,7 +120,7 @@ pub struct Relative {
     pub loops: usize,
     /// Names of the joints that are cut.
     pub cut_joints: Vec<String>,
-    /// One step on a controller; `None` where the scene has signals of time, which no controller's tables have.
+    /// One step on a controller; `None` where the scene has a signal that no controller's tables have.
     pub controller: Option<ControllerStep>,
 }
 

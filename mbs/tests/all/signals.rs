@@ -216,7 +216,7 @@ fn a_signal_that_is_an_input_is_set_by_its_name() {
 }
 
 #[test]
-fn tables_for_controllers_have_constant_signals_and_refuse_others_by_name() {
+fn tables_for_controllers_have_signals_and_refuse_waves_by_name() {
     let with = |kind: &str| {
         let effect = "[[effect]]\nkind = \"torque\"\njoint = \"axle\"\nsignal = \"drive\"\n";
         scene(&format!("{WHEEL}{effect}[[signal]]\nname = \"drive\"\n{kind}\n"))
@@ -228,8 +228,11 @@ fn tables_for_controllers_have_constant_signals_and_refuse_others_by_name() {
     };
     let named = export(&with("kind = \"constant\"\nvalue = 3")).expect("tables");
     assert!(named.rust.contains("Constant([3.0, 0.0, 0.0])"), "{}", named.rust);
-    let refused = export(&with("kind = \"ramp\"\nrate = 3")).expect_err("a signal of time");
-    assert!(refused.to_string().starts_with("signal `drive` is not constant"), "{refused}");
+    let input = export(&with("kind = \"input\"\nvalue = 3")).expect("tables");
+    assert!(input.rust.contains("Input([3.0, 0.0, 0.0])"), "{}", input.rust);
+    let wave = "kind = \"sine\"\namplitude = 3\nfrequency = 1";
+    let refused = export(&with(wave)).expect_err("a wave").to_string();
+    assert!(refused.starts_with("signal `drive` cannot be written for a controller"), "{refused}");
 }
 
 /// A wheel with a torque on its axle, and a table of it.

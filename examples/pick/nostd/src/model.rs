@@ -105,6 +105,7 @@ pub static MODEL: Model<'static, Scalar, Axes> = Model {
         loads: &LOADS,
         rotors: &ROTORS,
         tables: LawInputs::courses(&[]),
+        feedback: FeedbackSlices::none(),
         gravity: vector([0.0, -9.81]),
         base: vector([0.0, 0.0]),
         length: 2.0,
@@ -117,6 +118,6 @@ pub static MODEL: Model<'static, Scalar, Axes> = Model {
         knots: (&KNOTS, &CURVATURES),
         rows: &COURSE_ROWS,
     },
-    start: StartState { t: 0.0, z: &Z, v: &V, a: &A },
+    start: StartState { t: 0.0, z: &Z, v: &V, a: &A, signals: &[] },
     rungs: &RUNGS,
 };

@@ -1,0 +1,167 @@
+//! Signals as tables: functions of time and inputs as courses, all others by operations on these.
+
+use crate::inputs::SignalLaw;
+use alloc::vec::Vec;
+use mbs_core::Real;
+use mbs_core::feedback::{FeedbackOperation, FeedbackStep};
+use mbs_core::inputs::{Prescribed, SignalGraph};
+use mbs_core::laws::Part;
+use mbs_core::measure::PreparedCurve;
+use mbs_core::scene::{Interpolation, SignalId, SignalKind};
+use mbs_recursive::coupled::{Couplings, CurveTable, NONE};
+use mbs_recursive::feedback::FeedbackSlices;
+use mbs_recursive::plan::Span;
+use mbs_recursive::slices::TreeSlices;
+use mbs_recursive::space::Space;
+
+/// A function of time that tables do not have, or a signal that guides follow and that is neither constant nor a spline.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct MovingSignal {
+    /// The signal.
+    pub signal: SignalId,
+}
+
+impl core::fmt::Display for MovingSignal {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        let number = self.signal.index() + 1;
+        write!(
+            f,
+            "signal {number} is a wave, a ramp, a step or a table that holds or repeats, or a guide follows it that is no spline: tables for \
+             controllers have none of these"
+        )
+    }
+}
+
+impl core::error::Error for MovingSignal {}
+
+/// The operations on signals, and the functions that they name.
+#[derive(Debug, Clone)]
+pub(super) struct SignalTables<T> {
+    steps: Vec<FeedbackStep<T>>,
+    n_states: usize,
+    curves: Vec<CurveTable<T>>,
+    knots: Vec<[T; 2]>,
+    numbers: Vec<T>,
+}
+
+impl<T: Real> SignalTables<T> {
+    /// What gives the signals that are made of others. Functions that the mechanism has keep their numbers; others are behind them.
+    pub(super) fn new<S: Space<T>>(
+        prescribed: &Prescribed<T>,
+        mechanism: &TreeSlices<'_, T, S>,
+    ) -> Self {
+        let couplings = &mechanism.loops.couplings;
+        let program = prescribed.program();
+        let mut tables = Self {
+            steps: program.steps,
+            n_states: program.starts.len(),
+            curves: couplings.curves.to_vec(),
+            knots: couplings.knots.to_vec(),
+            numbers: couplings.numbers.to_vec(),
+        };
+        let curve_of = |step: &FeedbackStep<T>| match step.operation {
+            FeedbackOperation::Curve { curve, .. } => Some((step.to, curve)),
+            _ => None,
+        };
+        let known: Vec<_> = mechanism.feedback.steps.iter().filter_map(curve_of).collect();
+        for i in 0..tables.steps.len() {
+            let Some((to, number)) = curve_of(&tables.steps[i]) else { continue };
+            let known = known.iter().find(|(of, _)| *of == to).map(|(_, curve)| *curve);
+            let number =
+                known.unwrap_or_else(|| tables.add_curve(&program.curves[number as usize]));
+            if let FeedbackOperation::Curve { curve, .. } = &mut tables.steps[i].operation {
+                *curve = number;
+            }
+        }
+        tables
+    }
+
+    /// The number of a function that is added.
+    fn add_curve(&mut self, curve: &PreparedCurve<T>) -> u32 {
+        let table = match curve {
+            PreparedCurve::Identity => return NONE,
+            PreparedCurve::Spline { knots, curvature, period } => CurveTable::Spline {
+                knots: extend(&mut self.knots, knots),
+                first: extend(&mut self.numbers, curvature).first,
+                period: *period,
+            },
+            PreparedCurve::Polynomial(coefficients) => {
+                CurveTable::Polynomial { coefficients: extend(&mut self.numbers, coefficients) }
+            }
+        };
+        self.curves.push(table);
+        index(self.curves.len() - 1)
+    }
+
+    /// The couplings with these functions.
+    pub(super) fn couplings<'a, S: Space<T>>(
+        &'a self,
+        of: &Couplings<'a, T, S>,
+    ) -> Couplings<'a, T, S> {
+        Couplings { curves: &self.curves, knots: &self.knots, numbers: &self.numbers, ..*of }
+    }
+
+    /// The operations, with the links of the measured coordinates.
+    pub(super) fn feedback<'a>(&'a self, links: &'a [u32]) -> FeedbackSlices<'a, T> {
+        FeedbackSlices { steps: &self.steps, links, n_states: self.n_states, signals: &[] }
+    }
+
+    /// The states among those of signals.
+    pub(super) fn starts<'a>(&self, states: &'a [[T; 2]]) -> &'a [[T; 2]] {
+        states.get(..self.n_states).unwrap_or(states)
+    }
+}
+
+/// The values of signals that are constant; zero for others.
+pub(super) fn held<T: Real>(signals: &SignalGraph<T>) -> Vec<[T; 3]> {
+    let all = signals.values(T::ZERO).into_iter().enumerate();
+    let is_constant = |i| signals.is_constant(SignalId::new(i));
+    all.map(|(i, value)| if is_constant(i) { value } else { [T::ZERO; 3] }).collect()
+}
+
+/// Where the courses of signals go, with the knots and curvatures of their tables.
+type Laws<'a, T> = (&'a mut Vec<SignalLaw<T>>, (&'a mut Vec<[T; 2]>, &'a mut Vec<T>));
+
+/// Adds the courses of signals, of which `held` has the constant ones; those of the others are made by operations.
+pub(super) fn add_laws<T: Real>(
+    signals: &SignalGraph<T>,
+    held: &[[T; 3]],
+    (courses, (knots, curvatures)): Laws<'_, T>,
+) -> Result<(), MovingSignal> {
+    for (i, ((kind, curve), &value)) in signals.kinds().zip(held).enumerate() {
+        let signal = SignalId::new(i);
+        let mut part = |rows: &[[T; 2]], curvature: &[T]| {
+            let first = index(knots.len());
+            knots.extend_from_slice(rows);
+            curvatures.extend_from_slice(curvature);
+            curvatures.resize(knots.len(), T::ZERO);
+            Part { first, n: index(rows.len()) }
+        };
+        let is_made = !kind.operands().is_empty() || kind.is_feedback();
+        courses.push(match (kind, curve) {
+            _ if is_made || signals.is_constant(signal) => SignalLaw::Constant(value),
+            (SignalKind::Input { value, .. }, _) => SignalLaw::Input([*value, T::ZERO, T::ZERO]),
+            (
+                SignalKind::Table { periodic: false, .. },
+                PreparedCurve::Spline { curvature, knots, .. },
+            ) => SignalLaw::Spline(part(knots, curvature)),
+            (
+                SignalKind::Table { rows, interpolation: Interpolation::Linear, periodic: false },
+                _,
+            ) => SignalLaw::Line(part(rows, &[])),
+            _ => return Err(MovingSignal { signal }),
+        });
+    }
+    Ok(())
+}
+
+/// Adds a list to another; where it stands there.
+fn extend<X: Copy>(to: &mut Vec<X>, list: &[X]) -> Span {
+    let first = index(to.len());
+    to.extend_from_slice(list);
+    Span { first, end: index(to.len()) }
+}
+
+fn index(i: usize) -> u32 {
+    u32::try_from(i).unwrap_or(u32::MAX)
+}

@@ -1,0 +1,50 @@
+//! Operations on signals, with how these answer to what is measured: of the branch that costs most.
+
+use super::{Operations, count, effects};
+use mbs_core::Real;
+use mbs_core::feedback::FeedbackOperation;
+use mbs_recursive::coupled::{Couplings, CurveTable};
+use mbs_recursive::slices::TreeSlices;
+use mbs_recursive::space::Space;
+
+const fn ops(products: u64, sums: u64) -> Operations {
+    Operations::new(products, sums)
+}
+
+/// All operations at an instant.
+pub(super) fn evaluation<T: Real, S: Space<T>>(m: &TreeSlices<'_, T, S>) -> Operations {
+    let mut sum = Operations::NONE;
+    for step in m.feedback.steps {
+        sum += match step.operation {
+            FeedbackOperation::Add { .. } => ops(5, 5),
+            FeedbackOperation::Multiply { .. } => ops(11, 5),
+            FeedbackOperation::Curve { curve, .. } => {
+                ops(6, 1) + function(&m.loops.couplings, curve)
+            }
+            FeedbackOperation::Lag { .. } => ops(7, 5).and(5, 0, 0),
+            FeedbackOperation::Integral { .. } => ops(5, 2),
+            FeedbackOperation::Pid { .. } => ops(16, 11),
+            FeedbackOperation::Value { .. }
+            | FeedbackOperation::Rate { .. }
+            | FeedbackOperation::Constant(_)
+            | FeedbackOperation::Clamp { .. }
+            | FeedbackOperation::Component { .. }
+            | FeedbackOperation::Force { .. } => Operations::NONE,
+        };
+    }
+    sum
+}
+
+/// A function with its two derivatives.
+fn function<T: Real, S: Space<T>>(couplings: &Couplings<'_, T, S>, curve: u32) -> Operations {
+    match couplings.curves.get(curve as usize) {
+        Some(CurveTable::Polynomial { coefficients }) => {
+            ops(3, 4) * count(coefficients.range().len())
+        }
+        Some(CurveTable::Spline { period, .. }) if *period > T::ZERO => {
+            effects::SPLINE + ops(1, 2).and(1, 0, 0)
+        }
+        Some(CurveTable::Spline { .. }) => effects::SPLINE,
+        None => Operations::NONE,
+    }
+}
