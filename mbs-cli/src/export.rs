@@ -70,6 +70,9 @@ fn refusal(error: &ExportError) -> Refusal {
             "`mbs run SCENE --formulation recursive` says more: controllers step in relative coordinates"
         }
         ExportError::Coupling(_) => "leave the coupling out",
+        ExportError::Sum(_) => {
+            "let its terms be coordinates of joints, without `points` and curves"
+        }
         ExportError::Effect(_) => "leave user-defined laws out: a table cannot hold code",
         ExportError::Signal(_) => {
             "make it constant, or write `table`, or `input = true`, in place of `signal`"

@@ -43,7 +43,7 @@ macro_rules! delegate_model {
         fn n_signal_states(&self) -> usize {
             self.$model.n_signal_states()
         }
-        fn signal_states(&self) -> alloc::vec::Vec<[$T; 2]> {
+        fn signal_states(&self) -> $crate::model::SignalValues<$T> {
             self.$model.signal_states()
         }
         fn inputs(&self) -> Option<&$crate::inputs::Prescribed<$T>> {

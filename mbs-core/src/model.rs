@@ -119,7 +119,7 @@ pub trait Model<T: Real>: Cliques + Sync {
         0
     }
     /// What a [state](State::signals) has of signals as they begin.
-    fn signal_states(&self) -> Vec<[T; 2]> {
+    fn signal_states(&self) -> SignalValues<T> {
         Vec::new()
     }
     /// Guides and courses, which say where the inputs of a state stand; `None`: it has none.
@@ -247,6 +247,9 @@ impl<T: Real, M: Model<T>> BlockSource<T> for System<'_, T, M> {
     }
 }
 
+/// What a state has of signals: states of those that have one, then the signals that follow the motion, each with its rate.
+pub type SignalValues<T> = Vec<[T; 2]>;
+
 /// Position, velocity and acceleration of a mechanism at a time, with what a step must remember.
 #[derive(Debug, Clone, PartialEq)]
 pub struct State<T> {
@@ -280,7 +283,7 @@ pub struct State<T> {
     /// The inputs that accelerations, multipliers and power were made with.
     pub applied: Vec<T>,
     /// States of signals that have one, then the signals that follow the motion, each with its rate.
-    pub signals: Vec<[T; 2]>,
+    pub signals: SignalValues<T>,
     /// Work done on the mechanism by dampers, courses and guides since the start [J].
     pub work: T,
     /// Their power at this instant [W].

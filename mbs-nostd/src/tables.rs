@@ -186,21 +186,27 @@ impl<
             n: Record::read(from)?,
             t: Record::read(from)?,
         };
-        if parts & WITH_ROTORS != 0 {
-            tables.rotors = list("rotors", from)?;
-        }
-        if parts & WITH_SIGNALS != 0 {
-            tables.operations = list("operations on signals", from)?;
-            tables.measured = list("measured coordinates", from)?;
-            tables.curves = list("curves", from)?;
-            tables.curve_knots = (list("knots of curves", from)?, list("numbers of curves", from)?);
-            tables.states = list("states of signals", from)?;
-        }
+        tables.read_parts(parts, from)?;
         if !from.is_at_end() {
             return Err(LoadError::Length);
         }
         tables.sizes = Checked::new(&tables.unchecked())?.sizes();
         Ok(tables)
+    }
+
+    /// The parts that a model of this version has.
+    fn read_parts(&mut self, parts: u32, from: &mut Reader<'_>) -> Result<(), LoadError> {
+        if parts & WITH_ROTORS != 0 {
+            self.rotors = list("rotors", from)?;
+        }
+        if parts & WITH_SIGNALS != 0 {
+            self.operations = list("operations on signals", from)?;
+            self.measured = list("measured coordinates", from)?;
+            self.curves = list("curves", from)?;
+            self.curve_knots = (list("knots of curves", from)?, list("numbers of curves", from)?);
+            self.states = list("states of signals", from)?;
+        }
+        Ok(())
     }
 
     /// The model, which was checked when it was read.

@@ -208,11 +208,7 @@ mod data {
 
     impl<T: Real> FrictionLaw<T> {
         /// The law with both levels times a signal.
-        pub(in crate::effects) fn by(
-            self,
-            factor: &Signal<T>,
-            to: &mut Compiler<'_, T>,
-        ) -> Self {
+        pub(in crate::effects) fn by(self, factor: &Signal<T>, to: &mut Compiler<'_, T>) -> Self {
             match factor {
                 Signal::Constant([share, ..]) => self.scaled(share.max(T::ZERO)),
                 signal => Self { course: Some(to.course(signal)), ..self },

@@ -6,10 +6,9 @@ use crate::Real;
 use crate::algebra::norm;
 use crate::elements::{Measurand, Span, combine, measured_value};
 use crate::inputs::Prescribed;
-use crate::model::{Load, Model, Owner, ScalarForce, State, Tangent, Terms};
+use crate::model::{Load, Model, Owner, ScalarForce, SignalValues, State, Tangent, Terms};
 use crate::team::Alone;
 use alloc::vec;
-use alloc::vec::Vec;
 use core::ops::Range;
 
 /// Calls a kernel with the number of unknowns of a group known to the compiler, where bodies, joints and effects between two bodies
@@ -95,7 +94,7 @@ impl<T: Real, const D: usize> Model<T> for NaturalModel<T, D> {
         self.feedback.starts.len()
     }
 
-    fn signal_states(&self) -> Vec<[T; 2]> {
+    fn signal_states(&self) -> SignalValues<T> {
         self.feedback.states()
     }
 

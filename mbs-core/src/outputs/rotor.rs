@@ -5,7 +5,7 @@
 //! ```
 
 use super::coupled_sum::Part;
-use super::load::Applied;
+use super::wrench::Applied;
 use crate::Real;
 use crate::laws::scalar::ScalarForce;
 use crate::measure::RotorInput;

@@ -190,12 +190,9 @@ impl core::fmt::Display for StepError {
                 f,
                 "the law of the effect gave a number that is infinite or NaN: give it a finite force, tangent and energy wherever it is asked, or try a smaller step"
             ),
-            Self::OppositeBranch { .. } => {
-                write!(
-                    f,
-                    "the guided angle jumped half a turn away from its guide: try a smaller step"
-                )
-            }
+            Self::OppositeBranch { .. } => f.write_str(
+                "the guided angle jumped half a turn away from its guide: try a smaller step",
+            ),
         }
     }
 }

@@ -89,27 +89,41 @@ fn kind<'a>(
             lower: number("lower")?,
             upper: number("upper")?,
         },
-        "measure" => measure(fields, joints)?,
-        "lag" => {
-            SignalKind::Lag { of: single(fields)?, time: number("time")?, value: or_zero("value")? }
+        "measure" | "lag" | "integral" | "pid" => feedback(fields, word, joints)?,
+        _ => {
+            let unit = fields.get("unit").map_or(Ok(""), |item| fields.context.text(item))?;
+            SignalKind::Input { value: or_zero("value")?, unit: unit.to_owned() }
         }
+    })
+}
+
+/// Those that follow the motion or have a state.
+fn feedback<'a>(
+    fields: &Fields<'a>,
+    word: &str,
+    joints: &'a [Joint<Number>],
+) -> Read<SignalKind<Number>> {
+    let or_zero = |key| fields.number_or_zero(key);
+    Ok(match word {
+        "measure" => measure(fields, joints)?,
+        "lag" => SignalKind::Lag {
+            of: single(fields)?,
+            time: fields.number("time")?,
+            value: or_zero("value")?,
+        },
         "integral" => SignalKind::Integral {
             of: single(fields)?,
             lower: fields.optional("lower")?,
             upper: fields.optional("upper")?,
             value: or_zero("value")?,
         },
-        "pid" => SignalKind::Pid {
+        _ => SignalKind::Pid {
             of: [named(fields, "target")?, named(fields, "measured")?],
             p: or_zero("p")?,
             i: or_zero("i")?,
             d: or_zero("d")?,
             limit: fields.optional("limit")?,
         },
-        _ => {
-            let unit = fields.get("unit").map_or(Ok(""), |item| fields.context.text(item))?;
-            SignalKind::Input { value: or_zero("value")?, unit: unit.to_owned() }
-        }
     })
 }
 

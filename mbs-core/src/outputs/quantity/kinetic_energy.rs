@@ -25,7 +25,7 @@ impl<T: Real, const D: usize> Measured<T, D> for KineticEnergy<T, D> {
     }
 
     fn write(&self, now: &Instant<'_, T, D>, out: &mut [T]) {
-        out[0] = inertia::kinetic_energy(&self.0, now.state)
-            + rotor::kinetic_energy(&self.1, now.state);
+        out[0] =
+            inertia::kinetic_energy(&self.0, now.state) + rotor::kinetic_energy(&self.1, now.state);
     }
 }
