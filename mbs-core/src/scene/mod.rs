@@ -34,6 +34,7 @@ mod joint;
 mod mechanism;
 #[cfg(feature = "alloc")]
 mod number;
+#[cfg(feature = "alloc")]
 mod on_terms;
 #[cfg(feature = "alloc")]
 mod open;
