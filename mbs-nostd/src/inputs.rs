@@ -26,6 +26,21 @@ pub enum Motion<T> {
     },
     /// Cubic spline through a part of the knots, with the curvatures of its ends.
     Table(Part),
+    /// From one value to another.
+    Step(Rise<T>),
+}
+
+/// A step that takes its time: from + (to - from) s^3 (10 - 15 s + 6 s^2), s = (t - at)/rise.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Rise<T> {
+    /// The value before.
+    pub from: T,
+    /// The value after.
+    pub to: T,
+    /// When it begins [s].
+    pub at: T,
+    /// How long it takes; zero is a jump [s].
+    pub rise: T,
 }
 
 /// The vector of an effect, or value, rate and acceleration of a signal, as a function of time.
@@ -43,6 +58,8 @@ pub enum SignalLaw<T> {
     Line(Part),
     /// Cubic spline through a part of the knots, with the curvatures of its ends, and its derivatives.
     Spline(Part),
+    /// From one value to another, with its derivatives.
+    Step(Rise<T>),
 }
 
 /// All guides and courses of a model.
@@ -163,8 +180,16 @@ fn guide_at<T: Real>(
         }
         Motion::Ramp { rate } => guide::ramp(*rate, t),
         Motion::Table(part) => return spline(*part, laws, t),
+        Motion::Step(rise) => return rise.at(t),
     };
     [motion.value, motion.rate, motion.acceleration]
+}
+
+impl<T: Real> Rise<T> {
+    #[inline(never)]
+    fn at(&self, t: T) -> [T; 3] {
+        guide::step([self.from, self.to], (t - self.at, self.rise))
+    }
 }
 
 fn spline<T: Real>(part: Part, laws: &Prescriptions<'_, T>, t: T) -> [T; 3] {
@@ -184,6 +209,7 @@ fn course_at<T: Real>(
         SignalLaw::Travel(speed) => return [*speed * t, *speed, T::ZERO],
         SignalLaw::Line(part) => return guide::straight(part.of(laws.knots.0), t),
         SignalLaw::Spline(part) => return spline(*part, laws, t),
+        SignalLaw::Step(rise) => return rise.at(t),
         SignalLaw::Table(part) => part.of(laws.rows),
     };
     guide::linear(rows, |&[t, x, y, z]| (t, [x, y, z]), t)

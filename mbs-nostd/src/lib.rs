@@ -17,7 +17,7 @@ pub mod table;
 mod tables;
 
 pub use check::{Checked, LoadError, Sizes};
-pub use inputs::{Motion, Prescriptions, SignalLaw, Values};
+pub use inputs::{Motion, Prescriptions, Rise, SignalLaw, Values};
 pub use ladder::DegradationLadder;
 pub use mbs_core::Real;
 pub use mbs_core::step::{InputError, StepError};

@@ -1,7 +1,7 @@
 //! What a model that `mbs export --rust` wrote is made of.
 
 pub use crate::{
-    LoadError, Model, Motion, Planar, Prescriptions, SignalLaw, Solver, Spatial, StartState,
+    LoadError, Model, Motion, Planar, Prescriptions, Rise, SignalLaw, Solver, Spatial, StartState,
 };
 pub use mbs_core::algebra::vector;
 pub use mbs_core::effects::laws::*;

@@ -36,6 +36,7 @@ pub(crate) fn add_efforts<T: Real, S: Space<T>>(
 }
 
 /// Kinetic energy of the rotors [J].
+#[cfg(feature = "alloc")]
 pub(crate) fn kinetic<T: Real, S: Space<T>>(
     m: &TreeSlices<'_, T, S>,
     (v, guides): (&[T], &[[T; 3]]),

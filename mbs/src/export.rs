@@ -31,7 +31,7 @@ pub enum ExportError {
     Coupling(String),
     /// An effect of this name is on a sum with a length or a curve, which is not written for controllers.
     Sum(String),
-    /// A signal of this name is a wave, a ramp, a step or a table that holds or repeats, or a guide follows it that is no spline.
+    /// A signal of this name is a wave, a ramp or a table that holds or repeats, or a guide follows it that is no spline or step.
     Signal(String),
     /// A ladder names what the scene has not, or is no price list.
     Ladder(String),
@@ -59,8 +59,8 @@ impl core::fmt::Display for ExportError {
             Self::Signal(name) => {
                 write!(
                     f,
-                    "signal `{name}` cannot be written for a controller: it is a wave, a ramp, a step or a table that holds or repeats, or a \
-                     guide follows it that is no spline"
+                    "signal `{name}` cannot be written for a controller: it is a wave, a ramp or a table that holds or repeats, or a \
+                     guide follows it that is no spline or step"
                 )
             }
             Self::Ladder(what) => write!(f, "{what}"),

@@ -203,7 +203,7 @@ impl<T: Real> Node<T> {
                 let ended = end.map_or([T::ZERO; 3], |end| corner(t - end, *rounding));
                 core::array::from_fn(|i| *rate * (begun[i] - ended[i]))
             }
-            SignalKind::Step { from, to, at, rise } => step([*from, *to], (t - *at, *rise)),
+            SignalKind::Step { from, to, at, rise } => guide::step([*from, *to], (t - *at, *rise)),
             SignalKind::Sum { of: signals, factors } => {
                 let parts = signals.iter().zip(factors);
                 parts.fold([T::ZERO; 3], |sum, (signal, &factor)| {
@@ -326,22 +326,4 @@ fn corner<T: Real>(x: T, rounding: T) -> [T; 3] {
     let rate = u * u * (three - T::TWO * u);
     let acceleration = T::TWO * three * u * (T::ONE - u) / rounding;
     [rounding * u * u * u * (T::ONE - u * T::HALF), rate, acceleration]
-}
-
-/// From one value to another in a time from zero on; without it a jump.
-fn step<T: Real>([from, to]: [T; 2], (t, rise): (T, T)) -> [T; 3] {
-    if t >= rise {
-        return [to, T::ZERO, T::ZERO];
-    }
-    if t <= T::ZERO {
-        return [from, T::ZERO, T::ZERO];
-    }
-    let number = T::from_f64;
-    let (s, height) = (t / rise, to - from);
-    let left = T::ONE - s;
-    [
-        from + height * (s * s * s * (number(10.0) - s * (number(15.0) - number(6.0) * s))),
-        height * number(30.0) * s * s * left * left / rise,
-        height * number(60.0) * s * left * (left - s) / (rise * rise),
-    ]
 }

@@ -138,6 +138,24 @@ pub fn straight<T: Real>(rows: &[[T; 2]], t: T) -> [T; 3] {
     }
 }
 
+/// From one value to another in a time `rise` from zero on, with rate and acceleration; without it a jump.
+pub fn step<T: Real>([from, to]: [T; 2], (t, rise): (T, T)) -> [T; 3] {
+    if t >= rise {
+        return [to, T::ZERO, T::ZERO];
+    }
+    if t <= T::ZERO {
+        return [from, T::ZERO, T::ZERO];
+    }
+    let number = T::from_f64;
+    let (s, height) = (t / rise, to - from);
+    let left = T::ONE - s;
+    [
+        from + height * (s * s * s * (number(10.0) - s * (number(15.0) - number(6.0) * s))),
+        height * number(30.0) * s * s * left * left / rise,
+        height * number(60.0) * s * left * (left - s) / (rise * rise),
+    ]
+}
+
 /// The vector of a table, linear between its rows; `row` gives time and vector of one. Before the first and after the last row the
 /// end value is held; an empty table is zero.
 ///

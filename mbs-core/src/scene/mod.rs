@@ -36,6 +36,7 @@ mod joint_limits;
 mod mechanism;
 #[cfg(feature = "alloc")]
 mod number;
+#[cfg(feature = "alloc")]
 mod on_terms;
 #[cfg(feature = "alloc")]
 mod open;

@@ -41,7 +41,7 @@ impl<'a, T: Real, S: Space<T>> Collected<'a, T, S> {
     /// in front; each has a rung.
     ///
     /// # Errors
-    /// [`MovingSignal`]: tables have no waves, ramps, steps and periodic tables, and no guides that follow signals.
+    /// [`MovingSignal`]: tables have no waves, ramps and periodic tables, and no guides that follow signals.
     pub fn new(
         tree: &'a TreeModel<T, S>,
         state: &'a TreeState<T>,
@@ -100,6 +100,7 @@ impl<'a, T: Real, S: Space<T>> Collected<'a, T, S> {
                 SceneLaw::Ramp { rate } => Motion::Ramp { rate: *rate },
                 SceneLaw::Signal(signal) => match self.courses.get(signal.index()) {
                     Some(SignalLaw::Spline(part)) => Motion::Table(*part),
+                    Some(SignalLaw::Step(rise)) => Motion::Step(*rise),
                     Some(SignalLaw::Constant([value, ..]))
                         if prescribed.signals().is_constant(*signal) =>
                     {

@@ -1,6 +1,6 @@
 //! Signals as tables: functions of time and inputs as courses, all others by operations on these.
 
-use crate::inputs::SignalLaw;
+use crate::inputs::{Rise, SignalLaw};
 use alloc::vec::Vec;
 use mbs_core::Real;
 use mbs_core::feedback::{FeedbackOperation, FeedbackStep};
@@ -14,7 +14,7 @@ use mbs_recursive::plan::Span;
 use mbs_recursive::slices::TreeSlices;
 use mbs_recursive::space::Space;
 
-/// A function of time that tables do not have, or a signal that guides follow and that is neither constant nor a spline.
+/// A function of time that tables do not have, or a signal that guides follow and that is neither constant nor a spline or a step.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct MovingSignal {
     /// The signal.
@@ -26,7 +26,7 @@ impl core::fmt::Display for MovingSignal {
         let number = self.signal.index() + 1;
         write!(
             f,
-            "signal {number} is a wave, a ramp, a step or a table that holds or repeats, or a guide follows it that is no spline: tables for \
+            "signal {number} is a wave, a ramp or a table that holds or repeats, or a guide follows it that is no spline or step: tables for \
              controllers have none of these"
         )
     }
@@ -149,6 +149,9 @@ pub(super) fn add_laws<T: Real>(
                 SignalKind::Table { rows, interpolation: Interpolation::Linear, periodic: false },
                 _,
             ) => SignalLaw::Line(part(rows, &[])),
+            (&SignalKind::Step { from, to, at, rise }, _) => {
+                SignalLaw::Step(Rise { from, to, at, rise })
+            }
             _ => return Err(MovingSignal { signal }),
         });
     }

@@ -2,7 +2,7 @@
 
 use super::Record;
 use super::macros::{record_enum, record_struct};
-use crate::inputs::SignalLaw;
+use crate::inputs::{Rise, SignalLaw};
 use mbs_core::Real;
 use mbs_core::feedback::{FeedbackOperation, FeedbackStep};
 use mbs_recursive::coupled::CurveTable;
@@ -14,7 +14,10 @@ record_enum!([T: Real + Record] SignalLaw<T> = SignalLaw {
     3 Table { 0 part },
     4 Line { 0 part },
     5 Spline { 0 part },
+    6 Step { 0 rise },
 });
+
+record_struct!([T: Real + Record] Rise<T> = Rise { from, to, at, rise });
 
 record_struct!([T: Real + Record] FeedbackStep<T> = FeedbackStep { to, operation });
 

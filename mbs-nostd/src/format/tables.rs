@@ -76,4 +76,5 @@ record_enum!([T: Real + Record] Motion<T> = Motion {
     1 Sine { amplitude amplitude, frequency frequency, phase phase },
     2 Ramp { rate rate },
     3 Table { 0 part },
+    4 Step { 0 rise },
 });

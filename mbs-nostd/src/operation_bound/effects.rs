@@ -15,6 +15,9 @@ const fn ops(products: u64, sums: u64) -> Operations {
 /// A cubic spline with its derivatives.
 pub(super) const SPLINE: Operations = ops(22, 14).and(4, 0, 0);
 
+/// A step that takes its time, with its derivatives.
+const STEP: Operations = ops(16, 7).and(3, 0, 0);
+
 /// Guides and courses at an instant.
 pub(super) fn inputs<T>(laws: &Prescriptions<'_, T>) -> Operations {
     let mut sum = Operations::NONE;
@@ -24,6 +27,7 @@ pub(super) fn inputs<T>(laws: &Prescriptions<'_, T>) -> Operations {
             Motion::Sine { .. } => ops(9, 1).and(0, 0, 1),
             Motion::Ramp { .. } => ops(1, 0),
             Motion::Table(_) => SPLINE,
+            Motion::Step(_) => STEP,
         };
     }
     for course in laws.courses {
@@ -33,6 +37,7 @@ pub(super) fn inputs<T>(laws: &Prescriptions<'_, T>) -> Operations {
             SignalLaw::Table(_) => ops(3, 8).and(1, 0, 0),
             SignalLaw::Line(_) => ops(1, 6).and(2, 0, 0),
             SignalLaw::Spline(_) => SPLINE,
+            SignalLaw::Step(_) => STEP,
         };
     }
     sum

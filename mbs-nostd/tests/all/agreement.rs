@@ -91,6 +91,7 @@ fn couplings_of_joints_hold_on_a_controller_as_in_the_recursion() {
     for signal in [
         "kind = \"constant\"\nvalue = 0.2",
         "kind = \"table\"\ntable = [[0.0, 0.0], [0.6, 0.4]]\nends = \"level\"",
+        "kind = \"step\"\nfrom = -0.1\nto = 0.3\nrise = 0.4",
     ] {
         let followed = DRIVEN
             .replace("sine = { amplitude = 0.3, frequency = 1.0 }", "signal = \"s\"\nvalue = 0.1");

@@ -3,15 +3,16 @@
 use crate::support::start;
 use mbs_core::scene::{Scene, SignalKind};
 use mbs_nostd::export::{Collected, bytes, source};
+use mbs_nostd::format::Axes;
 use mbs_nostd::table::{FeedbackOperation, FeedbackStep};
 use mbs_nostd::{
-    Bounds, Checked, LoadError, Options, Planar, SignalLaw, Solver, Tables, Unwatched,
+    Bounds, Checked, LoadError, Options, Planar, SignalLaw, Solver, Spatial, Tables, Unwatched,
 };
 use mbs_recursive::{Workspace, bounded_step};
 use mbs_testkit::allocations;
 
-type Room = Solver<f64, Planar, 4, 4, 4, 4, 64, 64, 2, 24, 4, 24>;
-type RoomTables = Tables<f64, Planar, 4, 4, 4, 16, 8, 24, 24, 4, 40>;
+type Room<S> = Solver<f64, S, 40, 64, 48, 40, 1024, 1024, 4, 48, 8, 48>;
+type RoomTables<S> = Tables<f64, S, 40, 24, 40, 256, 48, 64, 48, 64, 80>;
 
 /// Two links in the plane with a controller at each joint: one follows an input, the other a table.
 pub(crate) const ARM: &str = r#"
@@ -154,10 +155,17 @@ of = "pedal"
 lower = 0.0
 upper = 1.0
 [[signal]]
+name = "gust"
+kind = "step"
+from = 1.0
+to = -2.0
+at = 0.1
+rise = 0.05
+[[signal]]
 name = "load"
 kind = "sum"
-of = ["grade", "way"]
-factors = [1.5, -3.0]
+of = ["grade", "way", "gust"]
+factors = [1.5, -3.0, 2.0]
 [[effect]]
 kind = "torque"
 joint = "axle"
@@ -194,17 +202,16 @@ fn inputs(scene: &Scene<f64>) -> Vec<usize> {
 }
 
 /// The largest difference from the host's steps, of coordinates, velocities, accelerations and states.
-fn apart(text: &str) -> f64 {
-    let scene = mbs_testkit::scene(text);
-    let inputs = inputs(&scene);
-    let (tree, begin) = start::<Planar, 2>(&scene);
+fn apart<S: Axes<f64>, const D: usize>(scene: &Scene<f64>) -> f64 {
+    let inputs = inputs(scene);
+    let (tree, begin) = start::<S, D>(scene);
     let collected = Collected::new(&tree, &begin, &[]).expect("signals of a controller");
     let flash = Checked::new(&collected.model()).expect("a model");
     let text = bytes(&collected.model(), false).expect("a scene without own laws");
-    let tables = RoomTables::read(&text).expect("a model");
+    let tables = RoomTables::<S>::read(&text).expect("a model");
     let mut worst = 0.0_f64;
     for model in [flash, tables.model()] {
-        let mut solver = Room::new(&model).expect("room");
+        let mut solver = Room::<S>::new(&model).expect("room");
         // the second run begins anew
         for _ in 0..2 {
             let (mut state, mut workspace) = (begin.clone(), Workspace::new(&tree));
@@ -238,14 +245,20 @@ fn apart(text: &str) -> f64 {
 
 #[test]
 fn an_arm_with_controllers_at_its_joints_steps_as_on_the_host() {
-    let apart = apart(ARM);
+    let apart = apart::<Planar, 2>(&mbs_testkit::scene(ARM));
     assert!(apart < 1e-12, "{apart:e}");
 }
 
 #[test]
 fn a_drive_line_with_throttle_and_brake_steps_as_on_the_host() {
-    let apart = apart(LINE);
+    let apart = apart::<Planar, 2>(&mbs_testkit::scene(LINE));
     assert!(apart < 1e-12, "{apart:e}");
+}
+
+#[test]
+fn an_arm_in_space_with_servos_steps_as_on_the_host() {
+    let apart = apart::<Spatial, 3>(&mbs_testkit::file("servo-arm"));
+    assert!(apart < 1e-10, "{apart:e}");
 }
 
 /// A model as bytes.
@@ -263,18 +276,18 @@ fn whatever_word_of_signals_is_broken_nothing_panics() {
             for word in [u32::MAX, 1, 0x7f, 0x7ff8_0000] {
                 let mut broken = text.clone();
                 broken[at..at + 4].copy_from_slice(&word.to_le_bytes());
-                let Ok(tables) = RoomTables::read(&broken) else {
+                let Ok(tables) = RoomTables::<Planar>::read(&broken) else {
                     refused += 1;
                     continue;
                 };
                 let model = tables.model();
-                let Ok(mut solver) = Room::new(&model) else { continue };
+                let Ok(mut solver) = Room::<Planar>::new(&model) else { continue };
                 for _ in 0..3 {
                     let _ = solver.step(&model, 1e-3, &mut Unwatched);
                 }
                 stepped += 1;
             }
-            RoomTables::read(&text[..at]).expect_err("cut off");
+            RoomTables::<Planar>::read(&text[..at]).expect_err("cut off");
         }
         assert!(refused > 200 && stepped > 200, "{refused} {stepped}");
     }
@@ -324,7 +337,7 @@ fn numbers_of_operations_that_point_outside_are_refused() {
 fn a_solver_without_room_for_signals_says_what_it_lacks() {
     type Small = Solver<f64, Planar, 4, 4, 4, 4, 64, 64, 2, 24>;
     let tables = exported(ARM);
-    let tables = RoomTables::read(&tables).expect("a model");
+    let tables = RoomTables::<Planar>::read(&tables).expect("a model");
     let refused = Small::new(&tables.model()).expect_err("no room");
     assert_eq!(refused, LoadError::Capacity { of: "states of signals", needed: 2, capacity: 0 });
 }
@@ -342,4 +355,24 @@ fn signals_of_constants_alone_are_constants_of_the_tables() {
     assert_eq!(model.prescriptions.courses[2], SignalLaw::Constant([4.0, 0.0, 0.0]));
     let text = source(&model, ("A scene", false)).expect("tables");
     assert!(text.contains("FeedbackSlices::none()") && text.contains("0, 0, 0, 3>;"), "{text}");
+}
+
+#[rustfmt::skip]
+#[path = "line.rs"]
+mod line;
+
+#[test]
+fn the_source_of_the_drive_line_is_the_committed_one_and_compiles_to_its_tables() {
+    let (tree, begin) = start::<Planar, 2>(&mbs_testkit::scene(LINE));
+    let collected = Collected::new(&tree, &begin, &[]).expect("signals of a controller");
+    let text = source(&collected.model(), ("The scene of a drive line", false)).expect("tables");
+    if std::env::var_os("MBS_WRITE_DOCS").is_some() {
+        let file = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/all/line.rs");
+        std::fs::write(file, &text).expect("a file of the repository");
+    }
+    assert_eq!(text, include_str!("line.rs"), "MBS_WRITE_DOCS=1 writes it anew");
+    let model = Checked::new(&line::MODEL).expect("a model");
+    assert_eq!(bytes(model.model(), false), bytes(&collected.model(), false));
+    let mut solver = line::ModelSolver::new(&model).expect("a solver of just its size");
+    solver.step(&model, 1e-3, &mut Unwatched).expect("a step");
 }
