@@ -1,8 +1,8 @@
 //! Ropes whose parts lose their length: every formulation stops there by name.
 
 use mbs::{
-    Body, Coupling, CouplingMeasure, CouplingTerm, FormulationKind, GROUND, Joint, Mechanism,
-    Method, Run,
+    Body, Coupling, CouplingMeasure, CouplingTerm, Error, FormulationKind, GROUND, Joint,
+    Mechanism, Method, Run,
 };
 
 /// 3 kg and 2 kg on a rope over two points of the ground; the lighter one hangs half a metre below its point.
@@ -58,5 +58,23 @@ fn a_part_that_only_turns_keeps_its_rope() {
         let method = Method { step: Some(5e-3), ..Method::new(kind) };
         let result = mbs::run(&m, &Run::new().method(method)).expect("it starts");
         assert!(result.stop.is_none(), "{}: {:?}", kind.name(), result.stop);
+    }
+}
+
+#[test]
+fn explicit_steps_and_methods_with_error_control_stop_there_too() {
+    let meeting = (1.0_f64 / 1.962).sqrt();
+    let recursive = FormulationKind::listed().find(|kind| kind.name() == "recursive");
+    let by = |integrator: &str| Method {
+        integrator: Some(integrator.to_owned()),
+        step: Some(1e-3),
+        ..Method::new(recursive.expect("it is listed"))
+    };
+    for integrator in ["rk4", "rk54", "rk853", "gbs", "radau5"] {
+        let result = mbs::run(&atwood(), &Run::new().method(by(integrator))).expect("it starts");
+        let stop = result.stop.unwrap_or_else(|| panic!("{integrator} does not stop"));
+        assert_eq!(stop.code(), "rope-collapsed", "{integrator}: {stop}");
+        let time = *result.table.time().last().expect("a row");
+        assert!((0.0..2e-3).contains(&(meeting - time)), "{integrator}: {time}, {meeting}");
     }
 }

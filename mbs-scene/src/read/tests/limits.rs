@@ -56,3 +56,20 @@ fn limits_are_of_joints_with_one_coordinate() {
     let message = "`range` is a joint with 3 coordinates; exactly one is needed";
     refused(&e, "23:9", message, "revolute or prismatic");
 }
+
+#[test]
+fn stops_need_a_range_and_a_mass_or_their_numbers() {
+    let first = PLANAR.lines().count() + 1;
+    let refusal = |lines: &str| {
+        let text = format!("{PLANAR}[[effect]]\nkind = \"limit\"\n{lines}\n");
+        read(&text).expect_err(lines)
+    };
+    let e = refusal("joint = \"pivot\"\nrange = true");
+    let place = format!("{}:9", first + 3);
+    refused(&e, &place, "`range` is that of the joint, which has none", "to the joint");
+    let e = refusal("joint = \"elbow\"\nlower = -1.0\nupper = 1.0");
+    let message = "`stiffness` is left out, but does not follow from the scene: the coordinate moves no mass of its own";
+    refused(&e, &format!("{first}:1"), message, "write `stiffness` and `damping`");
+    let e = refusal("joint = \"pivot\"\nupper = 1.0");
+    refused(&e, &format!("{first}:1"), "`lower` is missing", "add `lower`");
+}
