@@ -162,31 +162,35 @@ impl<T: Real, S: Space<T>> Couplings<'_, T, S> {
         })
     }
 
-    /// Value, rate and the part of the acceleration that is known, of what a term measures.
+    /// Value, rate and the part of the acceleration that is known, of what a term measures; and the size of what the rate is made of.
     fn measure(
         &self,
         (of, starts): (&SumMeasure<T>, Span),
         here: Here<'_, T, S>,
-    ) -> Result<[T; 3], Outside> {
+    ) -> Result<([T; 3], T), Outside> {
         match *of {
             SumMeasure::Joint { link, .. } => {
                 let (links, _, (z, v, guides)) = here;
                 let link = at(links, link as usize)?;
-                if link.kind.is_guided() {
-                    return at(guides, link.v as usize).copied();
-                }
-                Ok([*at(z, link.z as usize)?, *at(v, link.v as usize)?, T::ZERO])
+                let numbers = if link.kind.is_guided() {
+                    *at(guides, link.v as usize)?
+                } else {
+                    [*at(z, link.z as usize)?, *at(v, link.v as usize)?, T::ZERO]
+                };
+                Ok((numbers, numbers[1].abs()))
             }
             SumMeasure::Line { points, reference } => {
-                let mut sum = [-reference, T::ZERO, T::ZERO];
+                // ends that move across their part cancel in its rate
+                let (mut sum, mut speed) = ([-reference, T::ZERO, T::ZERO], T::ZERO);
                 self.each_part((points, starts), here.1, |part| {
                     let along = part.direction.dot(&part.rate);
                     let turning = (part.rate.dot(&part.rate) - along * along) / part.length;
                     let known = [part.length, along, part.direction.dot(&part.bias) + turning];
                     sum.iter_mut().zip(known).for_each(|(sum, x)| *sum += x);
+                    speed += part.rate.dot(&part.rate).sqrt();
                     Ok(())
                 })?;
-                Ok(sum)
+                Ok((sum, speed))
             }
         }
     }
@@ -262,18 +266,19 @@ impl<T: Real, S: Space<T>> Couplings<'_, T, S> {
     ) -> Result<CoupledValue<T>, Outside> {
         let mut sum = [T::ZERO; 3];
         let mut parts = [T::ZERO; 2];
-        let mut add = |x: [T; 3]| {
+        let mut add = |x: [T; 3], sizes: [T; 2]| {
             sum.iter_mut().zip(x).for_each(|(sum, x)| *sum += x);
-            parts.iter_mut().zip(x).for_each(|(parts, x)| *parts += x.abs());
+            parts.iter_mut().zip(sizes).for_each(|(parts, x)| *parts += x.abs());
         };
         if let Some((gradient, _)) = &mut out {
             gradient.iter_mut().skip(k).step_by(n_rows.max(1)).for_each(|k| *k = S::Motion::zero());
         }
         for (i, term) in row.terms.range().zip(range(self.terms, row.terms.range())?) {
-            let [m, rate, known] = self.measure((&term.of, row.starts), here)?;
+            let ([m, rate, known], speed) = self.measure((&term.of, row.starts), here)?;
             let [f, slope, bend] = self.function(term.curve, m)?;
             let slope = term.factor * slope;
-            add([term.factor * f, slope * rate, slope * known + term.factor * bend * rate * rate]);
+            let bias = slope * known + term.factor * bend * rate * rate;
+            add([term.factor * f, slope * rate, bias], [term.factor * f, slope * speed]);
             let Some((gradient, slopes)) = &mut out else { continue };
             if term.curve != NONE {
                 *at_mut(slopes, i)? = slope;
@@ -287,10 +292,11 @@ impl<T: Real, S: Space<T>> Couplings<'_, T, S> {
                 Ok(())
             })?;
         }
-        add([-row.value, T::ZERO, T::ZERO]);
+        add([-row.value, T::ZERO, T::ZERO], [row.value, T::ZERO]);
         if row.guide != NONE {
             let (_, _, (_, _, guides)) = here;
-            add(at(guides, row.guide as usize)?.map(|s| -s * row.inverse));
+            let [s, rate, second] = at(guides, row.guide as usize)?.map(|s| -s * row.inverse);
+            add([s, rate, second], [s, rate]);
         }
         Ok(CoupledValue { row: sum, parts })
     }
@@ -305,7 +311,7 @@ impl<T: Real, S: Space<T>> Couplings<'_, T, S> {
         for term in range(self.terms, row.terms.range())? {
             let mut slope = term.factor;
             if term.curve != NONE {
-                let [m, ..] = self.measure((&term.of, row.starts), here)?;
+                let ([m, ..], _) = self.measure((&term.of, row.starts), here)?;
                 slope *= self.function(term.curve, m)?[1];
             }
             match term.of {

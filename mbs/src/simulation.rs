@@ -88,8 +88,22 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         let made = self.advance_by(rest);
         made.map_err(|error| match self.formulation.codes(&self.model).failed() {
             Some(effect) => StepError::Law { effect },
-            None => error,
+            None => self.collapsing(rest).unwrap_or(error),
         })
+    }
+
+    /// That a part of a rope loses its length in a step that failed, where its motion leads there. Of a controlled step, within two of the
+    /// last one's length.
+    fn collapsing(&self, rest: T) -> Option<StepError> {
+        let State { q, v, a, dt, .. } = &self.state;
+        let h = if *dt > T::ZERO { rest.min(T::TWO * *dt) } else { rest };
+        let mut dq = vec![T::ZERO; q.len()];
+        for (dq, (v, a)) in dq.iter_mut().zip(v.iter().zip(a)) {
+            *dq = (*v + *a * h * T::HALF) * h;
+        }
+        let [coupling, part] =
+            self.model.collapsed(q, v, &dq)?.map(|i| u32::try_from(i).unwrap_or(u32::MAX));
+        Some(StepError::RopeCollapsed { coupling, part })
     }
 
     fn advance_by(&mut self, rest: T) -> Result<Accepted<T>, StepError> {

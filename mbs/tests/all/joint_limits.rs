@@ -64,7 +64,7 @@ fn turns_count_and_a_guide_that_reaches_the_end_of_its_range_does_not_leave_it()
         assert!(notes(&m).iter().all(|note| !note.contains("range")), "{:?}", notes(&m));
         let mut narrow = m.clone();
         narrow.part_mut(hinge).limits.range = Some([(-6.5).into(), 7.0.into()]);
-        // the sine falls below -6.5 at 2.7586 s; a step of controlled length ends later
+        // the sine falls below -6.5 at 2.7579 s; a step of controlled length ends later
         let found = notes(&narrow);
         let [begin, end] =
             ["joint `hinge` leaves its range below -6.5 rad at t = 2.76", ", by up to 0.5 rad"];
