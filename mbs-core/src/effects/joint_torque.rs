@@ -14,7 +14,7 @@ const RESISTS: u32 = 1 << 31;
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct TorqueLaw {
     /// Number of the course among those of the model, with a bit for one that follows the motion.
-    course: u32,
+    pub course: u32,
 }
 
 impl TorqueLaw {
