@@ -357,6 +357,7 @@ fn signals_of_constants_alone_are_constants_of_the_tables() {
     assert!(text.contains("FeedbackSlices::none()") && text.contains("0, 0, 0, 3>;"), "{text}");
 }
 
+#[allow(unreachable_pub, reason = "`mbs export` writes a module of a crate")]
 #[rustfmt::skip]
 #[path = "line.rs"]
 mod line;
