@@ -8,6 +8,7 @@ pub use signals::SignalGraph;
 pub(crate) use signals::curvatures;
 
 use crate::Real;
+use crate::feedback::FeedbackOperation;
 use crate::laws::guide;
 use crate::scene::{Guide, Motion, NamedSignal, Signal};
 use crate::step::InputError;
@@ -231,6 +232,88 @@ impl<T: Real> Prescribed<T> {
         let first = self.first_course();
         applied[first..].copy_from_slice(&inputs[first..]);
     }
+}
+
+impl<T: Real> Prescribed<T> {
+    /// Writes the signals that follow the motion, as a [state](crate::model::State::signals) has them, among the courses:
+    /// [`write`](Self::write) keeps them, and gives them to the courses that name them.
+    pub fn write_followed(&self, signals: &[[T; 2]], courses: &mut [[T; 3]]) {
+        let following = self.signals.following();
+        let values = signals.iter().rev().take(following.clone().count()).rev();
+        for (signal, &[value, rate]) in following.zip(values) {
+            if let Some(to) = courses.get_mut(signal) {
+                *to = [value, rate, T::ZERO];
+            }
+        }
+    }
+
+    /// Does a course name a signal that follows the motion?
+    #[must_use]
+    pub fn follows_motion(&self, course: &Signal<T>) -> bool {
+        let Signal::Named(of) = course else { return false };
+        of.iter().flatten().any(|signal| self.signals.follows_motion(*signal))
+    }
+
+    /// What gives the signals that follow the motion, and the courses that name them.
+    ///
+    /// Cost: one pass over signals and courses; allocates.
+    #[must_use]
+    pub fn feedback(&self) -> Feedback<T> {
+        let follows = |signal| self.signals.follows_motion(signal);
+        self.operations(follows, follows)
+    }
+
+    /// What gives all signals that are made of others or follow the motion, and are not constant. The courses that name those or other
+    /// signals that are not constant follow. For steps on tables, where functions of time and inputs are courses by themselves.
+    ///
+    /// States and measured coordinates have the numbers that they have in [`feedback`](Self::feedback).
+    ///
+    /// Cost: one pass over signals and courses; allocates.
+    #[must_use]
+    pub fn program(&self) -> Feedback<T> {
+        let moves = |signal| !self.signals.is_constant(signal);
+        let is_made = |signal: SignalId| {
+            let kind = self.signals.kinds().nth(signal.index());
+            kind.is_some_and(|(kind, _)| !kind.operands().is_empty() || kind.is_feedback())
+        };
+        self.operations(|signal| moves(signal) && is_made(signal), moves)
+    }
+
+    /// The operations that give the signals that are taken, and the components of courses by those that are named.
+    fn operations(
+        &self,
+        is_taken: impl Fn(SignalId) -> bool,
+        is_named: impl Fn(SignalId) -> bool,
+    ) -> Feedback<T> {
+        let mut feedback = Feedback {
+            steps: Vec::new(),
+            measured: Vec::new(),
+            starts: Vec::new(),
+            signals: self.signals.following().map(number).collect(),
+            curves: Vec::new(),
+        };
+        self.signals.add_feedback(is_taken, &mut feedback);
+        for (i, (_, course)) in self.courses.iter().enumerate() {
+            let Signal::Named(of) = course.course() else { continue };
+            for (component, signal) in of.iter().enumerate() {
+                let Some(signal) = signal.filter(|of| is_named(*of)) else { continue };
+                let (from, component) = (number(signal.index()), number(component));
+                let to = number(self.signals.len() + i);
+                let operation = match course.on {
+                    Some(on) if self.signals.follows_motion(signal) => {
+                        FeedbackOperation::Force { from, on: feedback.measure(on) }
+                    }
+                    _ => FeedbackOperation::Component { from, component },
+                };
+                feedback.push(to, operation);
+            }
+        }
+        feedback
+    }
+}
+
+fn number(i: usize) -> u32 {
+    u32::try_from(i).unwrap_or(u32::MAX)
 }
 
 /// The numbers of one input.

@@ -57,7 +57,7 @@ impl core::fmt::Display for EquilibriumError {
             ),
             Self::SignalsMove => write!(
                 f,
-                "no equilibrium was found: an integral or a lag among the signals goes on changing; let it measure what it drives, or take it out"
+                "no equilibrium was found: an integral or a lag among the signals does not come to rest; let it measure what it drives, or take it out"
             ),
             Self::Escapes { .. } => write!(
                 f,

@@ -16,7 +16,7 @@
 
 use crate::error::LinearError;
 use crate::options::LinearOptions;
-use crate::signals::LinearSignals;
+use crate::signal_matrices::LinearSignals;
 use crate::tangent_coordinates::TangentCoordinates;
 use crate::workspace::Workspace;
 use alloc::vec;

@@ -8,23 +8,13 @@ use crate::error::{EquilibriumError, LinearError};
 use crate::linearise::{Field, Instant, Linear, difference, linearise};
 use crate::near::{Pivoted, equilibrium_near, failed};
 use crate::options::{LinearOptions, Options};
+use crate::signal_matrices::LinearSignals;
 use crate::workspace::Workspace;
 use alloc::vec;
 use alloc::vec::Vec;
 use mbs_core::algebra::norm_inf;
 use mbs_core::model::{Model, State};
 use mbs_core::{Real, SymmetricSolver};
-
-/// What the states of signals do to a linearised motion, and the motion to them; matrices are stored column by column.
-#[derive(Debug, Clone, PartialEq)]
-pub struct LinearSignals<T> {
-    /// Number of states s.
-    pub n: usize,
-    /// dz''/dx, f x s.
-    pub forces: Vec<T>,
-    /// dx'/d(z, z', x), s x (2 f + s).
-    pub rates: Vec<T>,
-}
 
 impl<T: Real, M: Model<T>, S: SymmetricSolver<T>> Field<'_, T, M, S> {
     /// By differences that move coordinates, velocities and states by `reach` of their sizes.

@@ -2,32 +2,11 @@
 
 use crate::indexing::{Outside, at, copy};
 use crate::loads::coordinate_of;
+pub use crate::slices::FeedbackSlices;
 use crate::slices::{Store, TreeSlices};
 use crate::space::Space;
 use mbs_core::Real;
-use mbs_core::feedback::{FeedbackStep, follow, note_followed};
-
-/// The operations that give signals which follow the motion, with the links whose coordinates they measure. Functions are those of
-/// [`Couplings`](crate::coupled::Couplings).
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct FeedbackSlices<'a, T> {
-    /// The operations.
-    pub steps: &'a [FeedbackStep<T>],
-    /// The link of each measured coordinate.
-    pub links: &'a [u32],
-    /// Number of states.
-    pub n_states: usize,
-    /// The signals that follow the motion, by their numbers among the courses.
-    pub signals: &'a [u32],
-}
-
-impl<T> FeedbackSlices<'_, T> {
-    /// Of a mechanism without such signals.
-    #[must_use]
-    pub const fn none() -> Self {
-        Self { steps: &[], links: &[], n_states: 0, signals: &[] }
-    }
-}
+use mbs_core::feedback::{follow, note_followed};
 
 impl<T: Real, S: Space<T>> Store<'_, T, S> {
     /// States of signals start from `starts`, `dt` [s] before the instants that are evaluated.

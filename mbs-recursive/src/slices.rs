@@ -1,12 +1,11 @@
 //! A mechanism and its scratch as slices, so that every step runs on memory of the caller's choice.
 
-use crate::feedback::FeedbackSlices;
 use crate::link::{ArticulatedInertia, Link, LinkMotion, LinkRotor};
 use crate::loads::{Instant, Load};
 use crate::loops::{LoopStore, Loops};
 use crate::space::Space;
 use mbs_core::Real;
-use mbs_core::feedback::SignalStates;
+use mbs_core::feedback::{FeedbackStep, SignalStates};
 use mbs_core::laws::LawInputs;
 
 /// A mechanism in relative coordinates: constant.
@@ -34,6 +33,28 @@ pub struct TreeSlices<'a, T: Real, S: Space<T>> {
     pub n_coordinates: usize,
     /// Numbers in v.
     pub n_freedoms: usize,
+}
+
+/// The operations that give signals which follow the motion, with the links whose coordinates they measure. Functions are those of
+/// [`Couplings`](crate::coupled::Couplings).
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct FeedbackSlices<'a, T> {
+    /// The operations.
+    pub steps: &'a [FeedbackStep<T>],
+    /// The link of each measured coordinate.
+    pub links: &'a [u32],
+    /// Number of states.
+    pub n_states: usize,
+    /// The signals that follow the motion, by their numbers among the courses.
+    pub signals: &'a [u32],
+}
+
+impl<T> FeedbackSlices<'_, T> {
+    /// Of a mechanism without such signals.
+    #[must_use]
+    pub const fn none() -> Self {
+        Self { steps: &[], links: &[], n_states: 0, signals: &[] }
+    }
 }
 
 /// Guides and courses as functions of time.

@@ -471,7 +471,7 @@ fn write_equilibrium(
         EquilibriumError::SignalsMove => {
             write!(
                 f,
-                "there is no static equilibrium: an integral or a lag among the signals goes on changing"
+                "there is no static equilibrium: an integral or a lag among the signals does not come to rest"
             )
         }
         EquilibriumError::Escapes { .. } => {

@@ -371,5 +371,5 @@ fn an_equilibrium_is_one_of_integrals_and_lags_too() {
     let text = text.replace("duration = 1.0", "duration = 1.0\nstart = \"equilibrium\"");
     let error = rows(&scene(&text), Way("index-3", "trapezoidal"), (1e-2, 1.0), 1);
     let error = error.expect_err("no rest").to_string();
-    assert!(error.contains("goes on changing"), "{error}");
+    assert!(error.contains("does not come to rest"), "{error}");
 }

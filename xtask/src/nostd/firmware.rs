@@ -34,7 +34,6 @@ const MORE_STACK: u64 = 96 * 1024;
 
 const VEHICLE: &str = "polynomial,speed-hold,tire";
 const SUSPENSION: &str = "polynomial,tire";
-const DRIVE_LINE: &str = "friction,polynomial,tire";
 
 /// Largest difference of a vehicle in single precision from the run in double [m, rad].
 const NEAR_VEHICLE: Option<[f64; 2]> = Some([5e-3, 5e-3]);
@@ -51,7 +50,6 @@ const CASES: &[Case] = &[
     Case { scene: "six-joint-arm", features: "", precision: "f32", board: M7, instructions: 15_000, stack: STACK, apart: NEARER },
     Case { scene: "six-joint-arm", features: "", precision: "f64", board: M7, instructions: 15_000, stack: STACK, apart: None },
     Case { scene: "servo-arm", features: "", precision: "f32", board: M7, instructions: 25_000, stack: STACK, apart: NEARER },
-    Case { scene: "iltis-drive-line", features: DRIVE_LINE, precision: "f32", board: M7, instructions: 250_000, stack: MORE_STACK, apart: NEAR_VEHICLE },
     Case { scene: "six-joint-arm", features: "", precision: "f32", board: M4, instructions: 15_000, stack: STACK, apart: NEARER },
 ];
 

@@ -21,7 +21,8 @@ fn constant(line: &str) -> Option<(&str, &str)> {
     };
     let (name, rest) = line.strip_prefix("const ")?.split_once(": ")?;
     let is_name = name.chars().all(|c| c.is_ascii_uppercase() || c.is_ascii_digit() || c == '_');
-    // A parameter of a type or a function ends with a comma.
+    // A parameter of a type or a function ends with a comma, with a default or without.
+    let rest = Some(rest).filter(|rest| !rest.ends_with(','))?;
     let kind = rest.split_once(" =").map(|(kind, _)| kind).or(rest.strip_suffix(';'))?;
     is_name.then_some((name, kind))
 }
