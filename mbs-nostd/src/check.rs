@@ -453,7 +453,6 @@ impl<T: Real, S: Space<T>> Look<'_, '_, T, S> {
             let (knots, curvatures) = laws.knots;
             let holds = match law {
                 SignalLaw::Table(part) => is_part(*part, laws.rows.len()),
-                SignalLaw::Line(part) => is_part(*part, knots.len()),
                 SignalLaw::Spline(part) => {
                     is_part(*part, knots.len()) && is_part(*part, curvatures.len())
                 }

@@ -54,9 +54,7 @@ pub enum SignalLaw<T> {
     Travel(T),
     /// A part of the rows, linear between them.
     Table(Part),
-    /// Straight between a part of the knots, with its rate.
-    Line(Part),
-    /// Cubic spline through a part of the knots, with the curvatures of its ends, and its derivatives.
+    /// Cubic spline through a part of the knots, with the curvatures of its ends, and its derivatives; straight where these are zero.
     Spline(Part),
     /// From one value to another, with its derivatives.
     Step(Rise<T>),
@@ -207,7 +205,6 @@ fn course_at<T: Real>(
         SignalLaw::Input(_) => return written,
         SignalLaw::Constant(value) => return *value,
         SignalLaw::Travel(speed) => return [*speed * t, *speed, T::ZERO],
-        SignalLaw::Line(part) => return guide::straight(part.of(laws.knots.0), t),
         SignalLaw::Spline(part) => return spline(*part, laws, t),
         SignalLaw::Step(rise) => return rise.at(t),
         SignalLaw::Table(part) => part.of(laws.rows),

@@ -15,8 +15,8 @@ use mbs_recursive::trapezoidal::Start;
 use mbs_recursive::{Options, Outside};
 
 /// State, scratch and inputs of a model with at most `L` links (the ground among them), `Z` coordinates, `V` freedoms and `R`
-/// rows of loops. It has at most `B` numbers in blocks of Λ, `N` gains, `G` guides and `C` courses; `M` states of signals, and where
-/// there are operations on signals at most `F` courses.
+/// rows of loops. It has at most `B` numbers in blocks of Λ, `N` gains, `G` guides and `C` courses. It has at most
+/// `M` states of signals, and `F` courses where there are operations on them.
 ///
 /// Its size is about 130 numbers for each link, 46 for each row, 10 for each freedom, and at most six for each of the others.
 #[derive(Debug, Clone)]

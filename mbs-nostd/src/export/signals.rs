@@ -148,7 +148,7 @@ pub(super) fn add_laws<T: Real>(
             (
                 SignalKind::Table { rows, interpolation: Interpolation::Linear, periodic: false },
                 _,
-            ) => SignalLaw::Line(part(rows, &[])),
+            ) => SignalLaw::Spline(part(rows, &[])),
             (&SignalKind::Step { from, to, at, rise }, _) => {
                 SignalLaw::Step(Rise { from, to, at, rise })
             }

@@ -12,9 +12,8 @@ record_enum!([T: Real + Record] SignalLaw<T> = SignalLaw {
     1 Constant { 0 value },
     2 Travel { 0 speed },
     3 Table { 0 part },
-    4 Line { 0 part },
-    5 Spline { 0 part },
-    6 Step { 0 rise },
+    4 Spline { 0 part },
+    5 Step { 0 rise },
 });
 
 record_struct!([T: Real + Record] Rise<T> = Rise { from, to, at, rise });

@@ -35,7 +35,6 @@ pub(super) fn inputs<T>(laws: &Prescriptions<'_, T>) -> Operations {
             SignalLaw::Input(_) | SignalLaw::Constant(_) => Operations::NONE,
             SignalLaw::Travel(_) => ops(1, 0),
             SignalLaw::Table(_) => ops(3, 8).and(1, 0, 0),
-            SignalLaw::Line(_) => ops(1, 6).and(2, 0, 0),
             SignalLaw::Spline(_) => SPLINE,
             SignalLaw::Step(_) => STEP,
         };

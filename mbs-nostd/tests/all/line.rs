@@ -43,7 +43,7 @@ static COURSES: [SignalLaw<Scalar>; 17] = [
     SignalLaw::Constant([0.0, 0.0, 0.0]),
     SignalLaw::Constant([0.0, 0.0, 0.0]),
     SignalLaw::Constant([0.0, 0.0, 0.0]),
-    SignalLaw::Line(Part { first: 0, n: 3 }),
+    SignalLaw::Spline(Part { first: 0, n: 3 }),
     SignalLaw::Input([0.0, 0.0, 0.0]),
     SignalLaw::Constant([0.0, 0.0, 0.0]),
     SignalLaw::Step(Rise { from: 1.0, to: -2.0, at: 0.1, rise: 0.05 }),
