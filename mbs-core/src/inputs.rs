@@ -10,7 +10,7 @@ pub(crate) use signals::curvatures;
 use crate::Real;
 use crate::feedback::FeedbackOperation;
 use crate::laws::guide;
-use crate::scene::{Guide, Motion, NamedSignal, Signal};
+use crate::scene::{Guide, Motion, NamedSignal, Signal, SignalId};
 use crate::step::InputError;
 use alloc::vec::Vec;
 use core::ops::Range;

@@ -3,7 +3,6 @@
 use crate::Real;
 use crate::feedback::{CourseSlope, FeedbackOperation, FeedbackStep};
 use crate::measure::PreparedCurve;
-use crate::scene::{Signal, SignalId};
 use alloc::vec::Vec;
 
 /// Signals that follow the motion: the operations that give them, with what these refer to.
