@@ -13,7 +13,7 @@ use super::coupled_sum::CoupledSum;
 use super::error::ReactionError;
 use super::inertia::BodyInertia;
 use super::leaf_elimination::{Block, eliminate_leaves};
-use super::load::Loads;
+use super::load::{Load, Loads};
 use super::minimum_norm::MinimumNorm;
 use super::rotor::RotorTorque;
 use super::wrench::{Applied, Wrench, WrenchBasis};
@@ -183,6 +183,12 @@ impl<T: Real, const D: usize> Reactions<T, D> {
         let Self { bodies, loads, rotors, .. } = self;
         let (loads, law_inputs) = loads.at(state);
         for load in loads {
+            if let Load::Sum { .. } = load {
+                // It acts on any number of bodies, and asks for no rotation.
+                let turned = |_| Matrix::identity();
+                load.apply((state, &law_inputs), turned, |applied| take_off(bodies, applied));
+                continue;
+            }
             let mut given: [Option<Applied<T>>; 2] = [None, None];
             let turned = |body| rotation_of(bodies, body);
             load.apply((state, &law_inputs), turned, |applied| {

@@ -377,7 +377,7 @@ pub(crate) fn measured_coordinate<'a>(
     let named = Named::new(fields, fields.need("joint")?, joints)?;
     let number = match fields.get("coordinate") {
         Some(item) => fields.coordinate(item, named.joint)?,
-        None => named.number(fields, Needed::Only)?,
+        None => named.number(fields, Needed::Named)?,
     };
     Ok((named.id, number))
 }

@@ -272,6 +272,8 @@ impl Display for ReadFault {
 
 /// What an output without an owner lacks.
 pub(crate) const OWNER: &str = "joint, body, coupling, effect or signal";
+/// What a term or a measure needs of a joint with several coordinates.
+pub(crate) const NAMED: &str = "coordinate, by its name,";
 const OF_WHOM: &str = "add `joint = \"...\"` for its value, rate or reaction, `body = \"...\"` with `at = [...]` for the position, velocity or \
                        acceleration of a point, or the `coupling`, `effect` or `signal`; the energy, momentum and center-of-mass are of the scene";
 const INERTIA: &str = "add `inertia`, about the centre of mass [kg m^2]: one number in the plane, six in space; a point mass that is welded \
@@ -305,6 +307,9 @@ impl ReadFault {
             Self::NoLead => "write how far the slide moves in one turn [m]".to_owned(),
             Self::AxesNotParallel => {
                 "give `ratio`, the second angle per first, with its sign".to_owned()
+            }
+            Self::NotOneOf { needed: NAMED, .. } => {
+                "add `coordinate`, with one of these names".to_owned()
             }
             Self::NotOneOf { .. } => {
                 "name another joint, or write the sum as kind `linear`, with `coordinate` in its terms"

@@ -91,6 +91,7 @@ fn every_formulation_resumes_to_the_same_bits() {
         ("iltis-suspension", 1e-3),
         ("quarter-car", 1e-3),
         ("servo-arm", 1e-3),
+        ("geared-arm", 1e-3),
     ];
     for formulation in FormulationKind::ALL {
         for (name, step) in scenes {

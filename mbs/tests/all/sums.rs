@@ -263,7 +263,7 @@ fn what_carries_all_joints_of_a_sum_gets_the_opposite_of_its_torques() {
 fn machine() -> String {
     let body = |name: &str, x: f64, inertia: f64| {
         format!(
-            "[[body]]\nname = \"{name}\"\nmass = 1.0\ncenter = [{x:?}, 0.1, 0.0]\ninertia = [{inertia:?}, 0.06, 0.05, 0.002, 0.0, 0.001]\n"
+            "[[body]]\nname = \"{name}\"\nmass = 1.0\ncenter = [{x:?}, 0.1, 0.0]\ninertia = [{inertia:?}, 0.16, 0.15, 0.002, 0.0, 0.001]\n"
         )
     };
     let joint = |name: &str, kind: &str, bodies: [&str; 2], x: f64, axis: [f64; 3]| {

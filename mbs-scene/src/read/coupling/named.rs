@@ -1,6 +1,7 @@
 //! Joints that a coupling names, and which of their coordinates its kind means.
 
 use crate::read::ReadFault;
+use crate::read::error::NAMED;
 use crate::read::fields::{Fields, Read};
 use crate::read::tree::Item;
 use mbs_core::scene::{CouplingMeasure, CouplingTerm, Freedom, Joint, JointId, Number};
@@ -14,6 +15,8 @@ pub(super) enum Needed {
     Slide,
     /// Its only coordinate.
     Only,
+    /// The same, where a key can name one of several.
+    Named,
 }
 
 /// A joint, and where it is named.
@@ -42,7 +45,7 @@ impl<'a> Named<'a> {
         let mut meant = freedoms.clone().filter(|(_, freedom)| match needed {
             Needed::Turn => matches!(freedom, Freedom::Turn(_)),
             Needed::Slide => matches!(freedom, Freedom::Slide(_)),
-            Needed::Only => true,
+            Needed::Only | Needed::Named => true,
         });
         match (meant.next(), meant.next(), freedoms.count()) {
             (_, _, 0) => Ok(0),
@@ -52,6 +55,7 @@ impl<'a> Named<'a> {
                     Needed::Turn => "turn about an axis",
                     Needed::Slide => "slide",
                     Needed::Only => "coordinate",
+                    Needed::Named => NAMED,
                 };
                 let known = kind.coordinate_names(dimension).map(|(_, name)| name).collect();
                 fields.context.fault(&self.item.span, ReadFault::NotOneOf { needed, known })

@@ -95,7 +95,7 @@ fn an_effect_of_a_joint_is_taken_to_a_sum_in_code() {
 fn sums_that_measure_nothing_are_refused_at_their_place() {
     let cases = [
         ("terms = [{ joint = \"b\" }]", "37:20", "unknown joint `b`", ""),
-        ("terms = [{ joint = \"c\" }]", "37:20", "`slide`, `turn`", ""),
+        ("terms = [{ joint = \"c\" }]", "37:20", "slide, turn", "add `coordinate`"),
         (
             "terms = [{ joint = \"c\", coordinate = \"trun\" }]",
             "37:38",
@@ -119,7 +119,6 @@ fn sums_that_measure_nothing_are_refused_at_their_place() {
     for (terms, place, message, hint) in cases {
         let text = with(&format!("{terms}\nkind = \"friction\"\ncoulomb = 1.0"));
         let e = read(&text).unwrap_err();
-        eprintln!("{}", e.render());
         refused(&e, place, message, hint);
     }
     let text = with("kind = \"friction\"\ncoulomb = 1.0");

@@ -4,7 +4,7 @@ pub(crate) use mbs_testkit::repository::path;
 use std::path::{Path, PathBuf};
 
 /// Scenes of the repository, without those of vehicles.
-pub(crate) const SCENES: [&str; 20] = [
+pub(crate) const SCENES: [&str; 19] = [
     "simple-pendulum",
     "double-pendulum",
     "two-four-bars",
@@ -24,7 +24,6 @@ pub(crate) const SCENES: [&str; 20] = [
     "cam-follower",
     "crane",
     "servo-arm",
-    "geared-arm",
 ];
 
 /// An empty directory for one test.
