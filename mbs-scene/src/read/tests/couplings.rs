@@ -190,13 +190,13 @@ fn what_couples_nothing_is_refused_with_its_place() {
 
 #[test]
 fn a_joint_without_exactly_one_coordinate_of_the_kind_is_refused_with_those_it_has() {
-    let hint =
+    let other =
         "name another joint, or write the sum as kind `linear`, with `coordinate` in its terms";
     for (coupling, place, message) in [
         (
             "kind = \"linear\"\nterms = [{ joint = \"a\" }, { joint = \"c\" }]",
             "40:37",
-            "one coordinate is needed; the joint has: slide, turn",
+            "one coordinate, by its name, is needed; the joint has: slide, turn",
         ),
         (
             "kind = \"mimic\"\njoint = \"c\"\nof = \"a\"",
@@ -214,6 +214,7 @@ fn a_joint_without_exactly_one_coordinate_of_the_kind_is_refused_with_those_it_h
             "one slide is needed; the joint has: turn",
         ),
     ] {
+        let hint = if coupling.contains("linear") { "add `coordinate`" } else { other };
         refused(&read(&with(coupling)).unwrap_err(), place, message, hint);
     }
 }
