@@ -14,6 +14,7 @@ use crate::scene::{Guide, Motion, NamedSignal, Signal, SignalId};
 use crate::step::InputError;
 use alloc::vec::Vec;
 use core::ops::Range;
+use feedback::number;
 use signals::value_of;
 
 /// The guides of a scene, its signals, and the courses of its effects.
@@ -310,10 +311,6 @@ impl<T: Real> Prescribed<T> {
         }
         feedback
     }
-}
-
-fn number(i: usize) -> u32 {
-    u32::try_from(i).unwrap_or(u32::MAX)
 }
 
 /// The numbers of one input.

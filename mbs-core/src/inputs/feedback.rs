@@ -67,6 +67,7 @@ impl<T: Real> Feedback<T> {
     }
 }
 
-fn number(i: usize) -> u32 {
+/// An index as operations have it.
+pub(super) fn number(i: usize) -> u32 {
     u32::try_from(i).unwrap_or(u32::MAX)
 }

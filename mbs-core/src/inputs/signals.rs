@@ -8,7 +8,7 @@
 //! chirp    phase 2π (f t + (f' - f) t^2 / (2 T)), beyond T with the last frequency
 //! ```
 
-use super::feedback::Feedback;
+use super::feedback::{Feedback, number};
 use crate::Real;
 use crate::feedback::{FeedbackOperation, chain, clamp, product};
 use crate::laws::guide;
@@ -165,10 +165,6 @@ pub(crate) fn curvatures<T: Real>(rows: &[[T; 2]], ends: TableEnds) -> Vec<T> {
     curvature
 }
 
-fn number(i: usize) -> u32 {
-    u32::try_from(i).unwrap_or(u32::MAX)
-}
-
 /// The value of a signal among those of all; zero where there is none.
 pub(super) fn value_of<T: Real>(signal: SignalId, values: &[[T; 3]]) -> [T; 3] {
     values.get(signal.index()).copied().unwrap_or([T::ZERO; 3])
@@ -296,12 +292,15 @@ fn pieces<T: Real>(rows: &[[T; 2]], (is_held, is_periodic): (bool, bool), t: T) 
         _ => T::ZERO,
     };
     let t = within(rows, period, t);
-    if is_held {
-        let next = rows.partition_point(|row| row[0] <= t);
-        let held = next.checked_sub(1).and_then(|i| rows.get(i)).or(rows.first());
-        return [held.map_or(T::ZERO, |row| row[1]), T::ZERO, T::ZERO];
+    let next = rows.partition_point(|row| row[0] <= t);
+    match (next.checked_sub(1).and_then(|i| rows.get(i)), rows.get(next)) {
+        (Some(&[t0, x0]), Some(&[t1, x1])) if !is_held => {
+            let s = (t - t0) / (t1 - t0);
+            [x0 + (x1 - x0) * s, (x1 - x0) / (t1 - t0), T::ZERO]
+        }
+        (Some(&[_, x]), _) | (None, Some(&[_, x])) => [x, T::ZERO, T::ZERO],
+        (None, None) => [T::ZERO; 3],
     }
-    guide::straight(rows, t)
 }
 
 /// Turns since the start of a frequency that goes from one to another in a duration, with their derivatives.

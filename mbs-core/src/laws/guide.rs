@@ -123,21 +123,6 @@ pub fn largest_rate<T: Real>(table: &[[T; 2]], curvature: &[T]) -> T {
     })
 }
 
-/// Value, rate and acceleration of a table (time, value), straight between its rows and held outside.
-///
-/// Cost: one binary search; no allocation.
-pub fn straight<T: Real>(rows: &[[T; 2]], t: T) -> [T; 3] {
-    let next = rows.partition_point(|row| row[0] <= t);
-    match (next.checked_sub(1).and_then(|i| rows.get(i)), rows.get(next)) {
-        (Some(&[t0, x0]), Some(&[t1, x1])) => {
-            let s = (t - t0) / (t1 - t0);
-            [x0 + (x1 - x0) * s, (x1 - x0) / (t1 - t0), T::ZERO]
-        }
-        (Some(&[_, x]), None) | (None, Some(&[_, x])) => [x, T::ZERO, T::ZERO],
-        (None, None) => [T::ZERO; 3],
-    }
-}
-
 /// From one value to another in a time `rise` from zero on, with rate and acceleration; without it a jump.
 pub fn step<T: Real>([from, to]: [T; 2], (t, rise): (T, T)) -> [T; 3] {
     if t >= rise {

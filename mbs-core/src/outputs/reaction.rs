@@ -13,7 +13,7 @@ use super::coupled_sum::CoupledSum;
 use super::error::ReactionError;
 use super::inertia::BodyInertia;
 use super::leaf_elimination::{Block, eliminate_leaves};
-use super::load::{Load, Loads};
+use super::load::Loads;
 use super::minimum_norm::MinimumNorm;
 use super::rotor::RotorTorque;
 use super::wrench::{Applied, Wrench, WrenchBasis};
@@ -33,7 +33,9 @@ pub const LARGEST_BLOCK: usize = 400;
 /// Trees are solved body by body from their leaves; each group of connected loops is one dense elimination.
 #[derive(Debug, Clone)]
 pub struct Reactions<T: Real, const D: usize> {
-    bodies: Vec<Balance<T, D>>,
+    bodies: Vec<Placed<T, D>>,
+    /// Of each body, what the unsolved joints must give about its centre of mass.
+    missing: Vec<Wrench<T>>,
     gravity: Vector<T, 3>,
     joints: Vec<WrenchBasis<T, D>>,
     couplings: Vec<CoupledSum<T, D>>,
@@ -55,12 +57,11 @@ pub struct Reactions<T: Real, const D: usize> {
 
 /// One body.
 #[derive(Debug, Clone)]
-struct Balance<T: Real, const D: usize> {
+struct Placed<T: Real, const D: usize> {
     body: BodyInertia<T, D>,
-    /// At the state: rotation, centre of mass, and what the unsolved joints must give about it.
+    /// At the state: rotation and centre of mass.
     turned: Matrix<T, 3>,
     at: Vector<T, 3>,
-    missing: Wrench<T>,
 }
 
 impl<T: Real, const D: usize> Reactions<T, D> {
@@ -91,7 +92,8 @@ impl<T: Real, const D: usize> Reactions<T, D> {
             return Err(ReactionError::TooLarge { unknowns: columns, limit: LARGEST_BLOCK });
         }
         Ok(Self {
-            bodies: (0..scene.bodies.len()).map(|b| Balance::new(scene, model, b)).collect(),
+            bodies: (0..scene.bodies.len()).map(|b| Placed::new(scene, model, b)).collect(),
+            missing: vec![Wrench::zero(); scene.bodies.len()],
             gravity: scene.gravity.map_or_else(Vector::zeros, Vector::from),
             loads: Loads::new(scene, model).map_err(ModelError::from)?.0,
             rotors: RotorTorque::all(scene, model),
@@ -117,8 +119,8 @@ impl<T: Real, const D: usize> Reactions<T, D> {
     /// Cost: a few hundred operations for each body of a tree; about 2 m n^2 for loops of m equations and n components. No
     /// allocation.
     pub fn update(&mut self, state: &State<T>) {
-        for body in &mut self.bodies {
-            body.update(state, &self.gravity);
+        for (body, missing) in self.bodies.iter_mut().zip(&mut self.missing) {
+            *missing = body.update(state, &self.gravity);
         }
         self.apply_loads(state);
         self.residual = T::ZERO;
@@ -180,25 +182,14 @@ impl<T: Real, const D: usize> Reactions<T, D> {
     }
 
     fn apply_loads(&mut self, state: &State<T>) {
-        let Self { bodies, loads, rotors, .. } = self;
+        let Self { bodies, missing, loads, rotors, .. } = self;
+        let mut take = |applied| take_off(bodies, missing, applied);
         let (loads, law_inputs) = loads.at(state);
         for load in loads {
-            if let Load::Sum { .. } = load {
-                // It acts on any number of bodies, and asks for no rotation.
-                let turned = |_| Matrix::identity();
-                load.apply((state, &law_inputs), turned, |applied| take_off(bodies, applied));
-                continue;
-            }
-            let mut given: [Option<Applied<T>>; 2] = [None, None];
-            let turned = |body| rotation_of(bodies, body);
-            load.apply((state, &law_inputs), turned, |applied| {
-                let free = usize::from(given[0].is_some());
-                given[free] = Some(applied);
-            });
-            given.into_iter().flatten().for_each(|applied| take_off(bodies, applied));
+            load.apply((state, &law_inputs), |body| rotation_of(bodies, body), &mut take);
         }
         for rotor in rotors {
-            rotor.apply(state, |applied| take_off(bodies, applied));
+            rotor.apply(state, &mut take);
         }
     }
 
@@ -215,7 +206,7 @@ impl<T: Real, const D: usize> Reactions<T, D> {
         system.begin(block.bodies.len() * Self::ROWS, n_columns);
         for (place, &b) in block.bodies.iter().enumerate() {
             place_in_block[b] = place;
-            let right = rows::<T, D>(&bodies[b].missing, self.length);
+            let right = rows::<T, D>(&self.missing[b], self.length);
             for (i, &x) in right[..Self::ROWS].iter().enumerate() {
                 system.right()[place * Self::ROWS + i] = x;
             }
@@ -268,42 +259,44 @@ impl<T: Real, const D: usize> Reactions<T, D> {
             let at = self.joints[j].place(&state.q);
             for (body, sign) in self.joints[j].bodies.into_iter().zip([T::ONE, -T::ONE]) {
                 if let BodyId::Body(b) = body {
-                    let body = &mut self.bodies[b];
-                    body.missing.add(&wrench.scaled(sign).shifted(&(at - body.at)));
+                    let arm = at - self.bodies[b].at;
+                    self.missing[b].add(&wrench.scaled(sign).shifted(&arm));
                 }
             }
         }
-        let Self { bodies, couplings, system, efforts, .. } = self;
+        let Self { bodies, missing, couplings, system, efforts, .. } = self;
         for &i in &block.couplings {
             let effort = system.solution()[column] / couplings[i].scale();
             efforts[i] = (effort, system.is_determined(column));
-            couplings[i].apply(effort, state, |applied| take_off(bodies, applied));
+            couplings[i].apply(effort, state, |applied| take_off(bodies, missing, applied));
             column += 1;
         }
     }
 }
 
 /// Takes what is applied to a body off what its joints must give.
-fn take_off<T: Real, const D: usize>(bodies: &mut [Balance<T, D>], (body, at, wrench): Applied<T>) {
+fn take_off<T: Real, const D: usize>(
+    bodies: &[Placed<T, D>],
+    missing: &mut [Wrench<T>],
+    (body, at, wrench): Applied<T>,
+) {
     if let BodyId::Body(b) = body {
-        let body = &mut bodies[b];
-        let arm = at.map_or_else(Vector::zeros, |at| at - body.at);
-        body.missing.add(&wrench.shifted(&arm).scaled(-T::ONE));
+        let arm = at.map_or_else(Vector::zeros, |at| at - bodies[b].at);
+        missing[b].add(&wrench.shifted(&arm).scaled(-T::ONE));
     }
 }
 
-impl<T: Real, const D: usize> Balance<T, D> {
+impl<T: Real, const D: usize> Placed<T, D> {
     fn new(scene: &Scene<T>, model: &NaturalModel<T, D>, body: usize) -> Self {
         Self {
             body: BodyInertia::new(scene, model, body),
             turned: Matrix::<T, 3>::identity(),
             at: Vector::zeros(),
-            missing: Wrench::zero(),
         }
     }
 
-    /// What all joints and effects together must give: [m (c'' - g); I omega' + omega x I omega].
-    fn update(&mut self, state: &State<T>, gravity: &Vector<T, 3>) {
+    /// Places the body; what all joints and effects together must give: [m (c'' - g); I omega' + omega x I omega].
+    fn update(&mut self, state: &State<T>, gravity: &Vector<T, 3>) -> Wrench<T> {
         let BodyInertia { frame, center, mass, inertia } = &self.body;
         let r = frame.rotation(&state.q);
         let omega = frame.turning(&state.q, &state.v);
@@ -311,10 +304,10 @@ impl<T: Real, const D: usize> Balance<T, D> {
         let inertia = r * *inertia * r.transpose();
         self.turned = r;
         self.at = raised(&center.value(&state.q));
-        self.missing = Wrench {
+        Wrench {
             force: (raised(&center.rate(&state.a)) - gravity) * *mass,
             moment: inertia * alpha + cross(&omega, &(inertia * omega)),
-        };
+        }
     }
 }
 
@@ -327,7 +320,7 @@ fn rows<T: Real, const D: usize>(wrench: &Wrench<T>, length: T) -> [T; 6] {
     }
 }
 
-fn rotation_of<T: Real, const D: usize>(bodies: &[Balance<T, D>], body: BodyId) -> Matrix<T, 3> {
+fn rotation_of<T: Real, const D: usize>(bodies: &[Placed<T, D>], body: BodyId) -> Matrix<T, 3> {
     match body {
         BodyId::Ground => Matrix::<T, 3>::identity(),
         BodyId::Body(b) => bodies[b].turned,

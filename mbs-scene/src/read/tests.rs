@@ -141,6 +141,27 @@ fn spoil(scene: &str, from: &str, to: &str) -> ReadError {
     read(&scene.replacen(from, to, 1)).expect_err(to)
 }
 
+/// The head of a scene in space, and three bodies.
+const THREE_BODIES: &str = r#"[scene]
+dimension = 3
+duration = 1.0
+[[body]]
+name = "w"
+mass = 1.0
+center = [0.0, 0.0, 0.0]
+inertia = [1.0, 1.0, 1.0, 0.0, 0.0, 0.0]
+[[body]]
+name = "v"
+mass = 1.0
+center = [1.0, 0.0, 0.0]
+inertia = [1.0, 1.0, 1.0, 0.0, 0.0, 0.0]
+[[body]]
+name = "u"
+mass = 1.0
+center = [2.0, 0.0, 0.0]
+inertia = [1.0, 1.0, 1.0, 0.0, 0.0, 0.0]
+"#;
+
 /// Asserts place, message and hint of a refusal.
 fn refused(error: &ReadError, place: &str, message: &str, hint: &str) {
     let expected = format!("test.toml:{place}: {message}");

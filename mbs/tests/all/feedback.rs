@@ -1,6 +1,7 @@
 //! Signals that follow the motion: controllers, engine curves and late signals, against closed forms in every formulation.
 
 use crate::common::oracle::{Way, rows};
+use crate::common::{cross, dot};
 use mbs::core::outputs::Quantity;
 use mbs::core::scene::{BodyId, Output};
 use mbs::scene_file::SceneFile;
@@ -281,12 +282,6 @@ fn the_modes_of_a_servo_are_the_roots_of_its_cubic() {
     }
 }
 
-/// Cross product.
-fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
-    let at = |i: usize, j: usize| a[i] * b[j] - a[j] * b[i];
-    [at(1, 2), at(2, 0), at(0, 1)]
-}
-
 #[test]
 fn the_servo_arm_ends_at_its_targets_with_the_torques_of_its_weight() {
     let mut scene = mbs_testkit::file("servo-arm");
@@ -333,7 +328,7 @@ fn the_servo_arm_ends_at_its_targets_with_the_torques_of_its_weight() {
                 .map(|body| {
                     let arm = std::array::from_fn(|i| point(body, 0)[i] - place[i]);
                     let moment = cross(arm, [0.0, 0.0, -9.81 * bodies[body].mass]);
-                    (0..3).map(|i| axis[i] * moment[i]).sum::<f64>()
+                    dot(axis, moment)
                 })
                 .sum();
             let torque = row[n + 9 * n + k];

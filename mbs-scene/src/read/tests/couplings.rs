@@ -1,29 +1,10 @@
 //! Couplings: every kind reads to its sum; faults have their place.
 
-use super::{read, refused};
+use super::{THREE_BODIES, read, refused};
 use crate::{SceneFile, to_toml};
 use mbs_core::scene::*;
 
-const JOINTS: &str = r#"
-[scene]
-dimension = 3
-duration = 1.0
-[[body]]
-name = "w"
-mass = 1.0
-center = [0.0, 0.0, 0.0]
-inertia = [1.0, 1.0, 1.0, 0.0, 0.0, 0.0]
-[[body]]
-name = "v"
-mass = 1.0
-center = [1.0, 0.0, 0.0]
-inertia = [1.0, 1.0, 1.0, 0.0, 0.0, 0.0]
-[[body]]
-name = "u"
-mass = 1.0
-center = [2.0, 0.0, 0.0]
-inertia = [1.0, 1.0, 1.0, 0.0, 0.0, 0.0]
-[[joint]]
+const JOINTS: &str = r#"[[joint]]
 name = "a"
 kind = "revolute"
 bodies = ["ground", "w"]
@@ -44,7 +25,7 @@ axis = [1.0, 0.0, 0.0]
 "#;
 
 fn with(coupling: &str) -> String {
-    format!("{JOINTS}[[coupling]]\n{coupling}\n")
+    format!("\n{THREE_BODIES}{JOINTS}[[coupling]]\n{coupling}\n")
 }
 
 /// Factor, joint and number of each term, and the value.

@@ -1,29 +1,11 @@
 //! Effects on sums: every kind reads its terms and is written as it was read; faults have their place.
 
-use super::read;
+use super::{THREE_BODIES, read, refused};
 use crate::{SceneFile, to_toml};
 use mbs_core::effects::{ActsOn, Value};
 use mbs_core::scene::*;
 
-const JOINTS: &str = r#"[scene]
-dimension = 3
-duration = 1.0
-[[body]]
-name = "w"
-mass = 1.0
-center = [0.0, 0.0, 0.0]
-inertia = [1.0, 1.0, 1.0, 0.0, 0.0, 0.0]
-[[body]]
-name = "v"
-mass = 1.0
-center = [1.0, 0.0, 0.0]
-inertia = [1.0, 1.0, 1.0, 0.0, 0.0, 0.0]
-[[body]]
-name = "u"
-mass = 1.0
-center = [2.0, 0.0, 0.0]
-inertia = [1.0, 1.0, 1.0, 0.0, 0.0, 0.0]
-[[joint]]
+const JOINTS: &str = r#"[[joint]]
 name = "a"
 kind = "revolute"
 bodies = ["ground", "w"]
@@ -43,7 +25,7 @@ at = [1.0, 0.0, 0.0]
 "#;
 
 fn with(effect: &str) -> String {
-    format!("{JOINTS}[[effect]]\n{effect}\n")
+    format!("{THREE_BODIES}{JOINTS}[[effect]]\n{effect}\n")
 }
 
 const TERMS: &str =
@@ -95,42 +77,69 @@ fn an_effect_of_a_joint_is_taken_to_a_sum_in_code() {
 fn sums_that_measure_nothing_are_refused_at_their_place() {
     let cases = [
         ("terms = [{ joint = \"b\" }]", "37:20", "unknown joint `b`", ""),
-        ("terms = [{ joint = \"c\" }]", "37:20", "slide, turn", "add `coordinate`"),
+        (
+            "terms = [{ joint = \"c\" }]",
+            "37:20",
+            "one coordinate, by its name, is needed; the joint has: slide, turn",
+            "add `coordinate`",
+        ),
         (
             "terms = [{ joint = \"c\", coordinate = \"trun\" }]",
             "37:38",
             "unknown coordinate `trun`",
             "did you mean `turn`?",
         ),
-        ("terms = [{ joint = \"c\", coordinate = 2 }]", "37:9", "`coordinate`", ""),
-        ("terms = [{ joint = \"a\" }]\njoint = \"a\"", "37:9", "both `joint` and `terms`", ""),
-        ("terms = [{ joint = \"a\" }]\ncoordinate = 0", "3", "`coordinate`", ""),
-        ("terms = []", "37:9", "no term", ""),
-        ("terms = [{ joint = \"a\", factor = 0.0 }]", "37:9", "no term", ""),
-        ("terms = [{ joint = \"fix\" }]", "37:9", "without coordinates", ""),
+        (
+            "terms = [{ joint = \"c\", coordinate = 2 }]",
+            "37:9",
+            "`coordinate` is not there: the joint has 2 coordinates",
+            "",
+        ),
+        (
+            "terms = [{ joint = \"a\" }]\njoint = \"a\"",
+            "37:9",
+            "both `joint` and `terms` are given",
+            "",
+        ),
+        (
+            "terms = [{ joint = \"a\" }]\ncoordinate = 0",
+            "38:14",
+            "both `terms` and `coordinate` are given",
+            "",
+        ),
+        ("terms = []", "37:9", "`terms` has no term with a factor that is not zero", ""),
+        (
+            "terms = [{ joint = \"a\", factor = 0.0 }]",
+            "37:9",
+            "`terms` has no term with a factor that is not zero",
+            "",
+        ),
+        ("terms = [{ joint = \"fix\" }]", "37:9", "`joint` is a joint without coordinates", ""),
         (
             "terms = [{ joint = \"a\", fcator = 1.0 }]",
             "37:25",
             "unknown key `fcator`",
             "did you mean `factor`?",
         ),
-        ("terms = 3", "37:9", "a list of terms", ""),
+        (
+            "terms = 3",
+            "37:9",
+            "expected a list of terms like { joint = \"j\", factor = 1.0 }, found a number",
+            "",
+        ),
     ];
     for (terms, place, message, hint) in cases {
         let text = with(&format!("{terms}\nkind = \"friction\"\ncoulomb = 1.0"));
         let e = read(&text).unwrap_err();
-        is_refused(&e, place, message, hint);
+        refused(&e, place, message, hint);
     }
     let text = with("kind = \"friction\"\ncoulomb = 1.0");
-    is_refused(&read(&text).unwrap_err(), "36:1", "`joint` is missing", "");
+    refused(&read(&text).unwrap_err(), "36:1", "`joint` is missing", "");
     let text = with(&format!("{TERMS}kind = \"limit\"\nlower = 1.0\nupper = 0.0\nstiffness = 1.0"));
-    is_refused(&read(&text).unwrap_err(), "39:9", "`lower`", "");
-}
-
-/// Refused at a place, with a part of the message and of the hint.
-fn is_refused(error: &crate::read::ReadError, place: &str, message: &str, hint: &str) {
-    let text = error.to_string();
-    assert!(text.starts_with(&format!("test.toml:{place}")), "{text}: not at {place}");
-    assert!(text.contains(message), "{text}: without {message}");
-    assert!(error.hint().contains(hint), "{} <> {hint}", error.hint());
+    refused(
+        &read(&text).unwrap_err(),
+        "39:9",
+        "`lower` is 1, which is not below the upper end 0",
+        "",
+    );
 }
