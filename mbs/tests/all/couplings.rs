@@ -1,6 +1,6 @@
 //! Couplings against closed forms, in every formulation that has them.
 
-use crate::common::oracle::{Rows, Way, rows};
+use crate::common::oracle::{TRAPEZOIDAL, Way, last, rows};
 use mbs::core::scene::Scene;
 use mbs_testkit::scene;
 
@@ -10,11 +10,7 @@ const EXACT: f64 = 1e-8;
 
 /// Every formulation with the trapezoidal rule.
 fn ways() -> [Way; 5] {
-    ["index-3", "index-1", "classical", "state-space", "recursive"].map(|f| Way(f, "trapezoidal"))
-}
-
-fn last(rows: &Rows) -> &[f64] {
-    &rows.last().expect("a row").1
+    TRAPEZOIDAL.map(|f| Way(f, "trapezoidal"))
 }
 
 /// Last values of the outputs after `duration` by each formulation.

@@ -1,6 +1,6 @@
 //! Wheels that drive and brake, against closed forms in every formulation.
 
-use crate::common::oracle::{Way, rows};
+use crate::common::oracle::{TRAPEZOIDAL, Way, rows};
 use mbs_testkit::scene;
 
 /// Radius, height of the hub [m], radial stiffness [N/m]: pressed in by 20 mm, the wheel carries 4 kN.
@@ -47,9 +47,6 @@ fn car(dimension: usize, slip: &str, speed: f64, rate: f64, rest: &str) -> Strin
     )
 }
 
-/// Every formulation.
-const FORMULATIONS: [&str; 5] = ["index-3", "index-1", "classical", "state-space", "recursive"];
-
 /// The last row by each formulation.
 fn ends(text: &str, step: f64, duration: f64) -> Vec<(Way, Vec<f64>)> {
     let run = |formulation| {
@@ -58,7 +55,7 @@ fn ends(text: &str, step: f64, duration: f64) -> Vec<(Way, Vec<f64>)> {
         let rows = rows.unwrap_or_else(|e| panic!("{way:?}: {e}"));
         (way, rows.last().expect("a row").1.to_vec())
     };
-    FORMULATIONS.map(run).to_vec()
+    TRAPEZOIDAL.map(run).to_vec()
 }
 
 /// Force by slip over load and friction, 1 - (1 - r/3)^3 up to r = 3.
@@ -165,7 +162,7 @@ fn a_car_that_drives_and_brakes_follows_equations_derived_apart_with_order_2() {
     // the reference's digits, and what the control of the step leaves
     let error = away("recursive", "radau5", 1e-3);
     assert!(error < 5e-8, "{error}");
-    for formulation in FORMULATIONS {
+    for formulation in TRAPEZOIDAL {
         let [coarse, fine] = [1e-3, 5e-4].map(|step| away(formulation, "trapezoidal", step));
         // natural coordinates turn directions, whose errors at 25 rad/s are a hundred times those of angles
         assert!(coarse < 5e-5, "{formulation}: {coarse}");

@@ -1,6 +1,6 @@
 //! Signals that follow the motion: controllers, engine curves and late signals, against closed forms in every formulation.
 
-use crate::common::oracle::{Way, rows};
+use crate::common::oracle::{TRAPEZOIDAL, Way, rows};
 use crate::common::{cross, dot};
 use mbs::core::outputs::Quantity;
 use mbs::core::scene::{BodyId, Output};
@@ -8,8 +8,6 @@ use mbs::scene_file::SceneFile;
 use mbs::{Modes, Place, Search};
 use mbs_testkit::scene;
 
-/// Every formulation with the trapezoidal rule.
-const FORMULATIONS: [&str; 5] = ["index-3", "index-1", "classical", "state-space", "recursive"];
 /// Integrators of relative coordinates whose error is small beside any tolerance here.
 const ACCURATE: [&str; 3] = ["rk4", "rk853", "radau5"];
 
@@ -42,7 +40,7 @@ fn end(text: &str, way: Way, step: f64, duration: f64) -> Vec<f64> {
 
 /// The error of the first output at two steps by each formulation, which must fall by four; and by accurate integrators.
 fn meets(text: &str, (duration, right): (f64, f64), allowed: f64) {
-    for formulation in FORMULATIONS {
+    for formulation in TRAPEZOIDAL {
         let way = Way(formulation, "trapezoidal");
         let [coarse, fine] =
             [2e-3, 1e-3].map(|step| (end(text, way, step, duration)[0] - right).abs());
@@ -115,7 +113,7 @@ fn an_integral_stops_at_its_limit_and_comes_back_at_once() {
     let (w1, a1) = (0.5, 0.5 / 6.0);
     let (w2, a2) = (w1 + 2.0 * 0.25, a1 + w1 * 0.25 + 0.25 * 0.25);
     let right = a2 + w2 * 0.25 + 0.25 * 0.25 - 4.0 / 6.0 * 0.25_f64.powi(3);
-    for formulation in FORMULATIONS {
+    for formulation in TRAPEZOIDAL {
         let found = end(&text, Way(formulation, "trapezoidal"), 1e-3, 1.0)[0];
         // the command jumps within a step of 1 ms: 8 (N m/s) 1 ms 0.25 s / 2 / 2 kg m^2
         assert!((found - right).abs() < 1e-3, "{formulation}: {found}, not {right}");
@@ -140,7 +138,7 @@ fn a_controller_at_its_limit_does_not_wind_up() {
     let text = wheel(2, &SERVO.replace("d = 6.0", "d = 6.0\nlimit = 3.0"));
     let [right, wound_up] = [true, false].map(|stops| limited(3.0, stops, 2.0));
     assert!(wound_up > right + 0.05, "{wound_up} and {right} are told apart");
-    for formulation in FORMULATIONS {
+    for formulation in TRAPEZOIDAL {
         let found = end(&text, Way(formulation, "trapezoidal"), 1e-3, 2.0)[0];
         // the end of the limit lies within a step
         assert!((found - right).abs() < 1e-4, "{formulation}: {found}, not {right}");
@@ -184,7 +182,7 @@ fn a_stiff_controller_converges_where_its_damping_outweighs_the_inertia() {
     };
     let right = rk4(rates, [0.0; 2], (0.08, 1e-5))[0];
     for dimension in [2, 3] {
-        for formulation in FORMULATIONS {
+        for formulation in TRAPEZOIDAL {
             let way = Way(formulation, "trapezoidal");
             let found = end(&wheel(dimension, &servo), way, 1e-3, 0.08)[0];
             // where the target is after 80 of its 100 steps: (h/T)^2
@@ -248,7 +246,7 @@ fn what_a_motor_gives_is_its_signal_and_turns_are_counted_in_every_formulation()
     let text = crossed();
     let right = end(&text, Way("recursive", "rk853"), 1e-3, 1.0);
     assert!(right[3].abs() > 7.0, "more than a turn: {right:?}");
-    for formulation in FORMULATIONS {
+    for formulation in TRAPEZOIDAL {
         let way = Way(formulation, "trapezoidal");
         let [coarse, fine] = [1e-3, 5e-4].map(|step| end(&text, way, step, 1.0));
         let [asked, turn] = [fine[2], fine[3]];
@@ -348,7 +346,7 @@ fn an_equilibrium_is_one_of_integrals_and_lags_too() {
     for dimension in [2, 3] {
         let text = wheel(dimension, &format!("{SERVO}{push}"));
         let text = text.replace("duration = 1.0", "duration = 1.0\nstart = \"equilibrium\"");
-        for formulation in FORMULATIONS {
+        for formulation in TRAPEZOIDAL {
             let row = end(&text, Way(formulation, "trapezoidal"), 1e-2, 1.0);
             let off = [row[0] - 1.0, row[1], row[2] + 5.0].map(f64::abs);
             // the search ends at rounding of its differences

@@ -1,9 +1,6 @@
 //! Ropes whose parts lose their length: every formulation stops there by name.
 
-use mbs::{
-    Body, Coupling, CouplingMeasure, CouplingTerm, Error, FormulationKind, GROUND, Joint,
-    Mechanism, Method, Run,
-};
+use mbs::{Body, Coupling, Error, FormulationKind, GROUND, Joint, Mechanism, Method, Run};
 
 /// 3 kg and 2 kg on a rope over two points of the ground; the lighter one hangs half a metre below its point.
 fn atwood() -> Mechanism {
@@ -16,10 +13,7 @@ fn atwood() -> Mechanism {
     }
     let points =
         [(heavy, [0.0, -1.0]), (GROUND, [0.0, 1.0]), (GROUND, [1.0, 1.0]), (light, [1.0, 0.5])];
-    let points = points.map(|(body, [x, y])| (body, [x.into(), y.into(), 0.0.into()])).to_vec();
-    let of = CouplingMeasure::Length { points };
-    let line = CouplingTerm { factor: 1.0.into(), of, curve: None };
-    m.add(Coupling::of(vec![line]).named("hoist"));
+    m.add(Coupling::rope(points).named("hoist"));
     m
 }
 
@@ -48,12 +42,7 @@ fn a_part_that_only_turns_keeps_its_rope() {
     m.set_gravity([0.0, -9.81]).set_duration(1.5);
     let bob = m.add(Body::planar([0.3, 0.0], 1.0, 1e-3));
     m.add(Joint::free([GROUND, bob], [0.3, 0.0]).named("way"));
-    let points = vec![
-        (GROUND, [0.0.into(), 0.0.into(), 0.0.into()]),
-        (bob, [0.3.into(), 0.0.into(), 0.0.into()]),
-    ];
-    let of = CouplingMeasure::Length { points };
-    m.add(Coupling::of(vec![CouplingTerm { factor: 1.0.into(), of, curve: None }]).named("rope"));
+    m.add(Coupling::rope([(GROUND, [0.0, 0.0]), (bob, [0.3, 0.0])]).named("rope"));
     for kind in FormulationKind::listed() {
         let method = Method { step: Some(5e-3), ..Method::new(kind) };
         let result = mbs::run(&m, &Run::new().method(method)).expect("it starts");

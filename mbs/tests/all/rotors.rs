@@ -8,9 +8,6 @@ mod states;
 use crate::common::oracle::{Rows, Way, rows};
 use mbs_testkit::scene;
 
-/// Every formulation.
-const FORMULATIONS: [&str; 5] = ["index-3", "index-1", "classical", "state-space", "recursive"];
-
 fn head(dimension: usize, gravity: &str) -> String {
     format!(
         "[scene]\nname = \"r\"\ndimension = {dimension}\nduration = 10.0\ngravity = {gravity}\n"
@@ -39,8 +36,4 @@ fn run(text: &str, formulation: &'static str, step: f64, duration: f64) -> Rows 
     let way = Way(formulation, "trapezoidal");
     let rows = rows(&scene(text), way, (step, duration), 1);
     rows.unwrap_or_else(|e| panic!("{formulation}: {e}"))
-}
-
-fn last(rows: &[(f64, Vec<f64>)]) -> &[f64] {
-    &rows.last().expect("a row").1
 }

@@ -73,62 +73,64 @@ fn an_effect_of_a_joint_is_taken_to_a_sum_in_code() {
     assert_eq!(drag.clone().on_terms(terms), drag);
 }
 
+/// Terms that are refused, with place, message and hint.
+const REFUSED: &[[&str; 4]] = &[
+    ["terms = [{ joint = \"b\" }]", "37:20", "unknown joint `b`", ""],
+    [
+        "terms = [{ joint = \"c\" }]",
+        "37:20",
+        "one coordinate, by its name, is needed; the joint has: slide, turn",
+        "add `coordinate`",
+    ],
+    [
+        "terms = [{ joint = \"c\", coordinate = \"trun\" }]",
+        "37:38",
+        "unknown coordinate `trun`",
+        "did you mean `turn`?",
+    ],
+    [
+        "terms = [{ joint = \"c\", coordinate = 2 }]",
+        "37:9",
+        "`coordinate` is not there: the joint has 2 coordinates",
+        "",
+    ],
+    [
+        "terms = [{ joint = \"a\" }]\njoint = \"a\"",
+        "37:9",
+        "both `joint` and `terms` are given",
+        "",
+    ],
+    [
+        "terms = [{ joint = \"a\" }]\ncoordinate = 0",
+        "38:14",
+        "both `terms` and `coordinate` are given",
+        "",
+    ],
+    ["terms = []", "37:9", "`terms` has no term with a factor that is not zero", ""],
+    [
+        "terms = [{ joint = \"a\", factor = 0.0 }]",
+        "37:9",
+        "`terms` has no term with a factor that is not zero",
+        "",
+    ],
+    ["terms = [{ joint = \"fix\" }]", "37:9", "`joint` is a joint without coordinates", ""],
+    [
+        "terms = [{ joint = \"a\", fcator = 1.0 }]",
+        "37:25",
+        "unknown key `fcator`",
+        "did you mean `factor`?",
+    ],
+    [
+        "terms = 3",
+        "37:9",
+        "expected a list of terms like { joint = \"j\", factor = 1.0 }, found a number",
+        "",
+    ],
+];
+
 #[test]
 fn sums_that_measure_nothing_are_refused_at_their_place() {
-    let cases = [
-        ("terms = [{ joint = \"b\" }]", "37:20", "unknown joint `b`", ""),
-        (
-            "terms = [{ joint = \"c\" }]",
-            "37:20",
-            "one coordinate, by its name, is needed; the joint has: slide, turn",
-            "add `coordinate`",
-        ),
-        (
-            "terms = [{ joint = \"c\", coordinate = \"trun\" }]",
-            "37:38",
-            "unknown coordinate `trun`",
-            "did you mean `turn`?",
-        ),
-        (
-            "terms = [{ joint = \"c\", coordinate = 2 }]",
-            "37:9",
-            "`coordinate` is not there: the joint has 2 coordinates",
-            "",
-        ),
-        (
-            "terms = [{ joint = \"a\" }]\njoint = \"a\"",
-            "37:9",
-            "both `joint` and `terms` are given",
-            "",
-        ),
-        (
-            "terms = [{ joint = \"a\" }]\ncoordinate = 0",
-            "38:14",
-            "both `terms` and `coordinate` are given",
-            "",
-        ),
-        ("terms = []", "37:9", "`terms` has no term with a factor that is not zero", ""),
-        (
-            "terms = [{ joint = \"a\", factor = 0.0 }]",
-            "37:9",
-            "`terms` has no term with a factor that is not zero",
-            "",
-        ),
-        ("terms = [{ joint = \"fix\" }]", "37:9", "`joint` is a joint without coordinates", ""),
-        (
-            "terms = [{ joint = \"a\", fcator = 1.0 }]",
-            "37:25",
-            "unknown key `fcator`",
-            "did you mean `factor`?",
-        ),
-        (
-            "terms = 3",
-            "37:9",
-            "expected a list of terms like { joint = \"j\", factor = 1.0 }, found a number",
-            "",
-        ),
-    ];
-    for (terms, place, message, hint) in cases {
+    for [terms, place, message, hint] in REFUSED {
         let text = with(&format!("{terms}\nkind = \"friction\"\ncoulomb = 1.0"));
         let e = read(&text).unwrap_err();
         refused(&e, place, message, hint);

@@ -27,6 +27,10 @@ pub(crate) fn methods() -> Vec<Way> {
     methods
 }
 
+/// The formulations that make fixed steps of the trapezoidal rule.
+pub(crate) const TRAPEZOIDAL: [&str; 5] =
+    ["index-3", "index-1", "classical", "state-space", "recursive"];
+
 /// Rows of a run: times and components.
 pub(crate) type Rows = Vec<(f64, Vec<f64>)>;
 
@@ -37,6 +41,11 @@ pub(crate) fn everything(scene: &Scene<f64>) -> Scene<f64> {
     let mut scene = scene.clone();
     quantities::show(&mut scene, all.filter(|quantity| !quantity.row().needs_reactions));
     scene
+}
+
+/// The components at the end.
+pub(crate) fn last(rows: &[(f64, Vec<f64>)]) -> &[f64] {
+    &rows.last().expect("a row").1
 }
 
 /// Runs a scene to `duration` and keeps the rows at multiples of `every` steps.

@@ -7,8 +7,8 @@
 //!
 //! The second rotor turns with the elbow alone: R2 is in M22 and nowhere else.
 
-use super::{FORMULATIONS, head, initial, last, output, rotor};
-use crate::common::oracle::{Way, rows};
+use super::{head, initial, output, rotor};
+use crate::common::oracle::{TRAPEZOIDAL, Way, last, rows};
 use crate::common::{by, run as run_method};
 use mbs::Method;
 use mbs_testkit::scene;
@@ -149,7 +149,7 @@ fn the_arm_moves_as_its_equations_say() {
             println!("{dimension} {integrator}: {off:.1e}");
             assert!(off < 1e-9, "{dimension} {integrator}: {off:e}");
         }
-        for formulation in FORMULATIONS {
+        for formulation in TRAPEZOIDAL {
             let method = Method {
                 error_tolerance: Some(3e-14),
                 step: Some(1e-6),
@@ -181,7 +181,7 @@ fn errors_fall_by_four_when_the_step_is_halved() {
     let right = right(reflected());
     for dimension in [2, 3] {
         let text = arm(dimension, "");
-        for formulation in FORMULATIONS {
+        for formulation in TRAPEZOIDAL {
             let way = Way(formulation, "trapezoidal");
             let [coarse, fine] = [1e-3, 5e-4].map(|step| largest(&end(&text, way, step), &right));
             let ratio = coarse / fine;
@@ -198,7 +198,7 @@ fn a_rotor_that_is_switched_off_leaves_nothing() {
     let end_of = off.find("[[initial]]").expect("there are values");
     let absent = format!("{}{}", &off[..begin], &off[end_of..]);
     let right = right([0.0; 2]);
-    for formulation in FORMULATIONS {
+    for formulation in TRAPEZOIDAL {
         let way = Way(formulation, "trapezoidal");
         let [without, switched_off] = [&absent, &off].map(|text| end(text, way, 1e-3));
         assert_eq!(without, switched_off, "{formulation}");
@@ -211,7 +211,7 @@ fn a_rotor_that_is_switched_off_leaves_nothing() {
 #[test]
 fn the_energy_is_kept_and_has_the_rotors_in_it() {
     for dimension in [2, 3] {
-        for formulation in FORMULATIONS {
+        for formulation in TRAPEZOIDAL {
             let method = Method { step: Some(1e-3), duration: Some(2.0), ..by(formulation) };
             let outcome = run_method(&scene(&arm(dimension, "")), &method);
             let error = outcome.summary.energy.max_error;

@@ -1,6 +1,7 @@
 //! Small oscillations, constant accelerations, efforts of guides.
 
-use super::{FORMULATIONS, head, initial, last, output, rotor, run};
+use super::{head, initial, output, rotor, run};
+use crate::common::oracle::{TRAPEZOIDAL, last};
 use mbs::{Modes, Place, Search};
 use mbs_testkit::scene;
 
@@ -60,7 +61,7 @@ fn small_oscillations_have_the_frequency_of_the_sum_of_inertias() {
     let small = 1e-4;
     for (center, inertia, omega) in PENDULUMS {
         let text = pendulum(2, center, inertia, small);
-        for formulation in FORMULATIONS {
+        for formulation in TRAPEZOIDAL {
             let rows = run(&text, formulation, 1e-3, 2.0);
             let off = rows.iter().map(|(t, row)| (row[0] - small * (omega * t).cos()).abs());
             let worst = off.fold(0.0, f64::max);
@@ -88,7 +89,7 @@ fn slide(inclined: bool, rest: &str) -> String {
 fn a_rotor_on_a_slide_falls_with_it() {
     for (inclined, share) in [(false, 1.0), (true, 0.8)] {
         let a = -9.81 * share * 2.0 / 3.0;
-        for formulation in FORMULATIONS {
+        for formulation in TRAPEZOIDAL {
             let rows = run(&slide(inclined, ""), formulation, 1e-2, 1.0);
             let rate = last(&rows)[0];
             assert!((rate - a).abs() < 1e-9 * a.abs(), "{formulation}: {rate}, not {a}");
@@ -119,7 +120,7 @@ fn a_housing_that_is_free_to_turn_gets_the_torque_of_the_wheel_alone() {
     let det = 0.3 * (j + i) - j * j;
     let right = [-j * 0.8 / det, 0.3 * 0.8 / det];
     let duration = 5e-4;
-    for formulation in FORMULATIONS {
+    for formulation in TRAPEZOIDAL {
         let rows = run(&housing(), formulation, duration / 16.0, duration);
         for (found, right) in last(&rows).iter().zip(right) {
             let found = found / duration;
@@ -147,7 +148,7 @@ fn a_guide_moves_the_rotor_too() {
         slide(false, &[guide.replace("JOINT", "s"), effort("s")].concat()).replace("-9.81", "0.0");
     let w = 0.7 * core::f64::consts::TAU;
     for (text, at, inertia) in [(&turn, 0, 0.6 + 0.25), (&line, 1, 3.0)] {
-        for formulation in FORMULATIONS {
+        for formulation in TRAPEZOIDAL {
             let rows = run(text, formulation, 1e-3, 0.4);
             let (t, row) = rows.last().expect("a row");
             let right = -inertia * 0.3 * w * w * (w * t).sin();
@@ -181,7 +182,7 @@ fn a_wheel_counts_its_turns_and_books_its_energy() {
         )).concat(),
     ]
     .concat();
-    for formulation in FORMULATIONS {
+    for formulation in TRAPEZOIDAL {
         let rows = run(&text, formulation, 1e-3, 4.0);
         for (t, row) in [&rows[0], rows.last().expect("a row")] {
             let (angle, rate) = (9.0 + 3.0 * t + t * t, 3.0 + 2.0 * t);

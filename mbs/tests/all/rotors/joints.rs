@@ -1,7 +1,7 @@
 //! Rotors on every coordinate of every kind of joint: natural coordinates and the tree give the same motion.
 
-use super::{FORMULATIONS, head};
-use crate::common::oracle::{Way, rows};
+use super::head;
+use crate::common::oracle::{TRAPEZOIDAL, Way, rows};
 use mbs_testkit::scene;
 
 /// Motions of natural coordinates and the tree, extrapolated from two steps, differ by less, relative.
@@ -69,7 +69,7 @@ fn natural_coordinates_and_the_tree_agree_on_every_kind_of_joint() {
     for (joint, coordinates) in kinds {
         for is_reversed in [false, true] {
             let text = on(joint, coordinates, is_reversed);
-            let ends = FORMULATIONS.map(|formulation| (formulation, end(&text, formulation)));
+            let ends = TRAPEZOIDAL.map(|formulation| (formulation, end(&text, formulation)));
             let (_, tree) = &ends[4];
             let size = tree.iter().fold(1.0_f64, |size, x| size.max(x.abs()));
             for (formulation, found) in &ends[..4] {
@@ -101,7 +101,7 @@ fn a_loop_is_cut_where_no_rotor_is() {
             "[[output]]\nname = \"r\"\njoint = \"b\"\nquantity = \"reaction\"\n".into(),
         ]
         .concat();
-        let ends = FORMULATIONS.map(|formulation| end(&text, formulation));
+        let ends = TRAPEZOIDAL.map(|formulation| end(&text, formulation));
         let size = ends[4].iter().fold(1.0_f64, |size, x| size.max(x.abs()));
         for found in &ends[..4] {
             let off = found.iter().zip(&ends[4]).fold(0.0, |off, (x, y)| (x - y).abs().max(off));

@@ -1,6 +1,7 @@
 //! Rotors beside everything else: checkpoints, statics, mass matrices, couplings, guides in a chain.
 
-use super::{FORMULATIONS, head, initial, output, rotor, run};
+use super::{head, initial, output, rotor, run};
+use crate::common::oracle::{TRAPEZOIDAL, last};
 use crate::common::{by, run as run_method};
 use mbs::{Method, Tree};
 use mbs_testkit::scene;
@@ -53,7 +54,7 @@ fn a_guided_joint_in_a_chain_has_the_effort_of_its_rotor_in_every_formulation() 
         [chain(guide), output("p", "effort"), output("p", "acceleration"), output("q", "rate")]
             .concat();
     let off = text.replacen("[[effect]]\n", "[[effect]]\nenabled = false\n", 1);
-    for formulation in FORMULATIONS {
+    for formulation in TRAPEZOIDAL {
         let [with, without] = [&text, &off].map(|text| run(text, formulation, 1e-3, 0.3));
         for ((_, a), (_, b)) in with.iter().zip(&without) {
             // the motion is the same, the effort more by 1 kg m^2 times the acceleration
@@ -86,9 +87,9 @@ fn a_rotor_beside_a_gear_adds_at_its_own_joint() {
     let acceleration = 0.6 / (0.1 + (0.4 + 0.25) / 4.0);
     // 40 effort is the torque on b
     let effort = (0.4 + 0.25) * -acceleration / 2.0 / 40.0;
-    for formulation in FORMULATIONS {
+    for formulation in TRAPEZOIDAL {
         let rows = run(&text, formulation, 1e-3 / 32.0, 1e-3);
-        let row = super::last(&rows);
+        let row = last(&rows);
         let found = row[0] / 1e-3;
         assert!((found - acceleration).abs() < 1e-6, "{formulation}: {found}, {acceleration}");
         assert!((row[1] - effort).abs() < 1e-7, "{formulation}: {row:?}, {effort}");
@@ -106,7 +107,7 @@ fn rest_and_degrees_of_freedom_do_not_depend_on_rotors() {
     assert_eq!((found.unstable, found.neutral), (Some(0), Some(0)));
     // no row repeats another
     assert_eq!(found.sizes[1], found.sizes[2]);
-    for formulation in FORMULATIONS {
+    for formulation in TRAPEZOIDAL {
         let method = Method { step: Some(1e-3), duration: Some(0.01), ..by(formulation) };
         let outcome = run_method(&scene(&text), &method);
         assert_eq!(outcome.summary.dof, 2, "{formulation}");
