@@ -103,7 +103,8 @@ const STALLED: f64 = 1e3;
 ///
 /// At a kink of a force (a contact that begins, a damper with two branches at rest) the mean of both sides is given.
 ///
-/// Cost: 4 f + 1 factorisations and 8 f evaluations for f freedoms, and n^3 operations for the dense split; allocates.
+/// Cost: 4 f + 1 factorisations and 8 f evaluations for f freedoms, 4 more for each state of a signal, and n^3 operations for the dense
+/// split; allocates.
 ///
 /// # Errors
 /// [`LinearError`] when the state is not closed, stands next to a singular position, or lacks inertia.
@@ -119,15 +120,11 @@ pub fn linearise<T: Real, M: Model<T>, S: SymmetricSolver<T>>(
     let acceleration = field.at_rest_of(&s.v)?;
     let turning = norm_inf(&field.w.terms.phi_bias);
     let reach = options.step;
-    let stiffness = field.stiffness(reach)?;
+    let [stiffness, mut rates] = field.by_places(reach)?;
     field.return_to(&s.q)?;
-    let mut damping = Vec::new();
-    for j in 0..f {
-        let h = reach / field.w.extent(field.tangent.direction(j));
-        let slope = difference(h, |z| field.hurried(j, z))?;
-        damping.extend(slope.into_iter().map(|x| -x));
-    }
-    let signals = field.signals(reach)?;
+    let [damping, by_speeds] = field.by_speeds(reach)?;
+    rates.extend(by_speeds);
+    let signals = field.signals(reach, rates)?;
     let noise = field.noise(&stiffness, reach);
     let basis = field.tangent.basis;
     Ok(Linear { n_freedoms: f, stiffness, damping, basis, acceleration, turning, noise, signals })
@@ -209,21 +206,41 @@ impl<'a, T: Real, M: Model<T>, S: SymmetricSolver<T>> Field<'a, T, M, S> {
         Ok(field)
     }
 
-    /// -dz''/dz by differences that move coordinates by `reach` of their sizes.
-    pub(crate) fn stiffness(&mut self, reach: T) -> Result<Vec<T>, LinearError> {
+    /// -dz''/dz, and dx'/dz of the states x of signals, by differences that move coordinates by `reach` of their sizes.
+    pub(crate) fn by_places(&mut self, reach: T) -> Result<[Vec<T>; 2], LinearError> {
+        let mut change = vec![T::ZERO; self.tangent.n_freedoms()];
+        self.by_each(reach, |field, j, z| {
+            change[j] = z;
+            let accelerations = field.displaced(&change);
+            change[j] = T::ZERO;
+            accelerations
+        })
+    }
+
+    /// -dz''/dz', and dx'/dz', by differences of velocities.
+    fn by_speeds(&mut self, reach: T) -> Result<[Vec<T>; 2], LinearError> {
+        self.by_each(reach, Self::hurried)
+    }
+
+    /// Slopes of -z'' and of x' by what `accelerations` are given of each freedom.
+    fn by_each(
+        &mut self,
+        reach: T,
+        mut accelerations: impl FnMut(&mut Self, usize, T) -> Result<Vec<T>, LinearError>,
+    ) -> Result<[Vec<T>; 2], LinearError> {
         let f = self.tangent.n_freedoms();
-        let mut stiffness = Vec::with_capacity(f * f);
-        let mut change = vec![T::ZERO; f];
+        let [mut own, mut of_signals] = [Vec::with_capacity(f * f), Vec::new()];
         for j in 0..f {
             let h = reach / self.w.extent(self.tangent.direction(j));
-            let slope = difference(h, |z| {
-                change[j] = z;
-                self.displaced(&change)
+            let mut slope = difference(h, |z| {
+                let mut answer = accelerations(self, j, z)?;
+                answer.extend(self.signal_rates());
+                Ok(answer)
             })?;
-            change[j] = T::ZERO;
-            stiffness.extend(slope.into_iter().map(|x| -x));
+            of_signals.extend(slope.split_off(f));
+            own.extend(slope.into_iter().map(|x| -x));
         }
-        Ok(stiffness)
+        Ok([own, of_signals])
     }
 
     /// Rounding to be expected in a stiffness that was found so [1/s^2].
@@ -242,12 +259,6 @@ impl<'a, T: Real, M: Model<T>, S: SymmetricSolver<T>> Field<'a, T, M, S> {
         self.q.copy_from_slice(q);
         self.close()?;
         self.factor()
-    }
-
-    /// Back to the state's own position.
-    pub(crate) fn return_to_start(&mut self) -> Result<(), LinearError> {
-        let q = self.start.q.clone();
-        self.return_to(&q)
     }
 
     /// z'' at the state's own velocity, where the position is the state's.
@@ -293,7 +304,7 @@ impl<'a, T: Real, M: Model<T>, S: SymmetricSolver<T>> Field<'a, T, M, S> {
     }
 
     /// z'' with one z' changed.
-    pub(crate) fn hurried(&mut self, freedom: usize, z: T) -> Result<Vec<T>, LinearError> {
+    fn hurried(&mut self, freedom: usize, z: T) -> Result<Vec<T>, LinearError> {
         self.v.copy_from_slice(&self.start.v);
         for (v, &b) in self.v.iter_mut().zip(self.tangent.direction(freedom)) {
             *v += b * z;

@@ -10,38 +10,20 @@ use crate::near::{Pivoted, equilibrium_near, failed};
 use crate::options::{LinearOptions, Options};
 use crate::signal_matrices::LinearSignals;
 use crate::workspace::Workspace;
-use alloc::vec;
 use alloc::vec::Vec;
 use mbs_core::algebra::norm_inf;
 use mbs_core::model::{Model, State};
 use mbs_core::{Real, SymmetricSolver};
 
 impl<T: Real, M: Model<T>, S: SymmetricSolver<T>> Field<'_, T, M, S> {
-    /// By differences that move coordinates, velocities and states by `reach` of their sizes.
-    pub(crate) fn signals(&mut self, reach: T) -> Result<LinearSignals<T>, LinearError> {
+    /// The part of signals with their `rates` by coordinates and velocities: by differences that move states by `reach` of their sizes.
+    pub(crate) fn signals(
+        &mut self,
+        reach: T,
+        rates: Vec<T>,
+    ) -> Result<LinearSignals<T>, LinearError> {
         let (f, n) = (self.tangent.n_freedoms(), self.model.n_signal_states());
-        let mut all = LinearSignals { n, forces: Vec::new(), rates: Vec::new() };
-        if n == 0 {
-            return Ok(all);
-        }
-        let mut change = vec![T::ZERO; f];
-        for j in 0..f {
-            let h = reach / self.w.extent(self.tangent.direction(j));
-            all.rates.extend(difference(h, |z| {
-                change[j] = z;
-                self.displaced(&change)?;
-                Ok(self.signal_rates())
-            })?);
-            change[j] = T::ZERO;
-        }
-        self.return_to_start()?;
-        for j in 0..f {
-            let h = reach / self.w.extent(self.tangent.direction(j));
-            all.rates.extend(difference(h, |z| {
-                self.hurried(j, z)?;
-                Ok(self.signal_rates())
-            })?);
-        }
+        let mut all = LinearSignals { n, forces: Vec::new(), rates };
         for k in 0..n {
             let x = self.w.terms.signal_starts[k][0];
             let answer = difference(reach * (T::ONE + x.abs()), |dx| {
@@ -59,7 +41,7 @@ impl<T: Real, M: Model<T>, S: SymmetricSolver<T>> Field<'_, T, M, S> {
     }
 
     /// x' as last evaluated.
-    fn signal_rates(&self) -> Vec<T> {
+    pub(crate) fn signal_rates(&self) -> Vec<T> {
         let states = &self.w.terms.signals[..self.model.n_signal_states()];
         states.iter().map(|[_, rate]| *rate).collect()
     }
