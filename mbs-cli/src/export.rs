@@ -75,7 +75,7 @@ fn refusal(error: &ExportError) -> Refusal {
         }
         ExportError::Effect(_) => "leave user-defined laws out: a table cannot hold code",
         ExportError::Signal(_) => {
-            "make it constant, or write `table`, or `input = true`, in place of `signal`"
+            "make it a step, a table without `hold` and `periodic`, or an `input`"
         }
         ExportError::Ladder(_) => {
             "make the list of effect costs from this scene: `mbs explain SCENE --json`"

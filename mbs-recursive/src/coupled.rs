@@ -11,6 +11,7 @@
 
 use crate::indexing::{Outside, at, at_mut, part, range};
 use crate::link::{Link, LinkMotion};
+use crate::loads::coordinate_of;
 use crate::plan::Span;
 use crate::space::{Numbers, Space};
 use mbs_core::Real;
@@ -170,13 +171,8 @@ impl<T: Real, S: Space<T>> Couplings<'_, T, S> {
     ) -> Result<([T; 3], T), Outside> {
         match *of {
             SumMeasure::Joint { link, .. } => {
-                let (links, _, (z, v, guides)) = here;
-                let link = at(links, link as usize)?;
-                let numbers = if link.kind.is_guided() {
-                    *at(guides, link.v as usize)?
-                } else {
-                    [*at(z, link.z as usize)?, *at(v, link.v as usize)?, T::ZERO]
-                };
+                let (links, _, coordinates) = here;
+                let numbers = coordinate_of(at(links, link as usize)?, coordinates)?;
                 Ok((numbers, numbers[1].abs()))
             }
             SumMeasure::Line { points, reference } => {
@@ -204,12 +200,8 @@ impl<T: Real, S: Space<T>> Couplings<'_, T, S> {
     ) -> Result<(), Outside> {
         let starts = range(self.starts, starts.range())?;
         let end = |of: &LinePoint<T, S>| {
-            let start = *at(starts, of.start as usize)?;
-            let p = at(placed, start.link as usize)?;
-            let arm = S::rotate(&p.rotation, &of.point);
-            let spin = S::spin(&p.velocity);
-            let rate = S::point(&p.velocity) + S::cross(&spin, &arm);
-            Ok((start, arm, [p.position + arm, rate, S::centrifugal(&spin, &arm)]))
+            let (start, spin, arm, [place, rate]) = line_end(starts, of, placed)?;
+            Ok((start, arm, [place, rate, S::centrifugal(&spin, &arm)]))
         };
         for pair in range(self.points, points.range())?.windows(2) {
             let [first, second] = pair else { continue };
@@ -242,8 +234,8 @@ impl<T: Real, S: Space<T>> Couplings<'_, T, S> {
             for pair in range(self.points, points.range())?.windows(2) {
                 let [first, second] = pair else { continue };
                 let gap = |placed| {
-                    let ([a, rate_a], [b, rate_b]) =
-                        (line_end(starts, first, placed)?, line_end(starts, second, placed)?);
+                    let [(_, _, _, [a, rate_a]), (_, _, _, [b, rate_b])] =
+                        [line_end(starts, first, placed)?, line_end(starts, second, placed)?];
                     Ok([b - a, rate_b - rate_a])
                 };
                 let ([before, rate], [after, _]) = (gap(from)?, gap(to)?);
@@ -276,9 +268,9 @@ impl<T: Real, S: Space<T>> Couplings<'_, T, S> {
         for (i, term) in row.terms.range().zip(range(self.terms, row.terms.range())?) {
             let ([m, rate, known], speed) = self.measure((&term.of, row.starts), here)?;
             let [f, slope, bend] = self.function(term.curve, m)?;
-            let slope = term.factor * slope;
+            let (value, slope) = (term.factor * f, term.factor * slope);
             let bias = slope * known + term.factor * bend * rate * rate;
-            add([term.factor * f, slope * rate, bias], [term.factor * f, slope * speed]);
+            add([value, slope * rate, bias], [value, slope * speed]);
             let Some((gradient, slopes)) = &mut out else { continue };
             if term.curve != NONE {
                 *at_mut(slopes, i)? = slope;
@@ -389,17 +381,22 @@ impl<T: Real, S: Space<T>> Couplings<'_, T, S> {
     }
 }
 
-/// Where a point of a line is, and its velocity.
+/// The link of a point of a line, its spin, the arm of the point on it, its place and its velocity.
+type LineEnd<T, S> =
+    (LinkStart, <S as Space<T>>::Spin, <S as Space<T>>::Point, [<S as Space<T>>::Point; 2]);
+
+/// A point of a line.
 fn line_end<T: Real, S: Space<T>>(
     starts: &[LinkStart],
     of: &LinePoint<T, S>,
     placed: &[LinkMotion<T, S>],
-) -> Result<[S::Point; 2], Outside> {
-    let start = at(starts, of.start as usize)?;
+) -> Result<LineEnd<T, S>, Outside> {
+    let start = *at(starts, of.start as usize)?;
     let p = at(placed, start.link as usize)?;
     let arm = S::rotate(&p.rotation, &of.point);
-    let rate = S::point(&p.velocity) + S::cross(&S::spin(&p.velocity), &arm);
-    Ok([p.position + arm, rate])
+    let spin = S::spin(&p.velocity);
+    let rate = S::point(&p.velocity) + S::cross(&spin, &arm);
+    Ok((start, spin, arm, [p.position + arm, rate]))
 }
 
 /// What grows a sum: a coordinate or a link, and how much.

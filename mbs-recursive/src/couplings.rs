@@ -58,8 +58,7 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         }
         let links = self.coordinate_links(scene);
         for &(joint, number) in &feedback.measured {
-            let link = links[joint].get(number).copied().flatten();
-            let link = link.filter(|&link| self.has_one_coordinate(link));
+            let link = self.sole_link(&links, (joint, number));
             self.measured.push(link.ok_or(TreeError::Signal { joint })?);
         }
         for step in &mut feedback.steps {
@@ -84,9 +83,7 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         for term in terms {
             let of = match (&term.of, term.coordinate) {
                 (_, Some((joint, number))) => {
-                    let link = links[joint].get(number).copied().flatten();
-                    let link = link.filter(|&link| self.has_one_coordinate(link));
-                    let link = link.ok_or(joint)?;
+                    let link = self.sole_link(links, (joint, number)).ok_or(joint)?;
                     let is_guided = self.links[link as usize].kind.is_guided();
                     SumMeasure::Joint { link, side: if is_guided { NONE } else { 0 } }
                 }
@@ -102,8 +99,15 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         Ok((terms, starts))
     }
 
-    fn has_one_coordinate(&self, link: u32) -> bool {
-        !matches!(self.links[link as usize].kind, LinkKind::Ball | LinkKind::Free)
+    /// The link that has a coordinate of a joint, and no other one.
+    fn sole_link(
+        &self,
+        links: &[Vec<Option<u32>>],
+        (joint, number): (usize, usize),
+    ) -> Option<u32> {
+        let link = links[joint].get(number).copied().flatten()?;
+        let kind = self.links[link as usize].kind;
+        (!matches!(kind, LinkKind::Ball | LinkKind::Free)).then_some(link)
     }
 
     fn add_coupled(&mut self, row: CoupledRow<T>, coupling: usize) {

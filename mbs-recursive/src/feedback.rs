@@ -34,7 +34,8 @@ fn evaluate<T: Real, S: Space<T>>(
     let coordinates = (&*s.z, &*s.v, &*s.guides);
     let measure = |number: u32| {
         let link = *at(m.feedback.links, number as usize)?;
-        coordinate_of(at(m.links, link as usize)?, coordinates)
+        let [value, rate, _] = coordinate_of(at(m.links, link as usize)?, coordinates)?;
+        Ok([value, rate])
     };
     let curve = |number: u32, x: T| m.loops.couplings.function(number, x);
     follow(m.feedback.steps, measure, curve, &mut s.signals, s.courses)?;

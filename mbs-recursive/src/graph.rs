@@ -4,8 +4,8 @@
 //! joint that comes first in this order (Prim), so that it depends on the scene alone:
 //!
 //! 1. guided joints, since their motion is prescribed;
-//! 2. revolute joints with an effect about their axis, since it acts along a coordinate; joints with a rotor; joints of couplings, which
-//!    are sums of coordinates;
+//! 2. revolute joints with an effect about their axis, since it acts along a coordinate; joints with a rotor; joints of couplings and of
+//!    effects on sums, which are sums of coordinates; joints that signals measure;
 //! 3. joints of bodies without mass, so that these end no branch where that can be avoided;
 //! 4. joints with few freedoms, so that few equations are left where the others are cut;
 //! 5. balls off the line of a thin rod, about which it has inertia in every direction;

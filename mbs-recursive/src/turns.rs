@@ -131,7 +131,7 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
             links: &self.links,
             placed: &[],
             coordinates: (&state.z, &state.v, &guides),
-            couplings: &self.mechanism().loops.couplings,
+            couplings: &self.couplings.slices(),
             law_inputs: LawInputs::courses(&[]),
             base: S::Point::zero(),
         })

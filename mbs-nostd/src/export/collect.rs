@@ -41,7 +41,8 @@ impl<'a, T: Real, S: Space<T>> Collected<'a, T, S> {
     /// in front; each has a rung.
     ///
     /// # Errors
-    /// [`MovingSignal`]: tables have no waves, ramps and periodic tables, and no guides that follow signals.
+    /// [`MovingSignal`]: tables have no waves and ramps, no tables that hold or repeat, and guides follow constants, splines and steps
+    /// alone.
     pub fn new(
         tree: &'a TreeModel<T, S>,
         state: &'a TreeState<T>,

@@ -111,7 +111,7 @@ pub(super) fn load<T: Real, S: Space<T>>(
         // Each term measured, and its joint's answer.
         Load::Sum(sum) => {
             let terms = count(sum.terms.range().len());
-            sum.law.operations() + ops(12, 16) * terms + across + ops(2, 2)
+            sum.law.operations() + ops(15, 16) * terms + across + ops(2, 2)
         }
         Load::Angle { law, .. } => law.operations() + across + ops(0, 1),
         Load::Constant { .. } => parts.turned + parts.wrench + ops(0, parts.motion),

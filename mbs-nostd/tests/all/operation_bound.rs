@@ -112,6 +112,22 @@ fn couplings_stay_below_the_bound() {
 }
 
 #[test]
+fn laws_on_sums_stay_below_the_bound() {
+    // without loops, whose rows leave room below their bound
+    let text = include_str!("couplings.toml");
+    let alone = text.split("[[coupling]]").next().expect("what stands before");
+    let effect =
+        "[[effect]]\nkind = \"torsion-spring\"\nstiffness = 9.0\ndamping = 0.3\nfree_value = 0.2\n";
+    let of = |joint: &str| format!("{{ joint = \"{joint}\", factor = -1.5 }}");
+    for joints in [&["a"][..], &["a", "b"], &["a", "b", "a", "b"]] {
+        let terms: Vec<_> = joints.iter().map(|joint| of(joint)).collect();
+        let text = format!("{alone}{effect}terms = [{}]\n", terms.join(", "));
+        let bounds = Bounds { evaluations: 2, ..Bounds::default() };
+        is_bound("sums", counted_of::<Planar, 2>(&mbs_testkit::scene(&text), bounds));
+    }
+}
+
+#[test]
 fn operations_on_signals_stay_below_the_bound() {
     for text in [ARM, LINE] {
         let bounds = Bounds { evaluations: 2, ..Bounds::default() };

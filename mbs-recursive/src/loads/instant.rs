@@ -25,19 +25,16 @@ pub struct Instant<'a, T: Real, S: Space<T>> {
     pub base: S::Point,
 }
 
-/// Angle or slide of a joint with one coordinate, and its rate, by coordinates, velocities and guides.
+/// Angle or slide of a joint with one coordinate, its rate and what is known of its acceleration, by coordinates, velocities and guides.
 #[inline(always)]
 pub(crate) fn coordinate_of<T: Real, S: Space<T>>(
     link: &Link<T, S>,
     (z, v, guides): (&[T], &[T], &[[T; 3]]),
-) -> Result<[T; 2], Outside> {
-    Ok(match link.kind {
-        LinkKind::GuidedRevolute | LinkKind::GuidedPrismatic => {
-            let [value, rate, _] = *at(guides, link.v as usize)?;
-            [value, rate]
-        }
-        _ => [*at(z, link.z as usize)?, *at(v, link.v as usize)?],
-    })
+) -> Result<[T; 3], Outside> {
+    if link.kind.is_guided() {
+        return at(guides, link.v as usize).copied();
+    }
+    Ok([*at(z, link.z as usize)?, *at(v, link.v as usize)?, T::ZERO])
 }
 
 impl<T: Real, S: Space<T>> Instant<'_, T, S> {
@@ -48,7 +45,8 @@ impl<T: Real, S: Space<T>> Instant<'_, T, S> {
 
     /// Angle or slide of a joint with one coordinate, and its rate.
     pub(crate) fn coordinate(&self, link: u32) -> Result<[T; 2], Outside> {
-        coordinate_of(at(self.links, link as usize)?, self.coordinates)
+        let [value, rate, _] = coordinate_of(at(self.links, link as usize)?, self.coordinates)?;
+        Ok([value, rate])
     }
 
     /// Angle of a link against the ground, in the plane: the sum of the angles on the way there.

@@ -9,6 +9,7 @@
 //!
 //! The last is enough for the iteration to contract: (Σ xₖ)² is at most n Σ xₖ². Of one end it is n = 2, the answer itself.
 
+use super::tangent::resist_joint;
 use super::{Instant, Reach};
 use crate::coupled::{CoupledRow, NONE, SumEnd};
 use crate::indexing::{Outside, at, at_mut};
@@ -96,17 +97,11 @@ impl<T: Real> SumLoad<T> {
         })?;
         let ends = ends.max(T::TWO) * T::HALF;
         here.couplings.each_end(&row, here.mechanism(), |end| {
-            let is_free = moves(&end)?;
             match end {
                 SumEnd::Joint { link, slope } => {
-                    let c = at_mut(condensed, link as usize)?;
-                    c.effort -= slope * measure.tension;
-                    if is_free {
-                        let weight = reach.weight(&measure) * ends * slope * slope;
-                        let v = at(here.links, link as usize)?.v as usize;
-                        c.resistance += weight;
-                        c.effort += weight * *at(zdd, v)?;
-                    }
+                    at_mut(condensed, link as usize)?.effort -= slope * measure.tension;
+                    let weight = reach.weight(&measure) * ends * slope * slope;
+                    resist_joint(here, link, (weight, zdd), condensed)?;
                 }
                 SumEnd::Link { link, wrench } => {
                     let measure = ScalarForce {
@@ -114,8 +109,8 @@ impl<T: Real> SumLoad<T> {
                         damping: measure.damping * ends,
                         ..measure
                     };
-                    let a = at(a, link as usize)?;
-                    if is_free {
+                    if link > 0 {
+                        let a = at(a, link as usize)?;
                         reach.resist(at_mut(condensed, link as usize)?, (&wrench, a), &measure);
                     }
                 }

@@ -70,7 +70,7 @@ impl<T: Real, S: Space<T>> Load<T, S> {
 }
 
 /// Resists the acceleration of a joint of one freedom; a guided one has none.
-fn resist_joint<T: Real, S: Space<T>>(
+pub(super) fn resist_joint<T: Real, S: Space<T>>(
     here: &Instant<'_, T, S>,
     link: u32,
     (weight, zdd): (T, &[T]),
