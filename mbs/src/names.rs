@@ -1,6 +1,7 @@
 //! Names of what errors are about.
 
 use core::fmt::Display;
+use mbs_core::Real;
 use mbs_core::model::Owner;
 use mbs_core::scene::{BodyId, Coupling, CouplingMeasure, Scene};
 
@@ -20,7 +21,7 @@ pub struct Names {
 
 impl Names {
     /// Takes the names of a scene.
-    pub fn new<T>(scene: &Scene<T>) -> Self {
+    pub fn new<T: Real>(scene: &Scene<T>) -> Self {
         let mut joint_of_body = vec![None; scene.bodies.len()];
         for (j, joint) in scene.joints.iter().enumerate() {
             for body in joint.bodies {
@@ -65,8 +66,9 @@ impl Names {
 }
 
 /// The bodies at the ends of the parts of a coupling's lines, in order.
-fn parts<T>(coupling: &Coupling<T>) -> Vec<[Option<usize>; 2]> {
-    let lines = coupling.terms.iter().filter_map(|term| match &term.of {
+fn parts<T: Real>(coupling: &Coupling<T>) -> Vec<[Option<usize>; 2]> {
+    let terms = coupling.terms.iter().filter(|term| !term.factor.is_zero());
+    let lines = terms.filter_map(|term| match &term.of {
         CouplingMeasure::Length { points } => Some(points),
         CouplingMeasure::Coordinate { .. } => None,
     });

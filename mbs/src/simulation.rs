@@ -17,7 +17,7 @@ use mbs_core::model::{Model, Owner, State};
 use mbs_core::natural::NaturalModel;
 use mbs_core::scene::{EffectKind, Scene, Signal};
 use mbs_core::start::Assembled;
-use mbs_core::step::{InputError, Step, StepError, largest};
+use mbs_core::step::{InputError, Step, StepError, check_lines, largest};
 
 /// A scene ready to step, in D dimensions and scalar T.
 ///
@@ -95,15 +95,11 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     /// That a part of a rope loses its length in a step that failed, where its motion leads there. Of a controlled step, within two of the
     /// last one's length.
     fn collapsing(&self, rest: T) -> Option<StepError> {
-        let State { q, v, a, dt, .. } = &self.state;
+        let State { v, a, dt, .. } = &self.state;
         let h = if *dt > T::ZERO { rest.min(T::TWO * *dt) } else { rest };
-        let mut dq = vec![T::ZERO; q.len()];
-        for (dq, (v, a)) in dq.iter_mut().zip(v.iter().zip(a)) {
-            *dq = (*v + *a * h * T::HALF) * h;
-        }
-        let [coupling, part] =
-            self.model.collapsed(q, v, &dq)?.map(|i| u32::try_from(i).unwrap_or(u32::MAX));
-        Some(StepError::RopeCollapsed { coupling, part })
+        let way = |(v, a): (&T, &T)| (*v + *a * h * T::HALF) * h;
+        let dq: Vec<T> = v.iter().zip(a).map(way).collect();
+        check_lines(&self.model, &self.state, &dq).err()
     }
 
     fn advance_by(&mut self, rest: T) -> Result<Accepted<T>, StepError> {

@@ -108,8 +108,8 @@ impl<T: Real> Compiler<'_, T> {
         (id, coordinate): (JointId, Option<usize>),
     ) -> Option<(usize, usize)> {
         let joint = &self.among.joints[id.index()];
-        let number = coordinate.or_else(|| joint.kind.default_coordinate(self.among.dimension));
-        Some((id.index(), number?))
+        let number = joint.kind.coordinate_or_default(coordinate, self.among.dimension)?;
+        Some((id.index(), number))
     }
 
     /// A force by a signal on a coordinate: one that follows the motion has slopes.

@@ -14,8 +14,7 @@ use crate::feedback::{FeedbackOperation, chain, clamp, product};
 use crate::laws::guide;
 use crate::measure::{PreparedCurve, within};
 use crate::scene::{
-    Curve, Interpolation, NamedSignal, SignalId, SignalKind, TableEnds, signal_feedback,
-    signal_order,
+    Curve, Interpolation, NamedSignal, SignalId, SignalKind, TableEnds, first_of, signal_order,
 };
 use alloc::vec;
 use alloc::vec::Vec;
@@ -30,8 +29,8 @@ pub struct SignalGraph<T> {
     inputs: Vec<(usize, T)>,
     /// Does it follow the motion?
     follows: Vec<bool>,
-    /// Is it the same at all times?
-    constant: Vec<bool>,
+    /// Does it change, itself or by what it is made of?
+    moves: Vec<bool>,
 }
 
 /// A signal, prepared.
@@ -58,16 +57,12 @@ impl<T: Real> SignalGraph<T> {
             }
         }
         let order = signal_order(signals).unwrap_or_default();
-        let follows = signal_feedback(signals, &order).iter().map(Option::is_some).collect();
-        let mut constant = vec![false; nodes.len()];
-        for &i in &order {
-            let kind = &nodes[i].kind;
-            let is_made = !kind.operands().is_empty() && !kind.is_feedback();
-            let are_constant =
-                kind.operands().iter().all(|of| constant.get(of.index()).is_none_or(|x| *x));
-            constant[i] = matches!(kind, SignalKind::Constant(_)) || (is_made && are_constant);
-        }
-        Self { nodes, order, inputs, follows, constant }
+        let has = |is_one: fn(&SignalKind<T>) -> bool| {
+            first_of(signals, &order, is_one).iter().map(Option::is_some).collect::<Vec<_>>()
+        };
+        let follows = has(SignalKind::is_feedback);
+        let moves = has(SignalKind::moves);
+        Self { nodes, order, inputs, follows, moves }
     }
 
     /// Number of signals.
@@ -96,7 +91,7 @@ impl<T: Real> SignalGraph<T> {
     /// Is a signal the same at all times: a constant, or made of such?
     #[must_use]
     pub fn is_constant(&self, signal: SignalId) -> bool {
-        self.constant.get(signal.index()).copied().unwrap_or(true)
+        !self.moves.get(signal.index()).copied().unwrap_or(false)
     }
 
     /// The signals that follow the motion.

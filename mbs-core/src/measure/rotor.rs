@@ -24,7 +24,8 @@ impl<T: Real> RotorInput<T> {
         effects.filter_map(|(effect, of)| {
             let EffectKind::Rotor(rotor) = &of.kind else { return None };
             let joint = rotor.joint.index();
-            let number = rotor.coordinate.unwrap_or(0);
+            let kind = scene.joints.get(joint)?.kind;
+            let number = kind.coordinate_or_default(rotor.coordinate, scene.dimension)?;
             Some(Self { effect, joint, number, inertia: Self::at_joint(rotor) })
         })
     }

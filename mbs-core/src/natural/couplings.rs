@@ -183,8 +183,7 @@ impl<T: Real, const D: usize> NaturalModel<T, D> {
             let of = |coordinates: &[T]| combine::<T, D>(x.of(&self.pool), coordinates);
             let (before, change) = (of(q), of(dq));
             let after = before + change;
-            let squares = [before.dot(&before), before.dot(&after), after.dot(&after)];
-            let [dd, de, ee] = squares;
+            let [dd, de, ee] = [before.dot(&before), before.dot(&after), after.dot(&after)];
             has_collapsed([dd, de, ee, before.dot(&of(v))])
         };
         gaps.into_iter().position(is_collapsed)

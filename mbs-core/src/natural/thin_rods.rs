@@ -35,6 +35,13 @@ impl<T: Real> ThinRods<T> {
         rods.ask_joints(scene);
         rods.ask_initials(scene);
         actions.list.iter().for_each(|(_, action)| rods.ask_action(scene, action));
+        let terms = scene.couplings.iter().flat_map(|coupling| &coupling.terms);
+        for term in terms.filter(|term| !term.factor.is_zero()) {
+            rods.ask_measure(scene, &term.of);
+        }
+        for (joint, _) in actions.prescribed.feedback().measured {
+            scene.joints[joint].bodies.into_iter().for_each(|body| rods.rotation(body));
+        }
         for output in &scene.outputs {
             match output.quantity.target() {
                 Target::Point(body, at) => rods.point(body, &at),

@@ -248,7 +248,7 @@ impl<T: Real, const D: usize> CoordinateMotion<T, D> {
         (joint, number): (&Joint<T>, Option<usize>),
     ) -> Option<Self> {
         let (kind, dimension) = (joint.kind, scene.dimension);
-        let number = number.or_else(|| kind.default_coordinate(dimension))?;
+        let number = kind.coordinate_or_default(number, dimension)?;
         let freedom = kind.freedom(dimension, number)?;
         Some(Self { coordinate: Coordinate::of_freedom(scene, model, (joint, freedom)) })
     }

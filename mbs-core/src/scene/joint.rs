@@ -289,6 +289,16 @@ impl JointKind {
         only.or_else(|| self.turn(dimension).map(|(number, _)| number))
     }
 
+    /// A coordinate that is given, or else its [default](Self::default_coordinate).
+    #[must_use]
+    pub fn coordinate_or_default(
+        self,
+        given: Option<usize>,
+        dimension: Dimension,
+    ) -> Option<usize> {
+        given.or_else(|| self.default_coordinate(dimension))
+    }
+
     /// The number of its first turn about an axis, with the axis.
     #[must_use]
     pub fn turn(self, dimension: Dimension) -> Option<(usize, Axis)> {

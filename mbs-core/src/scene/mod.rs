@@ -87,9 +87,10 @@ pub use mechanism::{Effect, Output, Scene};
 #[cfg(feature = "alloc")]
 pub use number::{Number, Vector3};
 #[cfg(feature = "alloc")]
+pub(crate) use signal::first_of;
+#[cfg(feature = "alloc")]
 pub use signal::{
-    Interpolation, NamedSignal, SignalBreak, SignalKind, Smoothness, signal_breaks,
-    signal_feedback, signal_order,
+    Interpolation, NamedSignal, SignalBreak, SignalKind, Smoothness, signal_breaks, signal_order,
 };
 #[cfg(feature = "alloc")]
 pub use solver::SolverTable;

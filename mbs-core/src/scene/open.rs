@@ -31,7 +31,7 @@ pub(super) fn fill<T: Real>(
             continue;
         }
         let kind = scene.joints[limit.joint].kind;
-        let number = limit.coordinate.or_else(|| kind.default_coordinate(scene.dimension));
+        let number = kind.coordinate_or_default(limit.coordinate, scene.dimension);
         let mass = number.and_then(|number| moved_mass(scene, (limit.joint, number)));
         let field = if is_open[0] { "stiffness" } else { "damping" };
         let fault = SceneFault::NoMovedMass;

@@ -239,10 +239,10 @@ impl<T> SignalKind<T> {
         )
     }
 
-    /// Has it a state of its own, which is integrated with the motion?
-    #[must_use]
-    pub const fn has_state(&self) -> bool {
-        matches!(self, Self::Lag { .. } | Self::Integral { .. } | Self::Pid { .. })
+    /// Does it change by itself: in time, by what is set, or with the motion?
+    pub(crate) fn moves(&self) -> bool {
+        let is_alone = self.operands().is_empty() && !matches!(self, Self::Constant(_));
+        is_alone || self.is_feedback()
     }
 
     /// Has it a rate that is known, where those have it that it is made of?
@@ -413,14 +413,6 @@ pub fn signal_breaks<T: Real>(
         breaks[i] = of.chain(own).reduce(|a, b| if rank(&b) > rank(&a) { b } else { a });
     }
     breaks
-}
-
-/// The first signal that each follows the motion by, itself or one that it is made of; `None` of a signal of time and inputs.
-///
-/// Cost: one pass over the signals in their [order](signal_order).
-#[must_use]
-pub fn signal_feedback<T>(signals: &[NamedSignal<T>], order: &[usize]) -> Vec<Option<SignalId>> {
-    first_of(signals, order, SignalKind::is_feedback)
 }
 
 /// The first signal, itself or one that it is made of, for which `is_one` holds.

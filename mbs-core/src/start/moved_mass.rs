@@ -14,7 +14,8 @@ use crate::dense::Dense;
 use crate::model::{Model, State};
 use crate::natural::NaturalModel;
 use crate::scene::{
-    Coupling, CouplingMeasure, CouplingTerm, Dimension, Guide, JointId, Motion, Scene,
+    Coupling, CouplingMeasure, CouplingTerm, Dimension, Effect, EffectKind, Guide, JointId, Motion,
+    Scene,
 };
 use alloc::string::String;
 use alloc::vec;
@@ -34,7 +35,7 @@ pub fn moved_mass<T: Real>(scene: &Scene<T>, of: (JointId, usize)) -> Option<T> 
     mass.filter(|mass| *mass > T::ZERO && mass.is_finite())
 }
 
-/// The scene without effects and start values, at rest but for one coordinate, whose rate is one.
+/// The scene without forces and start values, but with its rotors, at rest but for one coordinate, whose rate is one.
 fn moving<T: Real>(scene: &Scene<T>, (joint, number): (JointId, usize)) -> Scene<T> {
     let guide = |guide: &Guide<T>| Guide { joint: guide.joint, law: Motion::Input([T::ZERO; 3]) };
     let held =
@@ -46,6 +47,8 @@ fn moving<T: Real>(scene: &Scene<T>, (joint, number): (JointId, usize)) -> Scene
         value: T::ZERO,
         motion: Some(Motion::Ramp { rate: T::ONE }),
     };
+    let is_rotor = |effect: &&Effect<T>| matches!(effect.kind, EffectKind::Rotor(_));
+    let rotors = scene.effects.iter().filter(is_rotor);
     Scene {
         bodies: scene.bodies.clone(),
         joints: scene.joints.clone(),
@@ -53,6 +56,7 @@ fn moving<T: Real>(scene: &Scene<T>, (joint, number): (JointId, usize)) -> Scene
         couplings: scene.couplings.iter().map(held).chain([rate_of_one]).collect(),
         gravity: None,
         signals: Vec::new(),
+        effects: rotors.cloned().collect(),
         ..Scene::empty("", scene.dimension, T::ONE)
     }
 }

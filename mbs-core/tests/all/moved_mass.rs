@@ -1,9 +1,10 @@
 //! The mass that a joint coordinate moves alone, against closed forms, and the stops that are made of it.
 
 use crate::small::{GROUND, add_body, add_joint, scene};
+use mbs_core::effects::Rotor;
 use mbs_core::scene::{
-    Coupling, CouplingMeasure, CouplingTerm, Dimension, EffectKind, Guide, Inertia, JointId,
-    JointKind, Motion, Number, Scene, SceneFault,
+    Coupling, CouplingMeasure, CouplingTerm, Dimension, Effect, EffectKind, Guide, Inertia,
+    JointId, JointKind, Motion, Number, Scene, SceneFault,
 };
 use mbs_core::start::moved_mass;
 use mbs_scene::SceneFile;
@@ -34,6 +35,19 @@ fn a_hinge_moves_the_inertia_about_it_and_what_follows() {
     s.guides.push(held);
     is_near(moved_mass(&s, (JointId::new(0), 0)), 0.9 + 3.0 + 0.4);
     assert_eq!(moved_mass(&s, (JointId::new(1), 0)), None, "a guided coordinate moves nothing");
+}
+
+#[test]
+fn a_rotor_behind_a_ratio_is_moved_too() {
+    let mut s = scene(Dimension::Planar, [0.0; 3]);
+    let wheel = add_body(&mut s, 1.0, [0.0; 3], Inertia::Planar(0.3));
+    add_joint(&mut s, JointKind::Revolute, [GROUND, wheel], [0.0; 3], [None; 2]);
+    let rotor = Rotor { joint: JointId::new(0), coordinate: None, inertia: 1e-3, ratio: -20.0 };
+    let effect = |enabled| Effect { name: "motor".into(), enabled, kind: rotor.clone().into() };
+    s.effects.push(effect(false));
+    is_near(moved_mass(&s, (JointId::new(0), 0)), 0.3);
+    s.effects.push(effect(true));
+    is_near(moved_mass(&s, (JointId::new(0), 0)), 0.3 + 0.4);
 }
 
 #[test]

@@ -2,9 +2,11 @@
 
 use crate::small::{GROUND, add_body, add_joint, add_rod, hold, output, scene, start};
 use mbs_core::algebra::{Matrix, Vector, rotation, rotation_vector};
+use mbs_core::natural::NaturalModel;
 use mbs_core::outputs::{Forces, Measures, QUANTITIES};
 use mbs_core::scene::{
-    BodyId, Dimension, Inertia, JointId, JointKind, Motion, Quantity, Scene, TableEnds,
+    BodyId, Coupling, CouplingMeasure, CouplingTerm, Dimension, EffectId, EffectKind, Inertia,
+    JointId, JointKind, Limit, Motion, Quantity, Scene, TableEnds,
 };
 use mbs_testkit::{PLANAR, SPATIAL, quantities};
 
@@ -228,6 +230,42 @@ fn counting_starts_from_the_initial_value_or_the_guide() {
         }
         assert_near(&measured::<2>(&s), &[7.5]);
     }
+}
+
+#[test]
+fn the_unit_of_an_effect_is_that_of_its_coordinate() {
+    let unit = |coordinate| {
+        let mut s = scene(Dimension::Spatial, [0.0; 3]);
+        let inertia = Inertia::Spatial([1.0, 1.0, 1.0, 0.0, 0.0, 0.0]);
+        let body = add_body(&mut s, 1.0, [0.0; 3], inertia);
+        let axis = [Some([0.0, 0.0, 1.0]), None];
+        add_joint(&mut s, JointKind::Cylindrical, [GROUND, body], [0.0; 3], axis);
+        let (joint, range) = (JointId::new(0), false);
+        let (lower, upper, stiffness, damping) = (-0.2, 0.3, 100.0, 0.0);
+        let kind = Limit { joint, coordinate, range, lower, upper, stiffness, damping };
+        let kind = EffectKind::Limit(kind);
+        s.effects.push(mbs_core::scene::Effect { name: "stop".into(), enabled: true, kind });
+        let effect = EffectId::new(0);
+        Quantity::EffectValue { effect }.components(&s)[0].unit.clone()
+    };
+    assert_eq!([Some(0), Some(1), None].map(unit), ["m", "rad", "rad"]);
+}
+
+#[test]
+fn a_rope_beside_the_line_of_a_rod_gives_the_rod_its_rotation() {
+    let held = |beside: f64| {
+        let mut s = scene(Dimension::Spatial, [0.0, 0.0, -9.81]);
+        let rod = add_rod(&mut s, 1.0, [0.0; 3], [1.0, 0.0, 0.0]);
+        add_joint(&mut s, JointKind::Spherical, [GROUND, rod], [0.0; 3], [None; 2]);
+        let points = vec![(GROUND, [0.5, 0.0, 1.0]), (rod, [0.5, beside, 0.0])];
+        let of = CouplingMeasure::Length { points };
+        let terms = vec![CouplingTerm { factor: 1.0, of, curve: None }];
+        s.couplings.push(Coupling { name: "rope".into(), terms, value: 0.0, motion: None });
+        let model = NaturalModel::<f64, 3>::new(&s).expect("a model");
+        model.has_full_rotation(rod)
+    };
+    assert!(held(0.1));
+    assert!(!held(0.0));
 }
 
 #[test]

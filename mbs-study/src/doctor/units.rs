@@ -142,8 +142,12 @@ fn angles(scene: &Scene<f64>, findings: &mut Vec<Finding>) {
             EffectKind::TorsionSpring(spring) if like_degrees(spring.free_value) => {
                 report(spring.free_value, Entry::Effect(i), "free_value");
             }
-            EffectKind::Limit(stop) if turns(stop.joint) && like_degrees(stop.upper) => {
-                report(stop.upper, Entry::Effect(i), "upper");
+            EffectKind::Limit(stop) if turns(stop.joint) => {
+                let field = if stop.range { "range" } else { "upper" };
+                let upper = stop.ends(&scene.joints).map(|[_, upper]| upper);
+                if let Some(upper) = upper.filter(|upper| like_degrees(*upper)) {
+                    report(upper, Entry::Effect(i), field);
+                }
             }
             _ => {}
         }

@@ -45,38 +45,41 @@ impl<T: Clone> Quantity<T> {
     }
 }
 
+/// The unit of a joint's coordinate.
+fn unit_of_coordinate<T>(scene: &Scene<T>, joint: JointId, number: usize) -> &'static str {
+    let joint = scene.joints.get(joint.index());
+    let freedom = joint.and_then(|joint| joint.kind.freedom(scene.dimension, number));
+    freedom.map_or("rad", Freedom::unit)
+}
+
 /// The unit of a sum: that of its slides and lengths, whose factors are numbers, else that of its angles.
 fn unit_of_sum<T>(scene: &Scene<T>, terms: &[CouplingTerm<T>]) -> &'static str {
     let unit = |of: &CouplingMeasure<T>| {
-        let Some((joint, number)) = of.coordinate() else { return "m" };
-        let joint = scene.joints.get(joint.index());
-        let freedom = joint.and_then(|joint| joint.kind.freedom(scene.dimension, number));
-        freedom.map_or("rad", Freedom::unit)
+        of.coordinate().map_or("m", |(joint, number)| unit_of_coordinate(scene, joint, number))
     };
     let mut units = terms.iter().map(|term| unit(&term.of));
     units.find(|unit| *unit == "m").unwrap_or("rad")
 }
 
-/// The unit of a signal: that of the coordinate that it measures, and of an input; `-` of what is made of others.
-fn unit_of_signal<T>(scene: &Scene<T>, signal: SignalId) -> &str {
-    match &scene.signals[signal.index()].kind {
-        SignalKind::Measure { joint, number, is_rate } => {
-            let joint = scene.joints.get(joint.index());
-            let freedom = joint.and_then(|joint| joint.kind.freedom(scene.dimension, *number));
-            match (freedom.map_or("rad", Freedom::unit), is_rate) {
-                ("m", true) => "m/s",
-                (_, true) => "rad/s",
-                (unit, false) => unit,
+/// The unit of a signal: that of the coordinate that it measures, and of an input, also late or within limits; `-` of what is made of
+/// others.
+fn unit_of_signal<T>(scene: &Scene<T>, mut signal: SignalId) -> &str {
+    // No walk without a circle is longer.
+    for _ in &scene.signals {
+        match scene.signals.get(signal.index()).map(|signal| &signal.kind) {
+            Some(SignalKind::Measure { joint, number, is_rate }) => {
+                return match (unit_of_coordinate(scene, *joint, *number), is_rate) {
+                    ("m", true) => "m/s",
+                    (_, true) => "rad/s",
+                    (unit, false) => unit,
+                };
             }
+            Some(SignalKind::Input { unit, .. }) if !unit.is_empty() => return unit,
+            Some(SignalKind::Lag { of, .. } | SignalKind::Clamp { of, .. }) => signal = *of,
+            _ => break,
         }
-        SignalKind::Input { unit, .. } if !unit.is_empty() => unit,
-        SignalKind::Lag { of, .. } | SignalKind::Clamp { of, .. }
-            if of.index() < signal.index() =>
-        {
-            unit_of_signal(scene, *of)
-        }
-        _ => "-",
     }
+    "-"
 }
 
 /// The unit of the one number that an effect measures; `None` where it measures several.
@@ -85,8 +88,13 @@ fn unit_of_measure<T: Clone>(scene: &Scene<T>, effect: EffectId) -> Option<&'sta
     match kind.acts_on() {
         ActsOn::Line => Some("m"),
         ActsOn::Joint(joint) => {
-            let joint = scene.joints.get(joint.index())?;
-            Some(joint.kind.single(scene.dimension).map_or("rad", |freedom| freedom.unit()))
+            let given = kind.values().into_iter().find_map(|value| match value {
+                Value::Coordinate(number) => number,
+                _ => None,
+            });
+            let of = scene.joints.get(joint.index())?.kind;
+            let number = of.coordinate_or_default(given, scene.dimension);
+            Some(number.map_or("rad", |number| unit_of_coordinate(scene, joint, number)))
         }
         ActsOn::Sum => kind.values().iter().find_map(|value| match value {
             Value::Terms(terms) => Some(unit_of_sum(scene, terms)),

@@ -4,10 +4,9 @@ use super::coupling::{check_curve, check_measured};
 use super::motion::check_slopes;
 use super::vector::{Place, check_times};
 use crate::Real;
-use crate::scene::signal::first_of;
 use crate::scene::{
     Entry, Interpolation, Motion, Scene, SceneError, SceneFault, SignalId, SignalKind, TableEnds,
-    signal_breaks, signal_order,
+    first_of, signal_breaks, signal_order,
 };
 use alloc::vec;
 use alloc::vec::Vec;
