@@ -11,7 +11,6 @@
 
 use crate::indexing::{Outside, at, at_mut, part, range};
 use crate::link::{Link, LinkMotion};
-use crate::loads::coordinate_of;
 use crate::plan::Span;
 use crate::space::{Numbers, Space};
 use mbs_core::Real;
@@ -172,7 +171,7 @@ impl<T: Real, S: Space<T>> Couplings<'_, T, S> {
         match *of {
             SumMeasure::Joint { link, .. } => {
                 let (links, _, coordinates) = here;
-                let numbers = coordinate_of(at(links, link as usize)?, coordinates)?;
+                let numbers = at(links, link as usize)?.coordinate(coordinates)?;
                 Ok((numbers, numbers[1].abs()))
             }
             SumMeasure::Line { points, reference } => {

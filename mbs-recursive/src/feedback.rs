@@ -1,7 +1,6 @@
 //! Signals that follow the motion, in relative coordinates: joint coordinates are those of links.
 
 use crate::indexing::{Outside, at, copy};
-use crate::loads::coordinate_of;
 pub use crate::slices::FeedbackSlices;
 use crate::slices::{Store, TreeSlices};
 use crate::space::Space;
@@ -34,7 +33,7 @@ fn evaluate<T: Real, S: Space<T>>(
     let coordinates = (&*s.z, &*s.v, &*s.guides);
     let measure = |number: u32| {
         let link = *at(m.feedback.links, number as usize)?;
-        let [value, rate, _] = coordinate_of(at(m.links, link as usize)?, coordinates)?;
+        let [value, rate, _] = at(m.links, link as usize)?.coordinate(coordinates)?;
         Ok([value, rate])
     };
     let curve = |number: u32, x: T| m.loops.couplings.function(number, x);

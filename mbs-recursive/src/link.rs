@@ -1,5 +1,6 @@
 //! A link: one body, or a massless one between the parts of a composed joint, with the joint to its parent.
 
+use crate::indexing::{Outside, at};
 use crate::space::{Numbers, Space};
 use mbs_core::Real;
 
@@ -82,6 +83,18 @@ impl<T: Real, S: Space<T>> Link<T, S> {
             LinkKind::Revolute | LinkKind::GuidedRevolute => self.axis[0] * coordinate,
             LinkKind::Ball | LinkKind::Free => coordinate,
         }
+    }
+
+    /// Angle or slide of a joint with one coordinate, its rate and what is known of its acceleration, by coordinates, velocities and guides.
+    #[inline(always)]
+    pub(crate) fn coordinate(
+        &self,
+        (z, v, guides): (&[T], &[T], &[[T; 3]]),
+    ) -> Result<[T; 3], Outside> {
+        if self.kind.is_guided() {
+            return at(guides, self.v as usize).copied();
+        }
+        Ok([*at(z, self.z as usize)?, *at(v, self.v as usize)?, T::ZERO])
     }
 }
 

@@ -36,7 +36,7 @@ enum Job {
         #[arg(trailing_var_arg = true, allow_hyphen_values = true, value_name = "ARGS")]
         args: Vec<OsString>,
     },
-    /// Every check, stops at the first failure: format, lints, tests, fuzz, pages, documentation, features, pick, check-nostd, counts
+    /// Every check, also behind one that fails: format, lints, tests, fuzz, pages, documentation, features, pick, check-nostd, counts
     #[command(alias = "ci")]
     Test {
         /// Skip lints, fuzz, pages, documentation and counts

@@ -44,6 +44,8 @@ pub fn ended(name: &str, outcome: Result<Outcome, String>) -> ExitCode {
 pub struct Summary {
     lines: Vec<String>,
     left_out: Vec<(String, LeftOut)>,
+    /// What failed, and why.
+    failures: Vec<String>,
     /// A check that cannot run here fails.
     is_strict: bool,
     /// Other checks run at the same time: processor seconds are not those of one.
@@ -62,81 +64,66 @@ impl Summary {
         Self { is_strict, ..Self::default() }
     }
 
-    /// Runs one check and notes how it ended.
-    ///
-    /// # Errors
-    ///
-    /// What the check says, with its name.
-    pub fn check(
-        &mut self,
-        name: &str,
-        job: impl FnOnce() -> Result<Outcome, String>,
-    ) -> Result<(), String> {
+    /// Runs one check and notes how it ended. One that fails does not keep the next from running: one run says all there is to mend.
+    pub fn check(&mut self, name: &str, job: impl FnOnce() -> Result<Outcome, String>) {
         eprintln!("== {name}");
         let (start, cpu) = (Instant::now(), children_seconds());
-        let outcome = job().map_err(|why| {
-            self.lines.push(format!("  FAILED    {name}"));
-            format!("{name} failed: {why}")
-        })?;
+        let outcome = job();
         let seconds = start.elapsed().as_secs_f64();
         match outcome {
-            Outcome::Passed(remark) => {
+            Ok(Outcome::Passed(remark)) => {
                 let cpu = if self.is_beside { String::new() } else { since(cpu) };
                 self.lines.push(format!("  ok        {name:<14} {seconds:>7.1} s{cpu}  {remark}"));
             }
-            Outcome::LeftOut(left_out) => {
+            Ok(Outcome::LeftOut(left_out)) => {
                 let how = if self.is_strict { "FAILED  " } else { "left out" };
                 self.lines.push(format!("  {how}  {name}"));
                 self.left_out.push((name.to_owned(), left_out));
             }
+            Err(why) => {
+                eprintln!("== {name} failed: {why}");
+                self.lines.push(format!("  FAILED    {name:<14} {seconds:>7.1} s"));
+                self.failures.push(format!("{name} failed: {why}"));
+            }
         }
-        Ok(())
     }
 
-    /// What fails where nothing may be left out: found at the end, so that one missing tool does not hide what the other checks say.
+    /// What is found at the end of all checks.
     ///
     /// # Errors
     ///
-    /// The names of the checks that could not run.
+    /// What failed, and where nothing may be left out the names of the checks that could not run.
     pub fn complete(&self) -> Result<(), String> {
-        if !self.is_strict || self.left_out.is_empty() {
-            return Ok(());
+        let mut failures = self.failures.clone();
+        if self.is_strict && !self.left_out.is_empty() {
+            let names: Vec<&str> = self.left_out.iter().map(|(name, _)| &**name).collect();
+            failures.push(format!("This machine cannot run: {}", names.join(", ")));
         }
-        let names: Vec<&str> = self.left_out.iter().map(|(name, _)| &**name).collect();
-        Err(format!("This machine cannot run: {}", names.join(", ")))
+        if failures.is_empty() { Ok(()) } else { Err(failures.join("\n")) }
     }
 
     /// Runs lists of checks beside each other; their lines follow list by list. Processor seconds are reported for all of them together.
-    ///
-    /// # Errors
-    ///
-    /// Of the first list in which a check failed; the others have come to their ends.
-    pub fn beside<F: FnOnce(&mut Self) -> Result<(), String> + Send, const N: usize>(
-        &mut self,
-        lists: [F; N],
-    ) -> Result<(), String> {
+    pub fn beside<F: FnOnce(&mut Self) + Send, const N: usize>(&mut self, lists: [F; N]) {
         let (start, cpu) = (Instant::now(), children_seconds());
         let is_strict = self.is_strict;
-        let ended: Vec<(Self, Result<(), String>)> = thread::scope(|scope| {
+        let ended: Vec<Self> = thread::scope(|scope| {
             let run = |list: F| {
                 scope.spawn(move || {
                     let mut part = Self { is_beside: true, ..Self::new(is_strict) };
-                    let result = list(&mut part);
-                    (part, result)
+                    list(&mut part);
+                    part
                 })
             };
             let all: Vec<_> = lists.into_iter().map(run).collect();
             all.into_iter().map(|one| one.join().unwrap_or_else(|e| resume_unwind(e))).collect()
         });
-        let mut failure = Ok(());
-        for (part, result) in ended {
+        for part in ended {
             self.lines.extend(part.lines);
             self.left_out.extend(part.left_out);
-            failure = failure.and(result);
+            self.failures.extend(part.failures);
         }
         let seconds = start.elapsed().as_secs_f64();
         self.lines.push(format!("  together  {:<14} {seconds:>7.1} s{}", "", since(cpu)));
-        failure
     }
 
     /// Notes a check that was not asked for.
@@ -162,12 +149,15 @@ impl Summary {
 mod tests {
     use super::{LeftOut, Outcome, Summary};
 
+    fn missing_target() -> LeftOut {
+        LeftOut { why: "no target".into(), remedy: "add it".into() }
+    }
+
     #[test]
     fn summary_names_what_was_left_out_and_the_remedy() {
         let mut summary = Summary::default();
-        summary.check("format", || Ok(Outcome::Passed(String::new()))).unwrap();
-        let left_out = LeftOut { why: "no target".into(), remedy: "add it".into() };
-        summary.check("check-nostd", || Ok(Outcome::LeftOut(left_out))).unwrap();
+        summary.check("format", || Ok(Outcome::Passed(String::new())));
+        summary.check("check-nostd", || Ok(Outcome::LeftOut(missing_target())));
         let text = summary.text();
         assert!(text.contains("ok        format"));
         assert!(text.contains("check-nostd did not run: no target\nadd it\n"));
@@ -175,36 +165,28 @@ mod tests {
 
     #[test]
     fn what_cannot_run_fails_a_strict_check_at_its_end() {
-        let left_out = LeftOut { why: "no target".into(), remedy: "add it".into() };
         for (is_strict, end) in
             [(false, Ok(())), (true, Err("This machine cannot run: counts".to_owned()))]
         {
             let mut summary = Summary::new(is_strict);
-            summary.check("counts", || Ok(Outcome::LeftOut(left_out.clone()))).unwrap();
+            summary.check("counts", || Ok(Outcome::LeftOut(missing_target())));
             assert_eq!(summary.complete(), end);
         }
     }
 
     #[test]
-    fn lists_beside_each_other_come_to_their_ends_and_the_failure_is_reported() {
+    fn every_failure_is_reported_of_checks_one_after_another_and_beside() {
         let mut summary = Summary::default();
-        let result = summary.beside([true, false].map(|fails| {
+        summary.check("format", || Err("two lines".into()));
+        summary.beside([true, false].map(|fails| {
             move |part: &mut Summary| {
-                let name = if fails { "lints" } else { "pick" };
-                let outcome =
-                    || if fails { Err("one".into()) } else { Ok(Outcome::Passed("all".into())) };
-                part.check(name, outcome)
+                part.check(if fails { "fuzz" } else { "pick" }, || {
+                    if fails { Err("one".into()) } else { Ok(Outcome::Passed("all".into())) }
+                });
             }
         }));
-        assert_eq!(result, Err("lints failed: one".into()));
+        assert_eq!(summary.complete(), Err("format failed: two lines\nfuzz failed: one".into()));
         let text = summary.text();
-        assert!(text.contains("FAILED    lints") && text.contains("ok        pick"), "{text}");
-    }
-
-    #[test]
-    fn failure_carries_the_name_of_the_check() {
-        let mut summary = Summary::default();
-        let failure = summary.check("lints", || Err("two warnings".into()));
-        assert_eq!(failure, Err("lints failed: two warnings".into()));
+        assert!(text.contains("FAILED    fuzz") && text.contains("ok        pick"), "{text}");
     }
 }

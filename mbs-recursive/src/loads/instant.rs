@@ -1,8 +1,8 @@
 //! What loads are evaluated from: places, velocities and inputs of one instant.
 
 use crate::coupled::{Couplings, Here};
-use crate::indexing::{Outside, at};
-use crate::link::{Link, LinkKind, LinkMotion};
+use crate::indexing::{Outside, at, at_mut};
+use crate::link::{ArticulatedInertia, Link, LinkKind, LinkMotion};
 use crate::space::Space;
 use mbs_core::Real;
 use mbs_core::algebra::Vector;
@@ -25,18 +25,6 @@ pub struct Instant<'a, T: Real, S: Space<T>> {
     pub base: S::Point,
 }
 
-/// Angle or slide of a joint with one coordinate, its rate and what is known of its acceleration, by coordinates, velocities and guides.
-#[inline(always)]
-pub(crate) fn coordinate_of<T: Real, S: Space<T>>(
-    link: &Link<T, S>,
-    (z, v, guides): (&[T], &[T], &[[T; 3]]),
-) -> Result<[T; 3], Outside> {
-    if link.kind.is_guided() {
-        return at(guides, link.v as usize).copied();
-    }
-    Ok([*at(z, link.z as usize)?, *at(v, link.v as usize)?, T::ZERO])
-}
-
 impl<T: Real, S: Space<T>> Instant<'_, T, S> {
     /// The mechanism, as sums see it.
     pub(super) fn mechanism(&self) -> Here<'_, T, S> {
@@ -45,7 +33,7 @@ impl<T: Real, S: Space<T>> Instant<'_, T, S> {
 
     /// Angle or slide of a joint with one coordinate, and its rate.
     pub(crate) fn coordinate(&self, link: u32) -> Result<[T; 2], Outside> {
-        let [value, rate, _] = coordinate_of(at(self.links, link as usize)?, self.coordinates)?;
+        let [value, rate, _] = at(self.links, link as usize)?.coordinate(self.coordinates)?;
         Ok([value, rate])
     }
 
@@ -59,6 +47,22 @@ impl<T: Real, S: Space<T>> Instant<'_, T, S> {
             number = if link.kind == LinkKind::Free { 0 } else { link.parent };
         }
         Ok(sum)
+    }
+
+    /// Resists the acceleration of a joint of one freedom; a guided one has none.
+    pub(super) fn resist_joint(
+        &self,
+        link: u32,
+        (weight, zdd): (T, &[T]),
+        condensed: &mut [ArticulatedInertia<T, S>],
+    ) -> Result<(), Outside> {
+        let joint = at(self.links, link as usize)?;
+        if matches!(joint.kind, LinkKind::Revolute | LinkKind::Prismatic) {
+            let c = at_mut(condensed, link as usize)?;
+            c.resistance += weight;
+            c.effort += weight * *at(zdd, joint.v as usize)?;
+        }
+        Ok(())
     }
 
     /// A link's place.

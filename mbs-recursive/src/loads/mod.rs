@@ -16,7 +16,6 @@ mod tangent;
 
 pub use body_load::BodyLoad;
 pub use instant::Instant;
-pub(crate) use instant::coordinate_of;
 pub use measure::Measure;
 pub use reach::Reach;
 pub(crate) use rotation::check_rotations;

@@ -9,7 +9,6 @@
 //!
 //! The last is enough for the iteration to contract: (Σ xₖ)² is at most n Σ xₖ². Of one end it is n = 2, the answer itself.
 
-use super::tangent::resist_joint;
 use super::{Instant, Reach};
 use crate::coupled::{CoupledRow, NONE, SumEnd};
 use crate::indexing::{Outside, at, at_mut};
@@ -101,7 +100,7 @@ impl<T: Real> SumLoad<T> {
                 SumEnd::Joint { link, slope } => {
                     at_mut(condensed, link as usize)?.effort -= slope * measure.tension;
                     let weight = reach.weight(&measure) * ends * slope * slope;
-                    resist_joint(here, link, (weight, zdd), condensed)?;
+                    here.resist_joint(link, (weight, zdd), condensed)?;
                 }
                 SumEnd::Link { link, wrench } => {
                     let measure = ScalarForce {

@@ -16,7 +16,7 @@
 
 use super::{Instant, Load, Reach};
 use crate::indexing::{Outside, at, at_mut};
-use crate::link::{ArticulatedInertia, LinkKind};
+use crate::link::ArticulatedInertia;
 use crate::space::{Numbers, Space};
 use mbs_core::Real;
 
@@ -48,14 +48,14 @@ impl<T: Real, S: Space<T>> Load<T, S> {
                 }
                 let arm = gradient_end.dot(&here.placed(end)?.freedom);
                 let weight = reach.weight(&measure) * arm * arm;
-                resist_joint(here, end, (weight, zdd), condensed)
+                here.resist_joint(end, (weight, zdd), condensed)
             }
             Self::Angle { link, law } => {
                 let [value, rate] = here.coordinate(*link)?;
                 let mut measure = law.evaluate(value, rate, &here.law_inputs);
                 measure.damping = law.secant(&measure);
                 at_mut(condensed, *link as usize)?.effort -= measure.tension;
-                resist_joint(here, *link, (reach.weight(&measure), zdd), condensed)
+                here.resist_joint(*link, (reach.weight(&measure), zdd), condensed)
             }
             Self::BodyLoad(load) => {
                 let link = load.link as usize;
@@ -67,22 +67,6 @@ impl<T: Real, S: Space<T>> Load<T, S> {
             }
         }
     }
-}
-
-/// Resists the acceleration of a joint of one freedom; a guided one has none.
-pub(super) fn resist_joint<T: Real, S: Space<T>>(
-    here: &Instant<'_, T, S>,
-    link: u32,
-    (weight, zdd): (T, &[T]),
-    condensed: &mut [ArticulatedInertia<T, S>],
-) -> Result<(), Outside> {
-    let joint = at(here.links, link as usize)?;
-    if matches!(joint.kind, LinkKind::Revolute | LinkKind::Prismatic) {
-        let c = at_mut(condensed, link as usize)?;
-        c.resistance += weight;
-        c.effort += weight * *at(zdd, joint.v as usize)?;
-    }
-    Ok(())
 }
 
 /// Which of two links hangs from the other by one joint of at most one freedom, with its wrench.
