@@ -52,6 +52,7 @@ pub fn double_pendulum() -> Scene<f64> {
         initials: vec![],
         guides: vec![],
         couplings: vec![],
+        rollings: vec![],
         signals: vec![],
         effects: vec![],
         road: Default::default(),

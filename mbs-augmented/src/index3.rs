@@ -71,7 +71,7 @@ pub(crate) fn solve<T: Real, M: Model<T>, S: SpdSolver<T>>(
     w.end.predict(model, (rule, inverse, is_far(scale, length)), s);
     start.set(model, (s, rule.dt, inverse), &mut w.lambda);
     model.set_inputs(s.t + rule.dt, s, &mut w.equations.terms);
-    w.evaluate(model, options.compensated, s);
+    w.evaluate(model, (rule, options.compensated), s);
 
     let newton = Newton::new((scale, options.tolerance, length));
     let done = iterate(model, (rule, newton), (options, start), s, w)?;
@@ -121,7 +121,7 @@ fn iterate<T: Real, M: Model<T>, S: SpdSolver<T>>(
 
         // q += d,   v += v' d,   a += a' d   [P3 (4), (5)]
         end.correct(model, (T::ONE, rule.velocity), &eq.f);
-        w.evaluate(model, options.compensated, s);
+        w.evaluate(model, (rule, options.compensated), s);
         let Workspace { equations: eq, end, lambda, scale, .. } = w;
         if newton.iterations == 0 {
             w.penalty_energy = scale.energy(model.team(), &eq.terms.phi) * rule.acceleration;

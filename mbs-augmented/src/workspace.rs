@@ -120,8 +120,14 @@ impl<T: Real, S: SpdSolver<T>> Workspace<T, S> {
     }
 
     /// phi, J and forces at the end of the step as it is.
-    pub(crate) fn evaluate<M: Model<T>>(&mut self, model: &M, compensated: bool, s: &State<T>) {
+    pub(crate) fn evaluate<M: Model<T>>(
+        &mut self,
+        model: &M,
+        (rule, compensated): (&Rule<T>, bool),
+        s: &State<T>,
+    ) {
         self.end.evaluate(model, compensated, s, &mut self.equations.terms);
+        self.end.evaluate_rates(model, rule, &mut self.equations.terms);
         self.end.evaluate_forces(model, &mut self.equations.terms);
     }
 

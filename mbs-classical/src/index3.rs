@@ -87,6 +87,7 @@ fn predict<T: Real, M: Model<T>, S: SymmetricSolver<T>>(
     });
     model.set_inputs(s.t + rule.dt, s, &mut w.terms);
     w.evaluate(model, options.compensated, s);
+    w.end.evaluate_rates(model, rule, &mut w.terms);
 }
 
 /// The Newton loop. Returns what is reported of it.
@@ -113,6 +114,7 @@ fn iterate<T: Real, M: Model<T>, S: SymmetricSolver<T>>(
         w.solve();
         w.correct(model, (T::ONE, rule.velocity));
         w.evaluate(model, options.compensated, s);
+        w.end.evaluate_rates(model, rule, &mut w.terms);
 
         let stop = newton.take(model, &w.f[..w.n], (&w.end, options.compensated))?;
         if newton.iterations == 1 {

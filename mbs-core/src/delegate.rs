@@ -136,8 +136,19 @@ macro_rules! delegate_model {
         fn overturned(&self, terms: &$crate::model::Terms<$T>) -> Option<$crate::model::Owner> {
             self.$model.overturned(terms)
         }
-        fn collapsed(&self, q: &[$T], v: &[$T], dq: &[$T]) -> Option<[usize; 2]> {
-            self.$model.collapsed(q, v, dq)
+        fn without_direction(
+            &self,
+            q: &[$T],
+            v: &[$T],
+            dq: &[$T],
+        ) -> Option<$crate::step::StepError> {
+            self.$model.without_direction(q, v, dq)
+        }
+        fn has_velocity_rows(&self) -> bool {
+            self.$model.has_velocity_rows()
+        }
+        fn evaluate_rates(&self, v: &[$T], unit: $T, terms: &mut $crate::model::Terms<$T>) {
+            self.$model.evaluate_rates(v, unit, terms);
         }
         fn owner_of_unknown(&self, unknown: usize) -> $crate::model::Owner {
             self.$model.owner_of_unknown(unknown)

@@ -12,6 +12,7 @@ use crate::blocks::{BlockSource, Cliques};
 use crate::feedback::CourseSlope;
 use crate::inputs::Prescribed;
 pub use crate::laws::scalar::ScalarForce;
+use crate::step::StepError;
 use crate::team::{Alone, Team};
 use alloc::vec::Vec;
 use core::ops::Range;
@@ -144,6 +145,12 @@ pub trait Model<T: Real>: Cliques + Sync {
     fn remember(&self, q: &[T], terms: &Terms<T>, memory: &mut [T]);
     /// phi_t at `q`. Does nothing without guides.
     fn evaluate_phi_t(&self, q: &[T], terms: &mut Terms<T>);
+    /// Are there rows of velocities, as of bodies that roll? They restrict J v, and no position: their phi is zero.
+    fn has_velocity_rows(&self) -> bool {
+        false
+    }
+    /// phi = `unit` J v of the rows of velocities, with J as last evaluated: what a step of `unit` = dq/dv leaves of them.
+    fn evaluate_rates(&self, _v: &[T], _unit: T, _terms: &mut Terms<T>) {}
     /// Bias of phi'' at (`q`, `v`).
     fn evaluate_bias(&self, q: &[T], v: &[T], terms: &mut Terms<T>);
     /// rates = J x, over the constraints.
@@ -192,8 +199,8 @@ pub trait Model<T: Real>: Cliques + Sync {
     fn overturned(&self, _terms: &Terms<T>) -> Option<Owner> {
         None
     }
-    /// The part of a coupling's line that has no length left after a step `dq` from (q, v): coupling and part.
-    fn collapsed(&self, _q: &[T], _v: &[T], _dq: &[T]) -> Option<[usize; 2]> {
+    /// What has no direction after a step `dq` from (q, v): a part of a coupling's line without length, a disc that lies flat.
+    fn without_direction(&self, _q: &[T], _v: &[T], _dq: &[T]) -> Option<StepError> {
         None
     }
     /// What an unknown belongs to, for messages.
@@ -213,6 +220,8 @@ pub enum Owner {
     Effect(usize),
     /// `scene.couplings[i]`.
     Coupling(usize),
+    /// `scene.rollings[i]`.
+    Rolling(usize),
 }
 
 /// A model at one instant with the weights of a linear system: what a solver takes.

@@ -22,6 +22,7 @@ fn scene<T: Real>(dimension: Dimension) -> Scene<T> {
         initials: Vec::new(),
         guides: Vec::new(),
         couplings: Vec::new(),
+        rollings: Vec::new(),
         signals: Vec::new(),
         effects: Vec::new(),
         road: Default::default(),

@@ -21,7 +21,7 @@ use mbs_core::Real;
 use mbs_core::actions::{self, Action};
 use mbs_core::algebra::{Vector, norm};
 use mbs_core::laws::scalar::Law;
-use mbs_core::measure::RotorInput;
+use mbs_core::measure::{RollingInput, RotorInput};
 use mbs_core::scene::{Axis, BodyId, Dimension, Joint, Scene, Translation, transverse};
 
 impl<T: Real, S: Space<T>> TreeModel<T, S> {
@@ -72,6 +72,38 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
                 let hinge = joint.direction(Axis::First);
                 rows.push(gap(&hinge, hinge.dot(&d)));
             }
+        }
+    }
+
+    /// Adds the rows of the bodies that roll.
+    pub(crate) fn add_rollings(&mut self, scene: &Scene<T>) {
+        for (i, rolling) in scene.rollings.iter().enumerate() {
+            let input = RollingInput::new(rolling, scene.dimension);
+            let places = [input.center, input.base];
+            let [first, second] =
+                [0, 1].map(|side| self.seat_point(input.bodies[side], places[side].into()));
+            if first.0 == second.0 {
+                continue;
+            }
+            let start = self.rows.len();
+            let [normal, along @ ..] = input.plane.each_ref().map(S::point_from);
+            let axis = S::point_from(&input.axis);
+            if input.is_blade {
+                self.rows.push(Row::Blade { direction: axis, normal });
+            } else {
+                self.rows.push(Row::Height { radius: input.radius, axis, normal });
+                let slips = along.into_iter().take(S::DIMENSION - 1);
+                self.rows.extend(slips.map(|direction| Row::NoSlip { direction }));
+            }
+            self.loops.push(ClosedLoop {
+                links: [first.0, second.0],
+                points: [first.1, second.1],
+                first: index(start),
+                n: index(self.rows.len() - start),
+                ancestor: 0,
+                block: 0,
+                joint: index(i),
+            });
         }
     }
 

@@ -47,6 +47,7 @@ pub mod plan;
 mod project;
 #[cfg(feature = "alloc")]
 mod quantities;
+mod rolling;
 mod rotor;
 pub mod rows;
 #[cfg(feature = "alloc")]

@@ -13,6 +13,7 @@
 use crate::coupled::CoupledRow;
 use crate::indexing::{Outside, at, part};
 use crate::link::LinkMotion;
+use crate::rolling;
 use crate::space::{Numbers, Space};
 use mbs_core::Real;
 
@@ -45,6 +46,27 @@ pub enum Row<T: Real, S: Space<T>> {
         /// The distance [m].
         length: T,
     },
+    /// The lowest point of a disc or ball stays on a plane of the second body: the first row of a body that rolls.
+    Height {
+        /// The radius [m].
+        radius: T,
+        /// The disc's unit axis, reference axes of the first body; of a ball, and in the plane, zero.
+        axis: S::Point,
+        /// The plane's unit normal, reference axes of the second body.
+        normal: S::Point,
+    },
+    /// It does not slip along a direction of the second body: a row of velocities.
+    NoSlip {
+        /// Unit direction, reference axes.
+        direction: S::Point,
+    },
+    /// A point does not move across a blade: a row of velocities.
+    Blade {
+        /// The unit direction along which it may move, reference axes of the first body.
+        direction: S::Point,
+        /// The plane's unit normal, reference axes of the second body; in the plane not used.
+        normal: S::Point,
+    },
     /// A coupling, which is a loop of one row.
     Coupled(CoupledRow<T>),
 }
@@ -59,13 +81,19 @@ impl<T: Real, S: Space<T>> Row<T, S> {
         }
     }
 
+    /// Is it the first row of a rolling?
+    #[must_use]
+    pub fn begins_rolling(&self) -> bool {
+        matches!(self, Self::Height { .. } | Self::Blade { .. })
+    }
+
     /// Does it hold points together along this world axis?
     fn is_along(&self, world_axis: usize) -> bool {
         matches!(self, Self::Coincidence { axis } if *axis as usize == world_axis)
     }
 }
 
-/// A cut joint, which is a loop of the mechanism; or a coupling, whose links and points are those of its row.
+/// A cut joint, which is a loop of the mechanism; a body that rolls on another; or a coupling, whose links and points are those of its row.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ClosedLoop<T: Real, S: Space<T>> {
     /// Links of its first and second body.
@@ -80,7 +108,7 @@ pub struct ClosedLoop<T: Real, S: Space<T>> {
     pub ancestor: u32,
     /// Place of its block of Λ.
     pub block: u32,
-    /// Index of the joint or of the coupling in the scene.
+    /// Index of the joint, rolling or coupling in the scene.
     pub joint: u32,
 }
 
@@ -126,6 +154,9 @@ impl<T: Real, S: Space<T>> ClosedLoop<T, S> {
             - (S::point(&a.velocity) + S::cross(&spins[0], &arms[0]));
         let gap_bias = S::centrifugal(&spins[1], &arms[1]) - S::centrifugal(&spins[0], &arms[0]);
         let own = part(rows, self.first as usize, self.n as usize)?;
+        if own.first().is_some_and(Row::begins_rolling) {
+            return rolling::evaluate((own, self.first as usize), ([a, b], &self.points), take);
+        }
         let coincidence = |axis: usize| {
             let mut e = S::Point::zero();
             e[axis] = T::ONE;
@@ -146,7 +177,9 @@ impl<T: Real, S: Space<T>> ClosedLoop<T, S> {
         for (k, row) in self.range().zip(own) {
             let (value, bias, gradient) = match row {
                 Row::Coincidence { axis } if *axis as usize >= S::Point::N => return Err(Outside),
-                Row::Coupled(_) => return Err(Outside),
+                Row::Coupled(_) | Row::Height { .. } | Row::NoSlip { .. } | Row::Blade { .. } => {
+                    return Err(Outside);
+                }
                 Row::Coincidence { axis } => coincidence(*axis as usize),
                 Row::Gap { direction, constant } => {
                     // Φ̈: g̈·d + 2 ġ·ḋ + g·d̈

@@ -111,6 +111,7 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         for &cut in &graph.cuts {
             tree.add_loop(scene, cut);
         }
+        tree.add_rollings(scene);
         tree.add_couplings(scene)?;
         tree.add_feedback(scene)?;
         let Self { links, loops, rows, couplings, .. } = &mut tree;
@@ -398,7 +399,11 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
 
     /// Joints that are cut, one for each loop.
     pub fn cut_joints(&self) -> impl Iterator<Item = usize> + '_ {
-        self.mechanism().loops.cut().iter().map(|lap| lap.joint as usize)
+        let rolls = |lap: &&ClosedLoop<T, S>| {
+            self.rows.get(lap.first as usize).is_some_and(Row::begins_rolling)
+        };
+        let cut = self.mechanism().loops.cut();
+        cut.iter().filter(move |lap| !rolls(lap)).map(|lap| lap.joint as usize)
     }
 
     /// The scene's length [m].
@@ -424,6 +429,9 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         let number = lap.map_or(0, |lap| lap.joint as usize);
         match self.rows.get(row) {
             Some(Row::Coupled(_)) => Owner::Coupling(number),
+            Some(Row::Height { .. } | Row::NoSlip { .. } | Row::Blade { .. }) => {
+                Owner::Rolling(number)
+            }
             _ => Owner::Joint(number),
         }
     }

@@ -44,6 +44,9 @@ fn simulated(e: &Explanation) -> Section {
     if !s.couplings.is_empty() {
         rows.push(row("couplings", counted(&s.couplings)));
     }
+    if !s.rollings.is_empty() {
+        rows.push(row("rolling", counted(&s.rollings)));
+    }
     if let Some(gravity) = &s.gravity {
         let g: Vec<String> = gravity.iter().map(|x| significant(*x)).collect();
         rows.push(row("gravity", format!("[{}] m/s^2", g.join(", "))));

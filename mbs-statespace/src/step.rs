@@ -51,6 +51,9 @@ pub fn step<T: Real, M: Model<T>>(
     w: &mut Workspace<T>,
 ) -> Result<StepReport<T>, StepError> {
     let Step { dt, length } = step.checked()?;
+    if model.has_velocity_rows() {
+        return Err(StepError::VelocityRows);
+    }
     options.validate()?;
     take_inputs(model, s, w)?;
     let rule = options.integrator.rule(dt);

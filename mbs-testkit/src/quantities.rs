@@ -1,7 +1,9 @@
 //! Every quantity that an output of a scene can have.
 
 use mbs_core::outputs::{QUANTITIES, Quantity, RelativePoint, Target, TargetKind};
-use mbs_core::scene::{BodyId, CouplingId, EffectId, Inertia, JointId, Output, Scene, SignalId};
+use mbs_core::scene::{
+    BodyId, CouplingId, EffectId, Inertia, JointId, Output, RollingId, Scene, SignalId,
+};
 
 /// All quantities of centres of mass, bodies, joints, couplings, effects and the scene, in the order of the table.
 #[must_use]
@@ -31,6 +33,9 @@ pub fn every(scene: &Scene<f64>) -> Vec<Quantity<f64>> {
             }
             TargetKind::Coupling => {
                 (0..scene.couplings.len()).map(|i| Target::Coupling(CouplingId::new(i))).collect()
+            }
+            TargetKind::Rolling => {
+                (0..scene.rollings.len()).map(|i| Target::Rolling(RollingId::new(i))).collect()
             }
             TargetKind::Effect => {
                 (0..scene.effects.len()).map(|i| Target::Effect(EffectId::new(i))).collect()

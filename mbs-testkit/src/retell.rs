@@ -3,7 +3,7 @@
 use mbs_core::effects::{Field, Form, SignalForm, Value};
 use mbs_core::scene::{
     Axis, BodyId, Coupling, CouplingMeasure, Dimension, Freedom, Inertia, InitialTarget, Joint,
-    Scene,
+    RollingKind, Scene,
 };
 
 type Vector = [f64; 3];
@@ -68,6 +68,18 @@ pub fn turn_by(scene: &Scene<f64>, turn: impl Fn(Vector) -> Vector + Copy) -> Sc
     }
     for (_, at) in s.couplings.iter_mut().flat_map(points) {
         *at = turn(*at);
+    }
+    for rolling in &mut s.rollings {
+        rolling.at = turn(rolling.at);
+        match &mut rolling.kind {
+            RollingKind::Wheel { axis: x, .. } | RollingKind::Blade { direction: x } => {
+                *x = turn(*x);
+            }
+            RollingKind::Ball { .. } => {}
+        }
+        if let Some(plane) = &mut rolling.plane {
+            (plane.point, plane.normal) = (turn(plane.point), turn(plane.normal));
+        }
     }
     for initial in &mut s.initials {
         turn_initial(&mut initial.target, (&scene.joints, scene.dimension), turn);
@@ -144,6 +156,7 @@ pub fn reorder(scene: &Scene<f64>) -> Scene<f64> {
     };
     s.joints.iter_mut().flat_map(|j| &mut j.bodies).for_each(renumber);
     s.couplings.iter_mut().flat_map(points).for_each(|(body, _)| renumber(body));
+    s.rollings.iter_mut().flat_map(|r| [&mut r.body, &mut r.on]).for_each(renumber);
     for initial in &mut s.initials {
         if let InitialTarget::Body { body, .. } = &mut initial.target {
             renumber(body);

@@ -14,10 +14,11 @@ use mbs_core::scene::Scene;
 pub struct Channels<T: Real, const D: usize> {
     measures: Measures<T, D>,
     forces: Option<Forces<T, D>>,
-    /// Joints whose reaction is an output and was not unique at some row, and couplings with their effort, numbered after the joints.
+    /// What has a reaction, an effort or a force that is an output and was not unique at some row: joints, then couplings, then rollings.
     not_unique: Vec<usize>,
     asked: Vec<usize>,
-    n_joints: usize,
+    /// Number of joints, and of joints and couplings.
+    ends: [usize; 2],
     /// Where the components of each output end.
     outputs: Vec<usize>,
 }
@@ -32,21 +33,24 @@ impl<T: Real, const D: usize> Channels<T, D> {
         let forces = Forces::new(scene, model).map_err(StopError::Reaction)?;
         let asked = scene.outputs.iter().filter(|o| o.quantity.row().needs_reactions);
         let n_joints = scene.joints.len();
+        let n_both = n_joints + scene.couplings.len();
         let asked: Vec<usize> = asked
             .filter_map(|o| match o.quantity.target() {
                 Target::Joint(joint) => Some(joint.index()),
                 Target::Coupling(coupling) => Some(n_joints + coupling.index()),
+                Target::Rolling(rolling) => Some(n_both + rolling.index()),
                 _ => None,
             })
             .collect();
-        let ends = measures.lengths().scan(0, |end, length| {
+        let outputs = measures.lengths().scan(0, |end, length| {
             *end += length;
             Some(*end)
         });
-        let outputs = ends.collect();
+        let outputs = outputs.collect();
         let not_unique = Vec::with_capacity(asked.len());
         let forces = Some(forces);
-        Ok(Self { measures, forces, not_unique, asked, n_joints, outputs })
+        let ends = [n_joints, n_both];
+        Ok(Self { measures, forces, not_unique, asked, ends, outputs })
     }
 
     /// Exchanges what forces are made of: the same scene with other effects has others.
@@ -85,9 +89,13 @@ impl<T: Real, const D: usize> Channels<T, D> {
         self.forces.iter_mut().for_each(|forces| forces.update(state));
         if let Some(reactions) = self.forces.as_ref().and_then(Forces::reactions) {
             for &asked in &self.asked {
-                let is_unique = match asked.checked_sub(self.n_joints) {
-                    None => reactions.is_unique(asked),
-                    Some(coupling) => reactions.is_effort_unique(coupling),
+                let [n_joints, n_both] = self.ends;
+                let is_unique = match asked {
+                    joint if joint < n_joints => reactions.is_unique(joint),
+                    coupling if coupling < n_both => {
+                        reactions.is_effort_unique(coupling - n_joints)
+                    }
+                    rolling => reactions.is_rolling_unique(rolling - n_both),
                 };
                 if !is_unique && !self.not_unique.contains(&asked) {
                     self.not_unique.push(asked);
@@ -105,11 +113,13 @@ impl<T: Real, const D: usize> Channels<T, D> {
         self.measures.lengths()
     }
 
-    /// Names of the joints whose reaction was not unique, and of the couplings whose effort was not.
+    /// Names of what has a reaction, an effort or a force that was not unique.
     pub fn not_unique(&self, scene: &Scene<T>) -> Vec<String> {
-        let name = |&i: &usize| match i.checked_sub(self.n_joints) {
-            None => scene.joints[i].name.clone(),
-            Some(coupling) => scene.couplings[coupling].name.clone(),
+        let [n_joints, n_both] = self.ends;
+        let name = |&i: &usize| match i {
+            joint if joint < n_joints => scene.joints[joint].name.clone(),
+            coupling if coupling < n_both => scene.couplings[coupling - n_joints].name.clone(),
+            rolling => scene.rollings[rolling - n_both].name.clone(),
         };
         self.not_unique.iter().map(name).collect()
     }

@@ -54,7 +54,7 @@ pub use front::{
     Body, BodyMotion, Components, ContactEvent, Coordinates, Coupling, Effect, Energies,
     EquilibriumOptions, Error, FunctionId, Guide, Id, InitialCondition, InputId, InputInfo,
     InputOwner, InputTableError, Joint, Mechanism, NamedSignal, Observer, Output, OutputFunction,
-    Part, PathError, PointMotion, Pose, Run, RunInputs, RunResult, SceneError, Simulation,
+    Part, PathError, PointMotion, Pose, Rolling, Run, RunInputs, RunResult, SceneError, Simulation,
     SimulationError, Sizes, Snapshot, StepReport, Table, UnknownName, View, Wrench, equilibrium,
     modes, run, run_with, with_inputs,
 };
@@ -64,7 +64,8 @@ pub use mbs_core::laws::code::{BodyLaw, Force, ForceLaw, Measured, MeasuredBody}
 pub use mbs_core::scene::{
     BodyId, CouplingId, CouplingMeasure, CouplingTerm, Curve, EffectId, EffectKind, GROUND,
     GuideId, InitialId, Interpolation, JointId, JointLimits, Motion, Number, OutputId,
-    PolynomialPiece, Road, RoadFeature, Signal, SignalId, SignalKind, TableEnds, Vector3,
+    PolynomialPiece, Road, RoadFeature, RollingId, RollingKind, RollingPlane, Signal, SignalId,
+    SignalKind, TableEnds, Vector3,
 };
 pub use mbs_scene::{ReadError, WriteError};
 pub use methods::{FORMULATIONS, FormulationKind, PenaltyUse, Row};

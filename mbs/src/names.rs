@@ -11,6 +11,7 @@ pub struct Names {
     bodies: Vec<String>,
     joints: Vec<String>,
     couplings: Vec<String>,
+    rollings: Vec<String>,
     /// The bodies at the ends of the parts of each coupling's lines; `None`: the ground.
     parts: Vec<Vec<[Option<usize>; 2]>>,
     pub(crate) effects: Vec<String>,
@@ -34,6 +35,7 @@ impl Names {
             bodies: scene.bodies.iter().map(|b| b.name.clone()).collect(),
             joints: scene.joints.iter().map(|j| j.name.clone()).collect(),
             couplings: scene.couplings.iter().map(|c| c.name.clone()).collect(),
+            rollings: scene.rollings.iter().map(|r| r.name.clone()).collect(),
             parts: scene.couplings.iter().map(parts).collect(),
             effects: scene.effects.iter().map(|e| e.name.clone()).collect(),
             outputs: scene.outputs.iter().map(|o| o.name.clone()).collect(),
@@ -61,6 +63,7 @@ impl Names {
             }
             Owner::Effect(e) => (None, self.effects.get(e).cloned()),
             Owner::Coupling(c) => (self.couplings.get(c).cloned(), None),
+            Owner::Rolling(r) => (self.rollings.get(r).cloned(), None),
         }
     }
 }

@@ -106,6 +106,7 @@ impl StopError {
             StepError::TurnTooLarge { joint, .. } => Some(Owner::Joint(joint as usize)),
             StepError::Overturned { effect } => Some(Owner::Effect(effect as usize)),
             StepError::RopeCollapsed { coupling, .. } => Some(Owner::Coupling(coupling as usize)),
+            StepError::RollingFlat { rolling } => Some(Owner::Rolling(rolling as usize)),
             _ => None,
         };
         Self::Step(error, owner)
@@ -181,6 +182,7 @@ impl StopError {
             Owner::Joint(j) => Entry::Joint(j),
             Owner::Effect(e) => Entry::Effect(e),
             Owner::Coupling(c) => Entry::Coupling(c),
+            Owner::Rolling(r) => Entry::Rolling(r),
         })
     }
 
@@ -205,6 +207,8 @@ impl StopError {
             Self::Step(StepError::TurnTooLarge { .. }, _) => "turn-too-large",
             Self::Step(StepError::Overturned { .. }, _) => "overturned",
             Self::Step(StepError::RopeCollapsed { .. }, _) => "rope-collapsed",
+            Self::Step(StepError::RollingFlat { .. }, _) => "rolling-flat",
+            Self::Step(StepError::VelocityRows, _) => "velocity-rows",
             Self::Step(StepError::Law { .. }, _) => "law-not-finite",
             Self::Step(..) => "step-failed",
             Self::AlmostDependent(_) => "almost-dependent",

@@ -119,20 +119,18 @@ pub fn check_rotations<T: Real, M: Model<T>>(model: &M, terms: &Terms<T>) -> Res
     }
 }
 
-/// A part of a rope keeps a length, else it has no direction; `dq` leads from the state to the end of the step.
+/// A part of a rope keeps a length, and a disc that rolls stands, else they have no direction; `dq` leads from the state to the end of the
+/// step.
 ///
 /// # Errors
-/// [`StepError::RopeCollapsed`] names coupling and part.
+/// [`StepError::RopeCollapsed`], [`StepError::RollingFlat`].
 pub fn check_lines<T: Real, M: Model<T>>(
     model: &M,
     s: &State<T>,
     dq: &[T],
 ) -> Result<(), StepError> {
-    match model.collapsed(&s.q, &s.v, dq) {
-        Some(numbers) => {
-            let [coupling, part] = numbers.map(|i| u32::try_from(i).unwrap_or(u32::MAX));
-            Err(StepError::RopeCollapsed { coupling, part })
-        }
+    match model.without_direction(&s.q, &s.v, dq) {
+        Some(error) => Err(error),
         None => Ok(()),
     }
 }

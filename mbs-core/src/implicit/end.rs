@@ -96,6 +96,14 @@ impl<T: Real> StepEnd<T> {
         }
     }
 
+    /// What the step leaves of rows of velocities, where there are any: phi = (dq/dv) J v.
+    #[inline]
+    pub fn evaluate_rates<M: Model<T>>(&self, model: &M, rule: &Rule<T>, terms: &mut Terms<T>) {
+        if model.has_velocity_rows() {
+            model.evaluate_rates(&self.v, T::ONE / rule.velocity, terms);
+        }
+    }
+
     /// Applied forces and their tangents, where there are any.
     #[inline]
     pub fn evaluate_forces<M: Model<T>>(&self, model: &M, terms: &mut Terms<T>) {

@@ -1,15 +1,19 @@
 //! Numbers that a mechanism has: joint coordinates and lengths, sums of them, and curves of them.
 //!
-//! Held, such a sum is a [coupling](crate::scene::Coupling).
+//! Held, such a sum is a [coupling](crate::scene::Coupling). Here too: where something that rolls touches its plane.
 
+mod contact;
 #[cfg(feature = "alloc")]
 mod coupling;
 mod curve;
 #[cfg(feature = "alloc")]
 mod given;
 #[cfg(feature = "alloc")]
+mod rolling;
+#[cfg(feature = "alloc")]
 mod rotor;
 
+pub use contact::{Moving, lies_flat, lowest_point};
 #[cfg(feature = "alloc")]
 pub use coupling::{CouplingInput, TermInput};
 #[cfg(feature = "alloc")]
@@ -19,5 +23,7 @@ pub(crate) use curve::within;
 pub use curve::{polynomial, polynomial_change, spline_change, spline_curve};
 #[cfg(feature = "alloc")]
 pub use given::given_values;
+#[cfg(feature = "alloc")]
+pub use rolling::RollingInput;
 #[cfg(feature = "alloc")]
 pub use rotor::RotorInput;

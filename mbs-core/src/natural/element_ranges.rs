@@ -10,7 +10,7 @@
 use super::group::Group;
 use super::model::{Cursor, NaturalModel};
 use crate::Real;
-use crate::elements::{Coupled, Distance, Dot, Guided, Linear, Span};
+use crate::elements::{Coupled, Distance, Dot, Guided, Linear, Rolling, Span};
 use crate::laws::scalar::ScalarForce;
 use crate::team::Team;
 use alloc::vec::Vec;
@@ -71,6 +71,9 @@ impl Part {
     pub(super) fn coupled<'a, T>(&self, all: &'a [T]) -> &'a [T] {
         &all[self.from.coupled..self.to.coupled]
     }
+    pub(super) fn rollings<'a, T>(&self, all: &'a [T]) -> &'a [T] {
+        &all[self.from.rolling..self.to.rolling]
+    }
     pub(super) fn measures<'a, T>(&self, all: &'a [T]) -> &'a [T] {
         &all[self.from.measure..self.to.measure]
     }
@@ -119,6 +122,11 @@ impl Part {
     #[inline(always)]
     pub(super) fn coupling<T: Real>(&self, row: &Coupled<T>) -> Coupled<T> {
         Coupled { place: self.place(row.place), row: row.row - narrow(self.from.row), ..*row }
+    }
+    /// Likewise.
+    #[inline(always)]
+    pub(super) fn rolling<T: Real>(&self, row: &Rolling<T>) -> Rolling<T> {
+        Rolling { place: self.place(row.place), row: row.row - narrow(self.from.row), ..*row }
     }
     /// Likewise.
     #[inline(always)]
@@ -183,6 +191,7 @@ impl<T: Real, const D: usize> NaturalModel<T, D> {
             linear: self.linears.len(),
             guided: self.guided.len(),
             coupled: self.coupled.len(),
+            rolling: self.rollings.len(),
             measure: self.measures.len(),
             body_element: self.body_elements.len(),
             body_measure: self.n_measures,
@@ -208,6 +217,7 @@ impl<T: Real, const D: usize> NaturalModel<T, D> {
             linear: self.linears.partition_point(|r| r.row < row),
             guided: self.guided.partition_point(|r| r.row < row),
             coupled: self.coupled.partition_point(|r| r.row < row),
+            rolling: self.rollings.partition_point(|r| r.row < row),
             measure: self.measures.partition_point(|m| m.place.start < jacobian),
             body_element,
             body_measure,

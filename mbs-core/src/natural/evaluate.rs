@@ -1,12 +1,14 @@
 //! The numbers of a [`NaturalModel`]: constraints, forces, blocks and residuals, element by element.
 
 use super::forces::Measure;
+use super::group::index;
 use super::model::NaturalModel;
 use crate::Real;
 use crate::algebra::norm;
 use crate::elements::{Measurand, Span, combine, measured_value};
 use crate::inputs::Prescribed;
 use crate::model::{Load, Model, Owner, ScalarForce, SignalValues, State, Tangent, Terms};
+use crate::step::StepError;
 use crate::team::Alone;
 use alloc::vec;
 use core::ops::Range;
@@ -204,6 +206,14 @@ impl<T: Real, const D: usize> Model<T> for NaturalModel<T, D> {
         }
     }
 
+    fn has_velocity_rows(&self) -> bool {
+        !self.rollings.is_empty()
+    }
+
+    fn evaluate_rates(&self, v: &[T], unit: T, terms: &mut Terms<T>) {
+        self.write_slips(v, unit, terms);
+    }
+
     fn evaluate_bias(&self, q: &[T], v: &[T], terms: &mut Terms<T>) {
         self.evaluate_bias_on(&Alone, (q, v), terms);
     }
@@ -336,14 +346,18 @@ impl<T: Real, const D: usize> Model<T> for NaturalModel<T, D> {
         self.rotations.iter().find(is_over).map(|&(_, owner)| owner)
     }
 
-    fn collapsed(&self, q: &[T], v: &[T], dq: &[T]) -> Option<[usize; 2]> {
-        self.coupled.iter().find_map(|row| {
+    fn without_direction(&self, q: &[T], v: &[T], dq: &[T]) -> Option<StepError> {
+        let collapsed = self.coupled.iter().find_map(|row| {
             let part = self.collapsed_part(row, (q, v, dq))?;
             match self.row_owner[row.row as usize] {
-                Owner::Coupling(coupling) => Some([coupling, part]),
+                Owner::Coupling(coupling) => Some((index(coupling), index(part))),
                 _ => None,
             }
-        })
+        });
+        match collapsed {
+            Some((coupling, part)) => Some(StepError::RopeCollapsed { coupling, part }),
+            None => self.flat(q).map(|i| StepError::RollingFlat { rolling: index(i) }),
+        }
     }
 
     fn owner_of_unknown(&self, unknown: usize) -> Owner {

@@ -27,6 +27,7 @@ impl<T: Real, const D: usize> NaturalModel<T, D> {
         }
         builder.add_guides();
         builder.add_couplings();
+        builder.add_rollings();
         builder.add_rotors();
         builder.add_effects(&actions.list)?;
         let feedback = actions.prescribed.feedback();

@@ -115,6 +115,8 @@ impl<T: Real, const D: usize> Layout<T, D> {
             linears: Vec::new(),
             guided: Vec::new(),
             coupled: Vec::new(),
+            rollings: Vec::new(),
+            rolling_cliques: Vec::new(),
             coupled_terms: Vec::new(),
             coupled_measures: Vec::new(),
             curves: Vec::new(),
@@ -260,7 +262,7 @@ impl<T: Real, const D: usize> Layout<T, D> {
         columns: &Columns<'_>,
         group: &Group,
     ) {
-        let n = if matches!(draft, RowDraft::Linear { .. }) { D } else { 1 };
+        let n = draft.n_rows(D);
         let (row, place) = self.claim(n, owner, group);
         let n_unknown = group.n_unknown as usize;
         let touched = draft.entities().into_iter().map(|e| columns.of(e));
@@ -299,6 +301,7 @@ impl<T: Real, const D: usize> Layout<T, D> {
                 let (inverse, is_linear) = (*inverse, *is_linear);
                 self.model.coupled.push(Coupled { terms, inverse, guide, is_linear, row, place });
             }
+            RowDraft::Rolling(draft) => self.add_rolling(draft, (columns, group), (row, place)),
         }
     }
 

@@ -29,6 +29,7 @@ mod model;
 mod motion;
 mod on_body;
 mod rigid;
+mod rollings;
 mod rotation;
 mod rotors;
 mod row_builder;

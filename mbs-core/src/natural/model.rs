@@ -11,7 +11,9 @@ use crate::actions::Tables;
 use crate::algebra::{Coef, Vector};
 use crate::blocks::Cliques;
 use crate::cluster::Clusters;
-use crate::elements::{Coupled, CoupledTerm, Distance, Dot, Guided, Linear, Signed, Term};
+use crate::elements::{
+    Coupled, CoupledTerm, Distance, Dot, Guided, Linear, Rolling, Signed, Span, Term,
+};
 use crate::inputs::{Feedback, Prescribed};
 use crate::laws::code::Codes;
 use crate::measure::PreparedCurve;
@@ -36,6 +38,9 @@ pub struct NaturalModel<T: Real, const D: usize> {
     pub(super) linears: Vec<Linear>,
     pub(super) guided: Vec<Guided>,
     pub(super) coupled: Vec<Coupled<T>>,
+    pub(super) rollings: Vec<Rolling<T>>,
+    /// The unknowns that each of them touches.
+    pub(super) rolling_cliques: Vec<Span>,
     pub(super) coupled_terms: Vec<CoupledTerm<T>>,
     pub(super) coupled_measures: Vec<Signed<T>>,
     pub(super) curves: Vec<PreparedCurve<T>>,
@@ -167,6 +172,7 @@ pub(super) struct Cursor {
     pub(super) linear: usize,
     pub(super) guided: usize,
     pub(super) coupled: usize,
+    pub(super) rolling: usize,
     pub(super) measure: usize,
     pub(super) body_element: usize,
     pub(super) body_measure: usize,

@@ -6,8 +6,9 @@ use crate::Real;
 use crate::algebra::{Coef, Vector};
 use crate::laws::body::BodyLaw;
 use crate::laws::scalar::Law;
-use crate::measure::PreparedCurve;
+use crate::measure::{PreparedCurve, RollingInput};
 use crate::model::Owner;
+use alloc::boxed::Box;
 use alloc::collections::BTreeMap;
 use alloc::vec::Vec;
 
@@ -20,6 +21,15 @@ pub(crate) enum RowDraft<T: Real> {
     GuidedAngle { x1: Combination<T>, x2: Combination<T>, y: Combination<T>, guide: usize },
     GuidedSlide { x: Combination<T>, y: Combination<T>, guide: usize },
     Coupled { terms: Vec<CoupledDraft<T>>, inverse: T, guide: Option<usize>, is_linear: bool },
+    Rolling(Box<RollingDraft<T>>),
+}
+
+/// A rolling in terms of entities: of its body and of what it rolls on a point, then as many directions as the space has.
+#[derive(Debug, Clone)]
+pub(crate) struct RollingDraft<T: Real> {
+    pub(crate) input: RollingInput<T>,
+    pub(crate) n_rows: usize,
+    pub(crate) frames: [(Combination<T>, Vec<Combination<T>>); 2],
 }
 
 /// A term of a coupling in terms of entities.
@@ -63,6 +73,19 @@ impl<T: Real> RowDraft<T> {
             Self::Linear { x } => alloc::vec![x],
             Self::GuidedAngle { x1, x2, y, .. } => alloc::vec![x1, x2, y],
             Self::Coupled { terms, .. } => combinations_of(terms),
+            Self::Rolling(draft) => {
+                let of_frame = |(point, axes)| core::iter::once(point).chain(axes);
+                draft.frames.iter().map(|(point, axes)| (point, axes)).flat_map(of_frame).collect()
+            }
+        }
+    }
+
+    /// Number of its rows in `dimension` dimensions.
+    pub(crate) fn n_rows(&self, dimension: usize) -> usize {
+        match self {
+            Self::Linear { .. } => dimension,
+            Self::Rolling(draft) => draft.n_rows,
+            _ => 1,
         }
     }
 

@@ -39,6 +39,9 @@ impl<T: Real> ThinRods<T> {
         for term in terms.filter(|term| !term.factor.is_zero()) {
             rods.ask_measure(scene, &term.of);
         }
+        for rolling in &scene.rollings {
+            [rolling.body, rolling.on].into_iter().for_each(|body| rods.rotation(body));
+        }
         for (joint, _) in actions.prescribed.feedback().measured {
             scene.joints[joint].bodies.into_iter().for_each(|body| rods.rotation(body));
         }

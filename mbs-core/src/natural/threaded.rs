@@ -39,6 +39,9 @@ impl<T: Real, const D: usize> NaturalModel<T, D> {
                 let row = part.coupling(row);
                 row.evaluate::<D>(&self.coupled_tables(), (q, angles), sum, (phi, jacobian));
             }
+            for row in part.rollings(&self.rollings) {
+                part.rolling(row).evaluate::<D>(&self.pool, q, (phi, jacobian));
+            }
         });
     }
 
@@ -71,6 +74,10 @@ impl<T: Real, const D: usize> NaturalModel<T, D> {
                 let [sum, ..] = Self::sum_of(row.guide, guides);
                 let (from, out) = ((q, dq, angles), (&mut phi[..], &mut jacobian[..]));
                 part.coupling(row).advance::<D>(&self.coupled_tables(), from, (phi_n, sum), out);
+            }
+            for row in part.rollings(&self.rollings) {
+                let out = (&mut phi[..], &mut jacobian[..]);
+                part.rolling(row).advance::<D>(&self.pool, (q, dq), out);
             }
         });
     }
@@ -143,6 +150,9 @@ impl<T: Real, const D: usize> NaturalModel<T, D> {
                 let sum = Self::sum_of(row.guide, guides);
                 bias[row.row as usize - first] =
                     row.bias::<D>(&self.coupled_tables(), (q, v, angles), sum);
+            }
+            for row in part.rollings(&self.rollings) {
+                row.bias::<D>(&self.pool, (q, v), &mut bias[row.row as usize - first..]);
             }
         });
     }

@@ -37,7 +37,9 @@ pub struct Reactions<T: Real, const D: usize> {
     /// Of each body, what the unsolved joints must give about its centre of mass.
     missing: Vec<Wrench<T>>,
     gravity: Vector<T, 3>,
+    /// The joints, then the contacts that roll.
     joints: Vec<WrenchBasis<T, D>>,
+    n_joints: usize,
     couplings: Vec<CoupledSum<T, D>>,
     loads: Loads<T, D>,
     rotors: Vec<RotorTorque<T, D>>,
@@ -74,8 +76,12 @@ impl<T: Real, const D: usize> Reactions<T, D> {
         if scene.dimension.count() != D {
             return Err(ModelError::Dimension.into());
         }
-        let joints: Vec<WrenchBasis<T, D>> =
-            (0..scene.joints.len()).map(|joint| WrenchBasis::new(scene, model, joint)).collect();
+        let n_joints = scene.joints.len();
+        let rollings = (0..scene.rollings.len()).map(|i| WrenchBasis::of_rolling(scene, model, i));
+        let joints: Vec<WrenchBasis<T, D>> = (0..n_joints)
+            .map(|joint| WrenchBasis::new(scene, model, joint))
+            .chain(rollings)
+            .collect();
         let pairs: Vec<_> =
             joints.iter().map(|j| (j.n_directions() > 0).then_some(j.bodies)).collect();
         let couplings: Vec<_> =
@@ -106,6 +112,7 @@ impl<T: Real, const D: usize> Reactions<T, D> {
             residual: T::ZERO,
             place_in_block: vec![usize::MAX; scene.bodies.len()],
             joints,
+            n_joints,
             couplings,
             blocks,
         })
@@ -155,6 +162,24 @@ impl<T: Real, const D: usize> Reactions<T, D> {
     #[must_use]
     pub fn is_unique(&self, joint: usize) -> bool {
         self.is_unique[joint]
+    }
+
+    /// The force on a body that rolls as last updated, at its lowest point, of a blade at its point, global axes [N].
+    ///
+    /// # Panics
+    /// If there is no such rolling.
+    #[must_use]
+    pub fn rolling_force(&self, rolling: usize) -> [T; 3] {
+        self.wrenches[self.n_joints + rolling].force.into()
+    }
+
+    /// Did the motion as last updated determine this rolling's force? Otherwise it is the smallest of many.
+    ///
+    /// # Panics
+    /// If there is no such rolling.
+    #[must_use]
+    pub fn is_rolling_unique(&self, rolling: usize) -> bool {
+        self.is_unique[self.n_joints + rolling]
     }
 
     /// The effort of a coupling as last updated: the generalised force on each of its terms over the term's factor [N, N m].
@@ -213,7 +238,8 @@ impl<T: Real, const D: usize> Reactions<T, D> {
         }
         let mut column = 0;
         for &j in &block.joints {
-            let at = joints[j].place(&state.q);
+            let turned = joints[j].bodies.map(|b| rotation_of(bodies, b));
+            let at = joints[j].place(&state.q, [&turned[0], &turned[1]]);
             for direction in &directions[column..column + joints[j].n_directions()] {
                 for (body, sign) in joints[j].bodies.into_iter().zip([-T::ONE, T::ONE]) {
                     let BodyId::Body(b) = body else { continue };
@@ -256,7 +282,8 @@ impl<T: Real, const D: usize> Reactions<T, D> {
             self.is_unique[j] = columns.clone().all(|k| self.system.is_determined(k));
             self.wrenches[j] = wrench;
             column = columns.end;
-            let at = self.joints[j].place(&state.q);
+            let turned = self.joints[j].bodies.map(|b| rotation_of(&self.bodies, b));
+            let at = self.joints[j].place(&state.q, [&turned[0], &turned[1]]);
             for (body, sign) in self.joints[j].bodies.into_iter().zip([T::ONE, -T::ONE]) {
                 if let BodyId::Body(b) = body {
                     let arm = at - self.bodies[b].at;

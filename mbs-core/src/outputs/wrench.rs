@@ -14,6 +14,7 @@
 use super::frame::normalised;
 use crate::Real;
 use crate::algebra::{Matrix, Vector, cross, raised, unit};
+use crate::measure::{RollingInput, lowest_point};
 use crate::natural::{Affine, NaturalModel};
 use crate::scene::{
     Axis, BodyId, Dimension, Freedom, Joint, Rotation, Scene, Translation, transverse,
@@ -160,33 +161,72 @@ impl<T: Real> JointWrenches<T> {
     }
 }
 
-/// A joint as a carrier of wrenches, its places read off natural coordinates.
+/// A joint, or a contact that rolls, as a carrier of wrenches, its places read off natural coordinates.
 #[derive(Debug, Clone)]
 pub(super) struct WrenchBasis<T: Real, const D: usize> {
+    /// The first body, which a wrench comes from, and the second.
     pub(super) bodies: [BodyId; 2],
     places: [Affine<T, D>; 2],
-    transmission: JointWrenches<T>,
+    transmission: Transmission<T>,
+}
+
+/// What a joint or a contact transmits.
+#[derive(Debug, Clone)]
+enum Transmission<T: Real> {
+    Joint(JointWrenches<T>),
+    /// Forces at the lowest point: along the normal and along the plane; of a blade across it.
+    Rolling(RollingInput<T>),
 }
 
 impl<T: Real, const D: usize> WrenchBasis<T, D> {
+    /// Of `scene.rollings[index]`: from what it rolls on to the body.
+    pub(super) fn of_rolling(scene: &Scene<T>, model: &NaturalModel<T, D>, index: usize) -> Self {
+        let input = RollingInput::new(&scene.rollings[index], scene.dimension);
+        let [body, on] = input.bodies;
+        Self {
+            bodies: [on, body],
+            places: [model.point(on, input.base.into()), model.point(body, input.center.into())],
+            transmission: Transmission::Rolling(input),
+        }
+    }
+
     pub(super) fn new(scene: &Scene<T>, model: &NaturalModel<T, D>, index: usize) -> Self {
         let joint = &scene.joints[index];
         let is_guided = scene.guides.iter().any(|guide| guide.joint.index() == index);
         Self {
             bodies: joint.bodies,
             places: [0, 1].map(|i| model.point(joint.bodies[i], joint.points[i])),
-            transmission: JointWrenches::new(joint, scene.dimension, is_guided, model.length()),
+            transmission: Transmission::Joint(JointWrenches::new(
+                joint,
+                scene.dimension,
+                is_guided,
+                model.length(),
+            )),
         }
     }
 
-    /// The joint's place on the second body.
-    pub(super) fn place(&self, q: &[T]) -> Vector<T, 3> {
-        raised(&self.places[1].value(q))
+    /// The joint's place on the second body, or the lowest point; the bodies' rotations are `turned`.
+    pub(super) fn place(&self, q: &[T], turned: [&Matrix<T, 3>; 2]) -> Vector<T, 3> {
+        let place = raised(&self.places[1].value(q));
+        match &self.transmission {
+            Transmission::Rolling(RollingInput {
+                is_blade: false, radius, plane, axis, ..
+            }) => {
+                let still = |x| [x, Vector::zeros()];
+                let (normal, axis) = (still(turned[0] * plane[0]), still(turned[1] * axis));
+                place + lowest_point(*radius, &normal, &axis)[0]
+            }
+            Transmission::Rolling(_) | Transmission::Joint(_) => place,
+        }
     }
 
     /// How many directions it has.
     pub(super) fn n_directions(&self) -> usize {
-        self.transmission.n_directions()
+        match &self.transmission {
+            Transmission::Joint(joint) => joint.n_directions(),
+            Transmission::Rolling(input) if input.is_blade => 1,
+            Transmission::Rolling(_) => D,
+        }
     }
 
     /// Hands out its directions, the bodies' rotations being `turned`. Moments are one times the scene's length, so that
@@ -195,8 +235,19 @@ impl<T: Real, const D: usize> WrenchBasis<T, D> {
         &self,
         q: &[T],
         turned: [&Matrix<T, 3>; 2],
-        take: impl FnMut(Wrench<T>),
+        mut take: impl FnMut(Wrench<T>),
     ) {
-        self.transmission.directions(|i| raised(&self.places[i].value(q)), turned, take);
+        let input = match &self.transmission {
+            Transmission::Joint(joint) => {
+                return joint.directions(|i| raised(&self.places[i].value(q)), turned, take);
+            }
+            Transmission::Rolling(input) => input,
+        };
+        let mut force = |force| take(Wrench { force, moment: Vector::zeros() });
+        if input.is_blade {
+            force(cross(&(turned[0] * input.plane[0]), &(turned[1] * input.axis)));
+        } else {
+            input.plane.iter().take(D).for_each(|u| force(turned[0] * u));
+        }
     }
 }

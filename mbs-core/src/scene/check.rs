@@ -12,6 +12,7 @@ mod motion;
 mod output;
 mod reference;
 mod road;
+mod rolling;
 mod signal;
 #[cfg(test)]
 mod tests;
@@ -44,6 +45,7 @@ impl<T: Real> Scene<T> {
     ///     initials: Vec::new(),
     ///     guides: Vec::new(),
     ///     couplings: Vec::new(),
+    ///     rollings: Vec::new(),
     ///     signals: Vec::new(),
     ///     effects: Vec::new(),
     ///     road: Default::default(),
@@ -74,6 +76,7 @@ impl<T: Real> Scene<T> {
         body::check_lumps(self)?;
         motion::check_guides(self)?;
         coupling::check(self)?;
+        rolling::check(self)?;
         signal::check(self)?;
         motion::check_initials(self)?;
         coupling::check_starts(self)?;
@@ -114,6 +117,7 @@ impl<T: Real> Scene<T> {
         unique(self.bodies.iter().map(|b| b.name.as_str()), Some("ground"), Entry::Body)?;
         unique(self.joints.iter().map(|j| j.name.as_str()), None, Entry::Joint)?;
         unique(self.couplings.iter().map(|c| c.name.as_str()), None, Entry::Coupling)?;
+        unique(self.rollings.iter().map(|r| r.name.as_str()), None, Entry::Rolling)?;
         unique(self.signals.iter().map(|s| s.name.as_str()), None, Entry::Signal)?;
         unique(self.effects.iter().map(|e| e.name.as_str()), None, Entry::Effect)?;
         unique(self.outputs.iter().map(|o| o.name.as_str()), Some("t"), Entry::Output)

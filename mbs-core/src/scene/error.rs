@@ -18,6 +18,8 @@ pub enum Entry {
     Guide(usize),
     /// `[[coupling]]` number i.
     Coupling(usize),
+    /// `[[rolling]]` number i.
+    Rolling(usize),
     /// `[[signal]]` number i.
     Signal(usize),
     /// `[[effect]]` number i.
@@ -54,6 +56,7 @@ impl Display for Entry {
             Self::Initial(i) => write!(f, "initial {}", i + 1),
             Self::Guide(i) => write!(f, "guide {}", i + 1),
             Self::Coupling(i) => write!(f, "coupling {}", i + 1),
+            Self::Rolling(i) => write!(f, "rolling {}", i + 1),
             Self::Signal(i) => write!(f, "signal {}", i + 1),
             Self::Effect(i) => write!(f, "effect {}", i + 1),
             Self::Output(i) => write!(f, "output {}", i + 1),

@@ -77,6 +77,12 @@ pub enum SceneFault {
     },
     /// There is no term, or every factor is zero.
     NoTerm,
+    /// A disc lies flat on the plane that it rolls on.
+    LiesFlat,
+    /// A blade stands along the plane's normal.
+    AlongNormal,
+    /// What rolls does not touch its plane; the distance of its lowest point [m].
+    Apart(f64),
     /// A periodic curve has different values at its ends; both.
     PeriodicEnds([f64; 2]),
     /// The start values of its joints do not give the sum; what they give, and what is needed.
@@ -216,6 +222,9 @@ impl SceneFault {
             Self::NeedsCoordinate { .. } => "write one of these names",
             Self::BallCoordinate => "name a joint that turns about axes, such as a universal joint",
             Self::NoTerm => "write a term with a factor that is not zero",
+            Self::LiesFlat => "turn the axis away from the normal",
+            Self::AlongNormal => "give the direction along which it may move",
+            Self::Apart(_) => "move `at` or the plane's `point`, or leave `plane` out",
             Self::PeriodicEnds(_) => "end the table with the value that it begins with",
             Self::SumAtStart(_) => {
                 "change one of the initial values, or leave it out: the others determine it"
@@ -316,6 +325,11 @@ impl SceneFault {
             }
             Self::BallCoordinate => write!(f, "is a component of a rotation, not an angle"),
             Self::NoTerm => write!(f, "has no term with a factor that is not zero"),
+            Self::LiesFlat => write!(f, "is along the plane's normal: the disc lies flat"),
+            Self::AlongNormal => write!(f, "is along the plane's normal"),
+            Self::Apart(gap) => {
+                write!(f, "does not touch: the lowest point is {gap:.6e} m above the plane")
+            }
             Self::PeriodicEnds([first, last]) => {
                 write!(f, "begins with {first} and ends with {last}, but is periodic")
             }

@@ -60,6 +60,7 @@ handle!(/** A joint by its place in `scene.joints`. */ JointId);
 handle!(/** An initial condition by its place in `scene.initials`. */ InitialId);
 handle!(/** A guide by its place in `scene.guides`. */ GuideId);
 handle!(/** A coupling by its place in `scene.couplings`. */ CouplingId);
+handle!(/** A rolling by its place in `scene.rollings`. */ RollingId);
 handle!(/** An effect by its place in `scene.effects`. */ EffectId);
 handle!(/** An output by its place in `scene.outputs`. */ OutputId);
 handle!(/** A signal by its place in `scene.signals`. */ SignalId);

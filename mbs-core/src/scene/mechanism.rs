@@ -4,7 +4,8 @@ use crate::effects::EffectKind;
 use crate::outputs::Quantity;
 use crate::scene::{
     Body, Coupling, CouplingId, Dimension, EffectId, Guide, GuideId, InitialCondition, InitialId,
-    Joint, JointId, NamedSignal, OutputId, Road, SignalId, SolverTable, Start, Surroundings,
+    Joint, JointId, NamedSignal, OutputId, Road, Rolling, RollingId, SignalId, SolverTable, Start,
+    Surroundings,
 };
 use alloc::string::String;
 use alloc::vec::Vec;
@@ -31,6 +32,8 @@ pub struct Scene<T> {
     pub guides: Vec<Guide<T>>,
     /// Relations of joint coordinates and lengths that hold.
     pub couplings: Vec<Coupling<T>>,
+    /// Bodies that roll without slipping, and blades.
+    pub rollings: Vec<Rolling<T>>,
     /// Numbers over time by name, that guides, couplings and effects follow.
     pub signals: Vec<NamedSignal<T>>,
     /// The road of tires; empty: level ground at height zero.
@@ -59,6 +62,7 @@ impl<T: Default> Scene<T> {
             initials: Vec::new(),
             guides: Vec::new(),
             couplings: Vec::new(),
+            rollings: Vec::new(),
             signals: Vec::new(),
             road: Road::default(),
             start: Start::default(),
@@ -137,4 +141,4 @@ macro_rules! by_handle {
     )*};
 }
 
-by_handle!(JointId of Joint, InitialId of InitialCondition, GuideId of Guide, CouplingId of Coupling, SignalId of NamedSignal, EffectId of Effect, OutputId of Output);
+by_handle!(JointId of Joint, InitialId of InitialCondition, GuideId of Guide, CouplingId of Coupling, RollingId of Rolling, SignalId of NamedSignal, EffectId of Effect, OutputId of Output);

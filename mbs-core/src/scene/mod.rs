@@ -43,6 +43,8 @@ mod open;
 #[cfg(feature = "alloc")]
 mod resolve;
 #[cfg(feature = "alloc")]
+mod rolling;
+#[cfg(feature = "alloc")]
 mod signal;
 #[cfg(feature = "alloc")]
 mod solver;
@@ -77,7 +79,8 @@ pub use error::{Entry, SceneError};
 pub use fault::SceneFault;
 #[cfg(feature = "alloc")]
 pub use id::{
-    BodyId, CouplingId, EffectId, GROUND, GuideId, InitialId, JointId, OutputId, SignalId,
+    BodyId, CouplingId, EffectId, GROUND, GuideId, InitialId, JointId, OutputId, RollingId,
+    SignalId,
 };
 #[cfg(feature = "alloc")]
 pub(crate) use inertia::steiner;
@@ -86,6 +89,8 @@ pub use joint::{Axis, Freedom, JOINTS, JointForm, JointKind, Rotation, Translati
 pub use mechanism::{Effect, Output, Scene};
 #[cfg(feature = "alloc")]
 pub use number::{Number, Vector3};
+#[cfg(feature = "alloc")]
+pub use rolling::{Rolling, RollingKind, RollingPlane};
 #[cfg(feature = "alloc")]
 pub(crate) use signal::first_of;
 #[cfg(feature = "alloc")]

@@ -4,7 +4,8 @@ use crate::Real;
 use crate::scene::{
     Body, CalspanCoefficients, Coupling, CouplingMeasure, CouplingTerm, Curve, Dimension, Effect,
     Entry, Guide, Inertia, InitialCondition, InitialTarget, Joint, JointLimits, Motion,
-    NamedSignal, Number, Output, Road, RoadFeature, Scene, SceneError, SceneFault, SolverTable,
+    NamedSignal, Number, Output, Road, RoadFeature, Rolling, RollingKind, RollingPlane, Scene,
+    SceneError, SceneFault, SolverTable,
 };
 use alloc::vec::Vec;
 
@@ -77,6 +78,7 @@ impl<T: Clone> Scene<T> {
                 .map(|guide| Guide { joint: guide.joint, law: guide.law.map(f) })
                 .collect(),
             couplings: self.couplings.iter().map(|coupling| coupling.map(f)).collect(),
+            rollings: self.rollings.iter().map(|rolling| rolling.map(f)).collect(),
             signals: self
                 .signals
                 .iter()
@@ -105,6 +107,24 @@ impl<T> Body<T> {
         };
         let (mass, center) = (f(&self.mass), all(&self.center, f));
         Body { name: self.name.clone(), mass, center, inertia }
+    }
+}
+
+impl<T> Rolling<T> {
+    fn map<U>(&self, f: &mut impl FnMut(&T) -> U) -> Rolling<U> {
+        let kind = match &self.kind {
+            RollingKind::Wheel { axis, radius } => {
+                RollingKind::Wheel { axis: all(axis, f), radius: f(radius) }
+            }
+            RollingKind::Ball { radius } => RollingKind::Ball { radius: f(radius) },
+            RollingKind::Blade { direction } => RollingKind::Blade { direction: all(direction, f) },
+        };
+        let plane = self.plane.as_ref().map(|plane| RollingPlane {
+            point: all(&plane.point, f),
+            normal: all(&plane.normal, f),
+        });
+        let (name, at) = (self.name.clone(), all(&self.at, f));
+        Rolling { name, kind, body: self.body, at, on: self.on, plane }
     }
 }
 

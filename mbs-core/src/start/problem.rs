@@ -141,9 +141,10 @@ impl<'a, T: Real, const D: usize> Problem<'a, T, D> {
         }
     }
 
-    /// Evaluates rows and holds at `q`; guides must have been set in `terms`.
+    /// Evaluates rows and holds at `q`, without those that restrict velocities alone; guides must have been set in `terms`.
     pub(super) fn evaluate(&mut self, q: &[T], tau: T) {
         self.model.evaluate(q, &mut self.terms);
+        self.model.release_slips(&mut self.terms);
         let mut at = 0;
         for (h, hold) in self.holds.iter().enumerate() {
             let clique = self.spans[h].of(&self.cliques);

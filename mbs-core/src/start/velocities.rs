@@ -11,6 +11,9 @@ impl<T: Real, S: SpdSolver<T>, const D: usize> Assembly<'_, T, S, D> {
     /// Makes `s.v` the smallest velocity that meets all rates, at the positions last evaluated.
     pub(super) fn velocities(&mut self, s: &mut State<T>) -> Result<(), AssemblyError> {
         let n = self.problem.n_unknowns();
+        if self.problem.model.has_velocity_rows() {
+            self.problem.model.evaluate(&s.q, &mut self.problem.terms);
+        }
         self.problem.model.evaluate_phi_t(&s.q, &mut self.problem.terms);
         self.problem.holds.iter_mut().for_each(|hold| hold.place_rate(&s.q));
         self.problem.lower_penalties();

@@ -73,6 +73,13 @@ pub enum StepError {
         /// The part, from 0 in the order of the coupling's points.
         part: u32,
     },
+    /// A disc that rolls lies flat on its plane, where it has no lowest point; or a blade stands along the normal.
+    RollingFlat {
+        /// The rolling in the scene.
+        rolling: u32,
+    },
+    /// Rows of velocities, as of bodies that roll, in a formulation whose coordinates are independent: more places are free than velocities.
+    VelocityRows,
     /// A user-defined law with data gave a number that is infinite or NaN.
     #[cfg(feature = "alloc")]
     Law {
@@ -179,6 +186,14 @@ impl core::fmt::Display for StepError {
             Self::Overturned { .. } => write!(
                 f,
                 "the effect is turned by more than a whole turn, where its law ends: give the joint's axis a torsion spring"
+            ),
+            Self::VelocityRows => write!(
+                f,
+                "bodies that roll restrict velocities, not places, which this formulation has no rows for: take another one"
+            ),
+            Self::RollingFlat { .. } => write!(
+                f,
+                "the disc lies flat on its plane, where it has no lowest point, or the blade stands on it: end its motion before"
             ),
             Self::RopeCollapsed { part, .. } => write!(
                 f,

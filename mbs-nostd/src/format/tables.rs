@@ -29,6 +29,9 @@ record_enum!([T: Real + Record, S: Axes<T>] Row<T, S> = Row {
     2 Dot { x x, y y, constant constant },
     3 Length { length length },
     4 Coupled { 0 row },
+    5 Height { radius radius, axis axis, normal normal },
+    6 NoSlip { direction direction },
+    7 Blade { direction direction, normal normal },
 });
 
 record_struct!([T: Real + Record] CoupledRow<T> = CoupledRow {

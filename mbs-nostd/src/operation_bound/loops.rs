@@ -56,6 +56,9 @@ pub(super) fn rows<T: Real, S: Space<T>>(m: &TreeSlices<'_, T, S>) -> Operations
                 ops(8 * terms + 3, 8 * terms + 12)
             }
             (Row::Length { .. }, false) => ops(22, 12).and(1, 0, 0),
+            // the first row has the lowest point
+            (Row::Height { .. } | Row::Blade { .. }, _) => ops(240, 200).and(1, 1, 0),
+            (Row::NoSlip { .. }, _) => ops(60, 45),
         };
     }
     sum

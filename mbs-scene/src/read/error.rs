@@ -71,9 +71,9 @@ pub enum ReadFault {
         /// The names that are there.
         known: Vec<String>,
     },
-    /// A coupling or an effect of that name is not in the file.
+    /// A coupling, a rolling or an effect of that name is not in the file.
     UnknownPart {
-        /// `couplings` or `effects`.
+        /// `couplings`, `rollings` or `effects`.
         list: &'static str,
         /// The name as written.
         name: String,
@@ -271,11 +271,11 @@ impl Display for ReadFault {
 }
 
 /// What an output without an owner lacks.
-pub(crate) const OWNER: &str = "joint, body, coupling, effect or signal";
+pub(crate) const OWNER: &str = "joint, body, coupling, rolling, effect or signal";
 /// What a term or a measure needs of a joint with several coordinates.
 pub(crate) const NAMED: &str = "coordinate, by its name,";
 const OF_WHOM: &str = "add `joint = \"...\"` for its value, rate or reaction, `body = \"...\"` with `at = [...]` for the position, velocity or \
-                       acceleration of a point, or the `coupling`, `effect` or `signal`; the energy, momentum and center-of-mass are of the scene";
+                       acceleration of a point, or the `coupling`, `rolling`, `effect` or `signal`; the energy, momentum and center-of-mass are of the scene";
 const INERTIA: &str = "add `inertia`, about the centre of mass [kg m^2]: one number in the plane, six in space; a point mass that is welded \
                        to a body has zeros; a slender rod has \
                        `rod = { from = [...], to = [...] }` instead of `center` and `inertia`";
@@ -345,6 +345,7 @@ fn numbered(entry: Entry, index: usize) -> Entry {
         Entry::Initial(_) => Entry::Initial(index),
         Entry::Guide(_) => Entry::Guide(index),
         Entry::Coupling(_) => Entry::Coupling(index),
+        Entry::Rolling(_) => Entry::Rolling(index),
         Entry::Signal(_) => Entry::Signal(index),
         Entry::Effect(_) => Entry::Effect(index),
         Entry::Output(_) => Entry::Output(index),

@@ -15,6 +15,7 @@ mod nearest;
 mod output;
 mod place;
 mod road;
+mod rolling;
 mod scene;
 mod signal;
 mod sweep;

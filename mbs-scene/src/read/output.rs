@@ -5,17 +5,16 @@ use crate::read::error::OWNER;
 use crate::read::fields::{Fields, Read};
 use crate::read::names::Names;
 use mbs_core::outputs::{QUANTITIES, Quantity, QuantityRow, RelativePoint, Target, TargetKind};
-use mbs_core::scene::{CouplingId, EffectId, Number, Output, SolverTable};
+use mbs_core::scene::{CouplingId, EffectId, Number, Output, RollingId, SolverTable};
 
 /// Keys that say what an output is of; one at most.
-const OWNERS: [&str; 5] = ["joint", "body", "coupling", "effect", "signal"];
+const OWNERS: [&str; 6] = ["joint", "body", "coupling", "rolling", "effect", "signal"];
 
-/// Reads an output of a scene with these couplings and effects.
+/// Reads an output of a scene with the names of its couplings, rollings and effects.
 pub(crate) fn read(
     fields: &Fields<'_>,
     centers: &[[Number; 3]],
-    couplings: &Names,
-    effects: &Names,
+    names: [&Names; 3],
 ) -> Read<Output<Number>> {
     for (i, one) in OWNERS.iter().enumerate() {
         OWNERS[i + 1..].iter().try_for_each(|other| fields.exclusive(one, other))?;
@@ -53,7 +52,7 @@ pub(crate) fn read(
         return unknown();
     };
     fields.allow(&keys(kind.keys()), &keys(&every))?;
-    let target = target(fields, kind, (centers, [couplings, effects]))?;
+    let target = target(fields, kind, (centers, names))?;
     let Some(quantity) = Quantity::of(word.0, target) else { return unknown() };
     Ok(Output { name: fields.name()?, quantity })
 }
@@ -62,7 +61,7 @@ pub(crate) fn read(
 fn target(
     fields: &Fields<'_>,
     kind: TargetKind,
-    (centers, [couplings, effects]): (&[[Number; 3]], [&Names; 2]),
+    (centers, [couplings, rollings, effects]): (&[[Number; 3]], [&Names; 3]),
 ) -> Read<Target<Number>> {
     let owner = || fields.need(kind.keys().first().copied().unwrap_or_default());
     let body = || fields.context.moving_body(owner()?);
@@ -93,6 +92,7 @@ fn target(
         TargetKind::RelativeBody => Target::RelativeBody(body()?, frame()?),
         TargetKind::Joint => Target::Joint(fields.context.joint(owner()?)?),
         TargetKind::Coupling => Target::Coupling(CouplingId::new(place(couplings, "couplings")?)),
+        TargetKind::Rolling => Target::Rolling(RollingId::new(place(rollings, "rollings")?)),
         TargetKind::Effect => Target::Effect(EffectId::new(place(effects, "effects")?)),
         TargetKind::Signal => Target::Signal(fields.context.signal(owner()?)?),
         TargetKind::Scene => Target::Scene,

@@ -6,7 +6,8 @@ use crate::read::fields::{Context, Fields, Read};
 use crate::read::names::Names;
 use crate::read::tree::{Item, Member, Node};
 use crate::read::{
-    Place, ReadError, ReadFault, body, coupling, effect, joint, motion, output, road, signal,
+    Place, ReadError, ReadFault, body, coupling, effect, joint, motion, output, road, rolling,
+    signal,
 };
 use mbs_core::Real;
 use mbs_core::scene::{
@@ -14,9 +15,9 @@ use mbs_core::scene::{
 };
 use std::collections::BTreeMap;
 
-const TABLES: [&str; 11] = [
-    "scene", "body", "joint", "initial", "guide", "coupling", "signal", "effect", "road", "solver",
-    "output",
+const TABLES: [&str; 12] = [
+    "scene", "body", "joint", "initial", "guide", "coupling", "rolling", "signal", "effect",
+    "road", "solver", "output",
 ];
 const SCENE_KEYS: [&str; 5] = ["name", "dimension", "gravity", "duration", "start"];
 
@@ -60,9 +61,11 @@ impl SceneFile {
         let joints = self.entries(&context, "joint", |_, fields| joint::read(fields, &centers))?;
         let couplings =
             self.entries(&context, "coupling", |i, fields| coupling::read(i, fields, &joints))?;
+        let rollings = self.entries(&context, "rolling", |i, fields| rolling::read(i, fields))?;
         let effects =
             self.entries(&context, "effect", |i, fields| effect::read(i, fields, &joints))?;
         let of_couplings = Names::new(couplings.iter().map(|x| x.name.clone()).collect());
+        let of_rollings = Names::new(rollings.iter().map(|x| x.name.clone()).collect());
         let of_effects = Names::new(effects.iter().map(|x| x.name.clone()).collect());
         Ok(Scene {
             name: self.scene_name(&header)?,
@@ -74,6 +77,7 @@ impl SceneFile {
                 .entries(&context, "initial", |_, fields| motion::read_initial(fields))?,
             guides: self.entries(&context, "guide", |_, fields| motion::read_guide(fields))?,
             couplings,
+            rollings,
             signals: self.entries(&context, "signal", |_, fields| signal::read(fields, &joints))?,
             joints,
             road: match self.top("road") {
@@ -83,7 +87,7 @@ impl SceneFile {
             start: read_start(&header)?,
             effects,
             outputs: self.entries(&context, "output", |_, fields| {
-                output::read(fields, &centers, &of_couplings, &of_effects)
+                output::read(fields, &centers, [&of_couplings, &of_rollings, &of_effects])
             })?,
             solver: match self.top("solver") {
                 Some(item) => output::read_solver(&context.table(item, "a table: [solver]")?)?,
@@ -116,6 +120,7 @@ impl SceneFile {
             Entry::Initial(i) => entries("initial", i),
             Entry::Guide(i) => entries("guide", i),
             Entry::Coupling(i) => entries("coupling", i),
+            Entry::Rolling(i) => entries("rolling", i),
             Entry::Signal(i) => entries("signal", i),
             Entry::Effect(i) => entries("effect", i),
             Entry::Output(i) => entries("output", i),

@@ -15,8 +15,8 @@ use core::fmt::{self, Display, Formatter};
 use mbs_core::outputs::{RelativePoint, Target};
 use mbs_core::scene::{
     Body, BodyId, Coupling, CouplingMeasure, CouplingTerm, Curve, Dimension, Guide, Inertia,
-    InitialCondition, InitialTarget, Joint, JointId, JointLimits, Number, Output, Scene,
-    SolverTable, Start,
+    InitialCondition, InitialTarget, Joint, JointId, JointLimits, Number, Output, Rolling,
+    RollingKind, Scene, SolverTable, Start,
 };
 
 /// A scene that has no text.
@@ -128,6 +128,10 @@ fn tables(
         .couplings
         .iter()
         .try_for_each(|x| w.coupling(x).map(|keys| visit("coupling", true, keys)))?;
+    scene
+        .rollings
+        .iter()
+        .try_for_each(|x| w.rolling(x).map(|keys| visit("rolling", true, keys)))?;
     scene.signals.iter().try_for_each(|x| w.signal(x).map(|keys| visit("signal", true, keys)))?;
     scene.effects.iter().try_for_each(|x| w.effect(x).map(|keys| visit("effect", true, keys)))?;
     if let Some(road) = w.road() {
@@ -362,6 +366,35 @@ impl Writer<'_> {
         Ok(keys)
     }
 
+    fn rolling(self, rolling: &Rolling<Number>) -> Result<Keys, WriteError> {
+        let mut keys = Keys::default();
+        keys.push("name", rolling.name.as_str());
+        let (kind, place) = match &rolling.kind {
+            RollingKind::Wheel { .. } => ("wheel", "center"),
+            RollingKind::Ball { .. } => ("ball", "center"),
+            RollingKind::Blade { .. } => ("blade", "at"),
+        };
+        keys.push("kind", kind);
+        keys.push("body", self.body_name(rolling.body)?);
+        keys.push(place, self.vector(&rolling.at));
+        match &rolling.kind {
+            RollingKind::Wheel { axis, .. } if self.scene.dimension == Dimension::Spatial => {
+                keys.push("axis", self.vector(axis));
+            }
+            RollingKind::Blade { direction } => keys.push("direction", self.vector(direction)),
+            RollingKind::Wheel { .. } | RollingKind::Ball { .. } => {}
+        }
+        keys.push_some("radius", rolling.kind.radius());
+        keys.push("on", self.body_name(rolling.on)?);
+        if let Some(plane) = &rolling.plane {
+            let mut inner = Keys::default();
+            inner.push("point", self.vector(&plane.point));
+            inner.push("normal", self.vector(&plane.normal));
+            keys.push("plane", Node::from(inner));
+        }
+        Ok(keys)
+    }
+
     /// The terms of a sum.
     fn terms(self, terms: &[CouplingTerm<Number>]) -> Result<Node, WriteError> {
         let terms: Result<Vec<_>, _> = terms.iter().map(|term| self.term(term)).collect();
@@ -417,6 +450,11 @@ impl Writer<'_> {
                 let coupling = self.scene.couplings.get(coupling.index());
                 let coupling = coupling.ok_or(WriteError::UnknownReference("coupling"))?;
                 keys.push("coupling", coupling.name.as_str());
+            }
+            Target::Rolling(rolling) => {
+                let rolling = self.scene.rollings.get(rolling.index());
+                let rolling = rolling.ok_or(WriteError::UnknownReference("rolling"))?;
+                keys.push("rolling", rolling.name.as_str());
             }
             Target::Effect(effect) => {
                 let effect = self.scene.effects.get(effect.index());

@@ -18,6 +18,7 @@ pub(super) fn absent<T: Real>(scene: &Scene<T>) -> Vec<MissingEffect> {
             "no third dimension: a body has two translations and one rotation",
         ),
         (!scene.couplings.is_empty(), "couplings", "no couplings: no gears, racks, cams or ropes"),
+        (!scene.rollings.is_empty(), "rolling", "no rolling without slipping, and no blades"),
         (!scene.guides.is_empty(), "guides", "no guided joints: no constraint depends on time"),
         (
             any(&EffectKind::stores_energy),

@@ -51,6 +51,9 @@ pub struct Simulated {
     /// Names of the couplings; the key is left out where there are none.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub couplings: Vec<String>,
+    /// Names of the bodies' contacts that roll, and of blades; the key is left out where there are none.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub rollings: Vec<String>,
     /// Acceleration of gravity [m/s^2], where it acts.
     pub gravity: Option<Vec<f64>>,
     /// Coordinates minus rank in natural coordinates, at the start.

@@ -39,6 +39,7 @@ pub(super) fn simulated<T: Real, const D: usize>(
         joints: joints(scene),
         guides: guides(scene),
         couplings: scene.couplings.iter().map(|coupling| coupling.name.clone()).collect(),
+        rollings: scene.rollings.iter().map(|rolling| rolling.name.clone()).collect(),
         gravity: scene.gravity.map(|g| g[..D].iter().map(|x| x.to_f64()).collect()),
         dof: natural.map(|sizes| sizes.dof),
         natural,

@@ -9,13 +9,14 @@ use mbs_core::Real;
 use mbs_core::scene::Scene;
 
 /// Parts of a scene, as a file calls them.
-const PARTS: [&str; 11] = [
+const PARTS: [&str; 12] = [
     "[scene]",
     "[[body]]",
     "[[joint]]",
     "[[initial]]",
     "[[guide]]",
     "[[coupling]]",
+    "[[rolling]]",
     "[[signal]]",
     "[road]",
     "[[effect]]",
@@ -148,6 +149,7 @@ fn fingerprints<T: Real>(scene: &Scene<T>) -> [u64; PARTS.len()] {
         initials,
         guides,
         couplings,
+        rollings,
         signals,
         road,
         start,
@@ -163,6 +165,7 @@ fn fingerprints<T: Real>(scene: &Scene<T>) -> [u64; PARTS.len()] {
         of(initials),
         of(guides),
         of(couplings),
+        of(rollings),
         of(signals),
         of(road),
         of(effects),

@@ -51,6 +51,8 @@ pub type InitialCondition = scene::InitialCondition<Number>;
 pub type Guide = scene::Guide<Number>;
 /// A coupling: a sum of joint coordinates and lengths that holds.
 pub type Coupling = scene::Coupling<Number>;
+/// A body that rolls without slipping, or a blade.
+pub type Rolling = scene::Rolling<Number>;
 /// A number over time by name, which guides, couplings and effects follow.
 pub type NamedSignal = scene::NamedSignal<Number>;
 /// A force, a spring, friction, a tire, ...

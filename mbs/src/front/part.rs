@@ -1,12 +1,12 @@
 //! Parts of a mechanism and their handles.
 
-use super::{Body, Coupling, Effect, Guide, InitialCondition, Joint, NamedSignal, Output};
+use super::{Body, Coupling, Effect, Guide, InitialCondition, Joint, NamedSignal, Output, Rolling};
 use mbs_core::scene::{
     BodyId, CouplingId, EffectId, GuideId, InitialId, InitialTarget, JointId, Number, OutputId,
-    Scene, SignalId, StartedJoint,
+    RollingId, Scene, SignalId, StartedJoint,
 };
 
-/// What [`Mechanism::add`](crate::Mechanism::add) takes: a body, joint, initial condition, guide, coupling, signal, effect or
+/// What [`Mechanism::add`](crate::Mechanism::add) takes: a body, joint, initial condition, guide, coupling, rolling, signal, effect or
 /// output.
 pub trait Part: sealed::Part {
     /// The handle of such a part.
@@ -89,6 +89,9 @@ part!(Output, OutputId, "output", outputs, |p, _| &p.name, |p, n| p.name = n, |i
     id.index()
 ));
 part!(Coupling, CouplingId, "coupling", couplings, |p, _| &p.name, |p, n| p.name = n, |id| Some(
+    id.index()
+));
+part!(Rolling, RollingId, "rolling", rollings, |p, _| &p.name, |p, n| p.name = n, |id| Some(
     id.index()
 ));
 part!(NamedSignal, SignalId, "signal", signals, |p, _| &p.name, |p, n| p.name = n, |id| Some(

@@ -45,6 +45,15 @@ pub(super) fn write_step(error: &StepError, f: &mut core::fmt::Formatter<'_>) ->
         StepError::RopeCollapsed { .. } => {
             write!(f, "the rope has no length left, so that its direction is not known")
         }
+        StepError::RollingFlat { .. } => {
+            write!(f, "what rolls lies flat on its plane, where it has no lowest point")
+        }
+        StepError::VelocityRows => {
+            write!(
+                f,
+                "bodies that roll restrict velocities, not places; this formulation has no rows for that"
+            )
+        }
         StepError::OppositeBranch { .. } => {
             write!(f, "the guided angle jumped half a turn away from its guide")
         }
@@ -79,6 +88,10 @@ pub(super) fn step_hint(error: &StepError) -> &'static str {
         StepError::RopeCollapsed { .. } => {
             "end its motion before the points meet, by a `limit` of a joint or a `bumper` between the points, or end the run"
         }
+        StepError::RollingFlat { .. } => {
+            "end its motion before it lies down, by a `limit` of a joint, or end the run"
+        }
+        StepError::VelocityRows => "take `recursive`, `index-3`, `index-1` or `classical`",
         StepError::Law { .. } => {
             "give a finite force, tangent and energy wherever the law is asked; if the motion should not lead there, try a smaller step"
         }

@@ -32,6 +32,7 @@ mod random;
 mod readings;
 mod realtime;
 mod reference;
+mod rolling;
 mod ropes;
 mod rotors;
 mod signals;

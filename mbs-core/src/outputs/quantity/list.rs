@@ -60,6 +60,10 @@ macro_rules! list {
                 /// Power that a driven coupling gives [W]; zero where its sum is constant.
                 CouplingPower in coupling_power;
             }
+            of Rolling(rolling: RollingId) {
+                /// Force on a body that rolls, at its lowest point, of a blade at its point [N], global axes.
+                RollingForce in rolling_force;
+            }
             of Effect(effect: EffectId) {
                 /// Force of an effect [N or N m]: along a length it is the tension, positive where it pulls the ends together; on a joint it is
                 /// positive against growth of the coordinate. Of an effect on a body and of a bushing, what it does to the body, or the second

@@ -15,6 +15,6 @@ pub use components::{Component, ComponentForm};
 pub(super) use kind::{Instant, Maker};
 pub use row::{QuantityRow, RelativePoint, Target, TargetKind};
 
-use crate::scene::{BodyId, CouplingId, EffectId, JointId, SignalId};
+use crate::scene::{BodyId, CouplingId, EffectId, JointId, RollingId, SignalId};
 
 list::list!(quantities);

@@ -5,7 +5,7 @@ use super::{Quantity, RelativePoint, Target};
 use crate::effects::{ActsOn, Value};
 use crate::scene::{
     BodyId, CouplingId, CouplingMeasure, CouplingTerm, EffectId, Freedom, JointId, Number, Output,
-    Scene, SignalId, SignalKind, Vector3,
+    RollingId, Scene, SignalId, SignalKind, Vector3,
 };
 use alloc::vec::Vec;
 
@@ -38,6 +38,7 @@ impl<T: Clone> Quantity<T> {
             Target::Point(..)
             | Target::RelativePoint(_)
             | Target::Body(_)
+            | Target::Rolling(_)
             | Target::RelativeBody(..)
             | Target::Scene => (&[][..], None),
         };

@@ -1,7 +1,7 @@
 //! What a quantity says of itself, and what it is of.
 
 use super::components::ComponentForm;
-use crate::scene::{BodyId, CouplingId, EffectId, JointId, SignalId};
+use crate::scene::{BodyId, CouplingId, EffectId, JointId, RollingId, SignalId};
 
 /// What a quantity is of.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -18,6 +18,8 @@ pub enum Target<T> {
     Joint(JointId),
     /// A coupling.
     Coupling(CouplingId),
+    /// A rolling.
+    Rolling(RollingId),
     /// An effect.
     Effect(EffectId),
     /// A signal.
@@ -54,6 +56,8 @@ pub enum TargetKind {
     Joint,
     /// A coupling.
     Coupling,
+    /// A rolling.
+    Rolling,
     /// An effect.
     Effect,
     /// A signal.
@@ -73,6 +77,7 @@ impl TargetKind {
             Self::RelativeBody => &["body", "relative_to"],
             Self::Joint => &["joint"],
             Self::Coupling => &["coupling"],
+            Self::Rolling => &["rolling"],
             Self::Effect => &["effect"],
             Self::Signal => &["signal"],
             Self::Scene => &[],

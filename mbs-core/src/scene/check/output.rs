@@ -49,7 +49,10 @@ pub(super) fn check<T: Real>(
         Target::Signal(signal) if signal.index() >= scene.signals.len() => {
             place.fault("signal", SceneFault::UnknownReference)
         }
-        Target::Coupling(_) | Target::Signal(_) | Target::Scene => Ok(()),
+        Target::Rolling(rolling) if rolling.index() >= scene.rollings.len() => {
+            place.fault("rolling", SceneFault::UnknownReference)
+        }
+        Target::Coupling(_) | Target::Rolling(_) | Target::Signal(_) | Target::Scene => Ok(()),
     }
 }
 

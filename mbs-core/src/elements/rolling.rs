@@ -1,0 +1,196 @@
+//! Rolling: the rows of a disc, a ball or a blade on a plane.
+//!
+//! ```text
+//! c, d_i    centre and directions of the body            p, e_i, n    a point, directions and the normal of what it rolls on
+//! r = c + rho                                             the lowest point; x_i = d_i.rho, y_i = e_i.(r - p) do not move with it
+//! s = c' + sum_i d_i' x_i - p' - sum_i e_i' y_i           its velocity as a point of the body, less that as a point of the plane
+//! height    n.(r - p) = 0                                 rate n.s
+//! no slip   t_k.s = 0                                     rows of velocities: t_1, t_2 along the plane, fixed in it
+//! blade     (n x d).s = 0                                 d the direction along which it may move
+//! bias      u.(sum_i d_i' x_i' - sum_i e_i' y_i') + u'.s
+//! ```
+//!
+//! The gradient of the height is that of n.s up to multiples of the rows that keep d_i and e_i of unit length: the lowest point moves along
+//! the rim, across n.
+
+use super::combination::{Span, Term, add_gradient, combine};
+use crate::Real;
+use crate::algebra::{Vector, cross, lowered, raised, unit};
+use crate::measure::{Moving, lies_flat, lowest_point};
+
+/// A rolling in natural coordinates.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Rolling<T: Real> {
+    /// The radius of a disc or ball [m].
+    pub radius: T,
+    /// Is it a blade?
+    pub is_blade: bool,
+    /// The body: its centre, or the point of a blade, and its directions along the global axes of the reference configuration.
+    pub body: RollingFrame,
+    /// What it rolls on: a point of the plane, and directions.
+    pub on: RollingFrame,
+    /// The axis of a disc or the direction of a blade, in the body.
+    pub axis: Vector<T, 3>,
+    /// The normal, then two directions along the plane, in what it rolls on.
+    pub plane: [Vector<T, 3>; 3],
+    /// First of its rows.
+    pub row: u32,
+    /// Number of its rows: the height first, unless it is a blade.
+    pub n: u32,
+    /// Their place in the Jacobian store.
+    pub place: Span,
+}
+
+/// A point and the directions of a body.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct RollingFrame {
+    /// The point.
+    pub point: Span,
+    /// As many directions as the space has.
+    pub axes: [Span; 3],
+}
+
+/// A frame with its rates.
+struct Placed<T: Real> {
+    point: Moving<T>,
+    axes: [Moving<T>; 3],
+}
+
+impl<T: Real> Placed<T> {
+    /// A vector that is fixed in the frame.
+    fn turned(&self, x: &Vector<T, 3>) -> Moving<T> {
+        let mut sum = [Vector::zeros(); 2];
+        for (axis, &x) in self.axes.iter().zip(x.iter()) {
+            sum = [sum[0] + axis[0] * x, sum[1] + axis[1] * x];
+        }
+        sum
+    }
+
+    /// The components of a vector along the directions, and their rates.
+    fn components(&self, x: &Moving<T>) -> [[T; 2]; 3] {
+        self.axes.map(|[e, e_t]| [e.dot(&x[0]), e_t.dot(&x[0]) + e.dot(&x[1])])
+    }
+
+    /// Velocity of the point that has these components.
+    fn velocity(&self, x: &[[T; 2]; 3]) -> Vector<T, 3> {
+        let parts = self.axes.iter().zip(x);
+        parts.fold(self.point[1], |sum, ([_, e_t], [x, _])| sum + e_t * *x)
+    }
+
+    /// What the change of these components adds to its acceleration.
+    fn drift(&self, x: &[[T; 2]; 3]) -> Vector<T, 3> {
+        let parts = self.axes.iter().zip(x);
+        parts.fold(Vector::zeros(), |sum, ([_, e_t], [_, x_t])| sum + e_t * *x_t)
+    }
+}
+
+/// Body and plane at an instant.
+struct Instant<T: Real> {
+    body: Placed<T>,
+    on: Placed<T>,
+    normal: Moving<T>,
+    /// From the point of the plane to the lowest point.
+    gap: Moving<T>,
+    /// Components of the lowest point in the body from its centre, and in the plane.
+    parts: [[[T; 2]; 3]; 2],
+}
+
+impl<T: Real> Rolling<T> {
+    /// The first of its rows of velocities; the others follow.
+    pub fn slip_rows(&self) -> core::ops::Range<usize> {
+        let held = u32::from(!self.is_blade);
+        (self.row + held) as usize..(self.row + self.n) as usize
+    }
+
+    fn instant<const D: usize>(&self, at: impl Fn(Span) -> Moving<T>) -> Instant<T> {
+        let placed = |frame: &RollingFrame| {
+            let axis = |i: usize| {
+                if i < D { at(frame.axes[i]) } else { [unit(i), Vector::zeros()] }
+            };
+            Placed { point: at(frame.point), axes: [axis(0), axis(1), axis(2)] }
+        };
+        let (body, on) = (placed(&self.body), placed(&self.on));
+        let normal = on.turned(&self.plane[0]);
+        let arm = if self.is_blade {
+            [Vector::zeros(); 2]
+        } else {
+            lowest_point(self.radius, &normal, &body.turned(&self.axis))
+        };
+        let gap = [0, 1].map(|i| body.point[i] + arm[i] - on.point[i]);
+        let parts = [body.components(&arm), on.components(&gap)];
+        Instant { body, on, normal, gap, parts }
+    }
+
+    /// The direction that a row measures along, row 0 the first.
+    fn direction(&self, row: usize, now: &Instant<T>) -> Moving<T> {
+        if self.is_blade {
+            let ([n, n_t], [d, d_t]) = (now.normal, now.body.turned(&self.axis));
+            return [cross(&n, &d), cross(&n_t, &d) + cross(&n, &d_t)];
+        }
+        now.on.turned(&self.plane[row])
+    }
+
+    /// Heights and gradients at `q`; rows of velocities have the value zero.
+    pub fn evaluate<const D: usize>(&self, pool: &[Term<T>], q: &[T], out: (&mut [T], &mut [T])) {
+        self.evaluate_with::<D>(pool, |x| [value::<T, D>(pool, x, q), Vector::zeros()], out);
+    }
+
+    /// The same at `q + dq`.
+    pub fn advance<const D: usize>(
+        &self,
+        pool: &[Term<T>],
+        (q, dq): (&[T], &[T]),
+        out: (&mut [T], &mut [T]),
+    ) {
+        let at = |x| value::<T, D>(pool, x, q) + value::<T, D>(pool, x, dq);
+        self.evaluate_with::<D>(pool, |x| [at(x), Vector::zeros()], out);
+    }
+
+    fn evaluate_with<const D: usize>(
+        &self,
+        pool: &[Term<T>],
+        at: impl Fn(Span) -> Moving<T>,
+        (phi, jacobian): (&mut [T], &mut [T]),
+    ) {
+        let now = self.instant::<D>(at);
+        let rows = self.place.of_mut(jacobian);
+        rows.fill(T::ZERO);
+        let width = rows.len() / (self.n as usize).max(1);
+        for (k, row) in rows.chunks_exact_mut(width.max(1)).enumerate() {
+            let [u, _] = self.direction(k, &now);
+            let is_height = k == 0 && !self.is_blade;
+            phi[self.row as usize + k] = if is_height { u.dot(&now.gap[0]) } else { T::ZERO };
+            let frames = [(&self.body, T::ONE), (&self.on, -T::ONE)];
+            for ((frame, sign), parts) in frames.into_iter().zip(&now.parts) {
+                let u = lowered::<T, D>(&(u * sign));
+                add_gradient(row, frame.point.of(pool), &u);
+                for (axis, [x, _]) in frame.axes.iter().zip(parts).take(D) {
+                    add_gradient(row, axis.of(pool), &(u * *x));
+                }
+            }
+        }
+    }
+
+    /// The parts of the rows' accelerations without accelerations, one after the other.
+    pub fn bias<const D: usize>(&self, pool: &[Term<T>], (q, v): (&[T], &[T]), bias: &mut [T]) {
+        let now = self.instant::<D>(|x| [q, v].map(|e| value::<T, D>(pool, x, e)));
+        let [own, of_plane] = &now.parts;
+        let slip = now.body.velocity(own) - now.on.velocity(of_plane);
+        let drift = now.body.drift(own) - now.on.drift(of_plane);
+        for (k, bias) in bias.iter_mut().enumerate().take(self.n as usize) {
+            let [u, u_t] = self.direction(k, &now);
+            *bias = u.dot(&drift) + u_t.dot(&slip);
+        }
+    }
+
+    /// Does the disc lie flat, or the blade stand along the normal, at `q`?
+    pub fn is_flat<const D: usize>(&self, pool: &[Term<T>], q: &[T]) -> bool {
+        let now = self.instant::<D>(|x| [value::<T, D>(pool, x, q), Vector::zeros()]);
+        lies_flat(&now.normal[0], &now.body.turned(&self.axis)[0])
+    }
+}
+
+/// The value of a combination, in space.
+fn value<T: Real, const D: usize>(pool: &[Term<T>], x: Span, e: &[T]) -> Vector<T, 3> {
+    raised(&combine::<T, D>(x.of(pool), e))
+}

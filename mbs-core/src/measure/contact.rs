@@ -1,0 +1,32 @@
+//! The lowest point of a disc or a ball above a plane.
+//!
+//! ```text
+//! rho = -R w/|w|,   w = n - a (a.n)      n: the plane's unit normal, a: the disc's unit axis; of a ball, and in the plane, a = 0
+//! |w|^2 = 1 - (a.n)^2: a disc that lies flat has no lowest point
+//! ```
+
+use crate::Real;
+use crate::algebra::Vector;
+
+/// A vector and its rate.
+pub type Moving<T> = [Vector<T, 3>; 2];
+
+/// |w|^2 below which a disc lies flat [-]: its axis is within a thousandth of a radian of the normal, where the motion of its lowest point
+/// says nothing more about the disc.
+const FLAT: f64 = 1e-6;
+
+/// From the centre of a disc or ball of a radius [m] to its lowest point, and its rate, by normal and axis with their rates. Of a disc that
+/// lies flat they are not finite.
+pub fn lowest_point<T: Real>(radius: T, [n, n_t]: &Moving<T>, [a, a_t]: &Moving<T>) -> Moving<T> {
+    let (dot, dot_t) = (a.dot(n), a_t.dot(n) + a.dot(n_t));
+    let (w, w_t) = (*n - *a * dot, *n_t - *a_t * dot - *a * dot_t);
+    let inverse = T::ONE / w.dot(&w).sqrt();
+    let (unit, w_t) = (w * inverse, w_t * inverse);
+    [unit * -radius, (w_t - unit * unit.dot(&w_t)) * -radius]
+}
+
+/// Does a disc with this axis lie flat on the plane with this normal?
+pub fn lies_flat<T: Real>(normal: &Vector<T, 3>, axis: &Vector<T, 3>) -> bool {
+    let dot = normal.dot(axis);
+    !(T::ONE - dot * dot > T::from_f64(FLAT))
+}

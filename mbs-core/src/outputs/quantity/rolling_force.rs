@@ -1,0 +1,27 @@
+//! Force on a body that rolls.
+
+use super::kind::{Instant, Maker, Measured};
+use super::{ComponentForm, QuantityRow, TargetKind};
+use crate::Real;
+use crate::scene::RollingId;
+use core::marker::PhantomData;
+
+pub(super) const ROW: QuantityRow =
+    QuantityRow::new("force", TargetKind::Rolling, ComponentForm::Vector("N")).of_reactions();
+
+/// The rolling.
+#[derive(Debug, Clone)]
+pub(in crate::outputs) struct RollingForce<T: Real, const D: usize>(usize, PhantomData<T>);
+
+impl<T: Real, const D: usize> Measured<T, D> for RollingForce<T, D> {
+    type Of = RollingId;
+
+    fn new(rolling: RollingId, _: &mut Maker<'_, T, D>) -> Self {
+        Self(rolling.index(), PhantomData)
+    }
+
+    fn write(&self, now: &Instant<'_, T, D>, out: &mut [T]) {
+        let force = now.reactions.map_or([T::ZERO; 3], |all| all.rolling_force(self.0));
+        out.copy_from_slice(&force[..out.len()]);
+    }
+}

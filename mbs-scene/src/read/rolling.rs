@@ -1,0 +1,57 @@
+//! `[[rolling]]`: bodies that roll without slipping, and blades.
+
+use crate::read::fields::{Fields, Read};
+use mbs_core::scene::{BodyId, Number, Rolling, RollingKind, RollingPlane};
+
+/// The kinds and their keys.
+const KINDS: [(&str, &[&str]); 3] = [
+    ("wheel", &["center", "axis", "radius"]),
+    ("ball", &["center", "radius"]),
+    ("blade", &["at", "direction"]),
+];
+/// Keys of every kind.
+const COMMON: [&str; 5] = ["name", "kind", "body", "on", "plane"];
+
+/// Reads a rolling; without a name it is called `rolling-N`, counted from 1.
+pub(crate) fn read(index: usize, fields: &Fields<'_>) -> Read<Rolling<Number>> {
+    let word = fields.word("kind")?;
+    let Some((kind, keys)) = KINDS.iter().find(|(name, _)| *name == word.0) else {
+        return fields.unknown_word("kind", word, &KINDS.map(|(name, _)| name));
+    };
+    let every: Vec<&str> = KINDS.iter().flat_map(|(_, keys)| *keys).copied().collect();
+    fields.allow(&[&COMMON[..], keys].concat(), &every)?;
+    let context = &fields.context;
+    let body = context.moving_body(fields.need("body")?)?;
+    let (kind, at) = match *kind {
+        "wheel" => {
+            let axis = match fields.get("axis") {
+                None if context.is_planar() => [0.0, 0.0, 1.0].map(Number::from),
+                _ => fields.vector("axis")?,
+            };
+            let radius = fields.number("radius")?;
+            (RollingKind::Wheel { axis, radius }, fields.vector("center")?)
+        }
+        "ball" => {
+            let radius = fields.number("radius")?;
+            (RollingKind::Ball { radius }, fields.vector("center")?)
+        }
+        _ => {
+            let direction = fields.vector("direction")?;
+            (RollingKind::Blade { direction }, fields.vector("at")?)
+        }
+    };
+    let on = fields.get("on").map_or(Ok(BodyId::Ground), |item| context.body(item))?;
+    let plane = match fields.get("plane") {
+        None => None,
+        Some(item) => {
+            let plane = context.table(item, "a table { point = [..], normal = [..] }")?;
+            plane.allow(&["point", "normal"], &[])?;
+            Some(RollingPlane { point: plane.vector("point")?, normal: plane.vector("normal")? })
+        }
+    };
+    let name = match fields.get("name") {
+        Some(_) => fields.name()?,
+        None => format!("rolling-{}", index + 1),
+    };
+    Ok(Rolling { name, kind, body, at, on, plane })
+}
