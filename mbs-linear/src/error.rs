@@ -114,6 +114,8 @@ pub enum LinearError {
     },
     /// A force became infinite or not a number.
     NotFinite,
+    /// Bodies that roll are in motion: more places are free than velocities, and they drift from each other.
+    Rolls,
 }
 
 impl core::fmt::Display for LinearError {
@@ -127,6 +129,10 @@ impl core::fmt::Display for LinearError {
             Self::Singular { .. } => write!(
                 f,
                 "the state is a singular position, or nearly: its branches have no common linearisation; move away from it"
+            ),
+            Self::Rolls => write!(
+                f,
+                "bodies that roll are in motion, where more places are free than velocities: linearise about a rest"
             ),
             Self::NoInertia { .. } => write!(
                 f,

@@ -115,6 +115,10 @@ pub fn linearise<T: Real, M: Model<T>, S: SymmetricSolver<T>>(
     w: &mut Workspace<T, S>,
 ) -> Result<Linear<T>, LinearError> {
     options.validate()?;
+    let is_moving = s.v.iter().any(|v| !v.is_zero());
+    if model.has_velocity_rows() && is_moving {
+        return Err(LinearError::Rolls);
+    }
     let mut field = Field::new(model, instant, s, w)?;
     let f = field.tangent.n_freedoms();
     let acceleration = field.at_rest_of(&s.v)?;

@@ -277,6 +277,7 @@ impl StopError {
             Self::Linear(LinearError::NotSettled { .. }) => {
                 "leave out a joint that nearly repeats another"
             }
+            Self::Linear(LinearError::Rolls) => "linearise about a rest, such as the equilibrium",
             Self::Linear(_) | Self::Eigenvalues => "check the data of the effects",
             Self::NoThreads(_) => "ask for fewer threads",
             Self::Interrupted => {

@@ -157,6 +157,58 @@ fn phi_t_and_bias_are_the_time_derivatives_along_a_motion() {
     at_random!(check);
 }
 
+/// Wheels, a ball and blades of the first body, on the ground and on the second.
+fn rolling(text: &str) -> Scene<f64> {
+    let of = scene(text);
+    let [first, second] = [0, 1].map(|i| of.bodies[i].name.clone());
+    let head = format!("[[rolling]]\nbody = \"{first}\"\n");
+    let planar = [
+        "kind = \"wheel\"\ncenter = [0.4, 0.7]\nradius = 0.3".to_owned(),
+        format!("kind = \"wheel\"\ncenter = [0.2, 0.5]\nradius = 0.2\non = \"{second}\""),
+        format!("kind = \"blade\"\nat = [0.3, -0.4]\ndirection = [1.0, 0.4]\non = \"{second}\""),
+    ];
+    let spatial = [
+        "kind = \"wheel\"\ncenter = [0.4, 0.7, 0.2]\naxis = [0.3, 1.0, 0.2]\nradius = 0.3"
+            .to_owned(),
+        format!(
+            "kind = \"wheel\"\ncenter = [0.2, 0.5, 0.6]\naxis = [0.7, -0.6, 0.3]\nradius = 0.2\non = \"{second}\""
+        ),
+        format!("kind = \"ball\"\ncenter = [0.2, 0.5, 0.6]\nradius = 0.2\non = \"{second}\""),
+        format!(
+            "kind = \"blade\"\nat = [0.3, -0.4, 0.1]\ndirection = [1.0, 0.4, 0.2]\non = \"{second}\""
+        ),
+    ];
+    let list = if of.dimension.count() == 2 { &planar[..] } else { &spatial };
+    let entries = list.iter().map(|entry| format!("{head}{entry}\n"));
+    scene(&(text.to_owned() + &entries.collect::<String>()))
+}
+
+#[test]
+fn rows_of_what_rolls_have_their_bias_and_are_the_same_at_a_sum() {
+    fn check<M: Model<f64>>(at: &mut At<M>, random: &mut Random) {
+        let along = |at: &mut At<M>, h: f64| {
+            at.q = plus(&at.q, h, &at.v);
+            at.t += h;
+        };
+        let rate = |at: &At<M>| plus(&rates(&at.model, &at.terms, &at.v), 1.0, &at.terms.phi_t);
+        let bias = at.difference(along, rate);
+        close("bias", &at.terms.phi_bias, &bias, DIFFERENCE);
+        let dq = random.vector(at.model.n_unknowns(), at.model.n_extended(), 1e-2);
+        let (mut advanced, mut evaluated) = (at.terms.clone(), at.terms.clone());
+        at.model.advance(&at.q, &dq, &at.terms.phi, &mut advanced);
+        at.model.evaluate(&plus(&at.q, 1.0, &dq), &mut evaluated);
+        close("phi", &advanced.phi, &evaluated.phi, ROUNDING);
+        close("jacobian", &advanced.jacobian, &evaluated.jacobian, ROUNDING);
+    }
+    for seed in 1..4 {
+        for spread in [0.0, 0.01, 0.1] {
+            let random = &mut Random(seed);
+            check(&mut At::new(model::<2>(&rolling(PLANAR)), random, spread), random);
+            check(&mut At::new(model::<3>(&rolling(SPATIAL)), random, spread), random);
+        }
+    }
+}
+
 #[test]
 fn advance_equals_evaluate_at_the_sum() {
     fn check<M: Model<f64>>(at: &mut At<M>, random: &mut Random) {

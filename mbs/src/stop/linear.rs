@@ -24,6 +24,9 @@ pub(super) fn write_linear(
         LinearError::NotSettled { left } => {
             write!(f, "accelerations next to this position miss the joints by {} m/s^2", few(*left))
         }
+        LinearError::Rolls => {
+            write!(f, "bodies that roll are in motion, where more places are free than velocities")
+        }
         LinearError::NotFinite => write!(f, "a force became infinite or not a number"),
         other => write!(f, "{other}"),
     }

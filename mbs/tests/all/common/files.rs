@@ -4,7 +4,7 @@ pub(crate) use mbs_testkit::repository::path;
 use std::path::{Path, PathBuf};
 
 /// Scenes of the repository, without those of vehicles.
-pub(crate) const SCENES: [&str; 19] = [
+pub(crate) const SCENES: [&str; 20] = [
     "simple-pendulum",
     "double-pendulum",
     "two-four-bars",
@@ -24,6 +24,7 @@ pub(crate) const SCENES: [&str; 19] = [
     "cam-follower",
     "crane",
     "servo-arm",
+    "rolling-disc",
 ];
 
 /// An empty directory for one test.

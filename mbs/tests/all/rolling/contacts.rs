@@ -98,3 +98,39 @@ fn nothing_is_lost_or_won_where_things_roll() {
         assert!(coarse < 1e-3 && fine < 0.3 * coarse + 1e-9, "{formulation}: {coarse:e} {fine:e}");
     }
 }
+
+/// A wheel whose centre of mass is below its centre, on a slope in the plane.
+fn eccentric(angle: f64) -> String {
+    let below = 0.1;
+    let (sin, cos) = angle.sin_cos();
+    let center = [-sin * RADIUS, cos * RADIUS];
+    let mass_at = [center[0], center[1] - below];
+    format!(
+        "[scene]\nname = \"eccentric\"\ndimension = 2\nduration = 1.0\ngravity = [0.0, -9.81]\n\
+         [[body]]\nname = \"wheel\"\nmass = {MASS:?}\ncenter = {mass_at:?}\ninertia = {INERTIA:?}\n\
+         [[rolling]]\nname = \"contact\"\nkind = \"wheel\"\nbody = \"wheel\"\ncenter = {center:?}\nradius = {RADIUS:?}\n\
+         plane = {{ point = [0.0, 0.0], normal = {:?} }}\n\
+         [[output]]\nname = \"a\"\nbody = \"wheel\"\nquantity = \"orientation\"\n",
+        [-sin, cos]
+    )
+}
+
+#[test]
+fn an_eccentric_wheel_rests_and_rocks_as_its_energy_says() {
+    let below = 0.1;
+    for angle in [0.0_f64, 0.2] {
+        let m = mbs::Mechanism::parse(&eccentric(angle)).expect("a scene");
+        let rest = mbs::equilibrium(&m, &mbs::EquilibriumOptions::default())
+            .unwrap_or_else(|e| panic!("{angle}: {e}"));
+        // V = m g (R (t sin) - e cos t): the centre of mass hangs aside by R sin, t counted from there
+        let turn = (RADIUS * angle.sin() / below).asin();
+        // its distance from the contact, and the curvature of V
+        let up = below * turn.cos();
+        let square = (RADIUS * angle.sin() - below * turn.sin()).powi(2)
+            + (RADIUS * angle.cos() - up).powi(2);
+        let omega = (MASS * 9.81 * up / (INERTIA + MASS * square)).sqrt();
+        let modes = mbs::modes(&m, &rest).unwrap_or_else(|e| panic!("{angle}: {e}")).modes;
+        let found = modes.iter().fold(0.0_f64, |a, mode| a.max(mode.imaginary));
+        assert!((found - omega).abs() < 1e-6 * omega, "{angle}: {found} {omega}");
+    }
+}
