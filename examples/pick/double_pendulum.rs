@@ -1,6 +1,6 @@
 //! The scene of these examples: two uniform rods of 1 m and 1 kg, let go from the horizontal.
 
-use mbs_core::scene::{Body, BodyId, Dimension, Inertia, Joint, JointKind, JointLimits, Scene, SolverTable};
+use mbs_core::scene::{Body, BodyId, Dimension, Inertia, Joint, JointKind, JointLimits, Scene};
 
 /// Where the tip is in the reference configuration [m].
 pub const TIP: [f64; 3] = [2.0, 0.0, 0.0];
@@ -40,24 +40,12 @@ pub fn double_pendulum() -> Scene<f64> {
     let (pivot, elbow) = ([0.0; 3], [1.0, 0.0, 0.0]);
     let (upper, lower) = (BodyId::Body(0), BodyId::Body(1));
     Scene {
-        name: "double pendulum".into(),
-        dimension: Dimension::Planar,
         gravity: Some([0.0, -9.81, 0.0]),
-        duration: 1.0,
         bodies: vec![rod("upper", pivot, elbow), rod("lower", elbow, TIP)],
         joints: vec![
             revolute("pivot", [BodyId::Ground, upper], pivot),
             revolute("elbow", [upper, lower], elbow),
         ],
-        initials: vec![],
-        guides: vec![],
-        couplings: vec![],
-        rollings: vec![],
-        signals: vec![],
-        effects: vec![],
-        road: Default::default(),
-        start: Default::default(),
-        outputs: vec![],
-        solver: SolverTable::default(),
+        ..Scene::empty("double pendulum", Dimension::Planar, 1.0)
     }
 }

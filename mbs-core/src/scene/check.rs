@@ -34,25 +34,8 @@ impl<T: Real> Scene<T> {
     ///
     /// # Examples
     /// ```
-    /// # use mbs_core::scene::{Dimension, Entry, Scene, SceneFault, SolverTable};
-    /// let mut scene = Scene::<f64> {
-    ///     name: "empty".into(),
-    ///     dimension: Dimension::Planar,
-    ///     gravity: None,
-    ///     duration: 1.0,
-    ///     bodies: Vec::new(),
-    ///     joints: Vec::new(),
-    ///     initials: Vec::new(),
-    ///     guides: Vec::new(),
-    ///     couplings: Vec::new(),
-    ///     rollings: Vec::new(),
-    ///     signals: Vec::new(),
-    ///     effects: Vec::new(),
-    ///     road: Default::default(),
-    ///     start: Default::default(),
-    ///     outputs: Vec::new(),
-    ///     solver: SolverTable::default(),
-    /// };
+    /// # use mbs_core::scene::{Dimension, Entry, Scene, SceneFault};
+    /// let mut scene = Scene::<f64>::empty("empty", Dimension::Planar, 1.0);
     /// assert!(scene.check().is_ok());
     /// scene.duration = -1.0;
     /// let error = scene.check().unwrap_err();

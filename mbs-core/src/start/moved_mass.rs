@@ -54,6 +54,7 @@ fn moving<T: Real>(scene: &Scene<T>, (joint, number): (JointId, usize)) -> Scene
         joints: scene.joints.clone(),
         guides: scene.guides.iter().map(guide).collect(),
         couplings: scene.couplings.iter().map(held).chain([rate_of_one]).collect(),
+        rollings: scene.rollings.clone(),
         gravity: None,
         signals: Vec::new(),
         effects: rotors.cloned().collect(),

@@ -25,23 +25,7 @@ fn ring(axes: &[[f64; 3]]) -> Scene<f64> {
         center: [0.0; 3],
         inertia: crate::scene::Inertia::Spatial([1.0, 1.0, 1.0, 0.0, 0.0, 0.0]),
     });
-    Scene {
-        name: String::new(),
-        dimension: Dimension::Spatial,
-        gravity: None,
-        duration: 1.0,
-        bodies: bodies.collect(),
-        joints,
-        initials: Vec::new(),
-        guides: Vec::new(),
-        couplings: Vec::new(),
-        signals: Vec::new(),
-        effects: Vec::new(),
-        road: Default::default(),
-        start: Default::default(),
-        solver: Default::default(),
-        outputs: Vec::new(),
-    }
+    Scene { bodies: bodies.collect(), joints, ..Scene::empty("", Dimension::Spatial, 1.0) }
 }
 
 /// The axis z.

@@ -21,24 +21,13 @@ fn planar() -> Scene<f64> {
     let rod = Inertia::Rod { from: [0.0; 3], to: [1.0, 0.0, 0.0] };
     let ground = BodyId::Ground;
     Scene {
-        name: "pendulum".into(),
-        dimension: Dimension::Planar,
         gravity: Some([0.0, -9.81, 0.0]),
-        duration: 10.0,
         bodies: vec![body("upper", 1.0, rod), body("lower", 1.0, Inertia::Planar(0.1))],
         joints: vec![
             joint("pivot", JointKind::Revolute, [ground, BodyId::Body(0)]),
             joint("elbow", JointKind::Revolute, [BodyId::Body(0), BodyId::Body(1)]),
         ],
-        initials: Vec::new(),
-        guides: Vec::new(),
-        couplings: Vec::new(),
-        signals: Vec::new(),
-        effects: Vec::new(),
-        road: Default::default(),
-        start: Default::default(),
-        outputs: Vec::new(),
-        solver: SolverTable::default(),
+        ..Scene::empty("pendulum", Dimension::Planar, 10.0)
     }
 }
 
