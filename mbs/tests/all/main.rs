@@ -16,6 +16,7 @@ mod couplings;
 mod drive_line;
 mod driven_wheels;
 mod energy;
+mod excavator;
 mod feedback;
 mod field;
 mod formulations;
