@@ -1,9 +1,10 @@
 //! The same mechanism written in another way: turned as a whole, its bodies in another order.
 
 use mbs_core::effects::{Field, Form, SignalForm, Value};
+use mbs_core::measure::RollingInput;
 use mbs_core::scene::{
     Axis, BodyId, Coupling, CouplingMeasure, Dimension, Freedom, Inertia, InitialTarget, Joint,
-    RollingKind, Scene,
+    RollingKind, RollingPlane, Scene,
 };
 
 type Vector = [f64; 3];
@@ -70,15 +71,18 @@ pub fn turn_by(scene: &Scene<f64>, turn: impl Fn(Vector) -> Vector + Copy) -> Sc
         *at = turn(*at);
     }
     for rolling in &mut s.rollings {
+        // a plane that is not written is level
+        let RollingInput { base, plane: [normal, ..], .. } =
+            RollingInput::new(rolling, scene.dimension);
+        let level = || RollingPlane { point: base.into(), normal: normal.into() };
+        let plane = rolling.plane.get_or_insert_with(level);
+        (plane.point, plane.normal) = (turn(plane.point), turn(plane.normal));
         rolling.at = turn(rolling.at);
         match &mut rolling.kind {
             RollingKind::Wheel { axis: x, .. } | RollingKind::Blade { direction: x } => {
                 *x = turn(*x);
             }
             RollingKind::Ball { .. } => {}
-        }
-        if let Some(plane) = &mut rolling.plane {
-            (plane.point, plane.normal) = (turn(plane.point), turn(plane.normal));
         }
     }
     for initial in &mut s.initials {
