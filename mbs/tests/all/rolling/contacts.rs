@@ -134,3 +134,38 @@ fn an_eccentric_wheel_rests_and_rocks_as_its_energy_says() {
         assert!((found - omega).abs() < 1e-6 * omega, "{angle}: {found} {omega}");
     }
 }
+
+#[test]
+fn two_wheels_of_one_axle_roll_straight_and_share_what_nothing_determines() {
+    let angle = 0.35_f64;
+    let (sin, cos) = angle.sin_cos();
+    let center = [-sin * RADIUS, 0.0, cos * RADIUS];
+    let wheel = |y: f64| {
+        format!(
+            "[[rolling]]\nname = \"wheel-{y}\"\nkind = \"wheel\"\nbody = \"axle\"\ncenter = [{:?}, {y:?}, {:?}]\n\
+             axis = [0.0, 1.0, 0.0]\nradius = {RADIUS:?}\nplane = {{ point = [0.0, 0.0, 0.0], normal = [{:?}, 0.0, {cos:?}] }}\n\
+             [[output]]\nname = \"force-{y}\"\nrolling = \"wheel-{y}\"\nquantity = \"force\"\n",
+            center[0], center[2], -sin
+        )
+    };
+    let text = format!(
+        "[scene]\nname = \"axle\"\ndimension = 3\nduration = 1.0\ngravity = [0.0, 0.0, -9.81]\n\
+         [[body]]\nname = \"axle\"\nmass = {MASS:?}\ncenter = {center:?}\ninertia = [0.3, {INERTIA:?}, 0.3, 0.0, 0.0, 0.0]\n\
+         [[output]]\nname = \"p\"\nbody = \"axle\"\nat = {center:?}\nquantity = \"position\"\n{}{}",
+        wheel(-0.4),
+        wheel(0.4)
+    );
+    let way = 0.5 * 9.81 * sin / (1.0 + INERTIA / (MASS * RADIUS * RADIUS));
+    for formulation in ["index-3", "index-1", "recursive"] {
+        let found = end(&text, Way(formulation, "trapezoidal"), 1e-3, 1.0);
+        let along = -((found[0] - center[0]) * cos + (found[2] - center[2]) * sin);
+        assert!((along - way).abs() < 1e-5 * way, "{formulation}: {along} {way}");
+        assert!(found[1].abs() < 1e-9, "{formulation}: {}", found[1]);
+        // each carries half of the weight
+        for force in [&found[3..6], &found[6..9]] {
+            let push = -force[0] * sin + force[2] * cos;
+            let half = 0.5 * MASS * 9.81 * cos;
+            assert!((push - half).abs() < 1e-5 * half, "{formulation}: {push} {half}");
+        }
+    }
+}
