@@ -7,9 +7,10 @@ use mbs_core::Real;
 use mbs_core::feedback::{CourseSlope, SignalStates};
 use mbs_core::step::{InputError, StepError};
 use mbs_recursive::bounded::{self, BoundedReport, Bounds, Watch};
+use mbs_recursive::feedback;
 use mbs_recursive::link::{ArticulatedInertia, LinkMotion};
 use mbs_recursive::loops::LoopStore;
-use mbs_recursive::slices::{Counts, Inputs, Store};
+use mbs_recursive::slices::{Counts, Inputs, Store, TreeSlices};
 use mbs_recursive::space::{Numbers, Space};
 use mbs_recursive::trapezoidal::Start;
 use mbs_recursive::{Options, Outside};
@@ -195,7 +196,7 @@ impl<
 
     /// States of signals, each with its rate.
     pub fn signal_states(&self) -> &[[T; 2]] {
-        self.signals.get(..self.sizes.states).unwrap_or(&[])
+        states(&self.signals, self.sizes.states)
     }
 
     /// Writes the vector of a course from now on: the next step is made with it from its beginning. The scene's signals are the first
@@ -232,7 +233,15 @@ impl<
         if model.sizes() != self.sizes {
             return Err(StepError::Tables);
         }
-        let (mechanism, n_rungs) = model.on_rung(self.ladder.rung());
+        let whole = &model.model().mechanism;
+        let reduced;
+        let mechanism = match model.kept_on(self.ladder.rung()) {
+            None => whole,
+            Some(loads) => {
+                reduced = TreeSlices { loads, ..*whole };
+                &reduced
+            }
+        };
         let inputs = Written {
             laws: model.model().prescriptions,
             guides: &self.inputs.guides,
@@ -247,9 +256,9 @@ impl<
             let place = (
                 self.z.get(..sizes.coordinates).unwrap_or(&[]),
                 self.v.get(..sizes.freedoms).unwrap_or(&[]),
-                self.signals.get(..sizes.states).unwrap_or(&[]),
+                states(&self.signals, sizes.states),
             );
-            bounded::begin(&mechanism, (&self.options, self.bounds), place, &mut s)?;
+            bounded::begin(mechanism, (&self.options, self.bounds), place, &mut s)?;
             put(s.zdd, &mut self.a);
             put(s.signals.ends, &mut self.signals);
             self.inputs.has_new = false;
@@ -259,10 +268,10 @@ impl<
             z: self.z.get(..sizes.coordinates).unwrap_or(&[]),
             v: self.v.get(..sizes.freedoms).unwrap_or(&[]),
             a: self.a.get(..sizes.freedoms).unwrap_or(&[]),
-            signals: self.signals.get(..sizes.states).unwrap_or(&[]),
+            signals: states(&self.signals, sizes.states),
         };
         let work = (dt, &self.options, self.bounds);
-        let report = bounded::step(&mechanism, &inputs, work, (start, watch), &mut s)?;
+        let report = bounded::step(mechanism, &inputs, work, (start, watch), &mut s)?;
         // The step has checked the lengths.
         for (to, from) in [
             (&mut self.z[..], &*s.z),
@@ -275,7 +284,8 @@ impl<
         put(s.signals.ends, &mut self.signals);
         self.t += dt;
         self.inputs.ended = self.inputs.guides;
-        self.ladder.note(report.is_cut_short, n_rungs);
+        let n_rungs = model.model().rungs.len();
+        self.ladder.note(report.is_cut_short, u32::try_from(n_rungs).unwrap_or(u32::MAX));
         Ok(report)
     }
 }
@@ -332,11 +342,15 @@ impl<
             lambda: first(lambda, n.rows)?,
             guides: first(&mut self.guides, n.guides)?,
             courses: first(&mut self.courses, n.courses)?,
-            signals: SignalStates {
-                dt: T::ZERO,
-                starts: first(starts, n.states)?,
-                ends: first(ends, n.states)?,
-                slopes: first(&mut self.slopes, n.followed)?,
+            signals: if feedback::IS_BUILT {
+                SignalStates {
+                    dt: T::ZERO,
+                    starts: first(starts, n.states)?,
+                    ends: first(ends, n.states)?,
+                    slopes: first(&mut self.slopes, n.followed)?,
+                }
+            } else {
+                SignalStates { dt: T::ZERO, starts: &mut [], ends: &mut [], slopes: &mut [] }
             },
             z: first(&mut self.z, n.coordinates)?,
             v: first(v, n.freedoms)?,
@@ -347,6 +361,12 @@ impl<
             counts: Counts::default(),
         })
     }
+}
+
+/// The first `n` states of signals; a build without signals has none.
+#[inline(always)]
+fn states<T>(of: &[[T; 2]], n: usize) -> &[[T; 2]] {
+    if feedback::IS_BUILT { of.get(..n).unwrap_or(&[]) } else { &[] }
 }
 
 /// The entries of a slice, with zeros behind them.

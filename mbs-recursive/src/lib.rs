@@ -10,6 +10,7 @@ mod angles;
 pub mod bounded;
 mod collapse;
 pub mod coupled;
+mod coupled_rows;
 #[cfg(feature = "alloc")]
 mod coupling_tables;
 #[cfg(feature = "alloc")]
@@ -47,7 +48,7 @@ pub mod plan;
 mod project;
 #[cfg(feature = "alloc")]
 mod quantities;
-mod rotor;
+pub mod rotor;
 pub mod rows;
 #[cfg(feature = "alloc")]
 mod run;

@@ -55,8 +55,13 @@ impl<T: Real, S: Space<T>> Row<T, S> {
     pub fn is_angle(&self) -> bool {
         match self {
             Self::Coupled(row) => row.is_angle,
-            _ => matches!(self, Self::Dot { .. }),
+            _ => self.is_cut_angle(),
         }
+    }
+
+    /// Is it the equation of a cut joint, and its value an angle?
+    pub(crate) fn is_cut_angle(&self) -> bool {
+        matches!(self, Self::Dot { .. })
     }
 
     /// Does it hold points together along this world axis?

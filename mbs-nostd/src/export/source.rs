@@ -1,6 +1,6 @@
 //! A model as a file of Rust: constant tables, and a solver of just their size.
 
-use super::collect::needs;
+use super::collect::{elements, needs};
 use crate::check::{Checked, LoadError};
 use crate::format::{Axes, Record};
 use crate::model::Model;
@@ -92,10 +92,16 @@ pub fn source<T: Real + Record, S: Axes<T>>(
     let space = if S::DIMENSION == 3 { "Spatial" } else { "Planar" };
     let features = needs(model).join(", ");
     let features = if features.is_empty() { "none".into() } else { features };
+    let of_elements = elements(model).join(", ");
+    let of_elements = if of_elements.is_empty() {
+        String::new()
+    } else {
+        format!("// Features of mbs-nostd that its machine elements need: {of_elements}.\n")
+    };
     let mut to = format!(
         "// {title}, as constant tables for mbs-nostd; written by `mbs export`, not by hand.\n\
          // Features of mbs-core that its effects need: {features}.\n\
-         \n\
+         {of_elements}\n\
          use mbs_nostd::table::*;\n\
          \n\
          /// Precision of the tables.\n\
