@@ -38,7 +38,7 @@ pub enum LoadError {
         /// The entry.
         entry: usize,
     },
-    /// A coupling of lengths, with curves, or of joints on more than two branches, which no controller holds.
+    /// A coupling of lengths or with curves, which no controller holds.
     Coupling {
         /// `scene.couplings[coupling]`.
         coupling: usize,
@@ -125,6 +125,8 @@ pub struct Sizes {
     pub states: usize,
     /// Courses, where there are operations on them; else none.
     pub followed: usize,
+    /// Sides of rows: two, or as many branches as a coupling has joints on.
+    pub sides: usize,
 }
 
 impl Sizes {
@@ -144,6 +146,7 @@ impl Sizes {
             ("courses", self.courses, room.courses),
             ("states of signals", self.states, room.states),
             ("courses with operations", self.followed, room.followed),
+            ("sides of rows", self.sides, room.sides),
         ] {
             if needed > capacity {
                 return Err(LoadError::Capacity { of, needed, capacity });
@@ -186,6 +189,7 @@ impl Sizes {
             courses: 0,
             states: m.feedback.n_states,
             followed: 0,
+            sides: plan.passes.iter().fold(2, |most, pass| most.max(sides(pass.side))),
         }
     }
 }
@@ -272,6 +276,11 @@ fn unheld<T: Real, S: Space<T>>(lap: &ClosedLoop<T, S>) -> LoadError {
     LoadError::Coupling { coupling: lap.joint as usize }
 }
 
+/// Sides up to that of this number.
+fn sides(side: u32) -> usize {
+    (side as usize).saturating_add(1)
+}
+
 /// `Ok` if so.
 fn ensure(holds: bool, table: &'static str, entry: usize) -> Result<(), LoadError> {
     if holds { Ok(()) } else { Err(fault(table, entry)) }
@@ -332,7 +341,7 @@ impl<T: Real, S: Space<T>> Look<'_, '_, T, S> {
                 "loops",
                 i,
             )?;
-            if term.curve != NONE || (side != NONE && side > 1) {
+            if term.curve != NONE {
                 return Err(unheld(lap));
             }
         }

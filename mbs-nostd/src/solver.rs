@@ -17,7 +17,8 @@ use mbs_recursive::{Options, Outside};
 
 /// State, scratch and inputs of a model with at most `L` links (the ground among them), `Z` coordinates, `V` freedoms and `R`
 /// rows of loops. It has at most `B` numbers in blocks of Λ, `N` gains, `G` guides and `C` courses. It has at most
-/// `M` states of signals, and `F` courses where there are operations on them.
+/// `M` states of signals, and `F` courses where there are operations on them. A row has at most `K` sides: two, or as many branches as
+/// a coupling has joints on.
 ///
 /// Its size is about 130 numbers for each link, 46 for each row, 10 for each freedom, and at most six for each of the others.
 #[derive(Debug, Clone)]
@@ -34,6 +35,7 @@ pub struct Solver<
     const C: usize,
     const M: usize = 0,
     const F: usize = 0,
+    const K: usize = 2,
 > {
     /// Choices for the steps.
     pub options: Options<T>,
@@ -49,7 +51,7 @@ pub struct Solver<
     lambda: [T; R],
     signals: [[T; 2]; M],
     inputs: Values<G, C, T>,
-    scratch: Scratch<T, S, L, Z, V, R, B, N, G, C, M, F>,
+    scratch: Scratch<T, S, L, Z, V, R, B, N, G, C, M, F, K>,
 }
 
 #[derive(Debug, Clone)]
@@ -66,13 +68,14 @@ struct Scratch<
     const C: usize,
     const M: usize,
     const F: usize,
+    const K: usize,
 > {
     placed: [LinkMotion<T, S>; L],
     trial: [LinkMotion<T, S>; L],
     condensed: [ArticulatedInertia<T, S>; L],
     motions: [[S::Motion; L]; 2],
-    /// K as it travels, and at its bodies; both sides.
-    gradients: [[[S::Motion; R]; 2]; 2],
+    /// K as it travels, and at its bodies; all sides.
+    gradients: [[[S::Motion; R]; K]; 2],
     rows: [[T; 3]; R],
     /// l, λ of a sweep, summed λ, scales, pivots.
     multipliers: [[T; R]; 5],
@@ -102,7 +105,8 @@ impl<
     const C: usize,
     const M: usize,
     const F: usize,
-> Solver<T, S, L, Z, V, R, B, N, G, C, M, F>
+    const K: usize,
+> Solver<T, S, L, Z, V, R, B, N, G, C, M, F, K>
 {
     /// A solver at the beginning of a model.
     ///
@@ -121,6 +125,7 @@ impl<
             courses: C,
             states: M,
             followed: F,
+            sides: K,
         })?;
         let zero = S::Motion::zero();
         let from = &model.model().start;
@@ -142,7 +147,7 @@ impl<
                 trial: [LinkMotion::ground(); L],
                 condensed: [ArticulatedInertia::empty(); L],
                 motions: [[zero; L]; 2],
-                gradients: [[[zero; R]; 2]; 2],
+                gradients: [[[zero; R]; K]; 2],
                 rows: [[T::ZERO; 3]; R],
                 multipliers: [[T::ZERO; R]; 5],
                 blocks: [T::ZERO; B],
@@ -309,7 +314,8 @@ impl<
     const C: usize,
     const M: usize,
     const F: usize,
-> Scratch<T, S, L, Z, V, R, B, N, G, C, M, F>
+    const K: usize,
+> Scratch<T, S, L, Z, V, R, B, N, G, C, M, F, K>
 {
     /// The scratch as slices of a model's sizes.
     fn store(&mut self, n: &Sizes) -> Result<Store<'_, T, S>, Outside> {
@@ -327,7 +333,7 @@ impl<
             a_response: first(a_response, n.links)?,
             v_response: first(v_response, n.freedoms)?,
             loops: LoopStore {
-                k: first(k.as_flattened_mut(), 2 * n.rows)?,
+                k: first(k.as_flattened_mut(), n.sides * n.rows)?,
                 slopes: &mut [],
                 l: first(l, n.rows)?,
                 lambda: first(lambda_response, n.rows)?,
@@ -337,7 +343,7 @@ impl<
                 scales: first(scales, n.rows)?,
                 pivots: first(pivots, n.rows)?,
             },
-            gradient: first(gradient.as_flattened_mut(), 2 * n.rows)?,
+            gradient: first(gradient.as_flattened_mut(), n.sides * n.rows)?,
             rows: first(&mut self.rows, n.rows)?,
             lambda: first(lambda, n.rows)?,
             guides: first(&mut self.guides, n.guides)?,

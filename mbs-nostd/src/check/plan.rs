@@ -1,8 +1,9 @@
 //! The order of elimination: every number in its lists points into them.
 
-use super::{Look, ends_by, ensure};
+use super::{Look, ends_by, ensure, sides};
 use crate::check::LoadError;
 use mbs_core::Real;
+use mbs_recursive::coupled;
 use mbs_recursive::plan::Span;
 use mbs_recursive::space::Space;
 
@@ -19,7 +20,8 @@ impl<T: Real, S: Space<T>> Look<'_, '_, T, S> {
             ensure(holds, "stations", i)?;
         }
         for (i, pass) in plan.passes.iter().enumerate() {
-            ensure(is_lap(pass.lap) && pass.side < 2, "passes", i)?;
+            let has_room = pass.side < 2 || coupled::IS_BUILT;
+            ensure(is_lap(pass.lap) && has_room, "passes", i)?;
         }
         for (i, pair) in plan.pairs.iter().enumerate() {
             let rows = |pass: u32| {
@@ -41,7 +43,8 @@ impl<T: Real, S: Space<T>> Look<'_, '_, T, S> {
             ensure(holds, "ends", i)?;
         }
         for (i, coupling) in plan.couplings.iter().enumerate() {
-            ensure(is_lap(coupling.lap) && coupling.side < 2, "couplings", i)?;
+            let is_side = sides(coupling.side) <= self.sizes.sides;
+            ensure(is_lap(coupling.lap) && is_side, "couplings", i)?;
         }
         for (i, update) in plan.updates.iter().enumerate() {
             let holds = [update.row, update.column]
