@@ -183,6 +183,7 @@ impl<T: Real, M: Model<T>, S: SpdSolver<T>> Projector<'_, T, M, S> {
     }
 
     /// r = J x + b; returns its largest absolute value.
+    #[inline(always)]
     pub(crate) fn violation(&mut self) -> T {
         let (terms, rates) = (&self.equations.terms, &mut self.scratch.rates);
         self.level.violation(self.model, terms, self.x, rates)

@@ -109,10 +109,15 @@ impl<T: Real> Prescribed<T> {
         (of_guides, of_courses): (&[T], &[T]),
         (guides, courses): (&mut [[T; 3]], &mut [[T; 3]]),
     ) {
+        if guides.is_empty() && courses.is_empty() {
+            return;
+        }
         let n_of_effects = of_courses.len().saturating_sub(self.signals.inputs().len());
         let (of_courses, of_signals) = of_courses.split_at(n_of_effects);
         let (signals, courses) = courses.split_at_mut(self.signals.len().min(courses.len()));
-        self.signals.write(t, of_signals, signals);
+        if !signals.is_empty() {
+            self.signals.write(t, of_signals, signals);
+        }
         let mut inputs = of_guides.as_chunks().0.iter();
         for (value, guide) in guides.iter_mut().zip(&self.guides) {
             let input = guide.input().and_then(|_| inputs.next());

@@ -1,16 +1,19 @@
 //! Models are checked once, when they are loaded: afterwards every number in their tables points into them.
 
+mod plan;
 mod signals;
 
+use crate::elements;
 use crate::inputs::{Motion, SignalLaw};
 use crate::model::Model;
 use mbs_core::Real;
 use mbs_core::effects::bushing;
 use mbs_core::laws::Part;
-use mbs_recursive::coupled::{CoupledRow, NONE, SumMeasure};
+use mbs_recursive::coupled::{self, CoupledRow, NONE, SumMeasure};
+use mbs_recursive::feedback;
 use mbs_recursive::link::LinkKind;
-use mbs_recursive::loads::{Load, Measure, SumLoad};
-use mbs_recursive::plan::Span;
+use mbs_recursive::loads::{Load, Measure, SumLoad, sum};
+use mbs_recursive::rotor;
 use mbs_recursive::rows::{ClosedLoop, Row};
 use mbs_recursive::slices::TreeSlices;
 use mbs_recursive::space::Space;
@@ -35,7 +38,7 @@ pub enum LoadError {
         /// The entry.
         entry: usize,
     },
-    /// A coupling of lengths, with curves, or of joints on more than two branches, which no controller holds.
+    /// A coupling of lengths or with curves, which no controller holds.
     Coupling {
         /// `scene.couplings[coupling]`.
         coupling: usize,
@@ -44,6 +47,11 @@ pub enum LoadError {
     Sum {
         /// The entry in the table of effects.
         entry: usize,
+    },
+    /// The model has a machine element that this build leaves out.
+    Feature {
+        /// The Cargo feature that brings it.
+        feature: &'static str,
     },
     /// The text is not a model of this version and dimension.
     Format,
@@ -75,6 +83,10 @@ impl core::fmt::Display for LoadError {
             Self::Sum { entry } => write!(
                 f,
                 "the sum of entry {entry} of the table of effects has a length or a curve, and cannot be written for a controller"
+            ),
+            Self::Feature { feature } => write!(
+                f,
+                "the model needs the feature `{feature}` of mbs-nostd, which is off in this build"
             ),
             Self::Format => {
                 write!(f, "not a model of this version, or of the other dimension")
@@ -113,6 +125,8 @@ pub struct Sizes {
     pub states: usize,
     /// Courses, where there are operations on them; else none.
     pub followed: usize,
+    /// Sides of rows: two, or as many branches as a coupling has joints on.
+    pub sides: usize,
 }
 
 impl Sizes {
@@ -132,6 +146,7 @@ impl Sizes {
             ("courses", self.courses, room.courses),
             ("states of signals", self.states, room.states),
             ("courses with operations", self.followed, room.followed),
+            ("sides of rows", self.sides, room.sides),
         ] {
             if needed > capacity {
                 return Err(LoadError::Capacity { of, needed, capacity });
@@ -174,6 +189,7 @@ impl Sizes {
             courses: 0,
             states: m.feedback.n_states,
             followed: 0,
+            sides: plan.passes.iter().fold(2, |most, pass| most.max(sides(pass.side))),
         }
     }
 }
@@ -191,8 +207,11 @@ impl<'a, T: Real, S: Space<T>> Checked<'a, T, S> {
     /// Cost: linear in the tables. Once, when a model is loaded.
     ///
     /// # Errors
-    /// [`LoadError::Index`] names the table and the entry.
+    /// [`LoadError::Index`] names the table and the entry, [`LoadError::Feature`] what is off in this build.
     pub fn new(model: &Model<'a, T, S>) -> Result<Self, LoadError> {
+        if let Some(feature) = elements::missing(model) {
+            return Err(LoadError::Feature { feature });
+        }
         let prescriptions = &model.prescriptions;
         let courses = prescriptions.courses.len();
         let sizes = Sizes {
@@ -206,9 +225,13 @@ impl<'a, T: Real, S: Space<T>> Checked<'a, T, S> {
         look.loops()?;
         look.plan()?;
         look.loads()?;
-        look.rotors()?;
+        if rotor::IS_BUILT {
+            look.rotors()?;
+        }
         look.prescriptions(model)?;
-        look.signals(model)?;
+        if feedback::IS_BUILT {
+            look.signals(model)?;
+        }
         look.start(model)?;
         Ok(Self { model: *model, sizes })
     }
@@ -230,15 +253,10 @@ impl<'a, T: Real, S: Space<T>> Checked<'a, T, S> {
         self.sizes
     }
 
-    /// The mechanism with the effects that are kept on a rung, and how many rungs there are.
-    pub(crate) fn on_rung(&self, rung: u32) -> (TreeSlices<'a, T, S>, u32) {
-        let mut mechanism = self.model.mechanism;
-        let rungs = self.model.rungs;
-        if let Some(&kept) = (rung as usize).checked_sub(1).and_then(|i| rungs.get(i)) {
-            let loads: &'a [Load<T, S>] = mechanism.loads;
-            mechanism.loads = loads.get(..kept as usize).unwrap_or(loads);
-        }
-        (mechanism, u32::try_from(rungs.len()).unwrap_or(u32::MAX))
+    /// The effects that are kept on a rung, where these are not all.
+    pub(crate) fn kept_on(&self, rung: u32) -> Option<&'a [Load<T, S>]> {
+        let kept = self.model.rungs.get((rung as usize).checked_sub(1)?)?;
+        self.model.mechanism.loads.get(..*kept as usize)
     }
 }
 
@@ -256,6 +274,11 @@ fn fault(table: &'static str, entry: usize) -> LoadError {
 /// A coupling that no controller holds.
 fn unheld<T: Real, S: Space<T>>(lap: &ClosedLoop<T, S>) -> LoadError {
     LoadError::Coupling { coupling: lap.joint as usize }
+}
+
+/// Sides up to that of this number.
+fn sides(side: u32) -> usize {
+    (side as usize).saturating_add(1)
 }
 
 /// `Ok` if so.
@@ -289,7 +312,9 @@ impl<T: Real, S: Space<T>> Look<'_, '_, T, S> {
                 && (lap.ancestor as usize) < links
                 && ends_by(lap.first, lap.n as usize, self.sizes.rows);
             ensure(holds, "loops", i)?;
-            if let Some(Row::Coupled(row)) = self.m.loops.rows.get(lap.first as usize) {
+            if coupled::IS_BUILT
+                && let Some(Row::Coupled(row)) = self.m.loops.rows.get(lap.first as usize)
+            {
                 self.coupling((i, lap), row)?;
             }
         }
@@ -316,7 +341,7 @@ impl<T: Real, S: Space<T>> Look<'_, '_, T, S> {
                 "loops",
                 i,
             )?;
-            if term.curve != NONE || (side != NONE && side > 1) {
+            if term.curve != NONE {
                 return Err(unheld(lap));
             }
         }
@@ -341,52 +366,6 @@ impl<T: Real, S: Space<T>> Look<'_, '_, T, S> {
             ensure(self.has_one(link).is_some(), "effects", i)?;
         }
         ensure(sum.law.fits(&self.m.tables, self.sizes.courses), "effects", i)
-    }
-
-    fn plan(&self) -> Result<(), LoadError> {
-        let (plan, n) = (&self.m.loops.plan, self.m.loops.loops.len());
-        ensure(n == 0 || plan.stations.len() == self.sizes.links, "stations", 0)?;
-        let is_within = |span: Span, end: usize| span.first <= span.end && span.end as usize <= end;
-        let is_lap = |lap: u32| (lap as usize) < n;
-        for (i, station) in plan.stations.iter().enumerate() {
-            let holds = is_within(station.passes, plan.passes.len())
-                && is_within(station.pairs, plan.pairs.len())
-                && is_within(station.ends, plan.ends.len());
-            ensure(holds, "stations", i)?;
-        }
-        for (i, pass) in plan.passes.iter().enumerate() {
-            ensure(is_lap(pass.lap) && pass.side < 2, "passes", i)?;
-        }
-        for (i, pair) in plan.pairs.iter().enumerate() {
-            let rows = |pass: u32| {
-                let pass = plan.passes.get(pass as usize)?;
-                Some(self.m.loops.loops.get(pass.lap as usize)?.n as usize)
-            };
-            let holds = match (rows(pair.row), rows(pair.column)) {
-                (Some(rows), Some(columns)) => {
-                    ends_by(pair.block, rows * columns, self.sizes.blocks)
-                }
-                _ => false,
-            };
-            ensure(holds, "pairs", i)?;
-        }
-        for (i, end) in plan.ends.iter().enumerate() {
-            let holds = is_lap(end.lap)
-                && is_within(end.couplings, plan.couplings.len())
-                && is_within(end.updates, plan.updates.len());
-            ensure(holds, "ends", i)?;
-        }
-        for (i, coupling) in plan.couplings.iter().enumerate() {
-            ensure(is_lap(coupling.lap) && coupling.side < 2, "couplings", i)?;
-        }
-        for (i, update) in plan.updates.iter().enumerate() {
-            let holds = [update.row, update.column]
-                .iter()
-                .all(|&coupling| (coupling as usize) < plan.couplings.len())
-                && (update.block as usize) < self.sizes.blocks;
-            ensure(holds, "updates", i)?;
-        }
-        Ok(())
     }
 
     fn loads(&self) -> Result<(), LoadError> {
@@ -414,7 +393,9 @@ impl<T: Real, S: Space<T>> Look<'_, '_, T, S> {
                     is_link(*link) && is_course(*course)
                 }
                 Load::Sum(sum) => {
-                    self.sum((i, sum))?;
+                    if sum::IS_BUILT {
+                        self.sum((i, sum))?;
+                    }
                     true
                 }
                 Load::BodyLoad(load) => {

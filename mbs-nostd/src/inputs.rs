@@ -3,6 +3,7 @@
 use mbs_core::Real;
 use mbs_core::laws::{Part, guide};
 use mbs_core::step::InputError;
+use mbs_recursive::feedback;
 use mbs_recursive::slices::Inputs;
 
 /// A guide as a function of time.
@@ -178,7 +179,9 @@ fn guide_at<T: Real>(
         }
         Motion::Ramp { rate } => guide::ramp(*rate, t),
         Motion::Table(part) => return spline(*part, laws, t),
-        Motion::Step(rise) => return rise.at(t),
+        Motion::Step(rise) if feedback::IS_BUILT => return rise.at(t),
+        // Not in this build: a model with one is not loaded.
+        Motion::Step(_) => return [T::ZERO; 3],
     };
     [motion.value, motion.rate, motion.acceleration]
 }
@@ -205,8 +208,10 @@ fn course_at<T: Real>(
         SignalLaw::Input(_) => return written,
         SignalLaw::Constant(value) => return *value,
         SignalLaw::Travel(speed) => return [*speed * t, *speed, T::ZERO],
-        SignalLaw::Spline(part) => return spline(*part, laws, t),
-        SignalLaw::Step(rise) => return rise.at(t),
+        SignalLaw::Spline(part) if feedback::IS_BUILT => return spline(*part, laws, t),
+        SignalLaw::Step(rise) if feedback::IS_BUILT => return rise.at(t),
+        // Not in this build: a model with one is not loaded.
+        SignalLaw::Spline(_) | SignalLaw::Step(_) => return [T::ZERO; 3],
         SignalLaw::Table(part) => part.of(laws.rows),
     };
     guide::linear(rows, |&[t, x, y, z]| (t, [x, y, z]), t)

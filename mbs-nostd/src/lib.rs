@@ -5,6 +5,7 @@
 extern crate alloc;
 
 mod check;
+mod elements;
 #[cfg(feature = "export")]
 pub mod export;
 pub mod format;

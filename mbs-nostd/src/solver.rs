@@ -7,16 +7,18 @@ use mbs_core::Real;
 use mbs_core::feedback::{CourseSlope, SignalStates};
 use mbs_core::step::{InputError, StepError};
 use mbs_recursive::bounded::{self, BoundedReport, Bounds, Watch};
+use mbs_recursive::feedback;
 use mbs_recursive::link::{ArticulatedInertia, LinkMotion};
 use mbs_recursive::loops::LoopStore;
-use mbs_recursive::slices::{Counts, Inputs, Store};
+use mbs_recursive::slices::{Counts, Inputs, Store, TreeSlices};
 use mbs_recursive::space::{Numbers, Space};
 use mbs_recursive::trapezoidal::Start;
 use mbs_recursive::{Options, Outside};
 
 /// State, scratch and inputs of a model with at most `L` links (the ground among them), `Z` coordinates, `V` freedoms and `R`
 /// rows of loops. It has at most `B` numbers in blocks of Λ, `N` gains, `G` guides and `C` courses. It has at most
-/// `M` states of signals, and `F` courses where there are operations on them.
+/// `M` states of signals, and `F` courses where there are operations on them. A row has at most `K` sides: two, or as many branches as
+/// a coupling has joints on.
 ///
 /// Its size is about 130 numbers for each link, 46 for each row, 10 for each freedom, and at most six for each of the others.
 #[derive(Debug, Clone)]
@@ -33,6 +35,7 @@ pub struct Solver<
     const C: usize,
     const M: usize = 0,
     const F: usize = 0,
+    const K: usize = 2,
 > {
     /// Choices for the steps.
     pub options: Options<T>,
@@ -48,7 +51,7 @@ pub struct Solver<
     lambda: [T; R],
     signals: [[T; 2]; M],
     inputs: Values<G, C, T>,
-    scratch: Scratch<T, S, L, Z, V, R, B, N, G, C, M, F>,
+    scratch: Scratch<T, S, L, Z, V, R, B, N, G, C, M, F, K>,
 }
 
 #[derive(Debug, Clone)]
@@ -65,13 +68,14 @@ struct Scratch<
     const C: usize,
     const M: usize,
     const F: usize,
+    const K: usize,
 > {
     placed: [LinkMotion<T, S>; L],
     trial: [LinkMotion<T, S>; L],
     condensed: [ArticulatedInertia<T, S>; L],
     motions: [[S::Motion; L]; 2],
-    /// K as it travels, and at its bodies; both sides.
-    gradients: [[[S::Motion; R]; 2]; 2],
+    /// K as it travels, and at its bodies; all sides.
+    gradients: [[[S::Motion; R]; K]; 2],
     rows: [[T; 3]; R],
     /// l, λ of a sweep, summed λ, scales, pivots.
     multipliers: [[T; R]; 5],
@@ -101,7 +105,8 @@ impl<
     const C: usize,
     const M: usize,
     const F: usize,
-> Solver<T, S, L, Z, V, R, B, N, G, C, M, F>
+    const K: usize,
+> Solver<T, S, L, Z, V, R, B, N, G, C, M, F, K>
 {
     /// A solver at the beginning of a model.
     ///
@@ -120,6 +125,7 @@ impl<
             courses: C,
             states: M,
             followed: F,
+            sides: K,
         })?;
         let zero = S::Motion::zero();
         let from = &model.model().start;
@@ -141,7 +147,7 @@ impl<
                 trial: [LinkMotion::ground(); L],
                 condensed: [ArticulatedInertia::empty(); L],
                 motions: [[zero; L]; 2],
-                gradients: [[[zero; R]; 2]; 2],
+                gradients: [[[zero; R]; K]; 2],
                 rows: [[T::ZERO; 3]; R],
                 multipliers: [[T::ZERO; R]; 5],
                 blocks: [T::ZERO; B],
@@ -195,7 +201,7 @@ impl<
 
     /// States of signals, each with its rate.
     pub fn signal_states(&self) -> &[[T; 2]] {
-        self.signals.get(..self.sizes.states).unwrap_or(&[])
+        states(&self.signals, self.sizes.states)
     }
 
     /// Writes the vector of a course from now on: the next step is made with it from its beginning. The scene's signals are the first
@@ -232,7 +238,15 @@ impl<
         if model.sizes() != self.sizes {
             return Err(StepError::Tables);
         }
-        let (mechanism, n_rungs) = model.on_rung(self.ladder.rung());
+        let whole = &model.model().mechanism;
+        let reduced;
+        let mechanism = match model.kept_on(self.ladder.rung()) {
+            None => whole,
+            Some(loads) => {
+                reduced = TreeSlices { loads, ..*whole };
+                &reduced
+            }
+        };
         let inputs = Written {
             laws: model.model().prescriptions,
             guides: &self.inputs.guides,
@@ -247,9 +261,9 @@ impl<
             let place = (
                 self.z.get(..sizes.coordinates).unwrap_or(&[]),
                 self.v.get(..sizes.freedoms).unwrap_or(&[]),
-                self.signals.get(..sizes.states).unwrap_or(&[]),
+                states(&self.signals, sizes.states),
             );
-            bounded::begin(&mechanism, (&self.options, self.bounds), place, &mut s)?;
+            bounded::begin(mechanism, (&self.options, self.bounds), place, &mut s)?;
             put(s.zdd, &mut self.a);
             put(s.signals.ends, &mut self.signals);
             self.inputs.has_new = false;
@@ -259,10 +273,10 @@ impl<
             z: self.z.get(..sizes.coordinates).unwrap_or(&[]),
             v: self.v.get(..sizes.freedoms).unwrap_or(&[]),
             a: self.a.get(..sizes.freedoms).unwrap_or(&[]),
-            signals: self.signals.get(..sizes.states).unwrap_or(&[]),
+            signals: states(&self.signals, sizes.states),
         };
         let work = (dt, &self.options, self.bounds);
-        let report = bounded::step(&mechanism, &inputs, work, (start, watch), &mut s)?;
+        let report = bounded::step(mechanism, &inputs, work, (start, watch), &mut s)?;
         // The step has checked the lengths.
         for (to, from) in [
             (&mut self.z[..], &*s.z),
@@ -275,7 +289,8 @@ impl<
         put(s.signals.ends, &mut self.signals);
         self.t += dt;
         self.inputs.ended = self.inputs.guides;
-        self.ladder.note(report.is_cut_short, n_rungs);
+        let n_rungs = model.model().rungs.len();
+        self.ladder.note(report.is_cut_short, u32::try_from(n_rungs).unwrap_or(u32::MAX));
         Ok(report)
     }
 }
@@ -299,7 +314,8 @@ impl<
     const C: usize,
     const M: usize,
     const F: usize,
-> Scratch<T, S, L, Z, V, R, B, N, G, C, M, F>
+    const K: usize,
+> Scratch<T, S, L, Z, V, R, B, N, G, C, M, F, K>
 {
     /// The scratch as slices of a model's sizes.
     fn store(&mut self, n: &Sizes) -> Result<Store<'_, T, S>, Outside> {
@@ -317,7 +333,7 @@ impl<
             a_response: first(a_response, n.links)?,
             v_response: first(v_response, n.freedoms)?,
             loops: LoopStore {
-                k: first(k.as_flattened_mut(), 2 * n.rows)?,
+                k: first(k.as_flattened_mut(), n.sides * n.rows)?,
                 slopes: &mut [],
                 l: first(l, n.rows)?,
                 lambda: first(lambda_response, n.rows)?,
@@ -327,16 +343,20 @@ impl<
                 scales: first(scales, n.rows)?,
                 pivots: first(pivots, n.rows)?,
             },
-            gradient: first(gradient.as_flattened_mut(), 2 * n.rows)?,
+            gradient: first(gradient.as_flattened_mut(), n.sides * n.rows)?,
             rows: first(&mut self.rows, n.rows)?,
             lambda: first(lambda, n.rows)?,
             guides: first(&mut self.guides, n.guides)?,
             courses: first(&mut self.courses, n.courses)?,
-            signals: SignalStates {
-                dt: T::ZERO,
-                starts: first(starts, n.states)?,
-                ends: first(ends, n.states)?,
-                slopes: first(&mut self.slopes, n.followed)?,
+            signals: if feedback::IS_BUILT {
+                SignalStates {
+                    dt: T::ZERO,
+                    starts: first(starts, n.states)?,
+                    ends: first(ends, n.states)?,
+                    slopes: first(&mut self.slopes, n.followed)?,
+                }
+            } else {
+                SignalStates { dt: T::ZERO, starts: &mut [], ends: &mut [], slopes: &mut [] }
             },
             z: first(&mut self.z, n.coordinates)?,
             v: first(v, n.freedoms)?,
@@ -347,6 +367,12 @@ impl<
             counts: Counts::default(),
         })
     }
+}
+
+/// The first `n` states of signals; a build without signals has none.
+#[inline(always)]
+fn states<T>(of: &[[T; 2]], n: usize) -> &[[T; 2]] {
+    if feedback::IS_BUILT { of.get(..n).unwrap_or(&[]) } else { &[] }
 }
 
 /// The entries of a slice, with zeros behind them.

@@ -11,6 +11,7 @@
 //! the projected end, and with one outward pass for both projections. The accelerations that a step starts from are those
 //! of the last evaluation, which differ from the converged ones by O(h²).
 
+use crate::coupled_rows;
 use crate::evaluate::{Level, accelerations, accelerations_ahead, respond};
 use crate::fault::{Fault, failure};
 use crate::indexing::{Outside, at_mut, copy};
@@ -210,12 +211,8 @@ fn project<T: Real, S: Space<T>>(
             Ok(())
         })?;
     }
-    for row in m.loops.coupled() {
-        let here = (m.links, &*s.trial, (&*s.z, &*s.v, &*s.guides));
-        let [value, rate, _] = m.loops.couplings.evaluate(row, here, None)?.row;
-        *at_mut(s.loops.l, row.1)? = value;
-        at_mut(s.rows, row.1)?[1] = rate;
-        largest = [largest[0].max(value.abs()), largest[1].max(rate.abs())];
+    if m.loops.has_coupled() {
+        largest = coupled_rows::at_trial(m, s, largest)?;
     }
     respond(m, s)?;
     advance(m.links, s.v_response, s.z)?;

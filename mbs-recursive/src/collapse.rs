@@ -3,7 +3,7 @@
 use crate::fault::failure;
 use crate::indexing::{Outside, at};
 use crate::passes::kinematics;
-use crate::rolling::is_flat;
+use crate::rolling::{IS_BUILT, is_flat};
 use crate::rows::Row;
 use crate::slices::{Inputs, Start, Store, TreeSlices};
 use crate::space::Space;
@@ -24,7 +24,7 @@ pub(crate) fn check_lines<T: Real, S: Space<T>>(
     step: (&Start<'_, T>, T),
     s: &mut Store<'_, T, S>,
 ) -> Result<(), StepError> {
-    if !m.loops.loops.is_empty() {
+    if IS_BUILT && !m.loops.loops.is_empty() {
         check_flat(m, s)?;
     }
     if m.loops.couplings.points.is_empty() { Ok(()) } else { check(m, inputs, step, s) }

@@ -18,6 +18,9 @@ pub use mbs_core::elements::NONE;
 use mbs_core::elements::has_collapsed;
 use mbs_core::measure::{polynomial, spline_curve};
 
+/// Are couplings in this build?
+pub const IS_BUILT: bool = cfg!(feature = "couplings");
+
 /// The row of a coupling.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct CoupledRow<T> {

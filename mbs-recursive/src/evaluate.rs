@@ -10,6 +10,7 @@
 //! The report's own closure is an option: λ = α (Φ̈ + 2 μ Ω Φ̇ + Ω² Φ)   [P3 (39)–(41)]. It is the same elimination with
 //! ε = 1/α, bias + 2 μ Ω Φ̇ + Ω² Φ in place of the bias, and one sweep.
 
+use crate::coupled_rows::{self, Largest};
 use crate::fault::Fault;
 use crate::feedback::follow_motion;
 use crate::indexing::{Outside, at, at_mut, copy};
@@ -20,6 +21,7 @@ use crate::loops::{Regularisation, index};
 use crate::options::{Closure, Options};
 use crate::passes;
 use crate::rotor;
+use crate::rows::ClosedLoop;
 use crate::slices::{Store, TreeSlices};
 use crate::space::{Numbers, Space};
 use mbs_core::Real;
@@ -104,7 +106,8 @@ pub(crate) fn accelerations_under<T: Real, S: Space<T>>(
     finish(m, options, level, s)
 }
 
-/// Places and own inertias; the articulated bodies are handed out for the loads.
+/// Places and own inertias; the articulated bodies are handed out for the loads. Images for controllers keep one copy.
+#[cfg_attr(feature = "alloc", inline(always))]
 fn begin<'b, T: Real, S: Space<T>>(
     m: &TreeSlices<'_, T, S>,
     s: &mut Store<'b, T, S>,
@@ -176,8 +179,25 @@ pub(crate) fn evaluate_rows<T: Real, S: Space<T>>(
     m: &TreeSlices<'_, T, S>,
     s: &mut Store<'_, T, S>,
 ) -> Result<(), Outside> {
+    #[inline(never)]
+    fn with_coupled<T: Real, S: Space<T>>(
+        m: &TreeSlices<'_, T, S>,
+        s: &mut Store<'_, T, S>,
+    ) -> Result<(), Outside> {
+        evaluate_cut(m, m.loops.cut(), s)?;
+        coupled_rows::evaluate(m, s)
+    }
+    if m.loops.has_coupled() { with_coupled(m, s) } else { evaluate_cut(m, m.loops.loops, s) }
+}
+
+#[inline(always)]
+fn evaluate_cut<T: Real, S: Space<T>>(
+    m: &TreeSlices<'_, T, S>,
+    cut: &[ClosedLoop<T, S>],
+    s: &mut Store<'_, T, S>,
+) -> Result<(), Outside> {
     let n = m.loops.rows.len();
-    for lap in m.loops.cut() {
+    for lap in cut {
         lap.evaluate(m.loops.rows, s.placed, |k, row| {
             let [first, second] = row.gradient;
             *at_mut(s.gradient, k)? = first;
@@ -186,44 +206,47 @@ pub(crate) fn evaluate_rows<T: Real, S: Space<T>>(
             Ok(())
         })?;
     }
-    for row in m.loops.coupled() {
-        let here = (m.links, &*s.placed, (&*s.z, &*s.v, &*s.guides));
-        let out = (&mut *s.gradient, &mut *s.loops.slopes);
-        *at_mut(s.rows, row.1)? = m.loops.couplings.evaluate(row, here, Some(out))?.row;
-    }
     Ok(())
 }
 
-/// J a + bias into l; the largest, the row that has it, and the scale of its parts.
+/// J a + bias into l; the largest, the row that has it, and the scale of its parts. Images for controllers keep one copy.
+#[cfg_attr(feature = "alloc", inline(always))]
 fn residual<T: Real, S: Space<T>>(
     m: &TreeSlices<'_, T, S>,
     s: &mut Store<'_, T, S>,
-) -> Result<(T, u32, T), Outside> {
+) -> Result<Largest<T>, Outside> {
+    #[inline(never)]
+    fn with_coupled<T: Real, S: Space<T>>(
+        m: &TreeSlices<'_, T, S>,
+        s: &mut Store<'_, T, S>,
+    ) -> Result<Largest<T>, Outside> {
+        let found = residual_of_cut(m, m.loops.cut(), s)?;
+        coupled_rows::residual(m, s, found)
+    }
+    if m.loops.has_coupled() { with_coupled(m, s) } else { residual_of_cut(m, m.loops.loops, s) }
+}
+
+#[inline(always)]
+fn residual_of_cut<T: Real, S: Space<T>>(
+    m: &TreeSlices<'_, T, S>,
+    cut: &[ClosedLoop<T, S>],
+    s: &mut Store<'_, T, S>,
+) -> Result<Largest<T>, Outside> {
     let n = m.loops.rows.len();
     let (mut worst, mut row, mut scale) = (T::ZERO, 0, T::ZERO);
-    let mut note = |k: usize, l: &mut [T], left: T, parts: T| {
-        scale = scale.max(parts);
-        *at_mut(l, k)? = left;
-        if !(left.abs() <= worst) {
-            (worst, row) = (left.abs(), index(k));
-        }
-        Ok(())
-    };
-    for lap in m.loops.cut() {
+    for lap in cut {
         let [a, b] = lap.links;
         let (a, b) = (at(s.a, a as usize)?, at(s.a, b as usize)?);
         for k in lap.range() {
             let (first, second) = (at(s.gradient, k)?, at(s.gradient, n + k)?);
             let bias = at(s.rows, k)?[2];
             let left = first.dot(a) + second.dot(b) + bias;
-            note(k, s.loops.l, left, first.parts(a) + second.parts(b) + bias.abs())?;
+            scale = scale.max(first.parts(a) + second.parts(b) + bias.abs());
+            *at_mut(s.loops.l, k)? = left;
+            if !(left.abs() <= worst) {
+                (worst, row) = (left.abs(), index(k));
+            }
         }
-    }
-    for row in m.loops.coupled() {
-        let gradients = (&*s.gradient, &*s.loops.slopes);
-        let [left, parts] = m.loops.couplings.along(row, m.links, gradients, (s.a, s.zdd))?;
-        let bias = at(s.rows, row.1)?[2];
-        note(row.1, s.loops.l, left + bias, parts + bias.abs())?;
     }
     Ok((worst, row, scale))
 }
@@ -326,6 +349,7 @@ fn acting<T: Real, S: Space<T>>(
 }
 
 /// Adds the response to l = J a + bias to accelerations and multipliers.
+#[inline(never)]
 fn improve<T: Real, S: Space<T>>(
     m: &TreeSlices<'_, T, S>,
     s: &mut Store<'_, T, S>,

@@ -12,9 +12,12 @@ impl<T: Real, S: Space<T>> Store<'_, T, S> {
     #[inline(always)]
     pub(crate) fn begin_signals(&mut self, dt: T, starts: &[[T; 2]]) -> Result<(), Outside> {
         self.signals.dt = dt;
-        copy(starts, self.signals.starts)
+        if IS_BUILT { copy(starts, self.signals.starts) } else { Ok(()) }
     }
 }
+
+/// Are signals that follow the motion, and those that are splines or steps over time, in this build?
+pub const IS_BUILT: bool = cfg!(feature = "signals");
 
 /// Evaluates the signals that follow the motion, and the courses that name them, at (`s.z`, `s.v`).
 #[inline(always)]
@@ -22,7 +25,7 @@ pub(crate) fn follow_motion<T: Real, S: Space<T>>(
     m: &TreeSlices<'_, T, S>,
     s: &mut Store<'_, T, S>,
 ) -> Result<(), Outside> {
-    if m.feedback.steps.is_empty() { Ok(()) } else { evaluate(m, s) }
+    if IS_BUILT && !m.feedback.steps.is_empty() { evaluate(m, s) } else { Ok(()) }
 }
 
 #[inline(never)]

@@ -6,6 +6,7 @@
 //! mass      M_z: composite inertias, columns b along the path to the ground
 //! ```
 
+use crate::coupled_rows;
 use crate::indexing::{Outside, at, at_mut};
 use crate::joint::{read, write};
 use crate::link::{ArticulatedInertia, Link, LinkKind, LinkMotion};
@@ -88,15 +89,8 @@ pub(crate) fn forces<T: Real, S: Space<T>>(
             }
         }
     }
-    for (row, k, n) in m.loops.coupled() {
-        let lambda = *at(s.lambda, k)?;
-        for start in m.loops.couplings.starts_of(row)? {
-            let push = *at(s.gradient, start.side as usize * n + k)? * lambda;
-            at_mut(s.condensed, start.link as usize)?.force += push;
-        }
-        for (link, _, slope) in m.loops.couplings.joints_of(row, s.loops.slopes)? {
-            at_mut(s.condensed, link as usize)?.effort -= slope * lambda;
-        }
+    if m.loops.has_coupled() {
+        coupled_rows::add_forces(m, s)?;
     }
     for (i, link) in m.links.iter().enumerate().skip(1).rev() {
         if link.parent > 0 {

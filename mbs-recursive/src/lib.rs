@@ -10,6 +10,7 @@ mod angles;
 pub mod bounded;
 mod collapse;
 pub mod coupled;
+mod coupled_rows;
 #[cfg(feature = "alloc")]
 mod coupling_tables;
 #[cfg(feature = "alloc")]
@@ -47,8 +48,8 @@ pub mod plan;
 mod project;
 #[cfg(feature = "alloc")]
 mod quantities;
-mod rolling;
-mod rotor;
+pub mod rolling;
+pub mod rotor;
 pub mod rows;
 #[cfg(feature = "alloc")]
 mod run;

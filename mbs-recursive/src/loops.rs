@@ -35,7 +35,7 @@ pub(crate) use carry::{held, pass, pass_again};
 pub(crate) use eliminate::{close, close_again};
 pub(crate) use release::open;
 
-use crate::coupled::{CoupledRow, Couplings};
+use crate::coupled::{self, CoupledRow, Couplings};
 use crate::plan::Plan;
 use crate::rows::{ClosedLoop, Row};
 use crate::space::Space;
@@ -62,10 +62,17 @@ impl<'a, T: Real, S: Space<T>> Loops<'a, T, S> {
         self.loops.get(..self.couplings.n_cut as usize).unwrap_or(self.loops)
     }
 
+    /// Are there couplings? Passes over all rows ask this once.
+    #[inline(always)]
+    pub(crate) fn has_coupled(&self) -> bool {
+        coupled::IS_BUILT && (self.couplings.n_cut as usize) < self.loops.len()
+    }
+
     /// The rows of couplings: each with its number and the number of rows.
     pub(crate) fn coupled(&self) -> impl Iterator<Item = (&'a CoupledRow<T>, usize, usize)> + 'a {
         let rows = self.rows;
-        let coupled = self.loops.get(self.couplings.n_cut as usize..).unwrap_or(&[]);
+        let first = if coupled::IS_BUILT { self.couplings.n_cut as usize } else { usize::MAX };
+        let coupled = self.loops.get(first..).unwrap_or(&[]);
         coupled.iter().filter_map(move |lap| {
             let k = lap.first as usize;
             let Some(Row::Coupled(row)) = rows.get(k) else { return None };

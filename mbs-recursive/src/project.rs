@@ -12,6 +12,7 @@
 //! new state. Inertias are then those of the last iteration: with effects their resistance to accelerations within the step is part of
 //! the weight, so that stiff springs are spared. Cost: an evaluation of the rows and about a fifth of a condensation for each sweep.
 
+use crate::coupled_rows;
 use crate::evaluate::{note_rank, respond};
 use crate::fault::Fault;
 use crate::indexing::{Outside, at, at_mut, part, part_mut};
@@ -62,9 +63,6 @@ const ERROR_FRACTION: f64 = 0.01;
 const STALLED: f64 = 0.1;
 /// The same near a singular position, where a combination of rows moves nothing [-]. Chosen, not tuned.
 const STALLED_SINGULAR: f64 = 1e2;
-
-/// Violation of a coupling that is rounding of its sum, in units of rounding of its terms [-]. Chosen, not tuned.
-const SUM_ROUNDINGS: f64 = 4.0;
 
 /// What may be left of Φ and Φ̇ beside their scales: rounding.
 pub(crate) fn rounding<T: Real>() -> T {
@@ -151,10 +149,8 @@ pub(crate) fn keep<T: Real, S: Space<T>>(
             *at_mut(s.loops.l, k)? = first.dot(a) + second.dot(b);
         }
     }
-    for row in m.loops.coupled() {
-        let gradients = (&*s.gradient, &*s.loops.slopes);
-        let motions = (&*s.a_response, &*delta);
-        *at_mut(s.loops.l, row.1)? = m.loops.couplings.along(row, m.links, gradients, motions)?[0];
+    if m.loops.has_coupled() {
+        coupled_rows::along(m, delta, s)?;
     }
     respond(m, s)?;
     for (delta, &response) in delta.iter_mut().zip(&*s.v_response) {
@@ -204,23 +200,9 @@ fn violation<T: Real, S: Space<T>>(
             Ok(())
         })?;
     }
-    for coupled in m.loops.coupled() {
-        let here = (m.links, &*s.trial, (&*s.z, &*s.v, &*s.guides));
-        let values = m.loops.couplings.evaluate(coupled, here, None)?;
-        let (x, parts) = (values.row[usize::from(level > 0)], values.parts);
-        let mut own = T::ONE;
-        if level > 0 {
-            (scale, own) = (scale.max(parts[1]), own.max(parts[1]));
-        }
-        *at_mut(s.loops.l, coupled.1)? = x;
-        // Angles grow with every turn, and rounding of their sum with them.
-        if level == 0 && x.abs() <= parts[0] * T::EPSILON * T::from_f64(SUM_ROUNDINGS) {
-            continue;
-        }
-        is_within &= x.abs() <= share * own;
-        if !(x.abs() <= worst) {
-            (worst, row) = (x.abs(), index(coupled.1));
-        }
+    if m.loops.has_coupled() {
+        let found = ((worst, row, scale), is_within);
+        ((worst, row, scale), is_within) = coupled_rows::violation(m, (level, share), s, found)?;
     }
     is_within = (is_within && worst <= share * scale) || worst <= rounding::<T>() * scale;
     Ok(Violation { worst, row, scale, is_within })

@@ -15,6 +15,9 @@ use mbs_core::Real;
 use mbs_core::algebra::{Vector, cross, unit};
 use mbs_core::measure::{Moving, lies_flat, lowest_point};
 
+/// Are rows of what rolls in this build?
+pub const IS_BUILT: bool = cfg!(feature = "rolling");
+
 /// A body that rolls, or its plane, in space.
 struct Carrier<T: Real> {
     origin: Moving<T>,

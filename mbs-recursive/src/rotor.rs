@@ -10,13 +10,22 @@ use crate::slices::TreeSlices;
 use crate::space::Space;
 use mbs_core::Real;
 
+/// Are rotors in this build?
+pub const IS_BUILT: bool = cfg!(feature = "rotors");
+
+/// The rotors; none in a build without.
+#[inline(always)]
+fn built<T>(rotors: &[LinkRotor<T>]) -> &[LinkRotor<T>] {
+    if IS_BUILT { rotors } else { &[] }
+}
+
 /// Adds the rotors' inertias to what resists the joints.
 #[inline]
 pub(crate) fn resist<T: Real, S: Space<T>>(
     rotors: &[LinkRotor<T>],
     condensed: &mut [ArticulatedInertia<T, S>],
 ) -> Result<(), Outside> {
-    for rotor in rotors {
+    for rotor in built(rotors) {
         at_mut(condensed, rotor.link as usize)?.resistance += rotor.inertia;
     }
     Ok(())
@@ -28,7 +37,7 @@ pub(crate) fn add_efforts<T: Real, S: Space<T>>(
     (zdd, guides): (&[T], &[[T; 3]]),
     condensed: &mut [ArticulatedInertia<T, S>],
 ) -> Result<(), Outside> {
-    for rotor in m.rotors {
+    for rotor in built(m.rotors) {
         let acceleration = of_link(m.links, rotor.link, zdd, (guides, 2))?;
         at_mut(condensed, rotor.link as usize)?.effort -= rotor.inertia * acceleration;
     }

@@ -77,7 +77,7 @@ impl<T: Real, S: Space<T>> Row<T, S> {
     pub fn is_angle(&self) -> bool {
         match self {
             Self::Coupled(row) => row.is_angle,
-            _ => matches!(self, Self::Dot { .. }),
+            _ => self.is_cut_angle(),
         }
     }
 
@@ -85,6 +85,11 @@ impl<T: Real, S: Space<T>> Row<T, S> {
     #[must_use]
     pub fn begins_rolling(&self) -> bool {
         matches!(self, Self::Height { .. } | Self::Blade { .. })
+    }
+
+    /// Is it the equation of a cut joint, and its value an angle?
+    pub(crate) fn is_cut_angle(&self) -> bool {
+        matches!(self, Self::Dot { .. })
     }
 
     /// Does it hold points together along this world axis?
@@ -154,7 +159,7 @@ impl<T: Real, S: Space<T>> ClosedLoop<T, S> {
             - (S::point(&a.velocity) + S::cross(&spins[0], &arms[0]));
         let gap_bias = S::centrifugal(&spins[1], &arms[1]) - S::centrifugal(&spins[0], &arms[0]);
         let own = part(rows, self.first as usize, self.n as usize)?;
-        if own.first().is_some_and(Row::begins_rolling) {
+        if rolling::IS_BUILT && own.first().is_some_and(Row::begins_rolling) {
             return rolling::evaluate((own, self.first as usize), ([a, b], &self.points), take);
         }
         let coincidence = |axis: usize| {

@@ -19,6 +19,7 @@ pub use crate::slices::Start;
 
 use crate::anderson::Mixing;
 use crate::collapse::check_lines;
+use crate::coupled_rows;
 use crate::evaluate::{Level, accelerations, accelerations_ahead, is_redundant, note_rank};
 use crate::fault::failure;
 use crate::indexing::{Outside, at, at_mut, copy};
@@ -226,23 +227,16 @@ pub(crate) fn violations<T: Real, S: Space<T>>(
 ) -> [T; 3] {
     let n = m.loops.rows.len();
     let mut largest = [T::ZERO; 3];
-    let mut note = |k: usize, along: T| {
-        let [phi, phi_d, bias] = s.rows[k];
-        for (most, x) in largest.iter_mut().zip([phi, phi_d, along + bias]) {
-            *most = most.max(x.abs());
-        }
-    };
     for lap in m.loops.cut() {
         let [a, b] = lap.links.map(|i| &s.a[i as usize]);
         for k in lap.first as usize..(lap.first + lap.n) as usize {
             use crate::space::Numbers;
-            note(k, s.gradient[k].dot(a) + s.gradient[n + k].dot(b));
+            let [phi, phi_d, bias] = s.rows[k];
+            let phi_dd = s.gradient[k].dot(a) + s.gradient[n + k].dot(b) + bias;
+            for (most, x) in largest.iter_mut().zip([phi, phi_d, phi_dd]) {
+                *most = most.max(x.abs());
+            }
         }
     }
-    for row in m.loops.coupled() {
-        let gradients = (&*s.gradient, &*s.loops.slopes);
-        let along = m.loops.couplings.along(row, m.links, gradients, (s.a, s.zdd));
-        note(row.1, along.map_or(T::ZERO, |[x, _]| x));
-    }
-    largest
+    if m.loops.has_coupled() { coupled_rows::violations(m, s, largest) } else { largest }
 }

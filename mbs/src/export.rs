@@ -27,7 +27,7 @@ pub enum ExportError {
     Stop(StopError),
     /// An effect of this name is code, which no table has.
     Effect(String),
-    /// A coupling of this name is not written for controllers: it has a length, a curve, or joints on more than two branches.
+    /// A coupling of this name is not written for controllers: it has a length or a curve.
     Coupling(String),
     /// An effect of this name is on a sum with a length or a curve, which is not written for controllers.
     Sum(String),
@@ -47,7 +47,7 @@ impl core::fmt::Display for ExportError {
             Self::Coupling(name) => {
                 write!(
                     f,
-                    "coupling `{name}` cannot be written for a controller: it has lengths, curves, or joints on more than two branches"
+                    "coupling `{name}` cannot be written for a controller: it has lengths or curves"
                 )
             }
             Self::Sum(name) => {

@@ -28,7 +28,18 @@ const FEATURES: [(&str, &[&str]); 7] = [
             "effects",
         ],
     ),
-    ("mbs-recursive", &["", "alloc", "alloc,mbs-core/tire", "alloc,mbs-core/effects"]),
+    // Of the elements: those with rows, those without, and all.
+    (
+        "mbs-recursive",
+        &[
+            "",
+            "couplings,rolling,sums",
+            "rotors,signals",
+            "alloc",
+            "alloc,mbs-core/tire",
+            "alloc,mbs-core/effects",
+        ],
+    ),
     (
         "mbs-nostd",
         &[
@@ -36,6 +47,10 @@ const FEATURES: [(&str, &[&str]); 7] = [
             "mbs-core/tire",
             "mbs-core/polynomial,mbs-core/speed-hold",
             "mbs-core/effects",
+            "couplings,rotors",
+            "rolling",
+            "signals,sums",
+            "elements",
             "export",
             "export,mbs-core/effects",
         ],

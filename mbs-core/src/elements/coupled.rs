@@ -155,6 +155,7 @@ impl<T: Real, F: Curves<T>> CoupledTables<'_, T, F> {
 
 impl<T: Real> Coupled<T> {
     /// Value and gradient at `q`; angles are those nearest to `memory`.
+    #[inline(never)]
     pub fn evaluate<const D: usize>(
         &self,
         tables: &CoupledTables<'_, T, impl Curves<T>>,
@@ -168,6 +169,7 @@ impl<T: Real> Coupled<T> {
     }
 
     /// The same at `q + dq`, from `phi_n` at `q` where the sum is linear and constant.
+    #[inline(never)]
     pub fn advance<const D: usize>(
         &self,
         tables: &CoupledTables<'_, T, impl Curves<T>>,
@@ -226,6 +228,7 @@ impl<T: Real> Coupled<T> {
     }
 
     /// The part of phi'' without accelerations; `sum` is that of the time function.
+    #[inline(never)]
     pub fn bias<const D: usize>(
         &self,
         tables: &CoupledTables<'_, T, impl Curves<T>>,

@@ -1,6 +1,7 @@
 //! A tree's tables in the order in which its effects may be dropped.
 
 use super::signals::{MovingSignal, SignalTables, add_laws, held};
+use crate::elements;
 use crate::inputs::{Motion, Prescriptions, SignalLaw};
 use crate::model::{Model, StartState};
 use alloc::vec::Vec;
@@ -170,7 +171,14 @@ impl<'a, T: Real, S: Space<T>> Collected<'a, T, S> {
     }
 }
 
-/// The features that the effects of a model need.
+/// The features of mbs-nostd that the machine elements of a model need.
+#[must_use]
+pub fn elements<T: Real, S: Space<T>>(model: &Model<'_, T, S>) -> Vec<&'static str> {
+    let needed = elements::all(model).into_iter().filter(|element| element.is_needed);
+    needed.map(|element| element.feature).collect()
+}
+
+/// The features of mbs-core that the effects of a model need.
 #[must_use]
 pub fn needs<T: Real, S: Space<T>>(model: &Model<'_, T, S>) -> Vec<&'static str> {
     let mut needed = Vec::new();

@@ -7,7 +7,7 @@ mod source;
 
 pub use crate::format::Bytes;
 pub use bytes::bytes;
-pub use collect::{Collected, needs};
+pub use collect::{Collected, elements, needs};
 pub use signals::MovingSignal;
 pub use source::source;
 pub(crate) use source::{Source, close, name, open};

@@ -1,7 +1,7 @@
 //! A model as a file of Rust: constant tables, and a solver of just their size.
 
-use super::collect::needs;
-use crate::check::{Checked, LoadError};
+use super::collect::{elements, needs};
+use crate::check::{Checked, LoadError, Sizes};
 use crate::format::{Axes, Record};
 use crate::model::Model;
 use alloc::format;
@@ -92,10 +92,16 @@ pub fn source<T: Real + Record, S: Axes<T>>(
     let space = if S::DIMENSION == 3 { "Spatial" } else { "Planar" };
     let features = needs(model).join(", ");
     let features = if features.is_empty() { "none".into() } else { features };
+    let of_elements = elements(model).join(", ");
+    let of_elements = if of_elements.is_empty() {
+        String::new()
+    } else {
+        format!("// Features of mbs-nostd that its machine elements need: {of_elements}.\n")
+    };
     let mut to = format!(
         "// {title}, as constant tables for mbs-nostd; written by `mbs export`, not by hand.\n\
          // Features of mbs-core that its effects need: {features}.\n\
-         \n\
+         {of_elements}\n\
          use mbs_nostd::table::*;\n\
          \n\
          /// Precision of the tables.\n\
@@ -116,17 +122,23 @@ pub fn source<T: Real + Record, S: Axes<T>>(
         sizes.gains,
         sizes.guides,
         sizes.courses,
-        if sizes.followed > 0 {
-            format!(", {}, {}", sizes.states, sizes.followed)
-        } else {
-            String::new()
-        }
+        further(&sizes)
     );
     lists(model, &mut to);
     let law_inputs = law_inputs(m.tables, &mut to);
     let signals = signals(model, &mut to);
     constant(model, (&law_inputs, signals), &mut to);
     Ok(to)
+}
+
+/// The sizes of a solver that have defaults, where the model needs others.
+fn further(sizes: &Sizes) -> String {
+    let signals = format!(", {}, {}", sizes.states, sizes.followed);
+    match (sizes.sides > 2, sizes.followed > 0) {
+        (true, _) => format!("{signals}, {}", sizes.sides),
+        (false, true) => signals,
+        (false, false) => String::new(),
+    }
 }
 
 /// The constant that holds all tables.

@@ -75,6 +75,8 @@ pub(super) fn evaluation<T: Real, S: Space<T>>(m: &TreeSlices<'_, T, S>) -> Oper
         matches!(first.and_then(|k| m.loops.rows.get(k)), Some(Row::Coupled(_)))
     };
     let plan = &m.loops.plan;
+    // K of all sides behind the first one are added to it.
+    let added = plan.passes.iter().fold(1, |most, pass| most.max(u64::from(pass.side)));
     let mut sum = opening(m);
     for (station, link) in plan.stations.iter().zip(m.links) {
         let f = count(link.kind.n_freedoms::<T, S>());
@@ -95,7 +97,7 @@ pub(super) fn evaluation<T: Real, S: Space<T>>(m: &TreeSlices<'_, T, S>) -> Oper
         for end in plan.ends.get(station.ends.range()).unwrap_or(&[]) {
             let rows = lap_rows(end.lap);
             let pairs = below(rows);
-            sum += ops(0, n) * rows;
+            sum += ops(0, n) * (rows * added);
             // Λ = C Cᵀ: the inner products, products with inverses, pivots.
             let inner = rows * (rows + 1) * rows.saturating_sub(1) / 6;
             sum += ops(inner + pairs + rows, inner + rows).and(2 * rows, rows, 0);

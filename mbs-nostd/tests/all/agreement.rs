@@ -4,7 +4,7 @@ use crate::support::start;
 use mbs_core::effects::{bushing, laws::SpringDamperLaw};
 use mbs_core::integrator::Integrator;
 use mbs_core::step::{OptionError, StepError};
-use mbs_nostd::export::{Collected, bytes, needs};
+use mbs_nostd::export::{Collected, bytes, elements, needs, source};
 use mbs_nostd::table::{Law, Load, Measure};
 use mbs_nostd::{Bounds, Checked, LoadError, Options, Planar, Solver, Spatial, Tables, Unwatched};
 use mbs_recursive::{TreeModel, TreeState, Workspace, bounded_step, step};
@@ -56,12 +56,12 @@ sine = { amplitude = 0.3, frequency = 1.0 }
 
 /// The largest difference of coordinates and accelerations from the recursion over steps of a scene.
 fn apart_on_controller(text: &str) -> Result<f64, LoadError> {
-    type Small = Solver<f64, Planar, 4, 4, 4, 4, 64, 64, 4, 1>;
+    type Small = Solver<f64, Planar, 5, 5, 5, 5, 64, 64, 4, 1, 0, 0, 3>;
     let (tree, begin) = start::<Planar, 2>(&mbs_testkit::scene(text));
     let collected = Collected::new(&tree, &begin, &[]).expect("no signal moves");
     let flash = Checked::new(&collected.model())?;
     let bytes = bytes(&collected.model(), false).expect("a scene of tables");
-    let tables = Tables::<f64, Planar, 4, 4, 4, 16, 4, 4, 4, 4>::read(&bytes)?;
+    let tables = Tables::<f64, Planar, 5, 4, 4, 16, 4, 4, 4, 5>::read(&bytes)?;
     let read = tables.model();
     let mut solvers = [Small::new(&flash), Small::new(&read)].map(|s| s.expect("room"));
     let (mut state, mut workspace) = (begin.clone(), Workspace::new(&tree));
@@ -98,6 +98,60 @@ fn couplings_of_joints_hold_on_a_controller_as_in_the_recursion() {
         let signal = format!("[[signal]]\nname = \"s\"\n{signal}\n");
         let apart = apart_on_controller(&format!("{GEARS}{followed}{signal}")).expect("a model");
         assert!(apart < 1e-10, "{signal}{apart}");
+    }
+}
+
+/// A third wheel, and a differential between all three.
+const DIFFERENTIAL: &str = r#"
+[[body]]
+name = "third"
+mass = 0.7
+center = [0.01, 0.3]
+inertia = 0.01
+[[joint]]
+name = "c"
+kind = "revolute"
+bodies = ["housing", "third"]
+at = [0.0, 0.3]
+[[coupling]]
+name = "differential"
+kind = "differential"
+joints = ["a", "b", "c"]
+"#;
+
+#[test]
+fn a_coupling_of_joints_on_three_branches_holds_on_a_controller_as_in_the_recursion() {
+    type Two = Solver<f64, Planar, 5, 5, 5, 5, 64, 64, 4, 1>;
+    let meshed = format!("{GEARS}{DIFFERENTIAL}");
+    assert_eq!(apart_on_controller(&meshed), Ok(0.0));
+    let alone = GEARS.split("[[coupling]]").next().expect("what stands before");
+    let text = format!("{alone}{DIFFERENTIAL}");
+    assert_eq!(apart_on_controller(&text), Ok(0.0));
+    let (tree, begin) = start::<Planar, 2>(&mbs_testkit::scene(&text));
+    let collected = Collected::new(&tree, &begin, &[]).expect("no signal moves");
+    let checked = Checked::new(&collected.model()).expect("a model");
+    assert_eq!(checked.sizes().sides, 3);
+    let of_two = LoadError::Capacity { of: "sides of rows", needed: 3, capacity: 2 };
+    assert_eq!(Two::new(&checked).err(), Some(of_two));
+    let source = source(&collected.model(), ("A differential", false)).expect("tables");
+    assert!(source.contains(", 0, 0, 3>;"), "{source}");
+}
+
+#[test]
+fn the_drive_line_of_a_vehicle_has_the_bits_of_the_recursion() {
+    type Vehicle = Solver<f64, Spatial, 18, 40, 32, 16, 256, 256, 2, 24, 2, 24, 3>;
+    let (tree, begin) = vehicle("iltis-drive-line");
+    let collected = Collected::new(&tree, &begin, &[]).expect("signals of a controller");
+    let model = Checked::new(&collected.model()).expect("a model");
+    assert_eq!(elements(model.model()), ["couplings", "signals"]);
+    let mut solver = Vehicle::new(&model).expect("room");
+    let (mut state, mut workspace) = (begin.clone(), Workspace::new(&tree));
+    let (options, bounds) = (Options::default(), Bounds::default());
+    for _ in 0..200 {
+        bounded_step(&tree, (1e-3, &options, bounds), &mut state, &mut workspace).expect("a step");
+        solver.step(&model, 1e-3, &mut Unwatched).expect("a step");
+        assert_eq!(solver.coordinates(), &state.z[..]);
+        assert_eq!(solver.accelerations(), &state.a[..]);
     }
 }
 

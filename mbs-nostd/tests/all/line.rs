@@ -1,5 +1,6 @@
 // The scene of a drive line, as constant tables for mbs-nostd; written by `mbs export`, not by hand.
 // Features of mbs-core that its effects need: friction.
+// Features of mbs-nostd that its machine elements need: signals.
 
 use mbs_nostd::table::*;
 

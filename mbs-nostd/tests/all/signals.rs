@@ -2,7 +2,7 @@
 
 use crate::support::start;
 use mbs_core::scene::{Scene, SignalKind};
-use mbs_nostd::export::{Collected, bytes, source};
+use mbs_nostd::export::{Collected, bytes, elements, source};
 use mbs_nostd::format::Axes;
 use mbs_nostd::table::{FeedbackOperation, FeedbackStep};
 use mbs_nostd::{
@@ -372,6 +372,7 @@ fn the_source_of_the_drive_line_is_the_committed_one_and_compiles_to_its_tables(
         std::fs::write(file, &text).expect("a file of the repository");
     }
     assert_eq!(text, include_str!("line.rs"), "MBS_WRITE_DOCS=1 writes it anew");
+    assert_eq!(elements(&collected.model()), ["signals"]);
     let model = Checked::new(&line::MODEL).expect("a model");
     assert_eq!(bytes(model.model(), false), bytes(&collected.model(), false));
     let mut solver = line::ModelSolver::new(&model).expect("a solver of just its size");

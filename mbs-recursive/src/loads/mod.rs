@@ -11,7 +11,7 @@ mod instant;
 mod measure;
 mod reach;
 mod rotation;
-mod sum;
+pub mod sum;
 mod tangent;
 
 pub use body_load::BodyLoad;

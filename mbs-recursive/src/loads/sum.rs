@@ -18,6 +18,9 @@ use crate::space::Space;
 use mbs_core::Real;
 use mbs_core::laws::scalar::{Law, ScalarForce};
 
+/// Are effects on sums in this build?
+pub const IS_BUILT: bool = cfg!(feature = "sums");
+
 /// A law of a sum.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SumLoad<T> {
@@ -47,6 +50,10 @@ impl<T: Real> SumLoad<T> {
         &self,
         here: &Instant<'_, T, S>,
     ) -> Result<ScalarForce<T>, Outside> {
+        // Not in this build: a model with one is not loaded.
+        if !IS_BUILT {
+            return Err(Outside);
+        }
         let value = here.couplings.evaluate((&self.row(), 0, 1), here.mechanism(), None)?;
         let [sum, rate, _] = value.row;
         Ok(self.law.evaluate(sum, rate, &here.law_inputs))

@@ -26,7 +26,9 @@ pub(crate) fn pass<T: Real, S: Space<T>>(
         let lap = at(m.loops, pass.lap as usize)?;
         if (lap.n as usize, freedoms) == (S::Point::N, 1) {
             carry((S::Point::N, 1), n_rows, (lap, pass), joint, st)?;
-        } else if let Some(slope) = slope(m, (i, lap, pass), st)? {
+        } else if m.has_coupled()
+            && let Some(slope) = slope(m, (i, lap, pass), st)?
+        {
             carry_coupled((n_rows, slope), (lap, pass), joint, st)?;
         } else {
             carry((lap.n as usize, freedoms), n_rows, (lap, pass), joint, st)?;
@@ -73,6 +75,7 @@ fn carry<T: Real, S: Space<T>>(
 }
 
 /// g of a coupling at the joint of link `i`, if it has one there.
+#[inline(never)]
 fn slope<T: Real, S: Space<T>>(
     m: &Loops<'_, T, S>,
     (i, lap, pass): (usize, &ClosedLoop<T, S>, &Pass),
@@ -83,6 +86,7 @@ fn slope<T: Real, S: Space<T>>(
 }
 
 /// Carries the row of a coupling over a joint of one freedom whose coordinate it has: K b + g in place of K b.
+#[inline(never)]
 fn carry_coupled<T: Real, S: Space<T>>(
     (n_rows, slope): (usize, T),
     (lap, pass): (&ClosedLoop<T, S>, &Pass),

@@ -5,7 +5,7 @@ use crate::fault::Fault;
 use crate::indexing::{Outside, apart, at, at_mut, part, part_mut, range};
 use crate::link::ArticulatedInertia;
 use crate::plan::{End, LoopCoupling, Update};
-use crate::rows::ClosedLoop;
+use crate::rows::{ClosedLoop, Row};
 use crate::space::{Numbers, Space};
 use mbs_core::Real;
 
@@ -39,11 +39,11 @@ fn close_some<T: Real, S: Space<T>>(
     st: &mut LoopStore<'_, T, S>,
 ) -> Result<(), Fault<T>> {
     let ground = if i == 0 { Some(a_ground) } else { None };
+    if m.has_coupled() {
+        join(m, ends, st)?;
+    }
     for end in ends {
         let lap = at(m.loops, end.lap as usize)?;
-        if st.k.len() > 2 * m.rows.len() {
-            join(m.rows.len(), lap, st)?;
-        }
         sized!(lap.n as usize, often S::Point::N, meet(m.rows.len(), lap, ground, st))?;
     }
     for end in ends {
@@ -56,17 +56,21 @@ fn close_some<T: Real, S: Space<T>>(
     Ok(())
 }
 
-/// K of all sides behind the second one are added to it.
+/// K of all sides behind the second one are added to it, in the rows that end here.
+#[inline(never)]
 fn join<T: Real, S: Space<T>>(
-    n_rows: usize,
-    lap: &ClosedLoop<T, S>,
+    m: &Loops<'_, T, S>,
+    ends: &[End],
     st: &mut LoopStore<'_, T, S>,
 ) -> Result<(), Outside> {
+    let n_rows = m.rows.len();
     let (before, further) = st.k.split_at_mut_checked(2 * n_rows).ok_or(Outside)?;
     let seconds = before.get_mut(n_rows..).ok_or(Outside)?;
-    for k in lap.range() {
-        for further in further.iter().skip(k).step_by(n_rows.max(1)) {
-            *at_mut(seconds, k)? += *further;
+    for end in ends {
+        for k in at(m.loops, end.lap as usize)?.range() {
+            for further in further.iter().skip(k).step_by(n_rows.max(1)) {
+                *at_mut(seconds, k)? += *further;
+            }
         }
     }
     Ok(())
@@ -108,13 +112,15 @@ fn regularise<T: Real, S: Space<T>>(
     let block = part_mut(st.blocks, lap.block as usize, n * n)?;
     let (rows, scales) = (part(m.rows, first, n)?, part(st.scales, first, n)?);
     let pivots = part_mut(st.pivots, first, n)?;
+    // A coupling has one row.
+    let is_angle = |row: &Row<T, S>| if n > 1 { row.is_cut_angle() } else { row.is_angle() };
     let mut scale = m.floor;
     for (row, &own) in rows.iter().zip(scales) {
-        let of = at_mut(&mut scale, usize::from(row.is_angle()))?;
+        let of = at_mut(&mut scale, usize::from(is_angle(row)))?;
         *of = of.max(own);
     }
     for (r, row) in rows.iter().enumerate() {
-        let scale = *at(&scale, usize::from(row.is_angle()))?;
+        let scale = *at(&scale, usize::from(is_angle(row)))?;
         let (above, here) = block.split_at_mut_checked(r * n).ok_or(Outside)?;
         let here = part_mut(here, 0, r + 1)?;
         for s in 0..r {

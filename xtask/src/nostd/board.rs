@@ -14,6 +14,10 @@ const TARGET: &str = "thumbv7em-none-eabihf";
 /// Longest run of an emulator.
 const PATIENCE: Duration = Duration::from_secs(600);
 
+/// Features of mbs-nostd: machine elements, and all of them.
+pub(super) const ELEMENTS: [&str; 6] =
+    ["couplings", "rolling", "rotors", "signals", "sums", "elements"];
+
 pub(super) const M7: Board = Board { machine: "mps2-an500", cpu: "cortex-m7" };
 
 pub(super) const M4: Board = Board { machine: "mps2-an386", cpu: "cortex-m4" };
@@ -49,7 +53,7 @@ pub(super) fn build(
     let folder = process::target_dir().join("firmware").join(board.cpu);
     let mut command = toolchain.cargo(false);
     command.args(["build", "--release", "--quiet", "--locked", "--target", TARGET]);
-    command.args(["--features", &of_core(features)]).arg("--target-dir").arg(&folder);
+    command.args(["--features", &qualified(features)]).arg("--target-dir").arg(&folder);
     let mut flags = format!("-C target-cpu={} -C link-arg=-Tlink.x", board.cpu);
     if let Some(lld) = lld {
         flags.push_str(&format!(" -C linker={}", lld.display()));
@@ -77,15 +81,28 @@ pub(super) fn emulate(board: &Board, elf: &Path) -> Result<String, String> {
 pub(super) fn on_host(model: &Path, features: &str) -> Result<String, String> {
     let folder = process::target_dir().join("firmware/host");
     let mut command = cargo();
-    command.args(["build", "--release", "--quiet", "--locked", "--features", &of_core(features)]);
+    command.args(["build", "--release", "--quiet", "--locked"]);
+    command.args(["--features", &qualified(features)]);
     command.arg("--target-dir").arg(&folder).env("MBS_MODEL", model);
     run(command.current_dir(process::root().join("mbs-nostd/firmware/host")))?;
     let program = folder.join("release/mbs-firmware-host");
     output(&mut Command::new(&program)).ok_or_else(|| format!("{} failed", program.display()))
 }
 
-/// Features of mbs-core, which the firmware names.
-fn of_core(features: &str) -> String {
+/// Features as the firmware names them: machine elements are those of mbs-nostd, effects those of mbs-core.
+fn qualified(features: &str) -> String {
     let named = features.split(',').filter(|feature| !feature.is_empty());
-    named.map(|feature| format!("mbs-core/{feature}")).collect::<Vec<_>>().join(",")
+    let of = |feature| if ELEMENTS.contains(&feature) { "mbs-nostd" } else { "mbs-core" };
+    named.map(|feature| format!("{}/{feature}", of(feature))).collect::<Vec<_>>().join(",")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::qualified;
+
+    #[test]
+    fn elements_are_features_of_the_solver_and_effects_of_the_laws() {
+        assert_eq!(qualified(""), "");
+        assert_eq!(qualified("signals,tire"), "mbs-nostd/signals,mbs-core/tire");
+    }
 }

@@ -49,7 +49,7 @@ const CASES: &[Case] = &[
     Case { scene: "iltis-suspension", features: SUSPENSION, precision: "f32", board: M4, instructions: 100_000, stack: STACK, apart: NEARER },
     Case { scene: "six-joint-arm", features: "", precision: "f32", board: M7, instructions: 15_000, stack: STACK, apart: NEARER },
     Case { scene: "six-joint-arm", features: "", precision: "f64", board: M7, instructions: 15_000, stack: STACK, apart: None },
-    Case { scene: "servo-arm", features: "", precision: "f32", board: M7, instructions: 25_000, stack: STACK, apart: NEARER },
+    Case { scene: "servo-arm", features: "signals", precision: "f32", board: M7, instructions: 25_000, stack: STACK, apart: NEARER },
     Case { scene: "six-joint-arm", features: "", precision: "f32", board: M4, instructions: 15_000, stack: STACK, apart: NEARER },
 ];
 

@@ -1,4 +1,4 @@
-//! What each effect's feature adds to an image: flash, static data, stack.
+//! What each effect's feature, and that of all machine elements, adds to an image: flash, static data, stack.
 
 use super::board::{M7, build, emulate, export};
 use super::image::Image;
@@ -14,7 +14,11 @@ const OF_TIRES: [&str; 5] =
 /// The module of rotations in space, which bushings alone measure.
 const OF_BUSHINGS: &str = "5loads8rotation";
 
-/// The features of effects that bring code, and mangled modules that must not be in an image without them.
+/// Modules of machine elements, and the feature of all of these.
+const OF_ELEMENTS: (&str, [&str; 4]) =
+    ("elements", ["12coupled_rows", "8feedback", "5loads3sum", "7rolling"]);
+
+/// The features that bring code, and mangled modules that must not be in an image without them.
 fn features() -> Vec<(&'static str, Vec<String>)> {
     let exported = effects::all().filter(|listed| listed.is_exported());
     let named = exported.filter_map(|Listed { module, feature, .. }| {
@@ -27,7 +31,8 @@ fn features() -> Vec<(&'static str, Vec<String>)> {
         }
         Some((feature?, modules))
     });
-    named.collect()
+    let (elements, modules) = OF_ELEMENTS;
+    named.chain([(elements, modules.map(str::to_owned).to_vec())]).collect()
 }
 
 /// Builds one scene, which has no effects, with none of the features, with each, and with all; a line for each.
@@ -64,7 +69,7 @@ pub(super) fn check(
             return Err(format!("the feature `{set}` adds nothing to an image of {none} bytes"));
         }
         if flash > whole {
-            return Err(format!("an image with `{set}` alone is larger than with all effects"));
+            return Err(format!("an image with `{set}` alone is larger than with all features"));
         }
     }
     Ok(lines)
@@ -79,7 +84,10 @@ fn without_others(names: &str, set: &str) -> Result<(), String> {
             return Err(format!("an image without the feature `{feature}` has code of `{module}`"));
         }
     }
-    for (on, modules) in [("tire", &OF_TIRES[..]), ("bushing", &[OF_BUSHINGS])] {
+    let (elements, of_elements) = (OF_ELEMENTS.0, &OF_ELEMENTS.1[..]);
+    for (on, modules) in
+        [("tire", &OF_TIRES[..]), ("bushing", &[OF_BUSHINGS]), (elements, of_elements)]
+    {
         if set.contains(on) && !modules.iter().any(|module| names.contains(module)) {
             return Err(format!(
                 "no function of `{on}` is found where it is: the search finds nothing"

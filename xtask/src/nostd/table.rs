@@ -23,6 +23,7 @@ const BUILDS: &[Build] = &[
     Build { package: "mbs-statespace", features: &[], is_alloc: true },
     Build { package: "mbs-classical", features: &[], is_alloc: true },
     Build { package: "mbs-recursive", features: &[], is_alloc: false },
+    Build { package: "mbs-recursive", features: &["elements"], is_alloc: false },
     Build { package: "mbs-recursive", features: &["alloc"], is_alloc: true },
     Build { package: "mbs-linear", features: &[], is_alloc: true },
     Build { package: "mbs-nostd", features: &[], is_alloc: false },
@@ -31,7 +32,8 @@ const BUILDS: &[Build] = &[
         features: &["mbs-core/polynomial", "mbs-core/speed-hold", "mbs-core/tire"],
         is_alloc: false,
     },
-    Build { package: "mbs-nostd", features: &["mbs-core/effects"], is_alloc: false },
+    Build { package: "mbs-nostd", features: &["signals"], is_alloc: false },
+    Build { package: "mbs-nostd", features: &["elements", "mbs-core/effects"], is_alloc: false },
 ];
 
 /// The targets: Cortex-M4F and Cortex-M7 with hardware floating point; Cortex-M0 without; RISC-V without.
@@ -61,6 +63,6 @@ mod tests {
         assert_eq!(ends[..2], [("mbs-math", &[][..]), ("mbs-math", &["alloc"][..])]);
         assert_eq!(ends[2..4], [("mbs-core", &[][..]), ("mbs-core", &["alloc", "effects"][..])]);
         assert!(ends.contains(&("mbs-linear", &[])));
-        assert_eq!(ends.last(), Some(&("mbs-nostd", &["mbs-core/effects"][..])));
+        assert_eq!(ends.last(), Some(&("mbs-nostd", &["elements", "mbs-core/effects"][..])));
     }
 }

@@ -1,0 +1,64 @@
+//! Machine elements that a model may have: a Cargo feature each, so that an image has the code of its own ones alone.
+
+use crate::inputs::{Motion, SignalLaw};
+use crate::model::Model;
+use mbs_core::Real;
+use mbs_recursive::loads::{Load, sum};
+use mbs_recursive::rows::Row;
+use mbs_recursive::space::Space;
+use mbs_recursive::{coupled, feedback, rolling, rotor};
+
+/// An element.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Element {
+    /// Its Cargo feature.
+    pub(crate) feature: &'static str,
+    /// Is it in this build?
+    is_built: bool,
+    /// Has the model one?
+    pub(crate) is_needed: bool,
+}
+
+/// The elements, and which of them a model has.
+pub(crate) fn all<T: Real, S: Space<T>>(model: &Model<'_, T, S>) -> [Element; 5] {
+    let (m, laws) = (&model.mechanism, &model.prescriptions);
+    let has_coupled = m.loops.rows.iter().any(|row| matches!(row, Row::Coupled(_)));
+    let rolls = m.loops.rows.iter().any(Row::begins_rolling);
+    let has_sum = m.loads.iter().any(|load| matches!(load, Load::Sum(_)));
+    let has_signal = !m.feedback.steps.is_empty()
+        || m.feedback.n_states > 0
+        || laws.guides.iter().any(|law| matches!(law, Motion::Step(_)))
+        || laws.courses.iter().any(|law| matches!(law, SignalLaw::Spline(_) | SignalLaw::Step(_)));
+    [
+        ("couplings", coupled::IS_BUILT, has_coupled),
+        ("rolling", rolling::IS_BUILT, rolls),
+        ("rotors", rotor::IS_BUILT, !m.rotors.is_empty()),
+        ("signals", feedback::IS_BUILT, has_signal),
+        ("sums", sum::IS_BUILT, has_sum),
+    ]
+    .map(|(feature, is_built, is_needed)| Element { feature, is_built, is_needed })
+}
+
+/// The feature of an element that a model has and this build has not.
+pub(crate) fn missing<T: Real, S: Space<T>>(model: &Model<'_, T, S>) -> Option<&'static str> {
+    all(model).into_iter().find(Element::is_missing).map(|element| element.feature)
+}
+
+impl Element {
+    fn is_missing(&self) -> bool {
+        self.is_needed && !self.is_built
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Element;
+
+    #[test]
+    fn an_element_is_missing_where_a_model_has_it_and_the_build_has_not() {
+        for (is_built, is_needed) in [(true, true), (true, false), (false, false)] {
+            assert!(!Element { feature: "signals", is_built, is_needed }.is_missing());
+        }
+        assert!(Element { feature: "signals", is_built: false, is_needed: true }.is_missing());
+    }
+}
