@@ -136,8 +136,12 @@ macro_rules! delegate_model {
         fn overturned(&self, terms: &$crate::model::Terms<$T>) -> Option<$crate::model::Owner> {
             self.$model.overturned(terms)
         }
-        fn collapsed(&self, q: &[$T], v: &[$T], dq: &[$T]) -> Option<[usize; 2]> {
-            self.$model.collapsed(q, v, dq)
+        fn collapsed(
+            &self,
+            state: &$crate::model::State<$T>,
+            dq: &[$T],
+        ) -> Option<($crate::model::Owner, usize)> {
+            self.$model.collapsed(state, dq)
         }
         fn owner_of_unknown(&self, unknown: usize) -> $crate::model::Owner {
             self.$model.owner_of_unknown(unknown)

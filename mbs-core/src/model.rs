@@ -192,8 +192,8 @@ pub trait Model<T: Real>: Cliques + Sync {
     fn overturned(&self, _terms: &Terms<T>) -> Option<Owner> {
         None
     }
-    /// The part of a coupling's line that has no length left after a step `dq` from (q, v): coupling and part.
-    fn collapsed(&self, _q: &[T], _v: &[T], _dq: &[T]) -> Option<[usize; 2]> {
+    /// The part of a line that has no length left after a step `dq` from a state: its coupling or effect, and the part.
+    fn collapsed(&self, _state: &State<T>, _dq: &[T]) -> Option<(Owner, usize)> {
         None
     }
     /// What an unknown belongs to, for messages.

@@ -1,6 +1,9 @@
 //! Parts of ropes that have no length left after a step: they have no direction.
 
 use crate::fault::failure;
+use crate::indexing::Outside;
+use crate::loads::{Load, SumLoad};
+use crate::loops::index;
 use crate::passes::kinematics;
 use crate::rows::Row;
 use crate::slices::{Inputs, Start, Store, TreeSlices};
@@ -13,7 +16,7 @@ use mbs_core::step::StepError;
 /// Cost: without lines a comparison; with them, the places of the links at the start of the step.
 ///
 /// # Errors
-/// [`StepError::RopeCollapsed`] names coupling and part.
+/// [`StepError::RopeCollapsed`] names coupling and part, [`StepError::LineCollapsed`] part, and the load in place of the effect.
 #[inline(always)]
 pub(crate) fn check_lines<T: Real, S: Space<T>>(
     m: &TreeSlices<'_, T, S>,
@@ -39,9 +42,33 @@ fn check<T: Real, S: Space<T>>(
         let Some(Row::Coupled(row)) = m.loops.rows.get(lap.first as usize) else { continue };
         let part = couplings.collapsed(row, [&*s.trial, &*s.placed]);
         if let Some(part) = part.map_err(|outside| failure(m, outside.into()))? {
-            let part = u32::try_from(part).unwrap_or(u32::MAX);
-            return Err(StepError::RopeCollapsed { coupling: lap.joint, part });
+            return Err(StepError::RopeCollapsed { coupling: lap.joint, part: index(part) });
+        }
+    }
+    for (number, load) in m.loads.iter().enumerate() {
+        let Load::Sum(sum) = load else { continue };
+        let part = couplings.collapsed(&sum.row(), [&*s.trial, &*s.placed]);
+        let Some(part) = part.map_err(|outside| failure(m, outside.into()))? else { continue };
+        let is_slack = is_slack(m, inputs, (sum, start, dt), s);
+        if !is_slack.map_err(|outside| failure(m, outside.into()))? {
+            return Err(StepError::LineCollapsed { effect: index(number), part: index(part) });
         }
     }
     Ok(())
+}
+
+/// Does the law of a sum act on one side only, and neither at the start nor at the end?
+fn is_slack<T: Real, S: Space<T>>(
+    m: &TreeSlices<'_, T, S>,
+    inputs: &impl Inputs<T>,
+    (sum, start, dt): (&SumLoad<T>, &Start<'_, T>, T),
+    s: &mut Store<'_, T, S>,
+) -> Result<bool, Outside> {
+    let couplings = &m.loops.couplings;
+    inputs.evaluate(start.t, s.guides, s.courses);
+    let here = (m.links, &*s.trial, (start.z, start.v, &*s.guides));
+    let before = sum.is_apart(couplings, here)?;
+    inputs.evaluate(start.t + dt, s.guides, s.courses);
+    let here = (m.links, &*s.placed, (&*s.z, &*s.v, &*s.guides));
+    Ok(before && sum.is_apart(couplings, here)?)
 }

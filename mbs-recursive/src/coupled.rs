@@ -227,6 +227,9 @@ impl<T: Real, S: Space<T>> Couplings<'_, T, S> {
         [from, to]: [&[LinkMotion<T, S>]; 2],
     ) -> Result<Option<usize>, Outside> {
         let starts = range(self.starts, row.starts.range())?;
+        if starts.is_empty() {
+            return Ok(None);
+        }
         let mut part = 0;
         for term in range(self.terms, row.terms.range())? {
             let SumMeasure::Line { points, .. } = term.of else { continue };

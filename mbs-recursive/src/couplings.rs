@@ -11,7 +11,6 @@ use crate::state::TreeState;
 use crate::tree::TreeModel;
 use alloc::vec::Vec;
 use mbs_core::Real;
-use mbs_core::algebra::{Vector, norm};
 use mbs_core::feedback::FeedbackOperation;
 use mbs_core::measure::{CouplingInput, TermInput};
 use mbs_core::scene::{BodyId, CouplingMeasure, Scene};
@@ -87,7 +86,9 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
                     let is_guided = self.links[link as usize].kind.is_guided();
                     SumMeasure::Joint { link, side: if is_guided { NONE } else { 0 } }
                 }
-                (CouplingMeasure::Length { points }, None) => self.line(points, first_start),
+                (CouplingMeasure::Length { points }, None) => {
+                    self.line((points, term), first_start)
+                }
                 // A coordinate has its place.
                 (CouplingMeasure::Coordinate { .. }, None) => continue,
             };
@@ -124,7 +125,11 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
     }
 
     /// A line over points; its links are added to those of its row, which begin at `first`.
-    fn line(&mut self, points: &[(BodyId, [T; 3])], first: usize) -> SumMeasure<T> {
+    fn line(
+        &mut self,
+        (points, term): (&[(BodyId, [T; 3])], &TermInput<T>),
+        first: usize,
+    ) -> SumMeasure<T> {
         let begin = index(self.couplings.points.len());
         for &(body, at) in points {
             let (link, point) = self.seat_point(body, at);
@@ -136,9 +141,8 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
             });
             self.couplings.points.push(LinePoint { start: index(start), point });
         }
-        let places = points.iter().map(|(_, at)| Vector::<T, 3>::from(*at));
-        let next = places.clone().skip(1);
-        let reference = places.zip(next).fold(T::ZERO, |sum, (a, b)| sum + norm(&(b - a)));
+        let parts = points.windows(2).map(|pair| term.reference_of(&[pair[0].1, pair[1].1]));
+        let reference = parts.fold(T::ZERO, |sum, part| sum + part);
         SumMeasure::Line {
             points: Span { first: begin, end: begin + index(points.len()) },
             reference,

@@ -79,6 +79,9 @@ pub fn turn_by(scene: &Scene<f64>, turn: impl Fn(Vector) -> Vector + Copy) -> Sc
         let turned = |(field, value): (&Field, Value<f64>)| match value {
             Value::Point(x) => Value::Point(turn(x)),
             Value::Points(x) => Value::Points(x.map(turn)),
+            Value::Line(points) => {
+                Value::Line(points.into_iter().map(|(body, x)| (body, turn(x))).collect())
+            }
             Value::Axis(x) => Value::Axis(turn(x)),
             Value::MaybeAxis(x) => Value::MaybeAxis(x.map(turn)),
             Value::Six(_) => panic!("the axes of a bushing are global: they do not turn"),
@@ -154,6 +157,7 @@ pub fn reorder(scene: &Scene<f64>) -> Scene<f64> {
             match &mut value {
                 Value::Bodies(bodies) => bodies.iter_mut().for_each(renumber),
                 Value::Body(body) => renumber(body),
+                Value::Line(points) => points.iter_mut().for_each(|(body, _)| renumber(body)),
                 _ => {}
             }
             value

@@ -136,9 +136,11 @@ fn on_sum<T: Clone>(scene: &Scene<T>) -> String {
     };
     let is_it = |effect: &&Effect<T>| {
         effect.enabled
-            && effect.kind.values().iter().any(
-                |value| matches!(value, EffectValue::Terms(terms) if terms.iter().any(has_other)),
-            )
+            && effect.kind.values().iter().any(|value| match value {
+                EffectValue::Terms(terms) => terms.iter().any(has_other),
+                EffectValue::Line(points) => points.len() > 2,
+                _ => false,
+            })
     };
     scene.effects.iter().find(is_it).map(|effect| effect.name.clone()).unwrap_or_default()
 }

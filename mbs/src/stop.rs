@@ -104,7 +104,9 @@ impl StopError {
             | StepError::OppositeBranch { row: r }
             | StepError::RankLost { row: r, .. } => Some(row(r as usize)),
             StepError::TurnTooLarge { joint, .. } => Some(Owner::Joint(joint as usize)),
-            StepError::Overturned { effect } => Some(Owner::Effect(effect as usize)),
+            StepError::Overturned { effect } | StepError::LineCollapsed { effect, .. } => {
+                Some(Owner::Effect(effect as usize))
+            }
             StepError::RopeCollapsed { coupling, .. } => Some(Owner::Coupling(coupling as usize)),
             _ => None,
         };
@@ -204,7 +206,9 @@ impl StopError {
             Self::Step(StepError::StepTooSmall { .. }, _) => "step-too-small",
             Self::Step(StepError::TurnTooLarge { .. }, _) => "turn-too-large",
             Self::Step(StepError::Overturned { .. }, _) => "overturned",
-            Self::Step(StepError::RopeCollapsed { .. }, _) => "rope-collapsed",
+            Self::Step(StepError::RopeCollapsed { .. } | StepError::LineCollapsed { .. }, _) => {
+                "rope-collapsed"
+            }
             Self::Step(StepError::Law { .. }, _) => "law-not-finite",
             Self::Step(..) => "step-failed",
             Self::AlmostDependent(_) => "almost-dependent",
@@ -338,6 +342,9 @@ impl StopError {
         let message = match self {
             &Self::Step(StepError::RopeCollapsed { coupling, part }, _) => {
                 names.rope_part(coupling as usize, part as usize, self)
+            }
+            &Self::Step(StepError::LineCollapsed { effect, part }, _) => {
+                names.line_part(effect as usize, part as usize, self)
             }
             _ => named.map_or_else(|| self.to_string(), |name| format!("`{name}`: {self}")),
         };

@@ -122,17 +122,19 @@ pub fn check_rotations<T: Real, M: Model<T>>(model: &M, terms: &Terms<T>) -> Res
 /// A part of a rope keeps a length, else it has no direction; `dq` leads from the state to the end of the step.
 ///
 /// # Errors
-/// [`StepError::RopeCollapsed`] names coupling and part.
+/// [`StepError::RopeCollapsed`] names coupling and part, [`StepError::LineCollapsed`] effect and part.
 pub fn check_lines<T: Real, M: Model<T>>(
     model: &M,
     s: &State<T>,
     dq: &[T],
 ) -> Result<(), StepError> {
-    match model.collapsed(&s.q, &s.v, dq) {
-        Some(numbers) => {
-            let [coupling, part] = numbers.map(|i| u32::try_from(i).unwrap_or(u32::MAX));
-            Err(StepError::RopeCollapsed { coupling, part })
+    let Some((owner, part)) = model.collapsed(s, dq) else { return Ok(()) };
+    let number = |i: usize| u32::try_from(i).unwrap_or(u32::MAX);
+    let part = number(part);
+    Err(match owner {
+        Owner::Coupling(i) | Owner::Body(i) | Owner::Joint(i) => {
+            StepError::RopeCollapsed { coupling: number(i), part }
         }
-        None => Ok(()),
-    }
+        Owner::Effect(i) => StepError::LineCollapsed { effect: number(i), part },
+    })
 }

@@ -6,7 +6,7 @@ use super::group::{Group, add_squares};
 use super::model::NaturalModel;
 use super::row_builder::{CoupledDraft, GroupDraft, MeasureDraft, RowDraft, difference};
 use crate::Real;
-use crate::algebra::{Vector, norm};
+use crate::algebra::norm;
 use crate::elements::{
     Coupled, CoupledTables, Curves, Measurand, NONE, Span, add_measure_gradient, combine,
     has_collapsed, measured_value,
@@ -46,8 +46,8 @@ impl<T: Real> Builder<'_, T> {
             (CouplingMeasure::Length { points }, _) => {
                 let parts = points.windows(2).map(|pair| {
                     let [from, to] = [0, 1].map(|k| self.point(pair[k].0, pair[k].1));
-                    let gap = Vector::<T, 3>::from(pair[1].1) - Vector::from(pair[0].1);
-                    MeasureDraft::Length { x: difference(&to, &from), reference: norm(&gap) }
+                    let reference = term.reference_of(&[pair[0].1, pair[1].1]);
+                    MeasureDraft::Length { x: difference(&to, &from), reference }
                 });
                 parts.collect()
             }
@@ -167,13 +167,13 @@ impl<T: Real, const D: usize> NaturalModel<T, D> {
         }
     }
 
-    /// The part of a row's lines that has no length left after a step `dq` from (q, v).
+    /// The part of the lines of a sum that has no length left after a step `dq` from (q, v).
     pub(super) fn collapsed_part(
         &self,
-        row: &Coupled<T>,
+        terms: Span,
         (q, v, dq): (&[T], &[T], &[T]),
     ) -> Option<usize> {
-        let terms = row.terms.of(&self.coupled_terms).iter();
+        let terms = terms.of(&self.coupled_terms).iter();
         let measures = terms.flat_map(|term| term.measures.of(&self.coupled_measures));
         let gaps = measures.filter_map(|measure| match measure.of {
             Measurand::Length { x, .. } => Some(x),

@@ -336,14 +336,12 @@ impl<T: Real, const D: usize> Model<T> for NaturalModel<T, D> {
         self.rotations.iter().find(is_over).map(|&(_, owner)| owner)
     }
 
-    fn collapsed(&self, q: &[T], v: &[T], dq: &[T]) -> Option<[usize; 2]> {
-        self.coupled.iter().find_map(|row| {
-            let part = self.collapsed_part(row, (q, v, dq))?;
-            match self.row_owner[row.row as usize] {
-                Owner::Coupling(coupling) => Some([coupling, part]),
-                _ => None,
-            }
-        })
+    fn collapsed(&self, state: &State<T>, dq: &[T]) -> Option<(Owner, usize)> {
+        let step = (&state.q[..], &state.v[..], dq);
+        let held = self.coupled.iter().find_map(|row| {
+            Some((self.row_owner[row.row as usize], self.collapsed_part(row.terms, step)?))
+        });
+        held.or_else(|| self.collapsed_effect(state, dq))
     }
 
     fn owner_of_unknown(&self, unknown: usize) -> Owner {

@@ -129,9 +129,9 @@ impl<T: Real, const D: usize> Part<T, D> {
         match (&term.of, term.coordinate) {
             (CouplingMeasure::Length { points }, _) => {
                 let parts = points.windows(2).map(|pair| {
-                    let gap = Vector::<T, 3>::from(pair[1].1) - Vector::from(pair[0].1);
+                    let reference = term.reference_of(&[pair[0].1, pair[1].1]);
                     let points = [0, 1].map(|k| model.point(pair[k].0, pair[k].1));
-                    let of = PartKind::Length { points, reference: norm(&gap) };
+                    let of = PartKind::Length { points, reference };
                     Self { bodies: [pair[0].0, pair[1].0], of }
                 });
                 parts.collect()

@@ -73,6 +73,13 @@ pub enum StepError {
         /// The part, from 0 in the order of the coupling's points.
         part: u32,
     },
+    /// A part of an effect's line, such as an elastic rope's, has no length left while it pulls: it has no direction.
+    LineCollapsed {
+        /// The effect in the scene.
+        effect: u32,
+        /// The part, from 0 in the order of the effect's points.
+        part: u32,
+    },
     /// A user-defined law with data gave a number that is infinite or NaN.
     #[cfg(feature = "alloc")]
     Law {
@@ -180,7 +187,7 @@ impl core::fmt::Display for StepError {
                 f,
                 "the effect is turned by more than a whole turn, where its law ends: give the joint's axis a torsion spring"
             ),
-            Self::RopeCollapsed { part, .. } => write!(
+            Self::RopeCollapsed { part, .. } | Self::LineCollapsed { part, .. } => write!(
                 f,
                 "part {} of the rope has no length left, so that its direction is not known: end its motion before, by a limit or a bumper",
                 part + 1

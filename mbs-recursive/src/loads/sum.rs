@@ -10,13 +10,13 @@
 //! The last is enough for the iteration to contract: (Σ xₖ)² is at most n Σ xₖ². Of one end it is n = 2, the answer itself.
 
 use super::{Instant, Reach};
-use crate::coupled::{CoupledRow, NONE, SumEnd};
+use crate::coupled::{CoupledRow, Couplings, Here, NONE, SumEnd};
 use crate::indexing::{Outside, at, at_mut};
 use crate::link::ArticulatedInertia;
 use crate::plan::Span;
 use crate::space::Space;
 use mbs_core::Real;
-use mbs_core::laws::scalar::{Law, ScalarForce};
+use mbs_core::laws::scalar::{Law, ScalarForce, is_apart};
 
 /// A law of a sum.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -31,7 +31,7 @@ pub struct SumLoad<T> {
 
 impl<T: Real> SumLoad<T> {
     /// The sum as a row whose value it is.
-    fn row(&self) -> CoupledRow<T> {
+    pub(crate) fn row(&self) -> CoupledRow<T> {
         CoupledRow {
             terms: self.terms,
             starts: self.starts,
@@ -40,6 +40,16 @@ impl<T: Real> SumLoad<T> {
             inverse: T::ONE,
             is_angle: false,
         }
+    }
+
+    /// Does its law act on one side only, and not at the sum of a mechanism?
+    pub(crate) fn is_apart<S: Space<T>>(
+        &self,
+        couplings: &Couplings<'_, T, S>,
+        here: Here<'_, T, S>,
+    ) -> Result<bool, Outside> {
+        let value = couplings.evaluate((&self.row(), 0, 1), here, None)?;
+        Ok(is_apart(&self.law, value.row[0]))
     }
 
     /// The law at the sum.

@@ -321,7 +321,7 @@ fn rope<'a>(fields: &Fields<'a>, joints: &'a [Joint<Number>]) -> Read<Sum> {
     Ok((terms, value, read_motion(fields)?))
 }
 
-fn read_points<'a>(
+pub(crate) fn read_points<'a>(
     fields: &Fields<'a>,
     item: &'a Item,
 ) -> Read<Vec<(mbs_core::scene::BodyId, [Number; 3])>> {

@@ -376,14 +376,7 @@ impl Writer<'_> {
                 keys.push("coordinate", Node::Number(number.to_string()));
             }
             CouplingMeasure::Length { points } => {
-                let point = |(body, at): &(BodyId, [Number; 3])| {
-                    let mut keys = Keys::default();
-                    keys.push("body", self.body_name(*body)?);
-                    keys.push("at", self.vector(at));
-                    Ok(Node::from(keys))
-                };
-                let points: Result<Vec<_>, WriteError> = points.iter().map(point).collect();
-                keys.push("points", list(points?));
+                keys.push("points", self.line(points)?);
             }
         }
         keys.push("factor", &term.factor);
@@ -391,6 +384,18 @@ impl Writer<'_> {
             curve(&mut keys, of);
         }
         Ok(keys.into())
+    }
+
+    /// The points of a line, with their bodies.
+    fn line(self, points: &[(BodyId, [Number; 3])]) -> Result<Node, WriteError> {
+        let point = |(body, at): &(BodyId, [Number; 3])| {
+            let mut keys = Keys::default();
+            keys.push("body", self.body_name(*body)?);
+            keys.push("at", self.vector(at));
+            Ok(Node::from(keys))
+        };
+        let points: Result<Vec<_>, WriteError> = points.iter().map(point).collect();
+        Ok(list(points?))
     }
 
     fn output(self, output: &Output<Number>) -> Result<Keys, WriteError> {

@@ -42,7 +42,7 @@ pub(super) fn write_step(error: &StepError, f: &mut core::fmt::Formatter<'_>) ->
         StepError::Overturned { .. } => {
             write!(f, "the effect is turned by more than a whole turn, where its law ends")
         }
-        StepError::RopeCollapsed { .. } => {
+        StepError::RopeCollapsed { .. } | StepError::LineCollapsed { .. } => {
             write!(f, "the rope has no length left, so that its direction is not known")
         }
         StepError::OppositeBranch { .. } => {
@@ -76,7 +76,7 @@ pub(super) fn step_hint(error: &StepError) -> &'static str {
         StepError::Overturned { .. } => {
             "a bushing in space ends at a whole turn: hold the turning by a joint, with a torsion spring about its axis"
         }
-        StepError::RopeCollapsed { .. } => {
+        StepError::RopeCollapsed { .. } | StepError::LineCollapsed { .. } => {
             "end its motion before the points meet, by a `limit` of a joint or a `bumper` between the points, or end the run"
         }
         StepError::Law { .. } => {

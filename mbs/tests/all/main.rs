@@ -35,6 +35,7 @@ mod reference;
 mod ropes;
 mod rotors;
 mod signals;
+mod slack_ropes;
 mod states;
 mod sums;
 mod threads;

@@ -28,7 +28,7 @@ impl<T: Clone> Quantity<T> {
                 (&[][..], Some(unit_of_sum(scene, terms)))
             }
             Target::Effect(effect) if form == ComponentForm::Contact => {
-                if !scene.effects[effect.index()].kind.row().is_one_sided {
+                if !scene.effects[effect.index()].kind.is_one_sided() {
                     return Vec::new();
                 }
                 (&[][..], None)

@@ -6,7 +6,7 @@ use crate::Real;
 use crate::inputs::SignalGraph;
 use crate::measure::{CouplingInput, given_values};
 use crate::scene::{
-    CouplingMeasure, CouplingTerm, Curve, Entry, JointId, Scene, SceneError, SceneFault,
+    BodyId, CouplingMeasure, CouplingTerm, Curve, Entry, JointId, Scene, SceneError, SceneFault,
 };
 
 pub(super) fn check<T: Real>(scene: &Scene<T>) -> Result<(), SceneError> {
@@ -47,7 +47,7 @@ pub(super) fn check_terms<T: Real>(
 
 fn check_points<T: Real>(
     scene: &Scene<T>,
-    points: &[(crate::scene::BodyId, [T; 3])],
+    points: &[(BodyId, [T; 3])],
     place: Place,
 ) -> Result<(), SceneError> {
     if points.len() < 2 {
@@ -61,6 +61,19 @@ fn check_points<T: Real>(
     }
     if points.windows(2).any(|pair| pair[0].1 == pair[1].1) {
         return place.fault("points", SceneFault::CoincidentPoints);
+    }
+    Ok(())
+}
+
+/// A line over points of two bodies or more.
+pub(super) fn check_line<T: Real>(
+    scene: &Scene<T>,
+    points: &[(BodyId, [T; 3])],
+    place: Place,
+) -> Result<(), SceneError> {
+    check_points(scene, points, place)?;
+    if points.windows(2).all(|pair| pair[0].0 == pair[1].0) {
+        return place.fault("points", SceneFault::SameBody);
     }
     Ok(())
 }
