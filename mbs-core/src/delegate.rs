@@ -140,7 +140,7 @@ macro_rules! delegate_model {
             &self,
             state: &$crate::model::State<$T>,
             dq: &[$T],
-        ) -> Option<($crate::model::Owner, usize)> {
+        ) -> Option<$crate::model::Undirected> {
             self.$model.collapsed(state, dq)
         }
         fn owner_of_unknown(&self, unknown: usize) -> $crate::model::Owner {

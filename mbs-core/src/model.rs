@@ -192,8 +192,8 @@ pub trait Model<T: Real>: Cliques + Sync {
     fn overturned(&self, _terms: &Terms<T>) -> Option<Owner> {
         None
     }
-    /// The part of a line that has no length left after a step `dq` from a state: its coupling or effect, and the part.
-    fn collapsed(&self, _state: &State<T>, _dq: &[T]) -> Option<(Owner, usize)> {
+    /// What has no direction left after a step `dq` from a state.
+    fn collapsed(&self, _state: &State<T>, _dq: &[T]) -> Option<Undirected> {
         None
     }
     /// What an unknown belongs to, for messages.
@@ -213,6 +213,23 @@ pub enum Owner {
     Effect(usize),
     /// `scene.couplings[i]`.
     Coupling(usize),
+}
+
+/// What has lost its direction.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Undirected {
+    /// A part of a line, which has no length.
+    Part {
+        /// The coupling or effect.
+        owner: Owner,
+        /// The part, from 0.
+        part: usize,
+    },
+    /// The twist of a ball, whose axes are opposite.
+    Twist {
+        /// `scene.effects[effect]`.
+        effect: usize,
+    },
 }
 
 /// A model at one instant with the weights of a linear system: what a solver takes.

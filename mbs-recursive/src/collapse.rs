@@ -1,4 +1,4 @@
-//! Parts of ropes that have no length left after a step: they have no direction.
+//! What has no direction left after a step: parts of ropes without length, twists of balls whose axes are opposite.
 
 use crate::fault::failure;
 use crate::indexing::Outside;
@@ -16,7 +16,8 @@ use mbs_core::step::StepError;
 /// Cost: without lines a comparison; with them, the places of the links at the start of the step.
 ///
 /// # Errors
-/// [`StepError::RopeCollapsed`] names coupling and part, [`StepError::LineCollapsed`] part, and the load in place of the effect.
+/// [`StepError::RopeCollapsed`] names coupling and part, [`StepError::LineCollapsed`] part, and the load in place of the effect,
+/// as do [`StepError::TwistOpen`] and [`StepError::Overturned`].
 #[inline(always)]
 pub(crate) fn check_lines<T: Real, S: Space<T>>(
     m: &TreeSlices<'_, T, S>,
@@ -47,12 +48,35 @@ fn check<T: Real, S: Space<T>>(
     }
     for (number, load) in m.loads.iter().enumerate() {
         let Load::Sum(sum) = load else { continue };
+        check_twists((m, number), (sum, start), s)?;
         let part = couplings.collapsed(&sum.row(), [&*s.trial, &*s.placed]);
         let Some(part) = part.map_err(|outside| failure(m, outside.into()))? else { continue };
         let is_slack = is_slack(m, inputs, (sum, start, dt), s);
         if !is_slack.map_err(|outside| failure(m, outside.into()))? {
             return Err(StepError::LineCollapsed { effect: index(number), part: index(part) });
         }
+    }
+    Ok(())
+}
+
+/// The twists of a sum have a direction, and have not passed a whole turn where the law asks for it.
+fn check_twists<T: Real, S: Space<T>>(
+    (m, number): (&TreeSlices<'_, T, S>, usize),
+    (sum, start): (&SumLoad<T>, &Start<'_, T>),
+    s: &Store<'_, T, S>,
+) -> Result<(), StepError> {
+    let couplings = &m.loops.couplings;
+    let failed = |outside: Outside| failure(m, outside.into());
+    if couplings.has_open_twist(&sum.row(), s.placed).map_err(failed)? {
+        return Err(StepError::TwistOpen { effect: index(number) });
+    }
+    let lost = couplings.lost_twist(&sum.row(), [start.z, s.z]).map_err(failed)?;
+    if lost == Some(T::ZERO) {
+        return Ok(());
+    }
+    let [now, meant] = sum.at_twists(&s.instant(m), lost.unwrap_or(T::ZERO)).map_err(failed)?;
+    if lost.is_none() || now != meant {
+        return Err(StepError::Overturned { effect: index(number) });
     }
     Ok(())
 }

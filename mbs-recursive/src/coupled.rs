@@ -63,9 +63,23 @@ pub enum SumMeasure<T> {
         /// The length in the reference configuration [m].
         reference: T,
     },
+    /// The swing of a ball: the angle between a direction of one link and one of another.
+    Swing {
+        /// The directions, in place of points.
+        axes: Span,
+    },
+    /// The twist of a ball about such directions.
+    Twist {
+        /// The directions, in place of points.
+        axes: Span,
+        /// The first of the joint's half angles in z.
+        first: u32,
+        /// The parent of its link is the joint's second body.
+        is_reversed: bool,
+    },
 }
 
-/// A point of a line.
+/// A point of a line, or a direction of a ball.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LinePoint<T: Real, S: Space<T>> {
     /// Its link, among those of its row.
@@ -186,6 +200,10 @@ impl<T: Real, S: Space<T>> Couplings<'_, T, S> {
                     Ok(())
                 })?;
                 Ok((sum, speed))
+            }
+            SumMeasure::Swing { axes } | SumMeasure::Twist { axes, .. } => {
+                let numbers = self.ball_angle((of, axes, starts), here)?;
+                Ok(([numbers[0], numbers[1], T::ZERO], numbers[1].abs()))
             }
         }
     }
@@ -310,6 +328,11 @@ impl<T: Real, S: Space<T>> Couplings<'_, T, S> {
             }
             match term.of {
                 SumMeasure::Joint { link, .. } => take(SumEnd::Joint { link, slope })?,
+                SumMeasure::Swing { axes } | SumMeasure::Twist { axes, .. } => {
+                    let (links, g) = self.ball_wrench((&term.of, axes, row.starts), here.1)?;
+                    take(SumEnd::Link { link: links[0], wrench: g * -slope })?;
+                    take(SumEnd::Link { link: links[1], wrench: g * slope })?;
+                }
                 SumMeasure::Line { points, .. } => {
                     self.each_part((points, row.starts), here.1, |part| {
                         let directions = [-part.direction, part.direction];
@@ -342,7 +365,7 @@ impl<T: Real, S: Space<T>> Couplings<'_, T, S> {
                 Some((link, side, term.factor))
             }
             SumMeasure::Joint { link, side } => Some((link, side, *slopes.get(i)?)),
-            SumMeasure::Line { .. } => None,
+            SumMeasure::Line { .. } | SumMeasure::Swing { .. } | SumMeasure::Twist { .. } => None,
         }))
     }
 

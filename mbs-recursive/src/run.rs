@@ -255,6 +255,7 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         };
         match error {
             StepError::Overturned { effect } => StepError::Overturned { effect: of(effect) },
+            StepError::TwistOpen { effect } => StepError::TwistOpen { effect: of(effect) },
             StepError::LineCollapsed { effect, part } => {
                 StepError::LineCollapsed { effect: of(effect), part }
             }

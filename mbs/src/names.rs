@@ -5,6 +5,7 @@ use mbs_core::Real;
 use mbs_core::effects::Value;
 use mbs_core::model::Owner;
 use mbs_core::scene::{BodyId, CouplingMeasure, CouplingTerm, Effect, Scene};
+use mbs_core::step::StepError;
 
 /// Names of bodies and joints, and which joint holds which body: what errors need to speak.
 #[derive(Debug, Clone)]
@@ -45,16 +46,19 @@ impl Names {
         }
     }
 
-    /// What happened to a part of a coupling's line, with the names of the coupling and of the bodies at its ends.
-    pub(crate) fn rope_part(&self, coupling: usize, part: usize, what: &impl Display) -> String {
-        let name = self.couplings.get(coupling).map_or("", String::as_str);
-        self.part((name, self.parts.get(coupling)), part, what)
-    }
-
-    /// The same of an effect's line.
-    pub(crate) fn line_part(&self, effect: usize, part: usize, what: &impl Display) -> String {
-        let name = self.effects.get(effect).map_or("", String::as_str);
-        self.part((name, self.effect_parts.get(effect)), part, what)
+    /// What happened to a part of a line, with the names of its coupling or effect and of the bodies at its ends.
+    pub(crate) fn part_of(&self, error: &StepError, what: &impl Display) -> Option<String> {
+        let (names, parts, of, part) = match *error {
+            StepError::RopeCollapsed { coupling, part } => {
+                (&self.couplings, &self.parts, coupling, part)
+            }
+            StepError::LineCollapsed { effect, part } => {
+                (&self.effects, &self.effect_parts, effect, part)
+            }
+            _ => return None,
+        };
+        let name = names.get(of as usize).map_or("", String::as_str);
+        Some(self.part((name, parts.get(of as usize)), part as usize, what))
     }
 
     fn part(
@@ -89,7 +93,7 @@ fn parts<T: Real>(terms: &[CouplingTerm<T>]) -> Vec<[Option<usize>; 2]> {
     let terms = terms.iter().filter(|term| !term.factor.is_zero());
     let lines = terms.filter_map(|term| match &term.of {
         CouplingMeasure::Length { points } => Some(points),
-        CouplingMeasure::Coordinate { .. } => None,
+        CouplingMeasure::Coordinate { .. } | CouplingMeasure::Ball { .. } => None,
     });
     lines.flat_map(|points| parts_of_line(points)).collect()
 }

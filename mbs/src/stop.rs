@@ -104,9 +104,9 @@ impl StopError {
             | StepError::OppositeBranch { row: r }
             | StepError::RankLost { row: r, .. } => Some(row(r as usize)),
             StepError::TurnTooLarge { joint, .. } => Some(Owner::Joint(joint as usize)),
-            StepError::Overturned { effect } | StepError::LineCollapsed { effect, .. } => {
-                Some(Owner::Effect(effect as usize))
-            }
+            StepError::Overturned { effect }
+            | StepError::TwistOpen { effect }
+            | StepError::LineCollapsed { effect, .. } => Some(Owner::Effect(effect as usize)),
             StepError::RopeCollapsed { coupling, .. } => Some(Owner::Coupling(coupling as usize)),
             _ => None,
         };
@@ -209,6 +209,7 @@ impl StopError {
             Self::Step(StepError::RopeCollapsed { .. } | StepError::LineCollapsed { .. }, _) => {
                 "rope-collapsed"
             }
+            Self::Step(StepError::TwistOpen { .. }, _) => "twist-open",
             Self::Step(StepError::Law { .. }, _) => "law-not-finite",
             Self::Step(..) => "step-failed",
             Self::AlmostDependent(_) => "almost-dependent",
@@ -339,15 +340,10 @@ impl StopError {
             Self::Step(StepError::Law { effect }, _) => names.effects.get(*effect as usize),
             _ => None,
         };
-        let message = match self {
-            &Self::Step(StepError::RopeCollapsed { coupling, part }, _) => {
-                names.rope_part(coupling as usize, part as usize, self)
-            }
-            &Self::Step(StepError::LineCollapsed { effect, part }, _) => {
-                names.line_part(effect as usize, part as usize, self)
-            }
-            _ => named.map_or_else(|| self.to_string(), |name| format!("`{name}`: {self}")),
-        };
+        let part = if let Self::Step(error, _) = self { names.part_of(error, self) } else { None };
+        let message = part.unwrap_or_else(|| {
+            named.map_or_else(|| self.to_string(), |name| format!("`{name}`: {self}"))
+        });
         let hint = match self {
             Self::Observer { hint, .. } if !hint.is_empty() => hint,
             _ => self.hint(),

@@ -11,6 +11,7 @@
 //! | [`Coupled`] | (sum_k c_k m_k - s) / c | see there | see there |
 //! | [`Guided`] | (cos f x2 - sin f x1).y, or s x.y - f | as `Dot` | with f', f'' |
 
+pub(crate) mod ball;
 mod combination;
 mod coupled;
 mod distance;
@@ -18,12 +19,13 @@ mod dot;
 mod guided;
 mod linear;
 
+pub use ball::ball_directions;
 #[cfg(feature = "alloc")]
 pub(crate) use combination::add_gradient;
 pub use combination::{Span, Term, combine};
 pub use coupled::{
     Coupled, CoupledTables, CoupledTerm, Curves, Measurand, NONE, Signed, add_measure_gradient,
-    has_collapsed, rate_and_bias, value as measured_value,
+    has_collapsed, is_open, rate_and_bias, value as measured_value,
 };
 pub use distance::Distance;
 pub use dot::Dot;

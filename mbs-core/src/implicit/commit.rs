@@ -3,7 +3,7 @@
 use super::StepEnd;
 use crate::Real;
 use crate::integrator::Rule;
-use crate::model::{Model, Owner, State, Terms};
+use crate::model::{Model, Owner, State, Terms, Undirected};
 use crate::step::StepError;
 use crate::team::{Team, on_stretches};
 
@@ -119,22 +119,26 @@ pub fn check_rotations<T: Real, M: Model<T>>(model: &M, terms: &Terms<T>) -> Res
     }
 }
 
-/// A part of a rope keeps a length, else it has no direction; `dq` leads from the state to the end of the step.
+/// A part of a rope keeps a length and a twist its axis, else they have no direction; `dq` leads from the state to the end of the step.
 ///
 /// # Errors
-/// [`StepError::RopeCollapsed`] names coupling and part, [`StepError::LineCollapsed`] effect and part.
+/// [`StepError::RopeCollapsed`] names coupling and part, [`StepError::LineCollapsed`] effect and part,
+/// [`StepError::TwistOpen`] the effect.
 pub fn check_lines<T: Real, M: Model<T>>(
     model: &M,
     s: &State<T>,
     dq: &[T],
 ) -> Result<(), StepError> {
-    let Some((owner, part)) = model.collapsed(s, dq) else { return Ok(()) };
     let number = |i: usize| u32::try_from(i).unwrap_or(u32::MAX);
-    let part = number(part);
-    Err(match owner {
-        Owner::Coupling(i) | Owner::Body(i) | Owner::Joint(i) => {
-            StepError::RopeCollapsed { coupling: number(i), part }
+    Err(match model.collapsed(s, dq) {
+        None => return Ok(()),
+        Some(Undirected::Twist { effect }) => StepError::TwistOpen { effect: number(effect) },
+        Some(Undirected::Part { owner: Owner::Effect(effect), part }) => {
+            StepError::LineCollapsed { effect: number(effect), part: number(part) }
         }
-        Owner::Effect(i) => StepError::LineCollapsed { effect: number(i), part },
+        Some(Undirected::Part { owner, part }) => {
+            let (Owner::Body(i) | Owner::Joint(i) | Owner::Effect(i) | Owner::Coupling(i)) = owner;
+            StepError::RopeCollapsed { coupling: number(i), part: number(part) }
+        }
     })
 }

@@ -6,7 +6,9 @@ use crate::Real;
 use crate::algebra::norm;
 use crate::elements::{Measurand, Span, combine, measured_value};
 use crate::inputs::Prescribed;
-use crate::model::{Load, Model, Owner, ScalarForce, SignalValues, State, Tangent, Terms};
+use crate::model::{
+    Load, Model, Owner, ScalarForce, SignalValues, State, Tangent, Terms, Undirected,
+};
 use crate::team::Alone;
 use alloc::vec;
 use core::ops::Range;
@@ -177,7 +179,9 @@ impl<T: Real, const D: usize> Model<T> for NaturalModel<T, D> {
 
     fn remember(&self, q: &[T], terms: &Terms<T>, memory: &mut [T]) {
         for measure in self.coupled_measures.iter().chain(&self.measured) {
-            if let Measurand::Angle { memory: place, .. } = measure.of {
+            if let Measurand::Angle { memory: place, .. } | Measurand::Twist { memory: place, .. } =
+                measure.of
+            {
                 let at = |x: Span| combine::<T, D>(x.of(&self.pool), q);
                 memory[place as usize] = measured_value(&measure.of, at, &terms.angles);
             }
@@ -336,12 +340,13 @@ impl<T: Real, const D: usize> Model<T> for NaturalModel<T, D> {
         self.rotations.iter().find(is_over).map(|&(_, owner)| owner)
     }
 
-    fn collapsed(&self, state: &State<T>, dq: &[T]) -> Option<(Owner, usize)> {
+    fn collapsed(&self, state: &State<T>, dq: &[T]) -> Option<Undirected> {
         let step = (&state.q[..], &state.v[..], dq);
         let held = self.coupled.iter().find_map(|row| {
-            Some((self.row_owner[row.row as usize], self.collapsed_part(row.terms, step)?))
+            let part = self.collapsed_part(row.terms, step)?;
+            Some(Undirected::Part { owner: self.row_owner[row.row as usize], part })
         });
-        held.or_else(|| self.collapsed_effect(state, dq))
+        held.or_else(|| self.undirected_effect(state, dq))
     }
 
     fn owner_of_unknown(&self, unknown: usize) -> Owner {

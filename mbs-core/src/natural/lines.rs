@@ -1,26 +1,39 @@
-//! Lines of effects whose parts lose their length: while the effect acts they have no direction.
+//! Effects that lose a direction: parts of lines that have no length while the effect acts, and twists whose axes are opposite.
 
 use super::forces::Measure;
 use super::model::NaturalModel;
 use crate::Real;
 use crate::elements::{Span, combine, measured_value};
 use crate::laws::scalar::is_apart;
-use crate::model::{Owner, State};
+use crate::model::{Owner, State, Undirected};
 
 impl<T: Real, const D: usize> NaturalModel<T, D> {
-    /// The part of an effect's lines that has no length left after a step `dq` from a state, if the effect acts before or after it.
+    /// What of an effect has no direction after a step `dq` from a state: a twist, or a part of a line if the effect acts before or after it.
     ///
     /// Cost: nothing without such effects; else the gap of each part.
-    pub(super) fn collapsed_effect(&self, state: &State<T>, dq: &[T]) -> Option<(Owner, usize)> {
+    pub(super) fn undirected_effect(&self, state: &State<T>, dq: &[T]) -> Option<Undirected> {
         self.lines.iter().find_map(|&(number, owner)| {
             let element = &self.measures[number as usize];
             let Measure::Sum { terms } = element.gauge else { return None };
+            if let (true, Owner::Effect(effect)) =
+                (self.has_open_twist(terms, (&state.q, dq)), owner)
+            {
+                return Some(Undirected::Twist { effect });
+            }
             let part = self.collapsed_part(terms, (&state.q, &state.v, dq))?;
             let before = self.sum_at(terms, (&state.q, &[], &state.memory));
             let after = self.sum_at(terms, (&state.q, dq, &state.memory));
             let is_slack = [before, after].iter().all(|&sum| is_apart(&element.law, sum));
-            (!is_slack).then_some((owner, part))
+            (!is_slack).then_some(Undirected::Part { owner, part })
         })
+    }
+
+    fn has_open_twist(&self, terms: Span, (q, dq): (&[T], &[T])) -> bool {
+        let at =
+            |x: Span| combine::<T, D>(x.of(&self.pool), q) + combine::<T, D>(x.of(&self.pool), dq);
+        let terms = terms.of(&self.coupled_terms).iter();
+        let mut measures = terms.flat_map(|term| term.measures.of(&self.coupled_measures));
+        measures.any(|measure| measure.of.is_open(at))
     }
 
     /// A sum at `q + dq`.

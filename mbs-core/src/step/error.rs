@@ -80,6 +80,11 @@ pub enum StepError {
         /// The part, from 0 in the order of the effect's points.
         part: u32,
     },
+    /// The axes of a ball are opposite: its twist is open there.
+    TwistOpen {
+        /// The effect in the scene that is on the twist.
+        effect: u32,
+    },
     /// A user-defined law with data gave a number that is infinite or NaN.
     #[cfg(feature = "alloc")]
     Law {
@@ -141,6 +146,10 @@ impl core::fmt::Display for InputError {
 
 impl core::error::Error for InputError {}
 
+/// That a twist is open.
+const TWIST_OPEN: &str =
+    "the ball has swung by half a turn, where its twist is open: hold its swing by a limit";
+
 impl core::fmt::Display for StepError {
     fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
         match self {
@@ -192,6 +201,7 @@ impl core::fmt::Display for StepError {
                 "part {} of the rope has no length left, so that its direction is not known: end its motion before, by a limit or a bumper",
                 part + 1
             ),
+            Self::TwistOpen { .. } => f.write_str(TWIST_OPEN),
             #[cfg(feature = "alloc")]
             Self::Law { .. } => write!(
                 f,

@@ -4,6 +4,7 @@
 //! m = Σ cₖ fₖ(mₖ)        its terms stand in the table of those of couplings
 //! joint                  τ = −g f,    g = c f'          along its coordinate
 //! line                   −g f n at the end of a part, its opposite at the beginning
+//! ball                   the moment −g f d on the second body, its opposite on the first
 //! ahead                  as f answers by κ, each end answers alone by κ n/2 w wᵀ, of n ends that move
 //! ```
 //!
@@ -50,6 +51,16 @@ impl<T: Real> SumLoad<T> {
     ) -> Result<bool, Outside> {
         let value = couplings.evaluate((&self.row(), 0, 1), here, None)?;
         Ok(is_apart(&self.law, value.row[0]))
+    }
+
+    /// The tension at the sum, and at one that differs by `more`.
+    pub(crate) fn at_twists<S: Space<T>>(
+        &self,
+        here: &Instant<'_, T, S>,
+        more: T,
+    ) -> Result<[T; 2], Outside> {
+        let ScalarForce { value, rate, tension, .. } = self.evaluate(here)?;
+        Ok([tension, self.law.evaluate(value + more, rate, &here.law_inputs).tension])
     }
 
     /// The law at the sum.

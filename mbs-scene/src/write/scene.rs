@@ -375,6 +375,11 @@ impl Writer<'_> {
                 keys.push("joint", self.joint_name(*joint)?);
                 keys.push("coordinate", Node::Number(number.to_string()));
             }
+            CouplingMeasure::Ball { joint, angle, axis } => {
+                keys.push("joint", self.joint_name(*joint)?);
+                keys.push("coordinate", angle.name());
+                keys.push("axis", self.vector(axis));
+            }
             CouplingMeasure::Length { points } => {
                 keys.push("points", self.line(points)?);
             }

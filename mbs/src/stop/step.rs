@@ -45,6 +45,9 @@ pub(super) fn write_step(error: &StepError, f: &mut core::fmt::Formatter<'_>) ->
         StepError::RopeCollapsed { .. } | StepError::LineCollapsed { .. } => {
             write!(f, "the rope has no length left, so that its direction is not known")
         }
+        StepError::TwistOpen { .. } => {
+            write!(f, "the ball has swung by half a turn, where its twist is open")
+        }
         StepError::OppositeBranch { .. } => {
             write!(f, "the guided angle jumped half a turn away from its guide")
         }
@@ -78,6 +81,9 @@ pub(super) fn step_hint(error: &StepError) -> &'static str {
         }
         StepError::RopeCollapsed { .. } | StepError::LineCollapsed { .. } => {
             "end its motion before the points meet, by a `limit` of a joint or a `bumper` between the points, or end the run"
+        }
+        StepError::TwistOpen { .. } => {
+            "hold its swing below half a turn, by a `limit` with `coordinate = \"swing\"`, or choose another axis"
         }
         StepError::Law { .. } => {
             "give a finite force, tangent and energy wherever the law is asked; if the motion should not lead there, try a smaller step"

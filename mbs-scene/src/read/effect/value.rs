@@ -1,7 +1,7 @@
 //! The value of a field, by its form.
 
 use crate::read::ReadFault;
-use crate::read::coupling::{read_points, read_terms};
+use crate::read::coupling::{ball_term, read_points, read_terms};
 use crate::read::fields::{Fields, Read};
 use crate::read::signal::components;
 use crate::read::tree::{Item, Node};
@@ -24,6 +24,10 @@ pub(super) fn read(
         Form::Name(own) => return Ok(Some(Value::Name(own == name))),
         Form::ForceLaw | Form::BodyLaw => return Ok(None),
         _ => {}
+    }
+    if field.form == Form::Terms && fields.get(key).is_none() {
+        let term = ball_term(fields, joints, Number::from(1.0))?;
+        return Ok(term.map(|term| Value::Terms(vec![term])));
     }
     let Some(item) = fields.get(key) else { return Ok(None) };
     Ok(Some(match field.form {
