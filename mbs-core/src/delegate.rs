@@ -138,11 +138,10 @@ macro_rules! delegate_model {
         }
         fn without_direction(
             &self,
-            q: &[$T],
-            v: &[$T],
+            state: &$crate::model::State<$T>,
             dq: &[$T],
         ) -> Option<$crate::step::StepError> {
-            self.$model.without_direction(q, v, dq)
+            self.$model.without_direction(state, dq)
         }
         fn has_velocity_rows(&self) -> bool {
             self.$model.has_velocity_rows()

@@ -199,8 +199,8 @@ pub trait Model<T: Real>: Cliques + Sync {
     fn overturned(&self, _terms: &Terms<T>) -> Option<Owner> {
         None
     }
-    /// What has no direction after a step `dq` from (q, v): a part of a coupling's line without length, a disc that lies flat.
-    fn without_direction(&self, _q: &[T], _v: &[T], _dq: &[T]) -> Option<StepError> {
+    /// What has no direction after a step `dq` from a state: a part of a line without length, a twist, a disc that lies flat.
+    fn without_direction(&self, _state: &State<T>, _dq: &[T]) -> Option<StepError> {
         None
     }
     /// What an unknown belongs to, for messages.

@@ -82,7 +82,7 @@ impl core::fmt::Display for LoadError {
             }
             Self::Sum { entry } => write!(
                 f,
-                "the sum of entry {entry} of the table of effects has a length or a curve, and cannot be written for a controller"
+                "the sum of entry {entry} of the table of effects has a length, an angle of a ball or a curve, and cannot be written for a controller"
             ),
             Self::Feature { feature } => write!(
                 f,

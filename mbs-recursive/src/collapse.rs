@@ -1,7 +1,9 @@
-//! What has no direction after a step: parts of ropes without length, discs that lie flat.
+//! What has no direction left after a step: parts of ropes without length, twists of balls whose axes are opposite, discs that lie flat.
 
 use crate::fault::failure;
 use crate::indexing::{Outside, at};
+use crate::loads::{Load, SumLoad};
+use crate::loops::index;
 use crate::passes::kinematics;
 use crate::rolling::{IS_BUILT, is_flat};
 use crate::rows::Row;
@@ -16,7 +18,8 @@ use mbs_core::step::StepError;
 /// Cost: without lines a comparison for each loop; with them, the places of the links at the start of the step.
 ///
 /// # Errors
-/// [`StepError::RopeCollapsed`] names coupling and part, [`StepError::RollingFlat`] the rolling.
+/// [`StepError::RopeCollapsed`] names coupling and part, [`StepError::LineCollapsed`] part, and the load in place of the effect,
+/// as do [`StepError::TwistOpen`] and [`StepError::Overturned`]; [`StepError::RollingFlat`] names the rolling.
 #[inline(always)]
 pub(crate) fn check_lines<T: Real, S: Space<T>>(
     m: &TreeSlices<'_, T, S>,
@@ -66,9 +69,56 @@ fn check<T: Real, S: Space<T>>(
         let Some(Row::Coupled(row)) = m.loops.rows.get(lap.first as usize) else { continue };
         let part = couplings.collapsed(row, [&*s.trial, &*s.placed]);
         if let Some(part) = part.map_err(|outside| failure(m, outside.into()))? {
-            let part = u32::try_from(part).unwrap_or(u32::MAX);
-            return Err(StepError::RopeCollapsed { coupling: lap.joint, part });
+            return Err(StepError::RopeCollapsed { coupling: lap.joint, part: index(part) });
+        }
+    }
+    for (number, load) in m.loads.iter().enumerate() {
+        let Load::Sum(sum) = load else { continue };
+        check_twists((m, number), (sum, start), s)?;
+        let part = couplings.collapsed(&sum.row(), [&*s.trial, &*s.placed]);
+        let Some(part) = part.map_err(|outside| failure(m, outside.into()))? else { continue };
+        let is_slack = is_slack(m, inputs, (sum, start, dt), s);
+        if !is_slack.map_err(|outside| failure(m, outside.into()))? {
+            return Err(StepError::LineCollapsed { effect: index(number), part: index(part) });
         }
     }
     Ok(())
+}
+
+/// The twists of a sum have a direction, and have not passed a whole turn where the law asks for it.
+fn check_twists<T: Real, S: Space<T>>(
+    (m, number): (&TreeSlices<'_, T, S>, usize),
+    (sum, start): (&SumLoad<T>, &Start<'_, T>),
+    s: &Store<'_, T, S>,
+) -> Result<(), StepError> {
+    let couplings = &m.loops.couplings;
+    let failed = |outside: Outside| failure(m, outside.into());
+    if couplings.has_open_twist(&sum.row(), s.placed).map_err(failed)? {
+        return Err(StepError::TwistOpen { effect: index(number) });
+    }
+    let lost = couplings.lost_twist(&sum.row(), [start.z, s.z]).map_err(failed)?;
+    if lost == Some(T::ZERO) {
+        return Ok(());
+    }
+    let [now, meant] = sum.at_twists(&s.instant(m), lost.unwrap_or(T::ZERO)).map_err(failed)?;
+    if lost.is_none() || now != meant {
+        return Err(StepError::Overturned { effect: index(number) });
+    }
+    Ok(())
+}
+
+/// Does the law of a sum act on one side only, and neither at the start nor at the end?
+fn is_slack<T: Real, S: Space<T>>(
+    m: &TreeSlices<'_, T, S>,
+    inputs: &impl Inputs<T>,
+    (sum, start, dt): (&SumLoad<T>, &Start<'_, T>, T),
+    s: &mut Store<'_, T, S>,
+) -> Result<bool, Outside> {
+    let couplings = &m.loops.couplings;
+    inputs.evaluate(start.t, s.guides, s.courses);
+    let here = (m.links, &*s.trial, (start.z, start.v, &*s.guides));
+    let before = sum.is_apart(couplings, here)?;
+    inputs.evaluate(start.t + dt, s.guides, s.courses);
+    let here = (m.links, &*s.placed, (&*s.z, &*s.v, &*s.guides));
+    Ok(before && sum.is_apart(couplings, here)?)
 }

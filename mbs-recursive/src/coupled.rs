@@ -66,9 +66,23 @@ pub enum SumMeasure<T> {
         /// The length in the reference configuration [m].
         reference: T,
     },
+    /// The swing of a ball: the angle between a direction of one link and one of another.
+    Swing {
+        /// The directions, in place of points.
+        axes: Span,
+    },
+    /// The twist of a ball about such directions.
+    Twist {
+        /// The directions, in place of points.
+        axes: Span,
+        /// The first of the joint's half angles in z.
+        first: u32,
+        /// The parent of its link is the joint's second body.
+        is_reversed: bool,
+    },
 }
 
-/// A point of a line.
+/// A point of a line, or a direction of a ball.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LinePoint<T: Real, S: Space<T>> {
     /// Its link, among those of its row.
@@ -190,6 +204,10 @@ impl<T: Real, S: Space<T>> Couplings<'_, T, S> {
                 })?;
                 Ok((sum, speed))
             }
+            SumMeasure::Swing { axes } | SumMeasure::Twist { axes, .. } => {
+                let numbers = self.ball_angle((of, axes, starts), here)?;
+                Ok(([numbers[0], numbers[1], T::ZERO], numbers[1].abs()))
+            }
         }
     }
 
@@ -230,6 +248,9 @@ impl<T: Real, S: Space<T>> Couplings<'_, T, S> {
         [from, to]: [&[LinkMotion<T, S>]; 2],
     ) -> Result<Option<usize>, Outside> {
         let starts = range(self.starts, row.starts.range())?;
+        if starts.is_empty() {
+            return Ok(None);
+        }
         let mut part = 0;
         for term in range(self.terms, row.terms.range())? {
             let SumMeasure::Line { points, .. } = term.of else { continue };
@@ -310,6 +331,11 @@ impl<T: Real, S: Space<T>> Couplings<'_, T, S> {
             }
             match term.of {
                 SumMeasure::Joint { link, .. } => take(SumEnd::Joint { link, slope })?,
+                SumMeasure::Swing { axes } | SumMeasure::Twist { axes, .. } => {
+                    let (links, g) = self.ball_wrench((&term.of, axes, row.starts), here.1)?;
+                    take(SumEnd::Link { link: links[0], wrench: g * -slope })?;
+                    take(SumEnd::Link { link: links[1], wrench: g * slope })?;
+                }
                 SumMeasure::Line { points, .. } => {
                     self.each_part((points, row.starts), here.1, |part| {
                         let directions = [-part.direction, part.direction];
@@ -342,7 +368,7 @@ impl<T: Real, S: Space<T>> Couplings<'_, T, S> {
                 Some((link, side, term.factor))
             }
             SumMeasure::Joint { link, side } => Some((link, side, *slopes.get(i)?)),
-            SumMeasure::Line { .. } => None,
+            SumMeasure::Line { .. } | SumMeasure::Swing { .. } | SumMeasure::Twist { .. } => None,
         }))
     }
 

@@ -2,7 +2,7 @@
 
 use crate::coupled::{CoupledRow, LinePoint, LinkStart, NONE, SumMeasure, SumTerm};
 use crate::error::TreeError;
-use crate::link::LinkKind;
+use crate::link::{Link, LinkKind};
 use crate::loops::index;
 use crate::plan::Span;
 use crate::rows::{ClosedLoop, Row};
@@ -11,10 +11,10 @@ use crate::state::TreeState;
 use crate::tree::TreeModel;
 use alloc::vec::Vec;
 use mbs_core::Real;
-use mbs_core::algebra::{Vector, norm};
+use mbs_core::algebra::{Vector, along};
 use mbs_core::feedback::FeedbackOperation;
 use mbs_core::measure::{CouplingInput, TermInput};
-use mbs_core::scene::{BodyId, CouplingMeasure, Scene};
+use mbs_core::scene::{BallAngle, BodyId, CouplingMeasure, JointId, Scene};
 
 impl<T: Real, S: Space<T>> TreeModel<T, S> {
     /// Adds the rows of couplings behind those of cut joints.
@@ -32,7 +32,7 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
             let input = CouplingInput::new(coupling);
             let sum = input.sum.is_some().then_some(guide);
             guide += usize::from(sum.is_some());
-            let added = self.add_terms((&input.terms, input.scale()), &links);
+            let added = self.add_terms((&input.terms, input.scale()), (scene, &links));
             let (terms, starts) = added.map_err(|_| TreeError::Coupling { coupling: i })?;
             let is_angle = self.is_angle(terms);
             let inverse = T::ONE / input.scale();
@@ -77,7 +77,7 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
     pub(crate) fn add_terms(
         &mut self,
         (terms, scale): (&[TermInput<T>], T),
-        links: &[Vec<Option<u32>>],
+        (scene, links): (&Scene<T>, &[Vec<Option<u32>>]),
     ) -> Result<(Span, Span), usize> {
         let (first_term, first_start) = (self.couplings.terms.len(), self.couplings.starts.len());
         for term in terms {
@@ -87,7 +87,12 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
                     let is_guided = self.links[link as usize].kind.is_guided();
                     SumMeasure::Joint { link, side: if is_guided { NONE } else { 0 } }
                 }
-                (CouplingMeasure::Length { points }, None) => self.line(points, first_start),
+                (CouplingMeasure::Length { points }, None) => {
+                    self.line((points, term), first_start)
+                }
+                (CouplingMeasure::Ball { joint, angle, axis }, _) => {
+                    self.ball((scene, *joint), (*angle, axis), first_start)?
+                }
                 // A coordinate has its place.
                 (CouplingMeasure::Coordinate { .. }, None) => continue,
             };
@@ -124,25 +129,61 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
     }
 
     /// A line over points; its links are added to those of its row, which begin at `first`.
-    fn line(&mut self, points: &[(BodyId, [T; 3])], first: usize) -> SumMeasure<T> {
+    fn line(
+        &mut self,
+        (points, term): (&[(BodyId, [T; 3])], &TermInput<T>),
+        first: usize,
+    ) -> SumMeasure<T> {
         let begin = index(self.couplings.points.len());
         for &(body, at) in points {
             let (link, point) = self.seat_point(body, at);
-            let starts = &mut self.couplings.starts;
-            let known = starts[first..].iter().position(|start| start.link == link);
-            let start = known.unwrap_or_else(|| {
-                starts.push(LinkStart { link, side: 0 });
-                starts.len() - 1 - first
-            });
-            self.couplings.points.push(LinePoint { start: index(start), point });
+            self.add_point(link, point, first);
         }
-        let places = points.iter().map(|(_, at)| Vector::<T, 3>::from(*at));
-        let next = places.clone().skip(1);
-        let reference = places.zip(next).fold(T::ZERO, |sum, (a, b)| sum + norm(&(b - a)));
+        let parts = points.windows(2).map(|pair| term.reference_of(&[pair[0].1, pair[1].1]));
+        let reference = parts.fold(T::ZERO, |sum, part| sum + part);
         SumMeasure::Line {
             points: Span { first: begin, end: begin + index(points.len()) },
             reference,
         }
+    }
+
+    /// Adds a point of a link to those of lines; the link, to those of its row, which begin at `first`.
+    fn add_point(&mut self, link: u32, point: S::Point, first: usize) {
+        let starts = &mut self.couplings.starts;
+        let known = starts[first..].iter().position(|start| start.link == link);
+        let start = known.unwrap_or_else(|| {
+            starts.push(LinkStart { link, side: 0 });
+            starts.len() - 1 - first
+        });
+        self.couplings.points.push(LinePoint { start: index(start), point });
+    }
+
+    /// An angle of a ball. A twist is read off the link that carries the joint.
+    ///
+    /// # Errors
+    /// The joint, where no link carries it.
+    fn ball(
+        &mut self,
+        (scene, joint): (&Scene<T>, JointId),
+        (angle, axis): (BallAngle, &[T; 3]),
+        first: usize,
+    ) -> Result<SumMeasure<T>, usize> {
+        let begin = index(self.couplings.points.len());
+        let axis = S::point_from(&along(&Vector::from(*axis)));
+        for body in scene.joints[joint.index()].bodies {
+            let link = self.link(body);
+            self.add_point(link, axis, first);
+        }
+        let axes = Span { first: begin, end: begin + 2 };
+        if angle == BallAngle::Swing {
+            return Ok(SumMeasure::Swing { axes });
+        }
+        let carried = self.seats.iter().find(|seat| seat.branch.joint == Some(joint.index()));
+        let seat = carried.ok_or(joint.index())?;
+        let has_ball = |link: &&Link<T, S>| matches!(link.kind, LinkKind::Ball | LinkKind::Free);
+        let links = &self.links[seat.first as usize..=seat.link as usize];
+        let first = links.iter().find(has_ball).ok_or(joint.index())?.z;
+        Ok(SumMeasure::Twist { axes, first, is_reversed: seat.branch.is_reversed })
     }
 
     /// Is the sum an angle: does the term with the largest factor measure one?
@@ -155,7 +196,7 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
                 let kind = self.links[link as usize].kind;
                 matches!(kind, LinkKind::Revolute | LinkKind::GuidedRevolute)
             }
-            SumMeasure::Line { .. } => false,
+            _ => false,
         })
     }
 
@@ -165,7 +206,7 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         is_line
             || self.couplings.terms[row.terms.range()].iter().any(|term| match term.of {
                 SumMeasure::Joint { link, .. } => !self.links[link as usize].kind.is_guided(),
-                SumMeasure::Line { .. } => false,
+                _ => false,
             })
     }
 

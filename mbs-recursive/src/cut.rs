@@ -205,7 +205,7 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
                 Load::Between { links, gauge, law: *law }
             }
             Action::Sum { terms, law } => {
-                let (terms, starts) = self.add_terms((terms, T::ONE), coordinates)?;
+                let (terms, starts) = self.add_terms((terms, T::ONE), (scene, coordinates))?;
                 Load::Sum(SumLoad { terms, starts, law: *law })
             }
             Action::Turn { bodies, law } => {

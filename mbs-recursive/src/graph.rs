@@ -23,8 +23,8 @@ use core::cmp::{Ordering, Reverse};
 use mbs_core::Real;
 use mbs_core::actions::{Action, Actions};
 use mbs_core::cluster::Clusters;
-use mbs_core::measure::RotorInput;
-use mbs_core::scene::{BodyId, Freedom, Scene, SignalKind};
+use mbs_core::measure::{RotorInput, TermInput};
+use mbs_core::scene::{BallAngle, BodyId, CouplingMeasure, Freedom, Scene, SignalKind};
 
 /// A step of the tree: a cluster and the joint it hangs by.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -150,7 +150,7 @@ impl Demands {
                     new.effect[*joint].get_or_insert(*effect);
                 }
                 Action::Sum { terms, .. } => {
-                    for (joint, _) in terms.iter().filter_map(|term| term.coordinate) {
+                    for joint in terms.iter().filter_map(carried_joint) {
                         new.effect[joint].get_or_insert(*effect);
                     }
                 }
@@ -158,6 +158,14 @@ impl Demands {
             }
         }
         new
+    }
+}
+
+/// The joint whose coordinates a term asks for: the swing of a ball has none of its own.
+fn carried_joint<T: Real>(term: &TermInput<T>) -> Option<usize> {
+    match term.of {
+        CouplingMeasure::Ball { joint, angle: BallAngle::Twist, .. } => Some(joint.index()),
+        _ => term.coordinate.map(|(joint, _)| joint),
     }
 }
 

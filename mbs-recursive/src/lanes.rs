@@ -20,7 +20,7 @@ impl<S: Space<Lanes<N>>, const N: usize> TreeModel<Lanes<N>, S> {
     /// # Errors
     /// [`LanesError`] names what has branches that lanes would not take alike.
     pub fn in_lanes(scene: &Scene<Lanes<N>>) -> Result<Self, LanesError> {
-        let branching = scene.effects.iter().position(|e| e.enabled && e.kind.row().has_branches);
+        let branching = scene.effects.iter().position(|e| e.enabled && e.kind.has_branches());
         if let Some(effect) = branching {
             return Err(LanesError::Effect { effect });
         }

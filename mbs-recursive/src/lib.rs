@@ -7,6 +7,7 @@ extern crate alloc;
 pub mod anderson;
 #[cfg(feature = "alloc")]
 mod angles;
+mod ball;
 pub mod bounded;
 mod collapse;
 pub mod coupled;

@@ -249,9 +249,18 @@ fn take<T: Real, S: Space<T>>(
 impl<T: Real, S: Space<T>> TreeModel<T, S> {
     /// The error with the effect of a load in place of its number.
     fn with_effect(&self, error: StepError) -> StepError {
-        let StepError::Overturned { effect: load } = error else { return error };
-        let effect = self.effects.get(load as usize).copied().unwrap_or(usize::MAX);
-        StepError::Overturned { effect: u32::try_from(effect).unwrap_or(u32::MAX) }
+        let of = |load: u32| {
+            let effect = self.effects.get(load as usize).copied().unwrap_or(usize::MAX);
+            u32::try_from(effect).unwrap_or(u32::MAX)
+        };
+        match error {
+            StepError::Overturned { effect } => StepError::Overturned { effect: of(effect) },
+            StepError::TwistOpen { effect } => StepError::TwistOpen { effect: of(effect) },
+            StepError::LineCollapsed { effect, part } => {
+                StepError::LineCollapsed { effect: of(effect), part }
+            }
+            error => error,
+        }
     }
 
     /// Evaluates accelerations and multipliers of a state at its coordinates and velocities, without projection.

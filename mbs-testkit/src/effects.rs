@@ -4,8 +4,8 @@ use crate::scene;
 use mbs_core::effects::{EFFECTS, Places, Row};
 use mbs_core::scene::{
     Actuator, AeroDrag, BodyId, Bumper, Bushing, CalspanCoefficients, Dimension, Effect,
-    EffectKind, Friction, JointId, Limit, LongitudinalSlip, Polynomial, PolynomialPiece,
-    RoadFeature, Scene, Signal, SpeedHold, Tire,
+    EffectKind, Friction, JointId, Limit, LineSpring, LongitudinalSlip, Polynomial,
+    PolynomialPiece, RoadFeature, Scene, Signal, SpeedHold, Tire,
 };
 
 const SPATIAL: &str = r#"
@@ -139,6 +139,16 @@ fn polynomial(dimension: Dimension, direction: Option<[f64; 3]>, of_rate: bool) 
     })
 }
 
+/// A rope over both loose bodies that pulls above a length [m].
+fn rope(dimension: Dimension, free_length: f64) -> EffectKind<f64> {
+    let [first, second] = points(dimension);
+    let middle = place(dimension, [0.7, 0.1, 0.8]);
+    let points = vec![(BODIES[0], first), (BODIES[1], middle), (BODIES[1], second)];
+    let free_length = Some(free_length);
+    let (stiffness, damping, pulls_only) = (150.0, 3.0, true);
+    EffectKind::LineSpring(LineSpring { points, stiffness, damping, free_length, pulls_only })
+}
+
 /// A bumper that begins to push after a clearance [m].
 fn bumper(dimension: Dimension, clearance: f64) -> EffectKind<f64> {
     let (bodies, points) = (BODIES, points(dimension));
@@ -270,6 +280,8 @@ pub fn every(dimension: Dimension) -> Vec<(&'static str, EffectKind<f64>)> {
         ("tire that rolls", tire(dimension, true)),
         ("tire that is driven", driven(dimension)),
         ("brake by a table", brake(JointId::new(0))),
+        ("rope that is taut", rope(dimension, 0.5)),
+        ("rope that is slack", rope(dimension, 9.0)),
     ];
     all.extend(examples(dimension, &all));
     all

@@ -3,8 +3,8 @@
 use mbs_core::effects::{Field, Form, SignalForm, Value};
 use mbs_core::measure::RollingInput;
 use mbs_core::scene::{
-    Axis, BodyId, Coupling, CouplingMeasure, Dimension, Freedom, Inertia, InitialTarget, Joint,
-    RollingKind, RollingPlane, Scene,
+    Axis, BodyId, Coupling, CouplingMeasure, CouplingTerm, Dimension, Freedom, Inertia,
+    InitialTarget, Joint, RollingKind, RollingPlane, Scene,
 };
 
 type Vector = [f64; 3];
@@ -95,8 +95,15 @@ pub fn turn_by(scene: &Scene<f64>, turn: impl Fn(Vector) -> Vector + Copy) -> Sc
         let turned = |(field, value): (&Field, Value<f64>)| match value {
             Value::Point(x) => Value::Point(turn(x)),
             Value::Points(x) => Value::Points(x.map(turn)),
+            Value::Line(points) => {
+                Value::Line(points.into_iter().map(|(body, x)| (body, turn(x))).collect())
+            }
             Value::Axis(x) => Value::Axis(turn(x)),
             Value::MaybeAxis(x) => Value::MaybeAxis(x.map(turn)),
+            Value::Terms(mut terms) => {
+                terms.iter_mut().for_each(|term| turn_term(term, &turn));
+                Value::Terms(terms)
+            }
             Value::Six(_) => panic!("the axes of a bushing are global: they do not turn"),
             Value::Signal(_) if field.form != Form::Signal(SignalForm::Scalar) => {
                 panic!("signals are not turned here")
@@ -110,12 +117,24 @@ pub fn turn_by(scene: &Scene<f64>, turn: impl Fn(Vector) -> Vector + Copy) -> Sc
     s
 }
 
+fn turn_term(term: &mut CouplingTerm<f64>, turn: &impl Fn(Vector) -> Vector) {
+    match &mut term.of {
+        CouplingMeasure::Length { points } => points.iter_mut().for_each(|(_, at)| *at = turn(*at)),
+        CouplingMeasure::Ball { axis, .. } => *axis = turn(*axis),
+        CouplingMeasure::Coordinate { .. } => {}
+    }
+}
+
 /// The points of the lengths of a coupling.
 fn points(coupling: &mut Coupling<f64>) -> impl Iterator<Item = &mut (BodyId, Vector)> {
-    coupling.terms.iter_mut().flat_map(|term| match &mut term.of {
+    coupling.terms.iter_mut().flat_map(points_of)
+}
+
+fn points_of(term: &mut CouplingTerm<f64>) -> &mut [(BodyId, Vector)] {
+    match &mut term.of {
         CouplingMeasure::Length { points } => points.as_mut_slice(),
-        CouplingMeasure::Coordinate { .. } => &mut [],
-    })
+        CouplingMeasure::Coordinate { .. } | CouplingMeasure::Ball { .. } => &mut [],
+    }
 }
 
 fn turn_initial(
@@ -171,6 +190,10 @@ pub fn reorder(scene: &Scene<f64>) -> Scene<f64> {
             match &mut value {
                 Value::Bodies(bodies) => bodies.iter_mut().for_each(renumber),
                 Value::Body(body) => renumber(body),
+                Value::Terms(terms) => {
+                    terms.iter_mut().flat_map(points_of).for_each(|(body, _)| renumber(body));
+                }
+                Value::Line(points) => points.iter_mut().for_each(|(body, _)| renumber(body)),
                 _ => {}
             }
             value

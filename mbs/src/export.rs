@@ -4,7 +4,7 @@ use crate::settings::ResolvedMethod;
 use crate::simulation::Simulation;
 use crate::stop::StopError;
 use mbs_core::effects::Value as EffectValue;
-use mbs_core::scene::{CouplingMeasure, CouplingTerm, Dimension, Effect, Scene};
+use mbs_core::scene::{CouplingTerm, Dimension, Effect, Scene};
 use mbs_nostd::LoadError;
 use mbs_nostd::export::{Collected, MovingSignal, bytes, source};
 use mbs_nostd::format::Axes;
@@ -53,7 +53,7 @@ impl core::fmt::Display for ExportError {
             Self::Sum(name) => {
                 write!(
                     f,
-                    "effect `{name}` cannot be written for a controller: its sum has lengths or curves"
+                    "effect `{name}` cannot be written for a controller: its sum has lengths, angles of balls or curves"
                 )
             }
             Self::Signal(name) => {
@@ -129,16 +129,16 @@ fn in_space<S: Axes<f64>, const D: usize>(
     Ok(Exported { rust, bytes })
 }
 
-/// The name of the first enabled effect on a sum with a length or a curve.
+/// The name of the first enabled effect on a sum with a length, an angle of a ball or a curve.
 fn on_sum<T: Clone>(scene: &Scene<T>) -> String {
-    let has_other = |term: &CouplingTerm<T>| {
-        term.curve.is_some() || matches!(term.of, CouplingMeasure::Length { .. })
-    };
+    let has_other = |term: &CouplingTerm<T>| term.curve.is_some() || term.of.coordinate().is_none();
     let is_it = |effect: &&Effect<T>| {
         effect.enabled
-            && effect.kind.values().iter().any(
-                |value| matches!(value, EffectValue::Terms(terms) if terms.iter().any(has_other)),
-            )
+            && effect.kind.values().iter().any(|value| match value {
+                EffectValue::Terms(terms) => terms.iter().any(has_other),
+                EffectValue::Line(points) => points.len() > 2,
+                _ => false,
+            })
     };
     scene.effects.iter().find(is_it).map(|effect| effect.name.clone()).unwrap_or_default()
 }

@@ -62,8 +62,8 @@ pub use interrupt::Interrupt;
 pub use mbs_core::formulation::{Formulation, SwitchError};
 pub use mbs_core::laws::code::{BodyLaw, Force, ForceLaw, Measured, MeasuredBody};
 pub use mbs_core::scene::{
-    BodyId, CouplingId, CouplingMeasure, CouplingTerm, Curve, EffectId, EffectKind, GROUND,
-    GuideId, InitialId, Interpolation, JointId, JointLimits, Motion, Number, OutputId,
+    BallAngle, BodyId, CouplingId, CouplingMeasure, CouplingTerm, Curve, EffectId, EffectKind,
+    GROUND, GuideId, InitialId, Interpolation, JointId, JointLimits, Motion, Number, OutputId,
     PolynomialPiece, Road, RoadFeature, RollingId, RollingKind, RollingPlane, Signal, SignalId,
     SignalKind, TableEnds, Vector3,
 };

@@ -104,7 +104,9 @@ impl StopError {
             | StepError::OppositeBranch { row: r }
             | StepError::RankLost { row: r, .. } => Some(row(r as usize)),
             StepError::TurnTooLarge { joint, .. } => Some(Owner::Joint(joint as usize)),
-            StepError::Overturned { effect } => Some(Owner::Effect(effect as usize)),
+            StepError::Overturned { effect }
+            | StepError::TwistOpen { effect }
+            | StepError::LineCollapsed { effect, .. } => Some(Owner::Effect(effect as usize)),
             StepError::RopeCollapsed { coupling, .. } => Some(Owner::Coupling(coupling as usize)),
             StepError::RollingFlat { rolling } => Some(Owner::Rolling(rolling as usize)),
             _ => None,
@@ -206,9 +208,12 @@ impl StopError {
             Self::Step(StepError::StepTooSmall { .. }, _) => "step-too-small",
             Self::Step(StepError::TurnTooLarge { .. }, _) => "turn-too-large",
             Self::Step(StepError::Overturned { .. }, _) => "overturned",
-            Self::Step(StepError::RopeCollapsed { .. }, _) => "rope-collapsed",
             Self::Step(StepError::RollingFlat { .. }, _) => "rolling-flat",
             Self::Step(StepError::VelocityRows, _) => "velocity-rows",
+            Self::Step(StepError::RopeCollapsed { .. } | StepError::LineCollapsed { .. }, _) => {
+                "rope-collapsed"
+            }
+            Self::Step(StepError::TwistOpen { .. }, _) => "twist-open",
             Self::Step(StepError::Law { .. }, _) => "law-not-finite",
             Self::Step(..) => "step-failed",
             Self::AlmostDependent(_) => "almost-dependent",
@@ -340,12 +345,10 @@ impl StopError {
             Self::Step(StepError::Law { effect }, _) => names.effects.get(*effect as usize),
             _ => None,
         };
-        let message = match self {
-            &Self::Step(StepError::RopeCollapsed { coupling, part }, _) => {
-                names.rope_part(coupling as usize, part as usize, self)
-            }
-            _ => named.map_or_else(|| self.to_string(), |name| format!("`{name}`: {self}")),
-        };
+        let part = if let Self::Step(error, _) = self { names.part_of(error, self) } else { None };
+        let message = part.unwrap_or_else(|| {
+            named.map_or_else(|| self.to_string(), |name| format!("`{name}`: {self}"))
+        });
         let hint = match self {
             Self::Observer { hint, .. } if !hint.is_empty() => hint,
             _ => self.hint(),

@@ -12,6 +12,7 @@ use crate::laws::code::{BodyLaw as BodyCode, Code, ForceLaw};
 use crate::laws::scalar::Law;
 use crate::measure::TermInput;
 use crate::scene::{BodyId, CouplingTerm, Dimension, Freedom, JointId, Signal, Surroundings};
+use alloc::vec;
 
 /// What the kinds of effect add their actions to.
 pub(crate) struct Compiler<'a, T> {
@@ -150,6 +151,17 @@ impl<T: Real> Compiler<'_, T> {
     /// A law of a sum of joint coordinates and lengths.
     pub(crate) fn on_sum(&mut self, terms: &[CouplingTerm<T>], law: impl Into<Option<Law<T>>>) {
         self.act(law, |law| Action::Sum { terms: TermInput::all(terms), law });
+    }
+
+    /// A law of the length of a line over points; over two it is that between them.
+    pub(crate) fn on_line(&mut self, points: &[Attachment<T>], law: impl Into<Option<Law<T>>>) {
+        match points {
+            [first, second] => {
+                let ends = [*first, *second];
+                self.act(law, |law| Action::Length { ends, law });
+            }
+            _ => self.act(law, |law| Action::Sum { terms: vec![TermInput::line(points)], law }),
+        }
     }
 
     /// A law on a body at a point, with a direction, a unit vector.

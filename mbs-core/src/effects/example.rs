@@ -40,12 +40,18 @@ impl EffectKind<f64> {
                 }
                 Form::Point => Value::Point(places.body.1),
                 Form::Points(_) => Value::Points(places.pair.1),
+                Form::Line => {
+                    let (bodies, [first, second]) = places.pair;
+                    let middle = (places.body.0, [first[0] + 0.3, first[1] + 0.3, first[2]]);
+                    Value::Line(vec![(bodies[0], first), middle, (bodies[1], second)])
+                }
                 Form::Axis => Value::Axis([1.0, 0.0, 0.0]),
                 Form::MaybeAxis => Value::MaybeAxis(None),
                 Form::Number(Sign::Any | Sign::NotNegative | Sign::Positive) => {
                     number += 0.1;
                     Value::Number(number)
                 }
+                Form::Length => Value::Length(None),
                 Form::Flag => Value::Flag(false),
                 // in the plane along x, y and about z
                 Form::Six => Value::Six([1.0, 1.0, 0.0, 0.0, 0.0, 1.0]),

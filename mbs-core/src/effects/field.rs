@@ -55,12 +55,16 @@ pub enum Form {
     Point,
     /// Two places, one per body; with the flag they must differ.
     Points(bool),
+    /// Two or more places, each with its body: a line over them.
+    Line,
     /// A direction.
     Axis,
     /// A direction, or none.
     MaybeAxis,
     /// A number.
     Number(Sign),
+    /// A length, or `"reference"`: that of the line in the reference configuration.
+    Length,
     /// True or false.
     Flag,
     /// Along and about x, y, z; in the plane along x, y and about z. Not negative.
@@ -171,12 +175,16 @@ pub enum Value<T> {
     Point([T; 3]),
     /// Of [`Form::Points`].
     Points([[T; 3]; 2]),
+    /// Of [`Form::Line`].
+    Line(Vec<(BodyId, [T; 3])>),
     /// Of [`Form::Axis`].
     Axis([T; 3]),
     /// Of [`Form::MaybeAxis`].
     MaybeAxis(Option<[T; 3]>),
     /// Of [`Form::Number`].
     Number(T),
+    /// Of [`Form::Length`]; `None`: that in the reference configuration.
+    Length(Option<T>),
     /// Of [`Form::Flag`].
     Flag(bool),
     /// Of [`Form::Six`].
@@ -215,9 +223,14 @@ impl<T: Clone> Value<T> {
             }
             Self::Point(x) => Value::Point(x.map(f)),
             Self::Points(x) => Value::Points(x.map(|x| x.map(&mut *f))),
+            Self::Line(points) => {
+                let place = |(body, x): (BodyId, [T; 3])| (body, x.map(&mut *f));
+                Value::Line(points.into_iter().map(place).collect())
+            }
             Self::Axis(x) => Value::Axis(x.map(f)),
             Self::MaybeAxis(x) => Value::MaybeAxis(x.map(|x| x.map(f))),
             Self::Number(x) => Value::Number(f(x)),
+            Self::Length(x) => Value::Length(x.map(f)),
             Self::Flag(x) => Value::Flag(x),
             Self::Six(x) => Value::Six(x.map(f)),
             Self::Pieces(pieces) => {

@@ -7,6 +7,9 @@ use crate::scene::check::Place;
 use crate::scene::{BodyId, CouplingMeasure, JointId, SceneError, Surroundings, UserLaw};
 use alloc::vec::Vec;
 
+/// The key of springs that are slack below their free length.
+pub(super) const PULLS_ONLY: &str = "pulls_only";
+
 /// What a kind of effect does, and what it says of itself.
 pub(crate) trait EffectModel<T: Real>: EffectData<T> {
     /// Law and range, in one line of Markdown.
@@ -122,6 +125,9 @@ impl<T: Clone> EffectKind<T> {
                 Value::Points(points) => {
                     places.extend(bodies.iter().zip(points).map(|(b, x)| (field.key, *b, x)));
                 }
+                Value::Line(points) => {
+                    places.extend(points.into_iter().map(|(b, x)| (field.key, b, x)));
+                }
                 Value::Point(x) => {
                     places.extend(bodies.iter().map(|b| (field.key, *b, x.clone())));
                 }
@@ -141,7 +147,7 @@ impl<T: Clone> EffectKind<T> {
 /// What an effect acts on.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum ActsOn {
-    /// A line between two points, by one number.
+    /// A line over two points or more, by one number.
     Line,
     /// A joint, by one number.
     Joint(JointId),
@@ -152,6 +158,26 @@ pub enum ActsOn {
 }
 
 impl<T: Clone> EffectKind<T> {
+    /// Is it slack on one side: is `pulls_only` set?
+    fn pulls_only(&self) -> bool {
+        let is_set = |(field, value): (&Field, Value<T>)| {
+            field.key == PULLS_ONLY && matches!(value, Value::Flag(true))
+        };
+        self.row().fields.iter().zip(self.values()).any(is_set)
+    }
+
+    /// Does it act on one side only?
+    #[must_use]
+    pub fn is_one_sided(&self) -> bool {
+        self.row().is_one_sided || self.pulls_only()
+    }
+
+    /// May its law take different ways by its numbers? Then several states are not computed at once.
+    #[must_use]
+    pub fn has_branches(&self) -> bool {
+        self.row().has_branches || self.pulls_only()
+    }
+
     /// What it acts on.
     #[must_use]
     pub fn acts_on(&self) -> ActsOn {
@@ -164,7 +190,7 @@ impl<T: Clone> EffectKind<T> {
         }
         let values = self.values();
         let on = values.iter().find_map(|value| match value {
-            Value::Points(_) => Some(ActsOn::Line),
+            Value::Points(_) | Value::Line(_) => Some(ActsOn::Line),
             Value::Joint(joint) => Some(ActsOn::Joint(*joint)),
             Value::Terms(_) => Some(ActsOn::Sum),
             _ => None,

@@ -24,6 +24,9 @@ macro_rules! list {
             AeroDrag in drag (feature = "drag") body Drag(DragLaw<T>) = 0;
             SpeedHold in speed_hold (feature = "speed-hold") body SpeedHold(SpeedHoldLaw<T>) = 1;
             Tire in tire (feature = "tire") body Tire(TireLaw<T>) = 2;
+            LineSpring in line_spring (all()) tension Pull(PullLaw<T>) = 8;
+            LineActuator in line_actuator (all());
+            LinePolynomial in line_polynomial (feature = "polynomial");
             SumSpring in sum_spring (all());
             SumTorque in sum_torque (all());
             SumLimit in sum_limit (feature = "limit");

@@ -6,6 +6,7 @@ pub use data::SumSpring;
 #[cfg(feature = "alloc")]
 mod data {
     use crate::effects::data::*;
+    use crate::effects::line_spring::PullLaw;
     use crate::effects::spring_damper::SpringDamperLaw;
     use alloc::vec::Vec;
 
@@ -20,16 +21,31 @@ mod data {
             damping: T = Number(Any), "N m s/rad or N s/m", ZERO;
             /// Sum without tension.
             free_value: T = Number(Any), "rad or m", ZERO;
+            /// Whether it is slack below that sum, and pushes nowhere.
+            pulls_only: bool = Flag, "", Nothing;
         }
     }
 
     impl<T: Real> EffectModel<T> for SumSpring<T> {
-        const LAW: &'static str = "tension k (m - m0) + c ṁ; angles are not wrapped";
+        const LAW: &'static str = "tension k (m - m0) + c ṁ, with `pulls_only` zero below m0 and never negative; angles are not wrapped";
+
         const HAS_BRANCHES: bool = false;
 
+        /// What pulls only has no use for negative numbers.
+        fn check(&self, _: Surroundings<'_, T>, place: Place) -> Result<(), SceneError> {
+            if !self.pulls_only {
+                return Ok(());
+            }
+            place.not_negative("stiffness", self.stiffness)?;
+            place.not_negative("damping", self.damping)
+        }
         fn actions(&self, to: &mut Compiler<'_, T>) {
             let (stiffness, damping, free) = (self.stiffness, self.damping, self.free_value);
-            to.on_sum(&self.terms, SpringDamperLaw { stiffness, damping, free });
+            if self.pulls_only {
+                to.on_sum(&self.terms, PullLaw { stiffness, damping, free });
+            } else {
+                to.on_sum(&self.terms, SpringDamperLaw { stiffness, damping, free });
+            }
         }
         fn stores_energy(&self) -> bool {
             !self.stiffness.is_zero()

@@ -12,6 +12,7 @@
 //! Angles are unwrapped against those of the last step. Where the sum is linear and constant, a step adds to phi what each measure
 //! changes by, so that nothing is lost after many turns.
 
+use super::ball;
 use super::combination::{Span, Term, add_gradient, combine};
 use crate::Real;
 use crate::algebra::{Vector, norm};
@@ -46,6 +47,22 @@ pub enum Measurand<T> {
         x: Span,
         /// The length in the reference configuration [m].
         reference: T,
+    },
+    /// The swing of a ball: the angle between two directions.
+    Swing {
+        /// The direction in the first body.
+        a: Span,
+        /// The direction in the second.
+        b: Span,
+    },
+    /// The twist of a ball, unwrapped against the number at `memory`.
+    Twist {
+        /// Two directions across the axis, in the first body.
+        first: [Span; 2],
+        /// The same in the second.
+        second: [Span; 2],
+        /// Place of the last angle among those remembered.
+        memory: u32,
     },
 }
 
@@ -277,12 +294,43 @@ fn base_and_change<T: Real, const D: usize>(
         Measurand::Angle { x1, x2, y, memory: place } => {
             let y = at(y);
             let (c, s) = (at(x1).dot(&y), at(x2).dot(&y));
-            let last = memory[place as usize];
-            let (sin, cos) = last.sin_cos();
-            [last, (s * cos - c * sin).atan2(c * cos + s * sin)]
+            from_last(memory[place as usize], [c, s])
+        }
+        Measurand::Swing { a, b } => [T::ZERO, ball::swing(&[at(a), at(b)])],
+        Measurand::Twist { first, second, memory: place } => {
+            let parts = ball::twist_parts(&first.map(&at), &second.map(&at));
+            from_last(memory[place as usize], parts)
         }
         Measurand::Slide { x, y } => [T::ZERO, at(x).dot(&at(y))],
         Measurand::Length { x, reference } => [T::ZERO, norm(&at(x)) - reference],
+    }
+}
+
+/// The last angle, and how far that of cosine `c` and sine `s`, to any scale, is from it.
+fn from_last<T: Real>(last: T, [c, s]: [T; 2]) -> [T; 2] {
+    let (sin, cos) = last.sin_cos();
+    [last, (s * cos - c * sin).atan2(c * cos + s * sin)]
+}
+
+/// 1 + cos of a swing within 1e-3 rad of half a turn [-]: nearer to it the twist is rounding.
+const OPEN: f64 = 5e-7;
+
+/// Is the twist of a ball open? `one_and_cosine` is 1 + cos of its swing.
+#[must_use]
+pub fn is_open<T: Real>(one_and_cosine: T) -> bool {
+    !(one_and_cosine > T::from_f64(OPEN))
+}
+
+impl<T: Real> Measurand<T> {
+    /// Is it a twist that is open?
+    pub fn is_open<const D: usize>(&self, at: impl Fn(Span) -> Vector<T, D>) -> bool {
+        match *self {
+            Self::Twist { first, second, .. } => {
+                let [c, s] = ball::twist_parts(&first.map(&at), &second.map(&at));
+                is_open((c * c + s * s).sqrt())
+            }
+            _ => false,
+        }
     }
 }
 
@@ -304,6 +352,8 @@ fn increment<T: Real, const D: usize>(
             (ds * c - dc * s).atan2(c * (c + dc) + s * (s + ds))
         }
         Measurand::Slide { x, y } => product(x, y),
+        // no row has them
+        Measurand::Swing { .. } | Measurand::Twist { .. } => T::ZERO,
         Measurand::Length { x, .. } => {
             let (before, dx) = (at(x), change(x));
             let lengths = norm(&before) + norm(&(before + dx));
@@ -355,6 +405,19 @@ pub fn add_measure_gradient<T: Real, const D: usize>(
             add_gradient(row, x.of(pool), &(at(y) * weight));
             add_gradient(row, y.of(pool), &(at(x) * weight));
         }
+        Measurand::Swing { a, b } => {
+            let [by_a, by_b] = ball::swing_gradient(&[at(a), at(b)]);
+            add_gradient(row, a.of(pool), &(by_a * weight));
+            add_gradient(row, b.of(pool), &(by_b * weight));
+        }
+        Measurand::Twist { first, second, .. } => {
+            let by = ball::twist_gradient(&first.map(&at), &second.map(&at));
+            for (spans, by) in [first, second].iter().zip(by) {
+                for (span, by) in spans.iter().zip(by) {
+                    add_gradient(row, span.of(pool), &(by * weight));
+                }
+            }
+        }
         Measurand::Length { x, .. } => {
             let d = at(x);
             let length = norm(&d);
@@ -387,6 +450,11 @@ pub fn rate_and_bias<T: Real, const D: usize>(
             let (wx, wy) = (rate(x), rate(y));
             [wx.dot(&at(y)) + at(x).dot(&wy), T::TWO * wx.dot(&wy)]
         }
+        Measurand::Swing { a, b } => ball::swing_rates(&[at(a), at(b)], &[rate(a), rate(b)]),
+        Measurand::Twist { first, second, .. } => ball::twist_rates(
+            (&first.map(&at), &second.map(&at)),
+            (&first.map(&rate), &second.map(&rate)),
+        ),
         Measurand::Length { x, .. } => {
             let (d, w) = (at(x), rate(x));
             let length = norm(&d);

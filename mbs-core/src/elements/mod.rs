@@ -12,6 +12,7 @@
 //! | [`Rolling`] | n.(r - p), and rows of velocities | see there | see there |
 //! | [`Guided`] | (cos f x2 - sin f x1).y, or s x.y - f | as `Dot` | with f', f'' |
 
+pub(crate) mod ball;
 mod combination;
 mod coupled;
 mod distance;
@@ -21,12 +22,13 @@ mod linear;
 #[cfg(feature = "alloc")]
 mod rolling;
 
+pub use ball::ball_directions;
 #[cfg(feature = "alloc")]
 pub(crate) use combination::add_gradient;
 pub use combination::{Span, Term, combine};
 pub use coupled::{
     Coupled, CoupledTables, CoupledTerm, Curves, Measurand, NONE, Signed, add_measure_gradient,
-    has_collapsed, rate_and_bias, value as measured_value,
+    has_collapsed, is_open, rate_and_bias, value as measured_value,
 };
 pub use distance::Distance;
 pub use dot::Dot;

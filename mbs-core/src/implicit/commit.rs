@@ -119,17 +119,17 @@ pub fn check_rotations<T: Real, M: Model<T>>(model: &M, terms: &Terms<T>) -> Res
     }
 }
 
-/// A part of a rope keeps a length, and a disc that rolls stands, else they have no direction; `dq` leads from the state to the end of the
-/// step.
+/// A part of a rope keeps a length, a twist its axis, and a disc that rolls stands, else they have no direction; `dq` leads from the state
+/// to the end of the step.
 ///
 /// # Errors
-/// [`StepError::RopeCollapsed`], [`StepError::RollingFlat`].
+/// [`StepError::RopeCollapsed`], [`StepError::LineCollapsed`], [`StepError::TwistOpen`], [`StepError::RollingFlat`].
 pub fn check_lines<T: Real, M: Model<T>>(
     model: &M,
     s: &State<T>,
     dq: &[T],
 ) -> Result<(), StepError> {
-    match model.without_direction(&s.q, &s.v, dq) {
+    match model.without_direction(s, dq) {
         Some(error) => Err(error),
         None => Ok(()),
     }

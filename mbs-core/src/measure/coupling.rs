@@ -2,8 +2,9 @@
 
 use super::PreparedCurve;
 use crate::Real;
+use crate::algebra::{Vector, norm};
 use crate::inputs::GuideInput;
-use crate::scene::{Coupling, CouplingMeasure, CouplingTerm, Motion};
+use crate::scene::{BodyId, Coupling, CouplingMeasure, CouplingTerm, Motion};
 use alloc::vec::Vec;
 
 /// A coupling, prepared.
@@ -26,6 +27,8 @@ pub struct TermInput<T> {
     pub coordinate: Option<(usize, usize)>,
     /// The function of the measured number.
     pub curve: PreparedCurve<T>,
+    /// Does a length count whole, and not from the reference configuration?
+    pub is_whole: bool,
 }
 
 impl<T: Real> CouplingInput<T> {
@@ -61,7 +64,27 @@ impl<T: Real> TermInput<T> {
             of: term.of.clone(),
             coordinate: term.of.coordinate().map(|(joint, number)| (joint.index(), number)),
             curve: PreparedCurve::new(term.curve.as_ref()),
+            is_whole: false,
         });
         prepared.collect()
+    }
+
+    /// The whole length of a line over points.
+    #[must_use]
+    pub fn line(points: &[(BodyId, [T; 3])]) -> Self {
+        Self {
+            factor: T::ONE,
+            of: CouplingMeasure::Length { points: points.to_vec() },
+            coordinate: None,
+            curve: PreparedCurve::Identity,
+            is_whole: true,
+        }
+    }
+
+    /// What a length over these points counts from [m]: without the length in the reference configuration, zero.
+    #[must_use]
+    pub fn reference_of(&self, points: &[[T; 3]; 2]) -> T {
+        let [p, q] = points.map(Vector::<T, 3>::from);
+        if self.is_whole { T::ZERO } else { norm(&(q - p)) }
     }
 }

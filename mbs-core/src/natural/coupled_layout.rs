@@ -49,6 +49,17 @@ impl<T: Real, const D: usize> Layout<T, D> {
                 let x = self.span(x, columns);
                 Signed { sign: T::ONE, of: Measurand::Length { x, reference: *reference } }
             }
+            MeasureDraft::Swing { a, b } => {
+                let (a, b) = (self.span(a, columns), self.span(b, columns));
+                Signed { sign: T::ONE, of: Measurand::Swing { a, b } }
+            }
+            MeasureDraft::Twist { first, second } => {
+                let [first, second] =
+                    [first, second].map(|[x, y]| [self.span(x, columns), self.span(y, columns)]);
+                let memory = index(self.model.n_memory);
+                self.model.n_memory += 1;
+                Signed { sign: T::ONE, of: Measurand::Twist { first, second, memory } }
+            }
         }
     }
 }

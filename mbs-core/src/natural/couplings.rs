@@ -6,14 +6,14 @@ use super::group::{Group, add_squares};
 use super::model::NaturalModel;
 use super::row_builder::{CoupledDraft, GroupDraft, MeasureDraft, RowDraft, difference};
 use crate::Real;
-use crate::algebra::{Vector, norm};
+use crate::algebra::{Vector, along, norm};
 use crate::elements::{
     Coupled, CoupledTables, Curves, Measurand, NONE, Span, add_measure_gradient, combine,
     has_collapsed, measured_value,
 };
 use crate::measure::{CouplingInput, PreparedCurve, TermInput};
 use crate::model::{Owner, Terms};
-use crate::scene::CouplingMeasure;
+use crate::scene::{BallAngle, BodyId, CouplingMeasure, Dimension, transverse};
 use alloc::vec;
 use alloc::vec::Vec;
 
@@ -46,10 +46,14 @@ impl<T: Real> Builder<'_, T> {
             (CouplingMeasure::Length { points }, _) => {
                 let parts = points.windows(2).map(|pair| {
                     let [from, to] = [0, 1].map(|k| self.point(pair[k].0, pair[k].1));
-                    let gap = Vector::<T, 3>::from(pair[1].1) - Vector::from(pair[0].1);
-                    MeasureDraft::Length { x: difference(&to, &from), reference: norm(&gap) }
+                    let reference = term.reference_of(&[pair[0].1, pair[1].1]);
+                    MeasureDraft::Length { x: difference(&to, &from), reference }
                 });
                 parts.collect()
+            }
+            (CouplingMeasure::Ball { joint, angle, axis }, _) => {
+                let scene = self.scene;
+                alloc::vec![self.ball_measure(scene.joints[joint.index()].bodies, *angle, axis)]
             }
             (CouplingMeasure::Coordinate { .. }, Some((joint, number))) => {
                 self.coordinate_measure(joint, number).into_iter().collect()
@@ -57,6 +61,30 @@ impl<T: Real> Builder<'_, T> {
             (CouplingMeasure::Coordinate { .. }, None) => Vec::new(),
         };
         CoupledDraft { factor: term.factor / scale, measures, curve: term.curve.clone() }
+    }
+
+    /// What measures an angle of a ball.
+    fn ball_measure(
+        &mut self,
+        [first, second]: [BodyId; 2],
+        angle: BallAngle,
+        axis: &[T; 3],
+    ) -> MeasureDraft<T> {
+        let axis = along(&Vector::from(*axis));
+        match angle {
+            BallAngle::Swing => {
+                let (a, b) = (self.direction(first, axis), self.direction(second, axis));
+                MeasureDraft::Swing { a, b }
+            }
+            BallAngle::Twist => {
+                let across = transverse(&axis, Dimension::Spatial);
+                let [first, second] = [first, second].map(|body| {
+                    let [v, w] = across;
+                    [self.direction(body, v), self.direction(body, w)]
+                });
+                MeasureDraft::Twist { first, second }
+            }
+        }
     }
 
     /// What measures a joint coordinate; the check of a scene refuses those that nothing measures.
@@ -155,6 +183,8 @@ impl<T: Real, const D: usize> NaturalModel<T, D> {
                 add(x1, y, -by * d);
             }
             Measurand::Slide { x, y } => add(x, y, s),
+            // no row has angles of balls
+            Measurand::Swing { .. } | Measurand::Twist { .. } => {}
             Measurand::Length { x, .. } => {
                 let length = norm(&at(x));
                 if length > T::ZERO {
@@ -167,17 +197,20 @@ impl<T: Real, const D: usize> NaturalModel<T, D> {
         }
     }
 
-    /// The part of a row's lines that has no length left after a step `dq` from (q, v).
+    /// The part of the lines of a sum that has no length left after a step `dq` from (q, v).
     pub(super) fn collapsed_part(
         &self,
-        row: &Coupled<T>,
+        terms: Span,
         (q, v, dq): (&[T], &[T], &[T]),
     ) -> Option<usize> {
-        let terms = row.terms.of(&self.coupled_terms).iter();
+        let terms = terms.of(&self.coupled_terms).iter();
         let measures = terms.flat_map(|term| term.measures.of(&self.coupled_measures));
         let gaps = measures.filter_map(|measure| match measure.of {
             Measurand::Length { x, .. } => Some(x),
-            Measurand::Angle { .. } | Measurand::Slide { .. } => None,
+            Measurand::Angle { .. }
+            | Measurand::Slide { .. }
+            | Measurand::Swing { .. }
+            | Measurand::Twist { .. } => None,
         });
         let is_collapsed = |x: Span| {
             let of = |coordinates: &[T]| combine::<T, D>(x.of(&self.pool), coordinates);

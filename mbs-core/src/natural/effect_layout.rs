@@ -7,7 +7,7 @@ use super::layout::{Columns, Layout, extend};
 use super::on_body::BodyElement;
 use super::row_builder::{CoupledDraft, EffectDraft, GroupDraft};
 use crate::Real;
-use crate::elements::Span;
+use crate::elements::{Measurand, Signed, Span};
 use crate::laws::scalar::Law;
 use alloc::vec;
 
@@ -114,6 +114,14 @@ impl<T: Real, const D: usize> Layout<T, D> {
         let remembered = first..self.model.n_memory;
         let owned = remembered.map(|place| (group.owner, index(place)));
         self.model.angles.extend(owned);
+        let of_terms = terms.of(&self.model.coupled_terms).iter();
+        let mut of_terms = of_terms.flat_map(|term| term.measures.of(&self.model.coupled_measures));
+        let has_end = |measure: &Signed<T>| {
+            matches!(measure.of, Measurand::Length { .. } | Measurand::Twist { .. })
+        };
+        if of_terms.any(has_end) {
+            self.model.lines.push((index(self.model.measures.len()), group.owner));
+        }
         self.add_measure(Measure::Sum { terms }, law, group);
     }
 

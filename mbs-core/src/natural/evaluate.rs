@@ -179,7 +179,9 @@ impl<T: Real, const D: usize> Model<T> for NaturalModel<T, D> {
 
     fn remember(&self, q: &[T], terms: &Terms<T>, memory: &mut [T]) {
         for measure in self.coupled_measures.iter().chain(&self.measured) {
-            if let Measurand::Angle { memory: place, .. } = measure.of {
+            if let Measurand::Angle { memory: place, .. } | Measurand::Twist { memory: place, .. } =
+                measure.of
+            {
                 let at = |x: Span| combine::<T, D>(x.of(&self.pool), q);
                 memory[place as usize] = measured_value(&measure.of, at, &terms.angles);
             }
@@ -346,18 +348,17 @@ impl<T: Real, const D: usize> Model<T> for NaturalModel<T, D> {
         self.rotations.iter().find(is_over).map(|&(_, owner)| owner)
     }
 
-    fn without_direction(&self, q: &[T], v: &[T], dq: &[T]) -> Option<StepError> {
-        let collapsed = self.coupled.iter().find_map(|row| {
-            let part = self.collapsed_part(row, (q, v, dq))?;
+    fn without_direction(&self, state: &State<T>, dq: &[T]) -> Option<StepError> {
+        let step = (&state.q[..], &state.v[..], dq);
+        let held = self.coupled.iter().find_map(|row| {
+            let part = index(self.collapsed_part(row.terms, step)?);
             match self.row_owner[row.row as usize] {
-                Owner::Coupling(coupling) => Some((index(coupling), index(part))),
+                Owner::Coupling(i) => Some(StepError::RopeCollapsed { coupling: index(i), part }),
                 _ => None,
             }
         });
-        match collapsed {
-            Some((coupling, part)) => Some(StepError::RopeCollapsed { coupling, part }),
-            None => self.flat(q).map(|i| StepError::RollingFlat { rolling: index(i) }),
-        }
+        let flat = || self.flat(&state.q).map(|i| StepError::RollingFlat { rolling: index(i) });
+        held.or_else(|| self.undirected_effect(state, dq)).or_else(flat)
     }
 
     fn owner_of_unknown(&self, unknown: usize) -> Owner {

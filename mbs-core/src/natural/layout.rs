@@ -138,6 +138,7 @@ impl<T: Real, const D: usize> Layout<T, D> {
             n_memory: 0,
             angles: Vec::new(),
             rotations: Vec::new(),
+            lines: Vec::new(),
             point_forces: Vec::new(),
             torques: Vec::new(),
             row_owner: Vec::new(),

@@ -24,6 +24,7 @@ mod group;
 mod incidence;
 mod joints;
 mod layout;
+mod lines;
 mod merge;
 mod model;
 mod motion;

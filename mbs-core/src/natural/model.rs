@@ -68,6 +68,8 @@ pub struct NaturalModel<T: Real, const D: usize> {
     pub(super) angles: Vec<(Owner, u32)>,
     /// The first of the three measures of each rotation in space, with its owner.
     pub(super) rotations: Vec<(u32, Owner)>,
+    /// The measures of sums that have lines or twists, each with its owner.
+    pub(super) lines: Vec<(u32, Owner)>,
     pub(super) point_forces: Vec<PointForce>,
     pub(super) torques: Vec<BodyTorque>,
     pub(super) row_owner: Vec<Owner>,

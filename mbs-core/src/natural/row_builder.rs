@@ -46,6 +46,8 @@ pub(crate) enum MeasureDraft<T: Real> {
     Angle { x1: Combination<T>, x2: Combination<T>, y: Combination<T>, sign: T, of: (usize, usize) },
     Slide { x: Combination<T>, y: Combination<T> },
     Length { x: Combination<T>, reference: T },
+    Swing { a: Combination<T>, b: Combination<T> },
+    Twist { first: [Combination<T>; 2], second: [Combination<T>; 2] },
 }
 
 impl<T: Real> MeasureDraft<T> {
@@ -54,6 +56,8 @@ impl<T: Real> MeasureDraft<T> {
             Self::Angle { x1, x2, y, .. } => alloc::vec![x1, x2, y],
             Self::Slide { x, y } => alloc::vec![x, y],
             Self::Length { x, .. } => alloc::vec![x],
+            Self::Swing { a, b } => alloc::vec![a, b],
+            Self::Twist { first, second } => first.iter().chain(second).collect(),
         }
     }
 }

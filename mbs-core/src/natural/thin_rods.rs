@@ -2,10 +2,10 @@
 
 use crate::Real;
 use crate::actions::{Action, Actions};
-use crate::algebra::{Vector, norm};
+use crate::algebra::{Vector, cross, norm};
 use crate::cluster::{Cluster, Clusters};
 use crate::outputs::{RelativePoint, Target};
-use crate::scene::{BodyId, CouplingMeasure, InitialTarget, Scene};
+use crate::scene::{BallAngle, BodyId, CouplingMeasure, InitialTarget, Scene};
 use alloc::vec;
 use alloc::vec::Vec;
 
@@ -144,10 +144,25 @@ impl<T: Real> ThinRods<T> {
             CouplingMeasure::Length { points } => {
                 points.iter().for_each(|(b, p)| self.point(*b, p));
             }
-            CouplingMeasure::Coordinate { joint, .. } => {
+            CouplingMeasure::Ball { joint, angle: BallAngle::Swing, axis } => {
+                let joint = &scene.joints[joint.index()];
+                joint.bodies.into_iter().for_each(|body| self.along(body, axis));
+            }
+            CouplingMeasure::Ball { joint, .. } | CouplingMeasure::Coordinate { joint, .. } => {
                 let joint = &scene.joints[joint.index()];
                 joint.bodies.into_iter().for_each(|body| self.rotation(body));
             }
+        }
+    }
+
+    /// A direction of a body is used: along the line of a rod it is that of two points.
+    fn along(&mut self, body: BodyId, axis: &[T; 3]) {
+        let BodyId::Body(b) = body else { return };
+        let Some([from, to]) = self.ends[b] else { return };
+        let (line, axis) = (to - from, Vector::<T, 3>::from(*axis));
+        let off = norm(&cross(&line, &axis)) / norm(&axis);
+        if !(off <= self.tolerance) {
+            self.ends[b] = None;
         }
     }
 

@@ -5,17 +5,21 @@
 //! effort = lambda:  a term acts with w = c_k f_k' lambda
 //! angle    moment w g on the second body, -w g on the first:  g.a = 1 about its axis, g.b = 0 about the other of two axes
 //! slide    force w d at the joint's place on the second body, -w d on the first body there
+//! ball     moment w g on the second body, -w g on the first:  g of a swing or a twist
 //! length   force w n on the second point, -w n on the first:  n from the first to the second
 //! ```
 
 use super::coordinate::Coordinate;
 use super::wrench::{Applied, Wrench};
 use crate::Real;
-use crate::algebra::{Vector, norm, raised};
+use crate::algebra::{Vector, along as unit_along, cross, norm, raised};
+use crate::elements::{ball, ball_directions};
 use crate::measure::{CouplingInput, PreparedCurve, TermInput};
 use crate::model::State;
-use crate::natural::{Affine, NaturalModel};
-use crate::scene::{BodyId, CouplingMeasure, Scene};
+use crate::natural::{Affine, NaturalModel, unwrap};
+use crate::scene::{BallAngle, BodyId, CouplingMeasure, Dimension, Scene, transverse};
+use alloc::boxed::Box;
+use alloc::vec;
 use alloc::vec::Vec;
 
 /// The sum of a coupling.
@@ -49,23 +53,29 @@ enum PartKind<T: Real, const D: usize> {
     Coordinate { of: Coordinate<T, D>, at: Affine<T, D>, memory: Option<(usize, T)> },
     /// The distance of two points, less that in the reference configuration.
     Length { points: [Affine<T, D>; 2], reference: T },
+    /// The swing of a ball: the angle between a direction of the first body and one of the second.
+    Swing { axes: [Affine<T, D>; 2] },
+    /// The twist of a ball: two directions across its axis in each body, and where the state remembers it.
+    Twist { across: Box<[[Affine<T, D>; 2]; 2]>, memory: Option<usize> },
 }
 
 impl<T: Real, const D: usize> CoupledSum<T, D> {
     /// Of `scene.couplings[index]` in a scene that passed its check.
     pub(super) fn new(scene: &Scene<T>, model: &NaturalModel<T, D>, index: usize) -> Self {
-        Self::of_terms(scene, model, &CouplingInput::new(&scene.couplings[index]).terms)
+        Self::of_terms((scene, model), &CouplingInput::new(&scene.couplings[index]).terms, None)
     }
 
-    /// Of these terms.
+    /// Of these terms; `remembered` is the first place of the angles that the state remembers for them.
     pub(super) fn of_terms(
-        scene: &Scene<T>,
-        model: &NaturalModel<T, D>,
+        (scene, model): (&Scene<T>, &NaturalModel<T, D>),
         terms: &[TermInput<T>],
+        mut remembered: Option<usize>,
     ) -> Self {
         let (mut bodies, mut scale) = (Vec::new(), T::ZERO);
         let terms = terms.iter().map(|term| {
-            let parts = Part::of_term(scene, model, term);
+            let parts = Part::of_term((scene, model), term, remembered);
+            let angles = parts.iter().filter(|part| part.is_remembered()).count();
+            remembered = remembered.map(|first| first + angles);
             bodies.extend(parts.iter().flat_map(|part| part.bodies).filter_map(BodyId::index));
             let is_angle = parts.iter().any(Part::is_angle);
             let length = if is_angle { model.length() } else { T::ONE };
@@ -125,19 +135,39 @@ impl<T: Real, const D: usize> SumTerm<T, D> {
 }
 
 impl<T: Real, const D: usize> Part<T, D> {
-    fn of_term(scene: &Scene<T>, model: &NaturalModel<T, D>, term: &TermInput<T>) -> Vec<Self> {
+    fn of_term(
+        (scene, model): (&Scene<T>, &NaturalModel<T, D>),
+        term: &TermInput<T>,
+        memory: Option<usize>,
+    ) -> Vec<Self> {
         match (&term.of, term.coordinate) {
             (CouplingMeasure::Length { points }, _) => {
                 let parts = points.windows(2).map(|pair| {
-                    let gap = Vector::<T, 3>::from(pair[1].1) - Vector::from(pair[0].1);
+                    let reference = term.reference_of(&[pair[0].1, pair[1].1]);
                     let points = [0, 1].map(|k| model.point(pair[k].0, pair[k].1));
-                    let of = PartKind::Length { points, reference: norm(&gap) };
+                    let of = PartKind::Length { points, reference };
                     Self { bodies: [pair[0].0, pair[1].0], of }
                 });
                 parts.collect()
             }
             (CouplingMeasure::Coordinate { .. }, Some(of)) => {
                 Self::of_coordinate(scene, model, of).into_iter().collect()
+            }
+            (CouplingMeasure::Ball { joint, angle, axis }, _) => {
+                let bodies = scene.joints[joint.index()].bodies;
+                let axis = unit_along(&Vector::from(*axis));
+                let direction = |body, d: Vector<T, 3>| model.direction(body, d.into());
+                let of = match angle {
+                    BallAngle::Swing => {
+                        PartKind::Swing { axes: bodies.map(|body| direction(body, axis)) }
+                    }
+                    BallAngle::Twist => {
+                        let across = transverse(&axis, Dimension::Spatial);
+                        let across = bodies.map(|body| across.map(|d| direction(body, d)));
+                        PartKind::Twist { across: Box::new(across), memory }
+                    }
+                };
+                vec![Self { bodies, of }]
             }
             (CouplingMeasure::Coordinate { .. }, None) => Vec::new(),
         }
@@ -161,7 +191,16 @@ impl<T: Real, const D: usize> Part<T, D> {
     }
 
     fn is_angle(&self) -> bool {
-        matches!(&self.of, PartKind::Coordinate { of, .. } if of.is_angle())
+        match &self.of {
+            PartKind::Coordinate { of, .. } => of.is_angle(),
+            PartKind::Length { .. } => false,
+            PartKind::Swing { .. } | PartKind::Twist { .. } => true,
+        }
+    }
+
+    /// Does the state remember it?
+    fn is_remembered(&self) -> bool {
+        self.is_angle() && !matches!(self.of, PartKind::Swing { .. })
     }
 
     /// Its value and its rate.
@@ -179,23 +218,50 @@ impl<T: Real, const D: usize> Part<T, D> {
                 let [from, to] = [0, 1].map(|i| points[i].rate(&state.v));
                 [length - *reference, line.dot(&raised(&(to - from)))]
             }
+            PartKind::Swing { axes: [a, b] } => {
+                let pair = [a.value(&state.q), b.value(&state.q)];
+                let rates = [a.rate(&state.v), b.rate(&state.v)];
+                [ball::swing(&pair), ball::swing_rates(&pair, &rates)[0]]
+            }
+            PartKind::Twist { across, memory } => {
+                let at = |k: usize| [0, 1].map(|i| across[k][i].value(&state.q));
+                let moving = |k: usize| [0, 1].map(|i| across[k][i].rate(&state.v));
+                let (first, second) = (at(0), at(1));
+                let [c, s] = ball::twist_parts(&first, &second);
+                let last = memory.map_or(T::ZERO, |place| state.memory[place]);
+                let rates = ball::twist_rates((&first, &second), (&moving(0), &moving(1)));
+                [unwrap(s.atan2(c), last), rates[0]]
+            }
         }
     }
 
     /// Hands out what does the work `weight` times the rate.
     pub(super) fn apply(&self, weight: T, state: &State<T>, mut take: impl FnMut(Applied<T>)) {
         let [first, second] = self.bodies;
+        let turning =
+            |g: Vector<T, 3>| (Wrench { force: Vector::zeros(), moment: g * weight }, [None; 2]);
         let (wrench, places) = match &self.of {
             PartKind::Coordinate { of, at, .. } => {
-                (of.direction(&state.q).scaled(weight), [raised(&at.value(&state.q)); 2])
+                (of.direction(&state.q).scaled(weight), [Some(raised(&at.value(&state.q))); 2])
             }
             PartKind::Length { points, .. } => {
                 let (line, _, places) = along(points, state);
-                (Wrench { force: line * weight, moment: Vector::zeros() }, places)
+                (Wrench { force: line * weight, moment: Vector::zeros() }, places.map(Some))
+            }
+            PartKind::Swing { axes } => {
+                let [a, b] = [0, 1].map(|i| raised(&axes[i].value(&state.q)));
+                turning(ball_directions(&a, &b)[0])
+            }
+            PartKind::Twist { across, .. } => {
+                let axis = |k: usize| {
+                    let [x, y] = [0, 1].map(|i| raised(&across[k][i].value(&state.q)));
+                    cross(&x, &y)
+                };
+                turning(ball_directions(&axis(0), &axis(1))[1])
             }
         };
-        take((first, Some(places[0]), wrench.scaled(-T::ONE)));
-        take((second, Some(places[1]), wrench));
+        take((first, places[0], wrench.scaled(-T::ONE)));
+        take((second, places[1], wrench));
     }
 }
 

@@ -66,6 +66,10 @@ pub enum SceneFault {
     UnknownCoordinate(usize),
     /// The coordinate is a component of a rotation, which is no angle of its own.
     BallCoordinate,
+    /// The angle is one of a ball, which the joint has not.
+    NoBall,
+    /// A coupling has an angle of a ball.
+    BallHeld,
     /// The coordinate of a joint that has several is missing, or is none of them.
     NeedsCoordinate {
         /// The joint's kind.
@@ -221,6 +225,10 @@ impl SceneFault {
             Self::UnknownCoordinate(_) => "count the joint's coordinates from 0",
             Self::NeedsCoordinate { .. } => "write one of these names",
             Self::BallCoordinate => "name a joint that turns about axes, such as a universal joint",
+            Self::NoBall => "name a joint with a ball, such as a spherical one",
+            Self::BallHeld => {
+                "use it in the `terms` of an effect, or hold a joint that turns about axes"
+            }
             Self::NoTerm => "write a term with a factor that is not zero",
             Self::LiesFlat => "turn the axis away from the normal",
             Self::AlongNormal => "give the direction along which it may move",
@@ -324,6 +332,8 @@ impl SceneFault {
                 Ok(())
             }
             Self::BallCoordinate => write!(f, "is a component of a rotation, not an angle"),
+            Self::NoBall => write!(f, "is an angle of a ball, which the joint has not"),
+            Self::BallHeld => write!(f, "has an angle of a ball, which no coupling holds"),
             Self::NoTerm => write!(f, "has no term with a factor that is not zero"),
             Self::LiesFlat => write!(f, "is along the plane's normal: the disc lies flat"),
             Self::AlongNormal => write!(f, "is along the plane's normal"),

@@ -58,7 +58,7 @@ pub use axes::transverse;
 #[cfg(feature = "alloc")]
 pub use build::StartedJoint;
 #[cfg(feature = "alloc")]
-pub use coupling::{Coupling, CouplingMeasure, CouplingTerm};
+pub use coupling::{BallAngle, Coupling, CouplingMeasure, CouplingTerm};
 #[cfg(feature = "alloc")]
 pub use curve::{Curve, TableEnds};
 #[cfg(feature = "alloc")]

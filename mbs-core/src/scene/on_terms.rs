@@ -1,10 +1,23 @@
-//! Effects on sums in code: a law of one joint's coordinate, taken to a sum of several.
+//! Effects on sums and lines in code: a law of one joint's coordinate, taken to a sum of several; elastic ropes.
 
 use crate::effects::{EFFECTS, Field, Form, Value};
-use crate::scene::{CouplingTerm, Effect, EffectKind, Number};
+use crate::scene::{BodyId, CouplingTerm, Effect, EffectKind, LineSpring, Number, Vector3};
+use alloc::string::String;
 use alloc::vec::Vec;
 
 impl Effect<Number> {
+    /// An elastic rope over points of bodies, slack below its length in the reference configuration: stiffness [N/m], damping [N s/m].
+    pub fn rope<P: Into<Vector3>>(
+        points: impl IntoIterator<Item = (BodyId, P)>,
+        stiffness: impl Into<Number>,
+        damping: impl Into<Number>,
+    ) -> Self {
+        let points = points.into_iter().map(|(body, at)| (body, at.into().0)).collect();
+        let (stiffness, damping) = (stiffness.into(), damping.into());
+        let rope = LineSpring { points, stiffness, damping, free_length: None, pulls_only: true };
+        Self { name: String::new(), enabled: true, kind: rope.into() }
+    }
+
     /// The same law on a sum of terms, in place of its joint or its points. What has no such form stays as it is; so does a
     /// spring along a line, whose free length is no value of a sum.
     #[must_use]
@@ -13,6 +26,9 @@ impl Effect<Number> {
         let own = |field: &Field| {
             if field.form == Form::Terms {
                 return Some(Value::Terms(terms.clone()));
+            }
+            if field.form == Form::Flag {
+                return Some(Value::Flag(false));
             }
             let is_it = |of: &&Field| (of.key, of.form) == (field.key, field.form);
             let at = fields.iter().position(|of| is_it(&of))?;

@@ -211,6 +211,9 @@ impl<T> CouplingTerm<T> {
             &CouplingMeasure::Coordinate { joint, number } => {
                 CouplingMeasure::Coordinate { joint, number }
             }
+            CouplingMeasure::Ball { joint, angle, axis } => {
+                CouplingMeasure::Ball { joint: *joint, angle: *angle, axis: all(axis, f) }
+            }
             CouplingMeasure::Length { points } => CouplingMeasure::Length {
                 points: points.iter().map(|(body, at)| (*body, all(at, f))).collect(),
             },

@@ -80,6 +80,18 @@ pub enum StepError {
     },
     /// Rows of velocities, as of bodies that roll, in a formulation whose coordinates are independent: more places are free than velocities.
     VelocityRows,
+    /// A part of an effect's line, such as an elastic rope's, has no length left while it pulls: it has no direction.
+    LineCollapsed {
+        /// The effect in the scene.
+        effect: u32,
+        /// The part, from 0 in the order of the effect's points.
+        part: u32,
+    },
+    /// The axes of a ball are opposite: its twist is open there.
+    TwistOpen {
+        /// The effect in the scene that is on the twist.
+        effect: u32,
+    },
     /// A user-defined law with data gave a number that is infinite or NaN.
     #[cfg(feature = "alloc")]
     Law {
@@ -141,6 +153,10 @@ impl core::fmt::Display for InputError {
 
 impl core::error::Error for InputError {}
 
+/// That a twist is open.
+const TWIST_OPEN: &str =
+    "the ball has swung by half a turn, where its twist is open: hold its swing by a limit";
+
 impl core::fmt::Display for StepError {
     fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
         match self {
@@ -195,11 +211,12 @@ impl core::fmt::Display for StepError {
                 f,
                 "the disc lies flat on its plane, where it has no lowest point, or the blade stands on it: end its motion before"
             ),
-            Self::RopeCollapsed { part, .. } => write!(
+            Self::RopeCollapsed { part, .. } | Self::LineCollapsed { part, .. } => write!(
                 f,
                 "part {} of the rope has no length left, so that its direction is not known: end its motion before, by a limit or a bumper",
                 part + 1
             ),
+            Self::TwistOpen { .. } => f.write_str(TWIST_OPEN),
             #[cfg(feature = "alloc")]
             Self::Law { .. } => write!(
                 f,

@@ -70,9 +70,13 @@ fn every_kind_is_tried_by_the_tests_of_effects() {
 fn the_document_has_the_fields_of_the_table() {
     let text = std::fs::read_to_string(DOCUMENT).expect("the document");
     let mut expected = text.clone();
-    for (heading, group) in
-        [("Between two bodies", 0), ("On a joint", 1), ("On a sum", 2), ("On one body", 3)]
-    {
+    for (heading, group) in [
+        ("Between two bodies", 0),
+        ("On a line over points", 4),
+        ("On a joint", 1),
+        ("On a sum", 2),
+        ("On one body", 3),
+    ] {
         let section = expected.find(&format!("## {heading}\n")).expect("a section");
         let start = section + expected[section..].find("| kind |").expect("a table");
         let end = start + expected[start..].find("\n\n").expect("an end") + 1;
@@ -88,13 +92,14 @@ fn the_document_has_the_fields_of_the_table() {
     }
 }
 
-/// The kinds between two bodies, on a joint, on a sum, on one body.
+/// The kinds between two bodies, on a joint, on a sum, on one body, on a line over points.
 fn table(group: usize) -> String {
     let mut text = "| kind | keys: unit, default | law and range |\n|---|---|---|\n".to_owned();
     let group_of = |row: &&Row| match row.fields.first().map(|field| field.form) {
         Some(Form::Bodies) => 0,
         Some(Form::Joint(_)) => 1,
         Some(Form::Terms) => 2,
+        Some(Form::Line) => 4,
         _ => 3,
     };
     for row in EFFECTS.iter().filter(|row| group_of(row) == group) {
@@ -111,7 +116,7 @@ fn key(field: &Field) -> Option<String> {
     let key = field.key;
     let named = match field.form {
         Form::Bodies | Form::Points(_) | Form::Name(_) => return None,
-        Form::Coordinate | Form::Terms => return None,
+        Form::Coordinate | Form::Terms | Form::Line => return None,
         Form::Joint(JointNeed::Rotation) => {
             format!("`{key}` with one rotation, or with a `coordinate`")
         }
@@ -124,7 +129,8 @@ fn key(field: &Field) -> Option<String> {
             format!("`{key}`, `\"none\"` or `\"calspan\"`; `coefficients`, those of the Iltis")
         }
         Form::MaybeAxis => format!("`{key}`, none"),
-        Form::Flag => format!("`{key} = true`, that of the joint"),
+        Form::Flag if key == "range" => format!("`{key} = true`, that of the joint"),
+        Form::Flag => format!("`{key} = true`"),
         Form::Spin => format!("`{key}`, the joint about which the wheel turns"),
         Form::Slip => format!("`{key} = {{ stiffness, friction }}`, none"),
         _ => format!("`{key}`"),
@@ -135,6 +141,9 @@ fn key(field: &Field) -> Option<String> {
     }
     if let Form::Signal(_) = field.form {
         text += ", or `table = [[time, value], ...]`";
+    }
+    if field.form == Form::Length {
+        text += ", `\"reference\"`";
     }
     text += &match field.default {
         Default::Number(number) => format!(", {number}"),

@@ -2,6 +2,7 @@
 
 mod small;
 
+mod balls;
 mod codes;
 mod coupling_kinds;
 mod effect_table;

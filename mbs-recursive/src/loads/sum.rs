@@ -4,19 +4,20 @@
 //! m = Σ cₖ fₖ(mₖ)        its terms stand in the table of those of couplings
 //! joint                  τ = −g f,    g = c f'          along its coordinate
 //! line                   −g f n at the end of a part, its opposite at the beginning
+//! ball                   the moment −g f d on the second body, its opposite on the first
 //! ahead                  as f answers by κ, each end answers alone by κ n/2 w wᵀ, of n ends that move
 //! ```
 //!
 //! The last is enough for the iteration to contract: (Σ xₖ)² is at most n Σ xₖ². Of one end it is n = 2, the answer itself.
 
 use super::{Instant, Reach};
-use crate::coupled::{CoupledRow, NONE, SumEnd};
+use crate::coupled::{CoupledRow, Couplings, Here, NONE, SumEnd};
 use crate::indexing::{Outside, at, at_mut};
 use crate::link::ArticulatedInertia;
 use crate::plan::Span;
 use crate::space::Space;
 use mbs_core::Real;
-use mbs_core::laws::scalar::{Law, ScalarForce};
+use mbs_core::laws::scalar::{Law, ScalarForce, is_apart};
 
 /// Are effects on sums in this build?
 pub const IS_BUILT: bool = cfg!(feature = "sums");
@@ -34,7 +35,7 @@ pub struct SumLoad<T> {
 
 impl<T: Real> SumLoad<T> {
     /// The sum as a row whose value it is.
-    fn row(&self) -> CoupledRow<T> {
+    pub(crate) fn row(&self) -> CoupledRow<T> {
         CoupledRow {
             terms: self.terms,
             starts: self.starts,
@@ -43,6 +44,26 @@ impl<T: Real> SumLoad<T> {
             inverse: T::ONE,
             is_angle: false,
         }
+    }
+
+    /// Does its law act on one side only, and not at the sum of a mechanism?
+    pub(crate) fn is_apart<S: Space<T>>(
+        &self,
+        couplings: &Couplings<'_, T, S>,
+        here: Here<'_, T, S>,
+    ) -> Result<bool, Outside> {
+        let value = couplings.evaluate((&self.row(), 0, 1), here, None)?;
+        Ok(is_apart(&self.law, value.row[0]))
+    }
+
+    /// The tension at the sum, and at one that differs by `more`.
+    pub(crate) fn at_twists<S: Space<T>>(
+        &self,
+        here: &Instant<'_, T, S>,
+        more: T,
+    ) -> Result<[T; 2], Outside> {
+        let ScalarForce { value, rate, tension, .. } = self.evaluate(here)?;
+        Ok([tension, self.law.evaluate(value + more, rate, &here.law_inputs).tension])
     }
 
     /// The law at the sum.

@@ -16,7 +16,8 @@ use crate::read::fields::{Context, Fields, Read};
 use crate::read::motion::{MOTION_KEYS, read_motion};
 use crate::read::tree::{Item, Node};
 use mbs_core::scene::{
-    Axis, Coupling, CouplingMeasure, CouplingTerm, Curve, Freedom, Joint, JointId, Motion, Number,
+    Axis, BallAngle, Coupling, CouplingMeasure, CouplingTerm, Curve, Freedom, Joint, JointId,
+    Motion, Number,
 };
 
 /// The kinds of coupling.
@@ -89,9 +90,9 @@ pub(crate) fn read<'a>(
 
 const TERMS: &str = "a list of terms like { joint = \"j\", factor = 1.0 }";
 
-/// The keys of a term.
-pub(crate) const TERM_KEYS: [&str; 7] =
-    ["joint", "coordinate", "points", "factor", "table", "periodic", "coefficients"];
+/// The keys of a term; the last one is that of an angle of a ball.
+pub(crate) const TERM_KEYS: [&str; 8] =
+    ["joint", "coordinate", "points", "factor", "table", "periodic", "coefficients", "axis"];
 
 /// The keys of all kinds.
 const EVERY_KEY: [&str; 27] = [
@@ -321,7 +322,7 @@ fn rope<'a>(fields: &Fields<'a>, joints: &'a [Joint<Number>]) -> Read<Sum> {
     Ok((terms, value, read_motion(fields)?))
 }
 
-fn read_points<'a>(
+pub(crate) fn read_points<'a>(
     fields: &Fields<'a>,
     item: &'a Item,
 ) -> Read<Vec<(mbs_core::scene::BodyId, [Number; 3])>> {
@@ -338,6 +339,33 @@ fn read_points<'a>(
         return context.fault(&item.span, fault);
     }
     points.iter().map(point).collect()
+}
+
+/// The angle of a ball that `coordinate` names, of a joint that has one; `None`: it is another coordinate.
+pub(crate) fn ball_angle<'a>(
+    fields: &Fields<'a>,
+    joints: &'a [Joint<Number>],
+) -> Read<Option<BallAngle>> {
+    let (Some(joint), Some(Item { node: Node::Text(word), .. })) =
+        (fields.get("joint"), fields.get("coordinate"))
+    else {
+        return Ok(None);
+    };
+    let joint = &joints[fields.context.joint(joint)?.index()];
+    let has_ball = joint.kind.freedoms(fields.context.dimension).contains(&Freedom::Ball);
+    Ok(BallAngle::ALL.into_iter().find(|angle| has_ball && angle.name() == word))
+}
+
+/// The same as a term, with its joint and its axis.
+pub(crate) fn ball_term<'a>(
+    fields: &Fields<'a>,
+    joints: &'a [Joint<Number>],
+    factor: Number,
+) -> Read<Option<CouplingTerm<Number>>> {
+    let Some(angle) = ball_angle(fields, joints)? else { return Ok(None) };
+    let joint = fields.context.joint(fields.need("joint")?)?;
+    let of = CouplingMeasure::Ball { joint, angle, axis: fields.vector("axis")? };
+    Ok(Some(CouplingTerm { factor, of, curve: None }))
 }
 
 /// The terms of a sum.
@@ -358,9 +386,12 @@ fn read_term<'a>(
 ) -> Read<CouplingTerm<Number>> {
     let context = fields.context;
     let term = context.table(item, "a term like { joint = \"j\", factor = 1.0 }")?;
-    term.allow(&TERM_KEYS, &[])?;
+    let ball = ball_term(&term, joints, one())?;
+    term.allow(&TERM_KEYS[..TERM_KEYS.len() - usize::from(ball.is_none())], &[])?;
     term.exclusive("joint", "points")?;
-    let of = if let Some(points) = term.get("points") {
+    let of = if let Some(ball) = ball {
+        ball.of
+    } else if let Some(points) = term.get("points") {
         CouplingMeasure::Length { points: read_points(fields, points)? }
     } else {
         let (joint, number) = measured_coordinate(&term, joints)?;

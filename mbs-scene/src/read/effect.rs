@@ -3,9 +3,11 @@
 mod value;
 
 use crate::read::ReadFault;
+use crate::read::coupling::ball_angle;
 use crate::read::fields::{Fields, Read};
+use crate::read::tree::{Item, Node};
 use mbs_core::effects::{Default, EFFECTS, Field, Form, Row, Value};
-use mbs_core::scene::{AxisFrame, Effect, EffectKind, Joint, Number, Signal};
+use mbs_core::scene::{AxisFrame, BallAngle, Effect, EffectKind, Joint, Number, Signal};
 
 const COMMON: [&str; 3] = ["name", "kind", "enabled"];
 
@@ -30,13 +32,22 @@ pub(crate) fn read(
         }
     }
     let elsewhere: Vec<&str> = EFFECTS.iter().flat_map(keys).collect();
+    let on_ball = if known.contains(&"joint") { on_ball(fields, &named, joints)? } else { None };
+    known.extend(on_ball.map(|_| "axis"));
     fields.allow(&known, &elsewhere)?;
     let name = match fields.get("name") {
         Some(_) => fields.name()?,
         None => format!("effect-{}", index + 1),
     };
     let enabled = fields.flag("enabled", true)?;
-    let row = choose(fields, &named)?;
+    let row = match on_ball {
+        Some((row, _)) => {
+            refuse_others(fields, (row, &named), "coordinate", &["joint", "coordinate"])?;
+            row
+        }
+        None => choose(fields, &named)?,
+    };
+    let is_swing = on_ball.is_some_and(|(_, angle)| angle == BallAngle::Swing);
     let all = EFFECTS[row].fields;
     let written = all.iter().map(|field| value::read(fields, field, (word.0, joints)));
     let written: Vec<Option<Value<Number>>> = written.collect::<Read<_>>()?;
@@ -49,6 +60,10 @@ pub(crate) fn read(
             }
             Ok(value.clone())
         }
+        // a swing is never below zero
+        None if is_swing && all[i].key == "lower" => {
+            Ok(Value::Number(Number::from(-core::f64::consts::PI)))
+        }
         None => default(fields, (all, &written), i),
     };
     let values: Vec<_> = (0..all.len()).map(value).collect::<Read<_>>()?;
@@ -58,30 +73,85 @@ pub(crate) fn read(
     }
 }
 
-/// Kinds that share a name differ by their first key. One on a sum has no key of the others.
+/// The kind on a sum, where a kind with a joint is on an angle of a ball, and which angle.
+fn on_ball(
+    fields: &Fields<'_>,
+    named: &[usize],
+    joints: &[Joint<Number>],
+) -> Read<Option<(usize, BallAngle)>> {
+    let row = named.iter().copied().find(|&row| first_form(row) == Some(Form::Terms));
+    match row.filter(|_| fields.get("terms").is_none()) {
+        Some(row) => Ok(ball_angle(fields, joints)?.map(|angle| (row, angle))),
+        None => Ok(None),
+    }
+}
+
+/// Kinds that share a name differ by their first key. One on a sum or a line has no key of the others.
 fn choose(fields: &Fields<'_>, named: &[usize]) -> Read<usize> {
     let first = |row: usize| EFFECTS[row].fields.first().map_or("", |field| field.key);
-    let is_sum =
-        |row: usize| EFFECTS[row].fields.first().map(|field| field.form) == Some(Form::Terms);
-    for (i, &one) in named.iter().enumerate() {
-        named[i + 1..].iter().try_for_each(|&other| fields.exclusive(first(one), first(other)))?;
+    let is_line = |row: usize| first_form(row) == Some(Form::Line);
+    let is_extra = |row: usize| is_line(row) || first_form(row) == Some(Form::Terms);
+    if let Some(&row) = named.iter().find(|row| is_line(**row))
+        && has_line(fields, row)
+    {
+        let but: &[_] = if has_tables(fields, "points") { &[] } else { &["bodies"] };
+        return refuse_others(fields, (row, named), first(row), but).map(|()| row);
     }
-    let is_there = |row: &usize| fields.get(first(*row)).is_some();
-    if let Some(&row) = named.iter().find(|row| is_there(row)) {
-        if is_sum(row) {
-            let keys = |row: usize| EFFECTS[row].fields.iter().flat_map(Field::keys);
-            let others = named.iter().flat_map(|&other| keys(other));
-            let foreign = others.filter(|key| keys(row).all(|own| own != *key));
-            foreign.into_iter().try_for_each(|key| fields.exclusive(first(row), key))?;
+    let usual = || named.iter().copied().filter(|&row| !is_line(row));
+    for (i, one) in usual().enumerate() {
+        usual().skip(i + 1).try_for_each(|other| fields.exclusive(first(one), first(other)))?;
+    }
+    if let Some(row) = usual().find(|row| fields.get(first(*row)).is_some()) {
+        if is_extra(row) {
+            refuse_others(fields, (row, named), first(row), &[])?;
         }
         return Ok(row);
     }
     // without a sum it is of the others
-    let mut others = named.iter().copied().filter(|&row| !is_sum(row));
+    let mut others = usual().filter(|&row| !is_extra(row));
     match (others.next(), others.next()) {
         (Some(row), None) => Ok(row),
         _ => fields.context.fault(fields.header, ReadFault::Missing { key: "body or joint" }),
     }
+}
+
+/// Is it on a line of points with bodies, or between two with a key that only the kind on a line has?
+fn has_line(fields: &Fields<'_>, row: usize) -> bool {
+    let is_flagged = EFFECTS[row]
+        .fields
+        .iter()
+        .any(|field| field.form == Form::Flag && fields.get(field.key).is_some());
+    let is_between = fields.get("bodies").is_some() && fields.get("terms").is_none();
+    has_tables(fields, "points") || (is_flagged && is_between)
+}
+
+/// Does a list of tables stand at a key?
+fn has_tables(fields: &Fields<'_>, key: &str) -> bool {
+    match fields.get(key).map(|item| &item.node) {
+        Some(Node::List(items)) => {
+            matches!(items.first(), Some(Item { node: Node::Table(_), .. }))
+        }
+        _ => false,
+    }
+}
+
+/// Refuses the keys that only other kinds of the same name have, but for some: they exclude the `key`.
+fn refuse_others(
+    fields: &Fields<'_>,
+    (row, named): (usize, &[usize]),
+    key: &'static str,
+    but: &[&str],
+) -> Read<()> {
+    let keys = |row: usize| EFFECTS[row].fields.iter().flat_map(Field::keys);
+    let others = named.iter().flat_map(|&other| keys(other));
+    let mut foreign =
+        others.filter(|other| !but.contains(other) && keys(row).all(|own| own != *other));
+    foreign.try_for_each(|other| fields.exclusive(key, other))
+}
+
+/// The form of a kind's first field.
+fn first_form(row: usize) -> Option<Form> {
+    EFFECTS[row].fields.first().map(|field| field.form)
 }
 
 /// What holds where the key of field `i` is left out.
@@ -113,6 +183,7 @@ fn default(
             return Ok(Value::Number(number));
         }
         (Form::Flag, Default::Nothing) => return Ok(Value::Flag(false)),
+        (Form::Length, Default::Nothing) => return Ok(Value::Length(None)),
         (Form::Six, Default::Number(text)) => {
             return Ok(Value::Six(core::array::from_fn(|_| decimal(text))));
         }

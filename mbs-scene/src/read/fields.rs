@@ -3,7 +3,7 @@
 use crate::read::names::Names;
 use crate::read::tree::{Item, Member, Node, Span};
 use crate::read::{ReadError, ReadFault, SceneFile};
-use mbs_core::scene::{BodyId, Dimension, Joint, JointId, Number, SignalId};
+use mbs_core::scene::{BallAngle, BodyId, Dimension, Freedom, Joint, JointId, Number, SignalId};
 
 /// What the readers of all entries share.
 #[derive(Debug, Clone, Copy)]
@@ -286,7 +286,11 @@ impl<'a> Fields<'a> {
             Node::Text(name) => match names().find(|(_, known)| known == name) {
                 Some((number, _)) => Some(number),
                 None => {
-                    let known: Vec<_> = names().map(|(_, name)| name).collect();
+                    let has_ball =
+                        joint.kind.freedoms(self.context.dimension).contains(&Freedom::Ball);
+                    let angles = BallAngle::ALL.map(BallAngle::name).into_iter();
+                    let angles = angles.filter(|angle| has_ball && angle != name);
+                    let known: Vec<_> = names().map(|(_, name)| name).chain(angles).collect();
                     return self.unknown_word("coordinate", (name, &item.span), &known);
                 }
             },

@@ -4,6 +4,7 @@
 use crate::{ReadError, ReadFault, SceneFile};
 use mbs_core::scene::*;
 
+mod balls;
 mod couplings;
 mod effects;
 mod limits;

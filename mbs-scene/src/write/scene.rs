@@ -408,15 +408,13 @@ impl Writer<'_> {
                 keys.push("joint", self.joint_name(*joint)?);
                 keys.push("coordinate", Node::Number(number.to_string()));
             }
+            CouplingMeasure::Ball { joint, angle, axis } => {
+                keys.push("joint", self.joint_name(*joint)?);
+                keys.push("coordinate", angle.name());
+                keys.push("axis", self.vector(axis));
+            }
             CouplingMeasure::Length { points } => {
-                let point = |(body, at): &(BodyId, [Number; 3])| {
-                    let mut keys = Keys::default();
-                    keys.push("body", self.body_name(*body)?);
-                    keys.push("at", self.vector(at));
-                    Ok(Node::from(keys))
-                };
-                let points: Result<Vec<_>, WriteError> = points.iter().map(point).collect();
-                keys.push("points", list(points?));
+                keys.push("points", self.line(points)?);
             }
         }
         keys.push("factor", &term.factor);
@@ -424,6 +422,18 @@ impl Writer<'_> {
             curve(&mut keys, of);
         }
         Ok(keys.into())
+    }
+
+    /// The points of a line, with their bodies.
+    fn line(self, points: &[(BodyId, [Number; 3])]) -> Result<Node, WriteError> {
+        let point = |(body, at): &(BodyId, [Number; 3])| {
+            let mut keys = Keys::default();
+            keys.push("body", self.body_name(*body)?);
+            keys.push("at", self.vector(at));
+            Ok(Node::from(keys))
+        };
+        let points: Result<Vec<_>, WriteError> = points.iter().map(point).collect();
+        Ok(list(points?))
     }
 
     fn output(self, output: &Output<Number>) -> Result<Keys, WriteError> {

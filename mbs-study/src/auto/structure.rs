@@ -36,7 +36,7 @@ pub(crate) fn structure<T: Real, const D: usize>(
     let loops =
         if const { D == 2 } { loops::<T, Planar>(scene) } else { loops::<T, Spatial>(scene) };
     let enabled = || scene.effects.iter().filter(|effect| effect.enabled);
-    let is_contact = |effect: &&Effect<T>| effect.kind.row().is_one_sided;
+    let is_contact = |effect: &&Effect<T>| effect.kind.is_one_sided();
     Structure {
         dimension: D,
         bodies: scene.bodies.len(),
@@ -64,6 +64,7 @@ fn frequency<T: Real>(scene: &Scene<T>, effect: &Effect<T>) -> f64 {
     for (field, value) in effect.kind.row().fields.iter().zip(effect.kind.values()) {
         match value {
             Value::Bodies(bodies) => mobility = bodies.iter().map(of).sum::<f64>(),
+            Value::Line(points) => mobility = points.iter().map(|(body, _)| of(body)).sum::<f64>(),
             Value::Number(k) if field.key == "stiffness" => stiffness = k.to_f64(),
             Value::Six(k) if field.key == "stiffness" => {
                 stiffness = k.iter().take(k.len() / 2).map(|k| k.to_f64()).fold(0.0, f64::max);

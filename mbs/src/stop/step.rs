@@ -42,7 +42,7 @@ pub(super) fn write_step(error: &StepError, f: &mut core::fmt::Formatter<'_>) ->
         StepError::Overturned { .. } => {
             write!(f, "the effect is turned by more than a whole turn, where its law ends")
         }
-        StepError::RopeCollapsed { .. } => {
+        StepError::RopeCollapsed { .. } | StepError::LineCollapsed { .. } => {
             write!(f, "the rope has no length left, so that its direction is not known")
         }
         StepError::RollingFlat { .. } => {
@@ -53,6 +53,9 @@ pub(super) fn write_step(error: &StepError, f: &mut core::fmt::Formatter<'_>) ->
                 f,
                 "bodies that roll restrict velocities, not places; this formulation has no rows for that"
             )
+        }
+        StepError::TwistOpen { .. } => {
+            write!(f, "the ball has swung by half a turn, where its twist is open")
         }
         StepError::OppositeBranch { .. } => {
             write!(f, "the guided angle jumped half a turn away from its guide")
@@ -85,13 +88,16 @@ pub(super) fn step_hint(error: &StepError) -> &'static str {
         StepError::Overturned { .. } => {
             "a bushing in space ends at a whole turn: hold the turning by a joint, with a torsion spring about its axis"
         }
-        StepError::RopeCollapsed { .. } => {
+        StepError::RopeCollapsed { .. } | StepError::LineCollapsed { .. } => {
             "end its motion before the points meet, by a `limit` of a joint or a `bumper` between the points, or end the run"
         }
         StepError::RollingFlat { .. } => {
             "end its motion before it lies down, by a `limit` of a joint, or end the run"
         }
         StepError::VelocityRows => "take `recursive`, `index-3`, `index-1` or `classical`",
+        StepError::TwistOpen { .. } => {
+            "hold its swing below half a turn, by a `limit` with `coordinate = \"swing\"`, or choose another axis"
+        }
         StepError::Law { .. } => {
             "give a finite force, tangent and energy wherever the law is asked; if the motion should not lead there, try a smaller step"
         }

@@ -144,6 +144,9 @@ impl Draft {
         let values = self.effects.iter().flat_map(|effect| effect.kind.values());
         let held = values.flat_map(|value| match value {
             Value::Points(points) => points.map(|p| p.map(|x| x.to_f64())).to_vec(),
+            Value::Line(points) => {
+                points.iter().map(|(_, p)| p.clone().map(|x| x.to_f64())).collect()
+            }
             _ => Vec::new(),
         });
         let places = self.bodies.iter().flat_map(of_body).chain(of_joints).chain(watched);

@@ -182,7 +182,9 @@ impl<T: Real, const D: usize> Load<T, D> {
                 (joint.bodies, gauge, law)
             }
             Action::Sum { terms, law } => {
-                return Self::Sum { sum: CoupledSum::of_terms(scene, model, terms), law: *law };
+                let memory = model.memory_of_effect(effect);
+                let sum = CoupledSum::of_terms((scene, model), terms, memory);
+                return Self::Sum { sum, law: *law };
             }
             Action::Turn { bodies, law } => {
                 let angle = Coordinate::between(model, *bodies);

@@ -28,7 +28,7 @@ impl<T: Clone> Quantity<T> {
                 (&[][..], Some(unit_of_sum(scene, terms)))
             }
             Target::Effect(effect) if form == ComponentForm::Contact => {
-                if !scene.effects[effect.index()].kind.row().is_one_sided {
+                if !scene.effects[effect.index()].kind.is_one_sided() {
                     return Vec::new();
                 }
                 (&[][..], None)
@@ -55,8 +55,10 @@ fn unit_of_coordinate<T>(scene: &Scene<T>, joint: JointId, number: usize) -> &'s
 
 /// The unit of a sum: that of its slides and lengths, whose factors are numbers, else that of its angles.
 fn unit_of_sum<T>(scene: &Scene<T>, terms: &[CouplingTerm<T>]) -> &'static str {
-    let unit = |of: &CouplingMeasure<T>| {
-        of.coordinate().map_or("m", |(joint, number)| unit_of_coordinate(scene, joint, number))
+    let unit = |of: &CouplingMeasure<T>| match of {
+        CouplingMeasure::Coordinate { joint, number } => unit_of_coordinate(scene, *joint, *number),
+        CouplingMeasure::Length { .. } => "m",
+        CouplingMeasure::Ball { .. } => "rad",
     };
     let mut units = terms.iter().map(|term| unit(&term.of));
     units.find(|unit| *unit == "m").unwrap_or("rad")

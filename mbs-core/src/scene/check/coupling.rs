@@ -6,13 +6,18 @@ use crate::Real;
 use crate::inputs::SignalGraph;
 use crate::measure::{CouplingInput, given_values};
 use crate::scene::{
-    CouplingMeasure, CouplingTerm, Curve, Entry, JointId, Scene, SceneError, SceneFault,
+    BodyId, CouplingMeasure, CouplingTerm, Curve, Entry, Freedom, JointId, Scene, SceneError,
+    SceneFault,
 };
 
 pub(super) fn check<T: Real>(scene: &Scene<T>) -> Result<(), SceneError> {
     for (i, coupling) in scene.couplings.iter().enumerate() {
         let place = scene.place(Entry::Coupling(i));
         check_terms(scene, &coupling.terms, place)?;
+        let is_ball = |term: &CouplingTerm<T>| matches!(term.of, CouplingMeasure::Ball { .. });
+        if coupling.terms.iter().any(is_ball) {
+            return place.fault("terms", SceneFault::BallHeld);
+        }
         place.finite("value", coupling.value)?;
         if let Some(motion) = &coupling.motion {
             check_law(motion, place)?;
@@ -34,6 +39,15 @@ pub(super) fn check_terms<T: Real>(
                 check_measured(scene, (*joint, *number), place)?;
             }
             CouplingMeasure::Length { points } => check_points(scene, points, place)?,
+            CouplingMeasure::Ball { joint, axis, .. } => {
+                let Some(joint) = scene.joints.get(joint.index()) else {
+                    return place.fault("joint", SceneFault::UnknownReference);
+                };
+                if !joint.freedoms(scene.dimension).contains(&Freedom::Ball) {
+                    return place.fault("coordinate", SceneFault::NoBall);
+                }
+                place.axis("axis", *axis)?;
+            }
         }
         if let Some(curve) = curve {
             check_curve(curve, place)?;
@@ -47,7 +61,7 @@ pub(super) fn check_terms<T: Real>(
 
 fn check_points<T: Real>(
     scene: &Scene<T>,
-    points: &[(crate::scene::BodyId, [T; 3])],
+    points: &[(BodyId, [T; 3])],
     place: Place,
 ) -> Result<(), SceneError> {
     if points.len() < 2 {
@@ -61,6 +75,19 @@ fn check_points<T: Real>(
     }
     if points.windows(2).any(|pair| pair[0].1 == pair[1].1) {
         return place.fault("points", SceneFault::CoincidentPoints);
+    }
+    Ok(())
+}
+
+/// A line over points of two bodies or more.
+pub(super) fn check_line<T: Real>(
+    scene: &Scene<T>,
+    points: &[(BodyId, [T; 3])],
+    place: Place,
+) -> Result<(), SceneError> {
+    check_points(scene, points, place)?;
+    if points.windows(2).all(|pair| pair[0].0 == pair[1].0) {
+        return place.fault("points", SceneFault::SameBody);
     }
     Ok(())
 }

@@ -31,6 +31,7 @@ pub(super) fn check<T: Real>(
             }
             Value::Point(x) => place.vector(key, x)?,
             Value::Points(x) if field.form == Form::Points(true) => place.apart(key, x)?,
+            Value::Line(points) => coupling::check_line(scene, &points, place)?,
             Value::Points(x) => x.iter().try_for_each(|x| place.vector(key, *x))?,
             Value::Axis(x) => place.axis(key, x)?,
             Value::Number(x) => match field.form {
@@ -38,6 +39,9 @@ pub(super) fn check<T: Real>(
                 Form::Number(Sign::NotNegative) => place.not_negative(key, x)?,
                 _ => place.finite(key, x)?,
             },
+            Value::Length(length) => {
+                length.iter().try_for_each(|x| place.not_negative(key, *x))?;
+            }
             Value::Six(six) => check_six(key, &six, place)?,
             Value::Signal(signal) => {
                 let Form::Signal(form) = field.form else { continue };

@@ -1,13 +1,14 @@
 //! The value of a field, by its form.
 
 use crate::read::ReadFault;
-use crate::read::coupling::read_terms;
+use crate::read::coupling::{ball_term, read_points, read_terms};
 use crate::read::fields::{Fields, Read};
 use crate::read::signal::components;
 use crate::read::tree::{Item, Node};
 use mbs_core::effects::{Field, Form, SignalForm, Value};
 use mbs_core::scene::{
-    AxisFrame, CalspanCoefficients, Joint, LongitudinalSlip, Number, PolynomialPiece, Signal,
+    AxisFrame, BodyId, CalspanCoefficients, Joint, LongitudinalSlip, Number, PolynomialPiece,
+    Signal,
 };
 
 /// The value of a field of an effect of the kind `name`; `None` where its key is left out.
@@ -24,6 +25,10 @@ pub(super) fn read(
         Form::ForceLaw | Form::BodyLaw => return Ok(None),
         _ => {}
     }
+    if field.form == Form::Terms && fields.get(key).is_none() {
+        let term = ball_term(fields, joints, Number::from(1.0))?;
+        return Ok(term.map(|term| Value::Terms(vec![term])));
+    }
     let Some(item) = fields.get(key) else { return Ok(None) };
     Ok(Some(match field.form {
         Form::Bodies => Value::Bodies(fields.pair()?),
@@ -36,6 +41,11 @@ pub(super) fn read(
         Form::Terms => Value::Terms(read_terms(fields, item, joints)?),
         Form::Point => Value::Point(context.vector(item)?),
         Form::Points(_) => Value::Points(fields.two_vectors(key)?),
+        Form::Line => Value::Line(line(fields, item)?),
+        Form::Length => Value::Length(match &item.node {
+            Node::Text(word) if word == "reference" => None,
+            _ => Some(context.number(item)?),
+        }),
         Form::Axis => Value::Axis(context.vector(item)?),
         Form::MaybeAxis => Value::MaybeAxis(Some(context.vector(item)?)),
         Form::Spin => Value::Spin(Some(context.joint(item)?)),
@@ -122,6 +132,15 @@ fn six(fields: &Fields<'_>, item: &Item) -> Read<[Number; 6]> {
         return Ok([x, y, ZERO, ZERO, ZERO, about]);
     }
     context.numbers_of(item, "a list of six numbers: along x, y, z, then about x, y, z")
+}
+
+/// Points with their bodies; or `bodies` and a place on each.
+fn line(fields: &Fields<'_>, item: &Item) -> Read<Vec<(BodyId, [Number; 3])>> {
+    if fields.get("bodies").is_none() {
+        return read_points(fields, item);
+    }
+    let (bodies, points) = (fields.pair()?, fields.two_vectors("points")?);
+    Ok(bodies.into_iter().zip(points).collect())
 }
 
 /// `{ stiffness = .., friction = .. }`.

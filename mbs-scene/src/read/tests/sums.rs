@@ -60,6 +60,99 @@ fn every_kind_on_a_sum_is_written_as_it_was_read() {
     assert_eq!([of(&terms[0]), of(&terms[1])], [(1.0, joint(0, 0)), (-2.0, joint(1, 1))]);
 }
 
+const POINTS: &str = "points = [{ body = \"w\", at = [0, 0, 0] }, { body = \"ground\", at = [1, 0, 1] }, { body = \"u\", at = [2, 0, 0] }]\n";
+
+#[test]
+fn every_kind_on_a_line_is_written_as_it_was_read() {
+    for rest in [
+        "kind = \"spring-damper\"\nstiffness = 3.0",
+        "kind = \"spring-damper\"\nstiffness = 3.0\ndamping = 0.1\nfree_length = 2.0\npulls_only = true",
+        "kind = \"spring-damper\"\nstiffness = 3.0\nfree_length = \"reference\"",
+        "kind = \"actuator\"\nvalue = -3.0",
+        "kind = \"polynomial-spring\"\ncoefficients = [[0.0, 9.0, 0.0, 2.0]]",
+        "kind = \"polynomial-damper\"\ncoefficients = [[-1.0, 1.0, 0.0, 2.0]]",
+    ] {
+        let text = with(&format!("{POINTS}{rest}"));
+        let scene = read(&text).unwrap_or_else(|e| panic!("{}", e.render()));
+        assert_eq!(scene.effects[0].kind.acts_on(), ActsOn::Line, "{rest}");
+        let file = SceneFile::parse(&text, "s.toml").expect("it reads");
+        let written = to_toml(&file.numbers().expect("numbers")).expect("it is written");
+        let again = read(&written).unwrap_or_else(|e| panic!("{}\n{written}", e.render()));
+        assert_eq!(again.effects, scene.effects, "{written}");
+    }
+    // between two bodies, by the flag
+    let pair = "bodies = [\"w\", \"u\"]\npoints = [[0, 0, 0], [2, 0, 0]]\nkind = \"spring-damper\"\nstiffness = 3.0\n";
+    let slack = read(&with(&format!("{pair}pulls_only = true"))).expect("it reads");
+    let EffectKind::LineSpring(spring) = &slack.effects[0].kind else { panic!("a line") };
+    assert_eq!((spring.points.len(), spring.free_length, spring.pulls_only), (2, None, true));
+    assert!(slack.effects[0].kind.is_one_sided());
+    let both = read(&with(&format!("{pair}free_length = 2.0"))).expect("it reads");
+    assert!(matches!(both.effects[0].kind, EffectKind::SpringDamper(_)));
+    let sum = format!("{TERMS}kind = \"spring-damper\"\nstiffness = 3.0\npulls_only = true");
+    let sum = read(&with(&sum)).expect("it reads");
+    assert!(sum.effects[0].kind.is_one_sided());
+}
+
+/// Lines that are refused, with place, message and hint.
+const REFUSED_LINES: &[[&str; 4]] = &[
+    ["points = [{ body = \"w\", at = [0, 0, 0] }]", "37:10", "expected 2 entries, found 1", ""],
+    [
+        "points = [{ body = \"w\", at = [0, 0, 0] }, { body = \"u\", at = [0, 0, 0] }]",
+        "37:10",
+        "`points` has both points in the same place",
+        "move one of the two points",
+    ],
+    [
+        "points = [{ body = \"w\", at = [0, 0, 0] }, { body = \"w\", at = [1, 0, 0] }]",
+        "37:10",
+        "`points` has the same body twice",
+        "name two different bodies",
+    ],
+    [
+        "points = [{ body = \"w\", at = [0, 0, 0] }, { body = \"x\", at = [1, 0, 0] }]",
+        "37:52",
+        "unknown body `x`",
+        "",
+    ],
+    [
+        "points = [{ body = \"w\", at = [0, 0, 0] }, { body = \"u\", at = [2, 0, 0] }]\nbodies = [\"w\", \"u\"]",
+        "38:10",
+        "both `points` and `bodies` are given",
+        "",
+    ],
+    [
+        "points = [{ body = \"w\", at = [0, 0, 0] }, { body = \"u\", at = [2, 0, 0] }]\nfree_value = 1.0",
+        "38:14",
+        "both `points` and `free_value` are given",
+        "",
+    ],
+    [
+        "points = [{ body = \"w\", at = [0, 0, 0] }, { body = \"u\", at = [2, 0, 0] }]\nfree_length = \"relaxed\"",
+        "38:15",
+        "expected a number, found the text `relaxed`",
+        "",
+    ],
+    [
+        "points = [{ body = \"w\", at = [0, 0, 0] }, { body = \"u\", at = [2, 0, 0] }]\nfree_length = -1.0",
+        "38:15",
+        "`free_length` must not be negative, but is -1",
+        "",
+    ],
+    ["points = [[0, 0, 0], [2, 0, 0]]", "36:1", "`bodies` is missing", ""],
+    ["pulls_only = true", "36:1", "`bodies` is missing", ""],
+];
+
+#[test]
+fn lines_that_measure_nothing_are_refused_at_their_place() {
+    for [line, place, message, hint] in REFUSED_LINES {
+        let text = with(&format!("{line}\nkind = \"spring-damper\"\nstiffness = 1.0"));
+        refused(&read(&text).unwrap_err(), place, message, hint);
+    }
+    let text =
+        with(&format!("{TERMS}kind = \"spring-damper\"\nstiffness = -1.0\npulls_only = true"));
+    refused(&read(&text).unwrap_err(), "39:13", "`stiffness` must not be negative, but is -1", "");
+}
+
 #[test]
 fn an_effect_of_a_joint_is_taken_to_a_sum_in_code() {
     let (a, c) = (JointId::new(0), JointId::new(1));

@@ -46,6 +46,8 @@ impl Writer<'_> {
             Value::Terms(terms) => keys.push(key, self.terms(terms)?),
             Value::Point(x) | Value::Axis(x) => keys.push(key, self.vector(x)),
             Value::Points(x) => keys.push(key, self.two(x)),
+            Value::Line(points) => keys.push(key, self.line(points)?),
+            Value::Length(x) => keys.push_some(key, x.as_ref()),
             Value::MaybeAxis(x) => keys.push_some(key, x.as_ref().map(|x| self.vector(x))),
             Value::Number(x) => {
                 keys.push_some(key, (!x.is_computed() && !x.is_open()).then_some(x));
