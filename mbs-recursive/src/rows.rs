@@ -147,10 +147,26 @@ impl<T: Real, S: Space<T>> ClosedLoop<T, S> {
         &self,
         rows: &[Row<T, S>],
         placed: &[LinkMotion<T, S>],
-        mut take: impl FnMut(usize, RowValue<T, S>) -> Result<(), Outside>,
+        take: impl FnMut(usize, RowValue<T, S>) -> Result<(), Outside>,
     ) -> Result<(), Outside> {
         let [first, second] = self.links;
-        let (a, b) = (at(placed, first as usize)?, at(placed, second as usize)?);
+        let links = [at(placed, first as usize)?, at(placed, second as usize)?];
+        let own = part(rows, self.first as usize, self.n as usize)?;
+        if rolling::IS_BUILT && own.first().is_some_and(Row::begins_rolling) {
+            rolling::evaluate((own, self.first as usize), (links, &self.points), take)
+        } else {
+            self.evaluate_cut(own, links, take)
+        }
+    }
+
+    /// The same of the rows of a cut joint.
+    #[inline(always)]
+    fn evaluate_cut(
+        &self,
+        own: &[Row<T, S>],
+        [a, b]: [&LinkMotion<T, S>; 2],
+        mut take: impl FnMut(usize, RowValue<T, S>) -> Result<(), Outside>,
+    ) -> Result<(), Outside> {
         let arms =
             [S::rotate(&a.rotation, &self.points[0]), S::rotate(&b.rotation, &self.points[1])];
         let spins = [S::spin(&a.velocity), S::spin(&b.velocity)];
@@ -158,10 +174,6 @@ impl<T: Real, S: Space<T>> ClosedLoop<T, S> {
         let gap_rate = (S::point(&b.velocity) + S::cross(&spins[1], &arms[1]))
             - (S::point(&a.velocity) + S::cross(&spins[0], &arms[0]));
         let gap_bias = S::centrifugal(&spins[1], &arms[1]) - S::centrifugal(&spins[0], &arms[0]);
-        let own = part(rows, self.first as usize, self.n as usize)?;
-        if rolling::IS_BUILT && own.first().is_some_and(Row::begins_rolling) {
-            return rolling::evaluate((own, self.first as usize), ([a, b], &self.points), take);
-        }
         let coincidence = |axis: usize| {
             let mut e = S::Point::zero();
             e[axis] = T::ONE;

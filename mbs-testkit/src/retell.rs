@@ -4,7 +4,7 @@ use mbs_core::effects::{Field, Form, SignalForm, Value};
 use mbs_core::measure::RollingInput;
 use mbs_core::scene::{
     Axis, BodyId, Coupling, CouplingMeasure, CouplingTerm, Dimension, Freedom, Inertia,
-    InitialTarget, Joint, RollingKind, RollingPlane, Scene,
+    InitialTarget, Joint, Rolling, RollingKind, RollingPlane, Scene,
 };
 
 type Vector = [f64; 3];
@@ -70,21 +70,7 @@ pub fn turn_by(scene: &Scene<f64>, turn: impl Fn(Vector) -> Vector + Copy) -> Sc
     for (_, at) in s.couplings.iter_mut().flat_map(points) {
         *at = turn(*at);
     }
-    for rolling in &mut s.rollings {
-        // a plane that is not written is level
-        let RollingInput { base, plane: [normal, ..], .. } =
-            RollingInput::new(rolling, scene.dimension);
-        let level = || RollingPlane { point: base.into(), normal: normal.into() };
-        let plane = rolling.plane.get_or_insert_with(level);
-        (plane.point, plane.normal) = (turn(plane.point), turn(plane.normal));
-        rolling.at = turn(rolling.at);
-        match &mut rolling.kind {
-            RollingKind::Wheel { axis: x, .. } | RollingKind::Blade { direction: x } => {
-                *x = turn(*x);
-            }
-            RollingKind::Ball { .. } => {}
-        }
-    }
+    s.rollings.iter_mut().for_each(|rolling| turn_rolling(rolling, scene.dimension, turn));
     for initial in &mut s.initials {
         turn_initial(&mut initial.target, (&scene.joints, scene.dimension), turn);
     }
@@ -134,6 +120,21 @@ fn points_of(term: &mut CouplingTerm<f64>) -> &mut [(BodyId, Vector)] {
     match &mut term.of {
         CouplingMeasure::Length { points } => points.as_mut_slice(),
         CouplingMeasure::Coordinate { .. } | CouplingMeasure::Ball { .. } => &mut [],
+    }
+}
+
+fn turn_rolling(rolling: &mut Rolling<f64>, dimension: Dimension, turn: impl Fn(Vector) -> Vector) {
+    // a plane that is not written is level
+    let RollingInput { base, plane: [normal, ..], .. } = RollingInput::new(rolling, dimension);
+    let level = || RollingPlane { point: base.into(), normal: normal.into() };
+    let plane = rolling.plane.get_or_insert_with(level);
+    (plane.point, plane.normal) = (turn(plane.point), turn(plane.normal));
+    rolling.at = turn(rolling.at);
+    match &mut rolling.kind {
+        RollingKind::Wheel { axis: x, .. } | RollingKind::Blade { direction: x } => {
+            *x = turn(*x);
+        }
+        RollingKind::Ball { .. } => {}
     }
 }
 

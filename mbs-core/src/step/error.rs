@@ -153,12 +153,50 @@ impl core::fmt::Display for InputError {
 
 impl core::error::Error for InputError {}
 
-/// That a twist is open.
-const TWIST_OPEN: &str =
-    "the ball has swung by half a turn, where its twist is open: hold its swing by a limit";
+impl StepError {
+    /// The sentence of an error without numbers.
+    const fn sentence(&self) -> Option<&'static str> {
+        Some(match self {
+            Self::NotFinite { .. } => "a number became infinite or NaN: try a smaller step",
+            Self::Tables => "the tables of the model do not fit each other: load it again",
+            Self::Overturned { .. } => {
+                "the effect is turned by more than a whole turn, where its law ends: give the joint's axis a torsion spring"
+            }
+            Self::VelocityRows => {
+                "bodies that roll restrict velocities, not places, which this formulation has no rows for: take another one"
+            }
+            Self::RollingFlat { .. } => {
+                "the disc lies flat on its plane, where it has no lowest point, or the blade stands on it: end its motion before"
+            }
+            Self::TwistOpen { .. } => {
+                "the ball has swung by half a turn, where its twist is open: hold its swing by a limit"
+            }
+            #[cfg(feature = "alloc")]
+            Self::Law { .. } => {
+                "the law of the effect gave a number that is infinite or NaN: give it a finite force, tangent and energy wherever it is asked, or try a smaller step"
+            }
+            Self::OppositeBranch { .. } => {
+                "the guided angle jumped half a turn away from its guide: try a smaller step"
+            }
+            Self::NotConverged { .. }
+            | Self::Singular(_)
+            | Self::RankLost { .. }
+            | Self::StepTooSmall { .. }
+            | Self::Violated { .. }
+            | Self::BadStep { .. }
+            | Self::BadOption(_)
+            | Self::TurnTooLarge { .. }
+            | Self::RopeCollapsed { .. }
+            | Self::LineCollapsed { .. } => return None,
+        })
+    }
+}
 
 impl core::fmt::Display for StepError {
     fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        if let Some(sentence) = self.sentence() {
+            return f.write_str(sentence);
+        }
         match self {
             Self::NotConverged { iterations, correction, .. } => write!(
                 f,
@@ -177,9 +215,6 @@ impl core::fmt::Display for StepError {
                 f,
                 "the control of the step asked for a step of {step:.1e} s: the motion may be stiff or not smooth here; try a looser tolerance or another integrator"
             ),
-            Self::NotFinite { .. } => {
-                write!(f, "a number became infinite or NaN: try a smaller step")
-            }
             Self::Violated { level, violation, .. } => {
                 let name = ["position", "velocity", "acceleration"][usize::from(*level).min(2)];
                 write!(
@@ -192,39 +227,17 @@ impl core::fmt::Display for StepError {
                 "a step of {dt:e} s in a scene of {length:e} m cannot be made: both must be positive and finite"
             ),
             Self::BadOption(error) => error.fmt(f),
-            Self::Tables => {
-                write!(f, "the tables of the model do not fit each other: load it again")
-            }
             Self::TurnTooLarge { turn, .. } => write!(
                 f,
                 "the joint turns by {turn:.1} rad in one step, more than its position determines: make the step shorter"
-            ),
-            Self::Overturned { .. } => write!(
-                f,
-                "the effect is turned by more than a whole turn, where its law ends: give the joint's axis a torsion spring"
-            ),
-            Self::VelocityRows => write!(
-                f,
-                "bodies that roll restrict velocities, not places, which this formulation has no rows for: take another one"
-            ),
-            Self::RollingFlat { .. } => write!(
-                f,
-                "the disc lies flat on its plane, where it has no lowest point, or the blade stands on it: end its motion before"
             ),
             Self::RopeCollapsed { part, .. } | Self::LineCollapsed { part, .. } => write!(
                 f,
                 "part {} of the rope has no length left, so that its direction is not known: end its motion before, by a limit or a bumper",
                 part + 1
             ),
-            Self::TwistOpen { .. } => f.write_str(TWIST_OPEN),
-            #[cfg(feature = "alloc")]
-            Self::Law { .. } => write!(
-                f,
-                "the law of the effect gave a number that is infinite or NaN: give it a finite force, tangent and energy wherever it is asked, or try a smaller step"
-            ),
-            Self::OppositeBranch { .. } => f.write_str(
-                "the guided angle jumped half a turn away from its guide: try a smaller step",
-            ),
+            // has a sentence
+            _ => Ok(()),
         }
     }
 }
