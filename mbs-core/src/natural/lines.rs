@@ -4,7 +4,7 @@ use super::forces::Measure;
 use super::model::NaturalModel;
 use crate::Real;
 use crate::elements::{Span, combine, measured_value};
-use crate::laws::scalar::is_apart;
+use crate::laws::apart::is_apart;
 use crate::model::{Owner, State, Undirected};
 
 impl<T: Real, const D: usize> NaturalModel<T, D> {
