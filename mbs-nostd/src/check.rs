@@ -9,12 +9,13 @@ use crate::model::Model;
 use mbs_core::Real;
 use mbs_core::effects::bushing;
 use mbs_core::laws::Part;
+use mbs_recursive::closed_loop::ClosedLoop;
 use mbs_recursive::coupled::{self, CoupledRow, NONE, SumMeasure};
 use mbs_recursive::feedback;
 use mbs_recursive::link::LinkKind;
 use mbs_recursive::loads::{Load, Measure, SumLoad, sum};
 use mbs_recursive::rotor;
-use mbs_recursive::rows::{ClosedLoop, Row};
+use mbs_recursive::rows::Row;
 use mbs_recursive::slices::TreeSlices;
 use mbs_recursive::space::Space;
 

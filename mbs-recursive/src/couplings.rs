@@ -1,11 +1,12 @@
 //! The rows of couplings, from the scene.
 
+use crate::closed_loop::ClosedLoop;
 use crate::coupled::{CoupledRow, LinePoint, LinkStart, NONE, SumMeasure, SumTerm};
 use crate::error::TreeError;
 use crate::link::{Link, LinkKind};
 use crate::loops::index;
 use crate::plan::Span;
-use crate::rows::{ClosedLoop, Row};
+use crate::rows::Row;
 use crate::space::{Numbers, Space};
 use crate::state::TreeState;
 use crate::tree::TreeModel;

@@ -10,6 +10,7 @@
 //! The report's own closure is an option: λ = α (Φ̈ + 2 μ Ω Φ̇ + Ω² Φ)   [P3 (39)–(41)]. It is the same elimination with
 //! ε = 1/α, bias + 2 μ Ω Φ̇ + Ω² Φ in place of the bias, and one sweep.
 
+use crate::closed_loop::ClosedLoop;
 use crate::coupled_rows::{self, Largest};
 use crate::fault::Fault;
 use crate::feedback::follow_motion;
@@ -21,7 +22,6 @@ use crate::loops::{Regularisation, index};
 use crate::options::{Closure, Options};
 use crate::passes;
 use crate::rotor;
-use crate::rows::ClosedLoop;
 use crate::slices::{Store, TreeSlices};
 use crate::space::{Numbers, Space};
 use mbs_core::Real;

@@ -9,6 +9,7 @@ pub mod anderson;
 mod angles;
 mod ball;
 pub mod bounded;
+pub mod closed_loop;
 mod collapse;
 pub mod coupled;
 mod coupled_rows;

@@ -35,9 +35,10 @@ pub(crate) use carry::{held, pass, pass_again};
 pub(crate) use eliminate::{close, close_again};
 pub(crate) use release::open;
 
+use crate::closed_loop::ClosedLoop;
 use crate::coupled::{self, CoupledRow, Couplings};
 use crate::plan::Plan;
-use crate::rows::{ClosedLoop, Row};
+use crate::rows::Row;
 use crate::space::Space;
 use mbs_core::Real;
 

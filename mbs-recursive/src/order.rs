@@ -3,11 +3,12 @@
 //! Ancestors are taken from the outside in. At the same ancestor the loop with the fewest couplings left comes first
 //! (minimum degree), so that many loops through the ground stay sparse.
 
+use crate::closed_loop::ClosedLoop;
 use crate::coupling_tables::{Begin, CouplingTables};
 use crate::link::Link;
 use crate::loops::index;
 use crate::plan::{End, LoopCoupling, Pair, Pass, Plan, Span, Station, Update};
-use crate::rows::{ClosedLoop, Row};
+use crate::rows::Row;
 use crate::space::Space;
 use alloc::collections::{BTreeMap, BTreeSet};
 use alloc::vec;

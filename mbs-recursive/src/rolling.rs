@@ -1,4 +1,4 @@
-//! The rows of a disc, a ball or a blade on a plane; see [`elements::Rolling`](mbs_core::elements::Rolling).
+//! The rows of a disc, a ball or a blade on a plane; see [`RollingRows`](mbs_core::elements::RollingRows).
 //!
 //! ```text
 //! r = c + rho       the lowest point;  r_1, r_2 from the origins of the body's link and of the plane's

@@ -1,5 +1,6 @@
 //! [`TreeModel`]: a scene as a tree of links with cut joints. Built once; constant from then on.
 
+use crate::closed_loop::ClosedLoop;
 use crate::coupled::Couplings;
 use crate::coupling_tables::CouplingTables;
 use crate::error::TreeError;
@@ -14,7 +15,7 @@ use crate::loops::{LoopStore, Loops, Regularisation, index};
 use crate::order::Order;
 use crate::passes;
 use crate::plan::Plan;
-use crate::rows::{ClosedLoop, Row};
+use crate::rows::Row;
 use crate::slices::{Inputs, TreeSlices};
 use crate::space::{Numbers, Space};
 use alloc::vec;

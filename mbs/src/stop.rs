@@ -4,7 +4,7 @@ mod linear;
 mod step;
 
 use self::linear::write_linear;
-use self::step::{step_hint, write_step};
+use self::step::{step_hint, step_owner, write_step};
 use crate::names::Names;
 use crate::tilt::AlmostDependent;
 use mbs_scene::format::few;
@@ -95,22 +95,7 @@ impl StopError {
         unknown: impl Fn(usize) -> Owner,
         row: impl Fn(usize) -> Owner,
     ) -> Self {
-        let owner = match error {
-            StepError::NotConverged { unknown: u, .. } | StepError::NotFinite { unknown: u } => {
-                Some(unknown(u as usize))
-            }
-            StepError::Singular(e) => Some(unknown(e.unknown as usize)),
-            StepError::Violated { row: r, .. }
-            | StepError::OppositeBranch { row: r }
-            | StepError::RankLost { row: r, .. } => Some(row(r as usize)),
-            StepError::TurnTooLarge { joint, .. } => Some(Owner::Joint(joint as usize)),
-            StepError::Overturned { effect }
-            | StepError::TwistOpen { effect }
-            | StepError::LineCollapsed { effect, .. } => Some(Owner::Effect(effect as usize)),
-            StepError::RopeCollapsed { coupling, .. } => Some(Owner::Coupling(coupling as usize)),
-            StepError::RollingFlat { rolling } => Some(Owner::Rolling(rolling as usize)),
-            _ => None,
-        };
+        let owner = step_owner(&error, unknown, row);
         Self::Step(error, owner)
     }
 

@@ -312,7 +312,7 @@ fn from_last<T: Real>(last: T, [c, s]: [T; 2]) -> [T; 2] {
     [last, (s * cos - c * sin).atan2(c * cos + s * sin)]
 }
 
-/// 1 + cos of a swing within 1e-3 rad of half a turn [-]: nearer to it the twist is rounding.
+/// Least 1 + cos of a swing at which its twist is known [-]: that at 1e-3 rad from half a turn, nearer to which it is rounding.
 const OPEN: f64 = 5e-7;
 
 /// Is the twist of a ball open? `one_and_cosine` is 1 + cos of its swing.

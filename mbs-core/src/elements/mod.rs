@@ -9,7 +9,7 @@
 //! | [`Dot`] | s x.y - c | s (A^T y + B^T x) | 2 s x'.y' |
 //! | [`Linear`] | sum_k a_k e_k - c | constant | 0 |
 //! | [`Coupled`] | (sum_k c_k m_k - s) / c | see there | see there |
-//! | [`Rolling`] | n.(r - p), and rows of velocities | see there | see there |
+//! | [`RollingRows`] | n.(r - p), and rows of velocities | see there | see there |
 //! | [`Guided`] | (cos f x2 - sin f x1).y, or s x.y - f | as `Dot` | with f', f'' |
 
 pub(crate) mod ball;
@@ -35,4 +35,4 @@ pub use dot::Dot;
 pub use guided::{Guided, GuidedMotion};
 pub use linear::Linear;
 #[cfg(feature = "alloc")]
-pub use rolling::{Rolling, RollingFrame};
+pub use rolling::{RollingFrame, RollingRows};

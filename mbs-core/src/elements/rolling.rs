@@ -20,7 +20,7 @@ use crate::measure::{Moving, lies_flat, lowest_point};
 
 /// A rolling in natural coordinates.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Rolling<T: Real> {
+pub struct RollingRows<T: Real> {
     /// The radius of a disc or ball [m].
     pub radius: T,
     /// Is it a blade?
@@ -95,7 +95,7 @@ struct Instant<T: Real> {
     parts: [[[T; 2]; 3]; 2],
 }
 
-impl<T: Real> Rolling<T> {
+impl<T: Real> RollingRows<T> {
     /// The first of its rows of velocities; the others follow.
     pub fn slip_rows(&self) -> core::ops::Range<usize> {
         let held = u32::from(!self.is_blade);

@@ -42,13 +42,6 @@ impl<T: Real> ScalarForce<T> {
     }
 }
 
-/// Does a law act on one side only, and not at this value? Its gaps are open.
-#[must_use]
-pub fn is_apart<T: Real>(law: &Law<T>, value: T) -> bool {
-    let gaps = law.gaps(value, T::ZERO);
-    law.n_gaps() > 0 && gaps.iter().take(law.n_gaps()).all(|gap| gap[0] >= T::ZERO)
-}
-
 /// A law along a length or about an angle. [`Law`] is one of all that there are.
 pub trait TensionLaw<T: Real>: Entry<T> + Copy {
     /// Tension and its tangents at a value and its rate.

@@ -11,8 +11,8 @@ use crate::algebra::Vector;
 /// A vector and its rate.
 pub type Moving<T> = [Vector<T, 3>; 2];
 
-/// |w|^2 below which a disc lies flat [-]: its axis is within a thousandth of a radian of the normal, where the motion of its lowest point
-/// says nothing more about the disc.
+/// Square of |w| below which a disc lies flat [-]: its axis is within a thousandth of a radian of the normal, where its lowest point says
+/// nothing more about its motion.
 const FLAT: f64 = 1e-6;
 
 /// From the centre of a disc or ball of a radius [m] to its lowest point, and its rate, by normal and axis with their rates. Of a disc that

@@ -10,7 +10,7 @@
 use super::group::Group;
 use super::model::{Cursor, NaturalModel};
 use crate::Real;
-use crate::elements::{Coupled, Distance, Dot, Guided, Linear, Rolling, Span};
+use crate::elements::{Coupled, Distance, Dot, Guided, Linear, RollingRows, Span};
 use crate::laws::scalar::ScalarForce;
 use crate::team::Team;
 use alloc::vec::Vec;
@@ -125,8 +125,8 @@ impl Part {
     }
     /// Likewise.
     #[inline(always)]
-    pub(super) fn rolling<T: Real>(&self, row: &Rolling<T>) -> Rolling<T> {
-        Rolling { place: self.place(row.place), row: row.row - narrow(self.from.row), ..*row }
+    pub(super) fn rolling<T: Real>(&self, row: &RollingRows<T>) -> RollingRows<T> {
+        RollingRows { place: self.place(row.place), row: row.row - narrow(self.from.row), ..*row }
     }
     /// Likewise.
     #[inline(always)]

@@ -5,7 +5,7 @@ use super::group::index;
 use super::model::NaturalModel;
 use crate::Real;
 use crate::elements::{Span, combine, measured_value};
-use crate::laws::scalar::is_apart;
+use crate::laws::apart::is_apart;
 use crate::model::{Owner, State};
 use crate::step::StepError;
 

@@ -12,7 +12,7 @@ use crate::algebra::{Coef, Vector};
 use crate::blocks::Cliques;
 use crate::cluster::Clusters;
 use crate::elements::{
-    Coupled, CoupledTerm, Distance, Dot, Guided, Linear, Rolling, Signed, Span, Term,
+    Coupled, CoupledTerm, Distance, Dot, Guided, Linear, RollingRows, Signed, Span, Term,
 };
 use crate::inputs::{Feedback, Prescribed};
 use crate::laws::code::Codes;
@@ -38,7 +38,7 @@ pub struct NaturalModel<T: Real, const D: usize> {
     pub(super) linears: Vec<Linear>,
     pub(super) guided: Vec<Guided>,
     pub(super) coupled: Vec<Coupled<T>>,
-    pub(super) rollings: Vec<Rolling<T>>,
+    pub(super) rollings: Vec<RollingRows<T>>,
     /// The unknowns that each of them touches.
     pub(super) rolling_cliques: Vec<Span>,
     pub(super) coupled_terms: Vec<CoupledTerm<T>>,

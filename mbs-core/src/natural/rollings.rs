@@ -7,7 +7,7 @@ use super::model::NaturalModel;
 use super::row_builder::{GroupDraft, RollingDraft, RowDraft};
 use crate::Real;
 use crate::algebra::unit;
-use crate::elements::{Rolling, RollingFrame, Span};
+use crate::elements::{RollingFrame, RollingRows, Span};
 use crate::measure::RollingInput;
 use crate::model::{Owner, Terms};
 use alloc::boxed::Box;
@@ -53,7 +53,7 @@ impl<T: Real, const D: usize> Layout<T, D> {
         let [body, on] = frames;
         let RollingInput { radius, is_blade, axis, plane, .. } = draft.input;
         let n = super::group::index(draft.n_rows);
-        self.model.rollings.push(Rolling {
+        self.model.rollings.push(RollingRows {
             radius,
             is_blade,
             body,

@@ -5,11 +5,12 @@ use super::{Axes, Record};
 use crate::inputs::Motion;
 use mbs_core::Real;
 use mbs_core::laws::Part;
+use mbs_recursive::closed_loop::ClosedLoop;
 use mbs_recursive::coupled::{CoupledRow, SumMeasure, SumTerm};
 use mbs_recursive::link::{Link, LinkKind, LinkRotor};
 use mbs_recursive::loads::{BodyLoad, Load, Measure, SumLoad};
 use mbs_recursive::plan::{End, LoopCoupling, Pair, Pass, Span, Station, Update};
-use mbs_recursive::rows::{ClosedLoop, Row};
+use mbs_recursive::rows::Row;
 
 record_enum!([] LinkKind = LinkKind {
     0 Revolute {}, 1 Prismatic {}, 2 Ball {}, 3 Free {}, 4 GuidedRevolute {}, 5 GuidedPrismatic {},

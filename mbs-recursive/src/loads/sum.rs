@@ -17,7 +17,8 @@ use crate::link::ArticulatedInertia;
 use crate::plan::Span;
 use crate::space::Space;
 use mbs_core::Real;
-use mbs_core::laws::scalar::{Law, ScalarForce, is_apart};
+use mbs_core::laws::apart::is_apart;
+use mbs_core::laws::scalar::{Law, ScalarForce};
 
 /// Are effects on sums in this build?
 pub const IS_BUILT: bool = cfg!(feature = "sums");

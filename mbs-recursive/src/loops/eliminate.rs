@@ -1,11 +1,12 @@
 //! Loops eliminated at the link where their two sides meet.
 
 use super::{LoopStore, Loops, RankLost, Regularisation, index, inner};
+use crate::closed_loop::ClosedLoop;
 use crate::fault::Fault;
 use crate::indexing::{Outside, apart, at, at_mut, part, part_mut, range};
 use crate::link::ArticulatedInertia;
 use crate::plan::{End, LoopCoupling, Update};
-use crate::rows::{ClosedLoop, Row};
+use crate::rows::Row;
 use crate::space::{Numbers, Space};
 use mbs_core::Real;
 

@@ -1,7 +1,32 @@
 //! Steps that could not be made, in words.
 
+use mbs_core::model::Owner;
 use mbs_core::step::StepError;
 use mbs_scene::format::few;
+
+/// What a failed step is about, given whose unknowns and rows are.
+pub(super) fn step_owner(
+    error: &StepError,
+    unknown: impl Fn(usize) -> Owner,
+    row: impl Fn(usize) -> Owner,
+) -> Option<Owner> {
+    Some(match *error {
+        StepError::NotConverged { unknown: u, .. } | StepError::NotFinite { unknown: u } => {
+            unknown(u as usize)
+        }
+        StepError::Singular(e) => unknown(e.unknown as usize),
+        StepError::Violated { row: r, .. }
+        | StepError::OppositeBranch { row: r }
+        | StepError::RankLost { row: r, .. } => row(r as usize),
+        StepError::TurnTooLarge { joint, .. } => Owner::Joint(joint as usize),
+        StepError::Overturned { effect }
+        | StepError::TwistOpen { effect }
+        | StepError::LineCollapsed { effect, .. } => Owner::Effect(effect as usize),
+        StepError::RopeCollapsed { coupling, .. } => Owner::Coupling(coupling as usize),
+        StepError::RollingFlat { rolling } => Owner::Rolling(rolling as usize),
+        _ => return None,
+    })
+}
 
 /// What happened; what to try is the hint's.
 pub(super) fn write_step(error: &StepError, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {

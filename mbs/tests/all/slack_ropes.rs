@@ -242,7 +242,7 @@ fn the_message_names_effect_part_and_bodies() {
     }
 }
 
-/// A load on a rope over a trolley's point and a sheave, with a winch that takes it in, in space; laws that are smooth while the rope is taut.
+/// A load on a rope over a trolley's point and a sheave, with a winch that takes it in, in space; laws that are smooth while the stay is taut.
 fn crane() -> String {
     let body = |name: &str, at: [f64; 3], mass: f64| {
         format!(
@@ -263,14 +263,14 @@ fn crane() -> String {
         joint("rail", "prismatic", "trolley", [0.0, 0.0, 3.0], "axis = [1.0, 0.2, 0.1]\n"),
         joint("way", "free", "load", [0.3, 0.2, 1.0], ""),
         joint("drum", "revolute", "winch", [-1.0, 0.0, 2.5], "axis = [0.1, 1.0, 0.2]\n"),
-        "[[effect]]\nname = \"rope\"\nkind = \"spring-damper\"\npulls_only = true\nstiffness = 100.0\ndamping = 5.0\nfree_value = -0.25\n\
+        "[[effect]]\nname = \"rope\"\nkind = \"spring-damper\"\nstiffness = 100.0\ndamping = 5.0\nfree_value = -0.25\n\
          terms = [{ points = [{ body = \"load\", at = [0.35, 0.2, 1.1] }, { body = \"trolley\", at = [0.1, 0.0, 2.9] }, { body = \"ground\", at = [-0.9, 0.1, 2.9] }] }, { joint = \"drum\", factor = 0.2 }]\n"
             .to_owned(),
         "[[effect]]\nname = \"stay\"\nkind = \"spring-damper\"\npulls_only = true\nstiffness = 30.0\nfree_length = 2.5\n\
          points = [{ body = \"load\", at = [0.2, 0.1, 0.9] }, { body = \"winch\", at = [-1.0, 0.1, 2.4] }, { body = \"trolley\", at = [0.0, 0.1, 3.1] }]\n"
             .to_owned(),
         "[[initial]]\nbody = \"load\"\nangular_velocity = [0.3, -0.2, 0.4]\n".to_owned(),
-        outputs_of("rope"),
+        outputs_of("rope").replace("contact", "power"),
         outputs_of("stay"),
     ]
     .concat()
@@ -287,7 +287,7 @@ fn natural_and_relative_coordinates_agree_on_ropes_to_eight_digits() {
         };
         let [one, two, four] = [1, 2, 4].map(run);
         for (i, (t, row)) in exact.iter().enumerate() {
-            assert!(row[row.len() - 1] > 0.5 && row[row.len() - 6] > 0.5, "taut: {t}, {row:?}");
+            assert!(row[row.len() - 1] > 0.5, "taut: {t}, {row:?}");
             for (k, expected) in row.iter().enumerate() {
                 let [a, b, c] = [&one, &two, &four].map(|rows| rows[i].1[k]);
                 // errors in h^2 and h^4 taken out
