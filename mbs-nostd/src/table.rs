@@ -11,6 +11,7 @@ pub use mbs_core::laws::calspan::Coefficients;
 pub use mbs_core::laws::polynomial::Piece;
 pub use mbs_core::laws::road::Feature;
 pub use mbs_core::laws::scalar::Law;
+pub use mbs_core::laws::slip::LongitudinalSlip;
 pub use mbs_core::laws::{LawInputs, Part};
 pub use mbs_recursive::closed_loop::ClosedLoop;
 pub use mbs_recursive::coupled::{CoupledRow, Couplings, CurveTable, SumMeasure, SumTerm};

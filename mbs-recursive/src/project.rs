@@ -12,7 +12,7 @@
 //! new state. Inertias are then those of the last iteration: with effects their resistance to accelerations within the step is part of
 //! the weight, so that stiff springs are spared. Cost: an evaluation of the rows and about a fifth of a condensation for each sweep.
 
-use crate::coupled_rows;
+use crate::coupled_rows::{self, Largest};
 use crate::evaluate::{note_rank, respond};
 use crate::fault::Fault;
 use crate::indexing::{Outside, at, at_mut, part, part_mut};
@@ -21,6 +21,7 @@ use crate::link::{Link, LinkKind};
 use crate::loops::index;
 use crate::options::Options;
 use crate::passes::kinematics;
+use crate::rows::ClosedLoop;
 use crate::slices::{Store, TreeSlices};
 use crate::space::{Numbers, Space};
 use mbs_core::Real;
@@ -177,10 +178,36 @@ fn violation<T: Real, S: Space<T>>(
     (level, share): (u8, T),
     s: &mut Store<'_, T, S>,
 ) -> Result<Violation<T>, Outside> {
+    #[inline(never)]
+    fn with_coupled<T: Real, S: Space<T>>(
+        m: &TreeSlices<'_, T, S>,
+        limits: (u8, T),
+        s: &mut Store<'_, T, S>,
+    ) -> Result<(Largest<T>, bool), Outside> {
+        let found = violation_of_cut(m, m.loops.cut(), limits, s)?;
+        coupled_rows::violation(m, limits, s, found)
+    }
+    let limits = (level, share);
+    let ((worst, row, scale), is_within) = if m.loops.has_coupled() {
+        with_coupled(m, limits, s)?
+    } else {
+        violation_of_cut(m, m.loops.loops, limits, s)?
+    };
+    let is_within = (is_within && worst <= share * scale) || worst <= rounding::<T>() * scale;
+    Ok(Violation { worst, row, scale, is_within })
+}
+
+#[inline(always)]
+fn violation_of_cut<T: Real, S: Space<T>>(
+    m: &TreeSlices<'_, T, S>,
+    cut: &[ClosedLoop<T, S>],
+    (level, share): (u8, T),
+    s: &mut Store<'_, T, S>,
+) -> Result<(Largest<T>, bool), Outside> {
     let (mut worst, mut row, mut is_within) = (T::ZERO, 0, true);
     // Speeds of a rounding of the length each second are rest.
     let mut scale = if level == 0 { m.length } else { m.length * T::EPSILON };
-    for lap in m.loops.cut() {
+    for lap in cut {
         let [a, b] = lap.links;
         let speeds = [at(s.trial, a as usize)?.velocity, at(s.trial, b as usize)?.velocity];
         lap.evaluate(m.loops.rows, s.trial, |k, values| {
@@ -200,10 +227,5 @@ fn violation<T: Real, S: Space<T>>(
             Ok(())
         })?;
     }
-    if m.loops.has_coupled() {
-        let found = ((worst, row, scale), is_within);
-        ((worst, row, scale), is_within) = coupled_rows::violation(m, (level, share), s, found)?;
-    }
-    is_within = (is_within && worst <= share * scale) || worst <= rounding::<T>() * scale;
-    Ok(Violation { worst, row, scale, is_within })
+    Ok(((worst, row, scale), is_within))
 }

@@ -29,11 +29,12 @@ struct Case {
 const FLASH: u64 = 256 * 1024;
 /// Most bytes of its stack.
 const STACK: u64 = 64 * 1024;
-/// Most bytes of the stack where links are bodies, of which there are four times as many.
+/// Most bytes of the stack where links are bodies, of which there are four times as many, and of a vehicle with its drive line in double.
 const MORE_STACK: u64 = 96 * 1024;
 
 const VEHICLE: &str = "polynomial,speed-hold,tire";
 const SUSPENSION: &str = "polynomial,tire";
+const DRIVE_LINE: &str = "couplings,friction,polynomial,signals,tire";
 
 /// Largest difference of a vehicle in single precision from the run in double [m, rad].
 const NEAR_VEHICLE: Option<[f64; 2]> = Some([5e-3, 5e-3]);
@@ -47,6 +48,7 @@ const CASES: &[Case] = &[
     Case { scene: "iltis-slalom", features: VEHICLE, precision: "f64", board: M7, instructions: 200_000, stack: STACK, apart: None },
     Case { scene: "iltis-links", features: VEHICLE, precision: "f32", board: M7, instructions: 400_000, stack: MORE_STACK, apart: NEAR_VEHICLE },
     Case { scene: "iltis-suspension", features: SUSPENSION, precision: "f32", board: M4, instructions: 100_000, stack: STACK, apart: NEARER },
+    Case { scene: "iltis-drive-line", features: DRIVE_LINE, precision: "f64", board: M7, instructions: 200_000, stack: MORE_STACK, apart: None },
     Case { scene: "six-joint-arm", features: "", precision: "f32", board: M7, instructions: 15_000, stack: STACK, apart: NEARER },
     Case { scene: "six-joint-arm", features: "", precision: "f64", board: M7, instructions: 15_000, stack: STACK, apart: None },
     Case { scene: "servo-arm", features: "signals", precision: "f32", board: M7, instructions: 25_000, stack: STACK, apart: NEARER },
