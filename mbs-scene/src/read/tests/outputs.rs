@@ -140,7 +140,7 @@ fn outputs_of_unknown_parts_are_refused_at_the_name() {
     refused(
         &e,
         &format!("{}:1", line - 2),
-        "`joint, body, coupling, effect or signal` is missing",
-        "`coupling`, `effect` or `signal`",
+        "`joint, body, coupling, rolling, effect or signal` is missing",
+        "`coupling`, `rolling`, `effect` or `signal`",
     );
 }

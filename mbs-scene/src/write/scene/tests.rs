@@ -60,6 +60,7 @@ fn every_quantity_of_the_table_reads_back_as_it_was_written() {
             "[scene]\ndimension = 3\nduration = 1\n[[body]]\nname = \"one\"\nmass = 1\ncenter = [0, 0, 0]\ninertia = [1, 1, 1, 0, 0, 0]\n\
              [[joint]]\nname = \"one\"\nkind = \"free\"\nbodies = [\"ground\", \"one\"]\nat = [0, 0, 0]\n\
              [[coupling]]\nname = \"one\"\nkind = \"linear\"\nterms = [{{ joint = \"one\", coordinate = 0, factor = 1 }}]\n\
+             [[rolling]]\nname = \"one\"\nkind = \"ball\"\nbody = \"one\"\ncenter = [0, 0, 0]\nradius = 1\n\
              [[effect]]\nname = \"one\"\nkind = \"spring-damper\"\nbodies = [\"ground\", \"one\"]\npoints = [[0, 0, 0], [1, 0, 0]]\n\
              [[signal]]\nname = \"one\"\nkind = \"constant\"\nvalue = 1\n\
              [[output]]\nname = \"x\"\n{keys}quantity = \"{}\"\n",
