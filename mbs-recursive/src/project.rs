@@ -12,6 +12,7 @@
 //! new state. Inertias are then those of the last iteration: with effects their resistance to accelerations within the step is part of
 //! the weight, so that stiff springs are spared. Cost: an evaluation of the rows and about a fifth of a condensation for each sweep.
 
+use crate::closed_loop::ClosedLoop;
 use crate::coupled_rows::{self, Largest};
 use crate::evaluate::{note_rank, respond};
 use crate::fault::Fault;
@@ -21,7 +22,6 @@ use crate::link::{Link, LinkKind};
 use crate::loops::index;
 use crate::options::Options;
 use crate::passes::kinematics;
-use crate::rows::ClosedLoop;
 use crate::slices::{Store, TreeSlices};
 use crate::space::{Numbers, Space};
 use mbs_core::Real;

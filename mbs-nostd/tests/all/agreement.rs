@@ -20,7 +20,9 @@ fn vehicle(name: &str) -> (TreeModel<f64, Spatial>, TreeState<f64>) {
 
 #[test]
 fn a_solver_of_fixed_capacity_gives_the_bits_of_the_recursion() {
-    for name in ["iltis-slalom", "iltis-jump", "iltis-suspension", "spatial-four-bar"] {
+    for name in
+        ["iltis-slalom", "iltis-jump", "iltis-suspension", "spatial-four-bar", "rolling-disc"]
+    {
         let (tree, begin) = vehicle(name);
         let collected = Collected::new(&tree, &begin, &[]).expect("no signals");
         let text = bytes(&collected.model(), false).expect("a scene without own laws");

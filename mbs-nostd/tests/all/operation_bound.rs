@@ -111,6 +111,46 @@ fn couplings_stay_below_the_bound() {
     }
 }
 
+/// A wheel, a ball and a blade of free bodies, on the ground and on each other, in space or in the plane.
+fn rolling(dimension: usize) -> String {
+    let [at, inertia] = if dimension == 2 {
+        ["[0.1, 0.3]", "0.02"]
+    } else {
+        ["[0.1, 0.0, 0.3]", "[0.02, 0.02, 0.02, 0.0, 0.0, 0.0]"]
+    };
+    let body = |name: &str| {
+        format!("[[body]]\nname = \"{name}\"\nmass = 1.0\ncenter = {at}\ninertia = {inertia}\n")
+    };
+    let mut text = format!(
+        "[scene]\nname = \"rolling\"\ndimension = {dimension}\nduration = 1.0\n{}{}",
+        body("a"),
+        body("b")
+    );
+    let axis = if dimension == 2 { "" } else { "axis = [0.0, 1.0, 0.1]\n" };
+    let blade = at.replacen("0.1", "1.0", 1);
+    for (kind, on) in [("wheel", "ground"), ("blade", "b")] {
+        let shape = if kind == "wheel" {
+            format!("center = {at}\n{axis}radius = 0.3\n")
+        } else {
+            format!("at = {at}\ndirection = {blade}\n")
+        };
+        text += &format!("[[rolling]]\nkind = \"{kind}\"\nbody = \"a\"\n{shape}on = \"{on}\"\n");
+    }
+    text + "[[initial]]\nbody = \"a\"\nangular_velocity = "
+        + if dimension == 2 { "2.0\n" } else { "[0.1, 2.0, 0.3]\n" }
+}
+
+#[test]
+fn rows_of_what_rolls_stay_below_the_bound() {
+    for (evaluations, sweeps, projections) in [(1, 0, 1), (2, 2, 2)] {
+        let bounds = Bounds { evaluations, sweeps, projections };
+        let planar = mbs_testkit::scene(&rolling(2));
+        is_bound("planar", counted_of::<Planar, 2>(&planar, bounds));
+        let spatial = mbs_testkit::scene(&rolling(3));
+        is_bound("spatial", counted_of::<Spatial, 3>(&spatial, bounds));
+    }
+}
+
 #[test]
 fn laws_on_sums_stay_below_the_bound() {
     // without loops, whose rows leave room below their bound
