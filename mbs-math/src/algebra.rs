@@ -138,14 +138,12 @@ pub fn unit<T: Real>(i: usize) -> Vector<T, 3> {
 }
 
 /// A vector of the plane or of space, in space.
-#[cfg(feature = "alloc")]
 #[inline(always)]
 pub fn raised<T: Real, const D: usize>(x: &Vector<T, D>) -> Vector<T, 3> {
     Vector::from_fn(|i, _| if i < D { x[i] } else { T::ZERO })
 }
 
 /// What the plane or space has of a vector of space.
-#[cfg(feature = "alloc")]
 #[inline(always)]
 pub fn lowered<T: Real, const D: usize>(x: &Vector<T, 3>) -> Vector<T, D> {
     Vector::from_fn(|i, _| x[i])

@@ -27,6 +27,7 @@ pub mod realtime;
 pub mod record;
 mod recorder;
 mod rest;
+mod rolling_pull;
 mod run;
 mod settings;
 mod simulation;

@@ -173,6 +173,18 @@ impl<T: Real, const D: usize> Reactions<T, D> {
         self.wrenches[self.n_joints + rolling].force.into()
     }
 
+    /// The part of that force along the plane's normal, towards the body [N]; negative where the contact pulls.
+    ///
+    /// # Panics
+    /// If there is no such rolling.
+    #[must_use]
+    pub fn rolling_push(&self, rolling: usize) -> T {
+        let index = self.n_joints + rolling;
+        let contact = &self.joints[index];
+        let on = rotation_of(&self.bodies, contact.bodies[0]);
+        self.wrenches[index].force.dot(&contact.normal(&on))
+    }
+
     /// Did the motion as last updated determine this rolling's force? Otherwise it is the smallest of many.
     ///
     /// # Panics

@@ -220,6 +220,14 @@ impl<T: Real, const D: usize> WrenchBasis<T, D> {
         }
     }
 
+    /// The normal of the plane that something rolls on, whose rotation is `turned`; of a joint zero.
+    pub(super) fn normal(&self, turned: &Matrix<T, 3>) -> Vector<T, 3> {
+        match &self.transmission {
+            Transmission::Rolling(input) => turned * input.plane[0],
+            Transmission::Joint(_) => Vector::zeros(),
+        }
+    }
+
     /// How many directions it has.
     pub(super) fn n_directions(&self) -> usize {
         match &self.transmission {

@@ -169,3 +169,45 @@ fn two_wheels_of_one_axle_roll_straight_and_share_what_nothing_determines() {
         }
     }
 }
+
+#[test]
+fn a_contact_that_pulls_is_noted_with_its_time_and_force() {
+    // a plate under the wheel moves up and down by 0.1 m, its acceleration is beyond that of gravity
+    let text = |frequency: f64| {
+        format!(
+            "[scene]\nname = \"plate\"\ndimension = 2\nduration = 0.5\ngravity = [0.0, -9.81]\n\
+             [[body]]\nname = \"plate\"\nmass = 5.0\ncenter = [0.0, -0.1]\ninertia = 1.0\n\
+             [[body]]\nname = \"wheel\"\nmass = {MASS:?}\ncenter = [0.0, {RADIUS:?}]\ninertia = {INERTIA:?}\n\
+             [[joint]]\nname = \"guide\"\nkind = \"prismatic\"\nbodies = [\"ground\", \"plate\"]\nat = [0.0, -0.1]\naxis = [0.0, 1.0]\n\
+             [[guide]]\njoint = \"guide\"\nsine = {{ amplitude = 0.1, frequency = {frequency:?}, phase = 0.0 }}\n\
+             [[rolling]]\nname = \"contact\"\nkind = \"wheel\"\nbody = \"wheel\"\ncenter = [0.0, {RADIUS:?}]\nradius = {RADIUS:?}\non = \"plate\"\n"
+        )
+    };
+    for formulation in WAYS {
+        let method = || mbs::Method {
+            step: Some(1e-3),
+            formulation: Some(formulation.to_owned()),
+            ..mbs::Method::default()
+        };
+        let notes = |frequency: f64| {
+            let m = mbs::Mechanism::parse(&text(frequency)).expect("a scene");
+            let run = mbs::run(&m, &mbs::Run::new().method(method()));
+            run.unwrap_or_else(|e| panic!("{formulation}: {e}")).notes
+        };
+        // 0.1 (2 pi f)^2 = 9.81 at 1.576 Hz
+        assert_eq!(notes(1.5), [""; 0], "{formulation}");
+        let noted = notes(3.0);
+        let omega = core::f64::consts::TAU * 3.0;
+        // the first step behind sin(w t) = g / (A w^2)
+        let first = ((9.81 / (0.1 * omega * omega)).asin() / omega * 1e3).ceil() / 1e3;
+        let begin = format!("`contact` pulls on its plane at t = {first} s, by up to ");
+        assert_eq!(noted.len(), 1, "{formulation}: {noted:?}");
+        let rest = noted[0].strip_prefix(&begin);
+        let most: f64 = rest
+            .and_then(|rest| rest.split(' ').next())
+            .and_then(|number| number.parse().ok())
+            .unwrap_or_else(|| panic!("{formulation}: {noted:?}"));
+        let right = MASS * (0.1 * omega * omega - 9.81);
+        assert!((most - right).abs() < 1e-2 * right, "{formulation}: {most} {right}");
+    }
+}
