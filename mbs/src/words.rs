@@ -272,7 +272,9 @@ fn in_f64<T: Real>(x: [T; 3]) -> [f64; 3] {
 /// Which bodies are named in a joint.
 fn held<T>(scene: &Scene<T>) -> Vec<bool> {
     let mut held = vec![false; scene.bodies.len()];
-    for body in scene.joints.iter().flat_map(|joint| joint.bodies) {
+    let joints = scene.joints.iter().map(|joint| joint.bodies);
+    let rollings = scene.rollings.iter().map(|rolling| [rolling.body, rolling.on]);
+    for body in joints.chain(rollings).flatten() {
         if let BodyId::Body(b) = body {
             held[b] = true;
         }

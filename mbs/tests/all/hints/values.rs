@@ -27,7 +27,10 @@ fn values() -> Vec<Row> {
         row(
             PLANAR,
             &[("body = \"arm\"\nat = [2.0, 0.0]\nquantity = \"position\"", "quantity = \"value\"")],
-            ["`joint, body, coupling, rolling, effect or signal` is missing", "add `joint = \"...\"`"],
+            [
+                "`joint, body, coupling, rolling, effect or signal` is missing",
+                "add `joint = \"...\"`",
+            ],
             &[("quantity = \"value\"", "joint = \"pin\"\nquantity = \"value\"")],
         ),
         row(
