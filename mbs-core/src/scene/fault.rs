@@ -232,7 +232,7 @@ impl SceneFault {
             Self::NoTerm => "write a term with a factor that is not zero",
             Self::LiesFlat => "turn the axis away from the normal",
             Self::AlongNormal => "give the direction along which it may move",
-            Self::Apart(_) => "move `at` or the plane's `point`, or leave `plane` out",
+            Self::Apart(_) => "move `center` or the plane's `point`, or leave `plane` out",
             Self::PeriodicEnds(_) => "end the table with the value that it begins with",
             Self::SumAtStart(_) => {
                 "change one of the initial values, or leave it out: the others determine it"

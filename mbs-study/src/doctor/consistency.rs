@@ -43,7 +43,11 @@ pub(super) fn findings(
             findings.push(Finding::new(Severity::Note, code, message, remedy));
         }
     }
-    let is_held = |b: &usize| scene.joints.iter().any(|j| j.bodies.contains(&BodyId::Body(*b)));
+    let is_held = |b: &usize| {
+        let body = BodyId::Body(*b);
+        scene.joints.iter().any(|joint| joint.bodies.contains(&body))
+            || scene.rollings.iter().any(|rolling| [rolling.body, rolling.on].contains(&body))
+    };
     let free: Vec<usize> = (0..scene.bodies.len()).filter(|b| !is_held(b)).collect();
     if !free.is_empty() {
         let message =

@@ -1,10 +1,10 @@
-//! Couplings that follow from others, or almost do.
+//! Couplings, and contacts that roll, that follow from others, or almost do.
 //!
 //! ```text
 //! N: motions that the joints leave, an orthonormal basis;   h_k = N^T g_k of each coupling's gradient g_k
 //! ```
 //!
-//! A coupling whose h lies in the span of those before it takes no freedom. Those that it is made of are named with it.
+//! A row whose h lies in the span of those before it takes no freedom. Those that it is made of are named with it.
 
 use super::finding::{Finding, Severity, Topic};
 use crate::redundancy::Rank;
@@ -22,20 +22,20 @@ const ALMOST: f64 = 1e-6;
 /// Most numbers of the rows that are looked at [-]: a second of work. Chosen, not tuned.
 const LARGEST: usize = 250_000;
 
-/// How many freedoms the couplings take at a state; nothing where the scene is too large for it.
+/// How many freedoms couplings and rolling take at a state; nothing where the scene is too large for it.
 pub(super) fn findings<const D: usize>(
     scene: &Scene<f64>,
     model: &NaturalModel<f64, D>,
     state: &State<f64>,
     findings: &mut Vec<Finding>,
 ) -> Option<usize> {
-    if scene.couplings.is_empty() {
+    if scene.couplings.is_empty() && scene.rollings.is_empty() {
         return Some(0);
     }
     let (joints, couplings) = rows(model, state)?;
     let free = Rank::of(&joints)?.free;
-    let mut taken: Vec<(usize, Vec<f64>)> = Vec::new();
-    for (number, gradient) in couplings {
+    let mut taken: Vec<(Owner, Vec<f64>)> = Vec::new();
+    for (owner, gradient) in couplings {
         let size = norm(&gradient);
         let motion = |k: usize| (0..gradient.len()).map(|i| free[(i, k)] * gradient[i]).sum();
         let mut rest: Vec<f64> = (0..free.n_columns()).map(motion).collect();
@@ -43,27 +43,42 @@ pub(super) fn findings<const D: usize>(
         for (other, direction) in &taken {
             let part: f64 = rest.iter().zip(direction).map(|(x, y)| x * y).sum();
             rest.iter_mut().zip(direction).for_each(|(x, y)| *x -= part * y);
-            if part.abs() > FOLLOWS * size {
+            if part.abs() > FOLLOWS * size && !others.contains(other) {
                 others.push(*other);
             }
         }
         let left = norm(&rest);
         if left <= ALMOST * size {
-            findings.push(follows(scene, number, &others, left <= FOLLOWS * size));
+            findings.push(follows(scene, owner, &others, left <= FOLLOWS * size));
         }
         if left > FOLLOWS * size {
             rest.iter_mut().for_each(|x| *x /= left);
-            taken.push((number, rest));
+            taken.push((owner, rest));
         }
     }
     Some(taken.len())
 }
 
-fn follows(scene: &Scene<f64>, number: usize, others: &[usize], is_exact: bool) -> Finding {
-    let name = |c: usize| format!("`{}`", scene.couplings[c].name);
-    let names: Vec<String> = others.iter().map(|&c| name(c)).collect();
+fn follows(scene: &Scene<f64>, owner: Owner, others: &[Owner], is_exact: bool) -> Finding {
+    let (what, place) = match owner {
+        Owner::Rolling(i) => ("a row of", Entry::Rolling(i)),
+        Owner::Coupling(i) => ("coupling", Entry::Coupling(i)),
+        _ => ("a row of", Entry::Scene),
+    };
+    let name = |owner: Owner| match owner {
+        Owner::Rolling(i) => format!("`{}`", scene.rollings[i].name),
+        Owner::Coupling(i) => format!("`{}`", scene.couplings[i].name),
+        _ => String::new(),
+    };
+    let names: Vec<String> = others.iter().map(|&other| name(other)).collect();
     let of = if names.is_empty() { "the joints alone".to_owned() } else { names.join(", ") };
-    let (code, verb, remedy) = if is_exact {
+    let (code, verb, remedy) = if matches!(owner, Owner::Rolling(_)) {
+        (
+            "dependent-rolling",
+            if is_exact { "follows from" } else { "almost follows from" },
+            "the motion stays; of its force the smallest one is given",
+        )
+    } else if is_exact {
         (
             "dependent-coupling",
             "follows from",
@@ -76,9 +91,9 @@ fn follows(scene: &Scene<f64>, number: usize, others: &[usize], is_exact: bool) 
             "give ratios as teeth, or with all their digits",
         )
     };
-    let message = format!("coupling {} {verb} {of}", name(number));
+    let message = format!("{what} {} {verb} {of}", name(owner));
     let mut finding = Finding::new(Severity::Doubt, (Topic::Dependence, code), message, remedy);
-    finding.place = Some((Entry::Coupling(number), "name"));
+    finding.place = Some((place, "name"));
     finding
 }
 
@@ -86,10 +101,10 @@ fn norm(x: &[f64]) -> f64 {
     x.iter().map(|x| x * x).sum::<f64>().sqrt()
 }
 
-/// The number of a coupling, and the gradient of its row.
-type Gradient = (usize, Vec<f64>);
+/// A coupling or a contact that rolls, and the gradient of a row of it.
+type Gradient = (Owner, Vec<f64>);
 
-/// The rows of all but couplings, and the gradient of each coupling.
+/// The rows of joints and bodies, and the gradients of the others.
 fn rows<const D: usize>(
     model: &NaturalModel<f64, D>,
     state: &State<f64>,
@@ -113,12 +128,18 @@ fn rows<const D: usize>(
                 gradient[u as usize] = g;
             }
             match model.owner_of_row(row) {
-                Owner::Coupling(number) => couplings.push((number, gradient)),
+                owner @ (Owner::Coupling(_) | Owner::Rolling(_)) => {
+                    couplings.push((owner, gradient));
+                }
                 _ => joints.push(gradient),
             }
         }
     }
-    couplings.sort_by_key(|(number, _)| *number);
+    couplings.sort_by_key(|(owner, _)| match owner {
+        Owner::Coupling(number) => (0, *number),
+        Owner::Rolling(number) => (1, *number),
+        _ => (2, 0),
+    });
     let matrix = Matrix::from_fn(joints.len(), n, |i, j| joints[i][j]);
     Some((matrix, couplings))
 }

@@ -221,3 +221,10 @@ fn units_are_doubted_where_the_evidence_is_strong() {
         assert!(c.findings.iter().all(|f| f.topic != mbs_study::doctor::Topic::Units), "{name}");
     }
 }
+
+#[test]
+fn a_rolling_disc_has_the_freedoms_that_both_countings_give_and_is_held() {
+    let c = checkup(&mbs_testkit::file("rolling-disc"), &Effort { positions: 0, ..LITTLE });
+    let is_wrong = |code: &&str| ["freedoms-differ", "free-body"].contains(code);
+    assert!(!codes(&c).iter().any(is_wrong), "{:?}", c.findings);
+}
