@@ -81,10 +81,7 @@ pub(crate) fn read<'a>(
         }
         _ => return fields.unknown_word("kind", kind, &KINDS),
     };
-    let name = match fields.get("name") {
-        Some(_) => fields.name()?,
-        None => format!("coupling-{}", index + 1),
-    };
+    let name = fields.name_or("coupling", index)?;
     Ok(Coupling { name, terms, value, motion })
 }
 

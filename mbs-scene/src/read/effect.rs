@@ -35,10 +35,7 @@ pub(crate) fn read(
     let on_ball = if known.contains(&"joint") { on_ball(fields, &named, joints)? } else { None };
     known.extend(on_ball.map(|_| "axis"));
     fields.allow(&known, &elsewhere)?;
-    let name = match fields.get("name") {
-        Some(_) => fields.name()?,
-        None => format!("effect-{}", index + 1),
-    };
+    let name = fields.name_or("effect", index)?;
     let enabled = fields.flag("enabled", true)?;
     let row = match on_ball {
         Some((row, _)) => {

@@ -216,6 +216,14 @@ impl<'a> Fields<'a> {
         Ok(self.context.text(self.need("name")?)?.to_owned())
     }
 
+    /// The name, or `KIND-N`, counted from 1, where none is written.
+    pub(crate) fn name_or(&self, kind: &str, index: usize) -> Read<String> {
+        match self.get("name") {
+            Some(_) => self.name(),
+            None => Ok(format!("{kind}-{}", index + 1)),
+        }
+    }
+
     pub(crate) fn number(&self, key: &'static str) -> Read<Number> {
         self.context.number(self.need(key)?)
     }

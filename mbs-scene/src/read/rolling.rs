@@ -49,9 +49,6 @@ pub(crate) fn read(index: usize, fields: &Fields<'_>) -> Read<Rolling<Number>> {
             Some(RollingPlane { point: plane.vector("point")?, normal: plane.vector("normal")? })
         }
     };
-    let name = match fields.get("name") {
-        Some(_) => fields.name()?,
-        None => format!("rolling-{}", index + 1),
-    };
+    let name = fields.name_or("rolling", index)?;
     Ok(Rolling { name, kind, body, at, on, plane })
 }

@@ -1,7 +1,7 @@
 //! Scenes of the format, each refusal with its exact place, and no panic on anything.
 #![allow(clippy::float_cmp, reason = "numbers are read exactly")]
 
-use crate::{ReadError, ReadFault, SceneFile};
+use crate::{ReadError, ReadFault, SceneFile, to_toml};
 use mbs_core::scene::*;
 
 mod balls;
@@ -360,4 +360,14 @@ fn rendering_shows_the_line_with_carets_under_the_text() {
     assert_eq!(document.place(Entry::Body(9), "rod").line, 1);
     let error = SceneFile::from_bytes(b"[scene]\nname = \"\xff\"", "x").unwrap_err();
     assert_eq!((error.place().line, error.place().column), (2, 9));
+}
+
+/// A scene whose effects are the same when it is written and read again.
+fn read_back(text: &str) -> Scene<f64> {
+    let scene = read(text).unwrap_or_else(|e| panic!("{}", e.render()));
+    let file = SceneFile::parse(text, "s.toml").expect("it reads");
+    let written = to_toml(&file.numbers().expect("numbers")).expect("it is written");
+    let again = read(&written).unwrap_or_else(|e| panic!("{}\n{written}", e.render()));
+    assert_eq!(again.effects, scene.effects, "{written}");
+    scene
 }
