@@ -178,7 +178,7 @@ pub(crate) fn notes<T: Real>(
             significant(settings.duration)
         ));
     }
-    for (body, is_held) in scene.bodies.iter().zip(held(scene)) {
+    for (body, is_held) in scene.bodies.iter().zip(scene.held_bodies()) {
         if !is_held {
             notes.push(format!("body `{}` has no joint: it moves freely", body.name));
         }
@@ -267,19 +267,6 @@ fn spoilt<T: Real>(scene: &Scene<T>) -> Option<(&str, f64)> {
 
 fn in_f64<T: Real>(x: [T; 3]) -> [f64; 3] {
     x.map(Real::to_f64)
-}
-
-/// Which bodies are named in a joint.
-fn held<T>(scene: &Scene<T>) -> Vec<bool> {
-    let mut held = vec![false; scene.bodies.len()];
-    let joints = scene.joints.iter().map(|joint| joint.bodies);
-    let rollings = scene.rollings.iter().map(|rolling| [rolling.body, rolling.on]);
-    for body in joints.chain(rollings).flatten() {
-        if let BodyId::Body(b) = body {
-            held[b] = true;
-        }
-    }
-    held
 }
 
 /// Of a joint whose reaction the motion does not determine.

@@ -25,6 +25,13 @@ pub fn lowest_point<T: Real>(radius: T, [n, n_t]: &Moving<T>, [a, a_t]: &Moving<
     [unit * -radius, (w_t - unit * unit.dot(&w_t)) * -radius]
 }
 
+/// The same at rest, without its rate.
+pub fn lowest_place<T: Real>(radius: T, normal: Vector<T, 3>, axis: Vector<T, 3>) -> Vector<T, 3> {
+    let still = |x| [x, Vector::zeros()];
+    let [place, _] = lowest_point(radius, &still(normal), &still(axis));
+    place
+}
+
 /// Does a disc with this axis lie flat on the plane with this normal?
 pub fn lies_flat<T: Real>(normal: &Vector<T, 3>, axis: &Vector<T, 3>) -> bool {
     let dot = normal.dot(axis);

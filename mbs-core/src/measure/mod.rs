@@ -13,7 +13,7 @@ mod rolling;
 #[cfg(feature = "alloc")]
 mod rotor;
 
-pub use contact::{Moving, lies_flat, lowest_point};
+pub use contact::{Moving, lies_flat, lowest_place, lowest_point};
 #[cfg(feature = "alloc")]
 pub use coupling::{CouplingInput, TermInput};
 #[cfg(feature = "alloc")]

@@ -1,6 +1,6 @@
 //! What rolls, as models take it: unit directions, the plane with two directions along it, the point of contact.
 
-use super::{lies_flat, lowest_point};
+use super::{lies_flat, lowest_place};
 use crate::Real;
 use crate::algebra::{Vector, along, cross, unit};
 use crate::scene::{BodyId, Dimension, Rolling, RollingKind, transverse};
@@ -59,8 +59,7 @@ impl<T: Real> RollingInput<T> {
         if self.is_blade {
             return self.center;
         }
-        let still = |x| [x, Vector::zeros()];
-        self.center + lowest_point(self.radius, &still(self.plane[0]), &still(self.axis))[0]
+        self.center + lowest_place(self.radius, self.plane[0], self.axis)
     }
 
     /// From the plane to the lowest point, along the normal [m]: zero where it touches.

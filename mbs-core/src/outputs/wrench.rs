@@ -14,7 +14,7 @@
 use super::frame::normalised;
 use crate::Real;
 use crate::algebra::{Matrix, Vector, cross, raised, unit};
-use crate::measure::{RollingInput, lowest_point};
+use crate::measure::{RollingInput, lowest_place};
 use crate::natural::{Affine, NaturalModel};
 use crate::scene::{
     Axis, BodyId, Dimension, Freedom, Joint, Rotation, Scene, Translation, transverse,
@@ -211,11 +211,7 @@ impl<T: Real, const D: usize> WrenchBasis<T, D> {
         match &self.transmission {
             Transmission::Rolling(RollingInput {
                 is_blade: false, radius, plane, axis, ..
-            }) => {
-                let still = |x| [x, Vector::zeros()];
-                let (normal, axis) = (still(turned[0] * plane[0]), still(turned[1] * axis));
-                place + lowest_point(*radius, &normal, &axis)[0]
-            }
+            }) => place + lowest_place(*radius, turned[0] * plane[0], turned[1] * axis),
             Transmission::Rolling(_) | Transmission::Joint(_) => place,
         }
     }

@@ -3,9 +3,9 @@
 use crate::effects::EffectKind;
 use crate::outputs::Quantity;
 use crate::scene::{
-    Body, Coupling, CouplingId, Dimension, EffectId, Guide, GuideId, InitialCondition, InitialId,
-    Joint, JointId, NamedSignal, OutputId, Road, Rolling, RollingId, SignalId, SolverTable, Start,
-    Surroundings,
+    Body, BodyId, Coupling, CouplingId, Dimension, EffectId, Guide, GuideId, InitialCondition,
+    InitialId, Joint, JointId, NamedSignal, OutputId, Road, Rolling, RollingId, SignalId,
+    SolverTable, Start, Surroundings,
 };
 use alloc::string::String;
 use alloc::vec::Vec;
@@ -106,6 +106,20 @@ impl<T> Scene<T> {
     pub(crate) fn surroundings(&self) -> Surroundings<'_, T> {
         let Self { dimension, ref bodies, ref joints, ref road, ref signals, .. } = *self;
         Surroundings { dimension, bodies, joints, road, signals }
+    }
+}
+
+impl<T> Scene<T> {
+    /// Which bodies a joint or a contact that rolls names: the others move freely.
+    #[must_use]
+    pub fn held_bodies(&self) -> Vec<bool> {
+        let mut held = alloc::vec![false; self.bodies.len()];
+        let joints = self.joints.iter().map(|joint| joint.bodies);
+        let rollings = self.rollings.iter().map(|rolling| [rolling.body, rolling.on]);
+        for body in joints.chain(rollings).flatten().filter_map(BodyId::index) {
+            held[body] = true;
+        }
+        held
     }
 }
 

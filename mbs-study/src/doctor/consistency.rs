@@ -2,7 +2,7 @@
 
 use super::finding::{Finding, Severity, Topic, body_names};
 use crate::redundancy::{Diagnosis, Massless, UNCERTAIN};
-use mbs_core::scene::{BodyId, Scene};
+use mbs_core::scene::Scene;
 use mbs_scene::format::{counted, few};
 
 pub(super) fn findings(
@@ -43,12 +43,8 @@ pub(super) fn findings(
             findings.push(Finding::new(Severity::Note, code, message, remedy));
         }
     }
-    let is_held = |b: &usize| {
-        let body = BodyId::Body(*b);
-        scene.joints.iter().any(|joint| joint.bodies.contains(&body))
-            || scene.rollings.iter().any(|rolling| [rolling.body, rolling.on].contains(&body))
-    };
-    let free: Vec<usize> = (0..scene.bodies.len()).filter(|b| !is_held(b)).collect();
+    let held = scene.held_bodies();
+    let free: Vec<usize> = (0..held.len()).filter(|&b| !held[b]).collect();
     if !free.is_empty() {
         let message =
             format!("no joint holds {}: free in all directions", body_names(scene, &free));

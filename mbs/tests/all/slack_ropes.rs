@@ -1,6 +1,6 @@
 //! Elastic ropes over points: against an equation of one's own, slack and taut, and where they lose a part, in every formulation.
 
-use crate::common::oracle::{Rows, Way, rows};
+use crate::common::oracle::{Rows, Way, agree_in_the_limit, rows};
 use mbs::{Body, Effect, Error, FormulationKind, GROUND, Joint, Mechanism, Method, Run};
 use mbs_testkit::scene;
 
@@ -278,24 +278,9 @@ fn crane() -> String {
 
 #[test]
 fn natural_and_relative_coordinates_agree_on_ropes_to_eight_digits() {
-    let (scene, duration) = (scene(&crane()), 0.2);
-    let exact = rows(&scene, Way("recursive", "rk853"), (1e-3, duration), 40).expect("it runs");
     for way in [Way("index-3", "trapezoidal"), Way("recursive", "trapezoidal")] {
-        let run = |n: u32| {
-            let every = 40 * n as usize;
-            rows(&scene, way, (1e-3 / f64::from(n), duration), every).expect("it runs")
-        };
-        let [one, two, four] = [1, 2, 4].map(run);
-        for (i, (t, row)) in exact.iter().enumerate() {
-            assert!(row[row.len() - 1] > 0.5, "taut: {t}, {row:?}");
-            for (k, expected) in row.iter().enumerate() {
-                let [a, b, c] = [&one, &two, &four].map(|rows| rows[i].1[k]);
-                // errors in h^2 and h^4 taken out
-                let [ab, bc] = [[a, b], [b, c]].map(|[x, y]| y + (y - x) / 3.0);
-                let found = bc + (bc - ab) / 15.0;
-                let error = (found - expected).abs() / (1.0 + expected.abs());
-                assert!(error < 1e-8, "{way:?}, {t}, {k}: {found} {expected}, of {a} {b} {c}");
-            }
-        }
+        agree_in_the_limit(&scene(&crane()), way, (1e-3, 0.2, 40), 1e-8, |row| {
+            assert!(row[row.len() - 1] > 0.5, "taut: {row:?}");
+        });
     }
 }

@@ -1,6 +1,6 @@
 //! Effects on sums of joint coordinates against closed forms, in every formulation.
 
-use crate::common::oracle::{Rows, Way, rows};
+use crate::common::oracle::{Rows, Way, agree_in_the_limit, energy_balances, rows};
 use mbs_testkit::scene;
 
 /// Every formulation with the trapezoidal rule, and the tree with an explicit one.
@@ -298,43 +298,11 @@ fn machine() -> String {
 
 #[test]
 fn natural_and_relative_coordinates_agree_on_sums_to_nine_digits() {
-    let (scene, duration) = (scene(&machine()), 0.1);
-    let exact = rows(&scene, Way("recursive", "rk853"), (2.5e-4, duration), 40).expect("it runs");
     let way = Way("index-3", "trapezoidal");
-    let run = |n: u32| {
-        let every = 40 * n as usize;
-        rows(&scene, way, (2.5e-4 / f64::from(n), duration), every).expect("it runs")
-    };
-    let [one, two, four] = [1, 2, 4].map(run);
-    let mut worst = 0.0_f64;
-    for (i, (t, row)) in exact.iter().enumerate() {
-        for (k, expected) in row.iter().enumerate() {
-            let [a, b, c] = [&one, &two, &four].map(|rows| rows[i].1[k]);
-            // errors in h^2 and h^4 taken out
-            let [ab, bc] = [[a, b], [b, c]].map(|[x, y]| y + (y - x) / 3.0);
-            let found = bc + (bc - ab) / 15.0;
-            let error = (found - expected).abs() / (1.0 + expected.abs());
-            worst = worst.max(error);
-            assert!(error < 1e-9, "{way:?}, {t}, {k}: {found} {expected}, of {a} {b} {c}");
-        }
-    }
-    println!("{way:?}: {worst:.1e}");
+    agree_in_the_limit(&scene(&machine()), way, (2.5e-4, 0.1, 40), 1e-9, |_| ());
 }
 
 #[test]
 fn the_energy_of_laws_on_sums_balances() {
-    for (way, most) in [(("recursive", "rk853"), 1e-9), (("index-3", "trapezoidal"), 1e-4)] {
-        let method = mbs::Method {
-            formulation: Some(way.0.to_owned()),
-            integrator: Some(way.1.to_owned()),
-            step: Some(2.5e-4),
-            duration: Some(1.0),
-            ..mbs::Method::default()
-        };
-        let outcome = crate::common::run(&scene(&machine()), &method);
-        assert!(outcome.error.is_none(), "{way:?}");
-        let error = outcome.summary.energy.max_error;
-        println!("{way:?}: {error:.1e} J");
-        assert!(error < most, "{way:?}: {error} J");
-    }
+    energy_balances(&scene(&machine()));
 }
