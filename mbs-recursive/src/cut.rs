@@ -32,6 +32,11 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         let [first, second] = [0, 1].map(|i| self.seat_point(joint.bodies[i], joint.points[i]));
         let start = self.rows.len();
         self.add_rows(scene, joint);
+        self.close([first, second], start, index_of_joint);
+    }
+
+    /// Adds the loop of two points by the rows from `start` on, of this joint or rolling.
+    fn close(&mut self, [first, second]: [(u32, S::Point); 2], start: usize, owner: usize) {
         self.loops.push(ClosedLoop {
             links: [first.0, second.0],
             points: [first.1, second.1],
@@ -39,7 +44,7 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
             n: index(self.rows.len() - start),
             ancestor: 0,
             block: 0,
-            joint: index(index_of_joint),
+            joint: index(owner),
         });
     }
 
@@ -96,15 +101,7 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
                 let slips = along.into_iter().take(S::DIMENSION - 1);
                 self.rows.extend(slips.map(|direction| Row::NoSlip { direction }));
             }
-            self.loops.push(ClosedLoop {
-                links: [first.0, second.0],
-                points: [first.1, second.1],
-                first: index(start),
-                n: index(self.rows.len() - start),
-                ancestor: 0,
-                block: 0,
-                joint: index(i),
-            });
+            self.close([first, second], start, i);
         }
     }
 

@@ -67,6 +67,8 @@ impl<T: Real> TensionLaw<T> for PullLaw<T> {
 
 #[cfg(feature = "alloc")]
 pub use data::LineSpring;
+#[cfg(feature = "alloc")]
+pub(super) use data::law_of;
 
 #[cfg(feature = "alloc")]
 mod data {
@@ -74,6 +76,7 @@ mod data {
     use crate::algebra::{self, norm};
     use crate::effects::data::*;
     use crate::effects::spring_damper::SpringDamperLaw;
+    use crate::laws::scalar::Law;
     use alloc::vec::Vec;
 
     effect! {
@@ -89,6 +92,18 @@ mod data {
             free_length: Option<T> = Length, "m", Nothing;
             /// Whether it is slack below that length, and pushes nowhere.
             pulls_only: bool = Flag, "", Nothing;
+        }
+    }
+
+    /// The law of a stiffness, a damping and what is free, slack below that or pushing there; none where its feature is off.
+    pub(in crate::effects) fn law_of<T: Real>(
+        [stiffness, damping, free]: [T; 3],
+        pulls_only: bool,
+    ) -> Option<Law<T>> {
+        if pulls_only {
+            PullLaw { stiffness, damping, free }.into()
+        } else {
+            SpringDamperLaw { stiffness, damping, free }.into()
         }
     }
 
@@ -110,12 +125,8 @@ mod data {
         const HAS_BRANCHES: bool = false;
 
         fn actions(&self, to: &mut Compiler<'_, T>) {
-            let (stiffness, damping, free) = (self.stiffness, self.damping, self.free());
-            if self.pulls_only {
-                to.on_line(&self.points, PullLaw { stiffness, damping, free });
-            } else {
-                to.on_line(&self.points, SpringDamperLaw { stiffness, damping, free });
-            }
+            let law = law_of([self.stiffness, self.damping, self.free()], self.pulls_only);
+            to.on_line(&self.points, law);
         }
         fn stores_energy(&self) -> bool {
             !self.stiffness.is_zero()

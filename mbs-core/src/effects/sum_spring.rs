@@ -6,8 +6,7 @@ pub use data::SumSpring;
 #[cfg(feature = "alloc")]
 mod data {
     use crate::effects::data::*;
-    use crate::effects::line_spring::PullLaw;
-    use crate::effects::spring_damper::SpringDamperLaw;
+    use crate::effects::line_spring::law_of;
     use alloc::vec::Vec;
 
     effect! {
@@ -40,12 +39,8 @@ mod data {
             place.not_negative("damping", self.damping)
         }
         fn actions(&self, to: &mut Compiler<'_, T>) {
-            let (stiffness, damping, free) = (self.stiffness, self.damping, self.free_value);
-            if self.pulls_only {
-                to.on_sum(&self.terms, PullLaw { stiffness, damping, free });
-            } else {
-                to.on_sum(&self.terms, SpringDamperLaw { stiffness, damping, free });
-            }
+            let law = law_of([self.stiffness, self.damping, self.free_value], self.pulls_only);
+            to.on_sum(&self.terms, law);
         }
         fn stores_energy(&self) -> bool {
             !self.stiffness.is_zero()

@@ -1,7 +1,8 @@
 //! Swing and twist of a ball joint: value, rate and gradient against rotations, over turns, and near no swing.
 
+use crate::gradient::{evaluate, gradients, scatter};
 use mbs_core::algebra::{Vector, cross, rotation};
-use mbs_core::model::{Load, Model, State, Terms};
+use mbs_core::model::{Load, Model, State};
 use mbs_core::natural::NaturalModel;
 use mbs_core::rigid::RigidMotion;
 use mbs_core::scene::Scene;
@@ -51,12 +52,6 @@ fn placed(scene: &Scene<f64>, model: &NaturalModel<f64, 3>, [first, own]: [V; 2]
     state
 }
 
-fn evaluate(model: &NaturalModel<f64, 3>, state: &State<f64>, terms: &mut Terms<f64>) {
-    model.set_inputs(0.0, state, terms);
-    model.evaluate(&state.q, terms);
-    model.evaluate_forces(&state.q, &state.v, terms);
-}
-
 /// The rotation vector of a turn about the axis and then a swing about a direction across it.
 fn turned(twist: f64, swing: f64, about: f64) -> (V, [f64; 2]) {
     let axis = V::from(AXIS) / V::from(AXIS).norm();
@@ -72,7 +67,7 @@ fn swing_and_twist_are_those_of_the_rotation_and_have_the_gradient_of_their_diff
         let scene = chain(angle);
         let model = model::<3>(&scene);
         let mut terms = model.terms();
-        let (random, n) = (&mut Random(23), mbs_core::Cliques::n_unknowns(&model));
+        let random = &mut Random(23);
         for _ in 0..30 {
             let twist = 3.0 * tau * random.next();
             let swing = 1.3 + 1.1 * random.next();
@@ -86,25 +81,11 @@ fn swing_and_twist_are_those_of_the_rotation_and_have_the_gradient_of_their_diff
             evaluate(&model, &state, &mut terms);
             let found = terms.measures[0].value;
             assert!((found - angles[number]).abs() < 1e-12, "{angle}: {found} {angles:?}");
-            // anywhere near, also where directions are not of unit length
-            for (q, v) in state.q.iter_mut().zip(&mut state.v).take(n) {
-                (*q, *v) = (*q + 0.03 * random.next(), random.next());
-            }
+            scatter(&model, &mut state, 0.03, random);
             evaluate(&model, &state, &mut terms);
             let at = terms.measures[0];
-            // -Q = m grad m of a spring of one
-            let force =
-                residual(&model, &terms, &Load { mass: None, multipliers: None, force: 1.0 });
             let mut rate = 0.0;
-            for (i, force) in force.iter().enumerate() {
-                let mut side = |h: f64| {
-                    let mut moved = state.clone();
-                    moved.q[i] += h;
-                    evaluate(&model, &moved, &mut terms);
-                    terms.measures[0].value
-                };
-                let slope = (side(STEP) - side(-STEP)) / (2.0 * STEP);
-                let gradient = force / at.value;
+            for (i, [gradient, slope]) in gradients(&model, &state, STEP).into_iter().enumerate() {
                 let most = DIFFERENCE * (1.0 + slope.abs());
                 assert!((gradient - slope).abs() < most, "{angle}, {i}: {gradient} {slope}");
                 rate += gradient * state.v[i];

@@ -1,5 +1,6 @@
 //! The tests of this crate, in one program: each program would compile the same solvers anew. `cargo test -p mbs-core start::` runs one module.
 
+mod gradient;
 mod small;
 
 mod balls;

@@ -1,11 +1,12 @@
 //! Effects on sums of joint coordinates and lengths: the sum, its rate and its gradient over several turns.
 
+use crate::gradient::{evaluate, gradients, scatter};
 use mbs_core::algebra::{Vector, rotation};
-use mbs_core::model::{Load, Model, State, Terms};
+use mbs_core::model::{Model, State};
 use mbs_core::natural::NaturalModel;
 use mbs_core::rigid::RigidMotion;
 use mbs_core::scene::Scene;
-use mbs_testkit::{Random, model, residual, scene};
+use mbs_testkit::{Random, model, scene};
 
 type V = Vector<f64, 3>;
 
@@ -69,18 +70,12 @@ fn line(scene: &Scene<f64>, model: &NaturalModel<f64, 3>, state: &State<f64>) ->
     length(p, at(1, &q), at(2, &r)) - length(p, q, r)
 }
 
-fn evaluate(model: &NaturalModel<f64, 3>, state: &State<f64>, terms: &mut Terms<f64>) {
-    model.set_inputs(0.0, state, terms);
-    model.evaluate(&state.q, terms);
-    model.evaluate_forces(&state.q, &state.v, terms);
-}
-
 #[test]
 fn sums_count_turns_and_have_the_gradient_of_their_differences() {
     let scene = chain();
     let model = model::<3>(&scene);
     let mut terms = model.terms();
-    let (random, n) = (&mut Random(17), mbs_core::Cliques::n_unknowns(&model));
+    let random = &mut Random(17);
     for _ in 0..30 {
         let [a, b] = [0; 2].map(|_| 6.0 * core::f64::consts::PI * random.next());
         let mut state = placed(&scene, &model, [a, b, 0.3]);
@@ -89,24 +84,11 @@ fn sums_count_turns_and_have_the_gradient_of_their_differences() {
         let sum: f64 = FACTORS.iter().zip(parts).map(|(c, m)| c * m).sum();
         let found = terms.measures[0].value;
         assert!((found - sum).abs() < 1e-13 * (1.0 + sum.abs()), "{parts:?}: {found} {sum}");
-        // anywhere near, also where directions are not of unit length
-        for (q, v) in state.q.iter_mut().zip(&mut state.v).take(n) {
-            (*q, *v) = (*q + 0.05 * random.next(), random.next());
-        }
+        scatter(&model, &mut state, 0.05, random);
         evaluate(&model, &state, &mut terms);
         let at = terms.measures[0];
-        // -Q = m grad m of a spring of one
-        let force = residual(&model, &terms, &Load { mass: None, multipliers: None, force: 1.0 });
         let mut rate = 0.0;
-        for (i, force) in force.iter().enumerate() {
-            let mut side = |h: f64| {
-                let mut moved = state.clone();
-                moved.q[i] += h;
-                evaluate(&model, &moved, &mut terms);
-                terms.measures[0].value
-            };
-            let slope = (side(STEP) - side(-STEP)) / (2.0 * STEP);
-            let gradient = force / at.value;
+        for (i, [gradient, slope]) in gradients(&model, &state, STEP).into_iter().enumerate() {
             assert!((gradient - slope).abs() < DIFFERENCE, "{a}, {b}, {i}: {gradient} {slope}");
             rate += gradient * state.v[i];
         }

@@ -1,17 +1,10 @@
 //! Effects on swing and twist of ball joints against closed forms, in every formulation.
 
-use crate::common::oracle::{Rows, Way, agree_in_the_limit, energy_balances, rows};
+use crate::common::oracle::{
+    WAYS, Way, agree_in_the_limit, energy_balances, outputs_of, rows, run,
+};
 use mbs_testkit::scene;
 
-/// Every formulation with the trapezoidal rule, and the tree with an explicit one.
-const WAYS: [Way; 6] = [
-    Way("index-3", "trapezoidal"),
-    Way("index-1", "trapezoidal"),
-    Way("classical", "trapezoidal"),
-    Way("state-space", "trapezoidal"),
-    Way("recursive", "trapezoidal"),
-    Way("recursive", "rk853"),
-];
 const GRAVITY: f64 = 9.81;
 /// Inertias of a body about its point on the ball, across its axis and about it [kg m^2].
 const INERTIAS: [f64; 2] = [0.5, 0.06];
@@ -26,19 +19,6 @@ fn body_on_ball(height: f64, rotation: [f64; 3], spin: [f64; 3], rest: &str) -> 
          [[joint]]\nname = \"ball\"\nkind = \"spherical\"\nbodies = [\"ground\", \"b\"]\nat = [0.0, 0.0, 0.0]\n\
          [[initial]]\njoint = \"ball\"\nvalue = {rotation:?}\nrate = {spin:?}\n{rest}"
     )
-}
-
-fn outputs_of(effect: &str) -> String {
-    let one = |quantity: &&str| {
-        format!(
-            "[[output]]\nname = \"{effect}-{quantity}\"\neffect = \"{effect}\"\nquantity = \"{quantity}\"\n"
-        )
-    };
-    ["value", "rate", "force", "energy", "power"].iter().map(one).collect()
-}
-
-fn run(text: &str, way: Way, (step, duration): (f64, f64)) -> Rows {
-    rows(&scene(text), way, (step, duration), 1).unwrap_or_else(|e| panic!("{way:?}: {e}"))
 }
 
 #[test]

@@ -4,8 +4,7 @@ mod closed_forms;
 mod contacts;
 mod refusals;
 
-use crate::common::oracle::{Rows, Way, last, rows};
-use mbs_testkit::scene;
+use crate::common::oracle::{self, Rows, Way, last};
 
 /// The formulations that have rows of velocities, with the trapezoidal rule.
 const WAYS: [&str; 4] = ["index-3", "index-1", "classical", "recursive"];
@@ -13,8 +12,7 @@ const WAYS: [&str; 4] = ["index-3", "index-1", "classical", "recursive"];
 const EXPLICIT: [&str; 2] = ["rk853", "rk4"];
 
 fn run(text: &str, way: Way, step: f64, duration: f64) -> Rows {
-    let rows = rows(&scene(text), way, (step, duration), 1);
-    rows.unwrap_or_else(|e| panic!("{way:?}: {e}"))
+    oracle::run(text, way, (step, duration))
 }
 
 /// The components at the end.

@@ -5,8 +5,7 @@ mod closed_forms;
 mod joints;
 mod states;
 
-use crate::common::oracle::{Rows, Way, rows};
-use mbs_testkit::scene;
+use crate::common::oracle::{self, Rows, Way};
 
 fn head(dimension: usize, gravity: &str) -> String {
     format!(
@@ -33,7 +32,5 @@ fn initial(joint: &str, value: f64, rate: f64) -> String {
 
 /// A run by a formulation with its trapezoidal rule.
 fn run(text: &str, formulation: &'static str, step: f64, duration: f64) -> Rows {
-    let way = Way(formulation, "trapezoidal");
-    let rows = rows(&scene(text), way, (step, duration), 1);
-    rows.unwrap_or_else(|e| panic!("{formulation}: {e}"))
+    oracle::run(text, Way(formulation, "trapezoidal"), (step, duration))
 }

@@ -1,18 +1,9 @@
 //! Elastic ropes over points: against an equation of one's own, slack and taut, and where they lose a part, in every formulation.
 
-use crate::common::oracle::{Rows, Way, agree_in_the_limit, rows};
+use crate::common::oracle::{WAYS, Way, agree_in_the_limit, outputs_of, rows, run};
 use mbs::{Body, Effect, Error, FormulationKind, GROUND, Joint, Mechanism, Method, Run};
 use mbs_testkit::scene;
 
-/// Every formulation with the trapezoidal rule, and the tree with an explicit one.
-const WAYS: [Way; 6] = [
-    Way("index-3", "trapezoidal"),
-    Way("index-1", "trapezoidal"),
-    Way("classical", "trapezoidal"),
-    Way("state-space", "trapezoidal"),
-    Way("recursive", "trapezoidal"),
-    Way("recursive", "rk853"),
-];
 /// Masses on both ends [kg].
 const MASSES: [f64; 2] = [3.0, 2.0];
 /// Stiffness [N/m] and damping [N s/m] of the rope.
@@ -45,19 +36,6 @@ fn line(below: f64) -> String {
          {{ body = \"ground\", at = [1.0, 1.0] }}, {{ body = \"b1\", at = [1.0, {:?}] }}]\n",
         1.0 - below
     )
-}
-
-fn outputs_of(effect: &str) -> String {
-    let one = |quantity: &&str| {
-        format!(
-            "[[output]]\nname = \"{effect}-{quantity}\"\neffect = \"{effect}\"\nquantity = \"{quantity}\"\n"
-        )
-    };
-    ["value", "rate", "force", "energy", "contact"].iter().map(one).collect()
-}
-
-fn run(text: &str, way: Way, (step, duration): (f64, f64)) -> Rows {
-    rows(&scene(text), way, (step, duration), 1).unwrap_or_else(|e| panic!("{way:?}: {e}"))
 }
 
 /// Tension of the rope at a stretch and its rate: the damper fades in over a millimetre.
@@ -99,7 +77,7 @@ fn two_masses_on_an_elastic_rope_fall_slack_and_are_caught() {
         LAW[0],
         LAW[1],
         2.0 + 1.0 + 3.0 + SLACK,
-        outputs_of("e")
+        outputs_of("e").replace("power", "contact")
     );
     let (text, duration) = (atwood(3.0, &rope), 0.6);
     let expected = ode(duration, SLACK);
@@ -141,7 +119,7 @@ fn a_taut_rope_over_two_points_oscillates_about_the_motion_of_a_rigid_one() {
         "[[effect]]\nname = \"e\"\nkind = \"spring-damper\"\n{}stiffness = {:?}\n{}",
         line(3.0),
         LAW[0],
-        outputs_of("e").replace("contact", "power")
+        outputs_of("e")
     );
     let text = atwood(3.0, &rope);
     for way in WAYS {
@@ -270,8 +248,8 @@ fn crane() -> String {
          points = [{ body = \"load\", at = [0.2, 0.1, 0.9] }, { body = \"winch\", at = [-1.0, 0.1, 2.4] }, { body = \"trolley\", at = [0.0, 0.1, 3.1] }]\n"
             .to_owned(),
         "[[initial]]\nbody = \"load\"\nangular_velocity = [0.3, -0.2, 0.4]\n".to_owned(),
-        outputs_of("rope").replace("contact", "power"),
-        outputs_of("stay"),
+        outputs_of("rope"),
+        outputs_of("stay").replace("power", "contact"),
     ]
     .concat()
 }

@@ -1,17 +1,10 @@
 //! Effects on sums of joint coordinates against closed forms, in every formulation.
 
-use crate::common::oracle::{Rows, Way, agree_in_the_limit, energy_balances, rows};
+use crate::common::oracle::{
+    self, Rows, WAYS, Way, agree_in_the_limit, energy_balances, outputs_of,
+};
 use mbs_testkit::scene;
 
-/// Every formulation with the trapezoidal rule, and the tree with an explicit one.
-const WAYS: [Way; 6] = [
-    Way("index-3", "trapezoidal"),
-    Way("index-1", "trapezoidal"),
-    Way("classical", "trapezoidal"),
-    Way("state-space", "trapezoidal"),
-    Way("recursive", "trapezoidal"),
-    Way("recursive", "rk853"),
-];
 /// Inertias of two shafts [kg m^2].
 const INERTIAS: [f64; 2] = [0.3, 0.05];
 
@@ -44,22 +37,8 @@ fn terms(factors: [f64; 2]) -> String {
 }
 
 /// Angles and rates of both shafts, then the other outputs, in each way: all rows.
-fn run(text: &str, (step, duration): (f64, f64)) -> Vec<(Way, Rows)> {
-    let run = |way| {
-        let rows = rows(&scene(text), way, (step, duration), 1);
-        (way, rows.unwrap_or_else(|e| panic!("{way:?}: {e}")))
-    };
-    WAYS.map(run).to_vec()
-}
-
-/// Outputs of the effect: its sum, rate, tension, energy and power.
-fn outputs_of(effect: &str) -> String {
-    let one = |quantity: &&str| {
-        format!(
-            "[[output]]\nname = \"{effect}-{quantity}\"\neffect = \"{effect}\"\nquantity = \"{quantity}\"\n"
-        )
-    };
-    ["value", "rate", "force", "energy", "power"].iter().map(one).collect()
+fn run(text: &str, times: (f64, f64)) -> Vec<(Way, Rows)> {
+    WAYS.map(|way| (way, oracle::run(text, way, times))).to_vec()
 }
 
 /// Error of angles of some radians, at 0.1 ms and 20 rad/s: (w h)^2/12 of the turn, which the trapezoidal rule in natural coordinates has.

@@ -31,6 +31,16 @@ pub(crate) fn methods() -> Vec<Way> {
 pub(crate) const TRAPEZOIDAL: [&str; 5] =
     ["index-3", "index-1", "classical", "state-space", "recursive"];
 
+/// Each of them, and the tree with an explicit method.
+pub(crate) const WAYS: [Way; 6] = [
+    Way("index-3", "trapezoidal"),
+    Way("index-1", "trapezoidal"),
+    Way("classical", "trapezoidal"),
+    Way("state-space", "trapezoidal"),
+    Way("recursive", "trapezoidal"),
+    Way("recursive", "rk853"),
+];
+
 /// Rows of a run: times and components.
 pub(crate) type Rows = Vec<(f64, Vec<f64>)>;
 
@@ -67,6 +77,21 @@ pub(crate) fn rows(
         Some(error) => Err(error),
         None => Ok(outcome.rows().iter().step_by(every).cloned().collect()),
     }
+}
+
+/// The rows of every step of a scene that must run.
+pub(crate) fn run(text: &str, way: Way, times: (f64, f64)) -> Rows {
+    rows(&mbs_testkit::scene(text), way, times, 1).unwrap_or_else(|e| panic!("{way:?}: {e}"))
+}
+
+/// Outputs of an effect: its value, rate, force, energy and power.
+pub(crate) fn outputs_of(effect: &str) -> String {
+    let one = |quantity: &&str| {
+        format!(
+            "[[output]]\nname = \"{effect}-{quantity}\"\neffect = \"{effect}\"\nquantity = \"{quantity}\"\n"
+        )
+    };
+    ["value", "rate", "force", "energy", "power"].iter().map(one).collect()
 }
 
 /// A method's rows at dt/2 with its own error in every component.
