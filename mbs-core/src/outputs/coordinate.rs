@@ -49,10 +49,7 @@ impl<T: Real, const D: usize> Coordinate<T, D> {
         match model.coordinate(joint, scene.dimension, freedom) {
             natural::Coordinate::Angle { x1, x2, y, sign } => Self::Angle { x1, x2, y, sign },
             natural::Coordinate::Slide { x, y } => Self::Slide { x, y },
-            natural::Coordinate::Rotation => {
-                let frames = joint.bodies.map(|body| Frame::new(scene, model, body));
-                Self::Turn { frames: Box::new(frames) }
-            }
+            natural::Coordinate::Rotation => Self::turn(scene, model, joint.bodies),
         }
     }
 
@@ -65,6 +62,11 @@ impl<T: Real, const D: usize> Coordinate<T, D> {
             y: model.direction(second, x),
             sign: T::ONE,
         }
+    }
+
+    /// The rotation vector of the second body against the first, in space.
+    pub(super) fn turn(scene: &Scene<T>, model: &NaturalModel<T, D>, bodies: [BodyId; 2]) -> Self {
+        Self::Turn { frames: Box::new(bodies.map(|body| Frame::new(scene, model, body))) }
     }
 
     /// The rotation of a body in space against the reference configuration.

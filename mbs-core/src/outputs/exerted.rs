@@ -77,12 +77,17 @@ impl<T: Real, const D: usize> EffectWrenches<T, D> {
         loads.find_map(|load| load.scalar(state, &law_inputs)).unwrap_or_default()
     }
 
-    /// Whether a gap of an effect is below zero.
-    pub(super) fn is_in_contact(&self, effect: usize, state: &State<T>) -> bool {
+    /// Is an effect there, and not switched off?
+    pub(super) fn is_there(&self, effect: usize) -> bool {
+        self.effects.contains(&effect)
+    }
+
+    /// How far the gap of an effect that is deepest is below zero; zero where none is.
+    pub(super) fn depth(&self, effect: usize, state: &State<T>) -> T {
         let law_inputs = self.loads.law_inputs();
-        self.loads_of(Some(effect)).any(|load| {
+        self.loads_of(Some(effect)).fold(T::ZERO, |depth, load| {
             let gaps = load.reading(state, &law_inputs).gaps;
-            gaps.iter().take(load.n_gaps()).any(|gap| gap.value < T::ZERO)
+            gaps.iter().take(load.n_gaps()).fold(depth, |depth, gap| depth.max(-gap.value))
         })
     }
 

@@ -62,6 +62,8 @@ pub enum SceneFault {
     NoMeasure,
     /// The effect acts on both sides: it has no contact.
     NoContact,
+    /// The effect has neither a free value nor a gap: it has no deflection.
+    NoDeflection,
     /// The coordinate is not there; the number of coordinates that the joint has.
     UnknownCoordinate(usize),
     /// The coordinate is a component of a rotation, which is no angle of its own.
@@ -222,6 +224,7 @@ impl SceneFault {
                 "ask for `force`, `energy` or `power`, or name an effect along a line or on a joint"
             }
             Self::NoContact => "name a bumper, a limit or a tire",
+            Self::NoDeflection => "name a spring, a bumper, a limit or a tire",
             Self::UnknownCoordinate(_) => "count the joint's coordinates from 0",
             Self::NeedsCoordinate { .. } => "write one of these names",
             Self::BallCoordinate => "name a joint that turns about axes, such as a universal joint",
@@ -314,6 +317,9 @@ impl SceneFault {
                 "is not measured by this effect, which acts on bodies in several directions"
             ),
             Self::NoContact => write!(f, "is not known of this effect, which acts on both sides"),
+            Self::NoDeflection => {
+                write!(f, "is not known of this effect, which has neither a free value nor a gap")
+            }
             Self::UnknownCoordinate(n) => {
                 write!(
                     f,

@@ -3,7 +3,7 @@
 use crate::small::{GROUND, add_body, add_joint, add_rod, guide, hold, output, scene, start};
 use core::f64::consts::PI;
 use mbs_core::algebra::{Vector, norm, rotation};
-use mbs_core::outputs::{Forces, Measures};
+use mbs_core::outputs::{Forces, Measures, RelativePoint};
 use mbs_core::rigid::RigidMotion;
 use mbs_core::scene::{
     AxisFrame, BodyId, Bumper, Bushing, Coupling, CouplingId, CouplingMeasure, CouplingTerm,
@@ -156,6 +156,46 @@ fn a_quaternion_continues_over_two_turns_and_the_angle_of_the_plane_too() {
 }
 
 #[test]
+fn a_rotation_is_a_vector_over_two_turns_and_a_matrix() {
+    let axis = Vector::<f64, 3>::new(2.0, -1.0, 0.5);
+    let axis = axis * (1.0 / norm(&axis));
+    let mut s = scene(Dimension::Spatial, [0.0; 3]);
+    let body = add_body(&mut s, 1.0, [0.0; 3], Inertia::Spatial([1.0, 1.0, 1.0, 0.0, 0.0, 0.0]));
+    output(&mut s, Quantity::RotationVector { body });
+    output(&mut s, Quantity::RotationMatrix { body });
+    let seen =
+        RelativePoint { body, at: [0.3, 0.0, 0.4], relative_to: GROUND, origin: [0.0, 0.0, 0.0] };
+    output(&mut s, Quantity::Distance(seen));
+    let (model, mut state) = start::<3>(&s);
+    let mut measures = Measures::new(&s, &model).expect("channels");
+    let mut out = [0.0; 13];
+    for i in 0..=80 {
+        let angle = f64::from(i) * PI / 20.0;
+        let rotation = rotation(&(axis * angle));
+        let motion = RigidMotion { rotation, ..RigidMotion::at_rest(Vector::zeros()) };
+        model.write_motions(&[motion], &mut state);
+        state.t = f64::from(i);
+        measures.write(&state, None, &mut out).expect("turns are known");
+        let rows: Vec<f64> = (0..9).map(|k| rotation[(k / 3, k % 3)]).collect();
+        let vector = axis * angle;
+        assert_near(&out, &[vector.as_slice(), &rows, &[0.5]].concat());
+    }
+    let mut planar = pendulum(0.4, 1.5);
+    let (sin, cos) = 0.4_f64.sin_cos();
+    let quantities = [Quantity::RotationVector { body }, Quantity::RotationMatrix { body }];
+    assert_near(&measured::<2>(&planar, &quantities), &[0.4, cos, -sin, sin, cos]);
+    // what measures several numbers, or has neither a free value nor a gap
+    let push = Force {
+        body,
+        at: [2.0, 0.0, 0.0],
+        course: Signal::Constant([0.0, 5.0, 0.0]),
+        frame: AxisFrame::Body,
+    };
+    let effect = add_effect(&mut planar, push);
+    assert!(Quantity::EffectDeflection { effect }.components(&planar).is_empty());
+}
+
+#[test]
 fn a_spring_pulls_stores_and_gives_what_its_law_says() {
     let (angle, rate) = (0.4_f64, 1.5);
     let mut s = pendulum(angle, rate);
@@ -180,13 +220,15 @@ fn a_spring_pulls_stores_and_gives_what_its_law_says() {
         Quantity::EffectRate { effect },
         Quantity::EffectEnergy { effect },
         Quantity::EffectPower { effect },
+        Quantity::EffectDeflection { effect },
         Quantity::PotentialEnergy,
     ];
-    let expected = [tension, length, speed, stored, -tension * speed, stored + 3.0 * G * sin];
+    let energy = stored + 3.0 * G * sin;
+    let expected = [tension, length, speed, stored, -tension * speed, length - free, energy];
     assert_near(&measured::<2>(&s, &quantities), &expected);
     // nothing of one that is switched off
     s.effects[0].enabled = false;
-    assert_near(&measured::<2>(&s, &quantities[..5]), &[0.0; 5]);
+    assert_near(&measured::<2>(&s, &quantities[..6]), &[0.0; 6]);
 }
 
 #[test]
@@ -201,13 +243,20 @@ fn stops_are_in_contact_beyond_their_range_alone() {
         let points = [[2.0, -1.0, 0.0], [2.0, 0.0, 0.0]];
         let (bodies, clearance) = ([GROUND, BodyId::Body(0)], 0.1);
         let bumper = add_effect(&mut s, Bumper { bodies, points, stiffness, damping, clearance });
-        let quantities = [effect, bumper].map(|effect| Quantity::EffectContact { effect });
+        let quantities = [
+            Quantity::EffectContact { effect },
+            Quantity::EffectDeflection { effect },
+            Quantity::EffectContact { effect: bumper },
+            Quantity::EffectDeflection { effect: bumper },
+        ];
         let length = ((2.0 * angle.cos() - 2.0).powi(2) + (2.0 * angle.sin() + 1.0).powi(2)).sqrt();
         let touches = f64::from(u8::from(length < 1.0 - clearance));
-        assert_near(&measured::<2>(&s, &quantities), &[expected, touches]);
+        let turned = (angle - upper).max(lower - angle).max(0.0);
+        let pressed = (1.0 - clearance - length).max(0.0);
+        assert_near(&measured::<2>(&s, &quantities), &[expected, turned, touches, pressed]);
         // nothing of one that is switched off
         s.effects[0].enabled = false;
-        assert_near(&measured::<2>(&s, &quantities[..1]), &[0.0]);
+        assert_near(&measured::<2>(&s, &quantities[..2]), &[0.0; 2]);
     }
 }
 
@@ -273,8 +322,12 @@ fn a_driven_coupling_and_a_guide_give_what_the_motion_needs() {
     let mut guided = s.clone();
     guide(&mut guided, 0, Motion::Input(INPUT));
     let joint = JointId::new(0);
-    let effort = [Quantity::JointEffort { joint }, Quantity::JointValue { joint }];
-    assert_near(&measured::<2>(&guided, &effort), &[0.3 * 4.0, 7.0]);
+    let effort = [
+        Quantity::JointEffort { joint },
+        Quantity::JointValue { joint },
+        Quantity::JointPower { joint },
+    ];
+    assert_near(&measured::<2>(&guided, &effort), &[0.3 * 4.0, 7.0, 0.3 * 4.0 * 1.5]);
 
     // 2 angle = the input
     let of = CouplingMeasure::Coordinate { joint, number: 0 };

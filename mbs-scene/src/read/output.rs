@@ -10,6 +10,16 @@ use mbs_core::scene::{CouplingId, EffectId, Number, Output, RollingId, SolverTab
 /// Keys that say what an output is of; one at most.
 const OWNERS: [&str; 6] = ["joint", "body", "coupling", "rolling", "effect", "signal"];
 
+/// What `as` says of an orientation: the word, and the quantity that is meant.
+const FORMS: [(&str, &str); 3] = [
+    ("quaternion", ORIENTATION),
+    ("matrix", "rotation-matrix"),
+    ("rotation-vector", "rotation-vector"),
+];
+
+/// The quantity that `as` belongs to.
+const ORIENTATION: &str = "orientation";
+
 /// Reads an output of a scene with the names of its couplings, rollings and effects.
 pub(crate) fn read(
     fields: &Fields<'_>,
@@ -42,7 +52,15 @@ pub(crate) fn read(
         fields.allow(&keys(&every), &[])?;
         return fields.context.fault(fields.header, ReadFault::Missing { key: OWNER });
     };
-    let word = word.unwrap_or((first.name, fields.header));
+    let mut word = word.unwrap_or((first.name, fields.header));
+    let has_form = word.0 == ORIENTATION && fields.get("as").is_some();
+    if has_form {
+        let form = fields.word("as")?;
+        let Some((_, meant)) = FORMS.iter().find(|(name, _)| *name == form.0) else {
+            return fields.unknown_word("as", form, &FORMS.map(|(name, _)| name));
+        };
+        word.0 = meant;
+    }
     let unknown = || {
         let known: Vec<_> = rows.iter().map(|row| row.name).collect();
         fields.unknown_word("quantity", word, &known)
@@ -51,7 +69,8 @@ pub(crate) fn read(
     let Some(kind) = rows.iter().find(|row| row.has_name(word.0)).map(|row| row.target) else {
         return unknown();
     };
-    fields.allow(&keys(kind.keys()), &keys(&every))?;
+    let form: &[&str] = if has_form { &["as"] } else { &[] };
+    fields.allow(&[&keys(kind.keys())[..], form].concat(), &keys(&every))?;
     let target = target(fields, kind, (centers, names))?;
     let Some(quantity) = Quantity::of(word.0, target) else { return unknown() };
     Ok(Output { name: fields.name()?, quantity })

@@ -31,6 +31,10 @@ pub enum ComponentForm {
     Measured(&'static str),
     /// One number of an effect that acts on one side only; nothing of others.
     Contact,
+    /// One number of an effect that has a free value or acts on one side only, with its unit; nothing of others.
+    Deflection,
+    /// `xx`, `xy` and so on, row by row.
+    Matrix,
     /// The force on what is measured; of an effect that measures several numbers, its wrench.
     Force,
     /// `w`, `x`, `y`, `z` of a quaternion; in the plane an angle.
@@ -68,6 +72,11 @@ impl ComponentForm {
             Self::Efforts => coordinates(&|unit| effort(unit).into()),
             Self::Number(unit) => [one("", unit)].into(),
             Self::Contact => [one("", "-")].into(),
+            Self::Deflection => measured.map(|unit| one("", unit)).into_iter().collect(),
+            Self::Matrix => {
+                let row = |x| axes.iter().map(move |y| one(&format!("{x}{y}"), "-"));
+                axes.iter().flat_map(row).collect()
+            }
             Self::Measured(per) => {
                 measured.map(|unit| one("", &format!("{unit}{per}"))).into_iter().collect()
             }

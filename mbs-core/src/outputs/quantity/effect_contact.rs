@@ -21,7 +21,7 @@ impl<T: Real, const D: usize> Measured<T, D> for EffectContact<T, D> {
     }
 
     fn write(&self, now: &Instant<'_, T, D>, out: &mut [T]) {
-        let is_in_contact = now.effects.is_some_and(|all| all.is_in_contact(self.0, now.state));
-        out[0] = if is_in_contact { T::ONE } else { T::ZERO };
+        let depth = now.effects.map_or(T::ZERO, |all| all.depth(self.0, now.state));
+        out[0] = if depth > T::ZERO { T::ONE } else { T::ZERO };
     }
 }

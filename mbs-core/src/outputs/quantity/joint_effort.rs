@@ -16,6 +16,13 @@ pub(super) const ROW: QuantityRow =
 #[derive(Debug, Clone)]
 pub(in crate::outputs) struct JointEffort<T: Real, const D: usize>(usize, Vec<Coordinate<T, D>>);
 
+impl<T: Real, const D: usize> JointEffort<T, D> {
+    /// The coordinates of the joint.
+    pub(super) fn coordinates(&self) -> &[Coordinate<T, D>] {
+        &self.1
+    }
+}
+
 impl<T: Real, const D: usize> Measured<T, D> for JointEffort<T, D> {
     type Of = JointId;
 

@@ -22,6 +22,8 @@ macro_rules! list {
                 RelativeVelocity in relative_velocity;
                 /// Acceleration of a point of a body against another body that moves and turns, in that body's axes [m/s^2].
                 RelativeAcceleration in relative_acceleration;
+                /// Distance of a point of a body from the origin of another body [m].
+                Distance in distance;
             }
             turning {
                 /// Angular velocity of a body against another body, in that body's axes [rad/s]; in the plane one number.
@@ -35,6 +37,11 @@ macro_rules! list {
                 /// Orientation of a body against the reference configuration: in the plane its angle, turns counted [rad]; in space a unit quaternion,
                 /// its scalar part first, whose sign follows from step to step.
                 Orientation in orientation;
+                /// Rotation of a body against the reference configuration as a vector along its axis [rad], which grows continuously; in the plane the
+                /// angle.
+                RotationVector in rotation_vector;
+                /// Rotation of a body against the reference configuration as a matrix, row by row: its columns are the body's axes.
+                RotationMatrix in rotation_matrix;
                 /// Kinetic energy of a body [J].
                 BodyKineticEnergy in body_kinetic_energy;
             }
@@ -47,6 +54,8 @@ macro_rules! list {
                 JointAcceleration in joint_acceleration;
                 /// What a guide puts on the coordinate of a joint [N m or N], of the first body on the second; zero without a guide.
                 JointEffort in joint_effort;
+                /// Power that a guide gives through a joint [W]; zero without a guide.
+                JointPower in joint_power;
                 /// What a joint's first body does to the second at the joint's place [N, N m]: planar [Fx, Fy, Mz], spatial [Fx, Fy, Fz, Mx, My, Mz].
                 Reaction in reaction;
             }
@@ -73,6 +82,8 @@ macro_rules! list {
                 EffectValue in effect_value;
                 /// The rate of the length or coordinate of an effect [m/s or rad/s].
                 EffectRate in effect_rate;
+                /// How far an effect with a free length or value is from it, and how deep a bumper, a limit or a tire is in contact [m or rad].
+                EffectDeflection in effect_deflection;
                 /// Energy stored in an effect [J]; of a constant force, minus its product with the position of its point; of a rotor its kinetic energy.
                 EffectEnergy in effect_energy;
                 /// Power that an effect gives to bodies [W]; negative where it takes.

@@ -1,6 +1,7 @@
 //! Outputs by what they measure, and the components of a quantity.
 
 use super::components::{Component, ComponentForm};
+use super::effect_deflection::has_free_value;
 use super::{Quantity, RelativePoint, Target};
 use crate::effects::{ActsOn, Value};
 use crate::scene::{
@@ -21,7 +22,11 @@ impl<T: Clone> Quantity<T> {
         let form = self.row().components;
         let (freedoms, measured) = match self.target() {
             Target::Joint(joint) => {
-                (scene.joints[joint.index()].kind.freedoms(scene.dimension), None)
+                let freedoms = scene.joints[joint.index()].kind.freedoms(scene.dimension);
+                if freedoms.is_empty() && matches!(form, ComponentForm::Number(_)) {
+                    return Vec::new();
+                }
+                (freedoms, None)
             }
             Target::Coupling(coupling) => {
                 let terms = &scene.couplings[coupling.index()].terms;
@@ -32,6 +37,9 @@ impl<T: Clone> Quantity<T> {
                     return Vec::new();
                 }
                 (&[][..], None)
+            }
+            Target::Effect(effect) if form == ComponentForm::Deflection => {
+                (&[][..], unit_of_deflection(scene, effect))
             }
             Target::Effect(effect) => (&[][..], unit_of_measure(scene, effect)),
             Target::Signal(signal) => (&[][..], Some(unit_of_signal(scene, signal))),
@@ -83,6 +91,14 @@ fn unit_of_signal<T>(scene: &Scene<T>, mut signal: SignalId) -> &str {
         }
     }
     "-"
+}
+
+/// The unit of what an effect is from its free value, or of how deep it is in contact; `None` of one that has neither.
+fn unit_of_deflection<T: Clone>(scene: &Scene<T>, effect: EffectId) -> Option<&'static str> {
+    let kind = &scene.effects[effect.index()].kind;
+    let has_one = has_free_value(kind) || kind.is_one_sided();
+    // a tire is in contact by a length
+    has_one.then(|| unit_of_measure(scene, effect).unwrap_or("m"))
 }
 
 /// The unit of the one number that an effect measures; `None` where it measures several.

@@ -8,7 +8,7 @@ use super::super::frame::Frame;
 use super::RelativePoint;
 use super::kind::Maker;
 use crate::Real;
-use crate::algebra::{Vector, cross, raised};
+use crate::algebra::{Vector, cross, norm, raised};
 use crate::model::State;
 use crate::natural::Affine;
 
@@ -34,6 +34,11 @@ impl<T: Real, const D: usize> SeenPoint<T, D> {
         let r = raised(&self.gap.value(&state.q));
         let spin = self.frame.turning(&state.q, &state.v);
         [r, raised(&self.gap.rate(&state.v)) - cross(&spin, &r)]
+    }
+
+    /// Its distance from the origin.
+    pub(super) fn distance(&self, state: &State<T>) -> T {
+        norm(&self.gap.value(&state.q))
     }
 
     /// Its position, in the body's axes.

@@ -40,8 +40,11 @@ pub(super) fn check<T: Real>(
         Target::Effect(effect) => match scene.effects.get(effect.index()) {
             None => place.fault("effect", SceneFault::UnknownReference),
             Some(_) if quantity.components(scene).is_empty() => {
-                let is_contact = matches!(quantity, Quantity::EffectContact { .. });
-                let fault = if is_contact { SceneFault::NoContact } else { SceneFault::NoMeasure };
+                let fault = match quantity {
+                    Quantity::EffectContact { .. } => SceneFault::NoContact,
+                    Quantity::EffectDeflection { .. } => SceneFault::NoDeflection,
+                    _ => SceneFault::NoMeasure,
+                };
                 place.fault("quantity", fault)
             }
             Some(_) => Ok(()),

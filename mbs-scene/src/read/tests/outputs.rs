@@ -92,7 +92,7 @@ fn outputs_may_be_seen_from_another_body() {
         &e,
         &format!("{}:12", line + 2),
         "unknown quantity `orientation`",
-        "choices: position, velocity, acceleration, angular-velocity",
+        "choices: position, velocity, acceleration, distance, angular-velocity",
     );
     let e = refusal("body = \"lower\"\nat = [2, 0]\norigin = [1, 0]");
     refused(&e, &format!("{}:1", line + 2), "`origin` has no meaning here", "keys");
@@ -113,7 +113,12 @@ fn components_have_the_units_of_what_they_are_of() {
     assert_eq!(units("effect = \"mount\""), ["Fx N", "Fy N", "Mz N m"]);
     assert_eq!(units("joint = \"elbow\"\nquantity = \"effort\""), [" N m"]);
     assert_eq!(units("quantity = \"momentum\""), ["x kg m/s", "y kg m/s"]);
-    assert_eq!(units("body = \"lower\"\nquantity = \"orientation\""), [" rad"]);
+    let orientation = "body = \"lower\"\nquantity = \"orientation\"";
+    assert_eq!(units(orientation), [" rad"]);
+    assert_eq!(units(&format!("{orientation}\nas = \"matrix\"")), ["xx -", "xy -", "yx -", "yy -"]);
+    assert_eq!(units(&format!("{orientation}\nas = \"rotation-vector\"")), [" rad"]);
+    assert_eq!(units("effect = \"strut\"\nquantity = \"deflection\""), [" m"]);
+    assert_eq!(units("joint = \"elbow\"\nquantity = \"power\""), [" W"]);
 }
 
 #[test]
@@ -136,6 +141,14 @@ fn outputs_of_unknown_parts_are_refused_at_the_name() {
     let e = refusal("effect = \"strut\"\nquantity = \"contact\"");
     let message = "`quantity` is not known of this effect, which acts on both sides";
     refused(&e, &format!("{}:12", line + 1), message, "a bumper, a limit or a tire");
+    let e = refusal("effect = \"mount\"\nquantity = \"deflection\"");
+    let message =
+        "`quantity` is not known of this effect, which has neither a free value nor a gap";
+    refused(&e, &format!("{}:12", line + 1), message, "a spring, a bumper, a limit or a tire");
+    let e = refusal("body = \"lower\"\nquantity = \"orientation\"\nas = \"matrx\"");
+    refused(&e, &format!("{}:6", line + 2), "unknown as `matrx`", "`matrix`");
+    let e = refusal("body = \"lower\"\nquantity = \"kinetic-energy\"\nas = \"matrix\"");
+    refused(&e, &format!("{}:1", line + 2), "unknown key `as`", "keys");
     let e = refusal("quantity = \"position\"");
     refused(
         &e,

@@ -1,0 +1,29 @@
+//! Rotation matrix of a body.
+
+use super::super::frame::Frame;
+use super::kind::{Instant, Maker, Measured};
+use super::{ComponentForm, QuantityRow, TargetKind};
+use crate::Real;
+use crate::scene::BodyId;
+
+pub(super) const ROW: QuantityRow =
+    QuantityRow::new("rotation-matrix", TargetKind::Body, ComponentForm::Matrix);
+
+/// The body.
+#[derive(Debug, Clone)]
+pub(in crate::outputs) struct RotationMatrix<T: Real, const D: usize>(Frame<T, D>);
+
+impl<T: Real, const D: usize> Measured<T, D> for RotationMatrix<T, D> {
+    type Of = BodyId;
+
+    fn new(of: BodyId, from: &mut Maker<'_, T, D>) -> Self {
+        Self(Frame::new(from.scene, from.model, of))
+    }
+
+    fn write(&self, now: &Instant<'_, T, D>, out: &mut [T]) {
+        let r = self.0.rotation(&now.state.q);
+        for (i, out) in out.iter_mut().enumerate() {
+            *out = r[(i / D, i % D)];
+        }
+    }
+}
