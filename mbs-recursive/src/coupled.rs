@@ -49,6 +49,14 @@ pub struct SumTerm<T> {
     pub of: SumMeasure<T>,
 }
 
+impl<T: Real> SumTerm<T> {
+    /// Its growth by its coordinate; that of a curve was noted when the term, number `i` of all, was evaluated.
+    #[inline(always)]
+    fn slope(&self, i: usize, slopes: &[T]) -> Result<T, Outside> {
+        if self.curve == NONE { Ok(self.factor) } else { at(slopes, i).copied() }
+    }
+}
+
 /// A number that a coupling measures.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum SumMeasure<T> {
@@ -152,6 +160,20 @@ pub(crate) struct CoupledValue<T> {
     pub(crate) row: [T; 3],
     /// The sizes of the parts of Φ and of Φ̇.
     pub(crate) parts: [T; 2],
+}
+
+impl<T: Real> CoupledValue<T> {
+    /// Of no term.
+    const fn zero() -> Self {
+        Self { row: [T::ZERO; 3], parts: [T::ZERO; 2] }
+    }
+
+    /// Adds what a term or a guide gives, and the size of what its rate is made of.
+    #[inline(always)]
+    fn add(&mut self, x: [T; 3], speed: T) {
+        self.row.iter_mut().zip(x).for_each(|(sum, x)| *sum += x);
+        self.parts = [self.parts[0] + x[0].abs(), self.parts[1] + speed.abs()];
+    }
 }
 
 impl<T: Real, S: Space<T>> Couplings<'_, T, S> {
@@ -273,18 +295,55 @@ impl<T: Real, S: Space<T>> Couplings<'_, T, S> {
     }
 
     /// Evaluates row `k` of a coupling; its gradients are written where they are wanted, of `n_rows` rows.
+    #[inline(always)]
     pub(crate) fn evaluate(
+        &self,
+        place: (&CoupledRow<T>, usize, usize),
+        here: Here<'_, T, S>,
+        out: Option<Gradients<'_, T, S>>,
+    ) -> Result<CoupledValue<T>, Outside> {
+        let row = place.0;
+        let mut sum = match self.of_joints(row, here)? {
+            Some(sum) => sum,
+            None => self.of_terms(place, here, out)?,
+        };
+        sum.add([-row.value, T::ZERO, T::ZERO], T::ZERO);
+        if row.guide != NONE {
+            let (_, _, (_, _, guides)) = here;
+            let guided = at(guides, row.guide as usize)?.map(|s| -s * row.inverse);
+            sum.add(guided, guided[1]);
+        }
+        Ok(sum)
+    }
+
+    /// The terms of a row, where they are coordinates without curves; `None`: others are among them. Such a row has no gradients that change.
+    #[inline(always)]
+    fn of_joints(
+        &self,
+        row: &CoupledRow<T>,
+        (links, _, coordinates): Here<'_, T, S>,
+    ) -> Result<Option<CoupledValue<T>>, Outside> {
+        let mut sum = CoupledValue::zero();
+        for term in range(self.terms, row.terms.range())? {
+            let (SumMeasure::Joint { link, .. }, NONE) = (term.of, term.curve) else {
+                return Ok(None);
+            };
+            let numbers = at(links, link as usize)?.coordinate(coordinates)?;
+            let x = numbers.map(|x| term.factor * x);
+            sum.add(x, x[1]);
+        }
+        Ok(Some(sum))
+    }
+
+    /// The terms of any row.
+    #[inline(never)]
+    fn of_terms(
         &self,
         (row, k, n_rows): (&CoupledRow<T>, usize, usize),
         here: Here<'_, T, S>,
         mut out: Option<Gradients<'_, T, S>>,
     ) -> Result<CoupledValue<T>, Outside> {
-        let mut sum = [T::ZERO; 3];
-        let mut parts = [T::ZERO; 2];
-        let mut add = |x: [T; 3], sizes: [T; 2]| {
-            sum.iter_mut().zip(x).for_each(|(sum, x)| *sum += x);
-            parts.iter_mut().zip(sizes).for_each(|(parts, x)| *parts += x.abs());
-        };
+        let mut sum = CoupledValue::zero();
         if let Some((gradient, _)) = &mut out {
             gradient.iter_mut().skip(k).step_by(n_rows.max(1)).for_each(|k| *k = S::Motion::zero());
         }
@@ -293,7 +352,7 @@ impl<T: Real, S: Space<T>> Couplings<'_, T, S> {
             let [f, slope, bend] = self.function(term.curve, m)?;
             let (value, slope) = (term.factor * f, term.factor * slope);
             let bias = slope * known + term.factor * bend * rate * rate;
-            add([value, slope * rate, bias], [value, slope * speed]);
+            sum.add([value, slope * rate, bias], slope * speed);
             let Some((gradient, slopes)) = &mut out else { continue };
             if term.curve != NONE {
                 *at_mut(slopes, i)? = slope;
@@ -307,13 +366,7 @@ impl<T: Real, S: Space<T>> Couplings<'_, T, S> {
                 Ok(())
             })?;
         }
-        add([-row.value, T::ZERO, T::ZERO], [row.value, T::ZERO]);
-        if row.guide != NONE {
-            let (_, _, (_, _, guides)) = here;
-            let [s, rate, second] = at(guides, row.guide as usize)?.map(|s| -s * row.inverse);
-            add([s, rate, second], [s, rate]);
-        }
-        Ok(CoupledValue { row: sum, parts })
+        Ok(sum)
     }
 
     /// Hands out the ends that a row has, without guides: at joints with their slopes, and at links with wrenches.
@@ -363,16 +416,14 @@ impl<T: Real, S: Space<T>> Couplings<'_, T, S> {
         slopes: &'s [T],
     ) -> Result<impl Iterator<Item = (u32, u32, T)> + 's, Outside> {
         let terms = row.terms.range().zip(range(self.terms, row.terms.range())?);
-        Ok(terms.filter_map(|(i, term)| match term.of {
-            SumMeasure::Joint { link, side } if term.curve == NONE => {
-                Some((link, side, term.factor))
-            }
-            SumMeasure::Joint { link, side } => Some((link, side, *slopes.get(i)?)),
-            SumMeasure::Line { .. } | SumMeasure::Swing { .. } | SumMeasure::Twist { .. } => None,
+        Ok(terms.filter_map(|(i, term)| {
+            let SumMeasure::Joint { link, side } = term.of else { return None };
+            Some((link, side, term.slope(i, slopes).ok()?))
         }))
     }
 
     /// Σ K a + Σ g x of row `k` for motions `a` of the links and `x` of the freedoms, and the size of its parts.
+    #[inline(always)]
     pub(crate) fn along(
         &self,
         (row, k, n_rows): (&CoupledRow<T>, usize, usize),
@@ -386,7 +437,9 @@ impl<T: Real, S: Space<T>> Couplings<'_, T, S> {
             let a = at(a, start.link as usize)?;
             sum = [sum[0] + k.dot(a), sum[1] + k.parts(a)];
         }
-        for (link, _, slope) in self.joints_of(row, slopes)? {
+        for (i, term) in row.terms.range().zip(range(self.terms, row.terms.range())?) {
+            let SumMeasure::Joint { link, .. } = term.of else { continue };
+            let slope = term.slope(i, slopes)?;
             let link = at(links, link as usize)?;
             if !link.kind.is_guided() {
                 let x = slope * *at(x, link.v as usize)?;
@@ -396,16 +449,22 @@ impl<T: Real, S: Space<T>> Couplings<'_, T, S> {
         Ok(sum)
     }
 
-    /// g of the joint of link `i` where a row passes it by this side.
+    /// g of the joint of link `i` where a row passes it by this side; zero where it has none.
+    #[inline(always)]
     pub(crate) fn slope(
         &self,
         row: &CoupledRow<T>,
         (i, by): (usize, u32),
         slopes: &[T],
-    ) -> Result<Option<T>, Outside> {
-        let here = self.joints_of(row, slopes)?;
-        let here = here.filter(|&(link, side, _)| (link as usize, side) == (i, by));
-        Ok(here.map(|(_, _, slope)| slope).reduce(|sum, slope| sum + slope))
+    ) -> Result<T, Outside> {
+        let mut sum = T::ZERO;
+        for (number, term) in row.terms.range().zip(range(self.terms, row.terms.range())?) {
+            let SumMeasure::Joint { link, side } = term.of else { continue };
+            if link as usize == i && side == by {
+                sum += term.slope(number, slopes)?;
+            }
+        }
+        Ok(sum)
     }
 }
 

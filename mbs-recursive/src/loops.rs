@@ -11,7 +11,8 @@
 //! K b D⁻¹ is kept for each joint on the way (`gains`). Λ is regularised by ε times its rows' own scale. C is kept with the inverses
 //! of its diagonal.
 //!
-//! Most loops have as many rows as a point has coordinates, and most joints one freedom: `sized` gives these the passes that know it.
+//! Most loops have as many rows as a point has coordinates, couplings have one, and most joints have one freedom: `sized` gives these the
+//! passes that know it.
 
 /// Runs a function of sizes, the common ones as constants.
 ///
@@ -25,11 +26,22 @@ macro_rules! sized {
             $function(sizes, $($argument),*)
         }
     }};
+    ($sizes:expr, often $common:expr, of couplings $single:expr, $function:ident($($argument:expr),*)) => {{
+        let sizes = $sizes;
+        if sizes == $common {
+            $function($common, $($argument),*)
+        } else if crate::coupled::IS_BUILT && sizes == $single {
+            $function($single, $($argument),*)
+        } else {
+            $function(sizes, $($argument),*)
+        }
+    }};
 }
 
 mod carry;
 mod eliminate;
 mod release;
+mod single;
 
 pub(crate) use carry::{held, pass, pass_again};
 pub(crate) use eliminate::{close, close_again};

@@ -1,7 +1,8 @@
 //! Rows carried over a joint: inward with their gains, and what they hold back there, outward.
 
-use super::{LoopStore, Loops, inner};
+use super::{LoopStore, Loops, inner, single};
 use crate::closed_loop::ClosedLoop;
+use crate::coupled;
 use crate::indexing::{Outside, at, at_mut, part, part_mut, range};
 use crate::joint;
 use crate::link::{ArticulatedInertia, LinkKind, LinkMotion};
@@ -27,10 +28,11 @@ pub(crate) fn pass<T: Real, S: Space<T>>(
         let lap = at(m.loops, pass.lap as usize)?;
         if (lap.n as usize, freedoms) == (S::Point::N, 1) {
             carry((S::Point::N, 1), n_rows, (lap, pass), joint, st)?;
-        } else if m.has_coupled()
-            && let Some(slope) = slope(m, (i, lap, pass), st)?
+        } else if coupled::IS_BUILT
+            && freedoms == 1
+            && let Row::Coupled(row) = at(m.rows, lap.first as usize)?
         {
-            carry_coupled((n_rows, slope), (lap, pass), joint, st)?;
+            single::carry((m, row), (i, lap, pass), (joint.1, joint.2), st)?;
         } else {
             carry((lap.n as usize, freedoms), n_rows, (lap, pass), joint, st)?;
         }
@@ -40,6 +42,10 @@ pub(crate) fn pass<T: Real, S: Space<T>>(
         let y = at(m.plan.passes, pair.column as usize)?;
         let rows = at(m.loops, x.lap as usize)?.n as usize;
         let columns = at(m.loops, y.lap as usize)?.n as usize;
+        if coupled::IS_BUILT && (rows, columns, freedoms) == (1, 1, 1) {
+            single::meet_at_joint([x, y], pair, st)?;
+            continue;
+        }
         sized!(
             (rows, columns, freedoms),
             often(S::Point::N, S::Point::N, 1),
@@ -75,37 +81,6 @@ fn carry<T: Real, S: Space<T>>(
     Ok(())
 }
 
-/// g of a coupling at the joint of link `i`, if it has one there.
-#[inline(never)]
-fn slope<T: Real, S: Space<T>>(
-    m: &Loops<'_, T, S>,
-    (i, lap, pass): (usize, &ClosedLoop<T, S>, &Pass),
-    st: &LoopStore<'_, T, S>,
-) -> Result<Option<T>, Outside> {
-    let Row::Coupled(row) = at(m.rows, lap.first as usize)? else { return Ok(None) };
-    m.couplings.slope(row, (i, pass.side), st.slopes)
-}
-
-/// Carries the row of a coupling over a joint of one freedom whose coordinate it has: K b + g in place of K b.
-#[inline(never)]
-fn carry_coupled<T: Real, S: Space<T>>(
-    (n_rows, slope): (usize, T),
-    (lap, pass): (&ClosedLoop<T, S>, &Pass),
-    (_, p, c): Joint<'_, T, S>,
-    st: &mut LoopStore<'_, T, S>,
-) -> Result<(), Outside> {
-    let (first, gain) = (lap.first as usize, pass.gain as usize);
-    let k = at_mut(st.k, pass.side as usize * n_rows + first)?;
-    let head = p.freedom.dot(k) + slope;
-    let own = c.inverse * head;
-    (*at_mut(st.heads, gain)?, *at_mut(st.gains, gain)?) = (head, own);
-    let passed = *k - c.column * own;
-    *at_mut(st.l, first)? += passed.dot(&p.bias) + own * c.drive[0];
-    *k = S::gathered(&passed, &p.arm);
-    *at_mut(st.scales, first)? += head * own;
-    Ok(())
-}
-
 /// Adds the mobility that a joint gives the rows of two passes.
 #[inline(always)]
 fn meet<T: Real, S: Space<T>>(
@@ -137,7 +112,7 @@ pub(crate) fn pass_again<T: Real, S: Space<T>>(
     let freedoms = kind.n_freedoms::<T, S>();
     for pass in range(m.plan.passes, at(m.plan.stations, i)?.passes.range())? {
         let lap = at(m.loops, pass.lap as usize)?;
-        sized!((lap.n as usize, freedoms), often(S::Point::N, 1), carry_again((lap, pass), c, st))?;
+        sized!((lap.n as usize, freedoms), often (S::Point::N, 1), of couplings (1, 1), carry_again((lap, pass), c, st))?;
     }
     Ok(())
 }
@@ -168,9 +143,13 @@ pub(crate) fn held<T: Real, S: Space<T>>(
     let mut held = S::Motion::zero();
     for pass in range(m.plan.passes, at(m.plan.stations, i)?.passes.range())? {
         let lap = at(m.loops, pass.lap as usize)?;
+        if coupled::IS_BUILT && (lap.n, freedoms) == (1, 1) {
+            single::hold((lap, pass), st, &mut held)?;
+            continue;
+        }
         sized!(
             (lap.n as usize, freedoms),
-            often(S::Point::N, 1),
+            often (S::Point::N, 1), of couplings (1, 1),
             hold((lap, pass), st, &mut held)
         )?;
     }

@@ -1,7 +1,8 @@
 //! Loops eliminated at the link where their two sides meet.
 
-use super::{LoopStore, Loops, RankLost, Regularisation, index, inner};
+use super::{LoopStore, Loops, RankLost, Regularisation, index, inner, single};
 use crate::closed_loop::ClosedLoop;
+use crate::coupled;
 use crate::fault::Fault;
 use crate::indexing::{Outside, apart, at, at_mut, part, part_mut, range};
 use crate::link::ArticulatedInertia;
@@ -45,13 +46,13 @@ fn close_some<T: Real, S: Space<T>>(
     }
     for end in ends {
         let lap = at(m.loops, end.lap as usize)?;
-        sized!(lap.n as usize, often S::Point::N, meet(m.rows.len(), lap, ground, st))?;
+        sized!(lap.n as usize, often S::Point::N, of couplings 1, meet(m.rows.len(), lap, ground, st))?;
     }
     for end in ends {
         let lap = at(m.loops, end.lap as usize)?;
         let body = if i == 0 { None } else { Some(&mut *c) };
-        sized!(lap.n as usize, often S::Point::N, regularise(m, lap, regularisation, st))?;
-        sized!(lap.n as usize, often S::Point::N, eliminate(lap, body, st))?;
+        sized!(lap.n as usize, often S::Point::N, of couplings 1, regularise(m, lap, regularisation, st))?;
+        sized!(lap.n as usize, often S::Point::N, of couplings 1, eliminate(lap, body, st))?;
         couple_all(m, end, i > 0, st)?;
     }
     Ok(())
@@ -66,6 +67,9 @@ fn join<T: Real, S: Space<T>>(
 ) -> Result<(), Outside> {
     let n_rows = m.rows.len();
     let (before, further) = st.k.split_at_mut_checked(2 * n_rows).ok_or(Outside)?;
+    if further.is_empty() {
+        return Ok(());
+    }
     let seconds = before.get_mut(n_rows..).ok_or(Outside)?;
     for end in ends {
         for k in at(m.loops, end.lap as usize)?.range() {
@@ -207,6 +211,10 @@ fn couple_all<T: Real, S: Space<T>>(
     for coupling in range(m.plan.couplings, end.couplings.range())? {
         let later = at(m.loops, coupling.lap as usize)?;
         let sizes = (later.n as usize, n);
+        if coupled::IS_BUILT && sizes == (1, 1) {
+            single::couple((m.rows.len(), has_body), [lap, later], coupling, st)?;
+            continue;
+        }
         sized!(
             sizes,
             often(S::Point::N, S::Point::N),
@@ -218,6 +226,10 @@ fn couple_all<T: Real, S: Space<T>>(
         let y = at(m.plan.couplings, update.column as usize)?;
         let rows = at(m.loops, x.lap as usize)?.n as usize;
         let columns = at(m.loops, y.lap as usize)?.n as usize;
+        if coupled::IS_BUILT && (rows, columns, n) == (1, 1, 1) {
+            single::take([x, y], update, st)?;
+            continue;
+        }
         sized!(
             (rows, columns, n),
             often(S::Point::N, S::Point::N, S::Point::N),
@@ -298,13 +310,13 @@ fn close_some_again<T: Real, S: Space<T>>(
     for end in ends {
         let lap = at(m.loops, end.lap as usize)?;
         let body = if i == 0 { None } else { Some(&mut *c) };
-        sized!(lap.n as usize, often S::Point::N, eliminate_again(lap, body, st))?;
+        sized!(lap.n as usize, often S::Point::N, of couplings 1, eliminate_again(lap, body, st))?;
         for coupling in range(m.plan.couplings, end.couplings.range())? {
             let later = at(m.loops, coupling.lap as usize)?;
             let sizes = (later.n as usize, lap.n as usize);
             sized!(
                 sizes,
-                often(S::Point::N, S::Point::N),
+                often (S::Point::N, S::Point::N), of couplings (1, 1),
                 couple_again([lap, later], coupling, st)
             )?;
         }

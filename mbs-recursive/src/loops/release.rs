@@ -29,13 +29,13 @@ fn open_some<T: Real, S: Space<T>>(
 ) -> Result<(), Outside> {
     for end in ends.iter().rev() {
         let lap = at(m.loops, end.lap as usize)?;
-        sized!(lap.n as usize, often S::Point::N, begin(lap, a, st))?;
+        sized!(lap.n as usize, often S::Point::N, of couplings 1, begin(lap, a, st))?;
         for coupling in range(m.plan.couplings, end.couplings.range())? {
             let later = at(m.loops, coupling.lap as usize)?;
             let sizes = (later.n as usize, lap.n as usize);
-            sized!(sizes, often(S::Point::N, S::Point::N), take([lap, later], coupling, st))?;
+            sized!(sizes, often (S::Point::N, S::Point::N), of couplings (1, 1), take([lap, later], coupling, st))?;
         }
-        sized!(lap.n as usize, often S::Point::N, solve_back(lap, st))?;
+        sized!(lap.n as usize, often S::Point::N, of couplings 1, solve_back(lap, st))?;
     }
     Ok(())
 }
