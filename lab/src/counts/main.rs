@@ -1,9 +1,11 @@
 //! Steps of small scenes, for a counter of instructions: `cargo xtask counts` runs this under callgrind.
 //!
-//! Arguments: the number of steps, then effects. Each is left out, switched off and switched on; a guide is only there.
+//! Arguments: the number of steps, then effects. Each is left out, switched off and switched on; a guide is only there. `train-N` is a
+//! train of N wheels without and with its gears, by steps of a Runge-Kutta method in the recursion.
 
 mod effects;
 mod scenes;
+mod trains;
 
 use mbs_augmented::{Options, Workspace, index3};
 use mbs_core::dense::Dense;
@@ -24,6 +26,15 @@ fn main() -> ExitCode {
     let mut args = std::env::args().skip(1);
     let steps = args.next().and_then(|n| n.parse().ok()).unwrap_or(1);
     for effect in args {
+        if let Some(n) = effect.strip_prefix("train-").and_then(|n| n.parse().ok()) {
+            for has_gears in [false, true] {
+                if let Err(error) = train(n, has_gears, steps) {
+                    eprintln!("{effect}: {error}");
+                    return ExitCode::FAILURE;
+                }
+            }
+            continue;
+        }
         let switches: &[&str] = if effect == "guide" { &["on"] } else { &["out", "off", "on"] };
         for switch in switches {
             if let Err(error) = run(&effect, switch, steps) {
@@ -93,6 +104,22 @@ fn recursive<const D: usize, S: Space<f64>>(
     let options = mbs_recursive::Options::default();
     count(&format!("recursive {name}"), steps, || {
         mbs_recursive::step(&tree, STEP, &options, &mut state, &mut workspace)
+    })
+}
+
+/// Counts a train of wheels without gears or with them.
+fn train(n: usize, has_gears: bool, steps: usize) -> Result<(), Box<dyn Error>> {
+    let scene = trains::train(n, has_gears);
+    scene.check()?;
+    let model = NaturalModel::<f64, 2>::new(&scene)?;
+    let natural = assemble(&scene, &model, |p| Dense::new(p), &mut Dense::new(&model))?.state;
+    let tree = TreeModel::<f64, Planar>::new(&scene)?;
+    let mut workspace = mbs_recursive::Workspace::new(&tree);
+    let mut state = tree.start(&scene, &model, &natural)?;
+    let options = mbs_recursive::Options::default();
+    let switch = if has_gears { "on" } else { "out" };
+    count(&format!("rk4 planar train-{n} {switch}"), steps, || {
+        mbs_recursive::rk4_step(&tree, STEP, &options, &mut state, &mut workspace)
     })
 }
 

@@ -21,6 +21,8 @@ use xtask::process::{self, cargo};
 const STEPS: u64 = 10;
 /// Cases of a guide, which is there or not.
 const GUIDE: &str = "guide";
+/// Trains of gears: the one whose gears may cost as much as its wheels, and two by which the growth is seen.
+const TRAINS: [&str; 3] = ["train-5", "train-20", "train-40"];
 
 /// The effects, and a guide.
 fn cases() -> Vec<String> {
@@ -56,6 +58,7 @@ fn count() -> Result<(Runs, Vec<Claim>), String> {
         full: counted("dist", true, STEPS, &cases())?,
         lean: counted("dist", false, STEPS, &["spring-damper".to_owned()])?,
         refusals: refusals()?,
+        trains: counted("dist", true, STEPS, &TRAINS.map(str::to_owned))?,
         plain: counted("plain", true, 1, &["bumper".to_owned(), GUIDE.to_owned()])?,
     };
     let claims = claims::all(&runs);
@@ -101,7 +104,7 @@ fn json(runs: &Runs, claims: &[Claim]) -> Value {
     };
     let claim = |c: &Claim| json!({ "claim": c.text, "holds": c.holds(), "comparisons": c.n_checked, "against": c.against });
     let claims: Value = claims.iter().map(claim).collect();
-    json!({ "all_effects": cases(&runs.full), "claims": claims, "no_effects": cases(&runs.lean), "steps": STEPS })
+    json!({ "all_effects": cases(&runs.full), "claims": claims, "no_effects": cases(&runs.lean), "steps": STEPS, "trains": cases(&runs.trains) })
 }
 
 /// Instructions of a step: one row for each effect, one column for each formulation and dimension; left out / switched off / on.
@@ -131,7 +134,21 @@ fn table(runs: &Runs) -> String {
     let lean = row(&runs.lean, "none compiled", "spring-damper", &["out"]);
     let headings = columns.iter().map(|column| column.join(", "));
     let head: Vec<_> = ["effect".to_owned()].into_iter().chain(headings).collect();
-    format::markdown(&head, [lean].into_iter().chain(cases().into_iter().map(full)))
+    let effects = format::markdown(&head, [lean].into_iter().chain(cases().into_iter().map(full)));
+    format!("{effects}\n{}", of_trains(&runs.trains))
+}
+
+/// Instructions of a step of a Runge-Kutta method in the recursion: wheels without gears and with them.
+fn of_trains(trains: &[Case]) -> String {
+    let head = ["wheels", "without gears", "with gears"].map(str::to_owned);
+    let count = |name: &str, switch| {
+        let case = claims::train(trains, name, switch);
+        case.map_or("-".to_owned(), |n| (n / STEPS).to_string())
+    };
+    format::markdown(
+        &head,
+        TRAINS.map(|name| vec![name.to_owned(), count(name, "out"), count(name, "on")]),
+    )
 }
 
 /// One line for each claim, then what contradicts it.
