@@ -50,7 +50,7 @@ impl<T: Real, const D: usize> Coordinate<T, D> {
             natural::Coordinate::Angle { x1, x2, y, sign } => Self::Angle { x1, x2, y, sign },
             natural::Coordinate::Slide { x, y } => Self::Slide { x, y },
             natural::Coordinate::Rotation => {
-                let frames = joint.bodies.map(|body| Frame::new(scene, model, body));
+                let frames = joint.bodies.map(|body| Frame::new(model, body));
                 Self::Turn { frames: Box::new(frames) }
             }
         }
@@ -68,8 +68,8 @@ impl<T: Real, const D: usize> Coordinate<T, D> {
     }
 
     /// The rotation of a body in space against the reference configuration.
-    pub(super) fn quaternion(scene: &Scene<T>, model: &NaturalModel<T, D>, body: BodyId) -> Self {
-        Self::Quaternion { frame: Box::new(Frame::new(scene, model, body)) }
+    pub(super) fn quaternion(model: &NaturalModel<T, D>, body: BodyId) -> Self {
+        Self::Quaternion { frame: Box::new(Frame::new(model, body)) }
     }
 
     /// How many numbers it has.
