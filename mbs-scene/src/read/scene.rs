@@ -58,7 +58,8 @@ impl SceneFile {
         header.allow(&SCENE_KEYS, &[])?;
         let body_data = self.entries(&context, "body", |_, fields| body::read(fields))?;
         let centers: Vec<[Number; 3]> = body_data.iter().map(|body| body.center.clone()).collect();
-        let joints = self.entries(&context, "joint", |_, fields| joint::read(fields, &body_data))?;
+        let joints =
+            self.entries(&context, "joint", |_, fields| joint::read(fields, &body_data))?;
         let couplings =
             self.entries(&context, "coupling", |i, fields| coupling::read(i, fields, &joints))?;
         let rollings = self.entries(&context, "rolling", |i, fields| rolling::read(i, fields))?;

@@ -61,7 +61,11 @@ struct Points<'a, T: Real> {
 
 impl<T: Real> Points<'_, T> {
     /// Refuses a point.
-    fn no_point(&self, body: BodyId, (key, place): (&'static str, Place)) -> Result<(), SceneError> {
+    fn no_point(
+        &self,
+        body: BodyId,
+        (key, place): (&'static str, Place),
+    ) -> Result<(), SceneError> {
         match body {
             BodyId::Body(index) if self.scene.is_point(body) => {
                 place.fault(key, SceneFault::PointTurns(index))
@@ -81,7 +85,8 @@ impl<T: Real> Points<'_, T> {
         if !self.scene.is_point(body) {
             return Ok(());
         }
-        let off = norm(&(Vector::<T, 3>::from(*at) - Vector::from(self.scene.bodies[index].center)));
+        let off =
+            norm(&(Vector::<T, 3>::from(*at) - Vector::from(self.scene.bodies[index].center)));
         if off <= self.tolerance {
             return Ok(());
         }
@@ -115,11 +120,7 @@ impl<T: Real> Points<'_, T> {
     }
 
     /// A coordinate of a joint is none of a point's turn.
-    fn check_coordinate(
-        &self,
-        joint: usize,
-        at: (&'static str, Place),
-    ) -> Result<(), SceneError> {
+    fn check_coordinate(&self, joint: usize, at: (&'static str, Place)) -> Result<(), SceneError> {
         let joint = &self.scene.joints[joint];
         if self.scene.turns_point(joint) { self.no_turn(joint, at) } else { Ok(()) }
     }
