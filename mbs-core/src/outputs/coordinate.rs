@@ -46,6 +46,9 @@ impl<T: Real, const D: usize> Coordinate<T, D> {
         mut model: &NaturalModel<T, D>,
         (joint, freedom): (&Joint<T>, Freedom),
     ) -> Self {
+        if scene.turns_point(joint) {
+            return Self::none(model, freedom);
+        }
         match model.coordinate(joint, scene.dimension, freedom) {
             natural::Coordinate::Angle { x1, x2, y, sign } => Self::Angle { x1, x2, y, sign },
             natural::Coordinate::Slide { x, y } => Self::Slide { x, y },
@@ -54,6 +57,15 @@ impl<T: Real, const D: usize> Coordinate<T, D> {
                 Self::Turn { frames: Box::new(frames) }
             }
         }
+    }
+
+    /// What stays zero: points do not turn.
+    fn none(model: &NaturalModel<T, D>, freedom: Freedom) -> Self {
+        if freedom == Freedom::Ball {
+            return Self::Turn { frames: Box::new([Frame::Point, Frame::Point]) };
+        }
+        let zero = model.direction(BodyId::Ground, [T::ZERO; 3]);
+        Self::Slide { x: zero.clone(), y: zero }
     }
 
     /// The angle of the second body against the first, in the plane.
