@@ -269,7 +269,13 @@ struct Roots {
 
 impl Roots {
     fn new<T: Real>(scene: &Scene<T>, clusters: &Clusters<T>) -> Self {
-        let is_free = |j: &usize| scene.joints[*j].kind.is_free();
+        // a point that is part of a body has no place of its own
+        let is_whole =
+            |body: BodyId| clusters.of(body).is_some_and(|c| clusters.clusters[c].is_point);
+        let is_free = |j: &usize| {
+            let joint = &scene.joints[*j];
+            joint.kind.is_free() && (!joint.kind.is_of_point() || is_whole(joint.bodies[1]))
+        };
         let free: Vec<usize> = (0..scene.joints.len()).filter(is_free).collect();
         let mass = |c: usize| clusters.clusters[c].mass;
         let mut heavy: Vec<usize> = (0..clusters.clusters.len()).collect();

@@ -194,3 +194,35 @@ fn coordinates_of_a_free_point_start_and_are_acted_on_by_number() {
         assert_eq!(first[0].1.len(), dimension, "coordinates of the default output");
     }
 }
+
+#[test]
+fn a_free_joint_to_a_point_of_a_body_measures_it_and_drives_it() {
+    // a dumbbell: a body with a point on a ball, whose way is measured from the ground and held by a spring
+    for dimension in [2, 3] {
+        let cut = |x: [f64; 3]| list(&x[..dimension]);
+        let at = [0.8, -0.3, 0.2];
+        let (kind, inertia) = match dimension {
+            2 => ("revolute", "0.2".to_owned()),
+            _ => ("spherical", list(&[0.2, 0.25, 0.3, 0.01, 0.02, -0.01])),
+        };
+        let text = [
+            head(dimension, &cut([0.0; 3])),
+            format!("[[body]]\nname = \"arm\"\nmass = 1.5\ncenter = {}\ninertia = {inertia}\n", cut([0.4, 0.1, 0.0])),
+            point("ball", 0.6, &at[..dimension]),
+            format!("[[joint]]\nname = \"held\"\nkind = \"{kind}\"\nbodies = [\"ball\", \"arm\"]\nat = {}\n", cut(at)),
+            "[[joint]]\nname = \"way\"\nkind = \"free\"\nbodies = [\"ground\", \"ball\"]\n".into(),
+            format!("[[initial]]\njoint = \"way\"\nvalue = {}\nrate = {}\n", cut([4.0, 5.0, -4.0]), cut([1.0, -2.0, 0.5])),
+            "[[effect]]\nname = \"s\"\nkind = \"torsion-spring\"\njoint = \"way\"\ncoordinate = \"y\"\nstiffness = 8.0\n".into(),
+            "[[output]]\nname = \"way\"\njoint = \"way\"\nquantity = \"value\"\n".into(),
+            output("arm", &[0.4, 0.1, 0.0][..dimension], "position"),
+        ]
+        .concat();
+        let scene = scene(&text);
+        for formulation in ["index-3", "classical"] {
+            let way = Way(formulation, "trapezoidal");
+            agree_in_the_limit(&scene, way, (1e-3, 0.2, 50), 1e-8, |_| {});
+            let first = &run(&text, way, 1e-3, 1e-3)[0].1;
+            assert!((first[0] - 4.0).abs() < 1e-9 && (first[1] - 5.0).abs() < 1e-9, "{first:?}");
+        }
+    }
+}
