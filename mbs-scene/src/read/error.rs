@@ -287,8 +287,9 @@ pub(crate) const OWNER: &str = "joint, body, coupling, rolling, effect or signal
 pub(crate) const NAMED: &str = "coordinate, by its name,";
 const OF_WHOM: &str = "add `joint = \"...\"` for its value, rate or reaction, `body = \"...\"` with `at = [...]` for the position, velocity or \
                        acceleration of a point, or the `coupling`, `rolling`, `effect` or `signal`; the energy, momentum and center-of-mass are of the scene";
-const INERTIA: &str = "add `inertia`, about the centre of mass [kg m^2]: one number in the plane, six in space; instead of `center` and \
-                       `inertia`, a point mass has `point = [...]`, and a slender rod `rod = { from = [...], to = [...] }`";
+const INERTIA: &str = "add `inertia`, about the centre of mass [kg m^2]: one number in the plane, six in space; a point mass that is welded \
+                       to a body has zeros; instead of `center` and `inertia`, a point mass has `point = [...]`, and a slender rod \
+                       `rod = { from = [...], to = [...] }`";
 
 impl ReadFault {
     fn hint(&self) -> String {

@@ -5,7 +5,7 @@ use super::row;
 use super::scenes::{GUIDED, LOCKING, PLANAR, SPATIAL};
 
 pub(super) fn rows() -> Vec<Row> {
-    let parts = [places(), masses(), settings(), stops()];
+    let parts = [places(), masses(), points(), settings(), stops()];
     parts.into_iter().flatten().collect()
 }
 
@@ -128,6 +128,12 @@ fn masses() -> Vec<Row> {
             ["a force would meet no inertia", "or give it any small inertia"],
             &[("inertia = 0.0", "inertia = 1e-3")],
         ),
+    ]
+}
+
+/// Points that turn without inertia, and nodes without mass.
+fn points() -> Vec<Row> {
+    vec![
         row(
             PLANAR,
             &[
