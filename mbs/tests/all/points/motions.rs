@@ -231,3 +231,43 @@ fn a_free_joint_to_a_point_of_a_body_measures_it_and_drives_it() {
         }
     }
 }
+
+#[test]
+fn points_on_the_line_of_a_rod_leave_it_two_points_that_move_as_in_the_tree() {
+    // a rod on a ball of the ground, a point at its end, a second rod on a ball at the point; the point is named first
+    let (end, tip) = ([0.6, 0.3, 0.1], [1.0, 0.1, -0.2]);
+    let rod = |name: &str, mass: f64, from: &[f64], to: &[f64]| {
+        let (from, to) = (list(from), list(to));
+        format!(
+            "[[body]]\nname = \"{name}\"\nmass = {mass:?}\nrod = {{ from = {from}, to = {to} }}\n"
+        )
+    };
+    let ball = |bodies: [&str; 2], at: &[f64]| {
+        let [a, b] = bodies;
+        format!(
+            "[[joint]]\nname = \"{a}-{b}\"\nkind = \"spherical\"\nbodies = {bodies:?}\nat = {}\n",
+            list(at)
+        )
+    };
+    let text = [
+        head(3, &list(&DOWN)),
+        point("p", 0.7, &end),
+        rod("upper", 1.0, &[0.0; 3], &end),
+        rod("lower", 0.8, &end, &tip),
+        ball(["p", "lower"], &end),
+        ball(["ground", "upper"], &[0.0; 3]),
+        ball(["upper", "p"], &end),
+        velocity("p", &end, &[-0.3, 0.5, 0.3]),
+        output("p", &end, "position"),
+        output("lower", &tip, "position"),
+        "[[output]]\nname = \"l\"\nquantity = \"angular-momentum\"\n".into(),
+    ]
+    .concat();
+    let scene = scene(&text);
+    let model = mbs::core::natural::NaturalModel::<f64, 3>::new(&scene).expect("a model");
+    assert_eq!(mbs::core::blocks::Cliques::n_unknowns(&model), 6, "the ends of both rods");
+    for formulation in ["index-3", "classical", "state-space"] {
+        let way = Way(formulation, "trapezoidal");
+        agree_in_the_limit(&scene, way, (1e-3, 0.2, 50), 1e-8, |_| {});
+    }
+}
