@@ -14,7 +14,7 @@ pub(crate) enum Need<T> {
     Direction(usize, [T; 3]),
     /// All of its rotation.
     Rotation(BodyId),
-    /// Its rotation as far as it has one: it is read, and nothing acts on it.
+    /// What it has of a rotation: it is read, and nothing acts on it.
     Orientation(BodyId),
     /// Coordinates of a joint: the one of this number, else all.
     Coordinates(usize, Option<usize>),
