@@ -1,8 +1,9 @@
-//! Welds first: bodies that never move against each other become one cluster; welded to the ground they vanish.
+//! Welds first: bodies that never move against each other become one cluster; welded to the ground they vanish. A point mass on a ball joint
+//! is part of the body that it is joined to; of several, of the first.
 
 use crate::Real;
-use crate::algebra::{Matrix, Vector, norm};
-use crate::scene::{BodyId, Inertia, Scene, steiner};
+use crate::algebra::{Matrix, Vector, cross, norm};
+use crate::scene::{Body, BodyId, Inertia, Joint, Scene, steiner};
 use alloc::vec;
 use alloc::vec::Vec;
 
@@ -17,8 +18,10 @@ pub struct Cluster<T: Real> {
     pub center: Vector<T, 3>,
     /// Inertia about the centre of mass, global axes [kg m^2].
     pub inertia: Matrix<T, 3>,
-    /// Ends, when it is a single slender rod.
+    /// Ends, when it is a single slender rod, with points on its line or without.
     pub rod: Option<[Vector<T, 3>; 2]>,
+    /// Is it nothing but point masses in one place?
+    pub is_point: bool,
 }
 
 /// All clusters.
@@ -31,7 +34,7 @@ pub struct Clusters<T: Real> {
 }
 
 impl<T: Real> Clusters<T> {
-    /// Merges the welded bodies of a scene.
+    /// Merges the welded bodies of a scene, and its point masses with what holds them.
     pub fn new(scene: &Scene<T>) -> Self {
         let n = scene.bodies.len();
         // Union-find with the ground as number n; a root is the smallest body, the ground wins.
@@ -40,13 +43,22 @@ impl<T: Real> Clusters<T> {
             BodyId::Ground => n,
             BodyId::Body(i) => i,
         };
-        for joint in scene.joints.iter().filter(|j| j.kind.is_rigid()) {
-            let (a, b) = (
-                root(&mut parent, node(joint.bodies[0])),
-                root(&mut parent, node(joint.bodies[1])),
-            );
-            let (keep, drop) = if a == n || (b != n && a < b) { (a, b) } else { (b, a) };
-            parent[drop] = keep;
+        // Is it nothing but points? What is joined to one by a ball moves with it, as all its points do.
+        let mut is_point: Vec<bool> = scene.bodies.iter().map(Body::is_point).collect();
+        is_point.push(false);
+        let joins = |joint: &&Joint<T>, balls: bool| {
+            if balls { joint.kind.is_ball(scene.dimension) } else { joint.kind.is_rigid() }
+        };
+        for balls in [false, true] {
+            for joint in scene.joints.iter().filter(|joint| joins(joint, balls)) {
+                let [a, b] = joint.bodies.map(|body| root(&mut parent, node(body)));
+                if balls && !(is_point[a] || is_point[b]) {
+                    continue;
+                }
+                let (keep, drop) = if a == n || (b != n && a < b) { (a, b) } else { (b, a) };
+                parent[drop] = keep;
+                is_point[keep] &= is_point[drop];
+            }
         }
         let (mut of_body, mut members) = (vec![None; n], Vec::<Vec<usize>>::new());
         for body in 0..n {
@@ -93,13 +105,11 @@ pub fn mass_properties<T: Real>(scene: &Scene<T>, body: usize) -> (T, Vector<T, 
 }
 
 fn merge<T: Real>(scene: &Scene<T>, bodies: Vec<usize>) -> Cluster<T> {
-    let rod = match (bodies.as_slice(), &scene.bodies[bodies[0]].inertia) {
-        ([_], Inertia::Rod { from, to }) => Some([Vector::from(*from), Vector::from(*to)]),
-        _ => None,
-    };
+    let is_point = bodies.iter().all(|b| scene.bodies[*b].is_point());
+    let rod = rod(scene, &bodies);
     if let [one] = bodies.as_slice() {
         let (mass, center, inertia) = mass_properties(scene, *one);
-        return Cluster { bodies, mass, center, inertia, rod };
+        return Cluster { bodies, mass, center, inertia, rod, is_point };
     }
     let (mut mass, mut moment) = (T::ZERO, Vector::<T, 3>::zeros());
     for &b in &bodies {
@@ -114,7 +124,28 @@ fn merge<T: Real>(scene: &Scene<T>, bodies: Vec<usize>) -> Cluster<T> {
         let (m, c, i) = mass_properties(scene, b);
         inertia += i + steiner(m, &(c - center));
     }
-    Cluster { bodies, mass, center, inertia, rod }
+    Cluster { bodies, mass, center, inertia, rod, is_point }
+}
+
+/// The ends of a slender rod, if the other bodies are points on its line.
+fn rod<T: Real>(scene: &Scene<T>, bodies: &[usize]) -> Option<[Vector<T, 3>; 2]> {
+    let mut rod = None;
+    for body in bodies.iter().map(|b| &scene.bodies[*b]).filter(|body| !body.is_point()) {
+        let Inertia::Rod { from, to } = body.inertia else { return None };
+        if rod.replace([Vector::from(from), Vector::from(to)]).is_some() {
+            return None;
+        }
+    }
+    let [from, to] = rod?;
+    let mut points = bodies.iter().map(|b| &scene.bodies[*b]).filter(|body| body.is_point());
+    points.all(|body| is_on_line(&[from, to], body.center)).then_some([from, to])
+}
+
+/// Does a point lie on the line of a rod?
+pub fn is_on_line<T: Real>([from, to]: &[Vector<T, 3>; 2], point: [T; 3]) -> bool {
+    let along = to - from;
+    let off = T::EPSILON.sqrt() * along.dot(&along);
+    norm(&cross(&(Vector::from(point) - from), &along)) <= off
 }
 
 /// The length of a scene [m]: the largest distance of a hard point from the first one; one if all coincide.

@@ -15,14 +15,13 @@
 //! the heaviest one. Links are always cut, free joints between moving bodies constrain nothing.
 
 use crate::error::TreeError;
-use crate::joint_facts;
 use alloc::collections::BinaryHeap;
 use alloc::vec;
 use alloc::vec::Vec;
 use core::cmp::{Ordering, Reverse};
 use mbs_core::Real;
 use mbs_core::actions::{Action, Actions};
-use mbs_core::cluster::Clusters;
+use mbs_core::cluster::{Clusters, is_on_line};
 use mbs_core::measure::{RotorInput, TermInput};
 use mbs_core::scene::{BallAngle, BodyId, CouplingMeasure, Freedom, Scene, SignalKind};
 
@@ -37,6 +36,8 @@ pub(crate) struct Branch {
     pub(crate) joint: Option<usize>,
     /// The parent is the joint's second body.
     pub(crate) is_reversed: bool,
+    /// The cluster is a point, which does not turn.
+    pub(crate) is_point: bool,
 }
 
 /// The spanning tree of a scene.
@@ -80,7 +81,8 @@ pub(crate) fn span<T: Real>(
         // What is left starts from a free root.
         let Some((root, joint)) = roots.next(scene, &growth.depth, node) else { break };
         let is_reversed = joint.is_some_and(|j| node(scene.joints[j].bodies[1]) == ground);
-        growth.branches.push(Branch { cluster: root, parent: None, joint, is_reversed });
+        let is_point = clusters.clusters[root].is_point;
+        growth.branches.push(Branch { cluster: root, parent: None, joint, is_reversed, is_point });
         growth.depth[root] = 1;
         growth.reach(root);
     }
@@ -187,7 +189,7 @@ fn edges<T: Real>(
         let is_on_line = joint.freedoms(scene.dimension).contains(&Freedom::Ball)
             && (0..2).any(|i| {
                 let rod = clusters.clusters.get(ends[i]).and_then(|cluster| cluster.rod);
-                rod.is_some_and(|rod| joint_facts::is_on_line(&rod, joint.points[i]))
+                rod.is_some_and(|rod| is_on_line(&rod, joint.points[i]))
             });
         let rank = (
             !demands.is_guided[j],
@@ -249,6 +251,8 @@ impl Growth {
                 parent: (parent != self.ground).then_some(parent),
                 joint: Some(joint),
                 is_reversed,
+                // what a joint holds turns: points on balls are parts of what they are joined to
+                is_point: false,
             });
             self.reach(child);
         }
@@ -265,7 +269,13 @@ struct Roots {
 
 impl Roots {
     fn new<T: Real>(scene: &Scene<T>, clusters: &Clusters<T>) -> Self {
-        let is_free = |j: &usize| scene.joints[*j].kind.is_free();
+        // a point that is part of a body has no place of its own
+        let is_whole =
+            |body: BodyId| clusters.of(body).is_some_and(|c| clusters.clusters[c].is_point);
+        let is_free = |j: &usize| {
+            let joint = &scene.joints[*j];
+            joint.kind.is_free() && (!joint.kind.is_of_point() || is_whole(joint.bodies[1]))
+        };
         let free: Vec<usize> = (0..scene.joints.len()).filter(is_free).collect();
         let mass = |c: usize| clusters.clusters[c].mass;
         let mut heavy: Vec<usize> = (0..clusters.clusters.len()).collect();

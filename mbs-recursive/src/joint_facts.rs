@@ -3,9 +3,8 @@
 use alloc::vec;
 use alloc::vec::Vec;
 use mbs_core::Real;
-use mbs_core::algebra::{Vector, cross, norm};
-use mbs_core::cluster::Clusters;
-use mbs_core::scene::{BodyId, Scene};
+use mbs_core::cluster::{Clusters, is_on_line};
+use mbs_core::scene::Scene;
 
 /// Guides by joint, and thin rods without spin by cluster.
 pub(crate) struct JointFacts {
@@ -26,19 +25,11 @@ impl JointFacts {
             for (i, &body) in joint.bodies.iter().enumerate() {
                 let Some(c) = clusters.of(body) else { continue };
                 let cluster = &clusters.clusters[c];
-                let (Some(rod), BodyId::Body(b)) = (cluster.rod, body) else { continue };
-                is_idle[c] &= b != cluster.bodies[0]
-                    || joint.kind.is_free()
+                let Some(rod) = cluster.rod else { continue };
+                is_idle[c] &= joint.kind.is_free()
                     || (joint.is_ball_at(i) && is_on_line(&rod, joint.points[i]));
             }
         }
         Self { guide, is_idle }
     }
-}
-
-/// Does a point lie on the line of a rod?
-pub(crate) fn is_on_line<T: Real>([from, to]: &[Vector<T, 3>; 2], point: [T; 3]) -> bool {
-    let along = to - from;
-    let off = T::EPSILON.sqrt() * along.dot(&along);
-    norm(&cross(&(Vector::from(point) - from), &along)) <= off
 }

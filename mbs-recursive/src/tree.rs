@@ -22,7 +22,7 @@ use alloc::vec;
 use alloc::vec::Vec;
 use mbs_core::Real;
 use mbs_core::actions::{Actions, Tables};
-use mbs_core::algebra::{Matrix, Vector};
+use mbs_core::algebra::{Matrix, Vector, unit};
 use mbs_core::cluster::{Cluster, Clusters, scene_length};
 use mbs_core::inputs::{Feedback, Prescribed};
 use mbs_core::laws::code::Codes;
@@ -460,6 +460,10 @@ fn tensor<T: Real>(cluster: &Cluster<T>, is_idle: bool, at: &Vector<T, 3>) -> Ma
 pub(crate) fn parts<T: Real>(scene: &Scene<T>, branch: &Branch, is_guided: bool) -> Vec<Part<T>> {
     let zero = Vector::<T, 3>::zeros();
     let free = Part { kind: LinkKind::Free, axis: zero, number: 0 };
+    if branch.is_point {
+        let slide = |number| Part { kind: LinkKind::Prismatic, axis: unit(number), number };
+        return (0..scene.dimension.count()).map(slide).collect();
+    }
     let Some(joint) = branch.joint else { return vec![free] };
     let joint: &Joint<T> = &scene.joints[joint];
     if joint.kind.is_free() {

@@ -60,7 +60,7 @@ pub fn turn_by(scene: &Scene<f64>, turn: impl Fn(Vector) -> Vector + Copy) -> Sc
                 (*xx, *yy, *zz, *xy, *yz, *zx) = (a[0], b[1], c[2], a[1], b[2], c[0]);
             }
             Inertia::Rod { from, to } => (*from, *to) = (turn(*from), turn(*to)),
-            Inertia::Planar(_) => {}
+            Inertia::Planar(_) | Inertia::Point => {}
         }
     }
     for joint in &mut s.joints {

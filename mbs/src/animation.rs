@@ -140,8 +140,12 @@ impl<T: Real, const D: usize> Layout<'_, T, D> {
         self.points.len() - 1
     }
 
-    /// Places worth drawing on a body: joints, rod ends, springs, outputs; the centre where there are fewer than two.
+    /// Places worth drawing on a body: joints, rod ends, springs, outputs; the centre where there are fewer than two. A point has one.
     fn places(&self, body: usize) -> Vec<[T; 3]> {
+        let data = &self.scene.bodies[body];
+        if data.is_point() {
+            return vec![data.center];
+        }
         let mut places: Vec<[T; 3]> = Vec::new();
         let mut visit = |p: [T; 3]| {
             if !places.contains(&p) {
@@ -167,6 +171,9 @@ impl<T: Real, const D: usize> Layout<'_, T, D> {
         let name = self.scene.bodies[body].name.clone();
         let mut chain: Vec<usize> =
             places.iter().map(|p| self.add(BodyId::Body(body), *p)).collect();
+        if self.scene.bodies[body].is_point() {
+            return Polyline { name, chains: vec![chain] };
+        }
         if chain.len() == 1 {
             return Polyline { name, chains: self.cross(body, places[0]) };
         }
@@ -191,7 +198,7 @@ impl<T: Real, const D: usize> Layout<'_, T, D> {
         let moment = match data.inertia {
             Inertia::Planar(i) => i,
             Inertia::Spatial([xx, yy, zz, ..]) => xx.max(yy).max(zz),
-            Inertia::Rod { .. } => T::ZERO,
+            Inertia::Rod { .. } | Inertia::Point => T::ZERO,
         };
         let reach = if data.mass > T::ZERO { (moment / data.mass).sqrt() } else { T::ZERO };
         let reach =

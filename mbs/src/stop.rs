@@ -25,8 +25,9 @@ use mbs_recursive::TreeError;
 pub const INTERRUPTED: &str = "interrupted";
 
 /// What to do about a body whose motion no inertia resists.
-const NO_INERTIA: &str = "give the body mass and inertia; weld a point mass to what carries it, or give it any small inertia; or remove the freedom \
-                          that nothing determines";
+const NO_INERTIA: &str = "give the body mass and inertia; write a point mass as `point`, weld a point mass to what carries it, or give it any small \
+                          inertia; a node between springs needs mass (a step h carries it from m = 4 k h^2 on), or one rope through it; or remove the \
+                          freedom that nothing determines";
 
 /// Why a run stopped early.
 #[derive(Debug, Clone, PartialEq)]

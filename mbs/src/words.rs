@@ -254,7 +254,7 @@ fn spoilt<T: Real>(scene: &Scene<T>) -> Option<(&str, f64)> {
         let inertia = match body.inertia {
             Inertia::Planar(polar) => polar.to_f64(),
             Inertia::Spatial(six) => six[..3].iter().map(|x| x.to_f64()).fold(0.0, f64::max),
-            Inertia::Rod { .. } => 0.0,
+            Inertia::Rod { .. } | Inertia::Point => 0.0,
         };
         let mass = body.mass.to_f64();
         let spread = if mass > 0.0 { spread.max((inertia / mass).sqrt()) } else { spread };

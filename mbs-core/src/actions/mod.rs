@@ -6,11 +6,13 @@
 mod compile;
 mod error;
 mod from_scene;
+mod needs;
 mod road;
 mod tables;
 
 pub(crate) use compile::{Compiler, direction_of, part};
 pub use error::ActionError;
+pub(crate) use needs::{Need, needs};
 pub use tables::Tables;
 
 use crate::inputs::Prescribed;

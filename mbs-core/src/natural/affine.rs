@@ -15,6 +15,17 @@ pub struct Affine<T: Real, const D: usize> {
     constant: Vector<T, D>,
 }
 
+/// What of a body turns.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum Shape<T: Real> {
+    /// All of it.
+    Full,
+    /// The line between its ends, reference configuration: a spatial rod held by balls.
+    Rod([Vector<T, 3>; 2]),
+    /// Nothing: a point mass.
+    Point,
+}
+
 impl<T: Real, const D: usize> Affine<T, D> {
     /// Value at the extended coordinates `q`.
     pub fn value(&self, q: &[T]) -> Vector<T, D> {
@@ -93,6 +104,17 @@ impl<T: Real, const D: usize> NaturalModel<T, D> {
     #[must_use]
     pub fn has_full_rotation(&self, body: BodyId) -> bool {
         self.clusters.of(body).is_none_or(|c| self.bases[c].is_full())
+    }
+
+    /// What of a body turns.
+    pub(crate) fn shape(&self, body: BodyId) -> Shape<T> {
+        let Some(c) = self.clusters.of(body) else { return Shape::Full };
+        let cluster = &self.clusters.clusters[c];
+        match cluster.rod {
+            _ if cluster.is_point => Shape::Point,
+            Some(ends) if !self.bases[c].is_full() => Shape::Rod(ends),
+            _ => Shape::Full,
+        }
     }
 
     /// Is the body welded to the ground?

@@ -5,6 +5,7 @@
 //! space:  r(p) = sum_k a_k b_k,  a = D^-1 [p; 1],  D = columns [b_k; 1 or 0]
 //!         G = D^-1 [[S, m c], [m c^T, m]] D^-T,   S = tr(I)/2 1 - I,      M = G (x) 1_3
 //! rod:    r(p) = e_1 + w (e_2 - e_1),  w real
+//! point:  r = e_1                                                         M = m 1
 //! ```
 //!
 //! Shared entities come first; an own point or own unit vectors fill what is missing. Entities on the ground are
@@ -42,6 +43,8 @@ enum Frame<T: Real> {
     Planar { origin: Vector<T, 3>, second: Coef<T>, is_point: bool },
     /// Two points of a rod.
     Rod { origin: Vector<T, 3>, along: Vector<T, 3> },
+    /// A point mass: there is one point, and no direction.
+    Point,
     /// Origin (subtracted before D is formed) and D^-1.
     Spatial { origin: Vector<T, 3>, inverse: Matrix<T, 4> },
 }
@@ -69,6 +72,16 @@ impl<T: Real> Basis<T> {
         let v = if is_point { entities[second].at - at } else { entities[second].at };
         let frame = Frame::Planar { origin: at, second: Coef { re: v[0], im: v[1] }, is_point };
         Self { entities: alloc::vec![origin, second], frame }
+    }
+
+    /// The point of a point mass.
+    pub(crate) fn point_mass(
+        cluster: &Cluster<T>,
+        shared: &[usize],
+        entities: &mut Vec<Entity<T>>,
+    ) -> Self {
+        let origin = first_point(cluster, &points_of(shared, entities), entities);
+        Self { entities: alloc::vec![origin], frame: Frame::Point }
     }
 
     /// Two points of a slender rod.
@@ -139,9 +152,9 @@ impl<T: Real> Basis<T> {
         Some(Self { entities: chosen, frame: Frame::Spatial { origin: at, inverse } })
     }
 
-    /// Does the basis carry a rotation about every axis (a rod's does not)?
+    /// Does the basis carry a rotation about every axis (a rod's does not, nor a point's)?
     pub(crate) fn is_full(&self) -> bool {
-        !matches!(self.frame, Frame::Rod { .. })
+        !matches!(self.frame, Frame::Rod { .. } | Frame::Point)
     }
 
     /// The combination that is the material point `p`.
@@ -161,6 +174,7 @@ impl<T: Real> Basis<T> {
         };
         // Each coefficient with the size of what it is the sum of.
         let coefs: Vec<(Coef<T>, T)> = match &self.frame {
+            Frame::Point => alloc::vec![(unit, unit.re)],
             Frame::Planar { origin, second, is_point: two_points } => {
                 let (v, reach) = from(origin);
                 let w = quotient(Coef { re: v[0], im: v[1] }, *second);
@@ -199,6 +213,7 @@ impl<T: Real> Basis<T> {
     pub(crate) fn mass_matrix(&self, cluster: &Cluster<T>) -> Vec<Coef<T>> {
         let (m, c, inertia) = (cluster.mass, &cluster.center, &cluster.inertia);
         match &self.frame {
+            Frame::Point => alloc::vec![Coef::real(m)],
             Frame::Planar { origin, second, is_point } => {
                 let r = c - origin;
                 let polar = inertia[(2, 2)] + m * (r[0] * r[0] + r[1] * r[1]);

@@ -46,6 +46,7 @@ impl<'a, T: Real> Builder<'a, T> {
         let mut bases = Vec::with_capacity(shared.len());
         for (c, cluster) in clusters.clusters.iter().enumerate() {
             let basis = match (scene.dimension, rods.of_cluster(cluster)) {
+                _ if cluster.is_point => Basis::point_mass(cluster, &shared[c], &mut entities),
                 (Dimension::Planar, _) => Basis::planar(cluster, &shared[c], &mut entities),
                 (Dimension::Spatial, Some(ends)) => Basis::rod(ends, &shared[c], &mut entities),
                 (Dimension::Spatial, None) => Basis::spatial(cluster, &shared[c], &mut entities)

@@ -40,6 +40,7 @@ mod thin_rods;
 mod threaded;
 
 pub use affine::Affine;
+pub(crate) use affine::Shape;
 pub use basis::INDEPENDENCE;
 pub(crate) use coordinate::{Coordinate, Places};
 pub use error::ModelError;
@@ -47,4 +48,5 @@ pub(crate) use group::{add_squares, index, packed};
 pub use model::{NaturalModel, NaturalRotor};
 pub use rotation::{unwrap, unwrap_rotation};
 pub use sharing::TOLERANCE;
+pub(crate) use sharing::tolerance as point_tolerance;
 pub use threaded::Threaded;

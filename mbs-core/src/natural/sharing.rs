@@ -76,7 +76,7 @@ impl<T: Real> Sharing<T> {
 const ROUNDINGS: f64 = 64.0;
 
 /// [`TOLERANCE`], or [`ROUNDINGS`] where the scalar has fewer digits.
-pub(super) fn tolerance<T: Real>() -> T {
+pub(crate) fn tolerance<T: Real>() -> T {
     T::from_f64(TOLERANCE).max(T::EPSILON * T::from_f64(ROUNDINGS))
 }
 

@@ -1,11 +1,10 @@
 //! Which spatial rods may stay two points: only balls hold them, every point used lies on them, nothing needs their spin.
 
 use crate::Real;
-use crate::actions::{Action, Actions};
+use crate::actions::{Actions, Need, needs};
 use crate::algebra::{Vector, cross, norm};
 use crate::cluster::{Cluster, Clusters};
-use crate::outputs::{RelativePoint, Target};
-use crate::scene::{BallAngle, BodyId, CouplingMeasure, InitialTarget, Scene};
+use crate::scene::{BodyId, Scene};
 use alloc::vec;
 use alloc::vec::Vec;
 
@@ -27,41 +26,23 @@ impl<T: Real> ThinRods<T> {
         let relative = super::sharing::tolerance::<T>();
         let mut ends = vec![None; scene.bodies.len()];
         for cluster in &clusters.clusters {
-            if let (Some(rod), Some(&body)) = (cluster.rod, cluster.bodies.first()) {
-                ends[body] = Some(rod);
+            if let Some(rod) = cluster.rod {
+                cluster.bodies.iter().for_each(|body| ends[*body] = Some(rod));
             }
         }
         let mut rods = Self { ends, tolerance: length * relative };
         rods.ask_joints(scene);
-        rods.ask_initials(scene);
-        actions.list.iter().for_each(|(_, action)| rods.ask_action(scene, action));
-        let terms = scene.couplings.iter().flat_map(|coupling| &coupling.terms);
-        for term in terms.filter(|term| !term.factor.is_zero()) {
-            rods.ask_measure(scene, &term.of);
-        }
-        for rolling in &scene.rollings {
-            [rolling.body, rolling.on].into_iter().for_each(|body| rods.rotation(body));
-        }
+        needs(scene, actions, &mut |_, need| rods.ask(scene, &need));
         for (joint, _) in actions.prescribed.feedback().measured {
-            scene.joints[joint].bodies.into_iter().for_each(|body| rods.rotation(body));
-        }
-        for output in &scene.outputs {
-            match output.quantity.target() {
-                Target::Point(body, at) => rods.point(body, &at),
-                Target::RelativePoint(RelativePoint { body, at, relative_to, origin }) => {
-                    rods.point(body, &at);
-                    rods.point(relative_to, &origin);
-                }
-                _ => {}
-            }
+            rods.ask(scene, &Need::Coordinates(joint, None));
         }
         rods
     }
 
     /// Ends of a cluster that stays two points.
     pub(super) fn of_cluster(&self, cluster: &Cluster<T>) -> Option<&[Vector<T, 3>; 2]> {
-        let body = cluster.bodies.first()?;
-        self.ends.get(*body)?.as_ref()
+        let of_all = cluster.bodies.iter().map(|body| self.ends[*body].as_ref());
+        of_all.reduce(|first, next| first.and(next))?
     }
 
     /// A point of a body is used: it must lie on the line.
@@ -96,62 +77,18 @@ impl<T: Real> ThinRods<T> {
         }
     }
 
-    fn ask_initials(&mut self, scene: &Scene<T>) {
-        for initial in &scene.initials {
-            match &initial.target {
-                InitialTarget::Body { body, velocity, .. } => {
-                    // an angular velocity says how the line swings
-                    if let Some((at, _)) = velocity {
-                        self.point(*body, at);
-                    }
-                }
-                InitialTarget::Joint { joint, .. } => {
-                    scene.joints[*joint].bodies.into_iter().for_each(|body| self.rotation(body));
-                }
+    fn ask(&mut self, scene: &Scene<T>, need: &Need<T>) {
+        match need {
+            Need::Point(body, at) => self.point(*body, at),
+            Need::Direction(joint, axis) => {
+                scene.joints[*joint].bodies.into_iter().for_each(|body| self.along(body, axis));
             }
-        }
-    }
-
-    fn ask_action(&mut self, scene: &Scene<T>, action: &Action<T>) {
-        match action {
-            Action::Length { ends, .. } => ends.iter().for_each(|(b, p)| self.point(*b, p)),
-            Action::Along { ends, .. } => {
-                self.rotation(ends[0].0);
-                self.point(ends[1].0, &ends[1].1);
-            }
-            Action::Turn { bodies, .. } | Action::Rotation { bodies, .. } => {
-                bodies.iter().for_each(|b| self.rotation(*b))
-            }
-            Action::Constant { at: (body, at), .. } => self.point(BodyId::Body(*body), at),
-            Action::Torque { body, .. } => self.rotation(BodyId::Body(*body)),
-            Action::Sum { terms, .. } => {
-                terms.iter().for_each(|term| self.ask_measure(scene, &term.of));
-            }
-            Action::Angle { joint, .. } => {
+            Need::Rotation(body) => self.rotation(*body),
+            Need::Coordinates(joint, _) => {
                 scene.joints[*joint].bodies.into_iter().for_each(|body| self.rotation(body));
             }
-            Action::Force { at: (body, at), turns, .. } => {
-                self.point_turning(*body, at, *turns);
-            }
-            Action::BodyLoad { at: (body, at), law, .. } => {
-                self.point_turning(*body, at, law.needs_rotation());
-            }
-        }
-    }
-
-    fn ask_measure(&mut self, scene: &Scene<T>, of: &CouplingMeasure<T>) {
-        match of {
-            CouplingMeasure::Length { points } => {
-                points.iter().for_each(|(b, p)| self.point(*b, p));
-            }
-            CouplingMeasure::Ball { joint, angle: BallAngle::Swing, axis } => {
-                let joint = &scene.joints[joint.index()];
-                joint.bodies.into_iter().for_each(|body| self.along(body, axis));
-            }
-            CouplingMeasure::Ball { joint, .. } | CouplingMeasure::Coordinate { joint, .. } => {
-                let joint = &scene.joints[joint.index()];
-                joint.bodies.into_iter().for_each(|body| self.rotation(body));
-            }
+            // of a rod that of its line
+            Need::Orientation(_) => {}
         }
     }
 
@@ -163,15 +100,6 @@ impl<T: Real> ThinRods<T> {
         let off = norm(&cross(&line, &axis)) / norm(&axis);
         if !(off <= self.tolerance) {
             self.ends[b] = None;
-        }
-    }
-
-    fn point_turning(&mut self, body: usize, at: &[T; 3], turns: bool) {
-        let me = BodyId::Body(body);
-        if turns {
-            self.rotation(me);
-        } else {
-            self.point(me, at);
         }
     }
 }

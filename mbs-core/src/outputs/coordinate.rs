@@ -46,11 +46,23 @@ impl<T: Real, const D: usize> Coordinate<T, D> {
         mut model: &NaturalModel<T, D>,
         (joint, freedom): (&Joint<T>, Freedom),
     ) -> Self {
+        if scene.turns_point(joint) {
+            return Self::none(model, freedom);
+        }
         match model.coordinate(joint, scene.dimension, freedom) {
             natural::Coordinate::Angle { x1, x2, y, sign } => Self::Angle { x1, x2, y, sign },
             natural::Coordinate::Slide { x, y } => Self::Slide { x, y },
-            natural::Coordinate::Rotation => Self::turn(scene, model, joint.bodies),
+            natural::Coordinate::Rotation => Self::turn(model, joint.bodies),
         }
+    }
+
+    /// What stays zero: points do not turn.
+    fn none(model: &NaturalModel<T, D>, freedom: Freedom) -> Self {
+        if freedom == Freedom::Ball {
+            return Self::Turn { frames: Box::new([Frame::Point, Frame::Point]) };
+        }
+        let zero = model.direction(BodyId::Ground, [T::ZERO; 3]);
+        Self::Slide { x: zero.clone(), y: zero }
     }
 
     /// The angle of the second body against the first, in the plane.
@@ -65,13 +77,13 @@ impl<T: Real, const D: usize> Coordinate<T, D> {
     }
 
     /// The rotation vector of the second body against the first, in space.
-    pub(super) fn turn(scene: &Scene<T>, model: &NaturalModel<T, D>, bodies: [BodyId; 2]) -> Self {
-        Self::Turn { frames: Box::new(bodies.map(|body| Frame::new(scene, model, body))) }
+    pub(super) fn turn(model: &NaturalModel<T, D>, bodies: [BodyId; 2]) -> Self {
+        Self::Turn { frames: Box::new(bodies.map(|body| Frame::new(model, body))) }
     }
 
     /// The rotation of a body in space against the reference configuration.
-    pub(super) fn quaternion(scene: &Scene<T>, model: &NaturalModel<T, D>, body: BodyId) -> Self {
-        Self::Quaternion { frame: Box::new(Frame::new(scene, model, body)) }
+    pub(super) fn quaternion(model: &NaturalModel<T, D>, body: BodyId) -> Self {
+        Self::Quaternion { frame: Box::new(Frame::new(model, body)) }
     }
 
     /// How many numbers it has.

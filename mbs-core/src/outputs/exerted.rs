@@ -30,7 +30,7 @@ impl<T: Real, const D: usize> EffectWrenches<T, D> {
     /// [`ModelError`] as for the model.
     pub fn new(scene: &Scene<T>, model: &NaturalModel<T, D>) -> Result<Self, ModelError> {
         let (loads, effects) = Loads::new(scene, model)?;
-        let frame = |body| Frame::new(scene, model, body);
+        let frame = |body| Frame::new(model, body);
         let frames = (0..scene.bodies.len()).map(|body| frame(BodyId::Body(body))).collect();
         let rotors = RotorTorque::all(scene, model);
         Ok(Self { loads, effects, rotors, frames, ground: frame(BodyId::Ground) })

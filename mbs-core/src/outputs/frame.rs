@@ -8,8 +8,8 @@
 
 use crate::Real;
 use crate::algebra::{Matrix, Vector, across, cross, norm, raised, rotation, unit};
-use crate::natural::{Affine, NaturalModel};
-use crate::scene::{BodyId, Inertia, Scene};
+use crate::natural::{Affine, NaturalModel, Shape};
+use crate::scene::BodyId;
 use alloc::boxed::Box;
 
 /// The directions that carry a body's rotation.
@@ -21,26 +21,23 @@ pub(super) enum Frame<T: Real, const D: usize> {
     Full(Box<[Affine<T, D>; 3]>),
     /// A spatial rod of two points: from one end to the other, now and in the reference configuration.
     Rod { along: Affine<T, D>, reference: Vector<T, 3> },
+    /// A point mass, which does not turn.
+    Point,
 }
 
 impl<T: Real, const D: usize> Frame<T, D> {
     /// The frame of a body, or of the ground.
-    pub(super) fn new(scene: &Scene<T>, model: &NaturalModel<T, D>, body: BodyId) -> Self {
-        if D == 2 {
-            return Self::Planar(model.direction(body, unit(0).into()));
-        }
-        match body {
-            BodyId::Body(i) if !model.has_full_rotation(body) => {
-                let (from, to) = match scene.bodies[i].inertia {
-                    Inertia::Rod { from, to } => (from, to),
-                    // Only rods lack a rotation: unreachable, and harmless if it were not.
-                    _ => (scene.bodies[i].center, scene.bodies[i].center),
-                };
-                let d = Vector::<T, 3>::from(to) - Vector::from(from);
-                let along = model.point(body, to).minus(&model.point(body, from));
-                Self::Rod { along, reference: normalised(&d) }
+    pub(super) fn new(model: &NaturalModel<T, D>, body: BodyId) -> Self {
+        match model.shape(body) {
+            Shape::Point => Self::Point,
+            Shape::Full if D == 2 => Self::Planar(model.direction(body, unit(0).into())),
+            Shape::Full => {
+                Self::Full(Box::new([0, 1, 2].map(|i| model.direction(body, unit(i).into()))))
             }
-            _ => Self::Full(Box::new([0, 1, 2].map(|i| model.direction(body, unit(i).into())))),
+            Shape::Rod([from, to]) => {
+                let along = model.point(body, to.into()).minus(&model.point(body, from.into()));
+                Self::Rod { along, reference: normalised(&(to - from)) }
+            }
         }
     }
 
@@ -57,6 +54,7 @@ impl<T: Real, const D: usize> Frame<T, D> {
             Self::Rod { along, reference } => {
                 carry(reference, &normalised(&raised(&along.value(q))))
             }
+            Self::Point => Matrix::identity(),
         }
     }
 
@@ -70,6 +68,7 @@ impl<T: Real, const D: usize> Frame<T, D> {
                 let d = along.value(q);
                 arm(along) * (T::ONE / d.dot(&d))
             }
+            Self::Point => Vector::zeros(),
         }
     }
 }

@@ -28,7 +28,7 @@ impl<T: Real, const D: usize> BodyInertia<T, D> {
     pub(super) fn new(scene: &Scene<T>, model: &NaturalModel<T, D>, body: usize) -> Self {
         let (mass, center, inertia) = scene.bodies[body].mass_properties();
         let me = BodyId::Body(body);
-        let (frame, center) = (Frame::new(scene, model, me), model.point(me, center.into()));
+        let (frame, center) = (Frame::new(model, me), model.point(me, center.into()));
         Self { frame, center, mass, inertia }
     }
 

@@ -20,7 +20,7 @@ impl<T: Real, const D: usize> NaturalModel<T, D> {
         if self.is_ground(owner) {
             return RigidMotion::at_rest(center);
         }
-        let (point, frame) = (self.point(owner, center.into()), Frame::new(scene, self, owner));
+        let (point, frame) = (self.point(owner, center.into()), Frame::new(self, owner));
         let [position, velocity, acceleration] =
             [point.value(&state.q), point.rate(&state.v), point.rate(&state.a)]
                 .map(|x: Vector<T, D>| raised(&x));

@@ -31,6 +31,12 @@ impl Body<Number> {
         Self { name: String::new(), mass: mass.into(), center, inertia: Inertia::Rod { from, to } }
     }
 
+    /// A point [m] with a mass [kg], which has no orientation.
+    pub fn point(at: impl Into<Vector3>, mass: impl Into<Number>) -> Self {
+        let (mass, center) = (mass.into(), at.into().0);
+        Self { name: String::new(), mass, center, inertia: Inertia::Point }
+    }
+
     /// A planar body: centre of mass [m], mass [kg], moment of inertia about the centre [kg m^2].
     pub fn planar(
         center: impl Into<Vector3>,

@@ -10,6 +10,7 @@ mod effect;
 mod joint;
 mod motion;
 mod output;
+mod point;
 mod reference;
 mod road;
 mod rolling;
@@ -70,7 +71,7 @@ impl<T: Real> Scene<T> {
         for (i, output) in self.outputs.iter().enumerate() {
             output::check(self, &output.quantity, self.place(Entry::Output(i)))?;
         }
-        Ok(())
+        point::check(self)
     }
 
     /// Refuses what only the length of a run shows: the table of a guide, or of a signal that one follows, that begins or ends

@@ -16,7 +16,7 @@ pub enum Start {
     EquilibriumNear,
 }
 
-/// A rigid body.
+/// A rigid body, or a point with mass.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Body<T> {
     /// Unique name.
@@ -43,6 +43,16 @@ pub enum Inertia<T> {
     Planar(T),
     /// Spatial body: [Ixx, Iyy, Izz, Ixy, Iyz, Izx] in global axes, products as in the matrix [kg m^2].
     Spatial([T; 6]),
+    /// A point mass at the centre: it has no orientation.
+    Point,
+}
+
+impl<T> Body<T> {
+    /// Is it a point mass?
+    #[must_use]
+    pub const fn is_point(&self) -> bool {
+        matches!(self.inertia, Inertia::Point)
+    }
 }
 
 /// A joint between two bodies. Positive motion: second body relative to the first.

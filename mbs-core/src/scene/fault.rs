@@ -4,6 +4,10 @@ use super::{Dimension, JointKind};
 use crate::scene::SignalBreak;
 use core::fmt::{self, Display, Formatter};
 
+/// What a point mass takes.
+const POINT_TURNS: &str = "a point takes the joints `spherical` (plane: `revolute`), `distance` and `free` as their second body, forces, and \
+                           lengths; give what turns `center` and `inertia`";
+
 /// The faults.
 ///
 /// Each reads as the rest of a sentence about a key: `{}` says what is wrong and what to do, `{:#}` only
@@ -37,6 +41,15 @@ pub enum SceneFault {
     InCode,
     /// Both bodies are the same.
     SameBody,
+    /// Something that turns, or has an axis, of a point mass; the body.
+    PointTurns(usize),
+    /// A place that is not that of a point mass.
+    OffPoint {
+        /// The body.
+        body: usize,
+        /// Distance of the two [m].
+        by: f64,
+    },
     /// A principal moment of inertia is larger than the sum of the other two; the two sides [kg m^2]. Of welded bodies together.
     TriangleInequality([f64; 2]),
     /// The inertia has a negative principal moment [kg m^2].
@@ -208,6 +221,8 @@ impl SceneFault {
                 "use a kind of effect that is data, or build the scene in the precision of the law"
             }
             Self::SameBody => "name two different bodies",
+            Self::PointTurns(_) => POINT_TURNS,
+            Self::OffPoint { .. } => "write the place of the body's `point`: it has no other",
             Self::TriangleInequality(_) => {
                 "check the moments and products; flat bodies need all the digits they are given in"
             }
@@ -297,6 +312,12 @@ impl SceneFault {
             Self::NeedsMovingBody => write!(f, "is the ground, which does not move"),
             Self::InCode => write!(f, "is a law in code, which has a precision of its own"),
             Self::SameBody => write!(f, "has the same body twice"),
+            Self::PointTurns(body) => {
+                write!(f, "is of body {}, a point: it has no orientation", body + 1)
+            }
+            Self::OffPoint { body, by } => {
+                write!(f, "is {by:.6e} m off body {}, which is a point", body + 1)
+            }
             Self::TriangleInequality([largest, sum]) => write!(
                 f,
                 "breaks the triangle inequality: the largest principal moment {largest:.3e} is more \

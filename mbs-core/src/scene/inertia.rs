@@ -10,6 +10,7 @@ impl<T: Real> Body<T> {
         let center = Vector::from(self.center);
         let mut inertia = Matrix::<T, 3>::zeros();
         match self.inertia {
+            Inertia::Point => {}
             Inertia::Planar(i) => inertia[(2, 2)] = i,
             Inertia::Spatial([xx, yy, zz, xy, yz, zx]) => {
                 inertia = Matrix::<T, 3>::new(xx, xy, zx, xy, yy, yz, zx, yz, zz);

@@ -119,6 +119,8 @@ pub struct JointForm {
     pub spatial: &'static [Freedom],
     /// Two points that keep their distance; hinged at the first body if it has an axis (space).
     pub is_link: bool,
+    /// The second body is a point, which does not turn: it has slides alone, and nothing is constrained.
+    pub is_of_point: bool,
 }
 
 const fn form(
@@ -126,23 +128,31 @@ const fn form(
     planar: Option<&'static [Freedom]>,
     spatial: &'static [Freedom],
 ) -> JointForm {
-    JointForm { name, planar, spatial, is_link: false }
+    JointForm { name, planar, spatial, is_link: false, is_of_point: false }
 }
 
 macro_rules! kinds {
-    ($($(#[$meta:meta])* $kind:ident = $form:expr;)*) => {
+    ($($(#[$meta:meta])* $kind:ident = $form:expr;)* [$(#[$of_meta:meta])* $of_kind:ident = $of_form:expr;]) => {
         /// The kinds of joint.
         #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
         pub enum JointKind {
             $($(#[$meta])* $kind,)*
+            $(#[$of_meta])* $of_kind,
         }
 
         impl JointKind {
-            /// Every kind, in the order of the scene format.
+            /// Every kind that scene files name, in the order of the scene format.
             pub const ALL: [Self; JOINTS.len()] = [$(Self::$kind),*];
+
+            /// What it is.
+            #[must_use]
+            pub const fn form(self) -> &'static JointForm {
+                const FORMS: &[JointForm] = &[$($form,)* $of_form];
+                &FORMS[self as usize]
+            }
         }
 
-        /// The forms of all kinds, in the order of [`JointKind::ALL`].
+        /// The forms of the kinds of [`JointKind::ALL`], in their order.
         pub const JOINTS: [JointForm; [$(stringify!($kind)),*].len()] = [$($form),*];
     };
 }
@@ -172,16 +182,16 @@ kinds! {
     );
     /// Two points keep their distance: a massless link with two balls, or hinged at the first body.
     Distance = JointForm { is_link: true, ..form("distance", Some(&[]), &[]) };
+    [
+        /// All motions of a point relative to a body: what `free` is where the second body is a point.
+        FreePoint = JointForm {
+            is_of_point: true,
+            ..form("free", Some(&[Slide(X), Slide(Y)]), &[Slide(X), Slide(Y), Slide(Z)])
+        };
+    ]
 }
 
 impl JointKind {
-    /// What it is.
-    #[must_use]
-    pub const fn form(self) -> &'static JointForm {
-        const FORMS: &[JointForm; JOINTS.len()] = &JOINTS;
-        &FORMS[self as usize]
-    }
-
     /// The name used in scene files.
     #[must_use]
     pub const fn name(self) -> &'static str {
@@ -209,7 +219,26 @@ impl JointKind {
     /// Does it constrain nothing?
     #[must_use]
     pub fn is_free(self) -> bool {
-        self.n_coordinates(Dimension::Spatial) == 6
+        self.is_of_point() || self.n_coordinates(Dimension::Spatial) == 6
+    }
+
+    /// The kind that its name means where one of the bodies is a point.
+    #[must_use]
+    pub fn of_points(self) -> Self {
+        if self.is_free() { Self::FreePoint } else { self }
+    }
+
+    /// Is its second body a point, which does not turn?
+    #[must_use]
+    pub const fn is_of_point(self) -> bool {
+        self.form().is_of_point
+    }
+
+    /// Does it hold two points together and constrain nothing else?
+    #[must_use]
+    pub fn is_ball(self, dimension: Dimension) -> bool {
+        self.translation(dimension) == Translation::Fixed
+            && self.rotation(dimension) == Rotation::Free
     }
 
     /// What it lets move in a scene of that dimension, in the order of the joint's coordinates.
@@ -329,7 +358,7 @@ impl JointKind {
     pub fn rotation(self, dimension: Dimension) -> Rotation {
         let mut turns = self.freedoms(dimension).iter().filter(|freedom| freedom.n_rotations() > 0);
         match (turns.next(), turns.next(), dimension) {
-            _ if self.is_link() => Rotation::Free,
+            _ if self.is_link() || self.is_of_point() => Rotation::Free,
             (None, ..) => Rotation::Fixed,
             (Some(Turn(axis)), None, Dimension::Spatial) => Rotation::About(*axis),
             (Some(Turn(a)), Some(Turn(b)), Dimension::Spatial) => Rotation::Universal([*a, *b]),

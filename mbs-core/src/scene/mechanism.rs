@@ -123,14 +123,42 @@ impl<T> Scene<T> {
     }
 }
 
+impl<T> Scene<T> {
+    /// Is it a point mass?
+    #[must_use]
+    pub fn is_point(&self, body: BodyId) -> bool {
+        body.index().and_then(|body| self.bodies.get(body)).is_some_and(Body::is_point)
+    }
+
+    /// Does a joint measure a turn of a point mass, which has none?
+    #[must_use]
+    pub fn turns_point(&self, joint: &Joint<T>) -> bool {
+        joint.kind.n_rotations(self.dimension) > 0
+            && joint.bodies.into_iter().any(|body| self.is_point(body))
+    }
+
+    /// Gives joints that name a point mass the [kind](crate::scene::JointKind::of_points) that their name means there.
+    pub(crate) fn name_points(&mut self) {
+        for i in 0..self.joints.len() {
+            let bodies = self.joints[i].bodies;
+            if bodies.into_iter().any(|body| self.is_point(body)) {
+                self.joints[i].kind = self.joints[i].kind.of_points();
+            }
+        }
+    }
+}
+
 impl<T: Clone> Scene<T> {
-    /// Its outputs; where it names none, the coordinates of every joint that has some, under the joint's name.
+    /// Its outputs; where it names none, the coordinates of every joint that has some, under the joint's name. Points do not turn: joints
+    /// that hold them have none.
     #[must_use]
     pub fn channels(&self) -> Vec<Output<T>> {
         if !self.outputs.is_empty() {
             return self.outputs.clone();
         }
-        let moves = |joint: &Joint<T>| joint.kind.n_coordinates(self.dimension) > 0;
+        let moves = |joint: &Joint<T>| {
+            joint.kind.n_coordinates(self.dimension) > 0 && !self.turns_point(joint)
+        };
         let joints = self.joints.iter().enumerate().filter(|(_, joint)| moves(joint));
         let value = |index| Quantity::JointValue { joint: JointId::new(index) };
         joints.map(|(i, joint)| Output { name: joint.name.clone(), quantity: value(i) }).collect()

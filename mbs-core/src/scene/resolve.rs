@@ -26,6 +26,7 @@ impl Scene<Number> {
             // the check then finds its place
             if is_missing { not_a_number } else { x.value() }
         })?;
+        scene.name_points();
         // may be assumed
         scene.duration = self.duration.value();
         match scene.check() {
@@ -104,6 +105,7 @@ impl<T> Body<T> {
             Inertia::Rod { from, to } => Inertia::Rod { from: all(from, f), to: all(to, f) },
             Inertia::Planar(moment) => Inertia::Planar(f(moment)),
             Inertia::Spatial(moments) => Inertia::Spatial(all(moments, f)),
+            Inertia::Point => Inertia::Point,
         };
         let (mass, center) = (f(&self.mass), all(&self.center, f));
         Body { name: self.name.clone(), mass, center, inertia }

@@ -33,7 +33,12 @@ impl<'a, T: Real> Placement<'a, T> {
     pub(super) fn new(scene: &'a Scene<T>, clusters: &'a Clusters<T>) -> Option<Self> {
         let ground = clusters.clusters.len();
         let node = |body: BodyId| clusters.of(body).unwrap_or(ground);
-        let joints = || scene.joints.iter().enumerate().filter(|(_, j)| !j.kind.is_rigid());
+        // what holds a point to its own cluster is as rigid as a weld
+        let is_inside = |j: &Joint<T>| {
+            let [first, second] = j.bodies.map(node);
+            j.kind.is_rigid() || first == second && scene.turns_point(j)
+        };
+        let joints = || scene.joints.iter().enumerate().filter(|(_, j)| !is_inside(j));
         let mut touching = vec![Vec::new(); ground + 1];
         for (j, joint) in joints() {
             joint.bodies.into_iter().for_each(|body| touching[node(body)].push(j));

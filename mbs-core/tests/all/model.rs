@@ -84,6 +84,7 @@ fn kinetic_energy<const D: usize>(scene: &Scene<f64>, field: &Field<'_, D>) -> f
         let me = BodyId::Body(i);
         let v = field.point(me, body.center);
         match body.inertia {
+            Inertia::Point => energy += 0.5 * body.mass * dot(&v, &v),
             Inertia::Rod { from, to } => {
                 let (a, b) = (field.point(me, from), field.point(me, to));
                 energy += body.mass / 6.0 * (dot(&a, &a) + dot(&a, &b) + dot(&b, &b));

@@ -3,12 +3,19 @@
 use crate::read::fields::{Fields, Read};
 use mbs_core::scene::{Body, Inertia, Number};
 
-const KEYS: [&str; 5] = ["name", "mass", "center", "inertia", "rod"];
+const KEYS: [&str; 6] = ["name", "mass", "center", "inertia", "rod", "point"];
 
 pub(crate) fn read(fields: &Fields<'_>) -> Read<Body<Number>> {
     fields.allow(&KEYS, &[])?;
     let context = fields.context;
     let (name, mass) = (fields.name()?, fields.number("mass")?);
+    if fields.get("point").is_some() {
+        for other in ["center", "inertia", "rod"] {
+            fields.exclusive("point", other)?;
+        }
+        let center = fields.vector("point")?;
+        return Ok(Body { name, mass, center, inertia: Inertia::Point });
+    }
     if let Some(item) = fields.get("rod") {
         fields.exclusive("rod", "center")?;
         fields.exclusive("rod", "inertia")?;

@@ -101,6 +101,13 @@ pub enum ReadFault {
         /// What makes it smooth.
         remedy: &'static str,
     },
+    /// What a point mass does not have, or where it is not.
+    OfPoint {
+        /// Its name.
+        name: String,
+        /// [`SceneFault::PointTurns`] or [`SceneFault::OffPoint`].
+        fault: SceneFault,
+    },
     /// The ground where a moving body is needed.
     GroundDoesNotMove,
     /// A value of another type.
@@ -232,6 +239,10 @@ impl Display for ReadFault {
                 write!(f, "`{first}`")
             }
             Self::SignalNotSmooth { name, broken, .. } => write!(f, "`{name}` {broken}"),
+            Self::OfPoint { name, fault: SceneFault::OffPoint { by, .. } } => {
+                write!(f, "`{name}` is a point: this place is {by:.6e} m off it")
+            }
+            Self::OfPoint { name, .. } => write!(f, "`{name}` is a point: it has no orientation"),
             Self::GroundDoesNotMove => write!(f, "the ground does not move"),
             Self::WrongType { expected, found } => write!(f, "expected {expected}, found {found}"),
             Self::NumberInText { text } => match units::quantity(text) {
@@ -277,8 +288,8 @@ pub(crate) const NAMED: &str = "coordinate, by its name,";
 const OF_WHOM: &str = "add `joint = \"...\"` for its value, rate or reaction, `body = \"...\"` with `at = [...]` for the position, velocity or \
                        acceleration of a point, or the `coupling`, `rolling`, `effect` or `signal`; the energy, momentum and center-of-mass are of the scene";
 const INERTIA: &str = "add `inertia`, about the centre of mass [kg m^2]: one number in the plane, six in space; a point mass that is welded \
-                       to a body has zeros; a slender rod has \
-                       `rod = { from = [...], to = [...] }` instead of `center` and `inertia`";
+                       to a body has zeros; instead of `center` and `inertia`, a point mass has `point = [...]`, and a slender rod \
+                       `rod = { from = [...], to = [...] }`";
 
 impl ReadFault {
     fn hint(&self) -> String {
@@ -297,6 +308,7 @@ impl ReadFault {
             Self::UnknownSignal { name, known } => nearest_name(name, known, "signals"),
             Self::SignalCircle { .. } => SceneFault::SignalCircle.advice().to_owned(),
             Self::SignalNotSmooth { remedy, .. } => (*remedy).to_owned(),
+            Self::OfPoint { fault, .. } => fault.advice().to_owned(),
             Self::GroundDoesNotMove => "name a body".to_owned(),
             Self::WrongType { expected, .. } => format!("write {expected}"),
             Self::WrongCount { needed, .. } => {

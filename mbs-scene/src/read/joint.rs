@@ -1,14 +1,14 @@
 //! `[[joint]]`.
 
 use crate::read::fields::{Fields, Read};
-use mbs_core::scene::{BodyId, Dimension, Joint, JointKind, JointLimits, Number};
+use mbs_core::scene::{Body, BodyId, Dimension, Joint, JointKind, JointLimits, Number};
 
 const KEYS: [&str; 8] = ["name", "kind", "bodies", "at", "axis", "axes", "points", "direction"];
 /// Keys that every joint may have; the check says which have no meaning.
 const LIMITS: [&str; 3] = ["range", "effort_limit", "velocity_limit"];
 
-/// Reads a joint; `centers` are the bodies' centres of mass, where a free joint is placed by default.
-pub(crate) fn read(fields: &Fields<'_>, centers: &[[Number; 3]]) -> Read<Joint<Number>> {
+/// Reads a joint; a free one is placed at the centre of mass of one of the bodies by default.
+pub(crate) fn read(fields: &Fields<'_>, known: &[Body<Number>]) -> Read<Joint<Number>> {
     let kind = read_kind(fields)?;
     let dimension = fields.context.dimension;
     // Spatial kinds keep their axes in planar scenes: the check speaks about the kind, which is the fault there.
@@ -16,16 +16,18 @@ pub(crate) fn read(fields: &Fields<'_>, centers: &[[Number; 3]]) -> Read<Joint<N
     let axis_keys = kind.axis_keys(dimension);
     let has_hinge = kind.is_link() && dimension == Dimension::Spatial;
     let place = if kind.is_link() { "points" } else { "at" };
-    let mut known = vec!["name", "kind", "bodies", place];
-    known.extend((0..2).filter(|&i| needed[i] || has_hinge && i == 0).map(|i| axis_keys[i]));
-    known.dedup();
-    known.extend(LIMITS);
-    fields.allow(&known, &KEYS)?;
+    let mut keys = vec!["name", "kind", "bodies", place];
+    keys.extend((0..2).filter(|&i| needed[i] || has_hinge && i == 0).map(|i| axis_keys[i]));
+    keys.dedup();
+    keys.extend(LIMITS);
+    fields.allow(&keys, &KEYS)?;
     let bodies = fields.pair()?;
+    let is_point = |body: BodyId| body.index().is_some_and(|i| known[i].is_point());
+    let kind = if bodies.into_iter().any(is_point) { kind.of_points() } else { kind };
     let points = if kind.is_link() {
         fields.two_vectors("points")?
     } else {
-        let at = match default_place(kind, bodies, centers) {
+        let at = match default_place(kind, bodies, known) {
             Some(center) if fields.get("at").is_none() => center,
             _ => fields.vector("at")?,
         };
@@ -65,11 +67,11 @@ fn read_kind(fields: &Fields<'_>) -> Read<JointKind> {
 fn default_place(
     kind: JointKind,
     bodies: [BodyId; 2],
-    centers: &[[Number; 3]],
+    known: &[Body<Number>],
 ) -> Option<[Number; 3]> {
     match bodies {
         [_, BodyId::Body(i)] | [BodyId::Body(i), BodyId::Ground] if kind.is_free() => {
-            centers.get(i).cloned()
+            known.get(i).map(|body| body.center.clone())
         }
         _ => None,
     }

@@ -58,7 +58,8 @@ impl SceneFile {
         header.allow(&SCENE_KEYS, &[])?;
         let body_data = self.entries(&context, "body", |_, fields| body::read(fields))?;
         let centers: Vec<[Number; 3]> = body_data.iter().map(|body| body.center.clone()).collect();
-        let joints = self.entries(&context, "joint", |_, fields| joint::read(fields, &centers))?;
+        let joints =
+            self.entries(&context, "joint", |_, fields| joint::read(fields, &body_data))?;
         let couplings =
             self.entries(&context, "coupling", |i, fields| coupling::read(i, fields, &joints))?;
         let rollings = self.entries(&context, "rolling", |i, fields| rolling::read(i, fields))?;
@@ -178,26 +179,31 @@ impl SceneFile {
         ReadError::new(&self.file, place, self.fault(error))
     }
 
-    /// The fault, with the names of the signals that it is about.
+    /// The fault, with the names of the signals or of the body that it is about.
     fn fault(&self, error: SceneError) -> ReadFault {
-        let is_of_signals =
-            matches!(error.fault, SceneFault::SignalNotSmooth { .. } | SceneFault::SignalCircle);
-        if !is_of_signals {
-            return ReadFault::Scene(error);
-        }
-        let signals = self.numbers().map(|scene| scene.signals).unwrap_or_default();
-        let name = |i: usize| signals.get(i).map(|signal| signal.name.clone());
-        match error.fault {
-            SceneFault::SignalNotSmooth { broken, remedy } => match name(broken.signal.index()) {
-                Some(name) => ReadFault::SignalNotSmooth { name, broken, remedy },
-                None => ReadFault::Scene(error),
-            },
-            SceneFault::SignalCircle => {
-                let circle = signal_order(&signals).err().unwrap_or_default();
-                ReadFault::SignalCircle { names: circle.into_iter().filter_map(name).collect() }
+        let named = match error.fault {
+            SceneFault::SignalNotSmooth { broken, remedy } => {
+                let name = self.name("signal", broken.signal.index());
+                name.map(|name| ReadFault::SignalNotSmooth { name, broken, remedy })
             }
-            _ => ReadFault::Scene(error),
-        }
+            SceneFault::SignalCircle => {
+                let signals = self.numbers().map(|scene| scene.signals).unwrap_or_default();
+                let circle = signal_order(&signals).err().unwrap_or_default().into_iter();
+                let names = circle.filter_map(|i| self.name("signal", i)).collect();
+                Some(ReadFault::SignalCircle { names })
+            }
+            SceneFault::PointTurns(body) | SceneFault::OffPoint { body, .. } => {
+                let name = self.name("body", body);
+                name.map(|name| ReadFault::OfPoint { name, fault: error.fault })
+            }
+            _ => None,
+        };
+        named.unwrap_or(ReadFault::Scene(error))
+    }
+
+    /// The name of an entry of a table.
+    fn name(&self, table: &str, i: usize) -> Option<String> {
+        self.names(table).list().get(i).cloned()
     }
 
     pub(crate) fn entries<'a, R>(

@@ -9,6 +9,7 @@ mod couplings;
 mod effects;
 mod limits;
 mod outputs;
+mod points;
 mod random;
 mod road;
 mod rotors;

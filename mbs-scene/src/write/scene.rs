@@ -279,6 +279,7 @@ impl Writer<'_> {
                 keys.push("center", self.vector(&body.center));
                 keys.push("inertia", moments);
             }
+            Inertia::Point => keys.push("point", self.vector(&body.center)),
         }
         keys
     }

@@ -70,7 +70,7 @@ fn relative<T: Real, S: Space<T>>(scene: &Scene<T>, sizes: Sizes) -> Result<Rela
 
 fn joints<T>(scene: &Scene<T>) -> Vec<JointsByKind> {
     let group = |kind: JointKind| {
-        let joints = scene.joints.iter().filter(|joint| joint.kind == kind);
+        let joints = scene.joints.iter().filter(|joint| joint.kind.name() == kind.name());
         let names = joints.map(|joint| joint.name.clone()).collect();
         JointsByKind { kind: kind.name().to_owned(), names }
     };

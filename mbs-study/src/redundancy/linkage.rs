@@ -31,6 +31,8 @@ pub fn reference(scene: &Scene<f64>) -> Vec<RigidMotion<f64>> {
 pub struct Linkage {
     pub(crate) dimension: Dimension,
     pub(crate) n_bodies: usize,
+    /// Turns of point masses, which are none: no joint has a row for them.
+    n_idle: usize,
     pub(crate) links: Vec<Link>,
     /// What can depend on each other: see [`Part`].
     pub parts: Vec<Part>,
@@ -58,9 +60,12 @@ impl Linkage {
         let mut linkage = Self {
             dimension: scene.dimension,
             n_bodies: scene.bodies.len(),
+            n_idle: 0,
             links,
             parts: Vec::new(),
         };
+        let n_points = scene.bodies.iter().filter(|body| body.is_point()).count();
+        linkage.n_idle = n_points * linkage.turns().count();
         linkage.parts = parts(linkage.n_bodies, &linkage.links, &reference(scene));
         linkage
     }
@@ -74,11 +79,19 @@ impl Linkage {
         }
     }
 
-    /// Rows of all joints, and freedoms of all bodies.
+    /// Which of them turn it.
+    pub(crate) fn turns(&self) -> Range<usize> {
+        match self.dimension {
+            Dimension::Planar => 2..3,
+            Dimension::Spatial => 3..6,
+        }
+    }
+
+    /// Rows of all joints, and freedoms of all bodies; point masses do not turn.
     #[must_use]
     pub fn sizes(&self) -> [usize; 2] {
         let rows = self.links.iter().map(Link::n_rows).sum();
-        [rows, self.n_bodies * self.freedoms()]
+        [rows, self.n_bodies * self.freedoms() - self.n_idle]
     }
 
     /// Equations of a joint; with its guide's.

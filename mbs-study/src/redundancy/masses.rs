@@ -123,6 +123,14 @@ fn classified(
     let mut found = Vec::new();
     let mut spins = Vec::new();
     for (b, body) in scene.bodies.iter().enumerate() {
+        if body.is_point() {
+            // it does not turn at all
+            spins.extend(linkage.turns().map(|turn| {
+                let mut spin = Matrix::zeros(scene.bodies.len() * f, 1);
+                spin[(b * f + turn, 0)] = 1.0;
+                spin
+            }));
+        }
         let Inertia::Rod { from, to } = body.inertia else { continue };
         if f == 3 || !(body.mass > 0.0) {
             continue;

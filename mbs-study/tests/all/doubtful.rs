@@ -187,3 +187,21 @@ fn the_doctor_names_the_axis_that_is_off() {
         assert_eq!(found.joints, [2], "{angle:e}");
     }
 }
+
+#[test]
+fn point_masses_are_no_doubt() {
+    // one hangs on a string, one is part of a body in space
+    let text = "[scene]\nname = \"p\"\ndimension = 3\nduration = 0.1\ngravity = [0.0, 0.0, -9.81]\n\
+                [[body]]\nname = \"far\"\nmass = 1.0\npoint = [1.0, 0.2, -0.5]\n\
+                [[body]]\nname = \"ball\"\nmass = 0.5\npoint = [0.5, 0.2, 0.1]\n\
+                [[body]]\nname = \"arm\"\nmass = 2.0\ncenter = [0.2, 0.1, 0.0]\ninertia = [0.1, 0.12, 0.13, 0.0, 0.01, 0.0]\n\
+                [[joint]]\nname = \"pivot\"\nkind = \"spherical\"\nbodies = [\"ground\", \"arm\"]\nat = [0.0, 0.0, 0.0]\n\
+                [[joint]]\nname = \"held\"\nkind = \"spherical\"\nbodies = [\"arm\", \"ball\"]\nat = [0.5, 0.2, 0.1]\n\
+                [[joint]]\nname = \"string\"\nkind = \"distance\"\nbodies = [\"ball\", \"far\"]\npoints = [[0.5, 0.2, 0.1], [1.0, 0.2, -0.5]]\n";
+    let found = checkup(&mbs_testkit::scene(text));
+    // a body on a ball, and a point on a string
+    let [_, columns, rank] = found.joint_level.sizes;
+    let [coordinates, _, natural_rank] = found.natural.expect("it starts");
+    assert_eq!((columns - rank, coordinates - natural_rank), (5, 5));
+    assert!(found.worst() < Some(Severity::Doubt), "{:?}", found.findings);
+}

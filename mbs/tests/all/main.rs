@@ -30,6 +30,7 @@ mod kinds;
 mod modes;
 mod observers;
 mod oracle;
+mod points;
 mod random;
 mod readings;
 mod realtime;

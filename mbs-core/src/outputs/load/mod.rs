@@ -196,7 +196,7 @@ impl<T: Real, const D: usize> Load<T, D> {
                 (*bodies, gauge, law)
             }
             Action::Rotation { bodies, number, law } => {
-                let frames = Box::new(bodies.map(|body| Frame::new(scene, model, body)));
+                let frames = Box::new(bodies.map(|body| Frame::new(model, body)));
                 let (number, memory) = (*number as usize, model.memory_of_effect(effect));
                 (*bodies, Measure::Rotation { frames, number, memory }, law)
             }
@@ -208,11 +208,11 @@ impl<T: Real, const D: usize> Load<T, D> {
                 return Self::Force { body: at.0, point: point(at), course, turns };
             }
             Action::Torque { body, course } => {
-                let frame = Frame::new(scene, model, BodyId::Body(*body));
+                let frame = Frame::new(model, BodyId::Body(*body));
                 return Self::Torque { body: *body, frame, course: *course as usize };
             }
             Action::BodyLoad { at, axis, law } => {
-                let frame = Frame::new(scene, model, BodyId::Body(at.0));
+                let frame = Frame::new(model, BodyId::Body(at.0));
                 let (axis, law) = ((*axis).into(), *law);
                 return Self::OnBody { body: at.0, point: point(at), frame, axis, law };
             }

@@ -22,7 +22,7 @@ impl<T: Real, const D: usize> Measured<T, D> for Orientation<T, D> {
         let coordinate = if D == 2 {
             Coordinate::between(from.model, [BodyId::Ground, of])
         } else {
-            Coordinate::quaternion(from.scene, from.model, of)
+            Coordinate::quaternion(from.model, of)
         };
         from.values.push(if D == 2 { T::ZERO } else { T::ONE });
         from.values.resize(start + coordinate.len(), T::ZERO);

@@ -17,7 +17,7 @@ impl<T: Real, const D: usize> Measured<T, D> for RelativeAngularVelocity<T, D> {
     type Of = [BodyId; 2];
 
     fn new(of: [BodyId; 2], from: &mut Maker<'_, T, D>) -> Self {
-        Self(of.map(|body| Frame::new(from.scene, from.model, body)))
+        Self(of.map(|body| Frame::new(from.model, body)))
     }
 
     fn write(&self, now: &Instant<'_, T, D>, out: &mut [T]) {

@@ -17,7 +17,7 @@ impl<T: Real, const D: usize> Measured<T, D> for RotationMatrix<T, D> {
     type Of = BodyId;
 
     fn new(of: BodyId, from: &mut Maker<'_, T, D>) -> Self {
-        Self(Frame::new(from.scene, from.model, of))
+        Self(Frame::new(from.model, of))
     }
 
     fn write(&self, now: &Instant<'_, T, D>, out: &mut [T]) {

@@ -22,7 +22,7 @@ impl<T: Real, const D: usize> Measured<T, D> for RotationVector<T, D> {
         let coordinate = if D == 2 {
             Coordinate::between(from.model, [BodyId::Ground, of])
         } else {
-            Coordinate::turn(from.scene, from.model, [BodyId::Ground, of])
+            Coordinate::turn(from.model, [BodyId::Ground, of])
         };
         from.values.resize(start + coordinate.len(), T::ZERO);
         Self(Followed { coordinates: vec![coordinate], start, joint: None })

@@ -25,7 +25,7 @@ impl<T: Real, const D: usize> SeenPoint<T, D> {
     pub(super) fn new(of: &RelativePoint<T>, from: &Maker<'_, T, D>) -> Self {
         let (point, origin) =
             (from.model.point(of.body, of.at), from.model.point(of.relative_to, of.origin));
-        let frame = Frame::new(from.scene, from.model, of.relative_to);
+        let frame = Frame::new(from.model, of.relative_to);
         Self { gap: point.minus(&origin), frame }
     }
 

@@ -11,9 +11,10 @@ use core::mem::discriminant;
 /// Numbers of one body, whatever is welded to it.
 pub(super) fn check<T: Real>(body: &Body<T>, place: Place) -> Result<(), SceneError> {
     place.not_negative("mass", body.mass)?;
-    place.vector("center", body.center)?;
+    place.vector(if body.is_point() { "point" } else { "center" }, body.center)?;
     let (is_fitting, numbers) = match &body.inertia {
         Inertia::Rod { from, to } => return place.apart("rod", [*from, *to]),
+        Inertia::Point => return Ok(()),
         Inertia::Planar(moment) => (is_planar(place.dimension), core::slice::from_ref(moment)),
         Inertia::Spatial(six) => (!is_planar(place.dimension), &six[..]),
     };

@@ -34,6 +34,8 @@ struct Place {
     n: usize,
     /// The joint of the scene, and a body that it carries.
     of: (Option<usize>, usize),
+    /// Does nothing hold the body?
+    is_free: bool,
     pose: Option<Pose>,
 }
 
@@ -155,6 +157,7 @@ impl Layout {
                 at: [[v, v + n], [w + self.turns[1], w]],
                 n,
                 of: (joint.joint, joint.body),
+                is_free: joint.joint.is_none_or(|joint| scene.joints[joint].kind.is_free()),
                 pose: is_rotation.then_some(pose),
             });
         }
@@ -162,7 +165,12 @@ impl Layout {
 
     /// Where the numbers of a joint of the tree stand; nothing for a guided one.
     pub(super) fn range(&self, joint: usize) -> Option<TreeRange> {
-        let mut own = self.places.iter().filter(|place| place.of.0 == Some(joint));
+        self.range_of(|place| place.of.0 == Some(joint))
+    }
+
+    /// From the first of some places to the last.
+    fn range_of(&self, is_own: impl Fn(&Place) -> bool) -> Option<TreeRange> {
+        let mut own = self.places.iter().filter(|place| is_own(place));
         let first = own.next()?.own.clone();
         let last = own.next_back().map_or(&first, |place| &place.own).clone();
         Some(TreeRange { q: first.q.start..last.q.end, v: first.v.start..last.v.end })
@@ -170,8 +178,7 @@ impl Layout {
 
     /// Where the numbers of a free body stand.
     pub(super) fn range_of_free(&self, body: usize) -> Option<TreeRange> {
-        let free = self.places.iter().find(|place| place.n > 0 && place.of.1 == body);
-        free.map(|place| place.own.clone())
+        self.range_of(|place| place.is_free && place.of.1 == body)
     }
 
     /// Makes quaternions unit.

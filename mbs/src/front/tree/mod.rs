@@ -194,7 +194,7 @@ impl Tree {
         Ok(())
     }
 
-    /// Where the numbers of a joint stand in q and v. A weld has none.
+    /// Where the numbers of a joint stand in q and v. A weld has none, nor has a ball by which a point mass is part of another body.
     ///
     /// # Errors
     /// [`TreeErrorKind::Cut`], [`TreeErrorKind::Guided`] or [`TreeErrorKind::Idle`] with the joint's name.
@@ -220,7 +220,7 @@ impl Tree {
             TreeErrorKind::Guided
         } else if cuts.any(|cut| cut == joint.index()) {
             TreeErrorKind::Cut
-        } else if data.kind.is_rigid() {
+        } else if data.kind.is_rigid() || self.scene.turns_point(data) {
             return Ok(TreeRange { q: 0..0, v: 0..0 });
         } else {
             TreeErrorKind::Idle

@@ -5,7 +5,7 @@ use super::row;
 use super::scenes::{GUIDED, LOCKING, PLANAR, SPATIAL};
 
 pub(super) fn rows() -> Vec<Row> {
-    let parts = [places(), masses(), settings(), stops()];
+    let parts = [places(), masses(), points(), settings(), stops()];
     parts.into_iter().flatten().collect()
 }
 
@@ -127,6 +127,42 @@ fn masses() -> Vec<Row> {
             &[("center = [1.5, 0.0]\ninertia = 0.1", "center = [1.0, 0.0]\ninertia = 0.0")],
             ["a force would meet no inertia", "or give it any small inertia"],
             &[("inertia = 0.0", "inertia = 1e-3")],
+        ),
+    ]
+}
+
+/// Points that turn without inertia, and nodes without mass.
+fn points() -> Vec<Row> {
+    vec![
+        row(
+            PLANAR,
+            &[
+                ("center = [1.5, 0.0]\ninertia = 0.1", "center = [1.0, 0.0]\ninertia = 0.0"),
+                ("points = [[1.5, 0.0], [1.5, 1.0]]", "points = [[1.0, 0.0], [1.0, 1.0]]"),
+                ("at = [2.0, 0.0]", "at = [1.0, 0.0]"),
+            ],
+            ["a force would meet no inertia", "write a point mass as `point`"],
+            &[
+                ("center = [1.0, 0.0]\ninertia = 0.0", "point = [1.0, 0.0]"),
+                ("[[initial]]\njoint = \"elbow\"\nrate = 0.5\n", ""),
+            ],
+        ),
+        // a node between two springs
+        row(
+            PLANAR,
+            &[
+                (
+                    "mass = 2.0\ncenter = [1.5, 0.0]\ninertia = 0.1",
+                    "mass = 0.0\npoint = [1.5, 0.0]",
+                ),
+                (
+                    "[[joint]]\nname = \"elbow\"\nkind = \"revolute\"\nbodies = [\"crank\", \"arm\"]\nat = [1.0, 0.0]\n[[initial]]\njoint = \"elbow\"\nrate = 0.5\n",
+                    "[[effect]]\nname = \"second\"\nkind = \"spring-damper\"\nbodies = [\"crank\", \"arm\"]\npoints = [[1.0, 0.0], [1.5, 0.0]]\nstiffness = 100.0\nfree_length = 0.4\n",
+                ),
+                ("at = [2.0, 0.0]", "at = [1.5, 0.0]"),
+            ],
+            ["a force would meet no inertia", "m = 4 k h^2"],
+            &[("mass = 0.0", "mass = 2e-3")],
         ),
     ]
 }

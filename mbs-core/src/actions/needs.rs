@@ -1,0 +1,129 @@
+//! What the entries of a scene ask of its bodies: material points, directions and rotations. Joints are looked at by themselves.
+
+use crate::Real;
+use crate::actions::{Action, Actions};
+use crate::outputs::{Quantity, RelativePoint, Target};
+use crate::scene::{BallAngle, BodyId, CouplingMeasure, Entry, InitialTarget, Scene};
+
+/// What is asked of a body.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum Need<T> {
+    /// The material point that is at this place in the reference configuration [m].
+    Point(BodyId, [T; 3]),
+    /// A direction that is fixed in both bodies of a joint, reference configuration.
+    Direction(usize, [T; 3]),
+    /// All of its rotation.
+    Rotation(BodyId),
+    /// What it has of a rotation: it is read, and nothing acts on it.
+    Orientation(BodyId),
+    /// Coordinates of a joint: the one of this number, else all.
+    Coordinates(usize, Option<usize>),
+}
+
+/// Hands out what initial values, effects, couplings, what rolls, and outputs ask for.
+///
+/// Cost: one pass over them.
+pub(crate) fn needs<T: Real>(
+    scene: &Scene<T>,
+    actions: &Actions<T>,
+    take: &mut impl FnMut(Entry, Need<T>),
+) {
+    for (i, initial) in scene.initials.iter().enumerate() {
+        of_initial(&initial.target, |need| take(Entry::Initial(i), need));
+    }
+    for (effect, action) in &actions.list {
+        of_action(action, &mut |need| take(Entry::Effect(*effect), need));
+    }
+    for (i, coupling) in scene.couplings.iter().enumerate() {
+        for term in coupling.terms.iter().filter(|term| !term.factor.is_zero()) {
+            of_measure(&term.of, &mut |need| take(Entry::Coupling(i), need));
+        }
+    }
+    for (i, rolling) in scene.rollings.iter().enumerate() {
+        [rolling.body, rolling.on]
+            .into_iter()
+            .for_each(|body| take(Entry::Rolling(i), Need::Rotation(body)));
+    }
+    for (i, output) in scene.outputs.iter().enumerate() {
+        of_output(scene, &output.quantity, |need| take(Entry::Output(i), need));
+    }
+}
+
+fn of_initial<T: Copy>(target: &InitialTarget<T>, mut take: impl FnMut(Need<T>)) {
+    match target {
+        InitialTarget::Body { body, velocity, angular_velocity } => {
+            if let Some((at, _)) = velocity {
+                take(Need::Point(*body, *at));
+            }
+            if angular_velocity.is_some() {
+                take(Need::Orientation(*body));
+            }
+        }
+        InitialTarget::Joint { joint, .. } => take(Need::Coordinates(joint.index(), None)),
+    }
+}
+
+fn of_action<T: Real>(action: &Action<T>, take: &mut impl FnMut(Need<T>)) {
+    match action {
+        Action::Length { ends, .. } => ends.iter().for_each(|(b, p)| take(Need::Point(*b, *p))),
+        Action::Along { ends: [first, second], .. } => {
+            take(Need::Rotation(first.0));
+            take(Need::Point(second.0, second.1));
+        }
+        Action::Turn { bodies, .. } | Action::Rotation { bodies, .. } => {
+            bodies.iter().for_each(|body| take(Need::Rotation(*body)));
+        }
+        Action::Constant { at: (body, at), .. } => take(Need::Point(BodyId::Body(*body), *at)),
+        Action::Torque { body, .. } => take(Need::Rotation(BodyId::Body(*body))),
+        Action::Sum { terms, .. } => terms.iter().for_each(|term| of_measure(&term.of, take)),
+        Action::Angle { joint, number, .. } => take(Need::Coordinates(*joint, Some(*number))),
+        Action::Force { at: (body, at), turns, .. } => take(turning(*body, at, *turns)),
+        Action::BodyLoad { at: (body, at), law, .. } => {
+            take(turning(*body, at, law.needs_rotation()));
+        }
+    }
+}
+
+fn turning<T: Copy>(body: usize, at: &[T; 3], turns: bool) -> Need<T> {
+    let body = BodyId::Body(body);
+    if turns { Need::Rotation(body) } else { Need::Point(body, *at) }
+}
+
+fn of_measure<T: Copy>(of: &CouplingMeasure<T>, take: &mut impl FnMut(Need<T>)) {
+    match of {
+        CouplingMeasure::Length { points } => {
+            points.iter().for_each(|(body, at)| take(Need::Point(*body, *at)));
+        }
+        CouplingMeasure::Ball { joint, angle: BallAngle::Swing, axis } => {
+            take(Need::Direction(joint.index(), *axis));
+        }
+        CouplingMeasure::Ball { joint, .. } => take(Need::Coordinates(joint.index(), None)),
+        CouplingMeasure::Coordinate { joint, number } => {
+            take(Need::Coordinates(joint.index(), Some(*number)));
+        }
+    }
+}
+
+fn of_output<T: Copy>(scene: &Scene<T>, quantity: &Quantity<T>, mut take: impl FnMut(Need<T>)) {
+    match (quantity.target(), quantity) {
+        (Target::Point(body, at), _) => take(Need::Point(body, at)),
+        (Target::RelativePoint(RelativePoint { body, at, relative_to, origin }), _) => {
+            take(Need::Point(body, at));
+            take(Need::Point(relative_to, origin));
+            take(Need::Orientation(relative_to));
+        }
+        (Target::RelativeBody(body, other), _) => {
+            [body, other].into_iter().for_each(|body| take(Need::Orientation(body)));
+        }
+        (Target::Body(_), Quantity::BodyKineticEnergy { .. })
+        | (Target::Joint(_), Quantity::Reaction { .. }) => {}
+        (Target::Body(body), _) => take(Need::Orientation(body)),
+        (Target::Joint(joint), _) => {
+            let Some(joint) = scene.joints.get(joint.index()) else { return };
+            if joint.kind.n_rotations(scene.dimension) > 0 {
+                joint.bodies.into_iter().for_each(|body| take(Need::Orientation(body)));
+            }
+        }
+        _ => {}
+    }
+}
