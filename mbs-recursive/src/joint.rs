@@ -11,6 +11,8 @@ use crate::indexing::{Outside, at, at_mut, part, part_mut};
 use crate::link::{ArticulatedInertia, Link, LinkKind, LinkMotion};
 use crate::space::{Numbers, Space};
 use mbs_core::Real;
+use mbs_core::algebra::{Vector, norm};
+use mbs_core::laws::spin::spin;
 
 /// A joint that meets no inertia.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -82,6 +84,20 @@ pub(crate) fn place<T: Real, S: Space<T>>(
             p.bias += S::motion(S::cross_spin(&S::spin(&parent.velocity), &w), S::Point::zero());
             p
         }
+        LinkKind::GuidedBall => {
+            // ω = ω_p + w,   d = (ω_p × w + R_p w'(f), ω_p × (ω_p × r)),   w = R_p w(f)
+            let f = guided_vector(link, guides)?;
+            let arm = S::rotate(&parent.rotation, &link.offset);
+            let rotation = turned_by_vector::<T, S>(&parent.rotation, &f[0]);
+            let spins = spin(f).map(|w| S::spin_from(&w));
+            let [w, second] = spins.map(|w| S::rotate_spin(&parent.rotation, &w));
+            let own = S::motion(w, S::Point::zero());
+            let mut p = still(own, rotation, arm);
+            p.velocity += own;
+            let turning = S::cross_spin(&S::spin(&parent.velocity), &w) + second;
+            p.bias += S::motion(turning, S::Point::zero());
+            p
+        }
         LinkKind::Free => {
             let turn = part(z, zi, S::FREE - S::Point::N)?;
             let rotation = S::turned_by(&S::identity(), turn);
@@ -92,6 +108,29 @@ pub(crate) fn place<T: Real, S: Space<T>>(
             p
         }
     })
+}
+
+/// The rotation vector of a guided ball against its parent, with its first two derivatives.
+pub(crate) fn guided_vector<T: Real, S: Space<T>>(
+    link: &Link<T, S>,
+    guides: &[[T; 3]],
+) -> Result<[Vector<T, 3>; 3], Outside> {
+    let mut f = [Vector::<T, 3>::zeros(); 3];
+    for i in 0..3 {
+        let guide = at(guides, link.v as usize + i)?;
+        for (vector, &number) in f.iter_mut().zip(guide) {
+            vector[i] = number * link.axis[0];
+        }
+    }
+    Ok(f)
+}
+
+/// A rotation followed inside by that of a rotation vector: R exp(f).
+fn turned_by_vector<T: Real, S: Space<T>>(r: &S::Rotation, f: &Vector<T, 3>) -> S::Rotation {
+    let angle = norm(f);
+    // at no turn every axis serves
+    let axis = if angle > T::ZERO { f * (T::ONE / angle) } else { *f };
+    S::turned(r, &S::spin_from(&axis), angle)
 }
 
 /// The numbers of a slice from `first`.
@@ -163,7 +202,7 @@ pub(crate) fn eliminate<T: Real, S: Space<T>>(
             }
             Ok((S::no_inertia(), impulse(kind, p, c)))
         }
-        LinkKind::GuidedRevolute | LinkKind::GuidedPrismatic => {
+        LinkKind::GuidedRevolute | LinkKind::GuidedPrismatic | LinkKind::GuidedBall => {
             Ok((c.inertia, c.force + S::times(&c.inertia, &p.bias)))
         }
     }
@@ -195,7 +234,7 @@ pub(crate) fn impulse<T: Real, S: Space<T>>(
             c.drive = -c.force;
             S::Motion::zero()
         }
-        LinkKind::GuidedRevolute | LinkKind::GuidedPrismatic => c.force,
+        LinkKind::GuidedRevolute | LinkKind::GuidedPrismatic | LinkKind::GuidedBall => c.force,
     }
 }
 
@@ -229,7 +268,7 @@ pub(crate) fn advance<T: Real, S: Space<T>>(
             write(&S::point(&x), zdd, first + S::Spin::N)?;
             a
         }
-        LinkKind::GuidedRevolute | LinkKind::GuidedPrismatic => carried,
+        LinkKind::GuidedRevolute | LinkKind::GuidedPrismatic | LinkKind::GuidedBall => carried,
     })
 }
 
@@ -265,6 +304,6 @@ pub(crate) fn pass<T: Real, S: Space<T>>(
             write(&S::solve(&c.inertia, k), g, 0)?;
             S::Motion::zero()
         }
-        LinkKind::GuidedRevolute | LinkKind::GuidedPrismatic => *k,
+        LinkKind::GuidedRevolute | LinkKind::GuidedPrismatic | LinkKind::GuidedBall => *k,
     })
 }

@@ -127,7 +127,7 @@ pub fn guided(mut scene: Scene<f64>, seed: u64, chances: usize) -> Scene<f64> {
             0 => Motion::Ramp { rate },
             _ => Motion::Sine { amplitude: 0.3 * amplitude, frequency: 1.5 + rate, phase },
         };
-        scene.guides.push(Guide { joint: JointId::new(joint), law });
+        scene.guides.push(Guide { joint: JointId::new(joint), number: 0, law });
     }
     let guides = &scene.guides;
     scene.initials.retain(|initial| match &initial.target {

@@ -33,6 +33,9 @@ impl<T: Real> ThinRods<T> {
         }
         let mut rods = Self { ends, tolerance: length * relative };
         rods.ask_joints(scene);
+        for guide in &scene.guides {
+            scene.joints[guide.joint].bodies.into_iter().for_each(|body| rods.rotation(body));
+        }
         rods.ask_initials(scene);
         actions.list.iter().for_each(|(_, action)| rods.ask_action(scene, action));
         let terms = scene.couplings.iter().flat_map(|coupling| &coupling.terms);

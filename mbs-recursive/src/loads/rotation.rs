@@ -5,6 +5,7 @@
 use super::{Instant, Load, Measure};
 use crate::fault::failure;
 use crate::indexing::{Outside, at};
+use crate::joint::guided_vector;
 use crate::link::LinkKind;
 use crate::slices::{Inputs, Start, Store, TreeSlices};
 use crate::space::Space;
@@ -45,6 +46,13 @@ impl<T: Real, S: Space<T>> Instant<'_, T, S> {
                         *own = *at(self.coordinates.0, first + i)?;
                     }
                     sum = product(own, sum);
+                }
+                LinkKind::GuidedBall => {
+                    let half = guided_vector(link, self.coordinates.2)?[0] * T::HALF;
+                    let (angle, (s, c)) = (norm(&half), norm(&half).sin_cos());
+                    // sin(|f|/2) f/|f|; at no turn it is f/2
+                    let n = if angle > T::ZERO { half * (s / angle) } else { half };
+                    sum = product([c, n[0], n[1], n[2]], sum);
                 }
                 LinkKind::Prismatic | LinkKind::GuidedPrismatic => {}
             }

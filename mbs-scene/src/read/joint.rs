@@ -44,6 +44,28 @@ pub(crate) fn read(fields: &Fields<'_>, centers: &[[Number; 3]]) -> Read<Joint<N
     Ok(Joint { name: fields.name()?, kind, bodies, points, axes, limits: read_limits(fields)? })
 }
 
+/// The free joint from the ground by which a body is guided, at its centre of mass or `at`; it has the body's name.
+pub(crate) fn read_of_guided_body(
+    fields: &Fields<'_>,
+    centers: &[[Number; 3]],
+) -> Read<Option<Joint<Number>>> {
+    let Some(item) = fields.get("body") else { return Ok(None) };
+    let body = fields.context.moving_body(item)?;
+    let (kind, bodies) = (JointKind::Free, [BodyId::Ground, body]);
+    let at = match default_place(kind, bodies, centers) {
+        Some(center) if fields.get("at").is_none() => center,
+        _ => fields.vector("at")?,
+    };
+    Ok(Some(Joint {
+        name: fields.context.text(item)?.to_owned(),
+        kind,
+        bodies,
+        points: [at.clone(), at],
+        axes: [None, None],
+        limits: JointLimits::NONE,
+    }))
+}
+
 fn read_limits(fields: &Fields<'_>) -> Read<JointLimits<Number>> {
     let range = |item| fields.context.numbers_of(item, "a list of two numbers: [lower, upper]");
     Ok(JointLimits {

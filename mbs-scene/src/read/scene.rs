@@ -36,6 +36,7 @@ impl SceneFile {
     /// The first thing in the file that is unknown, missing, or of another form, with its place.
     pub fn numbers(&self) -> Result<Scene<Number>, ReadError> {
         let [bodies, joints, signals] = ["body", "joint", "signal"].map(|table| self.names(table));
+        let joints = Names::new([joints.list(), &self.guided_bodies()?].concat());
         // the dimension is not known yet; nothing dimensional is read before it is
         let dimension = Dimension::Planar;
         let context = Context {
@@ -58,7 +59,11 @@ impl SceneFile {
         header.allow(&SCENE_KEYS, &[])?;
         let body_data = self.entries(&context, "body", |_, fields| body::read(fields))?;
         let centers: Vec<[Number; 3]> = body_data.iter().map(|body| body.center.clone()).collect();
-        let joints = self.entries(&context, "joint", |_, fields| joint::read(fields, &centers))?;
+        let mut joints = self.entries(&context, "joint", |_, fields| joint::read(fields, &centers))?;
+        let of_bodies = |_, fields: &_| joint::read_of_guided_body(fields, &centers);
+        joints.extend(self.entries(&context, "guide", of_bodies)?.into_iter().flatten());
+        let of_entry = |_, fields: &_| motion::read_guides(fields, &joints);
+        let guides = self.entries(&context, "guide", of_entry)?.concat();
         let couplings =
             self.entries(&context, "coupling", |i, fields| coupling::read(i, fields, &joints))?;
         let rollings = self.entries(&context, "rolling", |i, fields| rolling::read(i, fields))?;
@@ -75,7 +80,7 @@ impl SceneFile {
             bodies: body_data,
             initials: self
                 .entries(&context, "initial", |_, fields| motion::read_initial(fields))?,
-            guides: self.entries(&context, "guide", |_, fields| motion::read_guide(fields))?,
+            guides,
             couplings,
             rollings,
             signals: self.entries(&context, "signal", |_, fields| signal::read(fields, &joints))?,
@@ -116,9 +121,9 @@ impl SceneFile {
             Entry::RoadLeft(i) => road("left", i),
             Entry::RoadRight(i) => road("right", i),
             Entry::Body(i) => entries("body", i),
-            Entry::Joint(i) => entries("joint", i),
+            Entry::Joint(i) => return self.item_of_joint(i, field),
             Entry::Initial(i) => entries("initial", i),
-            Entry::Guide(i) => entries("guide", i),
+            Entry::Guide(i) => return self.item_of_guide(i, field),
             Entry::Coupling(i) => entries("coupling", i),
             Entry::Rolling(i) => entries("rolling", i),
             Entry::Signal(i) => entries("signal", i),
