@@ -84,20 +84,7 @@ pub(crate) fn place<T: Real, S: Space<T>>(
             p.bias += S::motion(S::cross_spin(&S::spin(&parent.velocity), &w), S::Point::zero());
             p
         }
-        LinkKind::GuidedBall => {
-            // ω = ω_p + w,   d = (ω_p × w + R_p w'(f), ω_p × (ω_p × r)),   w = R_p w(f)
-            let f = guided_vector(link, guides)?;
-            let arm = S::rotate(&parent.rotation, &link.offset);
-            let rotation = turned_by_vector::<T, S>(&parent.rotation, &f[0]);
-            let spins = spin(f).map(|w| S::spin_from(&w));
-            let [w, second] = spins.map(|w| S::rotate_spin(&parent.rotation, &w));
-            let own = S::motion(w, S::Point::zero());
-            let mut p = still(own, rotation, arm);
-            p.velocity += own;
-            let turning = S::cross_spin(&S::spin(&parent.velocity), &w) + second;
-            p.bias += S::motion(turning, S::Point::zero());
-            p
-        }
+        LinkKind::GuidedBall => guided_ball(link, parent, guides)?,
         LinkKind::Free => {
             let turn = part(z, zi, S::FREE - S::Point::N)?;
             let rotation = S::turned_by(&S::identity(), turn);
@@ -107,6 +94,39 @@ pub(crate) fn place<T: Real, S: Space<T>>(
             p.velocity = S::motion(w, read(v, vi + S::Spin::N)?);
             p
         }
+    })
+}
+
+/// Are guided balls in this build? Tables for controllers have none.
+pub(crate) const HAS_GUIDED_BALLS: bool = cfg!(feature = "alloc");
+
+/// Where a link is that a guided ball turns against its parent.
+#[inline(never)]
+fn guided_ball<T: Real, S: Space<T>>(
+    link: &Link<T, S>,
+    parent: &LinkMotion<T, S>,
+    guides: &[[T; 3]],
+) -> Result<LinkMotion<T, S>, Outside> {
+    if !HAS_GUIDED_BALLS {
+        return Err(Outside);
+    }
+    let f = guided_vector(link, guides)?;
+    let angle = norm(&f[0]);
+    // at no turn every axis serves
+    let axis = if angle > T::ZERO { f[0] * (T::ONE / angle) } else { f[0] };
+    let rotation = S::turned(&parent.rotation, &S::spin_from(&axis), angle);
+    // ω = ω_p + w,   d = (ω_p × w + R_p ω'(f), ω_p × (ω_p × r)),   w = R_p ω(f)
+    let [w, second] = spin(f).map(|w| S::rotate_spin(&parent.rotation, &S::spin_from(&w)));
+    let (arm, turning) = (S::rotate(&parent.rotation, &link.offset), S::spin(&parent.velocity));
+    let freedom = S::motion(w, S::Point::zero());
+    Ok(LinkMotion {
+        rotation,
+        position: parent.position + arm,
+        arm,
+        freedom,
+        velocity: S::carried(&parent.velocity, &arm) + freedom,
+        bias: S::motion(S::cross_spin(&turning, &w) + second, S::centrifugal(&turning, &arm)),
+        center: S::rotate(&rotation, &link.center),
     })
 }
 
@@ -123,14 +143,6 @@ pub(crate) fn guided_vector<T: Real, S: Space<T>>(
         }
     }
     Ok(f)
-}
-
-/// A rotation followed inside by that of a rotation vector: R exp(f).
-fn turned_by_vector<T: Real, S: Space<T>>(r: &S::Rotation, f: &Vector<T, 3>) -> S::Rotation {
-    let angle = norm(f);
-    // at no turn every axis serves
-    let axis = if angle > T::ZERO { f * (T::ONE / angle) } else { *f };
-    S::turned(r, &S::spin_from(&axis), angle)
 }
 
 /// The numbers of a slice from `first`.

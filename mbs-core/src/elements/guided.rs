@@ -218,10 +218,8 @@ impl Guided {
             GuidedMotion::Slide { .. } => -f[1],
             GuidedMotion::Angle { .. } => -f[1] * self.cosine::<T, D>(pool, q, guides),
             GuidedMotion::Rotation { x, y, number } => {
-                let ([_, rates, _], (x, y)) = (
-                    columns(guides, self.guide, number),
-                    self.axes::<T, D>(pool, (x, y), q),
-                );
+                let ([_, rates, _], (x, y)) =
+                    (columns(guides, self.guide, number), self.axes::<T, D>(pool, (x, y), q));
                 skew(&rates, &x, &y)
             }
         }

@@ -331,9 +331,8 @@ impl<T: Real, const D: usize> Model<T> for NaturalModel<T, D> {
     }
 
     fn opposite_guide(&self, q: &[T], terms: &Terms<T>) -> Option<usize> {
-        let is_opposite = |row: &&crate::elements::Guided| {
-            row.is_opposite::<T, D>(&self.pool, q, &terms.guides)
-        };
+        let is_opposite =
+            |row: &&crate::elements::Guided| row.is_opposite::<T, D>(&self.pool, q, &terms.guides);
         self.guided.iter().find(is_opposite).map(|row| row.row as usize)
     }
 

@@ -152,8 +152,7 @@ impl<T: Real> JointWrenches<T> {
             force(normalised(&(places(1) - places(0))));
         }
         self.hinge.iter().for_each(|axis| force(turned[0] * axis));
-        let moment =
-            |m: Vector<T, 3>| Wrench { force: Vector::zeros(), moment: m * self.length };
+        let moment = |m: Vector<T, 3>| Wrench { force: Vector::zeros(), moment: m * self.length };
         match self.rotation {
             Rotation::Fixed => xyz[6 - 2 * d..].iter().for_each(|m| take(moment(*m))),
             Rotation::Universal(_) => {

@@ -20,10 +20,7 @@ impl SceneFile {
     pub(crate) fn entry_of_guide(&self, guide: usize) -> Option<(usize, usize)> {
         let mut first = 0;
         for (i, entry) in self.listed("guide").iter().enumerate() {
-            let n = match key(entry, "signals") {
-                Some(Item { node: Node::List(signals), .. }) => signals.len(),
-                _ => 1,
-            };
+            let n = n_guides(entry);
             if guide < first + n {
                 return Some((i, guide - first));
             }
@@ -48,7 +45,8 @@ impl SceneFile {
     pub(crate) fn item_of_joint(&self, joint: usize, field: &str) -> Option<&Item> {
         let joints = self.listed("joint");
         let Some(entry) = joints.get(joint) else {
-            let mut bodies = self.listed("guide").iter().filter(|entry| key(entry, "body").is_some());
+            let mut bodies =
+                self.listed("guide").iter().filter(|entry| key(entry, "body").is_some());
             let entry = bodies.nth(joint - joints.len())?;
             return key(entry, field).or_else(|| key(entry, "body"));
         };
@@ -60,26 +58,29 @@ impl SceneFile {
     /// # Errors
     /// A body that is guided twice.
     pub(crate) fn guided_bodies(&self) -> Read<Vec<String>> {
-        let (mut names, mut first) = (Vec::<(String, usize)>::new(), 0);
-        for (i, entry) in self.listed("guide").iter().enumerate() {
+        let (mut names, mut guide) = (Vec::<(String, usize)>::new(), 0);
+        for entry in self.listed("guide") {
+            let first = guide;
+            guide += n_guides(entry);
             let Some(body) = key(entry, "body") else { continue };
             // what is no text is refused when the entry is read
             let name = if let Node::Text(name) = &body.node { name.as_str() } else { "" };
             let twice = names.iter().find(|(other, _)| !name.is_empty() && other == name);
             if let Some(&(_, other)) = twice {
-                while self.entry_of_guide(first).is_some_and(|(entry, _)| entry < i) {
-                    first += 1;
-                }
-                let fault = SceneFault::GivenTwice(other);
-                return Err(self.meaning(SceneError {
-                    entry: Entry::Guide(first),
-                    field: "body",
-                    fault,
-                }));
+                let (entry, fault) = (Entry::Guide(first), SceneFault::GivenTwice(other));
+                return Err(self.meaning(SceneError { entry, field: "body", fault }));
             }
-            names.push((name.to_owned(), i));
+            names.push((name.to_owned(), first));
         }
         Ok(names.into_iter().map(|(name, _)| name).collect())
+    }
+}
+
+/// How many guides an entry makes.
+fn n_guides(entry: &Item) -> usize {
+    match key(entry, "signals") {
+        Some(Item { node: Node::List(signals), .. }) => signals.len(),
+        _ => 1,
     }
 }
 

@@ -2,9 +2,7 @@
 
 use crate::read::ReadFault;
 use crate::read::fields::{Fields, Read};
-use mbs_core::scene::{
-    Guide, InitialCondition, InitialTarget, Joint, Motion, Number, TableEnds,
-};
+use mbs_core::scene::{Guide, InitialCondition, InitialTarget, Joint, Motion, Number, TableEnds};
 
 const INITIAL_KEYS: [&str; 7] =
     ["joint", "value", "rate", "body", "at", "velocity", "angular_velocity"];
@@ -95,7 +93,17 @@ pub(crate) fn read_guides(
 
 /// The keys of guides, all of them.
 const GUIDE_KEYS: [&str; 11] = [
-    "joint", "body", "at", "coordinate", "table", "ends", "sine", "ramp", "input", "signal", "signals",
+    "joint",
+    "body",
+    "at",
+    "coordinate",
+    "table",
+    "ends",
+    "sine",
+    "ramp",
+    "input",
+    "signal",
+    "signals",
 ];
 
 /// The keys that each give a function of time.

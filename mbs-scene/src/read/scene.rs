@@ -59,7 +59,8 @@ impl SceneFile {
         header.allow(&SCENE_KEYS, &[])?;
         let body_data = self.entries(&context, "body", |_, fields| body::read(fields))?;
         let centers: Vec<[Number; 3]> = body_data.iter().map(|body| body.center.clone()).collect();
-        let mut joints = self.entries(&context, "joint", |_, fields| joint::read(fields, &centers))?;
+        let mut joints =
+            self.entries(&context, "joint", |_, fields| joint::read(fields, &centers))?;
         let of_bodies = |_, fields: &_| joint::read_of_guided_body(fields, &centers);
         joints.extend(self.entries(&context, "guide", of_bodies)?.into_iter().flatten());
         let of_entry = |_, fields: &_| motion::read_guides(fields, &joints);
@@ -185,6 +186,10 @@ impl SceneFile {
 
     /// The fault, with the names of the signals that it is about.
     fn fault(&self, error: SceneError) -> ReadFault {
+        if let (Entry::Guide(_), SceneFault::GivenTwice(first)) = (error.entry, &error.fault) {
+            let entry = self.entry_of_guide(*first).map_or(*first, |(entry, _)| entry);
+            return ReadFault::Scene(SceneError { fault: SceneFault::GivenTwice(entry), ..error });
+        }
         let is_of_signals =
             matches!(error.fault, SceneFault::SignalNotSmooth { .. } | SceneFault::SignalCircle);
         if !is_of_signals {

@@ -56,8 +56,7 @@ fn relative<T: Real, S: Space<T>>(scene: &Scene<T>, sizes: Sizes) -> Result<Rela
         tree.cut_joints().map(|joint| scene.joints[joint].name.clone()).collect();
     let rest = TreeState::at_rest(&tree);
     // controllers have no guided rotation vectors
-    let is_exported =
-        tree.mechanism().links.iter().all(|link| link.kind != LinkKind::GuidedBall);
+    let is_exported = tree.mechanism().links.iter().all(|link| link.kind != LinkKind::GuidedBall);
     let collected = Collected::new(&tree, &rest, &[]).ok().filter(|_| is_exported);
     let controller = collected.map(|collected| {
         let bound = operation_bound::step(&collected.model(), Bounds::default());

@@ -171,7 +171,8 @@ fn check_initial<T: Real>(
                 check_numbers(scene, *joint, ("rate", numbers), place)?;
                 // of a rotation vector they are the angular velocity, which the start compares
                 let kind = scene.joints[*joint].kind;
-                let rate = |(i, g): (usize, &[T; 3])| kind.freedom(scene.dimension, i).map(|_| g[1]);
+                let rate =
+                    |(i, g): (usize, &[T; 3])| kind.freedom(scene.dimension, i).map(|_| g[1]);
                 agrees(guides.iter().enumerate().map(rate), ("rate", numbers), place)?;
             }
             Ok(())

@@ -167,7 +167,8 @@ fn tables_of_guides_that_jump_within_the_run_are_refused() {
     let at = |shift: f64, ends| {
         let mut scene = planar();
         let rows = rows.map(|[t, x]| [t + shift, x]).to_vec();
-        scene.guides = vec![Guide { joint: JointId::new(0), number: 0, law: Motion::Table { rows, ends } }];
+        scene.guides =
+            vec![Guide { joint: JointId::new(0), number: 0, law: Motion::Table { rows, ends } }];
         scene.check().expect("nothing is wrong with it until the duration is known");
         move |duration| scene.check_run(duration)
     };
