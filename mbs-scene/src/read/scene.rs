@@ -11,7 +11,7 @@ use crate::read::{
 };
 use mbs_core::Real;
 use mbs_core::scene::{
-    Dimension, Entry, Number, Scene, SceneError, SceneFault, Start, signal_order,
+    Dimension, Entry, Guide, Joint, Number, Scene, SceneError, SceneFault, Start, signal_order,
 };
 use std::collections::BTreeMap;
 
@@ -19,6 +19,9 @@ const TABLES: [&str; 12] = [
     "scene", "body", "joint", "initial", "guide", "coupling", "rolling", "signal", "effect",
     "road", "solver", "output",
 ];
+/// The joints of a file with those of its guided bodies, and the guides.
+type JointsAndGuides = (Vec<Joint<Number>>, Vec<Guide<Number>>);
+
 const SCENE_KEYS: [&str; 5] = ["name", "dimension", "gravity", "duration", "start"];
 
 impl SceneFile {
@@ -59,12 +62,7 @@ impl SceneFile {
         header.allow(&SCENE_KEYS, &[])?;
         let body_data = self.entries(&context, "body", |_, fields| body::read(fields))?;
         let centers: Vec<[Number; 3]> = body_data.iter().map(|body| body.center.clone()).collect();
-        let mut joints =
-            self.entries(&context, "joint", |_, fields| joint::read(fields, &centers))?;
-        let of_bodies = |_, fields: &_| joint::read_of_guided_body(fields, &centers);
-        joints.extend(self.entries(&context, "guide", of_bodies)?.into_iter().flatten());
-        let of_entry = |_, fields: &_| motion::read_guides(fields, &joints);
-        let guides = self.entries(&context, "guide", of_entry)?.concat();
+        let (joints, guides) = self.joints_and_guides(&context, &centers)?;
         let couplings =
             self.entries(&context, "coupling", |i, fields| coupling::read(i, fields, &joints))?;
         let rollings = self.entries(&context, "rolling", |i, fields| rolling::read(i, fields))?;
@@ -100,6 +98,21 @@ impl SceneFile {
                 None => Default::default(),
             },
         })
+    }
+
+    /// The joints of a file, then those of its guided bodies; and the guides.
+    fn joints_and_guides(
+        &self,
+        context: &Context<'_>,
+        centers: &[[Number; 3]],
+    ) -> Read<JointsAndGuides> {
+        let mut joints =
+            self.entries(context, "joint", |_, fields| joint::read(fields, centers))?;
+        let of_bodies = |_, fields: &_| joint::read_of_guided_body(fields, centers);
+        joints.extend(self.entries(context, "guide", of_bodies)?.into_iter().flatten());
+        let guides = |_, fields: &_| motion::read_guides(fields, &joints);
+        let guides = self.entries(context, "guide", guides)?.concat();
+        Ok((joints, guides))
     }
 
     /// The place of a key's value, of the entry's header when the key is not written, or of the file's start.

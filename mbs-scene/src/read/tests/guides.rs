@@ -137,6 +137,12 @@ fn guides_that_cannot_be_meant_are_refused_at_their_place() {
     refused(&jump, "34:54", "`rise` jumps at 0.5 s", "give it `rise`");
     let unknown = spoiled("\"still\", \"rise\"]", "\"still\", \"rice\"]");
     refused(&unknown, "34:54", "unknown signal `rice`", "did you mean `rise`?");
+}
+
+#[test]
+fn guides_of_joint_and_body_of_a_body_twice_and_of_welded_bodies_are_refused_at_their_place() {
+    let spoiled = |from: &str, to: &str| spoil(SCENE, from, to);
+    let neck = "signals = [\"still\", \"wave\", \"still\"]";
     let both = spoiled("joint = \"neck\"\n", "joint = \"neck\"\nbody = \"head\"\n");
     refused(&both, "31:8", "both `joint` and `body` are given", "keep one of the two");
     let law = spoiled(neck, "signals = [\"still\", \"wave\", \"still\"]\nsignal = \"wave\"");
