@@ -67,7 +67,7 @@ fn formulations_agree_on_random_trees_with_joints_of_several_coordinates_guided_
     let mut n_balls = 0;
     for (dimension, n) in [(Dimension::Planar, 8), (Dimension::Spatial, 6)] {
         for seed in 1..=6 {
-            let scene = random::guided_whole(random::tree(seed, dimension, n), seed, 2);
+            let scene = random::guided_whole(random::tree(seed, dimension, n), seed, 3);
             let guided = scene.guides.iter().map(|guide| scene.joints[guide.joint].kind);
             n_balls += guided.filter(|kind| kind.ball(dimension).is_some()).count();
             agree(&scene);
