@@ -111,6 +111,7 @@ pub struct Guided {
 
 impl Guided {
     /// What the curvature of phi is made of: pairs of directions with their factors, by the guides of the instant.
+    #[cfg(feature = "alloc")]
     pub(crate) fn each_pair<T: Real>(
         &self,
         guides: &[[T; 3]],
