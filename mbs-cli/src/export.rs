@@ -77,6 +77,9 @@ fn refusal(error: &ExportError) -> Refusal {
         ExportError::Signal(_) => {
             "make it a step, a table without `hold` and `periodic`, or an `input`"
         }
+        ExportError::Guide(_) => {
+            "let a chain of joints with one coordinate each, all guided, turn the body"
+        }
         ExportError::Ladder(_) => {
             "make the list of effect costs from this scene: `mbs explain SCENE --json`"
         }

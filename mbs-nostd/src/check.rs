@@ -49,6 +49,11 @@ pub enum LoadError {
         /// The entry in the table of effects.
         entry: usize,
     },
+    /// A guided rotation vector, which no controller has.
+    GuidedBall {
+        /// Its link.
+        link: usize,
+    },
     /// The model has a machine element that this build leaves out.
     Feature {
         /// The Cargo feature that brings it.
@@ -84,6 +89,10 @@ impl core::fmt::Display for LoadError {
             Self::Sum { entry } => write!(
                 f,
                 "the sum of entry {entry} of the table of effects has a length, an angle of a ball or a curve, and cannot be written for a controller"
+            ),
+            Self::GuidedBall { link } => write!(
+                f,
+                "the rotation vector of link {link} is guided, which cannot be written for a controller"
             ),
             Self::Feature { feature } => write!(
                 f,
@@ -302,6 +311,9 @@ impl<T: Real, S: Space<T>> Look<'_, '_, T, S> {
                 && (!link.kind.is_guided() || (link.v as usize) < self.sizes.guides)
                 && (link.kind != LinkKind::Ball || S::DIMENSION == 3);
             ensure(holds, "links", i)?;
+            if link.kind == LinkKind::GuidedBall {
+                return Err(LoadError::GuidedBall { link: i });
+            }
         }
         Ok(())
     }

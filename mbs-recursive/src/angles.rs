@@ -30,10 +30,11 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
                 | LinkKind::Prismatic
                 | LinkKind::Ball
                 | LinkKind::GuidedRevolute
-                | LinkKind::GuidedPrismatic => {
+                | LinkKind::GuidedPrismatic
+                | LinkKind::GuidedBall => {
                     let parts = parts(scene, &seat.branch, kind.is_guided());
                     for (link, part) in (seat.first..).zip(parts) {
-                        let is_known = part.kind != LinkKind::Ball;
+                        let is_known = !matches!(part.kind, LinkKind::Ball | LinkKind::GuidedBall);
                         links[joint][part.number] = is_known.then_some(link);
                     }
                 }

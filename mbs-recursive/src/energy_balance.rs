@@ -2,7 +2,7 @@
 
 use crate::indexing::{Outside, at};
 use crate::inverse;
-use crate::link::{Link, LinkMotion};
+use crate::link::{Link, LinkKind, LinkMotion};
 use crate::loads::Instant;
 use crate::rotor;
 use crate::slices::{Store, TreeSlices};
@@ -56,7 +56,10 @@ pub fn power<T: Real, S: Space<T>>(
             if link.kind.is_guided() {
                 let mut effort = [T::ZERO];
                 inverse::effort(link, at(s.placed, i)?, at(s.condensed, i)?, &mut effort)?;
-                power += effort[0] * at(s.guides, link.v as usize)?[1];
+                power += match link.kind {
+                    LinkKind::GuidedBall => effort[0],
+                    _ => effort[0] * at(s.guides, link.v as usize)?[1],
+                };
             }
         }
     }

@@ -181,7 +181,7 @@ fn coordinate_rates<T: Real, S: Space<T>>(links: &[Link<T, S>], z: &[T], v: &[T]
                     rates[place + i] = v[from + S::Spin::N + i];
                 }
             }
-            LinkKind::GuidedRevolute | LinkKind::GuidedPrismatic => {}
+            LinkKind::GuidedRevolute | LinkKind::GuidedPrismatic | LinkKind::GuidedBall => {}
         }
     }
 }

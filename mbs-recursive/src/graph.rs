@@ -180,7 +180,8 @@ fn edges<T: Real>(
     for (j, joint) in scene.joints.iter().enumerate() {
         let ends = joint.bodies.map(&node);
         let n_coordinates = joint.kind.n_coordinates(scene.dimension);
-        if ends[0] == ends[1] || n_coordinates == 0 || joint.kind.is_free() {
+        let is_loose = joint.kind.is_free() && !demands.is_guided[j];
+        if ends[0] == ends[1] || n_coordinates == 0 || is_loose {
             continue;
         }
         let is_massive = ends

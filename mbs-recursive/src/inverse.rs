@@ -56,7 +56,9 @@ pub(crate) fn spread_each<T: Real, S: Space<T>>(
                 S::rotate_spin(&p.rotation, &read(zdd, first)?),
                 read(zdd, first + S::Spin::N)?,
             ),
-            LinkKind::GuidedRevolute | LinkKind::GuidedPrismatic => S::Motion::zero(),
+            LinkKind::GuidedRevolute | LinkKind::GuidedPrismatic | LinkKind::GuidedBall => {
+                S::Motion::zero()
+            }
         };
         *at_mut(a, i)? = carried + own;
     }
@@ -101,7 +103,7 @@ pub(crate) fn forces<T: Real, S: Space<T>>(
     Ok(())
 }
 
-/// bᵀ f of a link's joint, less what effects apply along it: the effort that the joint itself must give.
+/// bᵀ f of a link's joint, less what effects apply along it: the effort that the joint itself must give; of a guided ball the power.
 pub(crate) fn effort<T: Real, S: Space<T>>(
     link: &Link<T, S>,
     p: &LinkMotion<T, S>,
@@ -112,7 +114,8 @@ pub(crate) fn effort<T: Real, S: Space<T>>(
         LinkKind::Revolute
         | LinkKind::Prismatic
         | LinkKind::GuidedRevolute
-        | LinkKind::GuidedPrismatic => {
+        | LinkKind::GuidedPrismatic
+        | LinkKind::GuidedBall => {
             *at_mut(out, 0)? = p.freedom.dot(&c.force) - c.effort;
             Ok(())
         }
@@ -158,7 +161,7 @@ pub(crate) fn add_efforts<T: Real, S: Space<T>>(
                 at_mut(condensed, i)?.effort += *at(efforts, first)?;
                 continue;
             }
-            LinkKind::GuidedRevolute | LinkKind::GuidedPrismatic => continue,
+            LinkKind::GuidedRevolute | LinkKind::GuidedPrismatic | LinkKind::GuidedBall => continue,
             LinkKind::Ball => {
                 S::motion(S::rotate_spin(rotation, &read(efforts, first)?), S::Point::zero())
             }

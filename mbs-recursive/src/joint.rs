@@ -11,6 +11,8 @@ use crate::indexing::{Outside, at, at_mut, part, part_mut};
 use crate::link::{ArticulatedInertia, Link, LinkKind, LinkMotion};
 use crate::space::{Numbers, Space};
 use mbs_core::Real;
+use mbs_core::algebra::{Vector, norm};
+use mbs_core::laws::spin::spin;
 
 /// A joint that meets no inertia.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -82,6 +84,7 @@ pub(crate) fn place<T: Real, S: Space<T>>(
             p.bias += S::motion(S::cross_spin(&S::spin(&parent.velocity), &w), S::Point::zero());
             p
         }
+        LinkKind::GuidedBall => guided_ball(link, parent, guides)?,
         LinkKind::Free => {
             let turn = part(z, zi, S::FREE - S::Point::N)?;
             let rotation = S::turned_by(&S::identity(), turn);
@@ -92,6 +95,54 @@ pub(crate) fn place<T: Real, S: Space<T>>(
             p
         }
     })
+}
+
+/// Are guided balls in this build? Tables for controllers have none.
+pub(crate) const HAS_GUIDED_BALLS: bool = cfg!(feature = "alloc");
+
+/// Where a link is that a guided ball turns against its parent.
+#[inline(never)]
+fn guided_ball<T: Real, S: Space<T>>(
+    link: &Link<T, S>,
+    parent: &LinkMotion<T, S>,
+    guides: &[[T; 3]],
+) -> Result<LinkMotion<T, S>, Outside> {
+    if !HAS_GUIDED_BALLS {
+        return Err(Outside);
+    }
+    let f = guided_vector(link, guides)?;
+    let angle = norm(&f[0]);
+    // at no turn every axis serves
+    let axis = if angle > T::ZERO { f[0] * (T::ONE / angle) } else { f[0] };
+    let rotation = S::turned(&parent.rotation, &S::spin_from(&axis), angle);
+    // ω = ω_p + w,   d = (ω_p × w + R_p ω'(f), ω_p × (ω_p × r)),   w = R_p ω(f)
+    let [w, second] = spin(f).map(|w| S::rotate_spin(&parent.rotation, &S::spin_from(&w)));
+    let (arm, turning) = (S::rotate(&parent.rotation, &link.offset), S::spin(&parent.velocity));
+    let freedom = S::motion(w, S::Point::zero());
+    Ok(LinkMotion {
+        rotation,
+        position: parent.position + arm,
+        arm,
+        freedom,
+        velocity: S::carried(&parent.velocity, &arm) + freedom,
+        bias: S::motion(S::cross_spin(&turning, &w) + second, S::centrifugal(&turning, &arm)),
+        center: S::rotate(&rotation, &link.center),
+    })
+}
+
+/// The rotation vector of a guided ball against its parent, with its first two derivatives.
+pub(crate) fn guided_vector<T: Real, S: Space<T>>(
+    link: &Link<T, S>,
+    guides: &[[T; 3]],
+) -> Result<[Vector<T, 3>; 3], Outside> {
+    let mut f = [Vector::<T, 3>::zeros(); 3];
+    for i in 0..3 {
+        let guide = at(guides, link.v as usize + i)?;
+        for (vector, &number) in f.iter_mut().zip(guide) {
+            vector[i] = number * link.axis[0];
+        }
+    }
+    Ok(f)
 }
 
 /// The numbers of a slice from `first`.
@@ -163,7 +214,7 @@ pub(crate) fn eliminate<T: Real, S: Space<T>>(
             }
             Ok((S::no_inertia(), impulse(kind, p, c)))
         }
-        LinkKind::GuidedRevolute | LinkKind::GuidedPrismatic => {
+        LinkKind::GuidedRevolute | LinkKind::GuidedPrismatic | LinkKind::GuidedBall => {
             Ok((c.inertia, c.force + S::times(&c.inertia, &p.bias)))
         }
     }
@@ -195,7 +246,7 @@ pub(crate) fn impulse<T: Real, S: Space<T>>(
             c.drive = -c.force;
             S::Motion::zero()
         }
-        LinkKind::GuidedRevolute | LinkKind::GuidedPrismatic => c.force,
+        LinkKind::GuidedRevolute | LinkKind::GuidedPrismatic | LinkKind::GuidedBall => c.force,
     }
 }
 
@@ -229,7 +280,7 @@ pub(crate) fn advance<T: Real, S: Space<T>>(
             write(&S::point(&x), zdd, first + S::Spin::N)?;
             a
         }
-        LinkKind::GuidedRevolute | LinkKind::GuidedPrismatic => carried,
+        LinkKind::GuidedRevolute | LinkKind::GuidedPrismatic | LinkKind::GuidedBall => carried,
     })
 }
 
@@ -265,6 +316,6 @@ pub(crate) fn pass<T: Real, S: Space<T>>(
             write(&S::solve(&c.inertia, k), g, 0)?;
             S::Motion::zero()
         }
-        LinkKind::GuidedRevolute | LinkKind::GuidedPrismatic => *k,
+        LinkKind::GuidedRevolute | LinkKind::GuidedPrismatic | LinkKind::GuidedBall => *k,
     })
 }

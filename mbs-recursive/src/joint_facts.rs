@@ -8,7 +8,7 @@ use mbs_core::scene::Scene;
 
 /// Guides by joint, and thin rods without spin by cluster.
 pub(crate) struct JointFacts {
-    /// The guide of each joint.
+    /// The guide of each joint, of several the first.
     pub(crate) guide: Vec<Option<usize>>,
     /// Is the cluster a thin rod that nothing can turn about itself?
     pub(crate) is_idle: Vec<bool>,
@@ -21,13 +21,14 @@ impl JointFacts {
             guide[law.joint.index()].get_or_insert(g);
         }
         let mut is_idle: Vec<bool> = clusters.clusters.iter().map(|c| c.rod.is_some()).collect();
-        for joint in &scene.joints {
+        for (j, joint) in scene.joints.iter().enumerate() {
             for (i, &body) in joint.bodies.iter().enumerate() {
                 let Some(c) = clusters.of(body) else { continue };
                 let cluster = &clusters.clusters[c];
                 let Some(rod) = cluster.rod else { continue };
-                is_idle[c] &= joint.kind.is_free()
+                let is_loose = joint.kind.is_free()
                     || (joint.is_ball_at(i) && is_on_line(&rod, joint.points[i]));
+                is_idle[c] &= is_loose && guide[j].is_none();
             }
         }
         Self { guide, is_idle }

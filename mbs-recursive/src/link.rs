@@ -19,6 +19,8 @@ pub enum LinkKind {
     GuidedRevolute,
     /// A prismatic joint whose slide is prescribed.
     GuidedPrismatic,
+    /// A ball whose rotation vector is prescribed (space only).
+    GuidedBall,
 }
 
 impl LinkKind {
@@ -29,7 +31,7 @@ impl LinkKind {
             Self::Revolute | Self::Prismatic => 1,
             Self::Ball => S::Spin::N,
             Self::Free => S::Motion::N,
-            Self::GuidedRevolute | Self::GuidedPrismatic => 0,
+            Self::GuidedRevolute | Self::GuidedPrismatic | Self::GuidedBall => 0,
         }
     }
 
@@ -46,7 +48,7 @@ impl LinkKind {
     /// Is its motion prescribed?
     #[must_use]
     pub fn is_guided(self) -> bool {
-        matches!(self, Self::GuidedRevolute | Self::GuidedPrismatic)
+        matches!(self, Self::GuidedRevolute | Self::GuidedPrismatic | Self::GuidedBall)
     }
 }
 
@@ -59,9 +61,10 @@ pub struct Link<T: Real, S: Space<T>> {
     pub kind: LinkKind,
     /// First of its coordinates in z.
     pub z: u32,
-    /// First of its freedoms in v; of a guided joint the number of its guide.
+    /// First of its freedoms in v; of a guided joint the number of its guide, of a guided ball the first of three.
     pub v: u32,
-    /// Unit axis of a revolute joint, reference axes.
+    /// Unit axis of a revolute joint, reference axes; of a guided ball ±x, where its rotation vector is that of the link against its
+    /// parent or of the parent against it.
     pub axis: S::Spin,
     /// Unit direction of a prismatic joint, reference axes.
     pub direction: S::Point,
@@ -79,7 +82,8 @@ impl<T: Real, S: Space<T>> Link<T, S> {
     /// The angle against its parent in the plane, at a coordinate; of a free link against the ground [rad].
     pub(crate) fn turn(&self, coordinate: T) -> T {
         match self.kind {
-            LinkKind::Prismatic | LinkKind::GuidedPrismatic => T::ZERO,
+            // the plane has no guided balls
+            LinkKind::Prismatic | LinkKind::GuidedPrismatic | LinkKind::GuidedBall => T::ZERO,
             LinkKind::Revolute | LinkKind::GuidedRevolute => self.axis[0] * coordinate,
             LinkKind::Ball | LinkKind::Free => coordinate,
         }
@@ -107,7 +111,7 @@ pub struct LinkMotion<T: Real, S: Space<T>> {
     pub position: S::Point,
     /// From the parent's origin to its own [m].
     pub arm: S::Point,
-    /// b: the motion of unit rate of a joint with one freedom.
+    /// b: the motion of unit rate of a joint with one freedom; of a guided ball the motion that its guides give.
     pub freedom: S::Motion,
     /// (ω, v).
     pub velocity: S::Motion,

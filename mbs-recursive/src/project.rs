@@ -50,7 +50,7 @@ pub(crate) fn advance<T: Real, S: Space<T>>(
                     *z += way;
                 }
             }
-            LinkKind::GuidedRevolute | LinkKind::GuidedPrismatic => {}
+            LinkKind::GuidedRevolute | LinkKind::GuidedPrismatic | LinkKind::GuidedBall => {}
         }
     }
     Ok(())

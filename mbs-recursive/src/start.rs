@@ -119,7 +119,9 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
                 LinkKind::Free if S::DIMENSION == 2 => vec![state.z[own.z as usize]],
                 // A quaternion has no turns to be counted.
                 LinkKind::Ball | LinkKind::Free => Vec::new(),
-                LinkKind::GuidedRevolute | LinkKind::GuidedPrismatic => continue,
+                LinkKind::GuidedRevolute | LinkKind::GuidedPrismatic | LinkKind::GuidedBall => {
+                    continue;
+                }
                 _ => {
                     let chain = &self.links[seat.first as usize..=seat.link as usize];
                     chain.iter().map(|link| state.z[link.z as usize]).collect()
@@ -209,7 +211,8 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
             | LinkKind::Prismatic
             | LinkKind::Ball
             | LinkKind::GuidedRevolute
-            | LinkKind::GuidedPrismatic => {
+            | LinkKind::GuidedPrismatic
+            | LinkKind::GuidedBall => {
                 let [hold, hold_rate, _] = parent.point(origin);
                 let gap = [position - hold, velocity - hold_rate];
                 let is_guided = link.kind.is_guided();

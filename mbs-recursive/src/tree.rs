@@ -211,7 +211,7 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
                 parent,
                 kind: part.kind,
                 z: index(self.n_coordinates),
-                v: guide.filter(|_| part.kind.is_guided()).map_or(index(self.n_freedoms), index),
+                v: index(guide.map_or(self.n_freedoms, |first| first + part.number)),
                 axis: S::spin_from(&part.axis),
                 direction: S::point_from(&part.axis),
                 offset: S::point_from(&(place - self.origins[parent as usize])),
@@ -466,18 +466,19 @@ pub(crate) fn parts<T: Real>(scene: &Scene<T>, branch: &Branch, is_guided: bool)
     }
     let Some(joint) = branch.joint else { return vec![free] };
     let joint: &Joint<T> = &scene.joints[joint];
-    if joint.kind.is_free() {
+    if joint.kind.is_free() && !is_guided {
         return vec![free];
     }
-    let (turn, slide) = if is_guided {
-        (LinkKind::GuidedRevolute, LinkKind::GuidedPrismatic)
+    let (turn, slide, ball) = if is_guided {
+        (LinkKind::GuidedRevolute, LinkKind::GuidedPrismatic, LinkKind::GuidedBall)
     } else {
-        (LinkKind::Revolute, LinkKind::Prismatic)
+        (LinkKind::Revolute, LinkKind::Prismatic, LinkKind::Ball)
     };
+    let sense = if is_guided { unit(0) } else { zero };
     let part = |(number, freedom)| match freedom {
         Freedom::Slide(axis) => Part { kind: slide, axis: joint.direction(axis), number },
         Freedom::Turn(axis) => Part { kind: turn, axis: joint.direction(axis), number },
-        Freedom::Ball => Part { kind: LinkKind::Ball, axis: zero, number },
+        Freedom::Ball => Part { kind: ball, axis: sense, number },
     };
     let mut parts: Vec<Part<T>> = joint.kind.numbered(scene.dimension).map(part).collect();
     if branch.is_reversed {

@@ -115,19 +115,37 @@ pub fn tree(seed: u64, dimension: Dimension, n: usize) -> Scene<f64> {
 /// A mechanism whose joints of one coordinate are guided, each with `chances` in four; four leave none free. A guided joint
 /// has no initial value.
 #[must_use]
-pub fn guided(mut scene: Scene<f64>, seed: u64, chances: usize) -> Scene<f64> {
+pub fn guided(scene: Scene<f64>, seed: u64, chances: usize) -> Scene<f64> {
+    guided_where(scene, seed, chances, |n| n == 1)
+}
+
+/// The same of joints with several coordinates, all of which are guided.
+#[must_use]
+pub fn guided_whole(scene: Scene<f64>, seed: u64, chances: usize) -> Scene<f64> {
+    guided_where(scene, seed, chances, |n| n > 1)
+}
+
+fn guided_where(
+    mut scene: Scene<f64>,
+    seed: u64,
+    chances: usize,
+    is_meant: impl Fn(usize) -> bool,
+) -> Scene<f64> {
     let mut random = Random::new(seed ^ 0x7777);
     scene.name += ", guided";
     for (joint, data) in scene.joints.iter().enumerate() {
-        if data.kind.n_coordinates(scene.dimension) != 1 || random.below(4) >= chances {
+        let n = data.kind.n_coordinates(scene.dimension);
+        if !is_meant(n) || random.below(4) >= chances {
             continue;
         }
-        let [amplitude, rate, phase] = [random.next(), random.next(), 3.0 * random.next()];
-        let law = match random.below(3) {
-            0 => Motion::Ramp { rate },
-            _ => Motion::Sine { amplitude: 0.3 * amplitude, frequency: 1.5 + rate, phase },
-        };
-        scene.guides.push(Guide { joint: JointId::new(joint), law });
+        for number in 0..n {
+            let [amplitude, rate, phase] = [random.next(), random.next(), 3.0 * random.next()];
+            let law = match random.below(3) {
+                0 => Motion::Ramp { rate },
+                _ => Motion::Sine { amplitude: 0.3 * amplitude, frequency: 1.5 + rate, phase },
+            };
+            scene.guides.push(Guide { joint: JointId::new(joint), number, law });
+        }
     }
     let guides = &scene.guides;
     scene.initials.retain(|initial| match &initial.target {

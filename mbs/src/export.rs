@@ -33,6 +33,8 @@ pub enum ExportError {
     Sum(String),
     /// A signal of this name is a wave, a ramp or a table that holds or repeats, or a guide follows it that is no spline or step.
     Signal(String),
+    /// The guide of a joint of this name gives a rotation vector, which is not written for controllers.
+    Guide(String),
     /// A ladder names what the scene has not, or is no price list.
     Ladder(String),
 }
@@ -61,6 +63,12 @@ impl core::fmt::Display for ExportError {
                     f,
                     "signal `{name}` cannot be written for a controller: it is a wave, a ramp or a table that holds or repeats, or a \
                      guide follows it that is no spline or step"
+                )
+            }
+            Self::Guide(name) => {
+                write!(
+                    f,
+                    "the guide of joint `{name}` cannot be written for a controller: it gives a rotation vector"
                 )
             }
             Self::Ladder(what) => write!(f, "{what}"),
@@ -97,6 +105,9 @@ fn in_space<S: Axes<f64>, const D: usize>(
     settings: &ResolvedMethod,
     (ladder, is_single): (&[usize], bool),
 ) -> Result<Exported, ExportError> {
+    if let Some(name) = guided_ball(scene) {
+        return Err(ExportError::Guide(name));
+    }
     let simulation = Simulation::<f64, D>::new(scene, settings)?;
     let tree = TreeModel::<f64, S>::new(scene);
     let tree = tree.map_err(StopError::tree)?;
@@ -127,6 +138,14 @@ fn in_space<S: Axes<f64>, const D: usize>(
     })?;
     let bytes = bytes(&model, is_single).ok_or_else(in_code)?;
     Ok(Exported { rust, bytes })
+}
+
+/// The name of the first joint whose rotation vector is guided.
+fn guided_ball<T>(scene: &Scene<T>) -> Option<String> {
+    let joints = scene.guides.iter().map(|guide| (&scene.joints[guide.joint], guide.number));
+    let mut balls =
+        joints.filter(|(joint, number)| joint.kind.freedom(scene.dimension, *number).is_none());
+    balls.next().map(|(joint, _)| joint.name.clone())
 }
 
 /// The name of the first enabled effect on a sum with a length, an angle of a ball or a curve.

@@ -16,7 +16,7 @@ pub(crate) fn with(dimension: Dimension, effect: &str, switch: &str) -> Scene<f6
     if effect == "guide" {
         let law = Motion::Sine { amplitude: 0.5, frequency: 1.0, phase: 0.0 };
         scene.initials.clear();
-        scene.guides.push(Guide { joint: JointId::new(0), law });
+        scene.guides.push(Guide { joint: JointId::new(0), number: 0, law });
     }
     scene
 }

@@ -20,7 +20,7 @@ pub(crate) enum Need<T> {
     Coordinates(usize, Option<usize>),
 }
 
-/// Hands out what initial values, effects, couplings, what rolls, and outputs ask for.
+/// Hands out what initial values, guides, effects, couplings, what rolls, and outputs ask for.
 ///
 /// Cost: one pass over them.
 pub(crate) fn needs<T: Real>(
@@ -30,6 +30,9 @@ pub(crate) fn needs<T: Real>(
 ) {
     for (i, initial) in scene.initials.iter().enumerate() {
         of_initial(&initial.target, |need| take(Entry::Initial(i), need));
+    }
+    for (i, guide) in scene.guides.iter().enumerate() {
+        take(Entry::Guide(i), Need::Coordinates(guide.joint.index(), Some(guide.number)));
     }
     for (effect, action) in &actions.list {
         of_action(action, &mut |need| take(Entry::Effect(*effect), need));

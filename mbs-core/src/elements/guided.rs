@@ -1,4 +1,4 @@
-//! Guided coordinate: a joint's angle or slide follows f(t). The coordinate is known, so none is added.
+//! Guided coordinate: a joint's angle, slide or rotation vector follows f(t). The coordinate is known, so none is added.
 //!
 //! ```text
 //! slide:  phi = s x.y - f
@@ -6,14 +6,20 @@
 //!         phi_t = -f' B.y
 //!         bias  = A_tt.y + 2 A_t.y',   A_t  = cos f x2' - sin f x1' - f' B
 //!                                      A_tt = -2 f' (sin f x2' + cos f x1') - f'' B - f'^2 A
+//! rotation, component k of (i, j, k) in a circle:
+//!         phi   = (z_j.y_i - z_i.y_j)/2,   z_i = sum_a R_ai x_a,   R = exp(f)
+//!         phi_t, bias: z with R' = [w] R and R'' = ([w'] + [w]^2) R
 //! ```
+//!
+//! The three rows of a rotation are the axial vector of sum_i z_i x y_i / 2 in the axes of z: the sine of the deviation along its axis.
 //!
 //! x1, x2 stand across the axis in the first body, y in the second. phi = sin(angle - f): regular for every angle; the
 //! false root half a turn away has B.y < 0, see [`Guided::is_opposite`].
 
 use super::combination::{Span, Term, add_gradient, combine};
 use crate::Real;
-use crate::algebra::Vector;
+use crate::algebra::{Vector, cross, rotation, unit};
+use crate::laws::spin::spin;
 
 /// What is guided.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -30,6 +36,62 @@ pub enum GuidedMotion {
         /// From the first body's point to the second's.
         x: Span,
     },
+    /// A component of a rotation vector: three directions of the first body, one of the second in the element, the other here.
+    Rotation {
+        /// Directions of the first body: its three axes of the reference configuration.
+        x: [Span; 3],
+        /// The second body's axis j.
+        y: Span,
+        /// k: the component.
+        number: u32,
+    },
+}
+
+/// The axes (i, j) that turn into each other about axis k.
+fn pair(k: u32) -> (usize, usize) {
+    let k = k as usize;
+    ((k + 1) % 3, (k + 2) % 3)
+}
+
+/// The rotation vector of three guides from `first`, with its first two derivatives.
+fn vector<T: Real>(guides: &[[T; 3]], first: u32) -> [Vector<T, 3>; 3] {
+    let mut f = [Vector::<T, 3>::zeros(); 3];
+    for (i, guide) in guides.iter().skip(first as usize).take(3).enumerate() {
+        for (vector, &number) in f.iter_mut().zip(guide) {
+            vector[i] = number;
+        }
+    }
+    f
+}
+
+/// The columns (i, j) of R = exp(f), R' and R''.
+fn columns<T: Real>(guides: &[[T; 3]], first: u32, k: u32) -> [[Vector<T, 3>; 2]; 3] {
+    let f = vector(guides, first);
+    let [omega, omega_t] = spin(f);
+    let now = turned(&f[0], k);
+    let rates = now.map(|r| cross(&omega, &r));
+    let second = [0, 1].map(|n| cross(&omega_t, &now[n]) + cross(&omega, &rates[n]));
+    [now, rates, second]
+}
+
+/// The columns (i, j) of exp(f).
+fn turned<T: Real>(f: &Vector<T, 3>, k: u32) -> [Vector<T, 3>; 2] {
+    let (r, (i, j)) = (rotation(f), pair(k));
+    [r * unit(i), r * unit(j)]
+}
+
+/// sum_a r_a x_a.
+fn mixed<T: Real, const D: usize>(r: &Vector<T, 3>, x: &[Vector<T, D>; 3]) -> Vector<T, D> {
+    x[0] * r[0] + x[1] * r[1] + x[2] * r[2]
+}
+
+/// (z_j.y_i - z_i.y_j)/2 by columns (i, j) of a rotation or of its derivatives.
+fn skew<T: Real, const D: usize>(
+    r: &[Vector<T, 3>; 2],
+    x: &[Vector<T, D>; 3],
+    y: &[Vector<T, D>; 2],
+) -> T {
+    (mixed(&r[1], x).dot(&y[0]) - mixed(&r[0], x).dot(&y[1])) * T::HALF
 }
 
 /// A rheonomic row.
@@ -37,9 +99,9 @@ pub enum GuidedMotion {
 pub struct Guided {
     /// Angle or slide.
     pub motion: GuidedMotion,
-    /// Direction in the second body (angle), or of the slide.
+    /// Direction in the second body (angle), or of the slide; of a rotation the second body's axis i.
     pub y: Span,
-    /// Which guide value drives it.
+    /// Which guide drives it; of a rotation the first of its three.
     pub guide: u32,
     /// Row number.
     pub row: u32,
@@ -48,15 +110,39 @@ pub struct Guided {
 }
 
 impl Guided {
-    /// Value and gradient at `q`, with the guide at `f`.
+    /// What the curvature of phi is made of: pairs of directions with their factors, by the guides of the instant.
+    #[cfg(feature = "alloc")]
+    pub(crate) fn each_pair<T: Real>(
+        &self,
+        guides: &[[T; 3]],
+        mut take: impl FnMut(Span, Span, T),
+    ) {
+        match self.motion {
+            GuidedMotion::Slide { x } => take(x, self.y, T::ONE),
+            GuidedMotion::Angle { x1, x2 } => {
+                let (sine, cosine) = guides[self.guide as usize][0].sin_cos();
+                take(x1, self.y, -sine);
+                take(x2, self.y, cosine);
+            }
+            GuidedMotion::Rotation { x, y, number } => {
+                let r = turned(&vector(guides, self.guide)[0], number);
+                for (a, x) in x.into_iter().enumerate() {
+                    take(x, self.y, r[1][a] * T::HALF);
+                    take(x, y, r[0][a] * -T::HALF);
+                }
+            }
+        }
+    }
+
+    /// Value and gradient at `q`, with all guides at the instant.
     pub fn evaluate<T: Real, const D: usize>(
         &self,
         pool: &[Term<T>],
         q: &[T],
-        f: T,
+        guides: &[[T; 3]],
         store: (&mut [T], &mut [T]),
     ) {
-        self.evaluate_with::<T, D>(pool, |x| combine(x.of(pool), q), f, store);
+        self.evaluate_with::<T, D>(pool, |x| combine(x.of(pool), q), guides, store);
     }
 
     /// Value and gradient at `q + dq`.
@@ -64,21 +150,22 @@ impl Guided {
         &self,
         pool: &[Term<T>],
         (q, dq): (&[T], &[T]),
-        f: T,
+        guides: &[[T; 3]],
         store: (&mut [T], &mut [T]),
     ) {
         let at = |x: Span| combine::<T, D>(x.of(pool), q) + combine::<T, D>(x.of(pool), dq);
-        self.evaluate_with::<T, D>(pool, at, f, store);
+        self.evaluate_with::<T, D>(pool, at, guides, store);
     }
 
     fn evaluate_with<T: Real, const D: usize>(
         &self,
         pool: &[Term<T>],
         at: impl Fn(Span) -> Vector<T, D>,
-        f: T,
+        guides: &[[T; 3]],
         (phi, jacobian): (&mut [T], &mut [T]),
     ) {
         let y = at(self.y);
+        let f = guides[self.guide as usize][0];
         let row = self.place.of_mut(jacobian);
         row.fill(T::ZERO);
         match self.motion {
@@ -96,23 +183,61 @@ impl Guided {
                 add_gradient(row, x1.of(pool), &(y * -sin));
                 add_gradient(row, self.y.of(pool), &a);
             }
+            GuidedMotion::Rotation { x, y: other, number } => {
+                let r = turned(&vector(guides, self.guide)[0], number);
+                let (axes, second) = (x.map(&at), [y, at(other)]);
+                phi[self.row as usize] = skew(&r, &axes, &second);
+                add_gradient(row, self.y.of(pool), &(mixed(&r[1], &axes) * T::HALF));
+                add_gradient(row, other.of(pool), &(mixed(&r[0], &axes) * -T::HALF));
+                for (a, x) in x.into_iter().enumerate() {
+                    let along = (second[0] * r[1][a] - second[1] * r[0][a]) * T::HALF;
+                    add_gradient(row, x.of(pool), &along);
+                }
+            }
         }
+    }
+
+    /// The directions of a rotation as they are.
+    fn axes<T: Real, const D: usize>(
+        &self,
+        pool: &[Term<T>],
+        (x, y): ([Span; 3], Span),
+        q: &[T],
+    ) -> ([Vector<T, D>; 3], [Vector<T, D>; 2]) {
+        (x.map(|x| combine(x.of(pool), q)), [self.y, y].map(|y| combine(y.of(pool), q)))
     }
 
     /// The partial derivative of phi with respect to time.
-    pub fn phi_t<T: Real, const D: usize>(&self, pool: &[Term<T>], q: &[T], f: [T; 3]) -> T {
+    pub fn phi_t<T: Real, const D: usize>(
+        &self,
+        pool: &[Term<T>],
+        q: &[T],
+        guides: &[[T; 3]],
+    ) -> T {
+        let f = guides[self.guide as usize];
         match self.motion {
             GuidedMotion::Slide { .. } => -f[1],
-            GuidedMotion::Angle { .. } => -f[1] * self.cosine::<T, D>(pool, q, f[0]),
+            GuidedMotion::Angle { .. } => -f[1] * self.cosine::<T, D>(pool, q, guides),
+            GuidedMotion::Rotation { x, y, number } => {
+                let ([_, rates, _], (x, y)) =
+                    (columns(guides, self.guide, number), self.axes::<T, D>(pool, (x, y), q));
+                skew(&rates, &x, &y)
+            }
         }
     }
 
-    /// B.y, the cosine of the deviation from the guide (one on the path).
-    fn cosine<T: Real, const D: usize>(&self, pool: &[Term<T>], q: &[T], f: T) -> T {
+    /// B.y, the cosine of the deviation from the guide (one on the path); of a rotation z_i.y_i + z_j.y_j, which is two there, and at half
+    /// a turn negative in one of its rows.
+    fn cosine<T: Real, const D: usize>(&self, pool: &[Term<T>], q: &[T], guides: &[[T; 3]]) -> T {
         match self.motion {
             GuidedMotion::Slide { .. } => T::ONE,
+            GuidedMotion::Rotation { x, y, number } => {
+                let r = turned(&vector(guides, self.guide)[0], number);
+                let (x, y) = self.axes::<T, D>(pool, (x, y), q);
+                mixed(&r[0], &x).dot(&y[0]) + mixed(&r[1], &x).dot(&y[1])
+            }
             GuidedMotion::Angle { x1, x2 } => {
-                let (sin, cos) = f.sin_cos();
+                let (sin, cos) = guides[self.guide as usize][0].sin_cos();
                 let b =
                     combine::<T, D>(x2.of(pool), q) * sin + combine::<T, D>(x1.of(pool), q) * cos;
                 b.dot(&combine::<T, D>(self.y.of(pool), q))
@@ -121,8 +246,13 @@ impl Guided {
     }
 
     /// Does the angle sit at the false root, half a turn from the guide?
-    pub fn is_opposite<T: Real, const D: usize>(&self, pool: &[Term<T>], q: &[T], f: T) -> bool {
-        self.cosine::<T, D>(pool, q, f) < T::ZERO
+    pub fn is_opposite<T: Real, const D: usize>(
+        &self,
+        pool: &[Term<T>],
+        q: &[T],
+        guides: &[[T; 3]],
+    ) -> bool {
+        self.cosine::<T, D>(pool, q, guides) < T::ZERO
     }
 
     /// The part of phi'' without accelerations.
@@ -130,8 +260,9 @@ impl Guided {
         &self,
         pool: &[Term<T>],
         (q, v): (&[T], &[T]),
-        f: [T; 3],
+        guides: &[[T; 3]],
     ) -> T {
+        let f = guides[self.guide as usize];
         let yt: Vector<T, D> = combine(self.y.of(pool), v);
         match self.motion {
             GuidedMotion::Slide { x } => combine::<T, D>(x.of(pool), v).dot(&yt) * T::TWO - f[2],
@@ -144,6 +275,15 @@ impl Guided {
                 let a_t = w2 * cos - w1 * sin - b * f[1];
                 let a_tt = (w2 * sin + w1 * cos) * (-T::TWO * f[1]) - b * f[2] - a * (f[1] * f[1]);
                 a_tt.dot(&y) + a_t.dot(&yt) * T::TWO
+            }
+            GuidedMotion::Rotation { x, y, number } => {
+                let [now, rates, second] = columns(guides, self.guide, number);
+                let (at, moving) =
+                    (self.axes::<T, D>(pool, (x, y), q), self.axes::<T, D>(pool, (x, y), v));
+                // C'': x.y + 2 C': (x'.y + x.y') + 2 C: x'.y'
+                let turning = skew(&rates, &moving.0, &at.1) + skew(&rates, &at.0, &moving.1);
+                let products = turning + skew(&now, &moving.0, &moving.1);
+                skew(&second, &at.0, &at.1) + products * T::TWO
             }
         }
     }

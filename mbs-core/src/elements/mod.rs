@@ -10,7 +10,7 @@
 //! | [`Linear`] | sum_k a_k e_k - c | constant | 0 |
 //! | [`Coupled`] | (sum_k c_k m_k - s) / c | see there | see there |
 //! | [`RollingRows`] | n.(r - p), and rows of velocities | see there | see there |
-//! | [`Guided`] | (cos f x2 - sin f x1).y, or s x.y - f | as `Dot` | with f', f'' |
+//! | [`Guided`] | (cos f x2 - sin f x1).y, or s x.y - f, or (z_j.y_i - z_i.y_j)/2 with z = exp(f) x | as `Dot` | with f', f'' |
 
 pub(crate) mod ball;
 mod combination;

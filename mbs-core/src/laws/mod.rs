@@ -22,6 +22,7 @@ pub mod road;
 pub mod road_contact;
 pub mod scalar;
 pub mod slip;
+pub mod spin;
 pub mod tire;
 pub mod user;
 

@@ -16,8 +16,9 @@ pub fn given_values<T: Real>(scene: &Scene<T>) -> Vec<Vec<Option<T>>> {
     let mut values: Vec<Vec<Option<T>>> = scene.joints.iter().map(open).collect();
     let signals = SignalGraph::new(&scene.signals).values(T::ZERO);
     for guide in &scene.guides {
-        if let Some(values) = values.get_mut(guide.joint.index()) {
-            values.fill(Some(GuideInput::new(&guide.law).at(T::ZERO, &signals)[0]));
+        let values = values.get_mut(guide.joint.index());
+        if let Some(value) = values.and_then(|values| values.get_mut(guide.number)) {
+            *value = Some(GuideInput::new(&guide.law).at(T::ZERO, &signals)[0]);
         }
     }
     for initial in &scene.initials {

@@ -9,7 +9,7 @@ use super::group::{
 use super::model::NaturalModel;
 use crate::Real;
 use crate::algebra::{Vector, cross, raised};
-use crate::elements::{GuidedMotion, combine};
+use crate::elements::combine;
 use crate::model::{Load, ScalarForce, Tangent, Terms};
 use alloc::vec;
 
@@ -278,18 +278,11 @@ impl<T: Real, const D: usize> NaturalModel<T, D> {
         let group = &self.groups[element];
         for row in self.guided.iter().filter(|row| group.rows.range().contains(&(row.row as usize)))
         {
-            let (s, y) = (lambda[row.row as usize], row.y.of(&self.pool));
-            match row.motion {
-                GuidedMotion::Slide { x } => {
-                    self.add_pairs((x.of(&self.pool), y), s, group, block);
-                }
-                GuidedMotion::Angle { x1, x2 } => {
-                    let (sine, cosine) = terms.guides[row.guide as usize][0].sin_cos();
-                    for (x, s) in [(x1, -s * sine), (x2, s * cosine)] {
-                        self.add_pairs((x.of(&self.pool), y), s, group, block);
-                    }
-                }
-            }
+            let s = lambda[row.row as usize];
+            row.each_pair(&terms.guides, |x, y, factor| {
+                let (x, y) = (x.of(&self.pool), y.of(&self.pool));
+                self.add_pairs((x, y), s * factor, group, block);
+            });
         }
     }
 

@@ -200,8 +200,7 @@ impl<T: Real, const D: usize> Model<T> for NaturalModel<T, D> {
 
     fn evaluate_phi_t(&self, q: &[T], terms: &mut Terms<T>) {
         for row in &self.guided {
-            let f = terms.guides[row.guide as usize];
-            terms.phi_t[row.row as usize] = row.phi_t::<T, D>(&self.pool, q, f);
+            terms.phi_t[row.row as usize] = row.phi_t::<T, D>(&self.pool, q, &terms.guides);
         }
         for row in self.driven() {
             terms.phi_t[row.row as usize] = row.phi_t(terms.guides[row.guide as usize]);
@@ -332,9 +331,8 @@ impl<T: Real, const D: usize> Model<T> for NaturalModel<T, D> {
     }
 
     fn opposite_guide(&self, q: &[T], terms: &Terms<T>) -> Option<usize> {
-        let is_opposite = |row: &&crate::elements::Guided| {
-            row.is_opposite::<T, D>(&self.pool, q, terms.guides[row.guide as usize][0])
-        };
+        let is_opposite =
+            |row: &&crate::elements::Guided| row.is_opposite::<T, D>(&self.pool, q, &terms.guides);
         self.guided.iter().find(is_opposite).map(|row| row.row as usize)
     }
 

@@ -12,9 +12,9 @@
 use super::basis::Combination;
 use super::build::Builder;
 use super::coordinate::{Coordinate, Places};
-use super::row_builder::RowDraft;
+use super::row_builder::{RowDraft, difference};
 use crate::Real;
-use crate::algebra::{Vector, norm};
+use crate::algebra::{Vector, norm, unit};
 use crate::scene::{Axis, Joint, Rotation};
 use alloc::vec::Vec;
 
@@ -66,15 +66,31 @@ impl<T: Real> Builder<'_, T> {
         let scene = self.scene;
         for (guide, law) in scene.guides.iter().enumerate() {
             let joint = &scene.joints[law.joint];
-            // the scene's check refuses guides of what has no coordinate or several
-            let Some(freedom) = joint.kind.single(scene.dimension) else { continue };
-            let row = match self.coordinate(joint, scene.dimension, freedom) {
-                Coordinate::Slide { x, y } => RowDraft::GuidedSlide { x, y, guide },
-                Coordinate::Angle { x1, x2, y, .. } => RowDraft::GuidedAngle { x1, x2, y, guide },
-                Coordinate::Rotation => continue,
+            // the scene's check refuses guides of coordinates that are not there
+            let row = match joint.kind.freedom(scene.dimension, law.number) {
+                None => self.guided_rotation(joint, law.number, guide),
+                Some(freedom) => match self.coordinate(joint, scene.dimension, freedom) {
+                    Coordinate::Slide { x, y } => RowDraft::GuidedSlide { x, y, guide },
+                    Coordinate::Angle { x1, x2, y, sign } => {
+                        let is_turned = sign < T::ZERO;
+                        let x2 = if is_turned { difference(&Vec::new(), &x2) } else { x2 };
+                        RowDraft::GuidedAngle { x1, x2, y, guide }
+                    }
+                    Coordinate::Rotation => continue,
+                },
             };
             self.joint_group(law.joint.index()).rows.push(row);
         }
+    }
+
+    /// A component of a rotation vector, whose guides stand one after another.
+    fn guided_rotation(&mut self, joint: &Joint<T>, number: usize, guide: usize) -> RowDraft<T> {
+        let first = joint.kind.ball(self.scene.dimension).unwrap_or(number);
+        let k = number - first;
+        let [one, two] = joint.bodies;
+        let x = [0, 1, 2].map(|a| self.direction(one, unit(a)));
+        let y = [1, 2].map(|n| self.direction(two, unit((k + n) % 3)));
+        RowDraft::GuidedRotation { x, y, number: k, guide: guide - k }
     }
 }
 

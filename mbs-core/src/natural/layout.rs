@@ -296,6 +296,12 @@ impl<T: Real, const D: usize> Layout<T, D> {
                 let motion = GuidedMotion::Slide { x };
                 self.model.guided.push(Guided { motion, y, guide: index(*guide), row, place });
             }
+            RowDraft::GuidedRotation { x, y, number, guide } => {
+                let x = x.each_ref().map(|x| self.span(x, columns));
+                let [y, other] = y.each_ref().map(|y| self.span(y, columns));
+                let motion = GuidedMotion::Rotation { x, y: other, number: index(*number) };
+                self.model.guided.push(Guided { motion, y, guide: index(*guide), row, place });
+            }
             RowDraft::Coupled { terms, inverse, guide, is_linear } => {
                 let terms = self.coupled_terms(terms, columns);
                 let guide = guide.map_or(NONE, index);

@@ -15,12 +15,43 @@ use alloc::vec::Vec;
 /// A constraint row (or D of them) in terms of entities.
 #[derive(Debug, Clone)]
 pub(crate) enum RowDraft<T: Real> {
-    Distance { ends: [usize; 2], length: T },
-    Dot { x: Combination<T>, y: Combination<T>, scale: T, constant: T },
-    Linear { x: Combination<T> },
-    GuidedAngle { x1: Combination<T>, x2: Combination<T>, y: Combination<T>, guide: usize },
-    GuidedSlide { x: Combination<T>, y: Combination<T>, guide: usize },
-    Coupled { terms: Vec<CoupledDraft<T>>, inverse: T, guide: Option<usize>, is_linear: bool },
+    Distance {
+        ends: [usize; 2],
+        length: T,
+    },
+    Dot {
+        x: Combination<T>,
+        y: Combination<T>,
+        scale: T,
+        constant: T,
+    },
+    Linear {
+        x: Combination<T>,
+    },
+    GuidedAngle {
+        x1: Combination<T>,
+        x2: Combination<T>,
+        y: Combination<T>,
+        guide: usize,
+    },
+    GuidedSlide {
+        x: Combination<T>,
+        y: Combination<T>,
+        guide: usize,
+    },
+    /// The component `number` of a rotation vector whose first guide is `guide`: the first body's axes, and the two of the second.
+    GuidedRotation {
+        x: [Combination<T>; 3],
+        y: [Combination<T>; 2],
+        number: usize,
+        guide: usize,
+    },
+    Coupled {
+        terms: Vec<CoupledDraft<T>>,
+        inverse: T,
+        guide: Option<usize>,
+        is_linear: bool,
+    },
     Rolling(Box<RollingDraft<T>>),
 }
 
@@ -76,6 +107,7 @@ impl<T: Real> RowDraft<T> {
             Self::Dot { x, y, .. } | Self::GuidedSlide { x, y, .. } => alloc::vec![x, y],
             Self::Linear { x } => alloc::vec![x],
             Self::GuidedAngle { x1, x2, y, .. } => alloc::vec![x1, x2, y],
+            Self::GuidedRotation { x, y, .. } => x.iter().chain(y).collect(),
             Self::Coupled { terms, .. } => combinations_of(terms),
             Self::Rolling(draft) => {
                 let of_frame = |(point, axes)| core::iter::once(point).chain(axes);

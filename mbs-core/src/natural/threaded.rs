@@ -31,8 +31,7 @@ impl<T: Real, const D: usize> NaturalModel<T, D> {
                 part.linear(row).evaluate::<T, D>(&self.pool, q, phi);
             }
             for row in part.guided(&self.guided) {
-                let f = guides[row.guide as usize][0];
-                part.guide(row).evaluate::<T, D>(&self.pool, q, f, (phi, jacobian));
+                part.guide(row).evaluate::<T, D>(&self.pool, q, guides, (phi, jacobian));
             }
             for row in part.coupled(&self.coupled) {
                 let [sum, ..] = Self::sum_of(row.guide, guides);
@@ -67,8 +66,8 @@ impl<T: Real, const D: usize> NaturalModel<T, D> {
                 part.linear(row).advance::<T, D>(&self.pool, dq, phi_n, phi);
             }
             for row in part.guided(&self.guided) {
-                let f = guides[row.guide as usize][0];
-                part.guide(row).evaluate_at_sum::<T, D>(&self.pool, (q, dq), f, (phi, jacobian));
+                let out = (&mut phi[..], &mut jacobian[..]);
+                part.guide(row).evaluate_at_sum::<T, D>(&self.pool, (q, dq), guides, out);
             }
             for row in part.coupled(&self.coupled) {
                 let [sum, ..] = Self::sum_of(row.guide, guides);
@@ -143,8 +142,7 @@ impl<T: Real, const D: usize> NaturalModel<T, D> {
                 bias[row.row as usize - first] = row.bias::<D>(&self.pool, v);
             }
             for row in part.guided(&self.guided) {
-                let f = guides[row.guide as usize];
-                bias[row.row as usize - first] = row.bias::<T, D>(&self.pool, (q, v), f);
+                bias[row.row as usize - first] = row.bias::<T, D>(&self.pool, (q, v), guides);
             }
             for row in part.coupled(&self.coupled) {
                 let sum = Self::sum_of(row.guide, guides);

@@ -9,7 +9,7 @@
 //! | ball | none |
 //! | link | along it; hinged: along the hinge a |
 //!
-//! A guide adds the direction it drives: the moment about its axis, or the force along it.
+//! A guide adds the direction it drives: the moment about its axis, or the force along it; of a rotation vector all moments.
 
 use super::frame::normalised;
 use crate::Real;
@@ -69,7 +69,8 @@ pub struct JointWrenches<T: Real> {
     is_link: bool,
     /// Of a hinged link.
     hinge: Option<Vector<T, 3>>,
-    guided: Option<(Freedom, Vector<T, 3>)>,
+    /// Freedoms that are guided, with the side that has their direction; of a ball zero.
+    guided: Vec<(Freedom, usize, Vector<T, 3>)>,
     length: T,
 }
 
@@ -87,7 +88,14 @@ impl<T: Real> JointWrenches<T> {
             Rotation::Universal(axes) => (Vec::new(), axes.map(|axis| joint.direction(axis))),
             Rotation::Fixed | Rotation::Free => (Vec::new(), [Vector::zeros(); 2]),
         };
-        let guided = joint.kind.single(dimension).filter(|_| is_guided);
+        let guided = joint.freedoms(dimension).iter().filter(|_| is_guided).map(|&freedom| {
+            let side = match freedom {
+                Freedom::Turn(axis) => joint.side_of_turn(dimension, axis),
+                Freedom::Slide(_) | Freedom::Ball => 0,
+            };
+            let axis = freedom.axis().map_or_else(Vector::zeros, |axis| joint.direction(axis));
+            (freedom, side, axis)
+        });
         Self {
             dimension,
             translation: joint.kind.translation(dimension),
@@ -97,9 +105,15 @@ impl<T: Real> JointWrenches<T> {
             crossed,
             is_link: joint.kind.is_link(),
             hinge: joint.is_hinged_link().then(|| joint.direction(Axis::First)),
-            guided: guided.and_then(|f| f.axis().map(|axis| (f, joint.direction(axis)))),
+            guided: guided.collect(),
             length,
         }
+    }
+
+    /// How many of its directions are those of guides; they are the last ones.
+    #[must_use]
+    pub fn n_guided(&self) -> usize {
+        self.guided.iter().map(|(freedom, ..)| freedom.n_coordinates()).sum()
     }
 
     /// How many directions it has.
@@ -115,7 +129,7 @@ impl<T: Real> JointWrenches<T> {
             Rotation::About(_) | Rotation::Free => self.moments.len(),
         };
         let n_link = usize::from(self.is_link) + usize::from(self.hinge.is_some());
-        n_forces + n_moments + n_link + usize::from(self.guided.is_some())
+        n_forces + n_moments + n_link + self.n_guided()
     }
 
     /// Hands out its directions; `places` are those of the joint on both bodies [m], whose rotations are `turned`.
@@ -138,25 +152,23 @@ impl<T: Real> JointWrenches<T> {
             force(normalised(&(places(1) - places(0))));
         }
         self.hinge.iter().for_each(|axis| force(turned[0] * axis));
-        let mut moment = |m: Vector<T, 3>| {
-            take(Wrench { force: Vector::zeros(), moment: m * self.length });
-        };
+        let moment = |m: Vector<T, 3>| Wrench { force: Vector::zeros(), moment: m * self.length };
         match self.rotation {
-            Rotation::Fixed => xyz[6 - 2 * d..].iter().copied().for_each(&mut moment),
+            Rotation::Fixed => xyz[6 - 2 * d..].iter().for_each(|m| take(moment(*m))),
             Rotation::Universal(_) => {
                 let [a, b] = [0, 1].map(|side| turned[side] * self.crossed[side]);
-                moment(normalised(&cross(&a, &b)));
+                take(moment(normalised(&cross(&a, &b))));
             }
             Rotation::About(_) | Rotation::Free => {
-                self.moments.iter().for_each(|m| moment(turned[0] * m));
+                self.moments.iter().for_each(|m| take(moment(turned[0] * m)));
             }
         }
-        match self.guided.map(|(freedom, axis)| (freedom, turned[0] * axis)) {
-            Some((Freedom::Slide(_), axis)) => {
-                take(Wrench { force: axis, moment: Vector::zeros() });
+        for &(freedom, side, axis) in &self.guided {
+            match (freedom, turned[side] * axis) {
+                (Freedom::Slide(_), axis) => take(Wrench { force: axis, moment: Vector::zeros() }),
+                (Freedom::Turn(_), axis) => take(moment(axis)),
+                (Freedom::Ball, _) => xyz.iter().for_each(|m| take(moment(*m))),
             }
-            Some((Freedom::Turn(_) | Freedom::Ball, axis)) => moment(axis),
-            None => {}
         }
     }
 }

@@ -182,7 +182,14 @@ impl InitialCondition<Number> {
 impl Guide<Number> {
     /// A joint with one coordinate that follows a function of time.
     pub fn new(joint: JointId, motion: impl Into<Motion<Number>>) -> Self {
-        Self { joint, law: motion.into() }
+        Self { joint, number: 0, law: motion.into() }
+    }
+
+    /// The same motion of another coordinate of the joint, by its number from 0. Of several all are guided, one after another.
+    #[must_use]
+    pub fn on_coordinate(mut self, number: usize) -> Self {
+        self.number = number;
+        self
     }
 }
 

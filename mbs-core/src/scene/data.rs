@@ -140,8 +140,10 @@ pub enum InitialTarget<T> {
 /// Kinematic guidance: a joint coordinate follows a law of time, counted from the reference configuration.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Guide<T> {
-    /// The guided joint (one coordinate: revolute or prismatic).
+    /// The guided joint. Of one with several coordinates all are guided, by guides that stand one after another.
     pub joint: JointId,
+    /// Number of the coordinate, in the order of the joint's coordinates; the rotation vector of a ball has three.
+    pub number: usize,
     /// The law.
     pub law: Motion<T>,
 }

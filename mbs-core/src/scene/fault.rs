@@ -108,6 +108,15 @@ pub enum SceneFault {
     SumAtStart([f64; 2]),
     /// The joint has no single coordinate to guide; the number it has.
     NoSingleCoordinate(usize),
+    /// Guides of a joint are not one for each of its coordinates, in their order.
+    GuideNotWhole {
+        /// How many coordinates it has.
+        needed: usize,
+        /// How many are guided, in their order.
+        found: usize,
+    },
+    /// A guide between bodies that are welded together.
+    GuideWelded,
     /// The joint has no single rotation to spring or drive; the number it has.
     NoSingleRotation(usize),
     /// The same thing is prescribed twice; the index of the first entry.
@@ -256,6 +265,10 @@ impl SceneFault {
                 "change one of the initial values, or leave it out: the others determine it"
             }
             Self::NoSingleCoordinate(_) => "use a revolute or prismatic joint",
+            Self::GuideNotWhole { .. } => {
+                "give `signals`, one name for each coordinate: translations first, then turns or the rotation vector"
+            }
+            Self::GuideWelded => "guide a joint whose bodies move, or remove the weld",
             Self::NoSingleRotation(_) => "use a revolute or cylindrical joint",
             Self::GivenTwice(_) => "remove one of the two",
             Self::Contradiction { .. } => {
@@ -379,6 +392,10 @@ impl SceneFault {
             Self::NoSingleCoordinate(n) => {
                 write!(f, "is a joint with {n} coordinates; exactly one is needed")
             }
+            Self::GuideNotWhole { needed, found } => {
+                write!(f, "is guided by {found} of the {needed} motions that its joint needs")
+            }
+            Self::GuideWelded => write!(f, "is between bodies that are welded together"),
             Self::NoSingleRotation(n) => {
                 write!(f, "is a joint with {n} rotations; exactly one is needed")
             }

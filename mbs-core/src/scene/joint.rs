@@ -337,6 +337,13 @@ impl JointKind {
         })
     }
 
+    /// The number of the first coordinate of its rotation vector, where it has one.
+    #[must_use]
+    pub fn ball(self, dimension: Dimension) -> Option<usize> {
+        let mut freedoms = self.numbered(dimension);
+        freedoms.find(|(_, freedom)| *freedom == Ball).map(|(number, _)| number)
+    }
+
     /// How it constrains translation; a [link](Self::is_link) has equations of its own.
     #[must_use]
     pub fn translation(self, dimension: Dimension) -> Translation {

@@ -76,7 +76,11 @@ impl<T: Clone> Scene<T> {
             guides: self
                 .guides
                 .iter()
-                .map(|guide| Guide { joint: guide.joint, law: guide.law.map(f) })
+                .map(|guide| Guide {
+                    joint: guide.joint,
+                    number: guide.number,
+                    law: guide.law.map(f),
+                })
                 .collect(),
             couplings: self.couplings.iter().map(|coupling| coupling.map(f)).collect(),
             rollings: self.rollings.iter().map(|rolling| rolling.map(f)).collect(),

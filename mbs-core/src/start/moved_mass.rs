@@ -37,7 +37,7 @@ pub fn moved_mass<T: Real>(scene: &Scene<T>, of: (JointId, usize)) -> Option<T> 
 
 /// The scene without forces and start values, but with its rotors, at rest but for one coordinate, whose rate is one.
 fn moving<T: Real>(scene: &Scene<T>, (joint, number): (JointId, usize)) -> Scene<T> {
-    let guide = |guide: &Guide<T>| Guide { joint: guide.joint, law: Motion::Input([T::ZERO; 3]) };
+    let guide = |guide: &Guide<T>| Guide { law: Motion::Input([T::ZERO; 3]), ..guide.clone() };
     let held =
         |coupling: &Coupling<T>| Coupling { value: T::ZERO, motion: None, ..coupling.clone() };
     let of = CouplingMeasure::Coordinate { joint, number };

@@ -31,7 +31,7 @@ fn a_hinge_moves_the_inertia_about_it_and_what_follows() {
     add_joint(&mut s, JointKind::Revolute, [body, next], [1.0, 0.0, 0.0], TURN);
     is_near(moved_mass(&s, (JointId::new(0), 0)), 0.9 + 3.0);
     // held by a guide against the first body it turns with it
-    let held = Guide { joint: JointId::new(1), law: Motion::Ramp { rate: 5.0 } };
+    let held = Guide { joint: JointId::new(1), number: 0, law: Motion::Ramp { rate: 5.0 } };
     s.guides.push(held);
     is_near(moved_mass(&s, (JointId::new(0), 0)), 0.9 + 3.0 + 0.4);
     assert_eq!(moved_mass(&s, (JointId::new(1), 0)), None, "a guided coordinate moves nothing");

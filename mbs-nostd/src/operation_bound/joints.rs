@@ -1,4 +1,4 @@
-//! Operations of a link, by the kind of its joint.
+//! Operations of a link, by the kind of its joint. Tables have no guided balls.
 
 use super::Operations;
 use mbs_core::Real;
@@ -24,6 +24,7 @@ pub(super) fn place<T: Real, S: Space<T>>(kind: LinkKind) -> Operations {
         (LinkKind::Ball, _) => ops(109, 81).and(1, 0, 0),
         (LinkKind::Free, true) => ops(94, 60).and(1, 0, 0),
         (LinkKind::Free, false) => ops(15, 8).and(0, 0, 1),
+        (LinkKind::GuidedBall, _) => Operations::NONE,
     }
 }
 
@@ -43,6 +44,7 @@ fn eliminate<T: Real, S: Space<T>>(kind: LinkKind) -> Operations {
         (LinkKind::Free, false) => ops(5, 4).and(3, 0, 0),
         (LinkKind::GuidedRevolute | LinkKind::GuidedPrismatic, true) => ops(37, 36),
         (LinkKind::GuidedRevolute | LinkKind::GuidedPrismatic, false) => ops(10, 9),
+        (LinkKind::GuidedBall, _) => Operations::NONE,
     }
 }
 
@@ -56,6 +58,7 @@ fn advance<T: Real, S: Space<T>>(kind: LinkKind) -> Operations {
         (LinkKind::Free, false) => ops(6, 12).and(3, 0, 0),
         (LinkKind::GuidedRevolute | LinkKind::GuidedPrismatic, true) => ops(6, 6),
         (LinkKind::GuidedRevolute | LinkKind::GuidedPrismatic, false) => ops(2, 2),
+        (LinkKind::GuidedBall, _) => Operations::NONE,
     }
 }
 
@@ -80,7 +83,8 @@ pub(super) fn response<T: Real, S: Space<T>>(link: &Link<T, S>) -> Operations {
         (LinkKind::Revolute, false) => ops(5, 4),
         (LinkKind::Prismatic, false) => ops(6, 5),
         (LinkKind::Ball, _) => ops(18, 15),
-        (LinkKind::Free | LinkKind::GuidedRevolute | LinkKind::GuidedPrismatic, _) => {
+        (LinkKind::Free, _) => Operations::NONE,
+        (LinkKind::GuidedRevolute | LinkKind::GuidedPrismatic | LinkKind::GuidedBall, _) => {
             Operations::NONE
         }
     };
@@ -98,6 +102,7 @@ pub(super) fn spread<T: Real, S: Space<T>>(kind: LinkKind) -> Operations {
         (LinkKind::Free, false) => ops(0, 6),
         (LinkKind::GuidedRevolute | LinkKind::GuidedPrismatic, true) => ops(6, 18),
         (LinkKind::GuidedRevolute | LinkKind::GuidedPrismatic, false) => ops(2, 8),
+        (LinkKind::GuidedBall, _) => Operations::NONE,
     }
 }
 
@@ -108,7 +113,9 @@ pub(super) fn moved<T: Real, S: Space<T>>(kind: LinkKind) -> Operations {
         (LinkKind::Ball, _) => ops(31, 17).and(2, 2, 1),
         (LinkKind::Free, true) => ops(31, 20).and(2, 2, 1),
         (LinkKind::Free, false) => ops(0, 3),
-        (LinkKind::GuidedRevolute | LinkKind::GuidedPrismatic, _) => Operations::NONE,
+        (LinkKind::GuidedRevolute | LinkKind::GuidedPrismatic | LinkKind::GuidedBall, _) => {
+            Operations::NONE
+        }
     }
 }
 
@@ -121,6 +128,8 @@ pub(super) fn pass<T: Real, S: Space<T>>(kind: LinkKind) -> Operations {
         (LinkKind::Ball, _) => ops(18, 15),
         (LinkKind::Free, true) => ops(36, 30),
         (LinkKind::Free, false) => ops(6, 6).and(3, 0, 0),
-        (LinkKind::GuidedRevolute | LinkKind::GuidedPrismatic, _) => Operations::NONE,
+        (LinkKind::GuidedRevolute | LinkKind::GuidedPrismatic | LinkKind::GuidedBall, _) => {
+            Operations::NONE
+        }
     }
 }

@@ -5,6 +5,7 @@
 use super::{Instant, Load, Measure};
 use crate::fault::failure;
 use crate::indexing::{Outside, at};
+use crate::joint::{HAS_GUIDED_BALLS, guided_vector};
 use crate::link::LinkKind;
 use crate::slices::{Inputs, Start, Store, TreeSlices};
 use crate::space::Space;
@@ -46,7 +47,14 @@ impl<T: Real, S: Space<T>> Instant<'_, T, S> {
                     }
                     sum = product(own, sum);
                 }
-                LinkKind::Prismatic | LinkKind::GuidedPrismatic => {}
+                LinkKind::GuidedBall if HAS_GUIDED_BALLS => {
+                    let half = guided_vector(link, self.coordinates.2)?[0] * T::HALF;
+                    let (angle, (s, c)) = (norm(&half), norm(&half).sin_cos());
+                    // sin(|f|/2) f/|f|; at no turn it is f/2
+                    let n = if angle > T::ZERO { half * (s / angle) } else { half };
+                    sum = product([c, n[0], n[1], n[2]], sum);
+                }
+                LinkKind::Prismatic | LinkKind::GuidedPrismatic | LinkKind::GuidedBall => {}
             }
             number = if link.kind == LinkKind::Free { 0 } else { link.parent };
         }

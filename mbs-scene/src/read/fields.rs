@@ -53,6 +53,16 @@ impl<'a> Context<'a> {
         }
     }
 
+    /// A list that is not empty.
+    pub(crate) fn filled_list(&self, item: &'a Item, expected: &'static str) -> Read<&'a [Item]> {
+        let items = self.list(item, expected)?;
+        if items.is_empty() {
+            let found = "an empty one";
+            return self.fault(&item.span, ReadFault::WrongType { expected, found });
+        }
+        Ok(items)
+    }
+
     /// A list of exactly `N` entries.
     pub(crate) fn exactly<const N: usize>(
         &self,

@@ -22,8 +22,7 @@ pub(crate) fn read(fields: &Fields<'_>, known: &[Body<Number>]) -> Read<Joint<Nu
     keys.extend(LIMITS);
     fields.allow(&keys, &KEYS)?;
     let bodies = fields.pair()?;
-    let is_point = |body: BodyId| body.index().is_some_and(|i| known[i].is_point());
-    let kind = if bodies.into_iter().any(is_point) { kind.of_points() } else { kind };
+    let kind = kind_between(kind, bodies, known);
     let points = if kind.is_link() {
         fields.two_vectors("points")?
     } else {
@@ -46,6 +45,29 @@ pub(crate) fn read(fields: &Fields<'_>, known: &[Body<Number>]) -> Read<Joint<Nu
     Ok(Joint { name: fields.name()?, kind, bodies, points, axes, limits: read_limits(fields)? })
 }
 
+/// The free joint from the ground by which a body is guided, at its centre of mass or `at`; it has the body's name.
+pub(crate) fn read_of_guided_body(
+    fields: &Fields<'_>,
+    known: &[Body<Number>],
+) -> Read<Option<Joint<Number>>> {
+    let Some(item) = fields.get("body") else { return Ok(None) };
+    let body = fields.context.moving_body(item)?;
+    let bodies = [BodyId::Ground, body];
+    let kind = kind_between(JointKind::Free, bodies, known);
+    let at = match default_place(kind, bodies, known) {
+        Some(center) if fields.get("at").is_none() => center,
+        _ => fields.vector("at")?,
+    };
+    Ok(Some(Joint {
+        name: fields.context.text(item)?.to_owned(),
+        kind,
+        bodies,
+        points: [at.clone(), at],
+        axes: [None, None],
+        limits: JointLimits::NONE,
+    }))
+}
+
 fn read_limits(fields: &Fields<'_>) -> Read<JointLimits<Number>> {
     let range = |item| fields.context.numbers_of(item, "a list of two numbers: [lower, upper]");
     Ok(JointLimits {
@@ -61,6 +83,12 @@ fn read_kind(fields: &Fields<'_>) -> Read<JointKind> {
         Some(kind) => Ok(kind),
         None => fields.unknown_word("kind", word, &JointKind::ALL.map(JointKind::name)),
     }
+}
+
+/// The kind that a joint is between these bodies: a free one of a point mass does not turn.
+fn kind_between(kind: JointKind, bodies: [BodyId; 2], known: &[Body<Number>]) -> JointKind {
+    let is_point = |body: BodyId| body.index().is_some_and(|i| known[i].is_point());
+    if bodies.into_iter().any(is_point) { kind.of_points() } else { kind }
 }
 
 /// A free joint speaks about the centre of mass of the second body, or of the first when that is the ground.

@@ -7,6 +7,7 @@ mod edit;
 mod effect;
 mod error;
 mod fields;
+mod guided;
 mod hints;
 mod joint;
 mod motion;

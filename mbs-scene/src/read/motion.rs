@@ -2,7 +2,7 @@
 
 use crate::read::ReadFault;
 use crate::read::fields::{Fields, Read};
-use mbs_core::scene::{Guide, InitialCondition, InitialTarget, Motion, Number, TableEnds};
+use mbs_core::scene::{Guide, InitialCondition, InitialTarget, Joint, Motion, Number, TableEnds};
 
 const INITIAL_KEYS: [&str; 7] =
     ["joint", "value", "rate", "body", "at", "velocity", "angular_velocity"];
@@ -46,31 +46,76 @@ fn angular_velocity(fields: &Fields<'_>) -> Read<Option<[Number; 3]>> {
     fields.context.vector(item).map(Some)
 }
 
-pub(crate) fn read_guide(fields: &Fields<'_>) -> Read<Guide<Number>> {
-    let known: &[_] = match fields.get("table") {
-        Some(_) => &["joint", "table", "ends", "sine", "ramp", "input", "signal"],
-        None => &["joint", "table", "sine", "ramp", "input", "signal"],
-    };
-    fields.allow(known, &["ends"])?;
+/// The guides of an entry: of one coordinate, or with `signals` of all coordinates of a joint, also of the free joint that a guided `body`
+/// gets.
+pub(crate) fn read_guides(
+    fields: &Fields<'_>,
+    joints: &[Joint<Number>],
+) -> Read<Vec<Guide<Number>>> {
     let context = fields.context;
-    let joint = context.joint(fields.need("joint")?)?;
+    for (one, other) in [("joint", "body"), ("coordinate", "signals")] {
+        fields.exclusive(one, other)?;
+    }
+    for law in LAWS {
+        fields.exclusive(law, "signals")?;
+    }
+    let is_of_body = fields.get("body").is_some();
+    let mut known: Vec<&str> = if is_of_body {
+        vec!["body", "at", "signals"]
+    } else {
+        [&["joint", "coordinate", "signals"][..], &LAWS].concat()
+    };
+    known.extend(fields.get("table").map(|_| "ends"));
+    fields.allow(&known, &GUIDE_KEYS)?;
+    // the free joint of a guided body has the body's name
+    let of = if is_of_body { "body" } else { "joint" };
+    let joint = context.joint(fields.need(of)?)?;
+    if let Some(item) = fields.get("signals") {
+        let expected = "a list of names of signals, one for each coordinate";
+        let names = context.filled_list(item, expected)?.iter().enumerate();
+        let guide = |(number, name)| {
+            Ok(Guide { joint, number, law: Motion::Signal(context.signal(name)?) })
+        };
+        return names.map(guide).collect();
+    }
+    let number = match fields.get("coordinate") {
+        Some(item) => fields.coordinate(item, &joints[joint.index()])?,
+        None => 0,
+    };
     match read_motion(fields)? {
-        Some(law) => Ok(Guide { joint, law }),
+        Some(law) => Ok(vec![Guide { joint, number, law }]),
         None => {
-            let key = "table, sine, ramp, input or signal";
+            let key = if is_of_body { "signals" } else { "table, sine, ramp, input or signal" };
             context.fault(fields.header, ReadFault::Missing { key })
         }
     }
 }
+
+/// The keys of guides, all of them.
+const GUIDE_KEYS: [&str; 11] = [
+    "joint",
+    "body",
+    "at",
+    "coordinate",
+    "table",
+    "ends",
+    "sine",
+    "ramp",
+    "input",
+    "signal",
+    "signals",
+];
+
+/// The keys that each give a function of time.
+const LAWS: [&str; 5] = ["table", "sine", "ramp", "input", "signal"];
 
 /// The keys of a function of time.
 pub(crate) const MOTION_KEYS: [&str; 6] = ["table", "ends", "sine", "ramp", "input", "signal"];
 
 /// A function of time, where one of its keys is there.
 pub(crate) fn read_motion(fields: &Fields<'_>) -> Read<Option<Motion<Number>>> {
-    let laws = ["table", "sine", "ramp", "input", "signal"];
-    for (i, one) in laws.iter().enumerate() {
-        laws[i + 1..].iter().try_for_each(|other| fields.exclusive(one, other))?;
+    for (i, one) in LAWS.iter().enumerate() {
+        LAWS[i + 1..].iter().try_for_each(|other| fields.exclusive(one, other))?;
     }
     let context = fields.context;
     let law = if let Some(item) = fields.get("sine") {

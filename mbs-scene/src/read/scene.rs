@@ -11,7 +11,8 @@ use crate::read::{
 };
 use mbs_core::Real;
 use mbs_core::scene::{
-    Dimension, Entry, Number, Scene, SceneError, SceneFault, Start, signal_order,
+    Body, Dimension, Entry, Guide, Joint, Number, Scene, SceneError, SceneFault, Start,
+    signal_order,
 };
 use std::collections::BTreeMap;
 
@@ -19,6 +20,9 @@ const TABLES: [&str; 12] = [
     "scene", "body", "joint", "initial", "guide", "coupling", "rolling", "signal", "effect",
     "road", "solver", "output",
 ];
+/// The joints of a file with those of its guided bodies, and the guides.
+type JointsAndGuides = (Vec<Joint<Number>>, Vec<Guide<Number>>);
+
 const SCENE_KEYS: [&str; 5] = ["name", "dimension", "gravity", "duration", "start"];
 
 impl SceneFile {
@@ -36,6 +40,7 @@ impl SceneFile {
     /// The first thing in the file that is unknown, missing, or of another form, with its place.
     pub fn numbers(&self) -> Result<Scene<Number>, ReadError> {
         let [bodies, joints, signals] = ["body", "joint", "signal"].map(|table| self.names(table));
+        let joints = Names::new([joints.list(), &self.guided_bodies()?].concat());
         // the dimension is not known yet; nothing dimensional is read before it is
         let dimension = Dimension::Planar;
         let context = Context {
@@ -58,8 +63,7 @@ impl SceneFile {
         header.allow(&SCENE_KEYS, &[])?;
         let body_data = self.entries(&context, "body", |_, fields| body::read(fields))?;
         let centers: Vec<[Number; 3]> = body_data.iter().map(|body| body.center.clone()).collect();
-        let joints =
-            self.entries(&context, "joint", |_, fields| joint::read(fields, &body_data))?;
+        let (joints, guides) = self.joints_and_guides(&context, &body_data)?;
         let couplings =
             self.entries(&context, "coupling", |i, fields| coupling::read(i, fields, &joints))?;
         let rollings = self.entries(&context, "rolling", |i, fields| rolling::read(i, fields))?;
@@ -76,7 +80,7 @@ impl SceneFile {
             bodies: body_data,
             initials: self
                 .entries(&context, "initial", |_, fields| motion::read_initial(fields))?,
-            guides: self.entries(&context, "guide", |_, fields| motion::read_guide(fields))?,
+            guides,
             couplings,
             rollings,
             signals: self.entries(&context, "signal", |_, fields| signal::read(fields, &joints))?,
@@ -95,6 +99,20 @@ impl SceneFile {
                 None => Default::default(),
             },
         })
+    }
+
+    /// The joints of a file, then those of its guided bodies; and the guides.
+    fn joints_and_guides(
+        &self,
+        context: &Context<'_>,
+        bodies: &[Body<Number>],
+    ) -> Read<JointsAndGuides> {
+        let mut joints = self.entries(context, "joint", |_, fields| joint::read(fields, bodies))?;
+        let of_bodies = |_, fields: &_| joint::read_of_guided_body(fields, bodies);
+        joints.extend(self.entries(context, "guide", of_bodies)?.into_iter().flatten());
+        let guides = |_, fields: &_| motion::read_guides(fields, &joints);
+        let guides = self.entries(context, "guide", guides)?.concat();
+        Ok((joints, guides))
     }
 
     /// The place of a key's value, of the entry's header when the key is not written, or of the file's start.
@@ -117,9 +135,9 @@ impl SceneFile {
             Entry::RoadLeft(i) => road("left", i),
             Entry::RoadRight(i) => road("right", i),
             Entry::Body(i) => entries("body", i),
-            Entry::Joint(i) => entries("joint", i),
+            Entry::Joint(i) => return self.item_of_joint(i, field),
             Entry::Initial(i) => entries("initial", i),
-            Entry::Guide(i) => entries("guide", i),
+            Entry::Guide(i) => return self.item_of_guide(i, field),
             Entry::Coupling(i) => entries("coupling", i),
             Entry::Rolling(i) => entries("rolling", i),
             Entry::Signal(i) => entries("signal", i),
@@ -182,6 +200,11 @@ impl SceneFile {
     /// The fault, with the names of the signals or of the body that it is about.
     fn fault(&self, error: SceneError) -> ReadFault {
         let named = match error.fault {
+            SceneFault::GivenTwice(first) if matches!(error.entry, Entry::Guide(_)) => {
+                let entry = self.entry_of_guide(first).map_or(first, |(entry, _)| entry);
+                let fault = SceneFault::GivenTwice(entry);
+                return ReadFault::Scene(SceneError { fault, ..error });
+            }
             SceneFault::SignalNotSmooth { broken, remedy } => {
                 let name = self.name("signal", broken.signal.index());
                 name.map(|name| ReadFault::SignalNotSmooth { name, broken, remedy })

@@ -7,6 +7,7 @@ use mbs_core::scene::*;
 mod balls;
 mod couplings;
 mod effects;
+mod guides;
 mod limits;
 mod outputs;
 mod points;

@@ -350,6 +350,10 @@ impl Writer<'_> {
     fn guide(self, guide: &Guide<Number>) -> Result<Keys, WriteError> {
         let mut keys = Keys::default();
         keys.push("joint", self.joint_name(guide.joint)?);
+        let joint = self.scene.joints.get(guide.joint.index());
+        if joint.is_some_and(|joint| joint.kind.n_coordinates(self.scene.dimension) > 1) {
+            keys.push("coordinate", Node::Number(guide.number.to_string()));
+        }
         self.motion(&mut keys, &guide.law)?;
         Ok(keys)
     }

@@ -130,8 +130,9 @@ fn angles(scene: &Scene<f64>, findings: &mut Vec<Finding>) {
         }
     }
     for (i, guide) in scene.guides.iter().enumerate() {
+        let freedom = kind(guide.joint).freedom(scene.dimension, guide.number);
         if let Motion::Sine { amplitude, .. } = guide.law
-            && turns(guide.joint)
+            && !matches!(freedom, Some(Freedom::Slide(_)))
             && like_degrees(amplitude)
         {
             report(amplitude, Entry::Guide(i), "amplitude");

@@ -10,6 +10,7 @@ use mbs_core::natural::NaturalModel;
 use mbs_core::scene::{BodyId, Dimension, Inertia, JointKind, Motion, Scene};
 use mbs_nostd::export::Collected;
 use mbs_nostd::{Bounds, operation_bound};
+use mbs_recursive::link::LinkKind;
 use mbs_recursive::space::Space;
 use mbs_recursive::{Planar, Spatial, TreeModel, TreeState};
 
@@ -54,7 +55,10 @@ fn relative<T: Real, S: Space<T>>(scene: &Scene<T>, sizes: Sizes) -> Result<Rela
     let cut_joints: Vec<_> =
         tree.cut_joints().map(|joint| scene.joints[joint].name.clone()).collect();
     let rest = TreeState::at_rest(&tree);
-    let controller = Collected::new(&tree, &rest, &[]).ok().map(|collected| {
+    // controllers have no guided rotation vectors
+    let is_exported = tree.mechanism().links.iter().all(|link| link.kind != LinkKind::GuidedBall);
+    let collected = Collected::new(&tree, &rest, &[]).ok().filter(|_| is_exported);
+    let controller = collected.map(|collected| {
         let bound = operation_bound::step(&collected.model(), Bounds::default());
         ControllerStep {
             products: bound.products,
@@ -77,19 +81,27 @@ fn joints<T>(scene: &Scene<T>) -> Vec<JointsByKind> {
     JointKind::ALL.map(group).into_iter().filter(|group| !group.names.is_empty()).collect()
 }
 
+/// The guided joints, each with its laws.
 fn guides<T>(scene: &Scene<T>) -> Vec<GuideEntry> {
-    let entry = |guide: &mbs_core::scene::Guide<T>| GuideEntry {
-        joint: scene.joints[guide.joint].name.clone(),
-        law: match guide.law {
+    let mut entries = Vec::<GuideEntry>::new();
+    for guide in &scene.guides {
+        let law = match guide.law {
             Motion::Table { .. } => "table",
             Motion::Sine { .. } => "sine",
             Motion::Input(_) => "input",
             Motion::Ramp { .. } => "ramp",
             Motion::Signal(_) => "signal",
+        };
+        match entries.last_mut().filter(|_| guide.number > 0) {
+            Some(entry) if entry.law.split(", ").any(|known| known == law) => {}
+            Some(entry) => entry.law = format!("{}, {law}", entry.law),
+            None => {
+                let joint = scene.joints[guide.joint].name.clone();
+                entries.push(GuideEntry { joint, law: law.to_owned() });
+            }
         }
-        .to_owned(),
-    };
-    scene.guides.iter().map(entry).collect()
+    }
+    entries
 }
 
 /// Thin rods in space; in the plane there is no rotation about a rod.

@@ -22,6 +22,11 @@ impl Link {
         Self { joint: joint.clone(), is_guided, transmission }
     }
 
+    /// How many of its rows are those of guides; they are the last ones.
+    pub(crate) fn n_guided(&self) -> usize {
+        self.transmission.n_guided()
+    }
+
     pub(crate) fn n_rows(&self) -> usize {
         self.transmission.n_directions()
     }

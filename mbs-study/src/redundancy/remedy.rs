@@ -181,7 +181,7 @@ fn options_of(
         if axis.is_some() {
             joint.axes[1] = axis;
         }
-        // A guide needs the one coordinate that it drives.
+        // A guide needs the coordinates that it drives.
         if link.is_guided {
             continue;
         }

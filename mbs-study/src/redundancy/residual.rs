@@ -21,7 +21,7 @@ pub(crate) fn residuals(
     at: &Poses,
 ) -> Vec<f64> {
     let wrenches = link.wrenches(at, part.length);
-    let guide = wrenches.len() - usize::from(link.is_guided);
+    let guide = wrenches.len() - link.n_guided();
     let opened = offset(link, at);
     let row = |(i, w): (usize, &mbs_core::outputs::Wrench<f64>)| {
         let is_guide = i >= guide;
@@ -32,7 +32,8 @@ pub(crate) fn residuals(
                 (false, true, 0) => norm(&now) - norm(&then),
                 // A guide's slide, and that of a hinged link along its hinge, stay as they were.
                 (true, ..) | (false, true, _) => {
-                    w.force.dot(&now) - along(link, dimension, met, &then)
+                    let number = i.saturating_sub(guide);
+                    w.force.dot(&now) - along(link, (dimension, number), met, &then)
                 }
                 // The places coincide, or slide along what f is across.
                 _ => w.force.dot(&now),
@@ -48,9 +49,9 @@ fn offset(link: &Link, at: &Poses) -> Vector {
     link.place(at, 1) - link.place(at, 0)
 }
 
-/// The slide of a pose along the axis that a guide drives, or of the hinge.
-fn along(link: &Link, dimension: Dimension, at: &Poses, offset: &Vector) -> f64 {
-    let driven = link.joint.kind.single(dimension).and_then(Freedom::axis);
+/// The slide of a pose along the axis of a coordinate, which a guide drives, or along that of the hinge.
+fn along(link: &Link, (dimension, number): (Dimension, usize), at: &Poses, offset: &Vector) -> f64 {
+    let driven = link.joint.kind.freedom(dimension, number).and_then(Freedom::axis);
     let axis = link.joint.direction(driven.unwrap_or(Axis::First));
     (pose(at, link.joint.bodies[0]).rotation * axis).dot(offset)
 }

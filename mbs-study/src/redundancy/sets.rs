@@ -189,7 +189,7 @@ impl Found<'_> {
             joint,
             open: [&forces, &moments, &span].map(dimension),
             is_unique: (0..n).map(is_zero).collect(),
-            guide: link.is_guided && range.last().is_some_and(touches),
+            guide: range.rev().take(link.n_guided()).any(touches),
         }
     }
 }

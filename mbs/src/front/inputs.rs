@@ -3,7 +3,7 @@
 use super::failure::SimulationError;
 use mbs_core::effects::{Form, Value};
 use mbs_core::scene::{
-    Coupling, CouplingId, Dimension, EffectId, EffectKind, GuideId, Motion, Scene, Signal,
+    Coupling, CouplingId, Dimension, EffectId, EffectKind, Freedom, GuideId, Motion, Scene, Signal,
     SignalId, SignalKind,
 };
 use mbs_core::step::InputError;
@@ -105,9 +105,16 @@ impl Inputs {
         for (g, guide) in scene.guides.iter().enumerate() {
             let Motion::Input(start) = guide.law else { continue };
             let joint = &scene.joints[guide.joint.index()];
-            let is_angle = joint.kind.n_rotations(scene.dimension) > 0;
-            let units = if is_angle { ["rad", "rad/s", "rad/s^2"] } else { ["m", "m/s", "m/s^2"] };
-            motion(&joint.name, InputOwner::Guide(GuideId::new(g)), units, start);
+            let (kind, number) = (joint.kind, guide.number);
+            let is_slide = matches!(kind.freedom(scene.dimension, number), Some(Freedom::Slide(_)));
+            let units = if is_slide { ["m", "m/s", "m/s^2"] } else { ["rad", "rad/s", "rad/s^2"] };
+            let coordinate = kind.coordinate_name(scene.dimension, number);
+            let coordinate = coordinate.map_or_else(|| number.to_string(), str::to_owned);
+            let name = match kind.single(scene.dimension) {
+                Some(_) => joint.name.clone(),
+                None => format!("{}.{coordinate}", joint.name),
+            };
+            motion(&name, InputOwner::Guide(GuideId::new(g)), units, start);
         }
         let has_sum = |(_, coupling): &(usize, &Coupling<f64>)| coupling.has_sum();
         let with_sum = scene.couplings.iter().enumerate().filter(has_sum);

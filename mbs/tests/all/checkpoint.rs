@@ -92,6 +92,7 @@ fn every_formulation_resumes_to_the_same_bits() {
         ("quarter-car", 1e-3),
         ("servo-arm", 1e-3),
         ("geared-arm", 1e-3),
+        ("hexapod", 5e-3),
     ];
     for formulation in FormulationKind::ALL {
         for (name, step) in scenes {

@@ -216,7 +216,7 @@ fn a_step_allocates_nothing() {
         for name in ["planetary-gear", "cam-follower", "crane", "geared-arm"] {
             assert_eq!(in_steps::<2>(name, formulation), 0, "{name} by {formulation}");
         }
-        for name in ["servo-arm", "rolling-disc"] {
+        for name in ["servo-arm", "rolling-disc", "hexapod"] {
             assert_eq!(in_steps::<3>(name, formulation), 0, "{name} by {formulation}");
         }
     }

@@ -22,6 +22,7 @@ mod feedback;
 mod field;
 mod formulations;
 mod generate;
+mod guided_bodies;
 mod hints;
 mod inputs;
 mod invariants;

@@ -63,6 +63,20 @@ fn formulations_agree_on_random_trees_with_some_joints_guided_or_all_that_can_be
 }
 
 #[test]
+fn formulations_agree_on_random_trees_with_joints_of_several_coordinates_guided_whole() {
+    let mut n_balls = 0;
+    for (dimension, n) in [(Dimension::Planar, 8), (Dimension::Spatial, 6)] {
+        for seed in 1..=6 {
+            let scene = random::guided_whole(random::tree(seed, dimension, n), seed, 3);
+            let guided = scene.guides.iter().map(|guide| scene.joints[guide.joint].kind);
+            n_balls += guided.filter(|kind| kind.ball(dimension).is_some()).count();
+            agree(&scene);
+        }
+    }
+    assert!(n_balls >= 10, "{n_balls}");
+}
+
+#[test]
 fn formulations_agree_on_random_loops_with_a_guided_joint() {
     let mut n_guided = 0;
     for (dimension, n) in [(Dimension::Planar, 8), (Dimension::Spatial, 6)] {

@@ -3,6 +3,7 @@
 use super::reference::known_body;
 use super::vector::{Place, check_times, is_planar};
 use crate::Real;
+use crate::cluster::Clusters;
 use crate::inputs::{GuideInput, SignalGraph, curvatures};
 use crate::laws::guide::{largest_rate, spline};
 use crate::scene::{
@@ -14,19 +15,44 @@ use alloc::vec::Vec;
 
 pub(super) fn check_guides<T: Real>(scene: &Scene<T>) -> Result<(), SceneError> {
     let mut guided = vec![None; scene.joints.len()];
-    for (i, guide) in scene.guides.iter().enumerate() {
-        let place = scene.place(Entry::Guide(i));
+    let mut at = 0;
+    while let Some(guide) = scene.guides.get(at) {
+        let place = scene.place(Entry::Guide(at));
         let Some(joint) = scene.joints.get(guide.joint.index()) else {
             return place.fault("joint", SceneFault::UnknownReference);
         };
-        let n = joint.kind.n_coordinates(scene.dimension);
-        if n != 1 {
-            return place.fault("joint", SceneFault::NoSingleCoordinate(n));
+        let needed = joint.kind.n_coordinates(scene.dimension);
+        if needed == 0 {
+            return place.fault("joint", SceneFault::NoSingleCoordinate(needed));
         }
-        if let Some(first) = guided[guide.joint.index()].replace(i) {
+        if let Some(first) = guided[guide.joint.index()].replace(at) {
             return place.fault("joint", SceneFault::GivenTwice(first));
         }
-        check_law(&guide.law, place)?;
+        let of_joint = scene.guides[at..].iter().enumerate();
+        let found = of_joint.take_while(|(i, x)| x.joint == guide.joint && x.number == *i).count();
+        if found != needed {
+            let field = if found > 1 { "signals" } else { "joint" };
+            return place.fault(field, SceneFault::GuideNotWhole { needed, found });
+        }
+        for (i, guide) in scene.guides[at..][..needed].iter().enumerate() {
+            check_law(&guide.law, scene.place(Entry::Guide(at + i)))?;
+        }
+        at += needed;
+    }
+    check_movable(scene)
+}
+
+/// Bodies that are welded together, also by the ground, do not follow a guide between them.
+fn check_movable<T: Real>(scene: &Scene<T>) -> Result<(), SceneError> {
+    if scene.guides.is_empty() {
+        return Ok(());
+    }
+    let clusters = Clusters::new(scene);
+    for (i, guide) in scene.guides.iter().enumerate() {
+        let [first, second] = scene.joints[guide.joint].bodies.map(|body| clusters.of(body));
+        if first == second {
+            return scene.place(Entry::Guide(i)).fault("joint", SceneFault::GuideWelded);
+        }
     }
     Ok(())
 }
@@ -97,11 +123,11 @@ pub(super) fn check_initials<T: Real>(scene: &Scene<T>) -> Result<(), SceneError
         value: vec![None; scene.joints.len()],
         rate: vec![None; scene.joints.len()],
         spin: vec![None; scene.bodies.len()],
-        guide: vec![None; scene.joints.len()],
+        guide: vec![Vec::new(); scene.joints.len()],
     };
     for guide in &scene.guides {
         if let Some(slot) = seen.guide.get_mut(guide.joint.index()) {
-            *slot = Some(start(guide));
+            slot.push(start(guide));
         }
     }
     for (i, initial) in scene.initials.iter().enumerate() {
@@ -115,8 +141,8 @@ struct Seen<T> {
     value: Vec<Option<usize>>,
     rate: Vec<Option<usize>>,
     spin: Vec<Option<usize>>,
-    /// Value, rate and acceleration at the start of the guide of each joint.
-    guide: Vec<Option<[T; 3]>>,
+    /// Value, rate and acceleration at the start of the guides of each joint.
+    guide: Vec<Vec<[T; 3]>>,
 }
 
 fn check_initial<T: Real>(
@@ -131,19 +157,23 @@ fn check_initial<T: Real>(
             if joint.index() >= scene.joints.len() {
                 return place.fault("joint", SceneFault::UnknownReference);
             }
-            let guide = seen.guide[joint.index()];
+            let guides = seen.guide[joint.index()].as_slice();
             if value.is_none() && rate.is_none() {
                 return place.fault("value", SceneFault::Missing);
             }
             if let Some(numbers) = value {
                 once(&mut seen.value[joint.index()], i, "value", place)?;
                 check_numbers(scene, *joint, ("value", numbers), place)?;
-                agrees(guide, 0, ("value", numbers), place)?;
+                agrees(guides.iter().map(|g| Some(g[0])), ("value", numbers), place)?;
             }
             if let Some(numbers) = rate {
                 once(&mut seen.rate[joint.index()], i, "rate", place)?;
                 check_numbers(scene, *joint, ("rate", numbers), place)?;
-                agrees(guide, 1, ("rate", numbers), place)?;
+                // of a rotation vector they are the angular velocity, which the start compares
+                let kind = scene.joints[*joint].kind;
+                let rate =
+                    |(i, g): (usize, &[T; 3])| kind.freedom(scene.dimension, i).map(|_| g[1]);
+                agrees(guides.iter().enumerate().map(rate), ("rate", numbers), place)?;
             }
             Ok(())
         }
@@ -200,20 +230,20 @@ pub(super) fn agreement<T: Real>() -> T {
     T::from_f64(AGREEMENT).max(T::from_f64(8.0) * T::EPSILON)
 }
 
-/// A guided joint starts as its guide does, within 1e-9 (or rounding, where that is coarser).
+/// A guided joint starts as its guides do, within 1e-9 (or rounding, where that is coarser).
 fn agrees<T: Real>(
-    guide: Option<[T; 3]>,
-    derivative: usize,
+    guides: impl Iterator<Item = Option<T>>,
     (field, numbers): (&'static str, &[T]),
     place: Place,
 ) -> Result<(), SceneError> {
-    let (Some(guide), Some(given)) = (guide, numbers.first()) else { return Ok(()) };
-    let expected = guide[derivative];
-    if (*given - expected).abs() <= agreement::<T>() * expected.abs().max(T::ONE) {
-        return Ok(());
+    for (guide, given) in guides.zip(numbers) {
+        let Some(guide) = guide else { continue };
+        if !((*given - guide).abs() <= agreement::<T>() * guide.abs().max(T::ONE)) {
+            let (given, guide) = (given.to_f64(), guide.to_f64());
+            return place.fault(field, SceneFault::Contradiction { given, guide });
+        }
     }
-    let (given, guide) = (given.to_f64(), expected.to_f64());
-    place.fault(field, SceneFault::Contradiction { given, guide })
+    Ok(())
 }
 
 /// Planar bodies turn about z only.

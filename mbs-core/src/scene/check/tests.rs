@@ -167,7 +167,8 @@ fn tables_of_guides_that_jump_within_the_run_are_refused() {
     let at = |shift: f64, ends| {
         let mut scene = planar();
         let rows = rows.map(|[t, x]| [t + shift, x]).to_vec();
-        scene.guides = vec![Guide { joint: JointId::new(0), law: Motion::Table { rows, ends } }];
+        scene.guides =
+            vec![Guide { joint: JointId::new(0), number: 0, law: Motion::Table { rows, ends } }];
         scene.check().expect("nothing is wrong with it until the duration is known");
         move |duration| scene.check_run(duration)
     };
@@ -253,7 +254,7 @@ fn joints_have_two_bodies_and_the_axes_of_their_kind() {
 
 #[test]
 fn guides_have_one_coordinate_once_and_ordered_rows() {
-    let guide = |joint, law| Guide { joint, law };
+    let guide = |joint, law| Guide { joint, number: 0, law };
     let ramp = || Motion::Ramp { rate: 1.0 };
     let found = refused(planar(), |s| {
         s.joints[0].kind = JointKind::Weld;
@@ -274,7 +275,7 @@ fn initial_values_agree_with_guides_and_counts() {
     let law = Motion::Sine { amplitude: 2.0, frequency: 0.5, phase: 0.0 };
     let rate = 2.0 * core::f64::consts::PI;
     let mut guided = planar();
-    guided.guides = vec![Guide { joint: JointId::new(0), law }];
+    guided.guides = vec![Guide { joint: JointId::new(0), number: 0, law }];
     guided.initials = vec![value(0, Some(vec![0.0]), Some(vec![rate + 1.0e-10]))];
     let (entry, field, fault) =
         refused(guided, |s| s.initials = vec![value(0, None, Some(vec![rate + 1.0e-6]))]);
@@ -372,7 +373,7 @@ proptest! {
         let six = core::array::from_fn(|i| numbers[i]);
         scene.bodies[0].inertia = Inertia::Spatial(six);
         let rows = (0..4).map(|i| [numbers[2 * i], numbers[2 * i + 1]]).collect();
-        scene.guides = vec![Guide { joint: JointId::new(references[0]), law: natural(rows) }];
+        scene.guides = vec![Guide { joint: JointId::new(references[0]), number: 0, law: natural(rows) }];
         scene.initials = vec![value(references[1], Some(numbers[..references[2]].to_vec()), None)];
         scene.effects = vec![spring([vector(3), vector(6)], [BodyId::Body(references[3]), BodyId::Ground])];
         let rows = (0..4).map(|i| [numbers[2 * i], numbers[2 * i + 1]]).collect();

@@ -59,7 +59,7 @@ pub(crate) fn hold(scene: &mut Scene<f64>, joint: usize, value: &[f64], rate: &[
 
 /// Guides a joint.
 pub(crate) fn guide(scene: &mut Scene<f64>, joint: usize, law: Motion<f64>) {
-    scene.guides.push(Guide { joint: JointId::new(joint), law });
+    scene.guides.push(Guide { joint: JointId::new(joint), number: 0, law });
 }
 
 /// Adds an output channel.

@@ -42,7 +42,7 @@ fn write_units() -> fmt::Result {
             LinkKind::Ball => " q q q q",
             LinkKind::Free if is_planar(link.kind) => " r m m",
             LinkKind::Free => " q q q q m m m",
-            LinkKind::GuidedRevolute | LinkKind::GuidedPrismatic => "",
+            LinkKind::GuidedRevolute | LinkKind::GuidedPrismatic | LinkKind::GuidedBall => "",
         })?;
     }
     writeln!(Out)

@@ -214,7 +214,11 @@ fn guides_that_say_the_same_twice_are_in_the_set() {
     let mut b = Build::planar();
     four_bar(&mut b, 0.0);
     for joint in [0, 3] {
-        b.0.guides.push(Guide { joint: JointId::new(joint), law: Motion::Ramp { rate: 1.0 } });
+        b.0.guides.push(Guide {
+            joint: JointId::new(joint),
+            number: 0,
+            law: Motion::Ramp { rate: 1.0 },
+        });
     }
     let d = diagnosis(&b.0);
     assert_eq!(

@@ -4,7 +4,7 @@ pub(crate) use mbs_testkit::repository::path;
 use std::path::{Path, PathBuf};
 
 /// Scenes of the repository, without those of vehicles.
-pub(crate) const SCENES: [&str; 20] = [
+pub(crate) const SCENES: [&str; 21] = [
     "simple-pendulum",
     "double-pendulum",
     "two-four-bars",
@@ -25,6 +25,7 @@ pub(crate) const SCENES: [&str; 20] = [
     "crane",
     "servo-arm",
     "rolling-disc",
+    "hexapod",
 ];
 
 /// An empty directory for one test.

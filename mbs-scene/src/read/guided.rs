@@ -1,0 +1,93 @@
+//! The entries of guides in a file: which guides and joints of a scene each of them makes.
+//!
+//! An entry with `signals` makes a guide for each of them, one with `body` also a free joint, which comes after those of the file.
+
+use crate::read::document::SceneFile;
+use crate::read::fields::Read;
+use crate::read::tree::{Item, Node};
+use mbs_core::scene::{Entry, SceneError, SceneFault};
+
+impl SceneFile {
+    /// The entries of a list of tables.
+    fn listed(&self, table: &str) -> &[Item] {
+        match self.top(table) {
+            Some(Item { node: Node::List(items), .. }) => items,
+            _ => &[],
+        }
+    }
+
+    /// The entry that makes a guide, by its number in the file, and which of its guides that is.
+    pub(crate) fn entry_of_guide(&self, guide: usize) -> Option<(usize, usize)> {
+        let mut first = 0;
+        for (i, entry) in self.listed("guide").iter().enumerate() {
+            let n = n_guides(entry);
+            if guide < first + n {
+                return Some((i, guide - first));
+            }
+            first += n;
+        }
+        None
+    }
+
+    /// The place of a guide's key, or of its entry: `signals` for a signal of them, and `body` for a joint.
+    pub(crate) fn item_of_guide(&self, guide: usize, field: &str) -> Option<&Item> {
+        let (entry, number) = self.entry_of_guide(guide)?;
+        let entry = self.listed("guide").get(entry)?;
+        let found = match (field, key(entry, "signals")) {
+            ("signal", Some(Item { node: Node::List(signals), .. })) => signals.get(number),
+            ("joint", _) => key(entry, "joint").or_else(|| key(entry, "body")),
+            _ => key(entry, field),
+        };
+        found.or(Some(entry))
+    }
+
+    /// The place of a key of a joint, which is one of the file or that of a guided body.
+    pub(crate) fn item_of_joint(&self, joint: usize, field: &str) -> Option<&Item> {
+        let joints = self.listed("joint");
+        let Some(entry) = joints.get(joint) else {
+            let mut bodies =
+                self.listed("guide").iter().filter(|entry| key(entry, "body").is_some());
+            let entry = bodies.nth(joint - joints.len())?;
+            return key(entry, field).or_else(|| key(entry, "body"));
+        };
+        key(entry, field).or(Some(entry))
+    }
+
+    /// The names of guided bodies: those of their joints.
+    ///
+    /// # Errors
+    /// A body that is guided twice.
+    pub(crate) fn guided_bodies(&self) -> Read<Vec<String>> {
+        let (mut names, mut guide) = (Vec::<(String, usize)>::new(), 0);
+        for entry in self.listed("guide") {
+            let first = guide;
+            guide += n_guides(entry);
+            let Some(body) = key(entry, "body") else { continue };
+            // what is no text is refused when the entry is read
+            let name = if let Node::Text(name) = &body.node { name.as_str() } else { "" };
+            let twice = names.iter().find(|(other, _)| !name.is_empty() && other == name);
+            if let Some(&(_, other)) = twice {
+                let (entry, fault) = (Entry::Guide(first), SceneFault::GivenTwice(other));
+                return Err(self.meaning(SceneError { entry, field: "body", fault }));
+            }
+            names.push((name.to_owned(), first));
+        }
+        Ok(names.into_iter().map(|(name, _)| name).collect())
+    }
+}
+
+/// How many guides an entry makes.
+fn n_guides(entry: &Item) -> usize {
+    match key(entry, "signals") {
+        Some(Item { node: Node::List(signals), .. }) => signals.len(),
+        _ => 1,
+    }
+}
+
+/// A key of an entry.
+fn key<'a>(entry: &'a Item, key: &str) -> Option<&'a Item> {
+    match &entry.node {
+        Node::Table(members) => members.iter().find(|m| m.key == key).map(|m| &m.item),
+        _ => None,
+    }
+}
