@@ -110,10 +110,12 @@ fn of_measure<T: Copy>(of: &CouplingMeasure<T>, take: &mut impl FnMut(Need<T>)) 
 fn of_output<T: Copy>(scene: &Scene<T>, quantity: &Quantity<T>, mut take: impl FnMut(Need<T>)) {
     match (quantity.target(), quantity) {
         (Target::Point(body, at), _) => take(Need::Point(body, at)),
-        (Target::RelativePoint(RelativePoint { body, at, relative_to, origin }), _) => {
+        (Target::RelativePoint(RelativePoint { body, at, relative_to, origin }), quantity) => {
             take(Need::Point(body, at));
             take(Need::Point(relative_to, origin));
-            take(Need::Orientation(relative_to));
+            if !matches!(quantity, Quantity::Distance(_)) {
+                take(Need::Orientation(relative_to));
+            }
         }
         (Target::RelativeBody(body, other), _) => {
             [body, other].into_iter().for_each(|body| take(Need::Orientation(body)));
