@@ -184,7 +184,7 @@ fn tests() -> Result<Outcome, String> {
 
 /// The first texts of fuzzing, the same on every machine that is fast enough: two to five minutes, ten at most.
 fn fuzz() -> Result<Outcome, String> {
-    lab(&["fuzz", "--seconds", "600", "--count", "9000"])
+    lab(&["fuzz", "--seconds", "600", "--count", "6000"])
 }
 
 fn counts() -> Result<Outcome, String> {
