@@ -2,16 +2,23 @@
 
 use crate::motion::{Mechanism, State};
 use crate::scene::Quantity;
-use crate::vector::{Vector, add, cross};
+use crate::vector::{Quaternion, Vector, add, cross, norm, rotation};
 
 impl Quantity {
     /// Names of those of a body's point.
     pub const OF_POINTS: &[&str] = &["position", "velocity", "acceleration"];
     /// Names of those of a body.
-    pub const OF_BODIES: &[&str] =
-        &["angular-velocity", "angular-acceleration", "orientation", "kinetic-energy"];
+    pub const OF_BODIES: &[&str] = &[
+        "angular-velocity",
+        "angular-acceleration",
+        "orientation",
+        "rotation-vector",
+        "rotation-matrix",
+        "kinetic-energy",
+    ];
     /// Names of those of a joint.
-    pub const OF_JOINTS: &[&str] = &["value", "rate", "acceleration", "effort", "reaction"];
+    pub const OF_JOINTS: &[&str] =
+        &["value", "rate", "acceleration", "effort", "power", "reaction"];
 
     /// That of a body, or of its point.
     pub(crate) fn of_body(name: &str, body: usize, at: Option<Vector>) -> Option<Self> {
@@ -22,6 +29,8 @@ impl Quantity {
             ("angular-velocity", None) => Self::AngularVelocity(body),
             ("angular-acceleration", None) => Self::AngularAcceleration(body),
             ("orientation", None) => Self::Orientation(body),
+            ("rotation-vector", None) => Self::RotationVector(body),
+            ("rotation-matrix", None) => Self::RotationMatrix(body),
             ("kinetic-energy", None) => Self::KineticEnergy(body),
             _ => return None,
         })
@@ -34,6 +43,7 @@ impl Quantity {
             "rate" => Self::Rate(joint),
             "acceleration" => Self::JointAcceleration(joint),
             "effort" => Self::Effort(joint),
+            "power" => Self::Power(joint),
             "reaction" => Self::Reaction(joint),
             _ => return None,
         })
@@ -64,6 +74,10 @@ impl Mechanism {
             }
             Quantity::Orientation(body) if planar => vec![state.frames[body].angle],
             Quantity::Orientation(body) => state.frames[body].q.to_vec(),
+            Quantity::RotationVector(body) if planar => vec![state.frames[body].angle],
+            Quantity::RotationVector(body) => rotation_vector(state.frames[body].q).to_vec(),
+            Quantity::RotationMatrix(body) if planar => planar_matrix(state.frames[body].angle),
+            Quantity::RotationMatrix(body) => rotation(state.frames[body].q).concat(),
             Quantity::KineticEnergy(body) => vec![self.kinetic_energy(body, state, &places)],
             Quantity::JointAcceleration(joint) => {
                 let moved = self.evaluate(state).accelerations;
@@ -77,6 +91,10 @@ impl Mechanism {
             Quantity::Effort(joint) => {
                 let n = self.now(state, &places).coordinates(joint).len();
                 vec![self.evaluate(state).efforts[joint]; n]
+            }
+            Quantity::Power(joint) => {
+                let rates = self.show(state, Quantity::Rate(joint));
+                vec![self.evaluate(state).efforts[joint] * rates.iter().sum::<f64>()]
             }
             Quantity::Value(joint) => {
                 self.now(state, &places).coordinates(joint).iter().map(|row| row.value).collect()
@@ -100,4 +118,18 @@ impl Mechanism {
         let [kinetic, stored] = self.evaluate(state).energy;
         kinetic + stored - state.work
     }
+}
+
+/// The rotation vector of a quaternion that has followed a turn, below a whole one.
+fn rotation_vector([w, v @ ..]: Quaternion) -> Vector {
+    let sine = norm(v);
+    // at no turn 2 v
+    let share = if sine > 0.0 { 2.0 * sine.atan2(w) / sine } else { 2.0 };
+    v.map(|x| share * x)
+}
+
+/// The rotation matrix in the plane, row by row.
+fn planar_matrix(angle: f64) -> Vec<f64> {
+    let (sine, cosine) = angle.sin_cos();
+    vec![cosine, -sine, sine, cosine]
 }

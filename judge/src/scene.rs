@@ -312,6 +312,10 @@ pub enum Quantity {
     AngularAcceleration(usize),
     /// Of a body: the angle in the plane, a quaternion in space.
     Orientation(usize),
+    /// Of a body: the angle in the plane.
+    RotationVector(usize),
+    /// Of a body, row by row.
+    RotationMatrix(usize),
     /// Of a body.
     KineticEnergy(usize),
     /// Of a joint.
@@ -322,6 +326,8 @@ pub enum Quantity {
     JointAcceleration(usize),
     /// Of a joint: what its guide puts on its coordinate.
     Effort(usize),
+    /// Of a joint: what its guide gives through it.
+    Power(usize),
     /// Of a joint.
     Reaction(usize),
 }

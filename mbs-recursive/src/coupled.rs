@@ -15,7 +15,6 @@ use crate::plan::Span;
 use crate::space::{Numbers, Space};
 use mbs_core::Real;
 pub use mbs_core::elements::NONE;
-use mbs_core::elements::has_collapsed;
 use mbs_core::measure::{polynomial, spline_curve};
 
 /// Are couplings in this build?
@@ -233,67 +232,6 @@ impl<T: Real, S: Space<T>> Couplings<'_, T, S> {
         }
     }
 
-    /// Hands out the parts of a line that have a length.
-    fn each_part(
-        &self,
-        (points, starts): (Span, Span),
-        placed: &[LinkMotion<T, S>],
-        mut take: impl FnMut(LinePart<T, S>) -> Result<(), Outside>,
-    ) -> Result<(), Outside> {
-        let starts = range(self.starts, starts.range())?;
-        let end = |of: &LinePoint<T, S>| {
-            let (start, spin, arm, [place, rate]) = line_end(starts, of, placed)?;
-            Ok((start, arm, [place, rate, S::centrifugal(&spin, &arm)]))
-        };
-        for pair in range(self.points, points.range())?.windows(2) {
-            let [first, second] = pair else { continue };
-            let ((from, arm, a), (to, arm_to, b)) = (end(first)?, end(second)?);
-            let gap = b[0] - a[0];
-            let length = gap.dot(&gap).sqrt();
-            if length > T::ZERO {
-                take(LinePart {
-                    ends: [(from, arm), (to, arm_to)],
-                    direction: gap * (T::ONE / length),
-                    length,
-                    rate: b[1] - a[1],
-                    bias: b[2] - a[2],
-                })?;
-            }
-        }
-        Ok(())
-    }
-
-    /// The part of a row's lines that has no length left, or whose ends met, while the links went from one place to another.
-    pub(crate) fn collapsed(
-        &self,
-        row: &CoupledRow<T>,
-        [from, to]: [&[LinkMotion<T, S>]; 2],
-    ) -> Result<Option<usize>, Outside> {
-        let starts = range(self.starts, row.starts.range())?;
-        if starts.is_empty() {
-            return Ok(None);
-        }
-        let mut part = 0;
-        for term in range(self.terms, row.terms.range())? {
-            let SumMeasure::Line { points, .. } = term.of else { continue };
-            for pair in range(self.points, points.range())?.windows(2) {
-                let [first, second] = pair else { continue };
-                let gap = |placed| {
-                    let [(_, _, _, [a, rate_a]), (_, _, _, [b, rate_b])] =
-                        [line_end(starts, first, placed)?, line_end(starts, second, placed)?];
-                    Ok([b - a, rate_b - rate_a])
-                };
-                let ([before, rate], [after, _]) = (gap(from)?, gap(to)?);
-                let (dd, de, ee) = (before.dot(&before), before.dot(&after), after.dot(&after));
-                if has_collapsed([dd, de, ee, before.dot(&rate)]) {
-                    return Ok(Some(part));
-                }
-                part += 1;
-            }
-        }
-        Ok(None)
-    }
-
     /// Evaluates row `k` of a coupling; its gradients are written where they are wanted, of `n_rows` rows.
     #[inline(always)]
     pub(crate) fn evaluate(
@@ -468,24 +406,6 @@ impl<T: Real, S: Space<T>> Couplings<'_, T, S> {
     }
 }
 
-/// The link of a point of a line, its spin, the arm of the point on it, its place and its velocity.
-type LineEnd<T, S> =
-    (LinkStart, <S as Space<T>>::Spin, <S as Space<T>>::Point, [<S as Space<T>>::Point; 2]);
-
-/// A point of a line.
-fn line_end<T: Real, S: Space<T>>(
-    starts: &[LinkStart],
-    of: &LinePoint<T, S>,
-    placed: &[LinkMotion<T, S>],
-) -> Result<LineEnd<T, S>, Outside> {
-    let start = *at(starts, of.start as usize)?;
-    let p = at(placed, start.link as usize)?;
-    let arm = S::rotate(&p.rotation, &of.point);
-    let spin = S::spin(&p.velocity);
-    let rate = S::point(&p.velocity) + S::cross(&spin, &arm);
-    Ok((start, spin, arm, [p.position + arm, rate]))
-}
-
 /// What grows a sum: a coordinate or a link, and how much.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum SumEnd<T: Real, S: Space<T>> {
@@ -503,17 +423,4 @@ pub(crate) enum SumEnd<T: Real, S: Space<T>> {
         /// The growth by it.
         wrench: S::Motion,
     },
-}
-
-/// A part of a line.
-struct LinePart<T: Real, S: Space<T>> {
-    /// The links of its ends, and its points from their origins.
-    ends: [(LinkStart, S::Point); 2],
-    /// From the first to the second.
-    direction: S::Point,
-    length: T,
-    /// How fast the gap between its ends grows.
-    rate: S::Point,
-    /// How that grows without accelerations.
-    bias: S::Point,
 }

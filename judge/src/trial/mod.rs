@@ -107,11 +107,12 @@ pub fn judge(text: &str, step: f64, steps: u32) -> Result<Judged, String> {
         joint.bodies.iter().flatten().any(|&b| begun.idle[b])
     };
     let is_unique = |q: Quantity| match q {
-        Quantity::Reaction(j) | Quantity::Effort(j) => begun.unique[j],
+        Quantity::Reaction(j) | Quantity::Effort(j) | Quantity::Power(j) => begun.unique[j],
         Quantity::Value(j) | Quantity::Rate(j) | Quantity::JointAcceleration(j) => !turns_idle(j),
         Quantity::AngularVelocity(b) | Quantity::AngularAcceleration(b) => !begun.idle[b],
         // the crates count from the nearest angle or quaternion
-        Quantity::Orientation(b) => {
+        Quantity::RotationMatrix(b) => !begun.idle[b],
+        Quantity::Orientation(b) | Quantity::RotationVector(b) => {
             let frame = &state.frames[b];
             !begun.idle[b] && frame.angle.abs() < core::f64::consts::PI && frame.q[0] > 0.0
         }
@@ -245,10 +246,14 @@ fn kind(quantity: Quantity) -> usize {
         Quantity::Acceleration(..)
         | Quantity::AngularAcceleration(..)
         | Quantity::JointAcceleration(..) => 2,
-        Quantity::Value(..) | Quantity::Orientation(..) => 3,
+        Quantity::Value(..)
+        | Quantity::Orientation(..)
+        | Quantity::RotationVector(..)
+        | Quantity::RotationMatrix(..) => 3,
         Quantity::Rate(..) | Quantity::AngularVelocity(..) => 4,
         Quantity::Reaction(..) | Quantity::Effort(..) => 5,
         Quantity::KineticEnergy(..) => 6,
+        Quantity::Power(..) => 7,
     }
 }
 
@@ -294,7 +299,9 @@ pub fn parts(judged: &Judged) -> Vec<Part> {
             (
                 Quantity::AngularVelocity(_)
                 | Quantity::AngularAcceleration(_)
-                | Quantity::Orientation(_),
+                | Quantity::Orientation(_)
+                | Quantity::RotationVector(_)
+                | Quantity::RotationMatrix(_),
                 _,
             ) => 0,
             _ => n,
@@ -329,7 +336,7 @@ fn difference(a: &Rows, b: &Rows, range: &std::ops::Range<usize>) -> f64 {
 }
 
 /// The least size of channels of each kind: from the mechanism's length and weight, and the time in which it moves.
-fn least_sizes(judged: &Judged) -> [f64; 14] {
+fn least_sizes(judged: &Judged) -> [f64; 16] {
     let mechanism = &judged.mechanism;
     let (l, t) = (mechanism.length(), judged.time);
     let m = mechanism.scene.bodies.iter().map(|b| b.mass).fold(0.0, f64::max);
@@ -344,8 +351,9 @@ fn least_sizes(judged: &Judged) -> [f64; 14] {
         [l / t, 1.0 / t],
         [force, force * l],
         [energy, energy],
+        [energy / t, energy / t],
     ];
-    let least: [f64; 14] = core::array::from_fn(|i| pairs[i / 2][i % 2]);
+    let least: [f64; 16] = core::array::from_fn(|i| pairs[i / 2][i % 2]);
     least.map(|x| SMALLEST * x)
 }
 

@@ -5,7 +5,7 @@ use mbs_core::scene::{
     InitialTarget, Joint, JointId, JointKind, Scene,
 };
 
-/// Radii of the wheels by turns [m]: a chain of teeth that is not all of one size.
+/// Radii of the wheels [m], again from the first behind the last: a chain of teeth that is not all of one size.
 const RADII: [f64; 3] = [0.1, 0.15, 0.2];
 
 /// `n` wheels with a gear between neighbours, or without any.

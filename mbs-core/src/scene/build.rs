@@ -8,9 +8,8 @@ use crate::scene::{
     Actuator, AeroDrag, Axis, AxisFrame, Body, BodyId, BodyTorque, Bumper, Bushing, Coupling,
     Dimension, Effect, EffectKind, Force, Freedom, Friction, Guide, Inertia, InitialCondition,
     InitialTarget, Joint, JointId, JointKind, JointLimits, JointTorque, LawOnBody, LawOnJoint,
-    LawOnLine, Limit, Motion, NamedSignal, Number, Output, Polynomial, PolynomialPiece, Road,
-    RoadFeature, Rotation, Signal, SignalId, SignalKind, SpeedHold, SpringDamper, Tire,
-    TorsionSpring, Vector3,
+    LawOnLine, Limit, Motion, NamedSignal, Number, Output, Polynomial, PolynomialPiece, Rotation,
+    Signal, SpeedHold, SpringDamper, Tire, TorsionSpring, Vector3,
 };
 use alloc::string::String;
 use alloc::vec::Vec;
@@ -422,83 +421,3 @@ macro_rules! named {
     )*};
 }
 named!(Body, Coupling, Joint, NamedSignal, Effect, Output);
-
-impl Signal<Number> {
-    /// The same number at all times.
-    #[must_use]
-    pub fn constant(value: impl Into<Number>) -> Self {
-        Self::Constant([value.into(), Number::ZERO, Number::ZERO])
-    }
-
-    /// A number that is set between steps; this at the start.
-    #[must_use]
-    pub fn input(start: impl Into<Number>) -> Self {
-        Self::Input([start.into(), Number::ZERO, Number::ZERO])
-    }
-}
-
-/// The first component of a vector.
-impl<T> From<SignalId> for Signal<T> {
-    fn from(signal: SignalId) -> Self {
-        Self::Named([Some(signal), None, None])
-    }
-}
-
-impl<T> From<SignalId> for Motion<T> {
-    fn from(signal: SignalId) -> Self {
-        Self::Signal(signal)
-    }
-}
-
-impl NamedSignal<Number> {
-    /// A signal without a name.
-    pub fn new(kind: impl Into<SignalKind<Number>>) -> Self {
-        Self { name: String::new(), kind: kind.into() }
-    }
-}
-
-impl From<SignalKind<f64>> for SignalKind<Number> {
-    fn from(kind: SignalKind<f64>) -> Self {
-        kind.map(&mut |x| Number::from(*x))
-    }
-}
-
-impl Road<Number> {
-    /// The same features under all wheels, whose heights add up; they come along -x towards a standing vehicle at a speed [m/s].
-    pub fn new(
-        features: impl IntoIterator<Item = RoadFeature<f64>>,
-        speed: impl Into<Number>,
-    ) -> Self {
-        let number = &mut |x: &f64| Number::from(*x);
-        let left: Vec<_> = features.into_iter().map(|feature| feature.map(number)).collect();
-        Self { right: left.clone(), left, speed: speed.into() }
-    }
-}
-
-/// The first component of a vector.
-impl From<f64> for Signal<Number> {
-    fn from(constant: f64) -> Self {
-        Self::Constant([constant.into(), Number::ZERO, Number::ZERO])
-    }
-}
-
-impl<const N: usize> From<[f64; N]> for Signal<Number>
-where
-    Vector3: From<[f64; N]>,
-{
-    fn from(constant: [f64; N]) -> Self {
-        Self::Constant(Vector3::from(constant).0)
-    }
-}
-
-impl From<Signal<f64>> for Signal<Number> {
-    fn from(signal: Signal<f64>) -> Self {
-        signal.map(&mut Number::from)
-    }
-}
-
-impl From<Motion<f64>> for Motion<Number> {
-    fn from(motion: Motion<f64>) -> Self {
-        motion.map(&mut |x| Number::from(*x))
-    }
-}

@@ -5,7 +5,7 @@ use crate::read::error::OWNER;
 use crate::read::fields::{Fields, Read};
 use crate::read::names::Names;
 use mbs_core::outputs::{QUANTITIES, Quantity, QuantityRow, RelativePoint, Target, TargetKind};
-use mbs_core::scene::{CouplingId, EffectId, Number, Output, RollingId, SolverTable};
+use mbs_core::scene::{BodyId, CouplingId, EffectId, Number, Output, RollingId, SolverTable};
 
 /// Keys that say what an output is of; one at most.
 const OWNERS: [&str; 6] = ["joint", "body", "coupling", "rolling", "effect", "signal"];
@@ -85,6 +85,14 @@ fn target(
     let owner = || fields.need(kind.keys().first().copied().unwrap_or_default());
     let body = || fields.context.moving_body(owner()?);
     let frame = || fields.context.body(fields.need("relative_to")?);
+    // the centre of mass where no place is written
+    let place_on = |body: BodyId, key| match fields.get(key) {
+        Some(item) => fields.context.vector(item),
+        None => Ok(body
+            .index()
+            .and_then(|i| centers.get(i).cloned())
+            .unwrap_or([const { Number::ZERO }; 3])),
+    };
     let place = |names: &Names, list: &'static str| {
         let item = owner()?;
         let name = fields.context.text(item)?;
@@ -97,14 +105,13 @@ fn target(
         )
     };
     Ok(match kind {
-        TargetKind::Point => Target::Point(body()?, fields.vector("at")?),
+        TargetKind::Point => {
+            let body = body()?;
+            Target::Point(body, place_on(body, "at")?)
+        }
         TargetKind::RelativePoint => {
-            let (body, at, relative_to) = (body()?, fields.vector("at")?, frame()?);
-            let center = || relative_to.index().and_then(|i| centers.get(i).cloned());
-            let origin = match fields.get("origin") {
-                Some(item) => fields.context.vector(item)?,
-                None => center().unwrap_or([const { Number::ZERO }; 3]),
-            };
+            let (body, relative_to) = (body()?, frame()?);
+            let (at, origin) = (place_on(body, "at")?, place_on(relative_to, "origin")?);
             Target::RelativePoint(RelativePoint { body, at, relative_to, origin })
         }
         TargetKind::Body => Target::Body(body()?),

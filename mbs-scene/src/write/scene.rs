@@ -5,6 +5,7 @@
 mod effect;
 mod road;
 mod signal;
+mod solver;
 #[cfg(test)]
 mod tests;
 
@@ -16,7 +17,7 @@ use mbs_core::outputs::{RelativePoint, Target};
 use mbs_core::scene::{
     Body, BodyId, Coupling, CouplingMeasure, CouplingTerm, Curve, Dimension, Guide, Inertia,
     InitialCondition, InitialTarget, Joint, JointId, JointLimits, Number, Output, Rolling,
-    RollingKind, Scene, SolverTable, Start,
+    RollingKind, Scene, Start,
 };
 
 /// A scene that has no text.
@@ -138,7 +139,7 @@ fn tables(
         visit("road", false, road);
     }
     scene.outputs.iter().try_for_each(|x| w.output(x).map(|keys| visit("output", true, keys)))?;
-    let solver = solver(&scene.solver);
+    let solver = Keys::of_solver(&scene.solver);
     if !solver.0.is_empty() {
         visit("solver", false, solver);
     }
@@ -482,20 +483,4 @@ impl Writer<'_> {
         keys.push("quantity", output.quantity.row().name);
         Ok(keys)
     }
-}
-
-fn solver(solver: &SolverTable<Number>) -> Keys {
-    let mut keys = Keys::default();
-    keys.push_some("formulation", solver.formulation.as_deref());
-    keys.push_some("integrator", solver.integrator.as_deref());
-    keys.push_some("step", solver.step.as_ref());
-    keys.push_some("step_max", solver.step_max.as_ref());
-    keys.push_some("tolerance", solver.tolerance.as_ref());
-    keys.push_some("penalty", solver.penalty.as_ref());
-    keys.push_some("step_control", solver.step_control.as_deref());
-    keys.push_some("energy_tolerance", solver.energy_tolerance.as_ref());
-    keys.push_some("error_tolerance", solver.error_tolerance.as_ref());
-    keys.push_some("locate_events", solver.locate_events.map(Node::Bool));
-    keys.push_some("energy_alarm", solver.energy_alarm.as_ref());
-    keys
 }

@@ -11,7 +11,7 @@ pub(super) const ROW: QuantityRow =
     QuantityRow::new("power", TargetKind::Joint, ComponentForm::Number("W")).of_reactions();
 
 /// Most coordinates of a joint [-]: three slides and the three of a rotation.
-const MOST: usize = 6;
+const MOST_COORDINATES: usize = 6;
 
 /// What its guide does on the coordinates of the joint.
 #[derive(Debug, Clone)]
@@ -25,7 +25,7 @@ impl<T: Real, const D: usize> Measured<T, D> for JointPower<T, D> {
     }
 
     fn write(&self, now: &Instant<'_, T, D>, out: &mut [T]) {
-        let (mut efforts, mut rates) = ([T::ZERO; MOST], [T::ZERO; MOST]);
+        let (mut efforts, mut rates) = ([T::ZERO; MOST_COORDINATES], [T::ZERO; MOST_COORDINATES]);
         let n: usize = self.0.coordinates().iter().map(Coordinate::len).sum();
         self.0.write(now, &mut efforts[..n]);
         let mut rest = &mut rates[..n];

@@ -49,8 +49,10 @@ fn check_movable<T: Real>(scene: &Scene<T>) -> Result<(), SceneError> {
     }
     let clusters = Clusters::new(scene);
     for (i, guide) in scene.guides.iter().enumerate() {
-        let [first, second] = scene.joints[guide.joint].bodies.map(|body| clusters.of(body));
-        if first == second {
+        let joint = &scene.joints[guide.joint];
+        let [first, second] = joint.bodies.map(|body| clusters.of(body));
+        // that a point turns is refused by itself
+        if first == second && !scene.turns_point(joint) {
             return scene.place(Entry::Guide(i)).fault("joint", SceneFault::GuideWelded);
         }
     }

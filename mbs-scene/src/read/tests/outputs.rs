@@ -64,7 +64,12 @@ fn outputs_may_be_seen_from_another_body() {
         origin,
     };
     let point = "body = \"lower\"\nat = [2, 0]\n";
-    // from the centre of mass, where no origin is written
+    // from the centre of mass, and of it, where no place is written
+    let bare = RelativePoint { at: [1.5, 0.0, 0.0], ..seen(upper, [0.5, 0.0, 0.0]) };
+    assert_eq!(
+        read_one("body = \"lower\"\nrelative_to = \"upper\""),
+        Quantity::RelativePosition(bare)
+    );
     assert_eq!(
         read_one(&format!("{point}relative_to = \"upper\"")),
         Quantity::RelativePosition(seen(upper, [0.5, 0.0, 0.0]))
