@@ -26,12 +26,16 @@ macro_rules! sized {
             $function(sizes, $($argument),*)
         }
     }};
-    ($sizes:expr, often $common:expr, of couplings $single:expr, $function:ident($($argument:expr),*)) => {{
+    ($sizes:expr, often $common:expr, of couplings $single:expr, $function:ident($($argument:expr),*)) => {
+        sized!($sizes, often $common, of couplings $single => $function($single, $($argument),*),
+            $function($($argument),*))
+    };
+    ($sizes:expr, often $common:expr, of couplings $single:expr => $then:expr, $function:ident($($argument:expr),*)) => {{
         let sizes = $sizes;
         if sizes == $common {
             $function($common, $($argument),*)
         } else if crate::coupled::IS_BUILT && sizes == $single {
-            $function($single, $($argument),*)
+            $then
         } else {
             $function(sizes, $($argument),*)
         }

@@ -47,6 +47,9 @@ pub enum GuidedMotion {
     },
 }
 
+/// A component of a rotation vector: the first body's axes, the second body's axis j, and k.
+type Component = ([Span; 3], Span, u32);
+
 /// The axes (i, j) that turn into each other about axis k.
 fn pair(k: u32) -> (usize, usize) {
     let k = k as usize;
@@ -184,17 +187,30 @@ impl Guided {
                 add_gradient(row, self.y.of(pool), &a);
             }
             GuidedMotion::Rotation { x, y: other, number } => {
-                let r = turned(&vector(guides, self.guide)[0], number);
-                let (axes, second) = (x.map(&at), [y, at(other)]);
-                phi[self.row as usize] = skew(&r, &axes, &second);
-                add_gradient(row, self.y.of(pool), &(mixed(&r[1], &axes) * T::HALF));
-                add_gradient(row, other.of(pool), &(mixed(&r[0], &axes) * -T::HALF));
-                for (a, x) in x.into_iter().enumerate() {
-                    let along = (second[0] * r[1][a] - second[1] * r[0][a]) * T::HALF;
-                    add_gradient(row, x.of(pool), &along);
-                }
+                let of = (x, other, number);
+                phi[self.row as usize] = self.evaluate_rotation(pool, &at, (guides, of), row);
             }
         }
+    }
+
+    /// Value and gradient of a component of a rotation. They stand apart: what has them inline does not fit into the loops over rows.
+    #[inline(never)]
+    fn evaluate_rotation<T: Real, const D: usize>(
+        &self,
+        pool: &[Term<T>],
+        at: &impl Fn(Span) -> Vector<T, D>,
+        (guides, (x, other, number)): (&[[T; 3]], Component),
+        row: &mut [T],
+    ) -> T {
+        let r = turned(&vector(guides, self.guide)[0], number);
+        let (axes, second) = (x.map(at), [at(self.y), at(other)]);
+        add_gradient(row, self.y.of(pool), &(mixed(&r[1], &axes) * T::HALF));
+        add_gradient(row, other.of(pool), &(mixed(&r[0], &axes) * -T::HALF));
+        for (a, x) in x.into_iter().enumerate() {
+            let along = (second[0] * r[1][a] - second[1] * r[0][a]) * T::HALF;
+            add_gradient(row, x.of(pool), &along);
+        }
+        skew(&r, &axes, &second)
     }
 
     /// The directions of a rotation as they are.

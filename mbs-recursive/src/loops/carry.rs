@@ -42,13 +42,10 @@ pub(crate) fn pass<T: Real, S: Space<T>>(
         let y = at(m.plan.passes, pair.column as usize)?;
         let rows = at(m.loops, x.lap as usize)?.n as usize;
         let columns = at(m.loops, y.lap as usize)?.n as usize;
-        if coupled::IS_BUILT && (rows, columns, freedoms) == (1, 1, 1) {
-            single::meet_at_joint([x, y], pair, st)?;
-            continue;
-        }
         sized!(
             (rows, columns, freedoms),
-            often(S::Point::N, S::Point::N, 1),
+            often (S::Point::N, S::Point::N, 1),
+            of couplings (1, 1, 1) => single::meet_at_joint([x, y], pair, st),
             meet([x, y], pair, st)
         )?;
     }
@@ -143,13 +140,10 @@ pub(crate) fn held<T: Real, S: Space<T>>(
     let mut held = S::Motion::zero();
     for pass in range(m.plan.passes, at(m.plan.stations, i)?.passes.range())? {
         let lap = at(m.loops, pass.lap as usize)?;
-        if coupled::IS_BUILT && (lap.n, freedoms) == (1, 1) {
-            single::hold((lap, pass), st, &mut held)?;
-            continue;
-        }
         sized!(
             (lap.n as usize, freedoms),
-            often (S::Point::N, 1), of couplings (1, 1),
+            often (S::Point::N, 1),
+            of couplings (1, 1) => single::hold((lap, pass), st, &mut held),
             hold((lap, pass), st, &mut held)
         )?;
     }

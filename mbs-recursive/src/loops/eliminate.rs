@@ -2,7 +2,6 @@
 
 use super::{LoopStore, Loops, RankLost, Regularisation, index, inner, single};
 use crate::closed_loop::ClosedLoop;
-use crate::coupled;
 use crate::fault::Fault;
 use crate::indexing::{Outside, apart, at, at_mut, part, part_mut, range};
 use crate::link::ArticulatedInertia;
@@ -211,14 +210,12 @@ fn couple_all<T: Real, S: Space<T>>(
     for coupling in range(m.plan.couplings, end.couplings.range())? {
         let later = at(m.loops, coupling.lap as usize)?;
         let sizes = (later.n as usize, n);
-        if coupled::IS_BUILT && sizes == (1, 1) {
-            single::couple((m.rows.len(), has_body), [lap, later], coupling, st)?;
-            continue;
-        }
+        let n_rows = m.rows.len();
         sized!(
             sizes,
-            often(S::Point::N, S::Point::N),
-            couple((m.rows.len(), has_body), [lap, later], coupling, st)
+            often (S::Point::N, S::Point::N),
+            of couplings (1, 1) => single::couple((n_rows, has_body), [lap, later], coupling, st),
+            couple((n_rows, has_body), [lap, later], coupling, st)
         )?;
     }
     for update in range(m.plan.updates, end.updates.range())? {
@@ -226,13 +223,10 @@ fn couple_all<T: Real, S: Space<T>>(
         let y = at(m.plan.couplings, update.column as usize)?;
         let rows = at(m.loops, x.lap as usize)?.n as usize;
         let columns = at(m.loops, y.lap as usize)?.n as usize;
-        if coupled::IS_BUILT && (rows, columns, n) == (1, 1, 1) {
-            single::take([x, y], update, st)?;
-            continue;
-        }
         sized!(
             (rows, columns, n),
-            often(S::Point::N, S::Point::N, S::Point::N),
+            often (S::Point::N, S::Point::N, S::Point::N),
+            of couplings (1, 1, 1) => single::take([x, y], update, st),
             take([x, y], update, st)
         )?;
     }
