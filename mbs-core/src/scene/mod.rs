@@ -10,6 +10,7 @@ pub mod align;
 mod axes;
 #[cfg(feature = "alloc")]
 mod build;
+#[cfg(feature = "alloc")]
 mod build_signal;
 #[cfg(feature = "alloc")]
 pub(crate) mod check;
