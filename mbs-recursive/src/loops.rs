@@ -18,24 +18,12 @@
 ///
 /// The function is inlined: with constants its loops are unrolled, and its checks of lengths fall away.
 macro_rules! sized {
-    ($sizes:expr, often $common:expr, $function:ident($($argument:expr),*)) => {{
-        let sizes = $sizes;
-        if sizes == $common {
-            $function($common, $($argument),*)
-        } else {
-            $function(sizes, $($argument),*)
-        }
-    }};
-    ($sizes:expr, often $common:expr, of couplings $single:expr, $function:ident($($argument:expr),*)) => {
-        sized!($sizes, often $common, of couplings $single => $function($single, $($argument),*),
-            $function($($argument),*))
-    };
-    ($sizes:expr, often $common:expr, of couplings $single:expr => $then:expr, $function:ident($($argument:expr),*)) => {{
+    ($sizes:expr, often $common:expr, of couplings $single:expr, $function:ident($($argument:expr),*)) => {{
         let sizes = $sizes;
         if sizes == $common {
             $function($common, $($argument),*)
         } else if crate::coupled::IS_BUILT && sizes == $single {
-            $then
+            $function($single, $($argument),*)
         } else {
             $function(sizes, $($argument),*)
         }
@@ -45,7 +33,6 @@ macro_rules! sized {
 mod carry;
 mod eliminate;
 mod release;
-mod single;
 
 pub(crate) use carry::{held, pass, pass_again};
 pub(crate) use eliminate::{close, close_again};

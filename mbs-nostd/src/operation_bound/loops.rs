@@ -7,7 +7,6 @@
 
 use super::{Operations, count, joints};
 use mbs_core::Real;
-use mbs_recursive::coupled;
 use mbs_recursive::rows::Row;
 use mbs_recursive::slices::TreeSlices;
 use mbs_recursive::space::{Numbers, Space};
@@ -65,16 +64,6 @@ pub(super) fn rows<T: Real, S: Space<T>>(m: &TreeSlices<'_, T, S>) -> Operations
     sum
 }
 
-/// A product of `inner` terms that is added to one of `n` numbers; a single one of one term is added without a sum before.
-fn product(inner: u64, n: u64) -> Operations {
-    if is_single(inner, n) { ops(1, 1) } else { ops(inner, inner + 1) }
-}
-
-/// Has a block one number, which passes without loops?
-fn is_single(rows: u64, columns: u64) -> bool {
-    coupled::IS_BUILT && (rows, columns) == (1, 1)
-}
-
 /// Passing all joints, elimination at the ancestors, and opening.
 pub(super) fn evaluation<T: Real, S: Space<T>>(m: &TreeSlices<'_, T, S>) -> Operations {
     let n = motion::<T, S>();
@@ -100,8 +89,8 @@ pub(super) fn evaluation<T: Real, S: Space<T>>(m: &TreeSlices<'_, T, S>) -> Oper
         }
         for pair in plan.pairs.get(station.pairs.range()).unwrap_or(&[]) {
             let rows = |pass: u32| plan.passes.get(pass as usize).map_or(0, |p| lap_rows(p.lap));
-            let n = rows(pair.row) * rows(pair.column);
-            sum += (product(f, n) + Operations::entries(1)) * n;
+            let entry = ops(f, f + 1) + Operations::entries(1);
+            sum += entry * (rows(pair.row) * rows(pair.column));
         }
     }
     for (i, station) in plan.stations.iter().enumerate() {
@@ -121,9 +110,7 @@ pub(super) fn evaluation<T: Real, S: Space<T>>(m: &TreeSlices<'_, T, S>) -> Oper
             for coupling in plan.couplings.get(end.couplings.range()).unwrap_or(&[]) {
                 let later = lap_rows(coupling.lap);
                 let carried = if i == 0 { Operations::NONE } else { ops(n, n) };
-                // a single product is taken from l without a sum before
-                let sums = if is_single(rows, later) { 0 } else { 1 };
-                sum += (solve(rows) + ops(0, sums)) * later;
+                sum += (solve(rows) + ops(0, 1)) * later;
                 let entry = ops(1, 1) + Operations::entries(1);
                 sum += (carried + entry) * (later * rows);
             }
@@ -131,8 +118,8 @@ pub(super) fn evaluation<T: Real, S: Space<T>>(m: &TreeSlices<'_, T, S>) -> Oper
                 let of = |coupling: u32| {
                     plan.couplings.get(coupling as usize).map_or(0, |c| lap_rows(c.lap))
                 };
-                let n = of(update.row) * of(update.column);
-                sum += (product(rows, n) + Operations::entries(1)) * n;
+                let entry = ops(rows, rows + 1) + Operations::entries(1);
+                sum += entry * (of(update.row) * of(update.column));
             }
         }
     }

@@ -1,8 +1,8 @@
 //! Rows carried over a joint: inward with their gains, and what they hold back there, outward.
 
-use super::{LoopStore, Loops, inner, single};
+use super::{LoopStore, Loops, inner};
 use crate::closed_loop::ClosedLoop;
-use crate::coupled;
+use crate::coupled::{self, CoupledRow};
 use crate::indexing::{Outside, at, at_mut, part, part_mut, range};
 use crate::joint;
 use crate::link::{ArticulatedInertia, LinkKind, LinkMotion};
@@ -32,7 +32,7 @@ pub(crate) fn pass<T: Real, S: Space<T>>(
             && freedoms == 1
             && let Row::Coupled(row) = at(m.rows, lap.first as usize)?
         {
-            single::carry((m, row), (i, lap, pass), (joint.1, joint.2), st)?;
+            carry_coupled((m, row), (i, lap, pass), (joint.1, joint.2), st)?;
         } else {
             carry((lap.n as usize, freedoms), n_rows, (lap, pass), joint, st)?;
         }
@@ -45,7 +45,7 @@ pub(crate) fn pass<T: Real, S: Space<T>>(
         sized!(
             (rows, columns, freedoms),
             often (S::Point::N, S::Point::N, 1),
-            of couplings (1, 1, 1) => single::meet_at_joint([x, y], pair, st),
+            of couplings (1, 1, 1),
             meet([x, y], pair, st)
         )?;
     }
@@ -75,6 +75,26 @@ fn carry<T: Real, S: Space<T>>(
         *k = S::gathered(&passed, &p.arm);
         *at_mut(scales, r)? += inner(h, g);
     }
+    Ok(())
+}
+
+/// Carries one side of a coupling's row over the joint of link `i`, where it may have g.
+#[inline(always)]
+fn carry_coupled<T: Real, S: Space<T>>(
+    (m, row): (&Loops<'_, T, S>, &CoupledRow<T>),
+    (i, lap, pass): (usize, &ClosedLoop<T, S>, &Pass),
+    (p, c): (&LinkMotion<T, S>, &ArticulatedInertia<T, S>),
+    st: &mut LoopStore<'_, T, S>,
+) -> Result<(), Outside> {
+    let (first, gain) = (lap.first as usize, pass.gain as usize);
+    let k = at_mut(st.k, pass.side as usize * m.rows.len() + first)?;
+    let head = p.freedom.dot(k) + m.couplings.slope(row, (i, pass.side), st.slopes)?;
+    let own = c.inverse * head;
+    (*at_mut(st.heads, gain)?, *at_mut(st.gains, gain)?) = (head, own);
+    let passed = *k - c.column * own;
+    *at_mut(st.l, first)? += passed.dot(&p.bias) + own * c.drive[0];
+    *k = S::gathered(&passed, &p.arm);
+    *at_mut(st.scales, first)? += head * own;
     Ok(())
 }
 
@@ -143,7 +163,7 @@ pub(crate) fn held<T: Real, S: Space<T>>(
         sized!(
             (lap.n as usize, freedoms),
             often (S::Point::N, 1),
-            of couplings (1, 1) => single::hold((lap, pass), st, &mut held),
+            of couplings (1, 1),
             hold((lap, pass), st, &mut held)
         )?;
     }

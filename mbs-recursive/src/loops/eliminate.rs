@@ -1,6 +1,6 @@
 //! Loops eliminated at the link where their two sides meet.
 
-use super::{LoopStore, Loops, RankLost, Regularisation, index, inner, single};
+use super::{LoopStore, Loops, RankLost, Regularisation, index, inner};
 use crate::closed_loop::ClosedLoop;
 use crate::fault::Fault;
 use crate::indexing::{Outside, apart, at, at_mut, part, part_mut, range};
@@ -210,12 +210,11 @@ fn couple_all<T: Real, S: Space<T>>(
     for coupling in range(m.plan.couplings, end.couplings.range())? {
         let later = at(m.loops, coupling.lap as usize)?;
         let sizes = (later.n as usize, n);
-        let n_rows = m.rows.len();
         sized!(
             sizes,
             often (S::Point::N, S::Point::N),
-            of couplings (1, 1) => single::couple((n_rows, has_body), [lap, later], coupling, st),
-            couple((n_rows, has_body), [lap, later], coupling, st)
+            of couplings (1, 1),
+            couple((m.rows.len(), has_body), [lap, later], coupling, st)
         )?;
     }
     for update in range(m.plan.updates, end.updates.range())? {
@@ -226,7 +225,7 @@ fn couple_all<T: Real, S: Space<T>>(
         sized!(
             (rows, columns, n),
             often (S::Point::N, S::Point::N, S::Point::N),
-            of couplings (1, 1, 1) => single::take([x, y], update, st),
+            of couplings (1, 1, 1),
             take([x, y], update, st)
         )?;
     }
