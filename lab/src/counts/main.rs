@@ -12,8 +12,8 @@ use mbs_core::dense::Dense;
 use mbs_core::natural::NaturalModel;
 use mbs_core::scene::{Dimension, Scene};
 use mbs_core::start::assemble;
-use mbs_core::step::Step;
-use mbs_recursive::{Planar, Spatial, TreeModel, space::Space};
+use mbs_core::step::{Step, StepError, StepReport};
+use mbs_recursive::{Planar, Spatial, TreeModel, TreeState, space::Space};
 use std::error::Error;
 use std::process::ExitCode;
 
@@ -71,7 +71,7 @@ fn formulations<const D: usize, S: Space<f64>>(
 ) -> Result<(), Box<dyn Error>> {
     let model = NaturalModel::<f64, D>::new(scene)?;
     index_3(scene, &model, name, steps)?;
-    recursive::<D, S>(scene, &model, name, steps)
+    recursive::<D, S>((scene, &model), &format!("recursive {name}"), (steps, mbs_recursive::step))
 }
 
 /// Steps of index-3 augmented Lagrangian.
@@ -90,21 +90,27 @@ fn index_3<const D: usize>(
     })
 }
 
+/// A step of the recursive formulation.
+type TreeStep<S> = fn(
+    &TreeModel<f64, S>,
+    f64,
+    &mbs_recursive::Options<f64>,
+    &mut TreeState<f64>,
+    &mut mbs_recursive::Workspace<f64, S>,
+) -> Result<StepReport<f64>, StepError>;
+
 /// Steps of the recursive formulation.
 fn recursive<const D: usize, S: Space<f64>>(
-    scene: &Scene<f64>,
-    model: &NaturalModel<f64, D>,
+    (scene, model): (&Scene<f64>, &NaturalModel<f64, D>),
     name: &str,
-    steps: usize,
+    (steps, step): (usize, TreeStep<S>),
 ) -> Result<(), Box<dyn Error>> {
     let natural = assemble(scene, model, |p| Dense::new(p), &mut Dense::new(model))?.state;
     let tree = TreeModel::<f64, S>::new(scene)?;
     let mut workspace = mbs_recursive::Workspace::new(&tree);
     let mut state = tree.start(scene, model, &natural)?;
     let options = mbs_recursive::Options::default();
-    count(&format!("recursive {name}"), steps, || {
-        mbs_recursive::step(&tree, STEP, &options, &mut state, &mut workspace)
-    })
+    count(name, steps, || step(&tree, STEP, &options, &mut state, &mut workspace))
 }
 
 /// Counts a train of wheels without gears or with them.
@@ -112,15 +118,9 @@ fn train(n: usize, has_gears: bool, steps: usize) -> Result<(), Box<dyn Error>> 
     let scene = trains::train(n, has_gears);
     scene.check()?;
     let model = NaturalModel::<f64, 2>::new(&scene)?;
-    let natural = assemble(&scene, &model, |p| Dense::new(p), &mut Dense::new(&model))?.state;
-    let tree = TreeModel::<f64, Planar>::new(&scene)?;
-    let mut workspace = mbs_recursive::Workspace::new(&tree);
-    let mut state = tree.start(&scene, &model, &natural)?;
-    let options = mbs_recursive::Options::default();
     let switch = if has_gears { "on" } else { "out" };
-    count(&format!("rk4 planar train-{n} {switch}"), steps, || {
-        mbs_recursive::rk4_step(&tree, STEP, &options, &mut state, &mut workspace)
-    })
+    let name = format!("rk4 planar train-{n} {switch}");
+    recursive::<2, Planar>((&scene, &model), &name, (steps, mbs_recursive::rk4_step))
 }
 
 /// Warms up, prints the name and counts.

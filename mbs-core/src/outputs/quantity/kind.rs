@@ -8,7 +8,8 @@ use super::super::rotor::RotorTorque;
 use crate::Real;
 use crate::model::State;
 use crate::natural::NaturalModel;
-use crate::scene::{JointId, Scene};
+use crate::scene::{BodyId, JointId, Scene};
+use alloc::vec;
 use alloc::vec::Vec;
 
 /// What a quantity is read with.
@@ -39,6 +40,23 @@ pub(in crate::outputs) struct Followed<T: Real, const D: usize> {
 }
 
 impl<T: Real, const D: usize> Followed<T, D> {
+    /// The rotation of a body against the ground from these first numbers on: its angle in the plane, in space what `spatial` makes.
+    pub(super) fn of_body(
+        body: BodyId,
+        from: &mut Maker<'_, T, D>,
+        (spatial, first): (impl FnOnce(&NaturalModel<T, D>) -> Coordinate<T, D>, T),
+    ) -> Self {
+        let start = from.values.len();
+        let (coordinate, first) = if D == 2 {
+            (Coordinate::between(from.model, [BodyId::Ground, body]), T::ZERO)
+        } else {
+            (spatial(from.model), first)
+        };
+        from.values.push(first);
+        from.values.resize(start + coordinate.len(), T::ZERO);
+        Self { coordinates: vec![coordinate], start, joint: None }
+    }
+
     /// Writes their present values.
     pub(super) fn write(&self, now: &Instant<'_, T, D>, out: &mut [T]) {
         out.copy_from_slice(&now.values[self.start..][..out.len()]);

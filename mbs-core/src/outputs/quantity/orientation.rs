@@ -5,7 +5,6 @@ use super::kind::{Followed, Instant, Maker, Measured};
 use super::{ComponentForm, QuantityRow, TargetKind};
 use crate::Real;
 use crate::scene::BodyId;
-use alloc::vec;
 
 pub(super) const ROW: QuantityRow =
     QuantityRow::new("orientation", TargetKind::Body, ComponentForm::Orientation);
@@ -18,15 +17,7 @@ impl<T: Real, const D: usize> Measured<T, D> for Orientation<T, D> {
     type Of = BodyId;
 
     fn new(of: BodyId, from: &mut Maker<'_, T, D>) -> Self {
-        let start = from.values.len();
-        let coordinate = if D == 2 {
-            Coordinate::between(from.model, [BodyId::Ground, of])
-        } else {
-            Coordinate::quaternion(from.model, of)
-        };
-        from.values.push(if D == 2 { T::ZERO } else { T::ONE });
-        from.values.resize(start + coordinate.len(), T::ZERO);
-        Self(Followed { coordinates: vec![coordinate], start, joint: None })
+        Self(Followed::of_body(of, from, (|model| Coordinate::quaternion(model, of), T::ONE)))
     }
 
     fn write(&self, now: &Instant<'_, T, D>, out: &mut [T]) {

@@ -5,7 +5,6 @@ use super::kind::{Followed, Instant, Maker, Measured};
 use super::{ComponentForm, QuantityRow, TargetKind};
 use crate::Real;
 use crate::scene::BodyId;
-use alloc::vec;
 
 pub(super) const ROW: QuantityRow =
     QuantityRow::new("rotation-vector", TargetKind::Body, ComponentForm::Axial("rad"));
@@ -18,14 +17,7 @@ impl<T: Real, const D: usize> Measured<T, D> for RotationVector<T, D> {
     type Of = BodyId;
 
     fn new(of: BodyId, from: &mut Maker<'_, T, D>) -> Self {
-        let start = from.values.len();
-        let coordinate = if D == 2 {
-            Coordinate::between(from.model, [BodyId::Ground, of])
-        } else {
-            Coordinate::turn(from.model, [BodyId::Ground, of])
-        };
-        from.values.resize(start + coordinate.len(), T::ZERO);
-        Self(Followed { coordinates: vec![coordinate], start, joint: None })
+        Self(Followed::of_body(of, from, (|model| Coordinate::turn(model, [BodyId::Ground, of]), T::ZERO)))
     }
 
     fn write(&self, now: &Instant<'_, T, D>, out: &mut [T]) {
