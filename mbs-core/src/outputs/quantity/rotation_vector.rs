@@ -17,7 +17,11 @@ impl<T: Real, const D: usize> Measured<T, D> for RotationVector<T, D> {
     type Of = BodyId;
 
     fn new(of: BodyId, from: &mut Maker<'_, T, D>) -> Self {
-        Self(Followed::of_body(of, from, (|model| Coordinate::turn(model, [BodyId::Ground, of]), T::ZERO)))
+        Self(Followed::of_body(
+            of,
+            from,
+            (|model| Coordinate::turn(model, [BodyId::Ground, of]), T::ZERO),
+        ))
     }
 
     fn write(&self, now: &Instant<'_, T, D>, out: &mut [T]) {
