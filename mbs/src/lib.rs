@@ -21,13 +21,13 @@ mod methods;
 mod modes;
 mod named;
 mod names;
+mod one_way;
 mod precision;
 mod ready;
 pub mod realtime;
 pub mod record;
 mod recorder;
 mod rest;
-mod rolling_pull;
 mod run;
 mod settings;
 mod simulation;
@@ -63,10 +63,10 @@ pub use interrupt::Interrupt;
 pub use mbs_core::formulation::{Formulation, SwitchError};
 pub use mbs_core::laws::code::{BodyLaw, Force, ForceLaw, Measured, MeasuredBody};
 pub use mbs_core::scene::{
-    BallAngle, BodyId, CouplingId, CouplingMeasure, CouplingTerm, Curve, EffectId, EffectKind,
-    GROUND, GuideId, InitialId, Interpolation, JointId, JointLimits, Motion, Number, OutputId,
-    PolynomialPiece, Road, RoadFeature, RollingId, RollingKind, RollingPlane, Signal, SignalId,
-    SignalKind, TableEnds, Vector3,
+    BallAngle, BodyId, CouplingId, CouplingKind, CouplingMeasure, CouplingTerm, Curve, EffectId,
+    EffectKind, GROUND, GuideId, InitialId, Interpolation, JointId, JointLimits, Motion, Number,
+    OutputId, PolynomialPiece, Road, RoadFeature, RollingId, RollingKind, RollingPlane, Signal,
+    SignalId, SignalKind, TableEnds, Vector3,
 };
 pub use mbs_scene::{ReadError, WriteError};
 pub use methods::{FORMULATIONS, FormulationKind, PenaltyUse, Row};

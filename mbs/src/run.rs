@@ -201,7 +201,7 @@ impl<'a, T: Real, const D: usize> Run<'a, T, D> {
         let change = simulation.start.change.to_f64();
         let mut notes = notes(run.scene, settings, &summary, change);
         notes.extend(run.limits.notes(run.scene));
-        notes.extend(run.pulls.notes(run.scene));
+        notes.extend(run.one_way.notes(run.scene));
         notes.extend(few_threads(settings.threads, simulation.threads()));
         let record = RunRecord {
             scene: run.scene.name.clone(),

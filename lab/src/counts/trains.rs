@@ -40,9 +40,7 @@ pub(crate) fn train(n: usize, has_gears: bool) -> Scene<f64> {
     };
     let coupling = |i: usize| Coupling {
         name: format!("mesh-{i}"),
-        terms: vec![term(i), term(i + 1)],
-        value: 0.0,
-        motion: None,
+        ..Coupling::sum(vec![term(i), term(i + 1)], 0.0)
     };
     let target =
         InitialTarget::Joint { joint: JointId::new(0), value: None, rate: Some(vec![2.0]) };

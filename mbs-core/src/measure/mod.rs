@@ -9,6 +9,8 @@ mod curve;
 #[cfg(feature = "alloc")]
 mod given;
 #[cfg(feature = "alloc")]
+mod mesh;
+#[cfg(feature = "alloc")]
 mod rolling;
 #[cfg(feature = "alloc")]
 mod rotor;
@@ -23,6 +25,8 @@ pub(crate) use curve::within;
 pub use curve::{polynomial, polynomial_change, spline_change, spline_curve};
 #[cfg(feature = "alloc")]
 pub use given::given_values;
+#[cfg(feature = "alloc")]
+pub(crate) use mesh::MeshedWheels;
 #[cfg(feature = "alloc")]
 pub use rolling::RollingInput;
 #[cfg(feature = "alloc")]

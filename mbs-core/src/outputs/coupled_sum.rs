@@ -8,8 +8,11 @@
 //! ball     moment w g on the second body, -w g on the first:  g of a swing or a twist
 //! length   force w n on the second point, -w n on the first:  n from the first to the second
 //! ```
+//!
+//! Of wheels with a pitch point the force of the teeth acts in place of the moments.
 
 use super::coordinate::Coordinate;
+use super::tooth_force::ToothForce;
 use super::wrench::{Applied, Wrench};
 use crate::Real;
 use crate::algebra::{Vector, along as unit_along, cross, norm, raised};
@@ -30,6 +33,8 @@ pub(super) struct CoupledSum<T: Real, const D: usize> {
     bodies: Vec<usize>,
     /// The largest force, or moment over the scene's length, of a term without a curve at an effort of one.
     scale: T,
+    /// What acts in place of the terms' couples where its wheels have a pitch point.
+    teeth: Option<Box<ToothForce<T, D>>>,
 }
 
 /// A curve of a sum of measures, with its factor.
@@ -62,7 +67,9 @@ enum PartKind<T: Real, const D: usize> {
 impl<T: Real, const D: usize> CoupledSum<T, D> {
     /// Of `scene.couplings[index]` in a scene that passed its check.
     pub(super) fn new(scene: &Scene<T>, model: &NaturalModel<T, D>, index: usize) -> Self {
-        Self::of_terms((scene, model), &CouplingInput::new(&scene.couplings[index]).terms, None)
+        let coupling = &scene.couplings[index];
+        let sum = Self::of_terms((scene, model), &CouplingInput::new(coupling).terms, None);
+        Self { teeth: ToothForce::new(scene, model, coupling).map(Box::new), ..sum }
     }
 
     /// Of these terms; `remembered` is the first place of the angles that the state remembers for them.
@@ -85,12 +92,17 @@ impl<T: Real, const D: usize> CoupledSum<T, D> {
         let terms = terms.collect();
         bodies.sort_unstable();
         bodies.dedup();
-        Self { terms, bodies, scale }
+        Self { terms, bodies, scale, teeth: None }
     }
 
     /// Is it an angle, without slides and lengths?
     pub(super) fn is_angle(&self) -> bool {
         self.terms.iter().flat_map(|term| &term.parts).all(Part::is_angle)
+    }
+
+    /// The force of its teeth, where it has a pitch point.
+    pub(super) fn teeth(&self) -> Option<&ToothForce<T, D>> {
+        self.teeth.as_deref()
     }
 
     /// The moving bodies that it acts on, ascending.
@@ -113,6 +125,9 @@ impl<T: Real, const D: usize> CoupledSum<T, D> {
 
     /// Hands out what it does to the bodies at an effort.
     pub(super) fn apply(&self, effort: T, state: &State<T>, mut take: impl FnMut(Applied<T>)) {
+        if let Some(teeth) = &self.teeth {
+            return teeth.apply(effort, state, take);
+        }
         for term in &self.terms {
             let ([_, slope], _) = term.evaluate(state);
             let weight = term.factor * slope * effort;

@@ -24,6 +24,7 @@ mod motion;
 mod quantity;
 mod reaction;
 mod rotor;
+mod tooth_force;
 mod turns;
 mod wrench;
 

@@ -4,7 +4,8 @@
 //! on body b, about its centre of mass c:
 //!   sum_j +-R_j + applied = [m (c'' - g);  I omega' + omega x I omega]
 //! R_j = W_j r_j       W_j: the wrenches that joint j can transmit, at its place on the second body
-//! applied             effects, rotors by their inertia, and c_k f_k' lambda of each term of a coupling, with its effort lambda unknown
+//! applied             effects, rotors by their inertia, and c_k f_k' lambda of each term of a coupling, with its effort lambda unknown;
+//!                     of teeth at a pitch point what drives them apart, once lambda is known
 //! ```
 //!
 //! Welded bodies are bodies like all others. The solution is the smallest one, in forces and moments over the scene's length.
@@ -134,7 +135,12 @@ impl<T: Real, const D: usize> Reactions<T, D> {
         let blocks = core::mem::take(&mut self.blocks);
         for block in &blocks {
             self.assemble(block, state);
-            self.residual = self.residual.max(self.system.solve());
+            let mut residual = self.system.solve();
+            if self.drive_apart(block, state) {
+                self.assemble(block, state);
+                residual = self.system.solve();
+            }
+            self.residual = self.residual.max(residual);
             self.distribute(block, state);
         }
         self.blocks = blocks;
@@ -280,6 +286,21 @@ impl<T: Real, const D: usize> Reactions<T, D> {
             });
             column += 1;
         }
+    }
+
+    /// Applies what drives teeth apart at the efforts of a solved block, which it does not change; false: nothing does.
+    fn drive_apart(&mut self, block: &Block, state: &State<T>) -> bool {
+        let Self { bodies, joints, missing, couplings, system, .. } = self;
+        let of_joints: usize = block.joints.iter().map(|&j| joints[j].n_directions()).sum();
+        let mut is_driven = false;
+        for (&i, &solved) in block.couplings.iter().zip(&system.solution()[of_joints..]) {
+            let Some(teeth) = couplings[i].teeth() else { continue };
+            teeth.drive_apart(solved / couplings[i].scale(), state, |applied| {
+                is_driven = true;
+                take_off(bodies, missing, applied);
+            });
+        }
+        is_driven
     }
 
     /// Stores the wrenches and efforts of a solved block and takes them off what its bodies miss.

@@ -27,6 +27,29 @@ pub struct Coupling<T> {
     pub value: T,
     /// What is added to the value in the course of time.
     pub motion: Option<Motion<T>>,
+    /// What holds the sum.
+    pub kind: CouplingKind<T>,
+}
+
+/// What holds the sum of a coupling. The motion is the same with all; reactions and notes are not.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub enum CouplingKind<T> {
+    /// Anything: it acts along its coordinates and lengths.
+    #[default]
+    General,
+    /// Teeth in mesh: the bearings of both wheels carry their force.
+    Mesh(Mesh<T>),
+    /// A rope, which cannot push: a run notes where this one would have to.
+    Rope,
+}
+
+/// Where two wheels with straight teeth touch.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Mesh<T> {
+    /// The pitch point, fixed in the body that carries both wheels, reference configuration [m].
+    pub at: [T; 3],
+    /// Angle of the force against the common tangent of the wheels; from 0 to below pi/2 [rad].
+    pub pressure_angle: T,
 }
 
 /// A term of a coupling: `factor` times a measured number, or a curve of it.
@@ -101,6 +124,12 @@ impl<T> CouplingMeasure<T> {
 }
 
 impl<T> Coupling<T> {
+    /// Any terms, whose sum is `value`; without a name.
+    #[must_use]
+    pub const fn sum(terms: Vec<CouplingTerm<T>>, value: T) -> Self {
+        Self { name: String::new(), terms, value, motion: None, kind: CouplingKind::General }
+    }
+
     /// Does its sum change with time?
     #[must_use]
     pub const fn is_driven(&self) -> bool {
@@ -147,7 +176,7 @@ impl Coupling<Number> {
     /// Any terms, whose sum is zero.
     #[must_use]
     pub const fn of(terms: Vec<CouplingTerm<Number>>) -> Self {
-        Self { name: String::new(), terms, value: Number::ZERO, motion: None }
+        Self::sum(terms, Number::ZERO)
     }
 
     /// Two wheels in external mesh about parallel axes: `teeth[0]` of the first turn against `teeth[1]` of the second.
@@ -215,7 +244,8 @@ impl Coupling<Number> {
     pub fn rope<P: Into<Vector3>>(points: impl IntoIterator<Item = (BodyId, P)>) -> Self {
         let points = points.into_iter().map(|(body, at)| (body, at.into().0)).collect();
         let of = CouplingMeasure::Length { points };
-        Self::of(vec![CouplingTerm { factor: 1.into(), of, curve: None }])
+        let terms = vec![CouplingTerm { factor: 1.into(), of, curve: None }];
+        Self { kind: CouplingKind::Rope, ..Self::of(terms) }
     }
 
     /// The same rope, of which a drum of this radius [m] takes in as much as its joint turns.
@@ -237,6 +267,14 @@ impl Coupling<Number> {
         let of_shaft =
             CouplingTerm { curve: Some(curve), ..CouplingTerm::of_joint(shaft, 0, -1.0) };
         Self::of(vec![CouplingTerm::of_joint(follower, 0, 1.0), of_shaft])
+    }
+
+    /// The same two wheels, that touch at a pitch point [m] under a pressure angle [rad]: their bearings carry the force of the teeth.
+    #[must_use]
+    pub fn meshing_at(mut self, at: impl Into<Vector3>, pressure_angle: impl Into<Number>) -> Self {
+        let pressure_angle = pressure_angle.into();
+        self.kind = CouplingKind::Mesh(Mesh { at: at.into().0, pressure_angle });
+        self
     }
 
     /// The same coupling whose sum is `value`, from the reference configuration.

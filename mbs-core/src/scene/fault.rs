@@ -104,6 +104,12 @@ pub enum SceneFault {
     Apart(f64),
     /// A periodic curve has different values at its ends; both.
     PeriodicEnds([f64; 2]),
+    /// A pitch point of a coupling that is not of two turns about parallel axes in one body.
+    NoMesh,
+    /// A pitch point that does not divide the way between the axes as the factors do; where it is [m].
+    OffPitch([f64; 3]),
+    /// A pressure angle that is not from 0 to below a quarter turn [rad].
+    PressureAngle(f64),
     /// The start values of its joints do not give the sum; what they give, and what is needed.
     SumAtStart([f64; 2]),
     /// The joint has no single coordinate to guide; the number it has.
@@ -260,6 +266,9 @@ impl SceneFault {
             Self::LiesFlat => "turn the axis away from the normal",
             Self::AlongNormal => "give the direction along which it may move",
             Self::Apart(_) => "move `center` or the plane's `point`, or leave `plane` out",
+            Self::NoMesh => "leave it out, or name two joints with parallel axes",
+            Self::OffPitch(_) => "write this place, or move it along the axes",
+            Self::PressureAngle(_) => "write it in radians: 20 degrees are 0.349",
             Self::PeriodicEnds(_) => "end the table with the value that it begins with",
             Self::SumAtStart(_) => {
                 "change one of the initial values, or leave it out: the others determine it"
@@ -379,6 +388,16 @@ impl SceneFault {
             Self::AlongNormal => write!(f, "is along the plane's normal"),
             Self::Apart(gap) => {
                 write!(f, "does not touch: the lowest point is {gap:.6e} m above the plane")
+            }
+            Self::NoMesh => {
+                write!(f, "is for two wheels on one body that turn about parallel axes")
+            }
+            Self::OffPitch([x, y, z]) => write!(
+                f,
+                "is not where wheels with these factors touch, which is at [{x}, {y}, {z}]"
+            ),
+            Self::PressureAngle(angle) => {
+                write!(f, "is {angle} rad, but must be from 0 to below a quarter turn")
             }
             Self::PeriodicEnds([first, last]) => {
                 write!(f, "begins with {first} and ends with {last}, but is periodic")

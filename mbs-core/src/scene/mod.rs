@@ -60,7 +60,7 @@ pub use axes::transverse;
 #[cfg(feature = "alloc")]
 pub use build::StartedJoint;
 #[cfg(feature = "alloc")]
-pub use coupling::{BallAngle, Coupling, CouplingMeasure, CouplingTerm};
+pub use coupling::{BallAngle, Coupling, CouplingKind, CouplingMeasure, CouplingTerm, Mesh};
 #[cfg(feature = "alloc")]
 pub use curve::{Curve, TableEnds};
 #[cfg(feature = "alloc")]

@@ -2,10 +2,10 @@
 
 use crate::Real;
 use crate::scene::{
-    Body, CalspanCoefficients, Coupling, CouplingMeasure, CouplingTerm, Curve, Dimension, Effect,
-    Entry, Guide, Inertia, InitialCondition, InitialTarget, Joint, JointLimits, Motion,
-    NamedSignal, Number, Output, Road, RoadFeature, Rolling, RollingKind, RollingPlane, Scene,
-    SceneError, SceneFault, SolverTable,
+    Body, CalspanCoefficients, Coupling, CouplingKind, CouplingMeasure, CouplingTerm, Curve,
+    Dimension, Effect, Entry, Guide, Inertia, InitialCondition, InitialTarget, Joint, JointLimits,
+    Mesh, Motion, NamedSignal, Number, Output, Road, RoadFeature, Rolling, RollingKind,
+    RollingPlane, Scene, SceneError, SceneFault, SolverTable,
 };
 use alloc::vec::Vec;
 
@@ -196,6 +196,13 @@ impl<T> Coupling<T> {
             terms: self.terms.iter().map(|term| term.map(f)).collect(),
             value: f(&self.value),
             motion: self.motion.as_ref().map(|motion| motion.map(f)),
+            kind: match &self.kind {
+                CouplingKind::General => CouplingKind::General,
+                CouplingKind::Rope => CouplingKind::Rope,
+                CouplingKind::Mesh(Mesh { at, pressure_angle }) => {
+                    CouplingKind::Mesh(Mesh { at: all(at, f), pressure_angle: f(pressure_angle) })
+                }
+            },
         }
     }
 }

@@ -17,7 +17,6 @@ use crate::scene::{
     Coupling, CouplingMeasure, CouplingTerm, Dimension, Effect, EffectKind, Guide, JointId, Motion,
     Scene,
 };
-use alloc::string::String;
 use alloc::vec;
 use alloc::vec::Vec;
 
@@ -41,12 +40,9 @@ fn moving<T: Real>(scene: &Scene<T>, (joint, number): (JointId, usize)) -> Scene
     let held =
         |coupling: &Coupling<T>| Coupling { value: T::ZERO, motion: None, ..coupling.clone() };
     let of = CouplingMeasure::Coordinate { joint, number };
-    let rate_of_one = Coupling {
-        name: String::new(),
-        terms: vec![CouplingTerm { factor: T::ONE, of, curve: None }],
-        value: T::ZERO,
-        motion: Some(Motion::Ramp { rate: T::ONE }),
-    };
+    let terms = vec![CouplingTerm { factor: T::ONE, of, curve: None }];
+    let motion = Some(Motion::Ramp { rate: T::ONE });
+    let rate_of_one = Coupling { motion, ..Coupling::sum(terms, T::ZERO) };
     let is_rotor = |effect: &&Effect<T>| matches!(effect.kind, EffectKind::Rotor(_));
     let rotors = scene.effects.iter().filter(is_rotor);
     Scene {

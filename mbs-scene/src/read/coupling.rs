@@ -7,6 +7,8 @@
 //! differential  Na (a - c) + Nb (b - c) = 0  mimic         x - factor y = offset
 //! cam           x - f(y) = 0                rope          length + radius a = value
 //! ```
+//!
+//! `at` and `pressure_angle` say where the teeth of two wheels touch.
 
 mod named;
 
@@ -16,8 +18,8 @@ use crate::read::fields::{Context, Fields, Read};
 use crate::read::motion::{MOTION_KEYS, read_motion};
 use crate::read::tree::{Item, Node};
 use mbs_core::scene::{
-    Axis, BallAngle, Coupling, CouplingMeasure, CouplingTerm, Curve, Freedom, Joint, JointId,
-    Motion, Number,
+    Axis, BallAngle, Coupling, CouplingKind, CouplingMeasure, CouplingTerm, Curve, Freedom, Joint,
+    JointId, Mesh, Motion, Number,
 };
 
 /// The kinds of coupling.
@@ -75,14 +77,35 @@ pub(crate) fn read<'a>(
         }
         "rope" => rope(fields, joints)?,
         "linear" => {
-            allow(fields, &[&["terms", "value"], &MOTION_KEYS[..]].concat())?;
+            allow(fields, &[&["terms", "value"], &MESH_KEYS[..], &MOTION_KEYS[..]].concat())?;
             let terms = read_terms(fields, fields.need("terms")?, joints)?;
             (terms, fields.number_or_zero("value")?, read_motion(fields)?)
         }
         _ => return fields.unknown_word("kind", kind, &KINDS),
     };
     let name = fields.name_or("coupling", index)?;
-    Ok(Coupling { name, terms, value, motion })
+    let kind = match (kind.0, read_mesh(fields)?) {
+        ("rope", _) => CouplingKind::Rope,
+        (_, Some(mesh)) => CouplingKind::Mesh(mesh),
+        _ => CouplingKind::General,
+    };
+    Ok(Coupling { name, terms, value, motion, kind })
+}
+
+/// The keys of where teeth touch.
+const MESH_KEYS: [&str; 2] = ["at", "pressure_angle"];
+
+/// The pressure angle of teeth that name none [rad]: 20 degrees, that of standard teeth (ISO 53).
+const PRESSURE_ANGLE: &str = "0.34906585039886591538473815369772254270";
+
+/// Where teeth touch; `None`: nothing is said of it.
+fn read_mesh(fields: &Fields<'_>) -> Read<Option<Mesh<Number>>> {
+    if fields.get("at").is_none() && fields.get("pressure_angle").is_none() {
+        return Ok(None);
+    }
+    let (at, pressure_angle) =
+        (fields.vector("at")?, fields.number_or("pressure_angle", PRESSURE_ANGLE)?);
+    Ok(Some(Mesh { at, pressure_angle }))
 }
 
 const TERMS: &str = "a list of terms like { joint = \"j\", factor = 1.0 }";
@@ -92,7 +115,7 @@ pub(crate) const TERM_KEYS: [&str; 8] =
     ["joint", "coordinate", "points", "factor", "table", "periodic", "coefficients", "axis"];
 
 /// The keys of all kinds.
-const EVERY_KEY: [&str; 27] = [
+const EVERY_KEY: [&str; 28] = [
     "joints",
     "joint",
     "teeth",
@@ -120,6 +143,7 @@ const EVERY_KEY: [&str; 27] = [
     "signal",
     "coordinate",
     "at",
+    "pressure_angle",
 ];
 
 fn allow(fields: &Fields<'_>, keys: &[&'static str]) -> Read<()> {
@@ -177,7 +201,7 @@ fn teeth<'a>(context: &Context<'a>, item: &'a Item) -> Read<[Number; 2]> {
 
 /// Wheels in mesh: by teeth or radii with the sense of the mesh, or by a ratio.
 fn gear<'a>(fields: &Fields<'a>, joints: &'a [Joint<Number>]) -> Read<Vec<CouplingTerm<Number>>> {
-    allow(fields, &["joints", "teeth", "radii", "ratio", "mesh"])?;
+    allow(fields, &[&["joints", "teeth", "radii", "ratio", "mesh"], &MESH_KEYS[..]].concat())?;
     for [one, other] in
         [["teeth", "radii"], ["teeth", "ratio"], ["radii", "ratio"], ["mesh", "ratio"]]
     {
@@ -291,11 +315,17 @@ fn differential<'a>(
 
 /// A line of constant length over points, or one that a drum takes in.
 fn rope<'a>(fields: &Fields<'a>, joints: &'a [Joint<Number>]) -> Read<Sum> {
-    allow(fields, &[&["points", "length", "drum"], &MOTION_KEYS[..]].concat())?;
+    allow(fields, &[&["points", "length", "drum", "terms", "value"], &MOTION_KEYS[..]].concat())?;
     let context = fields.context;
+    if let Some(item) = fields.get("terms") {
+        ["points", "length", "drum"].iter().try_for_each(|key| fields.exclusive("terms", key))?;
+        let terms = read_terms(fields, item, joints)?;
+        return Ok((terms, fields.number_or_zero("value")?, read_motion(fields)?));
+    }
+    fields.exclusive("length", "value")?;
     let points = read_points(fields, fields.need("points")?)?;
     let value = match fields.get("length") {
-        None => Number::ZERO,
+        None => fields.number_or_zero("value")?,
         Some(Item { node: Node::Text(word), .. }) if word == "reference" => Number::ZERO,
         Some(item) => {
             let reference: f64 = points

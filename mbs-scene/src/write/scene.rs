@@ -15,8 +15,8 @@ use crate::read::tree::{Item, Member, Node};
 use core::fmt::{self, Display, Formatter};
 use mbs_core::outputs::{RelativePoint, Target};
 use mbs_core::scene::{
-    Body, BodyId, Coupling, CouplingMeasure, CouplingTerm, Curve, Dimension, Guide, Inertia,
-    InitialCondition, InitialTarget, Joint, JointId, JointLimits, Number, Output, Rolling,
+    Body, BodyId, Coupling, CouplingKind, CouplingMeasure, CouplingTerm, Curve, Dimension, Guide,
+    Inertia, InitialCondition, InitialTarget, Joint, JointId, JointLimits, Number, Output, Rolling,
     RollingKind, Scene, Start,
 };
 
@@ -359,13 +359,18 @@ impl Writer<'_> {
         Ok(keys)
     }
 
-    /// Any coupling is written as the sum that it is.
+    /// Any coupling is written as the sum that it is: of a rope, or of anything.
     fn coupling(self, coupling: &Coupling<Number>) -> Result<Keys, WriteError> {
         let mut keys = Keys::default();
         keys.push("name", coupling.name.as_str());
-        keys.push("kind", "linear");
+        let is_rope = coupling.kind == CouplingKind::Rope;
+        keys.push("kind", if is_rope { "rope" } else { "linear" });
         keys.push("terms", self.terms(&coupling.terms)?);
         keys.push("value", &coupling.value);
+        if let CouplingKind::Mesh(mesh) = &coupling.kind {
+            keys.push("at", self.vector(&mesh.at));
+            keys.push("pressure_angle", &mesh.pressure_angle);
+        }
         if let Some(law) = &coupling.motion {
             self.motion(&mut keys, law)?;
         }

@@ -90,7 +90,7 @@ impl<T: Real, const D: usize> Record<'_, T, D> {
         self.measures.walk(tape)?;
         self.walk_contacts(simulation, tape)?;
         self.limits.walk(tape)?;
-        self.pulls.walk(tape)?;
+        self.one_way.walk(tape)?;
         self.counts.walk(tape)?;
         self.alarm.walk(tape)?;
         let mut cpu = cpu;

@@ -8,9 +8,9 @@ use crate::driver::StepObserver;
 use crate::energy_alarm::Alarm;
 use crate::friction::Frictions;
 use crate::joint_limits::LimitWatch;
+use crate::one_way::OneWayWatch;
 use crate::record::{Channel, ControlSummary, RealtimeSummary, StepRow};
 use crate::recorder::{RecordRows, Recorder, StepMark};
-use crate::rolling_pull::PullWatch;
 use crate::settings::{Lengths, ResolvedMethod};
 use crate::simulation::Simulation;
 use crate::stop::StopError;
@@ -57,7 +57,7 @@ pub(super) struct Record<'a, T: Real, const D: usize> {
     pub(super) measures: Channels<T, D>,
     pub(super) contacts: Contacts<T, D>,
     pub(super) limits: LimitWatch<T, D>,
-    pub(super) pulls: PullWatch<T, D>,
+    pub(super) one_way: OneWayWatch<T, D>,
     pub(super) recorder: Recorder,
     pub(super) animation: AnimationRecorder<T, D>,
     values: Vec<T>,
@@ -103,7 +103,7 @@ impl<'a, T: Real, const D: usize> Record<'a, T, D> {
             measures,
             contacts: contacts.map_err(|e| StopError::Start(e.into()))?,
             limits: LimitWatch::new(scene, simulation.model())?,
-            pulls: PullWatch::new(scene, simulation.model()),
+            one_way: OneWayWatch::new(scene, simulation.model()),
             recorder: Recorder::new(channels, n_rows, simulation.invariant().initial(), keep),
             animation: AnimationRecorder::new(scene, simulation.model(), settings.duration),
             values: vec![T::ZERO; n],
@@ -131,7 +131,7 @@ impl<'a, T: Real, const D: usize> Record<'a, T, D> {
         self.recorder.mark(&self.mark);
         self.contacts.start(simulation.state());
         self.limits.watch(simulation);
-        self.pulls.watch(simulation);
+        self.one_way.watch(simulation);
         self.row(simulation, false)
     }
 
@@ -205,7 +205,7 @@ impl<'a, T: Real, const D: usize> Record<'a, T, D> {
         }
         self.contacts.watch(simulation.state());
         self.limits.watch(simulation);
-        self.pulls.watch(simulation);
+        self.one_way.watch(simulation);
         self.mark = StepMark {
             t,
             energies: accepted.attempt.energies,

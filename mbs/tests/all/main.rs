@@ -44,5 +44,6 @@ mod slack_ropes;
 mod states;
 mod sums;
 mod threads;
+mod tooth_forces;
 mod tree;
 mod vehicle;

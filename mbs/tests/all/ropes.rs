@@ -67,3 +67,48 @@ fn explicit_steps_and_methods_with_error_control_stop_there_too() {
         assert!((0.0..2e-3).contains(&(meeting - time)), "{integrator}: {time}, {meeting}");
     }
 }
+
+/// A mass below a carriage that goes up and down by 0.1 m, both on vertical slides.
+#[test]
+fn a_rope_that_would_have_to_push_is_noted_with_its_time_and_force() {
+    let text = |frequency: f64, kind: &str| {
+        let body = |name: &str, y: f64| {
+            format!(
+                "[[body]]\nname = \"{name}\"\nmass = 5.0\ncenter = [0.0, {y:?}]\ninertia = 1.0\n\
+                 [[joint]]\nname = \"{name}\"\nkind = \"prismatic\"\nbodies = [\"ground\", \"{name}\"]\nat = [0.0, {y:?}]\naxis = [0.0, 1.0]\n"
+            )
+        };
+        format!(
+            "[scene]\nname = \"hoist\"\ndimension = 2\nduration = 0.5\ngravity = [0.0, -9.81]\n{}{}\
+             [[guide]]\njoint = \"carriage\"\nsine = {{ amplitude = 0.1, frequency = {frequency:?}, phase = 0.0 }}\n\
+             [[coupling]]\nname = \"line\"\n{kind}\n",
+            body("carriage", 1.0),
+            body("load", 0.0)
+        )
+    };
+    let rope = "kind = \"rope\"\npoints = [{ body = \"carriage\", at = [0.0, 1.0] }, { body = \"load\", at = [0.0, 0.0] }]";
+    let rod = "kind = \"linear\"\nterms = [{ points = [{ body = \"carriage\", at = [0.0, 1.0] }, { body = \"load\", at = [0.0, 0.0] }] }]";
+    for kind in FormulationKind::listed() {
+        let notes = |frequency: f64, coupling: &str| {
+            let m = Mechanism::parse(&text(frequency, coupling)).expect("a scene");
+            let method = Method { step: Some(1e-3), ..Method::new(kind) };
+            mbs::run(&m, &Run::new().method(method)).expect("it runs").notes
+        };
+        // 0.1 (2 pi f)^2 = 9.81 at 1.576 Hz
+        assert_eq!(notes(1.5, rope), [""; 0], "{}", kind.name());
+        assert_eq!(notes(3.0, rod), [""; 0], "{}", kind.name());
+        let noted = notes(3.0, rope);
+        let omega = core::f64::consts::TAU * 3.0;
+        // the first step behind sin(w t) = g / (A w^2)
+        let first = ((9.81 / (0.1 * omega * omega)).asin() / omega * 1e3).ceil() / 1e3;
+        let begin = format!("the rope `line` pushes at t = {first} s, by up to ");
+        assert_eq!(noted.len(), 1, "{}: {noted:?}", kind.name());
+        let rest = noted[0].strip_prefix(&begin);
+        let most: f64 = rest
+            .and_then(|rest| rest.split(' ').next())
+            .and_then(|number| number.parse().ok())
+            .unwrap_or_else(|| panic!("{}: {noted:?}", kind.name()));
+        let right = 5.0 * (0.1 * omega * omega - 9.81);
+        assert!((most - right).abs() < 1e-2 * right, "{}: {most} {right}", kind.name());
+    }
+}

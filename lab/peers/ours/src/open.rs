@@ -25,7 +25,7 @@ impl<T: Real, S: Space<T>> Open<T, S> {
         let model = TreeModel::<T, S>::new(scene)?;
         let joint_of = |freedom| match model.owner_of_unknown(freedom) {
             Owner::Joint(joint) | Owner::Body(joint) => joint,
-            Owner::Effect(_) | Owner::Coupling(_) => freedom,
+            Owner::Effect(_) | Owner::Coupling(_) | Owner::Rolling(_) => freedom,
         };
         let joints: Vec<usize> = (0..model.n_freedoms()).map(joint_of).collect();
         let state = |[q, v]: &[Vec<f64>; 2]| {

@@ -3,11 +3,12 @@
 use super::motion::{agreement, check_law};
 use super::vector::Place;
 use crate::Real;
+use crate::algebra::{Vector, norm};
 use crate::inputs::SignalGraph;
-use crate::measure::{CouplingInput, given_values};
+use crate::measure::{CouplingInput, MeshedWheels, given_values};
 use crate::scene::{
-    BodyId, CouplingMeasure, CouplingTerm, Curve, Entry, Freedom, JointId, Scene, SceneError,
-    SceneFault,
+    BodyId, CouplingKind, CouplingMeasure, CouplingTerm, Curve, Entry, Freedom, JointId, Mesh,
+    Scene, SceneError, SceneFault,
 };
 
 pub(super) fn check<T: Real>(scene: &Scene<T>) -> Result<(), SceneError> {
@@ -21,6 +22,9 @@ pub(super) fn check<T: Real>(scene: &Scene<T>) -> Result<(), SceneError> {
         place.finite("value", coupling.value)?;
         if let Some(motion) = &coupling.motion {
             check_law(motion, place)?;
+        }
+        if let CouplingKind::Mesh(mesh) = &coupling.kind {
+            check_mesh(scene, &coupling.terms, mesh, place)?;
         }
     }
     Ok(())
@@ -55,6 +59,35 @@ pub(super) fn check_terms<T: Real>(
     }
     if terms.iter().all(|term| term.factor.is_zero()) {
         return place.fault("terms", SceneFault::NoTerm);
+    }
+    Ok(())
+}
+
+/// The pitch point lies where the teeth of both wheels give the torques that the factors say.
+fn check_mesh<T: Real>(
+    scene: &Scene<T>,
+    terms: &[CouplingTerm<T>],
+    mesh: &Mesh<T>,
+    place: Place,
+) -> Result<(), SceneError> {
+    /// Distance of a pitch point from where it belongs, over that of the axes [-]. Chosen, not tuned: digits of a file.
+    const OFF: f64 = 1e-6;
+    place.vector("at", mesh.at)?;
+    let angle = mesh.pressure_angle.to_f64();
+    if !(0.0..core::f64::consts::FRAC_PI_2).contains(&angle) {
+        return place.fault("pressure_angle", SceneFault::PressureAngle(angle));
+    }
+    let Some(wheels) = MeshedWheels::new(scene, terms) else {
+        return place.fault("at", SceneFault::NoMesh);
+    };
+    let pitch = wheels.pitch_point(&Vector::from(mesh.at));
+    let off = norm(&(pitch - Vector::from(mesh.at)));
+    if !off.is_finite() {
+        return place.fault("at", SceneFault::NoMesh);
+    }
+    if off > wheels.distance() * T::from_f64(OFF) {
+        let pitch: [T; 3] = pitch.into();
+        return place.fault("at", SceneFault::OffPitch(pitch.map(T::to_f64)));
     }
     Ok(())
 }

@@ -104,6 +104,9 @@ fn a_written_coupling_reads_as_the_same_sum() {
         "kind = \"rope\"\npoints = [{ body = \"w\", at = [0.0, 1.0, 0.0] }, { body = \"ground\", at = [0.0, 3.0, 0.0] }]\nlength = 2.5\ndrum = { joint = \"b\", radius = 0.1 }",
         "kind = \"linear\"\nterms = [{ joint = \"a\" }]\nsine = { amplitude = 0.1, frequency = 2.0, phase = 0.0 }",
         "kind = \"linear\"\nterms = [{ joint = \"a\" }]\ninput = { value = 0.1 }",
+        "kind = \"rope\"\nterms = [{ points = [{ body = \"w\", at = [0.0, 1.0, 0.0] }, { body = \"ground\", at = [0.0, 3.0, 0.0] }], factor = 2.0 }]\nvalue = 0.1",
+        "kind = \"gear\"\njoints = [\"a\", \"b\"]\nteeth = [20, 30]\nat = [0.4, 0.0, 0.2]",
+        "kind = \"linear\"\nterms = [{ joint = \"a\", factor = 2 }, { joint = \"b\", factor = -3 }]\nat = [0.4, 0, 0]\npressure_angle = 0.3",
     ] {
         let scene = SceneFile::parse(&with(coupling), "c.toml").unwrap().numbers().unwrap();
         let again =
@@ -132,7 +135,19 @@ fn what_couples_nothing_is_refused_with_its_place() {
             "kind = \"gear\"\njoints = [\"a\", \"b\"]\nradius = 1",
             "41:1",
             "`radius` has no meaning here",
-            "remove it; keys: name, kind, joints, teeth, radii, ratio, mesh",
+            "remove it; keys: name, kind, joints, teeth, radii, ratio, mesh, at, pressure_angle",
+        ),
+        (
+            "kind = \"gear\"\njoints = [\"a\", \"b\"]\nteeth = [20, 30]\nat = [0.5, 0, 0]",
+            "42:6",
+            "`at` is not where wheels with these factors touch, which is at [0.4, 0, 0]",
+            "write this place, or move it along the axes",
+        ),
+        (
+            "kind = \"rope\"\npoints = [{ body = \"w\", at = [0, 0, 0] }, { body = \"u\", at = [0, 1, 0] }]\nlength = 1\nvalue = 0",
+            "42:9",
+            "both `length` and `value` are given",
+            "keep one",
         ),
         (
             "kind = \"screw\"\njoint = \"c\"\nlead = 0",

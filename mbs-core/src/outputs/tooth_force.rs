@@ -1,0 +1,101 @@
+//! The force of the teeth of two wheels in mesh, at their pitch point.
+//!
+//! ```text
+//! r_k            from the axis of wheel k to the pitch point, across the axis
+//! f = w1 (n1 x r1)/|r1|^2       on the first wheel, -f on the second: moments w1 about n1, w2 about n2, as of the coupling's couples
+//! |f| tan(alpha)                drives the teeth apart: on the smaller wheel towards its axis, opposite on the other
+//! ```
+//!
+//! The force that drives apart has no moment about the axes: it changes what bearings carry, and neither motion nor effort.
+
+use super::coordinate::Coordinate;
+use super::wrench::{Applied, Wrench};
+use crate::Real;
+use crate::algebra::{Vector, cross, norm, raised};
+use crate::measure::MeshedWheels;
+use crate::model::State;
+use crate::natural::{Affine, NaturalModel};
+use crate::scene::{BodyId, Coupling, CouplingKind, CouplingMeasure, Scene};
+
+/// The force of teeth.
+#[derive(Debug, Clone)]
+pub(super) struct ToothForce<T: Real, const D: usize> {
+    wheels: [BodyId; 2],
+    /// The pitch point in the body that carries the wheels.
+    pitch: Affine<T, D>,
+    /// Of each joint, its coordinate, which has the axis, and its place.
+    axes: [(Coordinate<T, D>, Affine<T, D>); 2],
+    /// Moment on the first wheel for an effort of one.
+    moment: T,
+    /// tan(alpha).
+    apart: T,
+}
+
+impl<T: Real, const D: usize> ToothForce<T, D> {
+    /// Of a coupling in a scene that passed its check; `None` where it has no pitch point.
+    pub(super) fn new(
+        scene: &Scene<T>,
+        model: &NaturalModel<T, D>,
+        coupling: &Coupling<T>,
+    ) -> Option<Self> {
+        let CouplingKind::Mesh(mesh) = &coupling.kind else { return None };
+        let wheels = MeshedWheels::new(scene, &coupling.terms)?;
+        let axis = |term: usize| {
+            let CouplingMeasure::Coordinate { joint, number } = coupling.terms[term].of else {
+                return None;
+            };
+            let joint = &scene.joints[joint.index()];
+            let freedom = joint.kind.freedom(scene.dimension, number)?;
+            let side = usize::from(joint.bodies[1] == wheels.carrier);
+            let place = model.point(wheels.carrier, joint.points[side]);
+            Some((Coordinate::of_freedom(scene, model, (joint, freedom)), place))
+        };
+        let (sine, cosine) = mesh.pressure_angle.sin_cos();
+        Some(Self {
+            wheels: wheels.wheels,
+            pitch: model.point(wheels.carrier, mesh.at),
+            axes: [axis(0)?, axis(1)?],
+            moment: wheels.moments[0],
+            apart: sine / cosine,
+        })
+    }
+
+    /// The pitch point, the ways to it from the axes, and the force along the tangent on the first wheel for an effort.
+    fn at(&self, effort: T, state: &State<T>) -> (Vector<T, 3>, [Vector<T, 3>; 2], Vector<T, 3>) {
+        let pitch = raised(&self.pitch.value(&state.q));
+        let axes = self.axes.each_ref().map(|(axis, place)| {
+            let n = axis.direction(&state.q).moment;
+            let way = pitch - raised(&place.value(&state.q));
+            (n, way - n * n.dot(&way))
+        });
+        let [(n, way), (_, other)] = axes;
+        let force = cross(&n, &way) * (self.moment * effort / way.dot(&way));
+        (pitch, [way, other], force)
+    }
+
+    /// Hands out what turns the wheels at an effort.
+    pub(super) fn apply(&self, effort: T, state: &State<T>, take: impl FnMut(Applied<T>)) {
+        let (pitch, _, force) = self.at(effort, state);
+        self.hand_out(pitch, force, take);
+    }
+
+    /// Hands out what drives the wheels apart at an effort; nothing without a pressure angle.
+    pub(super) fn drive_apart(&self, effort: T, state: &State<T>, take: impl FnMut(Applied<T>)) {
+        if self.apart.is_zero() {
+            return;
+        }
+        let (pitch, ways, force) = self.at(effort, state);
+        let [first, second] = ways.each_ref().map(norm);
+        // on the smaller wheel towards its axis
+        let on_first =
+            if first <= second { ways[0] * (-T::ONE / first) } else { ways[1] * (T::ONE / second) };
+        self.hand_out(pitch, on_first * (norm(&force) * self.apart), take);
+    }
+
+    /// A force on the first wheel at the pitch point, and its opposite on the second.
+    fn hand_out(&self, pitch: Vector<T, 3>, force: Vector<T, 3>, mut take: impl FnMut(Applied<T>)) {
+        let wrench = Wrench { force, moment: Vector::zeros() };
+        take((self.wheels[0], Some(pitch), wrench));
+        take((self.wheels[1], Some(pitch), wrench.scaled(-T::ONE)));
+    }
+}
