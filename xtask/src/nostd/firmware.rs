@@ -1,5 +1,6 @@
 //! The firmware example on emulated boards: built, run, disassembled, and compared with the same run on the host.
 
+use super::Sizes;
 use super::board::{Board, M4, M7, build, emulate, export, on_host};
 use super::image::{Image, reachable};
 use super::in_c;
@@ -60,7 +61,10 @@ const CASES: &[Case] = &[
 /// # Errors
 ///
 /// The first thing that does not hold.
-pub(super) fn check(toolchain: Toolchain, lld: Option<&Path>) -> Result<Vec<String>, String> {
+pub(super) fn check(
+    (toolchain, lld): (Toolchain, Option<&Path>),
+    sizes: Sizes,
+) -> Result<Vec<String>, String> {
     let models = process::target_dir().join("nostd/models");
     std::fs::create_dir_all(&models).map_err(|e| format!("{}: {e}", models.display()))?;
     let mut lines = vec![fresh_export(&models)?];
@@ -68,7 +72,7 @@ pub(super) fn check(toolchain: Toolchain, lld: Option<&Path>) -> Result<Vec<Stri
         lines.push(case.check(toolchain, lld, &models)?);
         eprintln!("   {}", lines[lines.len() - 1]);
     }
-    lines.extend(sizes::check(toolchain, lld, &models)?);
+    lines.extend(sizes::check((toolchain, lld), &models, sizes)?);
     lines.push(in_c::check(&models)?);
     Ok(lines)
 }

@@ -4,7 +4,7 @@
 //! 1. Every crate and feature set of the table builds for the first target, the ends of each crate's range for the others.
 //! 2. Nothing that panics or allocates can be reached from a step, in the disassembled images.
 //! 3. The images run under QEMU, within their bounds, and end where the host does.
-//! 4. Every feature of an effect adds to the image, and what it adds is gone without it.
+//! 4. Every feature of an effect adds to the image, and what it adds is gone without it; among the other checks, all features together.
 //! 5. A program in C, linked with the static library, gives the bits of the host's run. That one links with a panic handler of
 //!    its own, which a standard library that sneaks in would contradict.
 //!
@@ -29,7 +29,16 @@ use toolchain::Toolchain;
 
 /// Runs the check by itself: here a toolchain that is missing is a failure.
 pub fn check_nostd() -> ExitCode {
-    summary::ended("check-nostd", check())
+    summary::ended("check-nostd", check_with(Sizes::OfEach))
+}
+
+/// Of which sets of features images are made.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Sizes {
+    /// None, and all.
+    OfAll,
+    /// These, and each alone.
+    OfEach,
 }
 
 /// Builds the rows of the table for their targets, and runs the firmware.
@@ -38,6 +47,10 @@ pub fn check_nostd() -> ExitCode {
 ///
 /// The first build that failed, with crate, features and target.
 pub(crate) fn check() -> Result<Outcome, String> {
+    check_with(Sizes::OfAll)
+}
+
+fn check_with(sizes: Sizes) -> Result<Outcome, String> {
     let mut toolchains = Vec::new();
     for target in TARGETS {
         match toolchain::find(target) {
@@ -55,7 +68,7 @@ pub(crate) fn check() -> Result<Outcome, String> {
         Ok(lld) => lld,
         Err(left_out) => return Ok(Outcome::LeftOut(left_out)),
     };
-    let measured = firmware::check(toolchain, lld.as_deref())?;
+    let measured = firmware::check((toolchain, lld.as_deref()), sizes)?;
     Ok(Outcome::Passed(format!("{builds} builds, {}; {}", used.join(", "), measured.join("; "))))
 }
 

@@ -1,5 +1,6 @@
 //! What each effect's feature, and that of all machine elements, adds to an image: flash, static data, stack.
 
+use super::Sizes;
 use super::board::{M7, build, emulate, export};
 use super::image::Image;
 use super::run_report::RunReport;
@@ -35,20 +36,22 @@ fn features() -> Vec<(&'static str, Vec<String>)> {
     named.chain([(elements, modules.map(str::to_owned).to_vec())]).collect()
 }
 
-/// Builds one scene, which has no effects, with none of the features, with each, and with all; a line for each.
+/// Builds one scene, which has no effects, with none of the features, with each where these are asked for, and with all; a line for each.
 ///
 /// # Errors
 ///
 /// A feature that adds nothing, or whose code is in an image without it.
 pub(super) fn check(
-    toolchain: Toolchain,
-    lld: Option<&Path>,
+    (toolchain, lld): (Toolchain, Option<&Path>),
     models: &Path,
+    of: Sizes,
 ) -> Result<Vec<String>, String> {
     let model = export("six-joint-arm", "f32", models)?;
     let all: Vec<&str> = features().into_iter().map(|(feature, _)| feature).collect();
     let mut sets = vec![String::new()];
-    sets.extend(all.iter().map(|&feature| feature.to_owned()));
+    if of == Sizes::OfEach {
+        sets.extend(all.iter().map(|&feature| feature.to_owned()));
+    }
     sets.push(all.join(","));
     let (mut lines, mut sizes) = (Vec::new(), Vec::new());
     for set in &sets {
