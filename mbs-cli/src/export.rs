@@ -77,6 +77,9 @@ fn refusal(error: &ExportError) -> Refusal {
         ExportError::Signal(_) => {
             "make it a step, a table without `hold` and `periodic`, or an `input`"
         }
+        ExportError::Measure(_) => {
+            "measure coordinates of joints, or make it an `input` that the controller sets"
+        }
         ExportError::Guide(_) => {
             "let a chain of joints with one coordinate each, all guided, turn the body"
         }

@@ -10,7 +10,8 @@ pub(crate) use signals::curvatures;
 use crate::Real;
 use crate::feedback::FeedbackOperation;
 use crate::laws::guide;
-use crate::scene::{Guide, Motion, NamedSignal, Signal, SignalId};
+use crate::measure::TermInput;
+use crate::scene::{CouplingMeasure, Guide, JointId, Motion, NamedSignal, Signal, SignalId};
 use crate::step::InputError;
 use alloc::vec::Vec;
 use core::ops::Range;
@@ -307,7 +308,10 @@ impl<T: Real> Prescribed<T> {
                 let to = number(self.signals.len() + i);
                 let operation = match course.on {
                     Some(on) if self.signals.follows_motion(signal) => {
-                        FeedbackOperation::Force { from, on: feedback.measure(on) }
+                        let of =
+                            CouplingMeasure::Coordinate { joint: JointId::new(on.0), number: on.1 };
+                        let on = feedback.measure(TermInput::measured(&of));
+                        FeedbackOperation::Force { from, on }
                     }
                     _ => FeedbackOperation::Component { from, component },
                 };

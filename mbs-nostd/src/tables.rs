@@ -253,6 +253,7 @@ impl<
                 feedback: FeedbackSlices {
                     steps: &self.operations,
                     links: &self.measured,
+                    measures: &[],
                     n_states: self.states.len(),
                     signals: &[],
                 },

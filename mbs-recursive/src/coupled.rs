@@ -201,7 +201,7 @@ impl<T: Real, S: Space<T>> Couplings<'_, T, S> {
     }
 
     /// Value, rate and the part of the acceleration that is known, of what a term measures; and the size of what the rate is made of.
-    fn measure(
+    pub(crate) fn measure(
         &self,
         (of, starts): (&SumMeasure<T>, Span),
         here: Here<'_, T, S>,

@@ -3,6 +3,7 @@
 use crate::closed_loop::ClosedLoop;
 use crate::coupled::{CoupledRow, LinePoint, LinkStart, NONE, SumMeasure, SumTerm};
 use crate::error::TreeError;
+use crate::feedback::FeedbackMeasure;
 use crate::link::{Link, LinkKind};
 use crate::loops::index;
 use crate::plan::Span;
@@ -58,9 +59,18 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
             return Ok(());
         }
         let links = self.coordinate_links(scene);
-        for &(joint, number) in &feedback.measured {
-            let link = self.sole_link(&links, (joint, number));
-            self.measured.push(link.ok_or(TreeError::Signal { joint })?);
+        for (number, term) in feedback.measured.iter().enumerate() {
+            if let Some(of) = term.coordinate {
+                let link = self.sole_link(&links, of);
+                self.measured.push(link.ok_or(TreeError::Signal { joint: of.0 })?);
+                continue;
+            }
+            self.measured.push(NONE);
+            let first = self.couplings.starts.len();
+            let of = self.sum_measure(term, (scene, &links), first);
+            let of = of.map_err(|joint| TreeError::Signal { joint })?;
+            let starts = Span { first: index(first), end: index(self.couplings.starts.len()) };
+            self.measures.push(FeedbackMeasure { number: index(number), of, starts });
         }
         for step in &mut feedback.steps {
             if let FeedbackOperation::Curve { curve, .. } = &mut step.operation {
@@ -82,27 +92,37 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
     ) -> Result<(Span, Span), usize> {
         let (first_term, first_start) = (self.couplings.terms.len(), self.couplings.starts.len());
         for term in terms {
-            let of = match (&term.of, term.coordinate) {
-                (_, Some((joint, number))) => {
-                    let link = self.sole_link(links, (joint, number)).ok_or(joint)?;
-                    let is_guided = self.links[link as usize].kind.is_guided();
-                    SumMeasure::Joint { link, side: if is_guided { NONE } else { 0 } }
-                }
-                (CouplingMeasure::Length { points }, None) => {
-                    self.line((points, term), first_start)
-                }
-                (CouplingMeasure::Ball { joint, angle, axis }, _) => {
-                    self.ball((scene, *joint), (*angle, axis), first_start)?
-                }
-                // A coordinate has its place.
-                (CouplingMeasure::Coordinate { .. }, None) => continue,
-            };
+            let of = self.sum_measure(term, (scene, links), first_start)?;
             let curve = self.couplings.add_curve(&term.curve);
             self.couplings.terms.push(SumTerm { factor: term.factor / scale, curve, of });
         }
         let terms = Span { first: index(first_term), end: index(self.couplings.terms.len()) };
         let starts = Span { first: index(first_start), end: index(self.couplings.starts.len()) };
         Ok((terms, starts))
+    }
+
+    /// What a term measures; its links are added to those of its row, which begin at `first`.
+    ///
+    /// # Errors
+    /// The joint whose coordinate no link has alone.
+    fn sum_measure(
+        &mut self,
+        term: &TermInput<T>,
+        (scene, links): (&Scene<T>, &[Vec<Option<u32>>]),
+        first: usize,
+    ) -> Result<SumMeasure<T>, usize> {
+        match (&term.of, term.coordinate) {
+            (CouplingMeasure::Length { points }, _) => Ok(self.line((points, term), first)),
+            (CouplingMeasure::Ball { joint, angle, axis }, _) => {
+                self.ball((scene, *joint), (*angle, axis), first)
+            }
+            (CouplingMeasure::Coordinate { joint, number }, _) => {
+                let of = (joint.index(), *number);
+                let link = self.sole_link(links, of).ok_or(of.0)?;
+                let is_guided = self.links[link as usize].kind.is_guided();
+                Ok(SumMeasure::Joint { link, side: if is_guided { NONE } else { 0 } })
+            }
+        }
     }
 
     /// The link that has a coordinate of a joint, and no other one.

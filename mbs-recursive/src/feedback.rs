@@ -1,7 +1,8 @@
 //! Signals that follow the motion, in relative coordinates: joint coordinates are those of links.
 
+use crate::coupled::{self, NONE};
 use crate::indexing::{Outside, at, copy};
-pub use crate::slices::FeedbackSlices;
+pub use crate::slices::{FeedbackMeasure, FeedbackSlices};
 use crate::slices::{Store, TreeSlices};
 use crate::space::Space;
 use mbs_core::Real;
@@ -34,8 +35,17 @@ fn evaluate<T: Real, S: Space<T>>(
     s: &mut Store<'_, T, S>,
 ) -> Result<(), Outside> {
     let coordinates = (&*s.z, &*s.v, &*s.guides);
+    let placed = &*s.placed;
     let measure = |number: u32| {
         let link = *at(m.feedback.links, number as usize)?;
+        if coupled::IS_BUILT && link == NONE {
+            let mut measures = m.feedback.measures.iter();
+            let found = measures.find(|measure| measure.number == number).ok_or(Outside)?;
+            let here = (m.links, placed, coordinates);
+            let ([value, rate, _], _) =
+                m.loops.couplings.measure((&found.of, found.starts), here)?;
+            return Ok([value, rate]);
+        }
         let [value, rate, _] = at(m.links, link as usize)?.coordinate(coordinates)?;
         Ok([value, rate])
     };

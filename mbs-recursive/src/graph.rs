@@ -139,7 +139,10 @@ impl Demands {
             }
         }
         for signal in &scene.signals {
-            if let SignalKind::Measure { joint, .. } = signal.kind {
+            // a length and the swing of a ball are known wherever the joint is cut
+            if let SignalKind::Measure { of: CouplingMeasure::Coordinate { joint, .. }, .. } =
+                signal.kind
+            {
                 new.is_measured[joint.index()] = true;
             }
         }

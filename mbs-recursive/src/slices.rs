@@ -1,8 +1,10 @@
 //! A mechanism and its scratch as slices, so that every step runs on memory of the caller's choice.
 
+use crate::coupled::SumMeasure;
 use crate::link::{ArticulatedInertia, Link, LinkMotion, LinkRotor};
 use crate::loads::{Instant, Load};
 use crate::loops::{LoopStore, Loops};
+use crate::plan::Span;
 use crate::space::Space;
 use mbs_core::Real;
 use mbs_core::feedback::{FeedbackStep, SignalStates};
@@ -35,14 +37,27 @@ pub struct TreeSlices<'a, T: Real, S: Space<T>> {
     pub n_freedoms: usize,
 }
 
+/// A length or an angle of a ball that signals measure.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct FeedbackMeasure<T> {
+    /// Its number among all that is measured.
+    pub number: u32,
+    /// What it is.
+    pub of: SumMeasure<T>,
+    /// The links on which it has points.
+    pub starts: Span,
+}
+
 /// The operations that give signals which follow the motion, with the links whose coordinates they measure. Functions are those of
 /// [`Couplings`](crate::coupled::Couplings).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FeedbackSlices<'a, T> {
     /// The operations.
     pub steps: &'a [FeedbackStep<T>],
-    /// The link of each measured coordinate.
+    /// The link of each measured coordinate; [`NONE`](crate::coupled::NONE): what is measured is no coordinate.
     pub links: &'a [u32],
+    /// What is measured and is no coordinate.
+    pub measures: &'a [FeedbackMeasure<T>],
     /// Number of states.
     pub n_states: usize,
     /// The signals that follow the motion, by their numbers among the courses.
@@ -53,7 +68,7 @@ impl<T> FeedbackSlices<'_, T> {
     /// Of a mechanism without such signals.
     #[must_use]
     pub const fn none() -> Self {
-        Self { steps: &[], links: &[], n_states: 0, signals: &[] }
+        Self { steps: &[], links: &[], measures: &[], n_states: 0, signals: &[] }
     }
 }
 

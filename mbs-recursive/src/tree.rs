@@ -5,7 +5,7 @@ use crate::coupled::Couplings;
 use crate::coupling_tables::CouplingTables;
 use crate::error::TreeError;
 use crate::fault::Fault;
-use crate::feedback::FeedbackSlices;
+use crate::feedback::{FeedbackMeasure, FeedbackSlices};
 use crate::graph::{Branch, span};
 use crate::indexing::own;
 use crate::joint_facts::JointFacts;
@@ -60,6 +60,8 @@ pub struct TreeModel<T: Real, S: Space<T>> {
     pub(crate) feedback: Feedback<T>,
     /// The link of each coordinate that signals measure.
     pub(crate) measured: Vec<u32>,
+    /// What else signals measure.
+    pub(crate) measures: Vec<FeedbackMeasure<T>>,
     pub(crate) order: Order,
     pub(crate) loads: Vec<Load<T, S>>,
     pub(crate) rotors: Vec<LinkRotor<T>>,
@@ -159,6 +161,7 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
             couplings: CouplingTables::default(),
             feedback: Feedback::default(),
             measured: Vec::new(),
+            measures: Vec::new(),
             order: Order::default(),
             loads: Vec::new(),
             rotors: Vec::new(),
@@ -340,6 +343,7 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
             feedback: FeedbackSlices {
                 steps: &self.feedback.steps,
                 links: &self.measured,
+                measures: &self.measures,
                 n_states: self.feedback.starts.len(),
                 signals: &self.feedback.signals,
             },

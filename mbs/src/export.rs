@@ -4,7 +4,7 @@ use crate::settings::ResolvedMethod;
 use crate::simulation::Simulation;
 use crate::stop::StopError;
 use mbs_core::effects::Value as EffectValue;
-use mbs_core::scene::{CouplingTerm, Dimension, Effect, Scene};
+use mbs_core::scene::{CouplingTerm, Dimension, Effect, Scene, SignalKind};
 use mbs_nostd::LoadError;
 use mbs_nostd::export::{Collected, MovingSignal, bytes, source};
 use mbs_nostd::format::Axes;
@@ -33,6 +33,8 @@ pub enum ExportError {
     Sum(String),
     /// A signal of this name is a wave, a ramp or a table that holds or repeats, or a guide follows it that is no spline or step.
     Signal(String),
+    /// A signal of this name measures a length or an angle of a ball, which is not written for controllers.
+    Measure(String),
     /// The guide of a joint of this name gives a rotation vector, which is not written for controllers.
     Guide(String),
     /// A ladder names what the scene has not, or is no price list.
@@ -63,6 +65,12 @@ impl core::fmt::Display for ExportError {
                     f,
                     "signal `{name}` cannot be written for a controller: it is a wave, a ramp or a table that holds or repeats, or a \
                      guide follows it that is no spline or step"
+                )
+            }
+            Self::Measure(name) => {
+                write!(
+                    f,
+                    "signal `{name}` cannot be written for a controller: it measures a length or an angle of a ball"
                 )
             }
             Self::Guide(name) => {
@@ -107,6 +115,10 @@ fn in_space<S: Axes<f64>, const D: usize>(
 ) -> Result<Exported, ExportError> {
     if let Some(name) = guided_ball(scene) {
         return Err(ExportError::Guide(name));
+    }
+    let is_no_coordinate = |kind: &SignalKind<f64>| matches!(kind, SignalKind::Measure { of, .. } if of.coordinate().is_none());
+    if let Some(signal) = scene.signals.iter().find(|signal| is_no_coordinate(&signal.kind)) {
+        return Err(ExportError::Measure(signal.name.clone()));
     }
     let simulation = Simulation::<f64, D>::new(scene, settings)?;
     let tree = TreeModel::<f64, S>::new(scene);

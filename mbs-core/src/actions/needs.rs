@@ -3,7 +3,7 @@
 use crate::Real;
 use crate::actions::{Action, Actions};
 use crate::outputs::{Quantity, RelativePoint, Target};
-use crate::scene::{BallAngle, BodyId, CouplingMeasure, Entry, InitialTarget, Scene};
+use crate::scene::{BallAngle, BodyId, CouplingMeasure, Entry, InitialTarget, Scene, SignalKind};
 
 /// What is asked of a body.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -20,7 +20,7 @@ pub(crate) enum Need<T> {
     Coordinates(usize, Option<usize>),
 }
 
-/// Hands out what initial values, guides, effects, couplings, what rolls, and outputs ask for.
+/// Hands out what initial values, guides, effects, couplings, signals, what rolls, and outputs ask for.
 ///
 /// Cost: one pass over them.
 pub(crate) fn needs<T: Real>(
@@ -40,6 +40,11 @@ pub(crate) fn needs<T: Real>(
     for (i, coupling) in scene.couplings.iter().enumerate() {
         for term in coupling.terms.iter().filter(|term| !term.factor.is_zero()) {
             of_measure(&term.of, &mut |need| take(Entry::Coupling(i), need));
+        }
+    }
+    for (i, signal) in scene.signals.iter().enumerate() {
+        if let SignalKind::Measure { of, .. } = &signal.kind {
+            of_measure(of, &mut |need| take(Entry::Signal(i), need));
         }
     }
     for (i, rolling) in scene.rollings.iter().enumerate() {

@@ -2,7 +2,7 @@
 
 use crate::Real;
 use crate::feedback::{CourseSlope, FeedbackOperation, FeedbackStep};
-use crate::measure::PreparedCurve;
+use crate::measure::{PreparedCurve, TermInput};
 use alloc::vec::Vec;
 
 /// Signals that follow the motion: the operations that give them, with what these refer to.
@@ -10,8 +10,8 @@ use alloc::vec::Vec;
 pub struct Feedback<T> {
     /// The operations, in their order.
     pub steps: Vec<FeedbackStep<T>>,
-    /// Joint and number of each coordinate that is measured.
-    pub measured: Vec<(usize, usize)>,
+    /// What is measured.
+    pub measured: Vec<TermInput<T>>,
     /// What each state begins with.
     pub starts: Vec<T>,
     /// The signals that follow the motion, by their numbers.
@@ -45,8 +45,8 @@ impl<T: Real> Feedback<T> {
         self.steps.push(FeedbackStep { to, operation });
     }
 
-    /// The number of a measured coordinate.
-    pub(super) fn measure(&mut self, of: (usize, usize)) -> u32 {
+    /// The number of something that is measured.
+    pub(super) fn measure(&mut self, of: TermInput<T>) -> u32 {
         let known = self.measured.iter().position(|measured| *measured == of);
         number(known.unwrap_or_else(|| {
             self.measured.push(of);

@@ -12,7 +12,7 @@ use super::feedback::{Feedback, number};
 use crate::Real;
 use crate::feedback::{FeedbackOperation, chain, clamp, product};
 use crate::laws::guide;
-use crate::measure::{PreparedCurve, within};
+use crate::measure::{PreparedCurve, TermInput, within};
 use crate::scene::{
     Curve, Interpolation, NamedSignal, SignalId, SignalKind, TableEnds, first_of, signal_order,
 };
@@ -228,8 +228,8 @@ impl<T: Real> Node<T> {
             limit.unwrap_or_else(|| T::from_f64(sign * f64::INFINITY))
         };
         match &self.kind {
-            SignalKind::Measure { joint, number, is_rate } => {
-                let number = feedback.measure((joint.index(), *number));
+            SignalKind::Measure { of, is_rate } => {
+                let number = feedback.measure(TermInput::measured(of));
                 feedback.push(
                     to,
                     if *is_rate {

@@ -1,10 +1,9 @@
 //! A coupling with its curves and its function of time prepared.
 
-use super::PreparedCurve;
+use super::TermInput;
 use crate::Real;
-use crate::algebra::{Vector, norm};
 use crate::inputs::GuideInput;
-use crate::scene::{BodyId, Coupling, CouplingMeasure, CouplingTerm, Motion};
+use crate::scene::{Coupling, Motion};
 use alloc::vec::Vec;
 
 /// A coupling, prepared.
@@ -14,21 +13,6 @@ pub struct CouplingInput<T> {
     pub terms: Vec<TermInput<T>>,
     /// What the sum is in the course of time, where it is not always zero.
     pub sum: Option<GuideInput<T>>,
-}
-
-/// A term of a coupling, prepared.
-#[derive(Debug, Clone, PartialEq)]
-pub struct TermInput<T> {
-    /// Its factor.
-    pub factor: T,
-    /// What it measures.
-    pub of: CouplingMeasure<T>,
-    /// Joint and number of a coordinate; `None` of a length.
-    pub coordinate: Option<(usize, usize)>,
-    /// The function of the measured number.
-    pub curve: PreparedCurve<T>,
-    /// Does a length count whole, and not from the reference configuration?
-    pub is_whole: bool,
 }
 
 impl<T: Real> CouplingInput<T> {
@@ -51,40 +35,5 @@ impl<T: Real> CouplingInput<T> {
     #[must_use]
     pub fn scale(&self) -> T {
         self.terms.iter().fold(T::ZERO, |most, term| most.max(term.factor.abs()))
-    }
-}
-
-impl<T: Real> TermInput<T> {
-    /// Prepares the terms whose factor is not zero.
-    #[must_use]
-    pub fn all(terms: &[CouplingTerm<T>]) -> Vec<Self> {
-        let terms = terms.iter().filter(|term| !term.factor.is_zero());
-        let prepared = terms.map(|term| Self {
-            factor: term.factor,
-            of: term.of.clone(),
-            coordinate: term.of.coordinate().map(|(joint, number)| (joint.index(), number)),
-            curve: PreparedCurve::new(term.curve.as_ref()),
-            is_whole: false,
-        });
-        prepared.collect()
-    }
-
-    /// The whole length of a line over points.
-    #[must_use]
-    pub fn line(points: &[(BodyId, [T; 3])]) -> Self {
-        Self {
-            factor: T::ONE,
-            of: CouplingMeasure::Length { points: points.to_vec() },
-            coordinate: None,
-            curve: PreparedCurve::Identity,
-            is_whole: true,
-        }
-    }
-
-    /// What a length over these points counts from [m]: without the length in the reference configuration, zero.
-    #[must_use]
-    pub fn reference_of(&self, points: &[[T; 3]; 2]) -> T {
-        let [p, q] = points.map(Vector::<T, 3>::from);
-        if self.is_whole { T::ZERO } else { norm(&(q - p)) }
     }
 }

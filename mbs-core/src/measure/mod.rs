@@ -14,10 +14,12 @@ mod mesh;
 mod rolling;
 #[cfg(feature = "alloc")]
 mod rotor;
+#[cfg(feature = "alloc")]
+mod term;
 
 pub use contact::{Moving, lies_flat, lowest_place, lowest_point};
 #[cfg(feature = "alloc")]
-pub use coupling::{CouplingInput, TermInput};
+pub use coupling::CouplingInput;
 #[cfg(feature = "alloc")]
 pub use curve::PreparedCurve;
 #[cfg(feature = "alloc")]
@@ -31,3 +33,5 @@ pub(crate) use mesh::MeshedWheels;
 pub use rolling::RollingInput;
 #[cfg(feature = "alloc")]
 pub use rotor::RotorInput;
+#[cfg(feature = "alloc")]
+pub use term::TermInput;

@@ -30,7 +30,7 @@ pub(super) struct Builder<'a, T: Real> {
     pub(super) shared: Vec<Vec<usize>>,
     pub(super) groups: Vec<GroupDraft<T>>,
     /// What signals measure.
-    pub(super) measured: Vec<MeasureDraft<T>>,
+    pub(super) measured: Vec<Vec<MeasureDraft<T>>>,
     /// Rotors, each with its entity.
     pub(super) rotors: Vec<(usize, RotorInput<T>)>,
     /// Group of each joint that has rows.

@@ -1,6 +1,7 @@
 //! Signals that follow the motion, in natural coordinates: joint coordinates by points and directions.
 
 use super::build::Builder;
+use super::group::index;
 use super::layout::{Columns, Layout};
 use super::model::NaturalModel;
 use super::row_builder::MeasureDraft;
@@ -15,19 +16,25 @@ use core::convert::Infallible;
 impl<T: Real> Builder<'_, T> {
     /// What signals measure; the check of a scene refuses coordinates that nothing measures.
     pub(super) fn add_measured(&mut self, feedback: &Feedback<T>) {
-        for &(joint, number) in &feedback.measured {
-            let draft = self.coordinate_measure(joint, number);
-            self.measured.extend(draft);
+        for term in &feedback.measured {
+            let measures = self.coupled_draft(term, T::ONE).measures;
+            self.measured.push(measures);
         }
     }
 }
 
 impl<T: Real, const D: usize> Layout<T, D> {
-    pub(super) fn add_measured(&mut self, draft: &MeasureDraft<T>) {
-        let entities = draft.combinations().into_iter().flatten();
-        let slots: Vec<usize> = entities.map(|(entity, _)| *entity).collect();
-        let measured = self.signed(draft, &Columns { slots: &slots });
-        self.model.measured.push(measured);
+    /// Adds one number: the sum of these measures.
+    pub(super) fn add_measured(&mut self, drafts: &[MeasureDraft<T>]) {
+        let first = index(self.model.measured.len());
+        for draft in drafts {
+            let entities = draft.combinations().into_iter().flatten();
+            let slots: Vec<usize> = entities.map(|(entity, _)| *entity).collect();
+            let measured = self.signed(draft, &Columns { slots: &slots });
+            self.model.measured.push(measured);
+        }
+        let end = index(self.model.measured.len());
+        self.model.measured_numbers.push(Span { start: first, end });
     }
 }
 
@@ -41,12 +48,14 @@ impl<T: Real, const D: usize> NaturalModel<T, D> {
         let rate = |x: Span| combine::<T, D>(x.of(&self.pool), v);
         let Terms { angles, courses, signals, signal_starts, signal_dt, course_slopes, .. } = terms;
         let measure = |number: u32| {
-            let Some(measured) = self.measured.get(number as usize) else {
-                return Ok([T::ZERO; 2]);
-            };
-            let value = measured_value(&measured.of, at, angles);
-            let [speed, _] = rate_and_bias(&measured.of, at, rate);
-            Ok::<_, Infallible>([measured.sign * value, measured.sign * speed])
+            let of = self.measured_numbers.get(number as usize).copied().unwrap_or_default();
+            let parts = of.of(&self.measured).iter().map(|measured| {
+                let value = measured_value(&measured.of, at, angles);
+                let [speed, _] = rate_and_bias(&measured.of, at, rate);
+                [measured.sign * value, measured.sign * speed]
+            });
+            let sum = parts.reduce(|a, b| [a[0] + b[0], a[1] + b[1]]);
+            Ok::<_, Infallible>(sum.unwrap_or([T::ZERO; 2]))
         };
         let curve = |number: u32, x: T| Ok(self.feedback.curves[number as usize].at(x));
         let mut states = SignalStates {

@@ -122,6 +122,7 @@ impl<T: Real, const D: usize> Layout<T, D> {
             curves: Vec::new(),
             coupled_angles: Vec::new(),
             measured: Vec::new(),
+            measured_numbers: Vec::new(),
             feedback: Feedback::default(),
             rotors: Vec::new(),
             groups: Vec::new(),

@@ -48,6 +48,8 @@ pub struct NaturalModel<T: Real, const D: usize> {
     pub(super) coupled_angles: Vec<((usize, usize), T, u32)>,
     /// What signals measure, and the operations that give them.
     pub(super) measured: Vec<Signed<T>>,
+    /// Of each number that signals measure, the measures that it is the sum of.
+    pub(super) measured_numbers: Vec<Span>,
     pub(super) feedback: Feedback<T>,
     pub(super) rotors: Vec<NaturalRotor<T>>,
     pub(super) groups: Vec<Group>,

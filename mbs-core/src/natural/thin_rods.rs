@@ -33,9 +33,6 @@ impl<T: Real> ThinRods<T> {
         let mut rods = Self { ends, tolerance: length * relative };
         rods.ask_joints(scene);
         needs(scene, actions, &mut |_, need| rods.ask(scene, &need));
-        for (joint, _) in actions.prescribed.feedback().measured {
-            rods.ask(scene, &Need::Coordinates(joint, None));
-        }
         rods
     }
 

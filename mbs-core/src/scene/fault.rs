@@ -85,6 +85,8 @@ pub enum SceneFault {
     NoBall,
     /// A coupling has an angle of a ball.
     BallHeld,
+    /// A twist of a ball that a signal measures.
+    TwistMeasured,
     /// The coordinate of a joint that has several is missing, or is none of them.
     NeedsCoordinate {
         /// The joint's kind.
@@ -259,6 +261,7 @@ impl SceneFault {
             Self::NeedsCoordinate { .. } => "write one of these names",
             Self::BallCoordinate => "name a joint that turns about axes, such as a universal joint",
             Self::NoBall => "name a joint with a ball, such as a spherical one",
+            Self::TwistMeasured => "measure the swing, or a joint that turns about axes",
             Self::BallHeld => {
                 "use it in the `terms` of an effect, or hold a joint that turns about axes"
             }
@@ -382,6 +385,7 @@ impl SceneFault {
             }
             Self::BallCoordinate => write!(f, "is a component of a rotation, not an angle"),
             Self::NoBall => write!(f, "is an angle of a ball, which the joint has not"),
+            Self::TwistMeasured => write!(f, "has no value where the swing is half a turn"),
             Self::BallHeld => write!(f, "has an angle of a ball, which no coupling holds"),
             Self::NoTerm => write!(f, "has no term with a factor that is not zero"),
             Self::LiesFlat => write!(f, "is along the plane's normal: the disc lies flat"),

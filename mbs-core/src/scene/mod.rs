@@ -17,6 +17,8 @@ pub(crate) mod check;
 #[cfg(feature = "alloc")]
 mod coupling;
 #[cfg(feature = "alloc")]
+mod coupling_term;
+#[cfg(feature = "alloc")]
 mod curve;
 #[cfg(feature = "alloc")]
 mod data;
@@ -60,7 +62,9 @@ pub use axes::transverse;
 #[cfg(feature = "alloc")]
 pub use build::StartedJoint;
 #[cfg(feature = "alloc")]
-pub use coupling::{BallAngle, Coupling, CouplingKind, CouplingMeasure, CouplingTerm, Mesh};
+pub use coupling::{Coupling, CouplingKind, Mesh};
+#[cfg(feature = "alloc")]
+pub use coupling_term::{BallAngle, CouplingMeasure, CouplingTerm};
 #[cfg(feature = "alloc")]
 pub use curve::{Curve, TableEnds};
 #[cfg(feature = "alloc")]

@@ -220,18 +220,21 @@ impl<T> Curve<T> {
 impl<T> CouplingTerm<T> {
     pub(crate) fn map<U>(&self, f: &mut impl FnMut(&T) -> U) -> CouplingTerm<U> {
         let curve = self.curve.as_ref().map(|curve| curve.map(f));
-        let of = match &self.of {
-            &CouplingMeasure::Coordinate { joint, number } => {
-                CouplingMeasure::Coordinate { joint, number }
-            }
-            CouplingMeasure::Ball { joint, angle, axis } => {
+        CouplingTerm { factor: f(&self.factor), of: self.of.map(f), curve }
+    }
+}
+
+impl<T> CouplingMeasure<T> {
+    pub(super) fn map<U>(&self, f: &mut impl FnMut(&T) -> U) -> CouplingMeasure<U> {
+        match self {
+            &Self::Coordinate { joint, number } => CouplingMeasure::Coordinate { joint, number },
+            Self::Ball { joint, angle, axis } => {
                 CouplingMeasure::Ball { joint: *joint, angle: *angle, axis: all(axis, f) }
             }
-            CouplingMeasure::Length { points } => CouplingMeasure::Length {
+            Self::Length { points } => CouplingMeasure::Length {
                 points: points.iter().map(|(body, at)| (*body, all(at, f))).collect(),
             },
-        };
-        CouplingTerm { factor: f(&self.factor), of, curve }
+        }
     }
 }
 

@@ -11,7 +11,7 @@
 //! and the states x, belong to the mechanism: a step is made with them, and undone with them.
 
 use crate::Real;
-use crate::scene::{Curve, JointId, SignalId, TableEnds};
+use crate::scene::{CouplingMeasure, Curve, SignalId, TableEnds};
 use alloc::string::String;
 use alloc::vec;
 use alloc::vec::Vec;
@@ -147,12 +147,10 @@ pub enum SignalKind<T> {
         /// Its unit, for people.
         unit: String,
     },
-    /// A coordinate of a joint, or its rate.
+    /// A number that the mechanism has, or its rate.
     Measure {
-        /// The joint.
-        joint: JointId,
-        /// Which of its coordinates, from 0.
-        number: usize,
+        /// Which number; a length counts whole, and not from the reference configuration.
+        of: CouplingMeasure<T>,
         /// Its rate, and not its value?
         is_rate: bool,
     },
@@ -303,8 +301,8 @@ impl<T> SignalKind<T> {
             Self::Input { value, unit } => {
                 SignalKind::Input { value: f(value), unit: unit.clone() }
             }
-            Self::Measure { joint, number, is_rate } => {
-                SignalKind::Measure { joint: *joint, number: *number, is_rate: *is_rate }
+            Self::Measure { of, is_rate } => {
+                SignalKind::Measure { of: of.map(f), is_rate: *is_rate }
             }
             Self::Lag { of, time, value } => {
                 SignalKind::Lag { of: *of, time: f(time), value: f(value) }

@@ -103,7 +103,13 @@ impl<T: Real> SignalTables<T> {
 
     /// The operations, with the links of the measured coordinates.
     pub(super) fn feedback<'a>(&'a self, links: &'a [u32]) -> FeedbackSlices<'a, T> {
-        FeedbackSlices { steps: &self.steps, links, n_states: self.n_states, signals: &[] }
+        FeedbackSlices {
+            steps: &self.steps,
+            links,
+            measures: &[],
+            n_states: self.n_states,
+            signals: &[],
+        }
     }
 
     /// The states among those of signals.

@@ -241,7 +241,7 @@ fn signals<T: Real + Record, S: Axes<T>>(
     table("CURVE_NUMBERS", "Scalar", couplings.numbers, to);
     [
         "curves: &CURVES, knots: &CURVE_KNOTS, numbers: &CURVE_NUMBERS, ",
-        "FeedbackSlices { steps: &OPERATIONS, links: &MEASURED, n_states: STATES.len(), signals: &[] }",
+        "FeedbackSlices { steps: &OPERATIONS, links: &MEASURED, n_states: STATES.len(), signals: &[], ..FeedbackSlices::none() }",
         "&STATES",
     ]
 }

@@ -148,7 +148,7 @@ pub static MODEL: Model<'static, Scalar, Axes> = Model {
         loads: &LOADS,
         rotors: &ROTORS,
         tables: LawInputs::courses(&[]),
-        feedback: FeedbackSlices { steps: &OPERATIONS, links: &MEASURED, n_states: STATES.len(), signals: &[] },
+        feedback: FeedbackSlices { steps: &OPERATIONS, links: &MEASURED, n_states: STATES.len(), signals: &[], ..FeedbackSlices::none() },
         gravity: vector([0.0, 0.0]),
         base: vector([0.0, 0.0]),
         length: 1.0,

@@ -413,22 +413,30 @@ fn read_term<'a>(
 ) -> Read<CouplingTerm<Number>> {
     let context = fields.context;
     let term = context.table(item, "a term like { joint = \"j\", factor = 1.0 }")?;
-    let ball = ball_term(&term, joints, one())?;
-    term.allow(&TERM_KEYS[..TERM_KEYS.len() - usize::from(ball.is_none())], &[])?;
-    term.exclusive("joint", "points")?;
-    let of = if let Some(ball) = ball {
-        ball.of
-    } else if let Some(points) = term.get("points") {
-        CouplingMeasure::Length { points: read_points(fields, points)? }
-    } else {
-        let (joint, number) = measured_coordinate(&term, joints)?;
-        CouplingMeasure::Coordinate { joint, number }
-    };
+    let is_ball = ball_angle(&term, joints)?.is_some();
+    term.allow(&TERM_KEYS[..TERM_KEYS.len() - usize::from(!is_ball)], &[])?;
+    let of = read_measure(&term, joints)?;
     Ok(CouplingTerm { factor: term.number_or("factor", "1")?, of, curve: read_curve(&term)? })
 }
 
+/// What `points`, or `joint` with `coordinate`, measure.
+pub(crate) fn read_measure<'a>(
+    fields: &Fields<'a>,
+    joints: &'a [Joint<Number>],
+) -> Read<CouplingMeasure<Number>> {
+    fields.exclusive("joint", "points")?;
+    if let Some(ball) = ball_term(fields, joints, one())? {
+        return Ok(ball.of);
+    }
+    if let Some(points) = fields.get("points") {
+        return Ok(CouplingMeasure::Length { points: read_points(fields, points)? });
+    }
+    let (joint, number) = measured_coordinate(fields, joints)?;
+    Ok(CouplingMeasure::Coordinate { joint, number })
+}
+
 /// A joint and a coordinate of it, which need not be named where there is only one.
-pub(crate) fn measured_coordinate<'a>(
+fn measured_coordinate<'a>(
     fields: &Fields<'a>,
     joints: &'a [Joint<Number>],
 ) -> Read<(JointId, usize)> {

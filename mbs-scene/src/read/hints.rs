@@ -33,8 +33,7 @@ const RATIOS: &[&str] = &[
     "screw",
 ];
 
-const NOT_YET: &str = "there are no gears, belts and screws yet; where one of the two motions is given, add a `[[guide]]` to each of the two joints, with \
-                       its own rate";
+const COUPLES: &str = "that is a `[[coupling]]` of joints: `kind = \"gear\"`, \"belt\", \"rack\" or \"screw\", with the `joints` that it couples";
 
 const HINTS: &[Hint] = &[
     // kinds of joints
@@ -44,7 +43,7 @@ const HINTS: &[Hint] = &[
         "a motor acts on a joint: add `[[guide]]` with its `joint` for a given motion, or `[[effect]]` with `kind = \"torque\"` and the \
          `joint` for a given moment",
     ),
-    says("revolute", RATIOS, NOT_YET),
+    says("revolute", RATIOS, COUPLES),
     says(
         "revolute",
         &["spring", "damper", "spring-damper", "bushing", "bumper", "contact"],
@@ -66,7 +65,7 @@ const HINTS: &[Hint] = &[
         DRIVES,
         "a given moment is `kind = \"torque\"` with `joint` or `body`; a given motion is a `[[guide]]` with the `joint`",
     ),
-    says("torque", RATIOS, NOT_YET),
+    says("torque", RATIOS, COUPLES),
     says(
         "torque",
         &["gravity", "weight"],
@@ -96,8 +95,19 @@ const HINTS: &[Hint] = &[
     means("limit", &["stop", "end-stop", "endstop", "joint-limit"]),
     means("aero-drag", &["drag", "air", "wind", "air-resistance"]),
     means("tire", &["tyre", "wheel"]),
+    says(
+        "torque",
+        &["ball-spring", "spherical-spring"],
+        "a spring of a ball joint is `kind = \"bushing\"` at its place, with `stiffness = [0, 0, 0, k, k, k]`",
+    ),
     means("force", &["load", "point-force", "thrust"]),
     means("actuator", &["cylinder", "hydraulic-cylinder", "ram"]),
+    // kinds of couplings
+    means("differential", &["planetary", "planetary-gear", "planetary-set", "epicyclic"]),
+    means("belt", &["chain", "chain-drive", "pulley", "timing-belt"]),
+    means("rope", &["cable", "tendon", "string", "winch", "hoist"]),
+    means("rack", &["rack-and-pinion"]),
+    means("screw", &["lead-screw", "ball-screw", "spindle"]),
     // bodies
     means(
         "ground",
@@ -134,7 +144,11 @@ const HINTS: &[Hint] = &[
         ],
         "add `[[effect]]` with a `kind`, such as \"spring-damper\", \"force\", \"torque\" or \"friction\"",
     ),
-    says("joint", &["gear", "gears", "belt", "coupling", "screw"], NOT_YET),
+    says(
+        "joint",
+        &["gear", "gears", "belt", "screw", "rack", "cam", "rope", "couplings"],
+        "add `[[coupling]]` with a `kind`, such as \"gear\", \"belt\", \"rack\", \"screw\", \"cam\" or \"rope\"",
+    ),
     means("joint", &["hinge", "constraint", "constraints", "connection", "weld", "revolute"]),
     means("body", &["link", "part", "rod", "mass", "rigid-body"]),
     means("output", &["sensor", "measure", "measurement", "probe", "result", "results", "channel"]),
@@ -197,7 +211,7 @@ mod tests {
         assert!(of_word("motor", &["revolute"]).is_some_and(|hint| hint.contains("[[guide]]")));
         assert!(
             of_word("belt", &["spring-damper", "torque"])
-                .is_some_and(|hint| hint.contains("not") || hint.contains("no gears"))
+                .is_some_and(|hint| hint.contains("[[coupling]]"))
         );
     }
 

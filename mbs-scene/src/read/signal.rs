@@ -1,6 +1,6 @@
 //! `[[signal]]`, and references to signals by name.
 
-use crate::read::coupling::{measured_coordinate, need_curve, one};
+use crate::read::coupling::{need_curve, one, read_measure};
 use crate::read::fields::{Context, Fields, Read};
 use crate::read::motion::{read_ends, read_table};
 use crate::read::tree::{Item, Node};
@@ -19,7 +19,7 @@ const KINDS: [(&str, &[&str]); 15] = [
     ("curve", &["of", "table", "periodic", "coefficients"]),
     ("clamp", &["of", "lower", "upper"]),
     ("input", &["value", "unit"]),
-    ("measure", &["joint", "coordinate", "quantity"]),
+    ("measure", &["joint", "coordinate", "axis", "points", "quantity"]),
     ("lag", &["of", "time", "value"]),
     ("integral", &["of", "lower", "upper", "value"]),
     ("pid", &["target", "measured", "p", "i", "d", "limit"]),
@@ -148,15 +148,15 @@ fn table(fields: &Fields<'_>) -> Read<SignalKind<Number>> {
     Ok(SignalKind::Table { rows: read_table(fields)?, interpolation, periodic })
 }
 
-/// A coordinate of a joint, or its rate. A joint without one is left to the scene's check.
+/// A coordinate of a joint, the length over points or an angle of a ball; or its rate. A joint without one is left to the scene's check.
 fn measure<'a>(fields: &Fields<'a>, joints: &'a [Joint<Number>]) -> Read<SignalKind<Number>> {
-    let (joint, number) = measured_coordinate(fields, joints)?;
+    let of = read_measure(fields, joints)?;
     let is_rate = match fields.get("quantity").map(|_| fields.word("quantity")).transpose()? {
         None | Some(("value", _)) => false,
         Some(("rate", _)) => true,
         Some(word) => return fields.unknown_word("quantity", word, &["value", "rate"]),
     };
-    Ok(SignalKind::Measure { joint, number, is_rate })
+    Ok(SignalKind::Measure { of, is_rate })
 }
 
 fn single(fields: &Fields<'_>) -> Read<SignalId> {

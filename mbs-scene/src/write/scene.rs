@@ -414,7 +414,17 @@ impl Writer<'_> {
 
     fn term(self, term: &CouplingTerm<Number>) -> Result<Node, WriteError> {
         let mut keys = Keys::default();
-        match &term.of {
+        self.measure(&term.of, &mut keys)?;
+        keys.push("factor", &term.factor);
+        if let Some(of) = &term.curve {
+            curve(&mut keys, of);
+        }
+        Ok(keys.into())
+    }
+
+    /// The keys of a number that a mechanism has.
+    fn measure(self, of: &CouplingMeasure<Number>, keys: &mut Keys) -> Result<(), WriteError> {
+        match of {
             CouplingMeasure::Coordinate { joint, number } => {
                 keys.push("joint", self.joint_name(*joint)?);
                 keys.push("coordinate", Node::Number(number.to_string()));
@@ -428,11 +438,7 @@ impl Writer<'_> {
                 keys.push("points", self.line(points)?);
             }
         }
-        keys.push("factor", &term.factor);
-        if let Some(of) = &term.curve {
-            curve(&mut keys, of);
-        }
-        Ok(keys.into())
+        Ok(())
     }
 
     /// The points of a line, with their bodies.

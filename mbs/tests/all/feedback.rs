@@ -366,3 +366,101 @@ fn an_equilibrium_is_one_of_integrals_and_lags_too() {
     let error = error.expect_err("no rest").to_string();
     assert!(error.contains("does not come to rest"), "{error}");
 }
+
+/// A wheel with a pin, its angle, and a line from a fixed point over the pin to another one.
+struct Line {
+    /// The pin's place at angle zero, and a quarter turn further [m].
+    pin: [[f64; 3]; 2],
+    ends: [[f64; 3]; 2],
+}
+
+impl Line {
+    /// Its length at an angle, and how it grows with the angle.
+    fn at(&self, angle: f64) -> [f64; 2] {
+        let (sine, cosine) = angle.sin_cos();
+        let [x, y] = self.pin;
+        let place = [0, 1, 2].map(|i| cosine * x[i] + sine * y[i]);
+        let turning = [0, 1, 2].map(|i| cosine * y[i] - sine * x[i]);
+        self.ends.iter().fold([0.0; 2], |[length, growth], end| {
+            let gap = [0, 1, 2].map(|i| place[i] - end[i]);
+            let part = dot(gap, gap).sqrt();
+            [length + part, growth + dot(gap, turning) / part]
+        })
+    }
+
+    /// The angle after `duration` from 0.4 rad and 1 rad/s, under -90 (L - 1.5) - 4 L' on 2 kg m^2, by small steps of order four.
+    fn angle_after(&self, duration: f64) -> f64 {
+        let rate = |[angle, w]: [f64; 2]| {
+            let [length, growth] = self.at(angle);
+            [w, (-90.0 * (length - 1.5) - 4.0 * growth * w) / 2.0]
+        };
+        let (n, mut x) = (20_000, [0.4, 1.0]);
+        let h = duration / f64::from(n);
+        for _ in 0..n {
+            let go = |k: [f64; 2], h: f64| [x[0] + h * k[0], x[1] + h * k[1]];
+            let a = rate(x);
+            let b = rate(go(a, 0.5 * h));
+            let c = rate(go(b, 0.5 * h));
+            let d = rate(go(c, h));
+            x = [0, 1].map(|i| x[i] + h / 6.0 * (a[i] + 2.0 * b[i] + 2.0 * c[i] + d[i]));
+        }
+        x[0]
+    }
+}
+
+#[test]
+fn a_torque_by_the_length_of_a_line_turns_its_wheel_as_the_equation_of_its_angle_says() {
+    for dimension in [2, 3] {
+        let (pin, ends) = if dimension == 2 {
+            let pin = [[0.3, 0.0, 0.0], [0.0, 0.3, 0.0]];
+            (pin, [[0.9, 0.2, 0.0], [-0.1, 0.8, 0.0]])
+        } else {
+            // across the axle
+            let pin = [[0.24, 0.0, -0.18], [-0.108, 0.24, -0.144]];
+            (pin, [[0.9, 0.2, 0.3], [-0.1, 0.8, -0.2]])
+        };
+        let place = |x: [f64; 3]| format!("{:?}", &x[..dimension]);
+        let points = format!(
+            "points = [{{ body = \"ground\", at = {} }}, {{ body = \"wheel\", at = {} }}, {{ body = \"ground\", at = {} }}]\n",
+            place(ends[0]),
+            place(pin[0]),
+            place(ends[1])
+        );
+        let line = format!(
+            "[[signal]]\nname = \"length\"\nkind = \"measure\"\n{points}\
+             [[signal]]\nname = \"growth\"\nkind = \"measure\"\nquantity = \"rate\"\n{points}\
+             {}[[initial]]\njoint = \"axle\"\nvalue = 0.4\nrate = 1.0\n\
+             [[output]]\nname = \"length\"\nsignal = \"length\"\n",
+            constant("rest", 135.0)
+        );
+        let sum = "\"sum\"\nof = [\"length\", \"growth\", \"rest\"]\nfactors = [-90.0, -4.0, 1.0]";
+        let text = wheel(dimension, &asked(sum, &line));
+        let line = Line { pin, ends };
+        let right = line.angle_after(1.0);
+        meets(&text, (1.0, right), 1e-4);
+        let found = end(&text, Way("recursive", "rk853"), 1e-3, 1.0);
+        assert!((found[2] - line.at(right)[0]).abs() < 2e-9, "{}", found[2]);
+    }
+}
+
+#[test]
+fn the_swing_of_a_ball_is_measured_by_each_formulation() {
+    // a ball of equal moments turns about (0.48, 0.6, 0.64), across the axis of the swing
+    let text = "[scene]\ndimension = 3\nduration = 1.0\ngravity = [0.0, 0.0, 0.0]\n\
+        [[body]]\nname = \"ball\"\nmass = 1.0\ncenter = [0.0, 0.0, 0.0]\ninertia = [2.0, 2.0, 2.0, 0.0, 0.0, 0.0]\n\
+        [[joint]]\nname = \"socket\"\nkind = \"spherical\"\nbodies = [\"ground\", \"ball\"]\nat = [0.0, 0.0, 0.0]\n\
+        [[initial]]\nbody = \"ball\"\nangular_velocity = [0.96, 1.2, 1.28]\n\
+        [[signal]]\nname = \"swing\"\nkind = \"measure\"\njoint = \"socket\"\ncoordinate = \"swing\"\naxis = [0.8, 0.0, -0.6]\n\
+        [[signal]]\nname = \"speed\"\nkind = \"measure\"\njoint = \"socket\"\ncoordinate = \"swing\"\naxis = [0.8, 0.0, -0.6]\nquantity = \"rate\"\n\
+        [[output]]\nname = \"swing\"\nsignal = \"swing\"\n[[output]]\nname = \"speed\"\nsignal = \"speed\"\n";
+    for formulation in TRAPEZOIDAL {
+        let found = end(text, Way(formulation, "trapezoidal"), 1e-3, 1.0);
+        assert!((found[0] - 2.0).abs() < 1e-6, "{formulation}: {}", found[0]);
+        assert!((found[1] - 2.0).abs() < 1e-6, "{formulation}: {}", found[1]);
+    }
+    let twist = text.replace("\"swing\"\naxis", "\"twist\"\naxis");
+    let refused = SceneFile::parse(&twist, "t").and_then(|file| file.scene::<f64>().map(|_| ()));
+    let message = refused.expect_err("it has no value everywhere").to_string();
+    let says = "`coordinate` has no value where the swing is half a turn";
+    assert!(message.contains(says), "{message}");
+}

@@ -1,11 +1,10 @@
 //! The firmware example on emulated boards: built, run, disassembled, and compared with the same run on the host.
 
-use super::Sizes;
 use super::board::{Board, M4, M7, build, emulate, export, on_host};
 use super::image::{Image, reachable};
 use super::in_c;
 use super::run_report::RunReport;
-use super::sizes;
+use super::sizes::{self, Sizes};
 use super::toolchain::Toolchain;
 use crate::debian;
 use crate::process::{self, output};

@@ -22,6 +22,7 @@ mod toolchain;
 
 use crate::process;
 use crate::summary::{self, Outcome};
+use sizes::Sizes;
 use std::process::ExitCode;
 use std::thread;
 use table::{Build, TARGETS};
@@ -30,15 +31,6 @@ use toolchain::Toolchain;
 /// Runs the check by itself: here a toolchain that is missing is a failure.
 pub fn check_nostd() -> ExitCode {
     summary::ended("check-nostd", check_with(Sizes::OfEach))
-}
-
-/// Of which sets of features images are made.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Sizes {
-    /// None, and all.
-    OfAll,
-    /// These, and each alone.
-    OfEach,
 }
 
 /// Builds the rows of the table for their targets, and runs the firmware.

@@ -1,12 +1,20 @@
 //! What each effect's feature, and that of all machine elements, adds to an image: flash, static data, stack.
 
-use super::Sizes;
 use super::board::{M7, build, emulate, export};
 use super::image::Image;
 use super::run_report::RunReport;
 use super::toolchain::Toolchain;
 use crate::effects::{self, Listed};
 use std::path::Path;
+
+/// Of which sets of features images are made.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Sizes {
+    /// None, and all.
+    OfAll,
+    /// These, and each alone.
+    OfEach,
+}
 
 /// Modules of the law of tires, which no other effect shares.
 const OF_TIRES: [&str; 5] =

@@ -63,23 +63,26 @@ fn unit_of_coordinate<T>(scene: &Scene<T>, joint: JointId, number: usize) -> &'s
 
 /// The unit of a sum: that of its slides and lengths, whose factors are numbers, else that of its angles.
 fn unit_of_sum<T>(scene: &Scene<T>, terms: &[CouplingTerm<T>]) -> &'static str {
-    let unit = |of: &CouplingMeasure<T>| match of {
-        CouplingMeasure::Coordinate { joint, number } => unit_of_coordinate(scene, *joint, *number),
-        CouplingMeasure::Length { .. } => "m",
-        CouplingMeasure::Ball { .. } => "rad",
-    };
-    let mut units = terms.iter().map(|term| unit(&term.of));
+    let mut units = terms.iter().map(|term| unit_of_number(scene, &term.of));
     units.find(|unit| *unit == "m").unwrap_or("rad")
 }
 
-/// The unit of a signal: that of the coordinate that it measures, and of an input, also late or within limits; `-` of what is made of
+fn unit_of_number<T>(scene: &Scene<T>, of: &CouplingMeasure<T>) -> &'static str {
+    match of {
+        CouplingMeasure::Coordinate { joint, number } => unit_of_coordinate(scene, *joint, *number),
+        CouplingMeasure::Length { .. } => "m",
+        CouplingMeasure::Ball { .. } => "rad",
+    }
+}
+
+/// The unit of a signal: that of the number that it measures, and of an input, also late or within limits; `-` of what is made of
 /// others.
 fn unit_of_signal<T>(scene: &Scene<T>, mut signal: SignalId) -> &str {
     // No walk without a circle is longer.
     for _ in &scene.signals {
         match scene.signals.get(signal.index()).map(|signal| &signal.kind) {
-            Some(SignalKind::Measure { joint, number, is_rate }) => {
-                return match (unit_of_coordinate(scene, *joint, *number), is_rate) {
+            Some(SignalKind::Measure { of, is_rate }) => {
+                return match (unit_of_number(scene, of), is_rate) {
                     ("m", true) => "m/s",
                     (_, true) => "rad/s",
                     (unit, false) => unit,

@@ -38,21 +38,7 @@ pub(super) fn check_terms<T: Real>(
 ) -> Result<(), SceneError> {
     for CouplingTerm { factor, of, curve } in terms {
         place.finite("factor", *factor)?;
-        match of {
-            CouplingMeasure::Coordinate { joint, number } => {
-                check_measured(scene, (*joint, *number), place)?;
-            }
-            CouplingMeasure::Length { points } => check_points(scene, points, place)?,
-            CouplingMeasure::Ball { joint, axis, .. } => {
-                let Some(joint) = scene.joints.get(joint.index()) else {
-                    return place.fault("joint", SceneFault::UnknownReference);
-                };
-                if !joint.freedoms(scene.dimension).contains(&Freedom::Ball) {
-                    return place.fault("coordinate", SceneFault::NoBall);
-                }
-                place.axis("axis", *axis)?;
-            }
-        }
+        check_measure(scene, of, place)?;
         if let Some(curve) = curve {
             check_curve(curve, place)?;
         }
@@ -61,6 +47,29 @@ pub(super) fn check_terms<T: Real>(
         return place.fault("terms", SceneFault::NoTerm);
     }
     Ok(())
+}
+
+/// A number that the scene has.
+pub(super) fn check_measure<T: Real>(
+    scene: &Scene<T>,
+    of: &CouplingMeasure<T>,
+    place: Place,
+) -> Result<(), SceneError> {
+    match of {
+        CouplingMeasure::Coordinate { joint, number } => {
+            check_measured(scene, (*joint, *number), place)
+        }
+        CouplingMeasure::Length { points } => check_points(scene, points, place),
+        CouplingMeasure::Ball { joint, axis, .. } => {
+            let Some(joint) = scene.joints.get(joint.index()) else {
+                return place.fault("joint", SceneFault::UnknownReference);
+            };
+            if !joint.freedoms(scene.dimension).contains(&Freedom::Ball) {
+                return place.fault("coordinate", SceneFault::NoBall);
+            }
+            place.axis("axis", *axis)
+        }
+    }
 }
 
 /// The pitch point lies where the teeth of both wheels give the torques that the factors say.

@@ -22,7 +22,8 @@ pub(super) fn check<T: Real>(scene: &Scene<T>) -> Result<(), SceneError> {
         points.check_coordinate(guide.joint.index(), ("joint", scene.place(Entry::Guide(i))))?;
     }
     for (i, signal) in scene.signals.iter().enumerate() {
-        if let SignalKind::Measure { joint, .. } = signal.kind {
+        let SignalKind::Measure { of, .. } = &signal.kind else { continue };
+        if let Some(joint) = of.joint() {
             points.check_coordinate(joint.index(), ("joint", scene.place(Entry::Signal(i))))?;
         }
     }

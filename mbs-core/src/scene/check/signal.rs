@@ -1,12 +1,12 @@
 //! Signals: names, numbers, operands, and whether they are smooth where that is needed.
 
-use super::coupling::{check_curve, check_measured};
+use super::coupling::{check_curve, check_measure};
 use super::motion::check_slopes;
 use super::vector::{Place, check_times};
 use crate::Real;
 use crate::scene::{
-    Entry, Interpolation, Motion, Scene, SceneError, SceneFault, SignalId, SignalKind, TableEnds,
-    first_of, signal_breaks, signal_order,
+    BallAngle, CouplingMeasure, Entry, Interpolation, Motion, Scene, SceneError, SceneFault,
+    SignalId, SignalKind, TableEnds, first_of, signal_breaks, signal_order,
 };
 use alloc::vec;
 use alloc::vec::Vec;
@@ -132,8 +132,11 @@ fn check_feedback<T: Real>(
     place: Place,
 ) -> Result<(), SceneError> {
     match kind {
-        SignalKind::Measure { joint, number, .. } => {
-            check_measured(scene, (*joint, *number), place)
+        SignalKind::Measure { of, .. } => {
+            if let CouplingMeasure::Ball { angle: BallAngle::Twist, .. } = of {
+                return place.fault("coordinate", SceneFault::TwistMeasured);
+            }
+            check_measure(scene, of, place)
         }
         SignalKind::Lag { time, value, .. } => {
             place.positive("time", *time)?;

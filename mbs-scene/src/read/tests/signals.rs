@@ -112,6 +112,34 @@ kind = "curve"
 of = "wave"
 table = [[0, 0], [1, 1], [2, 0]]
 periodic = true
+[[signal]]
+name = "turn"
+kind = "measure"
+joint = "slide"
+[[signal]]
+name = "reach"
+kind = "measure"
+points = [{ body = "arm", at = [1, 0] }, { body = "cart", at = [0, 1] }]
+quantity = "rate"
+[[signal]]
+name = "late"
+kind = "lag"
+of = "reach"
+time = 0.1
+value = 0.2
+[[signal]]
+name = "summed"
+kind = "integral"
+of = "late"
+upper = 3
+[[signal]]
+name = "asked"
+kind = "pid"
+target = "summed"
+measured = "turn"
+p = 2
+i = 3
+limit = 10
 [[effect]]
 kind = "force"
 body = "arm"
@@ -163,10 +191,10 @@ fn signals_that_cannot_be_meant_are_refused_at_their_place() {
     let circle = spoiled("of = [\"load\", \"gain\", \"rising\"]", "of = [\"load\", \"stop\"]");
     refused(&circle, "90:6", "`power` needs `stop` needs `power`", "take one of its operands out");
     let count = spoiled("signal = [\"stop\", \"held\"]", "signal = \"stop\"");
-    refused(&count, "112:10", "`signal` needs 2 numbers, but has 1", "as many");
+    refused(&count, "140:10", "`signal` needs 2 numbers, but has 1", "as many");
     let both = spoiled("signal = \"sweep\"", "signal = \"sweep\"\nvalue = 2");
     let of_both = "both `value` and `signal` are given";
-    refused(&both, "116:10", of_both, "keep one of the two");
+    refused(&both, "144:10", of_both, "keep one of the two");
     let factors = spoiled("factors = [1, -0.5]", "factors = [1]");
     refused(&factors, "43:11", "`factors` needs 2 numbers, but has 1", "as many");
     let ends = spoiled("table = [[0, 0], [1, 2], [3, 0]]", "table = [[0, 0], [3, 1]]");

@@ -103,10 +103,9 @@ impl Writer<'_> {
     /// The keys of a signal that follows the motion or has a state.
     fn feedback(self, signal: &NamedSignal<Number>, keys: &mut Keys) -> Result<(), WriteError> {
         match &signal.kind {
-            SignalKind::Measure { joint, number, is_rate } => {
+            SignalKind::Measure { of, is_rate } => {
                 keys.push("kind", "measure");
-                keys.push("joint", self.joint_name(*joint)?);
-                keys.push("coordinate", Node::Number(number.to_string()));
+                self.measure(of, keys)?;
                 keys.push("quantity", if *is_rate { "rate" } else { "value" });
             }
             SignalKind::Lag { of, time, value } => {

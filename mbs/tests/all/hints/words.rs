@@ -86,27 +86,24 @@ pub(super) fn rows() -> Vec<Row> {
         row(
             PLANAR,
             &[(KIND, "name = \"elbow\"\nkind = \"gear\"")],
-            [
-                "`gear`",
-                "no gears, belts and screws yet; where one of the two motions is given, add a `[[guide]]`",
-            ],
+            ["`gear`", "that is a `[[coupling]]` of joints: `kind = \"gear\"`"],
             &[
                 ("\"gear\"", "\"revolute\""),
                 (
                     "[[initial]]\njoint = \"elbow\"\nrate = 0.5",
-                    "[[guide]]\njoint = \"pin\"\nramp = { rate = 1.0 }\n[[guide]]\njoint = \"elbow\"\nramp = { rate = -3.0 }",
+                    "[[coupling]]\nkind = \"gear\"\njoints = [\"pin\", \"elbow\"]\nteeth = [3, 1]",
                 ),
             ],
         ),
         row(
             PLANAR,
             &[("kind = \"torque\"\njoint = \"pin\"", "kind = \"belt\"\njoint = \"pin\"")],
-            ["`belt`", "no gears, belts and screws yet"],
+            ["`belt`", "that is a `[[coupling]]` of joints: `kind = \"gear\"`, \"belt\""],
             &[
                 ("kind = \"belt\"", "kind = \"torque\""),
                 (
                     "[[initial]]\njoint = \"elbow\"\nrate = 0.5",
-                    "[[guide]]\njoint = \"pin\"\nramp = { rate = 1.0 }\n[[guide]]\njoint = \"elbow\"\nramp = { rate = -3.0 }",
+                    "[[coupling]]\nkind = \"belt\"\njoints = [\"pin\", \"elbow\"]\nradii = [0.2, 0.1]",
                 ),
             ],
         ),
