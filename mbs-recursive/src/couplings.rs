@@ -64,7 +64,7 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         }
         for step in &mut feedback.steps {
             if let FeedbackOperation::Curve { curve, .. } = &mut step.operation {
-                *curve = self.couplings.add_curve(&feedback.curves[*curve as usize]);
+                *curve = self.couplings.curves.add(&feedback.curves[*curve as usize]);
             }
         }
         self.feedback = feedback;
@@ -97,7 +97,7 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
                 // A coordinate has its place.
                 (CouplingMeasure::Coordinate { .. }, None) => continue,
             };
-            let curve = self.couplings.add_curve(&term.curve);
+            let curve = self.couplings.curves.add(&term.curve);
             self.couplings.terms.push(SumTerm { factor: term.factor / scale, curve, of });
         }
         let terms = Span { first: index(first_term), end: index(self.couplings.terms.len()) };

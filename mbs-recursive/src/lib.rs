@@ -12,12 +12,13 @@ pub mod bounded;
 pub mod closed_loop;
 mod collapse;
 pub mod coupled;
-mod coupled_lines;
+pub mod coupled_lines;
 mod coupled_rows;
 #[cfg(feature = "alloc")]
 mod coupling_tables;
 #[cfg(feature = "alloc")]
 mod couplings;
+pub mod curves;
 #[cfg(feature = "alloc")]
 mod cut;
 pub mod energy_balance;

@@ -2,6 +2,7 @@
 
 use super::Operations;
 use super::count;
+use super::couplings;
 use crate::inputs::{Motion, Prescriptions, SignalLaw};
 use mbs_core::Real;
 use mbs_recursive::loads::{Load, Measure};
@@ -108,11 +109,7 @@ pub(super) fn load<T: Real, S: Space<T>>(
                 measured + parts.resist * count(n)
             }
         }
-        // Each term measured, and its joint's answer.
-        Load::Sum(sum) => {
-            let terms = count(sum.terms.range().len());
-            sum.law.operations() + ops(15, 16) * terms + across + ops(2, 2)
-        }
+        Load::Sum(sum) => couplings::sum(&m.loops.couplings, sum, parts.resist),
         Load::Angle { law, .. } => law.operations() + across + ops(0, 1),
         Load::Constant { .. } => parts.turned + parts.wrench + ops(0, parts.motion),
         Load::Force { turns, .. } => {

@@ -5,7 +5,7 @@
 //! at the ancestor     m³/6 for Λ, m²/2 rows of N + 1 numbers, m (N + 1) and a square of N numbers each, couplings m m' (m/2 + N + 1)
 //! ```
 
-use super::{Operations, count, joints};
+use super::{Operations, count, couplings, joints};
 use mbs_core::Real;
 use mbs_recursive::rows::Row;
 use mbs_recursive::slices::TreeSlices;
@@ -34,7 +34,12 @@ const fn solve(rows: u64) -> Operations {
 pub(super) fn residual<T: Real, S: Space<T>>(m: &TreeSlices<'_, T, S>) -> Operations {
     let n = motion::<T, S>();
     let terms = count(m.loops.couplings.terms.len());
-    ops(4 * n, 2 * (n - 1) + 2 + 2 * n + 2) * count(m.loops.rows.len()) + ops(terms, 2 * terms)
+    let mut sum =
+        ops(4 * n, 2 * (n - 1) + 2 + 2 * n + 2) * count(m.loops.rows.len()) + ops(terms, 2 * terms);
+    for row in m.loops.rows {
+        sum += couplings::residual(row);
+    }
+    sum
 }
 
 /// Values, rates, gradients and biases of all rows.
@@ -51,10 +56,7 @@ pub(super) fn rows<T: Real, S: Space<T>>(m: &TreeSlices<'_, T, S>) -> Operations
             (Row::Dot { .. }, true) => ops(85, 55),
             (Row::Dot { .. }, false) => ops(37, 17),
             (Row::Length { .. }, true) => ops(40, 25).and(1, 0, 0),
-            (Row::Coupled(row), _) => {
-                let terms = count(row.terms.range().len());
-                ops(8 * terms + 3, 8 * terms + 12)
-            }
+            (Row::Coupled(row), _) => couplings::row(&m.loops.couplings, row),
             (Row::Length { .. }, false) => ops(22, 12).and(1, 0, 0),
             // the first row has the lowest point
             (Row::Height { .. } | Row::Blade { .. }, _) => ops(240, 200).and(1, 1, 0),
@@ -76,7 +78,7 @@ pub(super) fn evaluation<T: Real, S: Space<T>>(m: &TreeSlices<'_, T, S>) -> Oper
     };
     let plan = &m.loops.plan;
     // K of all sides behind the first one are added to it.
-    let added = plan.passes.iter().fold(1, |most, pass| most.max(u64::from(pass.side)));
+    let added = couplings::added(m);
     let mut sum = opening(m);
     for (station, link) in plan.stations.iter().zip(m.links) {
         let f = count(link.kind.n_freedoms::<T, S>());

@@ -15,6 +15,7 @@
 //! Products, sums and differences, quotients, roots, and calls of sine with cosine or of the arc tangent are counted. Changes of
 //! sign, comparisons and copies are not: they are in the instructions of the others.
 
+mod couplings;
 mod effects;
 mod joints;
 mod loops;
@@ -73,6 +74,7 @@ pub fn step<T: Real, S: Space<T>>(model: &Model<'_, T, S>, bounds: Bounds) -> Op
         projection += Operations::new(0, freedoms);
         total += projection * u64::from(bounds.projections);
     }
+    total += couplings::collapse(m, &model.prescriptions);
     let written = |course: &SignalLaw<T>| matches!(course, SignalLaw::Input(_));
     if model.prescriptions.courses.iter().any(written) {
         // A step after a course was written begins with an evaluation.
