@@ -6,6 +6,7 @@ use crate::format::{Axes, Record};
 use crate::model::Model;
 use alloc::format;
 use alloc::string::String;
+use alloc::vec::Vec;
 use mbs_core::Real;
 use mbs_core::laws::entry::{Entry, EntryWriter};
 use mbs_recursive::coupled::Couplings;
@@ -250,22 +251,22 @@ fn signals<T: Real + Record, S: Axes<T>>(
 
 /// The curves and lines of couplings that are not empty, and the fields that hold them, with what stands for others.
 fn couplings<T: Real + Record, S: Axes<T>>(of: &Couplings<'_, T, S>, to: &mut String) -> String {
-    let mut fields = String::new();
+    let mut fields = Vec::new();
     if !of.curves.is_empty() {
         table("CURVES", "CurveTable<Scalar>", of.curves, to);
         table("CURVE_KNOTS", "[Scalar; 2]", of.knots, to);
         table("CURVE_NUMBERS", "Scalar", of.numbers, to);
-        fields.push_str("curves: &CURVES, knots: &CURVE_KNOTS, numbers: &CURVE_NUMBERS, ");
+        fields.push("curves: &CURVES, knots: &CURVE_KNOTS, numbers: &CURVE_NUMBERS");
     }
     if !of.points.is_empty() {
         table("POINTS", "LinePoint<Scalar, Axes>", of.points, to);
         table("STARTS", "LinkStart", of.starts, to);
-        fields.push_str("points: &POINTS, starts: &STARTS, ");
+        fields.push("points: &POINTS, starts: &STARTS");
     }
     if of.curves.is_empty() || of.points.is_empty() {
-        fields.push_str("..Couplings::none()");
+        fields.push("..Couplings::none()");
     }
-    fields
+    fields.join(", ")
 }
 
 /// The tables of laws that are not empty, and the expression that holds them.

@@ -13,7 +13,7 @@
 //! that are not level the longest search for the nearest point: there the count is a bound.
 //!
 //! Products, sums and differences, quotients, roots, and calls of sine with cosine or of the arc tangent are counted. Changes of
-//! sign, comparisons and copies are not: they are in the instructions of the others.
+//! sign, comparisons and copies are not: they are in the instructions of the others, and of the entries that links, rows and terms look up.
 
 mod couplings;
 mod effects;
@@ -30,6 +30,11 @@ use mbs_recursive::bounded::Bounds;
 use mbs_recursive::link::Link;
 use mbs_recursive::space::{Numbers, Space};
 
+/// Entries that a step looks up beside those of links and loops [-]: a pendulum's of two links on a Cortex-M7, rounded up.
+const STEP_ENTRIES: u64 = 8;
+/// Entries that an evaluation looks up for a link [-]: as above.
+const LINK_ENTRIES: u64 = 8;
+
 /// The operations of one step within `bounds`.
 ///
 /// Cost: linear in the tables.
@@ -41,12 +46,13 @@ pub fn step<T: Real, S: Space<T>>(model: &Model<'_, T, S>, bounds: Bounds) -> Op
     let evaluations = u64::from(bounds.evaluations.max(1));
     // h² β and h γ; the time at the end, for inputs and for the state.
     let mut total = Operations::new(3, 2) + effects::inputs(&model.prescriptions);
+    total += Operations::entries(STEP_ENTRIES);
     let reach = Operations::new(7, 6) * freedoms + moves::<T, S>(m.links);
     total += reach * (evaluations + 1);
     // What the accelerations changed by, and its scale.
     let mut evaluation = Operations::new(1, freedoms);
     for link in skip_ground(m.links) {
-        evaluation += joints::evaluation::<T, S>(link);
+        evaluation += joints::evaluation::<T, S>(link) + Operations::entries(LINK_ENTRIES);
     }
     evaluation += Operations::new(0, count(m.rotors.len()));
     evaluation += signals::evaluation(m);

@@ -15,8 +15,8 @@ const TARGET: &str = "thumbv7em-none-eabihf";
 const PATIENCE: Duration = Duration::from_secs(600);
 
 /// Features of mbs-nostd: machine elements, and all of them.
-pub(super) const ELEMENTS: [&str; 6] =
-    ["couplings", "rolling", "rotors", "signals", "sums", "elements"];
+pub(super) const ELEMENTS: [&str; 8] =
+    ["couplings", "curves", "lines", "rolling", "rotors", "signals", "sums", "elements"];
 
 pub(super) const M7: Board = Board { machine: "mps2-an500", cpu: "cortex-m7" };
 
