@@ -10,13 +10,13 @@ use crate::model::Model;
 use mbs_core::Real;
 use mbs_core::effects::bushing;
 use mbs_core::laws::Part;
-use mbs_recursive::plan::Span;
-use mbs_recursive::{coupled, coupled_lines, curves, feedback, rotor};
 use mbs_recursive::link::LinkKind;
 use mbs_recursive::loads::{Load, Measure, sum};
+use mbs_recursive::plan::Span;
 use mbs_recursive::rows::Row;
 use mbs_recursive::slices::TreeSlices;
 use mbs_recursive::space::Space;
+use mbs_recursive::{coupled, coupled_lines, curves, feedback, rotor};
 
 /// What keeps a model from being loaded.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -38,12 +38,7 @@ pub enum LoadError {
         /// The entry.
         entry: usize,
     },
-    /// A coupling of angles of balls, which no controller holds.
-    Coupling {
-        /// `scene.couplings[coupling]`.
-        coupling: usize,
-    },
-    /// An effect on a sum with angles of balls, which no controller has.
+    /// An effect on an angle of a ball, which no controller has.
     Sum {
         /// The entry in the table of effects.
         entry: usize,
@@ -80,12 +75,6 @@ impl core::fmt::Display for LoadError {
                     f,
                     "entry {entry} of the table of {table} points outside of the model, or has an effect whose feature is off in \
                      this build"
-                )
-            }
-            Self::Coupling { coupling } => {
-                write!(
-                    f,
-                    "coupling {coupling} has an angle of a ball, and cannot be written for a controller"
                 )
             }
             Self::Sum { entry } => write!(
@@ -307,7 +296,9 @@ pub(crate) const MIN_SIDES: usize = 2;
 pub(crate) fn n_sides<T: Real, S: Space<T>>(m: &TreeSlices<'_, T, S>) -> usize {
     let passes = m.loops.plan.passes.iter().map(|pass| pass.side);
     let starts = if coupled_lines::IS_BUILT { m.loops.couplings.starts } else { &[] };
-    passes.chain(starts.iter().map(|start| start.side)).fold(MIN_SIDES, |most, side| most.max(sides(side)))
+    passes
+        .chain(starts.iter().map(|start| start.side))
+        .fold(MIN_SIDES, |most, side| most.max(sides(side)))
 }
 
 /// `Ok` if so.

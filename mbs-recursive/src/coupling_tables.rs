@@ -1,8 +1,6 @@
 //! The tables of couplings, filled while a tree is built.
 
-use crate::coupled::{
-    CoupledRow, Couplings, LinePoint, LinkStart, NONE, SumMeasure, SumTerm,
-};
+use crate::coupled::{CoupledRow, Couplings, LinePoint, LinkStart, NONE, SumMeasure, SumTerm};
 use crate::curves::CurveTables;
 use crate::space::Space;
 use alloc::vec::Vec;

@@ -1,6 +1,6 @@
 //! Couplings and sums: their terms, the points and links of their lines, and their curves.
 
-use super::{Look, ends_by, ensure, is_within, sides};
+use super::{Look, ends_by, ensure, fault, is_within, sides};
 use crate::check::LoadError;
 use mbs_core::Real;
 use mbs_recursive::closed_loop::ClosedLoop;
@@ -19,29 +19,27 @@ impl<T: Real, S: Space<T>> Look<'_, '_, T, S> {
     ) -> Result<(), LoadError> {
         let is_known = row.guide == NONE || (row.guide as usize) < self.sizes.guides;
         ensure(is_known && lap.n == 1, "loops", i)?;
-        let unheld = LoadError::Coupling { coupling: lap.joint as usize };
-        self.terms(("loops", i), (row.terms, row.starts), unheld)
+        self.terms(("loops", i), (row.terms, row.starts), fault("loops", i))
     }
 
     /// An effect on a sum.
     pub(super) fn sum(&self, (i, sum): (usize, &SumLoad<T>)) -> Result<(), LoadError> {
-        let unheld = LoadError::Sum { entry: i };
-        self.terms(("effects", i), (sum.terms, sum.starts), unheld)?;
+        self.terms(("effects", i), (sum.terms, sum.starts), LoadError::Sum { entry: i })?;
         ensure(sum.law.fits(&self.m.tables, self.sizes.courses), "effects", i)
     }
 
-    /// Terms, and the links of their lines; `unheld` is the error of an angle of a ball.
+    /// Terms, and the links of their lines; `on_ball` is the error of an angle of a ball.
     fn terms(
         &self,
         (table, i): (&'static str, usize),
         (terms, starts): (Span, Span),
-        unheld: LoadError,
+        on_ball: LoadError,
     ) -> Result<(), LoadError> {
         let couplings = &self.m.loops.couplings;
         let terms = couplings.terms.get(terms.range()).unwrap_or(&[]);
         ensure(!terms.is_empty(), table, i)?;
         let starts = couplings.starts.get(starts.range());
-        let starts = starts.ok_or(LoadError::Index { table, entry: i })?;
+        let starts = starts.ok_or(fault(table, i))?;
         for term in terms {
             let holds = match term.of {
                 SumMeasure::Joint { link, side } => {
@@ -53,7 +51,7 @@ impl<T: Real, S: Space<T>> Look<'_, '_, T, S> {
                             && points.iter().all(|point| (point.start as usize) < starts.len())
                     })
                 }
-                SumMeasure::Swing { .. } | SumMeasure::Twist { .. } => return Err(unheld),
+                SumMeasure::Swing { .. } | SumMeasure::Twist { .. } => return Err(on_ball),
             };
             let has_curve = term.curve == NONE || (term.curve as usize) < couplings.curves.len();
             ensure(holds && has_curve, table, i)?;

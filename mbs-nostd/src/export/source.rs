@@ -137,12 +137,7 @@ pub fn source<T: Real + Record, S: Axes<T>>(
 
 /// The sizes of a solver that have defaults, where the model needs others.
 fn further(sizes: &Sizes, n_slopes: usize) -> String {
-    let all = [
-        (sizes.states, 0),
-        (sizes.followed, 0),
-        (sizes.sides, MIN_SIDES),
-        (n_slopes, 0),
-    ];
+    let all = [(sizes.states, 0), (sizes.followed, 0), (sizes.sides, MIN_SIDES), (n_slopes, 0)];
     let last = all.iter().rposition(|(needed, default)| needed != default);
     let written = all.iter().take(last.map_or(0, |last| last + 1));
     written.map(|(needed, _)| format!(", {needed}")).collect()

@@ -70,9 +70,8 @@ fn terms<'a, T: Real, S: Space<T>>(
     of: Span,
 ) -> (&'a [SumTerm<T>], bool) {
     let terms = couplings.terms.get(of.range()).unwrap_or(&[]);
-    let is_plain = |term: &SumTerm<T>| {
-        term.curve == NONE && matches!(term.of, SumMeasure::Joint { .. })
-    };
+    let is_plain =
+        |term: &SumTerm<T>| term.curve == NONE && matches!(term.of, SumMeasure::Joint { .. });
     (terms, terms.iter().all(is_plain))
 }
 

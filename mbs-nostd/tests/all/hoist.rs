@@ -9,7 +9,7 @@ pub type Scalar = f64;
 /// Plane or space.
 pub type Axes = Planar;
 /// A solver of just the size of [`MODEL`]: 5 links with the ground, 6 coordinates, 6 freedoms, 2 rows of loops.
-pub type ModelSolver = Solver<Scalar, Axes, 5, 6, 6, 2, 3, 7, 0, 1, 0, 0, 4, 2>;
+pub type ModelSolver = Solver<Scalar, Axes, 5, 6, 6, 2, 3, 7, 0, 0, 0, 0, 4, 2>;
 
 static LINKS: [Link<Scalar, Axes>; 5] = [
     Link { parent: 0, kind: LinkKind::GuidedRevolute, z: 0, v: 0, axis: vector([0.0]), direction: vector([0.0, 0.0]), offset: vector([0.0, 0.0]), mass: 0.0, center: vector([0.0, 0.0]), tensor: 0.0 },
@@ -64,14 +64,10 @@ static COUPLINGS: [LoopCoupling; 1] = [
 static UPDATES: [Update; 1] = [
     Update { row: 0, column: 0, block: 2 },
 ];
-static LOADS: [Load<Scalar, Axes>; 1] = [
-    Load::Angle { link: 1, law: Law::Torque(TorqueLaw { course: 0 }) },
-];
+static LOADS: [Load<Scalar, Axes>; 0] = [];
 static ROTORS: [LinkRotor<Scalar>; 0] = [];
 static GUIDES: [Motion<Scalar>; 0] = [];
-static COURSES: [SignalLaw<Scalar>; 1] = [
-    SignalLaw::Constant([0.8, 0.0, 0.0]),
-];
+static COURSES: [SignalLaw<Scalar>; 0] = [];
 static KNOTS: [[Scalar; 2]; 0] = [];
 static CURVATURES: [Scalar; 0] = [];
 static COURSE_ROWS: [[Scalar; 4]; 0] = [];
@@ -93,12 +89,12 @@ static V: [Scalar; 6] = [
     0.014971995305483855,
 ];
 static A: [Scalar; 6] = [
-    27.460727805412326,
-    7.149004763441372,
-    -16.78274117494728,
-    0.9843293215712897,
-    0.57161261207638,
-    0.6138346405796126,
+    -12.114971686547198,
+    6.94878732124141,
+    -16.718463559717108,
+    0.9805593568955437,
+    0.5705723403598162,
+    0.5743328281126222,
 ];
 static CURVES: [CurveTable<Scalar>; 1] = [
     CurveTable::Spline { knots: Span { first: 0, end: 7 }, first: 0, period: 6.283185307179586 },

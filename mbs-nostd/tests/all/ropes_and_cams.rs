@@ -300,8 +300,8 @@ fn angle_of_cam(duration: f64) -> f64 {
 fn the_angle_of_a_cam_meets_its_equation_of_energy_with_second_order() {
     let text = exported::<Planar, 2>(BY_COEFFICIENTS);
     let exact = angle_of_cam(0.4);
-    let [coarse, fine] = [(200, 2e-3), (400, 1e-3)]
-        .map(|work| (after::<f64, Planar>(&text, work)[0] - exact).abs());
+    let [coarse, fine] =
+        [(200, 2e-3), (400, 1e-3)].map(|work| (after::<f64, Planar>(&text, work)[0] - exact).abs());
     assert!(fine < 1e-4, "{fine:e}");
     assert!((coarse / fine - 4.0).abs() < 0.4, "{coarse:e} {fine:e}");
 }
