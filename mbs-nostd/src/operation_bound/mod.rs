@@ -2,7 +2,7 @@
 //!
 //! ```text
 //! step         inputs + (E + 1) reach + E evaluation + P projection          E evaluations, P projections, σ further sweeps
-//!              (+ inputs + evaluation where courses are written between steps)
+//!              (+ inputs + evaluation where courses are written between steps, + 2 inputs + Σ links place + gaps of parts where there are lines)
 //! evaluation   Σ links [place, inertia, eliminate, advance, (+ inward shift unless on the ground)]
 //!              + Σ loops [rows, passes, elimination, opening, residual] + rotors + signals + effects [spread, forces ahead] + σ (response + residual)
 //! response     Σ links [impulse, advance (+ shift)] + Σ loops [passes and eliminations of l alone, opening]
