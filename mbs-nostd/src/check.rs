@@ -16,7 +16,7 @@ use mbs_recursive::plan::Span;
 use mbs_recursive::rows::Row;
 use mbs_recursive::slices::TreeSlices;
 use mbs_recursive::space::Space;
-use mbs_recursive::{coupled, coupled_lines, curves, feedback, rotor};
+use mbs_recursive::{coupled, curves, feedback, rotor};
 
 /// What keeps a model from being loaded.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -226,7 +226,7 @@ impl<'a, T: Real, S: Space<T>> Checked<'a, T, S> {
         look.loops()?;
         look.plan()?;
         look.loads()?;
-        if coupled_lines::IS_BUILT {
+        if coupled::HAS_LINES {
             look.starts()?;
         }
         if curves::IS_BUILT || feedback::IS_BUILT {
@@ -295,7 +295,7 @@ pub(crate) const MIN_SIDES: usize = 2;
 /// The most sides that a row has. A side that begins on the ground passes no joint.
 pub(crate) fn n_sides<T: Real, S: Space<T>>(m: &TreeSlices<'_, T, S>) -> usize {
     let passes = m.loops.plan.passes.iter().map(|pass| pass.side);
-    let starts = if coupled_lines::IS_BUILT { m.loops.couplings.starts } else { &[] };
+    let starts = if coupled::HAS_LINES { m.loops.couplings.starts } else { &[] };
     passes
         .chain(starts.iter().map(|start| start.side))
         .fold(MIN_SIDES, |most, side| most.max(sides(side)))

@@ -7,7 +7,7 @@ use mbs_recursive::coupled::{NONE, SumMeasure};
 use mbs_recursive::loads::{Load, sum};
 use mbs_recursive::rows::Row;
 use mbs_recursive::space::Space;
-use mbs_recursive::{coupled, coupled_lines, curves, feedback, rolling, rotor};
+use mbs_recursive::{coupled, curves, feedback, rolling, rotor};
 
 /// An element.
 #[derive(Debug, Clone, Copy)]
@@ -36,7 +36,7 @@ pub(crate) fn all<T: Real, S: Space<T>>(model: &Model<'_, T, S>) -> [Element; 7]
     [
         ("couplings", coupled::IS_BUILT, has_coupled),
         ("curves", curves::IS_BUILT, has_curve),
-        ("lines", coupled_lines::IS_BUILT, has_line),
+        ("lines", coupled::HAS_LINES, has_line),
         ("rolling", rolling::IS_BUILT, rolls),
         ("rotors", rotor::IS_BUILT, !m.rotors.is_empty()),
         ("signals", feedback::IS_BUILT, has_signal),

@@ -17,9 +17,6 @@ use mbs_core::Real;
 use mbs_core::algebra::{Vector, cross, norm};
 use mbs_core::elements::{ball_directions, is_open};
 
-/// Are angles of balls in this build? Tables for controllers have none.
-pub(crate) const IS_BUILT: bool = cfg!(feature = "alloc");
-
 /// The axes of a ball where its links are, and the links.
 type Axes<T> = ([u32; 2], [Vector<T, 3>; 2]);
 

@@ -1,7 +1,6 @@
 //! What has no direction left after a step: parts of ropes without length, twists of balls whose axes are opposite, discs that lie flat.
 
-use crate::ball;
-use crate::coupled_lines;
+use crate::coupled::{HAS_BALL_ANGLES, HAS_LINES};
 use crate::fault::failure;
 use crate::indexing::{Outside, at};
 use crate::loads::{Load, SumLoad};
@@ -43,7 +42,7 @@ pub(crate) fn check_parts<T: Real, S: Space<T>>(
     step: (&Start<'_, T>, T),
     s: &mut Store<'_, T, S>,
 ) -> Result<(), StepError> {
-    if coupled_lines::IS_BUILT && !m.loops.couplings.points.is_empty() {
+    if HAS_LINES && !m.loops.couplings.points.is_empty() {
         check(m, inputs, step, s)
     } else {
         Ok(())
@@ -91,7 +90,7 @@ fn check<T: Real, S: Space<T>>(
     }
     for (number, load) in m.loads.iter().enumerate() {
         let Load::Sum(sum) = load else { continue };
-        if ball::IS_BUILT {
+        if HAS_BALL_ANGLES {
             check_twists((m, number), (sum, start), s)?;
         }
         let part = couplings.collapsed(&sum.row(), [&*s.trial, &*s.placed]);

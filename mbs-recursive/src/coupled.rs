@@ -9,8 +9,6 @@
 //!                                            bias = Σ (n·s̈ + (ḋ·ḋ − (n·ḋ)²)/|d|)
 //! ```
 
-use crate::ball;
-use crate::coupled_lines as lines;
 use crate::curves::{self, CurveTable};
 use crate::indexing::{Outside, at, at_mut, range};
 use crate::link::{Link, LinkMotion};
@@ -21,6 +19,10 @@ pub use mbs_core::elements::NONE;
 
 /// Are couplings in this build?
 pub const IS_BUILT: bool = cfg!(feature = "couplings");
+/// Are lines over points of links in this build?
+pub const HAS_LINES: bool = cfg!(feature = "lines");
+/// Are angles of balls in this build? Tables for controllers have none.
+pub(crate) const HAS_BALL_ANGLES: bool = cfg!(feature = "alloc");
 
 /// The row of a coupling.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -172,6 +174,18 @@ impl<T: Real, S: Space<T>> Couplings<'_, T, S> {
         Self { n_cut, terms: &[], points: &[], starts: &[], curves: &[], knots: &[], numbers: &[] }
     }
 
+    /// f, f' and f'' of a term's curve.
+    pub(crate) fn function(&self, curve: u32, x: T) -> Result<[T; 3], Outside> {
+        curves::function((self.curves, self.knots, self.numbers), curve, x)
+    }
+
+    /// How many slopes an evaluation remembers: one for each term up to the last that has a curve.
+    #[must_use]
+    pub fn n_slopes(&self) -> usize {
+        let last = self.terms.iter().rposition(|term| term.curve != NONE);
+        last.map_or(0, |last| last + 1)
+    }
+
     /// Value, rate and the part of the acceleration that is known, of what a term measures; and the size of what the rate is made of.
     fn measure(
         &self,
@@ -184,7 +198,7 @@ impl<T: Real, S: Space<T>> Couplings<'_, T, S> {
                 let numbers = at(links, link as usize)?.coordinate(coordinates)?;
                 Ok((numbers, numbers[1].abs()))
             }
-            SumMeasure::Line { points, reference } if lines::IS_BUILT => {
+            SumMeasure::Line { points, reference } if HAS_LINES => {
                 // ends that move across their part cancel in its rate
                 let (mut sum, mut speed) = ([-reference, T::ZERO, T::ZERO], T::ZERO);
                 self.each_part((points, starts), here.1, |part| {
@@ -197,7 +211,7 @@ impl<T: Real, S: Space<T>> Couplings<'_, T, S> {
                 })?;
                 Ok((sum, speed))
             }
-            SumMeasure::Swing { axes } | SumMeasure::Twist { axes, .. } if ball::IS_BUILT => {
+            SumMeasure::Swing { axes } | SumMeasure::Twist { axes, .. } if HAS_BALL_ANGLES => {
                 let numbers = self.ball_angle((of, axes, starts), here)?;
                 Ok(([numbers[0], numbers[1], T::ZERO], numbers[1].abs()))
             }
@@ -217,7 +231,7 @@ impl<T: Real, S: Space<T>> Couplings<'_, T, S> {
         let row = place.0;
         let mut sum = match self.of_joints(row, here)? {
             Some(sum) => sum,
-            None if curves::IS_BUILT || lines::IS_BUILT => self.of_terms(place, here, out)?,
+            None if curves::IS_BUILT || HAS_LINES => self.of_terms(place, here, out)?,
             // Not in this build: a model with one is not loaded.
             None => return Err(Outside),
         };
@@ -274,7 +288,7 @@ impl<T: Real, S: Space<T>> Couplings<'_, T, S> {
                 *at_mut(slopes, i)? = slope;
             }
             let SumMeasure::Line { points, .. } = term.of else { continue };
-            if !lines::IS_BUILT {
+            if !HAS_LINES {
                 continue;
             }
             self.each_part((points, row.starts), here.1, |part| {
@@ -303,12 +317,12 @@ impl<T: Real, S: Space<T>> Couplings<'_, T, S> {
             }
             match term.of {
                 SumMeasure::Joint { link, .. } => take(SumEnd::Joint { link, slope })?,
-                SumMeasure::Swing { axes } | SumMeasure::Twist { axes, .. } if ball::IS_BUILT => {
+                SumMeasure::Swing { axes } | SumMeasure::Twist { axes, .. } if HAS_BALL_ANGLES => {
                     let (links, g) = self.ball_wrench((&term.of, axes, row.starts), here.1)?;
                     take(SumEnd::Link { link: links[0], wrench: g * -slope })?;
                     take(SumEnd::Link { link: links[1], wrench: g * slope })?;
                 }
-                SumMeasure::Line { points, .. } if lines::IS_BUILT => {
+                SumMeasure::Line { points, .. } if HAS_LINES => {
                     self.each_part((points, row.starts), here.1, |part| {
                         let directions = [-part.direction, part.direction];
                         for ((start, arm), n) in part.ends.iter().zip(directions) {
@@ -327,7 +341,7 @@ impl<T: Real, S: Space<T>> Couplings<'_, T, S> {
 
     /// The links at which a row begins.
     pub(crate) fn starts_of(&self, row: &CoupledRow<T>) -> Result<&[LinkStart], Outside> {
-        if lines::IS_BUILT { range(self.starts, row.starts.range()) } else { Ok(&[]) }
+        if HAS_LINES { range(self.starts, row.starts.range()) } else { Ok(&[]) }
     }
 
     /// The links whose coordinates a row has: each with the side by which it travels inward, and g.

@@ -8,9 +8,6 @@ use crate::space::{Numbers, Space};
 use mbs_core::Real;
 use mbs_core::elements::has_collapsed;
 
-/// Are lines over points of links in this build?
-pub const IS_BUILT: bool = cfg!(feature = "lines");
-
 impl<T: Real, S: Space<T>> Couplings<'_, T, S> {
     /// Hands out the parts of a line that have a length.
     pub(crate) fn each_part(

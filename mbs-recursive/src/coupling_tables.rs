@@ -38,13 +38,16 @@ impl<T: Real, S: Space<T>> Default for CouplingTables<T, S> {
 
 impl<T: Real, S: Space<T>> CouplingTables<T, S> {
     pub(crate) fn slices(&self) -> Couplings<'_, T, S> {
-        self.curves.with(&Couplings {
+        let (curves, knots, numbers) = self.curves.slices();
+        Couplings {
             n_cut: self.n_cut,
             terms: &self.terms,
             points: &self.points,
             starts: &self.starts,
-            ..Couplings::none()
-        })
+            curves,
+            knots,
+            numbers,
+        }
     }
 
     /// Where a row begins: at the links of its lines, and at the joints whose coordinates it has.

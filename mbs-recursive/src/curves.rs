@@ -1,14 +1,11 @@
 //! Curves in tables: functions of what couplings, sums and signals measure.
 
-use crate::coupled::{Couplings, NONE};
 use crate::indexing::{Outside, at, part, range};
-#[cfg(feature = "alloc")]
-use crate::loops::index;
 use crate::plan::Span;
-use crate::space::Space;
 #[cfg(feature = "alloc")]
 use alloc::vec::Vec;
 use mbs_core::Real;
+use mbs_core::elements::NONE;
 #[cfg(feature = "alloc")]
 use mbs_core::measure::PreparedCurve;
 use mbs_core::measure::{polynomial, spline_curve};
@@ -35,30 +32,28 @@ pub enum CurveTable<T> {
     },
 }
 
-impl<T: Real, S: Space<T>> Couplings<'_, T, S> {
-    /// f, f' and f'' of a term's curve.
-    pub(crate) fn function(&self, curve: u32, x: T) -> Result<[T; 3], Outside> {
-        if curve == NONE {
-            return Ok([x, T::ONE, T::ZERO]);
-        }
-        Ok(match *at(self.curves, curve as usize)? {
-            CurveTable::Spline { knots, first, period } => {
-                let knots = range(self.knots, knots.range())?;
-                let curvature = part(self.numbers, first as usize, knots.len())?;
-                spline_curve(knots, curvature, period, x)
-            }
-            CurveTable::Polynomial { coefficients } => {
-                polynomial(range(self.numbers, coefficients.range())?, x)
-            }
-        })
-    }
+/// Curves, knots of splines, and second derivatives of splines at their knots with coefficients of polynomials.
+pub type CurveSlices<'a, T> = (&'a [CurveTable<T>], &'a [[T; 2]], &'a [T]);
 
-    /// How many slopes an evaluation remembers: one for each term up to the last that has a curve.
-    #[must_use]
-    pub fn n_slopes(&self) -> usize {
-        let last = self.terms.iter().rposition(|term| term.curve != NONE);
-        last.map_or(0, |last| last + 1)
+/// f, f' and f'' of a curve.
+pub(crate) fn function<T: Real>(
+    (curves, knots, numbers): CurveSlices<'_, T>,
+    curve: u32,
+    x: T,
+) -> Result<[T; 3], Outside> {
+    if curve == NONE {
+        return Ok([x, T::ONE, T::ZERO]);
     }
+    Ok(match *at(curves, curve as usize)? {
+        CurveTable::Spline { knots: own, first, period } => {
+            let knots = range(knots, own.range())?;
+            let curvature = part(numbers, first as usize, knots.len())?;
+            spline_curve(knots, curvature, period, x)
+        }
+        CurveTable::Polynomial { coefficients } => {
+            polynomial(range(numbers, coefficients.range())?, x)
+        }
+    })
 }
 
 /// The owner of curves, which are added one by one.
@@ -79,11 +74,16 @@ impl<T> Default for CurveTables<T> {
 
 #[cfg(feature = "alloc")]
 impl<T: Real> CurveTables<T> {
-    /// A copy of the curves of couplings, with their numbers.
+    /// A copy of curves, with their numbers.
     #[must_use]
-    pub fn copied<S: Space<T>>(of: &Couplings<'_, T, S>) -> Self {
-        let Couplings { curves, knots, numbers, .. } = of;
+    pub fn copied((curves, knots, numbers): CurveSlices<'_, T>) -> Self {
         Self { curves: curves.to_vec(), knots: knots.to_vec(), numbers: numbers.to_vec() }
+    }
+
+    /// The curves.
+    #[must_use]
+    pub fn slices(&self) -> CurveSlices<'_, T> {
+        (&self.curves, &self.knots, &self.numbers)
     }
 
     /// Adds a curve; its number.
@@ -102,12 +102,6 @@ impl<T: Real> CurveTables<T> {
         self.curves.push(table);
         index(self.curves.len() - 1)
     }
-
-    /// Couplings with these curves.
-    #[must_use]
-    pub fn with<'a, S: Space<T>>(&'a self, of: &Couplings<'a, T, S>) -> Couplings<'a, T, S> {
-        Couplings { curves: &self.curves, knots: &self.knots, numbers: &self.numbers, ..*of }
-    }
 }
 
 /// Adds a list to another; where it stands there.
@@ -116,4 +110,9 @@ fn extend<X: Copy>(to: &mut Vec<X>, list: &[X]) -> Span {
     let first = index(to.len());
     to.extend_from_slice(list);
     Span { first, end: index(to.len()) }
+}
+
+#[cfg(feature = "alloc")]
+fn index(i: usize) -> u32 {
+    u32::try_from(i).unwrap_or(u32::MAX)
 }

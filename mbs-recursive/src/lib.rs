@@ -12,7 +12,7 @@ pub mod bounded;
 pub mod closed_loop;
 mod collapse;
 pub mod coupled;
-pub mod coupled_lines;
+mod coupled_lines;
 mod coupled_rows;
 #[cfg(feature = "alloc")]
 mod coupling_tables;

@@ -48,11 +48,11 @@ impl<T: Real> SignalTables<T> {
         prescribed: &Prescribed<T>,
         mechanism: &TreeSlices<'_, T, S>,
     ) -> Self {
-        let program = prescribed.program();
+        let (program, couplings) = (prescribed.program(), &mechanism.loops.couplings);
         let mut tables = Self {
             steps: program.steps,
             n_states: program.starts.len(),
-            curves: CurveTables::copied(&mechanism.loops.couplings),
+            curves: CurveTables::copied((couplings.curves, couplings.knots, couplings.numbers)),
         };
         let curve_of = |step: &FeedbackStep<T>| match step.operation {
             FeedbackOperation::Curve { curve, .. } => Some((step.to, curve)),
@@ -76,7 +76,8 @@ impl<T: Real> SignalTables<T> {
         &'a self,
         of: &Couplings<'a, T, S>,
     ) -> Couplings<'a, T, S> {
-        self.curves.with(of)
+        let (curves, knots, numbers) = self.curves.slices();
+        Couplings { curves, knots, numbers, ..*of }
     }
 
     /// The operations, with the links of the measured coordinates.

@@ -6,12 +6,11 @@
 //! step       where there are lines: all links placed at its start, and the gaps of all parts at both ends
 //! ```
 
-use super::{Operations, count, effects, joints, skip_ground};
+use super::curves::function;
+use super::{Operations, count};
 use crate::check::n_sides;
-use crate::inputs::Prescriptions;
 use mbs_core::Real;
 use mbs_recursive::coupled::{CoupledRow, Couplings, NONE, SumMeasure, SumTerm};
-use mbs_recursive::curves::CurveTable;
 use mbs_recursive::loads::{Load, SumLoad};
 use mbs_recursive::plan::Span;
 use mbs_recursive::rows::Row;
@@ -37,23 +36,6 @@ const fn numbers<T: Real, S: Space<T>>() -> (u64, u64) {
 /// A point turned, and its product with a spin.
 fn turned<T: Real, S: Space<T>>() -> [Operations; 2] {
     if S::DIMENSION == 3 { [ops(9, 6), ops(6, 3)] } else { [ops(4, 2), ops(2, 0)] }
-}
-
-/// A function with its two derivatives.
-pub(super) fn function<T: Real, S: Space<T>>(
-    couplings: &Couplings<'_, T, S>,
-    curve: u32,
-) -> Operations {
-    match couplings.curves.get(curve as usize) {
-        Some(CurveTable::Polynomial { coefficients }) => {
-            ops(3, 4) * count(coefficients.range().len())
-        }
-        Some(CurveTable::Spline { period, .. }) if *period > T::ZERO => {
-            effects::SPLINE + ops(1, 2).and(1, 0, 0)
-        }
-        Some(CurveTable::Spline { .. }) => effects::SPLINE,
-        None => Operations::NONE,
-    }
 }
 
 /// Parts of a term's line; of a coordinate none.
@@ -168,20 +150,17 @@ fn gaps<T: Real, S: Space<T>>(couplings: &Couplings<'_, T, S>, of: Span) -> Oper
     part * n_parts(couplings, of)
 }
 
-/// Whether a part of a line has collapsed in a step.
+/// Whether a part of a line has collapsed in a step: with the inputs of an instant, and the places of all links.
 pub(super) fn collapse<T: Real, S: Space<T>>(
     m: &TreeSlices<'_, T, S>,
-    laws: &Prescriptions<'_, T>,
+    [inputs, places]: [Operations; 2],
 ) -> Operations {
     let couplings = &m.loops.couplings;
     if couplings.points.is_empty() {
         return Operations::NONE;
     }
-    let inputs = (effects::inputs(laws) + ops(0, 1)) * 2;
-    let mut sum = inputs;
-    for link in skip_ground(m.links) {
-        sum += joints::place::<T, S>(link.kind);
-    }
+    let both_ends = (inputs + ops(0, 1)) * 2;
+    let mut sum = both_ends + places;
     for row in m.loops.rows {
         if let Row::Coupled(row) = row {
             sum += gaps(couplings, row.terms);
@@ -192,7 +171,7 @@ pub(super) fn collapse<T: Real, S: Space<T>>(
         sum += gaps(couplings, load.terms);
         // is the law apart from it at both ends?
         if n_parts(couplings, load.terms) > 0 {
-            sum += value(couplings, load.terms) * 2 + inputs;
+            sum += value(couplings, load.terms) * 2 + both_ends;
         }
     }
     sum

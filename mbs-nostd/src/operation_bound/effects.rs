@@ -3,6 +3,7 @@
 use super::Operations;
 use super::count;
 use super::couplings;
+use super::curves::SPLINE;
 use crate::inputs::{Motion, Prescriptions, SignalLaw};
 use mbs_core::Real;
 use mbs_recursive::loads::{Load, Measure};
@@ -12,9 +13,6 @@ use mbs_recursive::space::Space;
 const fn ops(products: u64, sums: u64) -> Operations {
     Operations::new(products, sums)
 }
-
-/// A cubic spline with its derivatives.
-pub(super) const SPLINE: Operations = ops(22, 14).and(4, 0, 0);
 
 /// A step that takes its time, with its derivatives.
 const STEP: Operations = ops(16, 7).and(3, 0, 0);

@@ -16,6 +16,7 @@
 //! sign, comparisons and copies are not: they are in the instructions of the others, and of the entries that links, rows and terms look up.
 
 mod couplings;
+mod curves;
 mod effects;
 mod joints;
 mod loops;
@@ -74,13 +75,12 @@ pub fn step<T: Real, S: Space<T>>(model: &Model<'_, T, S>, bounds: Bounds) -> Op
         evaluation += loops::rows(m) + loops::evaluation(m) + residual;
         evaluation += (residual + answer) * u64::from(bounds.sweeps);
         let mut projection = loops::rows(m) + response(m) * 2 + moves::<T, S>(m.links);
-        for link in skip_ground(m.links) {
-            projection += joints::place::<T, S>(link.kind);
-        }
+        projection += places::<T, S>(m.links);
         projection += Operations::new(0, freedoms);
         total += projection * u64::from(bounds.projections);
     }
-    total += couplings::collapse(m, &model.prescriptions);
+    let ends = [effects::inputs(&model.prescriptions), places::<T, S>(m.links)];
+    total += couplings::collapse(m, ends);
     let written = |course: &SignalLaw<T>| matches!(course, SignalLaw::Input(_));
     if model.prescriptions.courses.iter().any(written) {
         // A step after a course was written begins with an evaluation.
@@ -91,6 +91,15 @@ pub fn step<T: Real, S: Space<T>>(model: &Model<'_, T, S>, bounds: Bounds) -> Op
 
 fn skip_ground<T: Real, S: Space<T>>(links: &[Link<T, S>]) -> impl Iterator<Item = &Link<T, S>> {
     links.iter().skip(1)
+}
+
+/// Places and velocities of all links.
+fn places<T: Real, S: Space<T>>(links: &[Link<T, S>]) -> Operations {
+    let mut sum = Operations::NONE;
+    for link in skip_ground(links) {
+        sum += joints::place::<T, S>(link.kind);
+    }
+    sum
 }
 
 /// Coordinates moved along freedoms.

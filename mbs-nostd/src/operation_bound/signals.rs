@@ -1,7 +1,7 @@
 //! Operations on signals, with how these answer to what is measured: of the branch that costs most.
 
 use super::Operations;
-use super::couplings::function;
+use super::curves::function;
 use mbs_core::Real;
 use mbs_core::feedback::FeedbackOperation;
 use mbs_recursive::slices::TreeSlices;
