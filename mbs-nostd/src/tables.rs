@@ -245,6 +245,19 @@ impl<
         Checked::again(self.unchecked(), self.sizes)
     }
 
+    /// What the rows of couplings refer to.
+    fn couplings_of_rows(&self) -> Couplings<'_, T, S> {
+        Couplings {
+            n_cut: self.n_cut,
+            terms: &self.terms,
+            points: &self.points,
+            starts: &self.starts,
+            curves: &self.curves,
+            knots: &self.curve_knots.0,
+            numbers: &self.curve_knots.1,
+        }
+    }
+
     fn unchecked(&self) -> Model<'_, T, S> {
         let plan = Plan {
             stations: &self.stations,
@@ -267,15 +280,7 @@ impl<
                     rows: &self.rows,
                     plan,
                     floor: self.floor,
-                    couplings: Couplings {
-                        n_cut: self.n_cut,
-                        terms: &self.terms,
-                        curves: &self.curves,
-                        knots: &self.curve_knots.0,
-                        numbers: &self.curve_knots.1,
-                        points: &self.points,
-                        starts: &self.starts,
-                    },
+                    couplings: self.couplings_of_rows(),
                 },
                 loads: &self.loads,
                 rotors: &self.rotors,

@@ -412,6 +412,7 @@ fn whatever_word_of_a_cam_and_a_rope_is_broken_nothing_panics() {
 }
 
 #[allow(unreachable_pub, reason = "`mbs export` writes a module of a crate")]
+#[allow(clippy::approx_constant, reason = "the period of a cam is a number of its scene")]
 #[rustfmt::skip]
 #[path = "hoist.rs"]
 mod hoist;
