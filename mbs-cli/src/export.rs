@@ -69,9 +69,8 @@ fn refusal(error: &ExportError) -> Refusal {
         ExportError::Stop(_) => {
             "`mbs run SCENE --formulation recursive` says more: controllers step in relative coordinates"
         }
-        ExportError::Coupling(_) => "leave the coupling out",
         ExportError::Sum(_) => {
-            "let its terms be coordinates of joints, without `points` and curves"
+            "let it act on a joint with one coordinate, or on a length over `points`"
         }
         ExportError::Effect(_) => "leave user-defined laws out: a table cannot hold code",
         ExportError::Signal(_) => {

@@ -1,5 +1,6 @@
 //! Models are checked once, when they are loaded: afterwards every number in their tables points into them.
 
+mod couplings;
 mod plan;
 mod signals;
 
@@ -9,15 +10,13 @@ use crate::model::Model;
 use mbs_core::Real;
 use mbs_core::effects::bushing;
 use mbs_core::laws::Part;
-use mbs_recursive::closed_loop::ClosedLoop;
-use mbs_recursive::coupled::{self, CoupledRow, NONE, SumMeasure};
-use mbs_recursive::feedback;
 use mbs_recursive::link::LinkKind;
-use mbs_recursive::loads::{Load, Measure, SumLoad, sum};
-use mbs_recursive::rotor;
+use mbs_recursive::loads::{Load, Measure, sum};
+use mbs_recursive::plan::Span;
 use mbs_recursive::rows::Row;
 use mbs_recursive::slices::TreeSlices;
 use mbs_recursive::space::Space;
+use mbs_recursive::{coupled, curves, feedback, rotor};
 
 /// What keeps a model from being loaded.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -39,12 +38,7 @@ pub enum LoadError {
         /// The entry.
         entry: usize,
     },
-    /// A coupling of lengths or with curves, which no controller holds.
-    Coupling {
-        /// `scene.couplings[coupling]`.
-        coupling: usize,
-    },
-    /// An effect on a sum with lengths or curves, which no controller has.
+    /// An effect on an angle of a ball, which no controller has.
     Sum {
         /// The entry in the table of effects.
         entry: usize,
@@ -83,12 +77,9 @@ impl core::fmt::Display for LoadError {
                      this build"
                 )
             }
-            Self::Coupling { coupling } => {
-                write!(f, "coupling {coupling} cannot be written for a controller")
-            }
             Self::Sum { entry } => write!(
                 f,
-                "the sum of entry {entry} of the table of effects has a length, an angle of a ball or a curve, and cannot be written for a controller"
+                "the sum of entry {entry} of the table of effects has an angle of a ball, and cannot be written for a controller"
             ),
             Self::GuidedBall { link } => write!(
                 f,
@@ -135,7 +126,7 @@ pub struct Sizes {
     pub states: usize,
     /// Courses, where there are operations on them; else none.
     pub followed: usize,
-    /// Sides of rows: two, or as many branches as a coupling has joints on.
+    /// Sides of rows: two, or as many branches as a coupling has joints and points on.
     pub sides: usize,
 }
 
@@ -199,7 +190,7 @@ impl Sizes {
             courses: 0,
             states: m.feedback.n_states,
             followed: 0,
-            sides: plan.passes.iter().fold(2, |most, pass| most.max(sides(pass.side))),
+            sides: n_sides(m),
         }
     }
 }
@@ -235,6 +226,12 @@ impl<'a, T: Real, S: Space<T>> Checked<'a, T, S> {
         look.loops()?;
         look.plan()?;
         look.loads()?;
+        if coupled::HAS_LINES {
+            look.starts()?;
+        }
+        if curves::IS_BUILT || feedback::IS_BUILT {
+            look.curves()?;
+        }
         if rotor::IS_BUILT {
             look.rotors()?;
         }
@@ -263,6 +260,12 @@ impl<'a, T: Real, S: Space<T>> Checked<'a, T, S> {
         self.sizes
     }
 
+    /// How many slopes of curves a step remembers: one for each term up to the last with a curve.
+    #[must_use]
+    pub fn n_slopes(&self) -> usize {
+        if curves::IS_BUILT { self.model.mechanism.loops.couplings.n_slopes() } else { 0 }
+    }
+
     /// The effects that are kept on a rung, where these are not all.
     pub(crate) fn kept_on(&self, rung: u32) -> Option<&'a [Load<T, S>]> {
         let kept = self.model.rungs.get((rung as usize).checked_sub(1)?)?;
@@ -281,14 +284,21 @@ fn fault(table: &'static str, entry: usize) -> LoadError {
     LoadError::Index { table, entry }
 }
 
-/// A coupling that no controller holds.
-fn unheld<T: Real, S: Space<T>>(lap: &ClosedLoop<T, S>) -> LoadError {
-    LoadError::Coupling { coupling: lap.joint as usize }
-}
-
 /// Sides up to that of this number.
 fn sides(side: u32) -> usize {
     (side as usize).saturating_add(1)
+}
+
+/// Sides that every row has [-]: those of a cut joint, at its two bodies.
+pub(crate) const MIN_SIDES: usize = 2;
+
+/// The most sides that a row has. A side that begins on the ground passes no joint.
+pub(crate) fn n_sides<T: Real, S: Space<T>>(m: &TreeSlices<'_, T, S>) -> usize {
+    let passes = m.loops.plan.passes.iter().map(|pass| pass.side);
+    let starts = if coupled::HAS_LINES { m.loops.couplings.starts } else { &[] };
+    passes
+        .chain(starts.iter().map(|start| start.side))
+        .fold(MIN_SIDES, |most, side| most.max(sides(side)))
 }
 
 /// `Ok` if so.
@@ -336,49 +346,6 @@ impl<T: Real, S: Space<T>> Look<'_, '_, T, S> {
             ensure((*axis as usize) < S::DIMENSION, "rows", i)?;
         }
         Ok(())
-    }
-
-    /// A coupling of joint coordinates without curves.
-    fn coupling(
-        &self,
-        (i, lap): (usize, &ClosedLoop<T, S>),
-        row: &CoupledRow<T>,
-    ) -> Result<(), LoadError> {
-        let terms = self.m.loops.couplings.terms.get(row.terms.range()).unwrap_or(&[]);
-        let is_known = row.guide == NONE || (row.guide as usize) < self.sizes.guides;
-        ensure(is_known && lap.n == 1 && !terms.is_empty(), "loops", i)?;
-        for term in terms {
-            let SumMeasure::Joint { link, side } = term.of else { return Err(unheld(lap)) };
-            ensure(
-                self.has_one(link).is_some_and(|is_guided| !is_guided || side == NONE),
-                "loops",
-                i,
-            )?;
-            if term.curve != NONE {
-                return Err(unheld(lap));
-            }
-        }
-        Ok(())
-    }
-
-    /// Is a link that has one coordinate guided? Others have none.
-    fn has_one(&self, link: u32) -> Option<bool> {
-        let kind = self.m.links.get(link as usize).filter(|_| link > 0)?.kind;
-        let n = kind.n_freedoms::<T, S>();
-        (n < 2).then_some(n == 0)
-    }
-
-    /// A sum of joint coordinates without curves.
-    fn sum(&self, (i, sum): (usize, &SumLoad<T>)) -> Result<(), LoadError> {
-        let terms = self.m.loops.couplings.terms.get(sum.terms.range());
-        ensure(terms.is_some_and(|terms| !terms.is_empty()), "effects", i)?;
-        for term in terms.unwrap_or(&[]) {
-            let (SumMeasure::Joint { link, .. }, NONE) = (term.of, term.curve) else {
-                return Err(LoadError::Sum { entry: i });
-            };
-            ensure(self.has_one(link).is_some(), "effects", i)?;
-        }
-        ensure(sum.law.fits(&self.m.tables, self.sizes.courses), "effects", i)
     }
 
     fn loads(&self) -> Result<(), LoadError> {
@@ -467,6 +434,11 @@ impl<T: Real, S: Space<T>> Look<'_, '_, T, S> {
         }
         Ok(())
     }
+}
+
+/// Is a range one of a list of `end` entries?
+fn is_within(span: Span, end: usize) -> bool {
+    span.first <= span.end && span.end as usize <= end
 }
 
 fn is_part(part: Part, end: usize) -> bool {

@@ -3,10 +3,11 @@
 use crate::inputs::{Motion, SignalLaw};
 use crate::model::Model;
 use mbs_core::Real;
+use mbs_recursive::coupled::{NONE, SumMeasure};
 use mbs_recursive::loads::{Load, sum};
 use mbs_recursive::rows::Row;
 use mbs_recursive::space::Space;
-use mbs_recursive::{coupled, feedback, rolling, rotor};
+use mbs_recursive::{coupled, curves, feedback, rolling, rotor};
 
 /// An element.
 #[derive(Debug, Clone, Copy)]
@@ -20,10 +21,13 @@ pub(crate) struct Element {
 }
 
 /// The elements, and which of them a model has.
-pub(crate) fn all<T: Real, S: Space<T>>(model: &Model<'_, T, S>) -> [Element; 5] {
+pub(crate) fn all<T: Real, S: Space<T>>(model: &Model<'_, T, S>) -> [Element; 7] {
     let (m, laws) = (&model.mechanism, &model.prescriptions);
     let has_coupled = m.loops.rows.iter().any(|row| matches!(row, Row::Coupled(_)));
     let rolls = m.loops.rows.iter().any(Row::begins_rolling);
+    let terms = m.loops.couplings.terms;
+    let has_curve = terms.iter().any(|term| term.curve != NONE);
+    let has_line = terms.iter().any(|term| matches!(term.of, SumMeasure::Line { .. }));
     let has_sum = m.loads.iter().any(|load| matches!(load, Load::Sum(_)));
     let has_signal = !m.feedback.steps.is_empty()
         || m.feedback.n_states > 0
@@ -31,6 +35,8 @@ pub(crate) fn all<T: Real, S: Space<T>>(model: &Model<'_, T, S>) -> [Element; 5]
         || laws.courses.iter().any(|law| matches!(law, SignalLaw::Spline(_) | SignalLaw::Step(_)));
     [
         ("couplings", coupled::IS_BUILT, has_coupled),
+        ("curves", curves::IS_BUILT, has_curve),
+        ("lines", coupled::HAS_LINES, has_line),
         ("rolling", rolling::IS_BUILT, rolls),
         ("rotors", rotor::IS_BUILT, !m.rotors.is_empty()),
         ("signals", feedback::IS_BUILT, has_signal),

@@ -7,18 +7,18 @@ use mbs_core::Real;
 use mbs_core::feedback::{CourseSlope, SignalStates};
 use mbs_core::step::{InputError, StepError};
 use mbs_recursive::bounded::{self, BoundedReport, Bounds, Watch};
-use mbs_recursive::feedback;
 use mbs_recursive::link::{ArticulatedInertia, LinkMotion};
 use mbs_recursive::loops::LoopStore;
 use mbs_recursive::slices::{Counts, Inputs, Store, TreeSlices};
 use mbs_recursive::space::{Numbers, Space};
 use mbs_recursive::trapezoidal::Start;
 use mbs_recursive::{Options, Outside};
+use mbs_recursive::{curves, feedback};
 
 /// State, scratch and inputs of a model with at most `L` links (the ground among them), `Z` coordinates, `V` freedoms and `R`
 /// rows of loops. It has at most `B` numbers in blocks of Λ, `N` gains, `G` guides and `C` courses. It has at most
 /// `M` states of signals, and `F` courses where there are operations on them. A row has at most `K` sides: two, or as many branches as
-/// a coupling has joints on.
+/// a coupling has joints and points on. Of the terms of couplings and sums the last with a curve is at most the `W`-th.
 ///
 /// Its size is about 130 numbers for each link, 46 for each row, 10 for each freedom, and at most six for each of the others.
 #[derive(Debug, Clone)]
@@ -36,6 +36,7 @@ pub struct Solver<
     const M: usize = 0,
     const F: usize = 0,
     const K: usize = 2,
+    const W: usize = 0,
 > {
     /// Choices for the steps.
     pub options: Options<T>,
@@ -51,7 +52,7 @@ pub struct Solver<
     lambda: [T; R],
     signals: [[T; 2]; M],
     inputs: Values<G, C, T>,
-    scratch: Scratch<T, S, L, Z, V, R, B, N, G, C, M, F, K>,
+    scratch: Scratch<T, S, L, Z, V, R, B, N, G, C, M, F, K, W>,
 }
 
 #[derive(Debug, Clone)]
@@ -69,6 +70,7 @@ struct Scratch<
     const M: usize,
     const F: usize,
     const K: usize,
+    const W: usize,
 > {
     placed: [LinkMotion<T, S>; L],
     trial: [LinkMotion<T, S>; L],
@@ -85,7 +87,9 @@ struct Scratch<
     courses: [[T; 3]; C],
     /// States of signals at the start of a step, and at the instant.
     states: [[[T; 2]; M]; 2],
-    slopes: [CourseSlope<T>; F],
+    course_slopes: [CourseSlope<T>; F],
+    /// Those of the curves of couplings.
+    slopes: [T; W],
     z: [T; Z],
     /// v, z̈, response, scratch.
     freedoms: [[T; V]; 4],
@@ -106,7 +110,8 @@ impl<
     const M: usize,
     const F: usize,
     const K: usize,
-> Solver<T, S, L, Z, V, R, B, N, G, C, M, F, K>
+    const W: usize,
+> Solver<T, S, L, Z, V, R, B, N, G, C, M, F, K, W>
 {
     /// A solver at the beginning of a model.
     ///
@@ -127,6 +132,10 @@ impl<
             followed: F,
             sides: K,
         })?;
+        let needed = model.n_slopes();
+        if needed > W {
+            return Err(LoadError::Capacity { of: "terms with curves", needed, capacity: W });
+        }
         let zero = S::Motion::zero();
         let from = &model.model().start;
         // Made where it is returned: the stack holds no second one.
@@ -155,7 +164,8 @@ impl<
                 guides: [[T::ZERO; 3]; G],
                 courses: [[T::ZERO; 3]; C],
                 states: [[[T::ZERO; 2]; M]; 2],
-                slopes: [CourseSlope::none(); F],
+                course_slopes: [CourseSlope::none(); F],
+                slopes: [T::ZERO; W],
                 z: [T::ZERO; Z],
                 freedoms: [[T::ZERO; V]; 4],
                 rank: 0,
@@ -315,7 +325,8 @@ impl<
     const M: usize,
     const F: usize,
     const K: usize,
-> Scratch<T, S, L, Z, V, R, B, N, G, C, M, F, K>
+    const W: usize,
+> Scratch<T, S, L, Z, V, R, B, N, G, C, M, F, K, W>
 {
     /// The scratch as slices of a model's sizes.
     fn store(&mut self, n: &Sizes) -> Result<Store<'_, T, S>, Outside> {
@@ -334,7 +345,7 @@ impl<
             v_response: first(v_response, n.freedoms)?,
             loops: LoopStore {
                 k: first(k.as_flattened_mut(), n.sides * n.rows)?,
-                slopes: &mut [],
+                slopes: if curves::IS_BUILT { &mut self.slopes } else { &mut [] },
                 l: first(l, n.rows)?,
                 lambda: first(lambda_response, n.rows)?,
                 blocks: first(&mut self.blocks, n.blocks)?,
@@ -353,7 +364,7 @@ impl<
                     dt: T::ZERO,
                     starts: first(starts, n.states)?,
                     ends: first(ends, n.states)?,
-                    slopes: first(&mut self.slopes, n.followed)?,
+                    slopes: first(&mut self.course_slopes, n.followed)?,
                 }
             } else {
                 SignalStates { dt: T::ZERO, starts: &mut [], ends: &mut [], slopes: &mut [] }

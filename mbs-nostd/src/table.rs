@@ -14,7 +14,10 @@ pub use mbs_core::laws::scalar::Law;
 pub use mbs_core::laws::slip::LongitudinalSlip;
 pub use mbs_core::laws::{LawInputs, Part};
 pub use mbs_recursive::closed_loop::ClosedLoop;
-pub use mbs_recursive::coupled::{CoupledRow, Couplings, CurveTable, SumMeasure, SumTerm};
+pub use mbs_recursive::coupled::{
+    CoupledRow, Couplings, LinePoint, LinkStart, SumMeasure, SumTerm,
+};
+pub use mbs_recursive::curves::CurveTable;
 pub use mbs_recursive::feedback::FeedbackSlices;
 pub use mbs_recursive::link::{Link, LinkKind, LinkRotor};
 pub use mbs_recursive::loads::{BodyLoad, Load, Measure, SumLoad};

@@ -10,7 +10,8 @@ use mbs_core::feedback::FeedbackStep;
 use mbs_core::laws::entry::Entry;
 use mbs_core::laws::{CurvatureEntry, FeatureEntry, KnotEntry, LawInputs, LawTables, PieceEntry};
 use mbs_recursive::closed_loop::ClosedLoop;
-use mbs_recursive::coupled::{Couplings, CurveTable, SumTerm};
+use mbs_recursive::coupled::{Couplings, LinePoint, LinkStart, SumTerm};
+use mbs_recursive::curves::CurveTable;
 use mbs_recursive::feedback::FeedbackSlices;
 use mbs_recursive::link::{Link, LinkRotor};
 use mbs_recursive::loads::Load;
@@ -26,10 +27,21 @@ pub(crate) const HEAD: [u32; 2] = [u32::from_le_bytes(*b"MBSN"), 2];
 pub(crate) const WITH_ROTORS: u32 = 1;
 /// Added to the version of a text that ends with operations on signals [-].
 pub(crate) const WITH_SIGNALS: u32 = 2;
+/// Added to the version of a text that ends with curves, but for those that come with operations on signals [-].
+pub(crate) const WITH_CURVES: u32 = 4;
+/// Added to the version of a text that ends with points of lines and their links [-].
+pub(crate) const WITH_LINES: u32 = 8;
+
+/// Are these the parts of a text? Curves come once.
+fn are_known(parts: u32) -> bool {
+    let twice = WITH_SIGNALS + WITH_CURVES;
+    parts <= WITH_ROTORS + WITH_SIGNALS + WITH_CURVES + WITH_LINES && parts & twice != twice
+}
 
 /// A model read from bytes: at most `L` links, `K` loops with `R` rows, `P` entries in each list of the plan, `E` effects.
 /// It has at most `X` entries in each table of laws, `I` guides and as many courses, `Q` coordinates and as many freedoms. There are at
-/// most `F` operations on signals, and as many states, functions and measured coordinates of these.
+/// most `F` operations on signals, as many states and measured coordinates of these, and as many curves, of couplings too. Lines of
+/// couplings have at most `W` points on as many links.
 ///
 /// Models in flash need no such memory: `mbs export --rust` writes them as constants.
 #[derive(Debug, Clone)]
@@ -45,6 +57,7 @@ pub struct Tables<
     const I: usize,
     const Q: usize,
     const F: usize = 0,
+    const W: usize = 0,
 > {
     sizes: Sizes,
     links: Vec<Link<T, S>, L>,
@@ -70,6 +83,8 @@ pub struct Tables<
     measured: Vec<u32, F>,
     curves: Vec<CurveTable<T>, F>,
     curve_knots: (Vec<[T; 2], X>, Vec<T, X>),
+    points: Vec<LinePoint<T, S>, W>,
+    starts: Vec<LinkStart, W>,
     rungs: Vec<u32, E>,
     z: Vec<T, Q>,
     v: Vec<T, Q>,
@@ -127,7 +142,8 @@ impl<
     const I: usize,
     const Q: usize,
     const F: usize,
-> Tables<T, S, L, K, R, P, E, X, I, Q, F>
+    const W: usize,
+> Tables<T, S, L, K, R, P, E, X, I, Q, F, W>
 {
     /// Reads a model, and checks that every number in its tables points into them.
     ///
@@ -140,8 +156,7 @@ impl<
         let head = <[u32; 4]>::read(from)?;
         let [magic, version, dimension, width] = head;
         let parts = version.wrapping_sub(HEAD[1]);
-        let is_known =
-            magic == HEAD[0] && parts <= WITH_ROTORS + WITH_SIGNALS && (width == 4 || width == 8);
+        let is_known = magic == HEAD[0] && are_known(parts) && (width == 4 || width == 8);
         if !is_known || dimension as usize != S::DIMENSION {
             return Err(LoadError::Format);
         }
@@ -174,6 +189,8 @@ impl<
             measured: Vec::new(),
             curves: Vec::new(),
             curve_knots: (Vec::new(), Vec::new()),
+            points: Vec::new(),
+            starts: Vec::new(),
             rungs: list("rungs", from)?,
             z: list("coordinates", from)?,
             v: list("freedoms", from)?,
@@ -203,10 +220,22 @@ impl<
         if parts & WITH_SIGNALS != 0 {
             self.operations = list("operations on signals", from)?;
             self.measured = list("measured coordinates", from)?;
-            self.curves = list("curves", from)?;
-            self.curve_knots = (list("knots of curves", from)?, list("numbers of curves", from)?);
+            self.read_curves(from)?;
             self.states = list("states of signals", from)?;
         }
+        if parts & WITH_CURVES != 0 {
+            self.read_curves(from)?;
+        }
+        if parts & WITH_LINES != 0 {
+            self.points = list("points of lines", from)?;
+            self.starts = list("links of lines", from)?;
+        }
+        Ok(())
+    }
+
+    fn read_curves(&mut self, from: &mut Reader<'_>) -> Result<(), LoadError> {
+        self.curves = list("curves", from)?;
+        self.curve_knots = (list("knots of curves", from)?, list("numbers of curves", from)?);
         Ok(())
     }
 
@@ -214,6 +243,19 @@ impl<
     #[must_use]
     pub fn model(&self) -> Checked<'_, T, S> {
         Checked::again(self.unchecked(), self.sizes)
+    }
+
+    /// What the rows of couplings refer to.
+    fn couplings_of_rows(&self) -> Couplings<'_, T, S> {
+        Couplings {
+            n_cut: self.n_cut,
+            terms: &self.terms,
+            points: &self.points,
+            starts: &self.starts,
+            curves: &self.curves,
+            knots: &self.curve_knots.0,
+            numbers: &self.curve_knots.1,
+        }
     }
 
     fn unchecked(&self) -> Model<'_, T, S> {
@@ -238,14 +280,7 @@ impl<
                     rows: &self.rows,
                     plan,
                     floor: self.floor,
-                    couplings: Couplings {
-                        n_cut: self.n_cut,
-                        terms: &self.terms,
-                        curves: &self.curves,
-                        knots: &self.curve_knots.0,
-                        numbers: &self.curve_knots.1,
-                        ..Couplings::none()
-                    },
+                    couplings: self.couplings_of_rows(),
                 },
                 loads: &self.loads,
                 rotors: &self.rotors,

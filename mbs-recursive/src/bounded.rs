@@ -11,6 +11,7 @@
 //! the projected end, and with one outward pass for both projections. The accelerations that a step starts from are those
 //! of the last evaluation, which differ from the converged ones by O(h²).
 
+use crate::collapse::check_parts;
 use crate::coupled_rows;
 use crate::evaluate::{Level, accelerations, accelerations_ahead, respond};
 use crate::fault::{Fault, failure};
@@ -91,7 +92,8 @@ pub struct BoundedReport<T> {
 /// Cost: `bounds.evaluations` evaluations, and as many responses as further sweeps, and two for each projection; no allocation.
 ///
 /// # Errors
-/// [`StepError::NotFinite`], [`StepError::Singular`], [`StepError::RankLost`], [`StepError::Tables`], [`StepError::BadOption`].
+/// [`StepError::NotFinite`], [`StepError::Singular`], [`StepError::RankLost`], [`StepError::Tables`], [`StepError::BadOption`];
+/// [`StepError::RopeCollapsed`] and [`StepError::LineCollapsed`] where a part of a line has no length left.
 pub fn step<T: Real, S: Space<T>>(
     m: &TreeSlices<'_, T, S>,
     inputs: &impl Inputs<T>,
@@ -108,6 +110,7 @@ pub fn step<T: Real, S: Space<T>>(
     let report = advance_by(m, (dt, options, bounds), (start, watch), s);
     let report = report.map_err(|fault| failure(m, fault))?;
     check_rotations(m, inputs, (&start, dt), s)?;
+    check_parts(m, inputs, (&start, dt), s)?;
     if report.correction.is_finite() {
         Ok(report)
     } else {

@@ -1,11 +1,12 @@
 //! What has no direction left after a step: parts of ropes without length, twists of balls whose axes are opposite, discs that lie flat.
 
+use crate::coupled::{HAS_BALL_ANGLES, HAS_LINES};
 use crate::fault::failure;
 use crate::indexing::{Outside, at};
 use crate::loads::{Load, SumLoad};
 use crate::loops::index;
 use crate::passes::kinematics;
-use crate::rolling::{IS_BUILT, is_flat};
+use crate::rolling::{self, is_flat};
 use crate::rows::Row;
 use crate::slices::{Inputs, Start, Store, TreeSlices};
 use crate::space::Space;
@@ -27,10 +28,25 @@ pub(crate) fn check_lines<T: Real, S: Space<T>>(
     step: (&Start<'_, T>, T),
     s: &mut Store<'_, T, S>,
 ) -> Result<(), StepError> {
-    if IS_BUILT && !m.loops.loops.is_empty() {
+    if rolling::IS_BUILT && !m.loops.loops.is_empty() {
         check_flat(m, s)?;
     }
-    if m.loops.couplings.points.is_empty() { Ok(()) } else { check(m, inputs, step, s) }
+    check_parts(m, inputs, step, s)
+}
+
+/// The same of lines alone.
+#[inline(always)]
+pub(crate) fn check_parts<T: Real, S: Space<T>>(
+    m: &TreeSlices<'_, T, S>,
+    inputs: &impl Inputs<T>,
+    step: (&Start<'_, T>, T),
+    s: &mut Store<'_, T, S>,
+) -> Result<(), StepError> {
+    if HAS_LINES && !m.loops.couplings.points.is_empty() {
+        check(m, inputs, step, s)
+    } else {
+        Ok(())
+    }
 }
 
 fn check_flat<T: Real, S: Space<T>>(
@@ -74,7 +90,9 @@ fn check<T: Real, S: Space<T>>(
     }
     for (number, load) in m.loads.iter().enumerate() {
         let Load::Sum(sum) = load else { continue };
-        check_twists((m, number), (sum, start), s)?;
+        if HAS_BALL_ANGLES {
+            check_twists((m, number), (sum, start), s)?;
+        }
         let part = couplings.collapsed(&sum.row(), [&*s.trial, &*s.placed]);
         let Some(part) = part.map_err(|outside| failure(m, outside.into()))? else { continue };
         let is_slack = is_slack(m, inputs, (sum, start, dt), s);

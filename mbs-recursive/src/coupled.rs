@@ -9,16 +9,20 @@
 //!                                            bias = Σ (n·s̈ + (ḋ·ḋ − (n·ḋ)²)/|d|)
 //! ```
 
-use crate::indexing::{Outside, at, at_mut, part, range};
+use crate::curves::{self, CurveTable};
+use crate::indexing::{Outside, at, at_mut, range};
 use crate::link::{Link, LinkMotion};
 use crate::plan::Span;
 use crate::space::{Numbers, Space};
 use mbs_core::Real;
 pub use mbs_core::elements::NONE;
-use mbs_core::measure::{polynomial, spline_curve};
 
 /// Are couplings in this build?
 pub const IS_BUILT: bool = cfg!(feature = "couplings");
+/// Are lines over points of links in this build?
+pub const HAS_LINES: bool = cfg!(feature = "lines");
+/// Are angles of balls in this build? Tables for controllers have none.
+pub(crate) const HAS_BALL_ANGLES: bool = cfg!(feature = "alloc");
 
 /// The row of a coupling.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -52,7 +56,13 @@ impl<T: Real> SumTerm<T> {
     /// Its growth by its coordinate; that of a curve was noted when the term, number `i` of all, was evaluated.
     #[inline(always)]
     fn slope(&self, i: usize, slopes: &[T]) -> Result<T, Outside> {
-        if self.curve == NONE { Ok(self.factor) } else { at(slopes, i).copied() }
+        if self.has_curve() { at(slopes, i).copied() } else { Ok(self.factor) }
+    }
+
+    /// Has it a curve? In a build without curves no model has one.
+    #[inline(always)]
+    fn has_curve(&self) -> bool {
+        curves::IS_BUILT && self.curve != NONE
     }
 }
 
@@ -105,25 +115,6 @@ pub struct LinkStart {
     pub link: u32,
     /// The side by which it travels inward.
     pub side: u32,
-}
-
-/// A twice differentiable function.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum CurveTable<T> {
-    /// A cubic spline.
-    Spline {
-        /// Its knots.
-        knots: Span,
-        /// The first of its second derivatives, as many as knots.
-        first: u32,
-        /// Its period; zero: it has none.
-        period: T,
-    },
-    /// A polynomial.
-    Polynomial {
-        /// Its coefficients, the constant one first.
-        coefficients: Span,
-    },
 }
 
 /// What the rows of couplings refer to: constant.
@@ -185,19 +176,14 @@ impl<T: Real, S: Space<T>> Couplings<'_, T, S> {
 
     /// f, f' and f'' of a term's curve.
     pub(crate) fn function(&self, curve: u32, x: T) -> Result<[T; 3], Outside> {
-        if curve == NONE {
-            return Ok([x, T::ONE, T::ZERO]);
-        }
-        Ok(match *at(self.curves, curve as usize)? {
-            CurveTable::Spline { knots, first, period } => {
-                let knots = range(self.knots, knots.range())?;
-                let curvature = part(self.numbers, first as usize, knots.len())?;
-                spline_curve(knots, curvature, period, x)
-            }
-            CurveTable::Polynomial { coefficients } => {
-                polynomial(range(self.numbers, coefficients.range())?, x)
-            }
-        })
+        curves::function((self.curves, self.knots, self.numbers), curve, x)
+    }
+
+    /// How many slopes an evaluation remembers: one for each term up to the last that has a curve.
+    #[must_use]
+    pub fn n_slopes(&self) -> usize {
+        let last = self.terms.iter().rposition(|term| term.curve != NONE);
+        last.map_or(0, |last| last + 1)
     }
 
     /// Value, rate and the part of the acceleration that is known, of what a term measures; and the size of what the rate is made of.
@@ -212,7 +198,7 @@ impl<T: Real, S: Space<T>> Couplings<'_, T, S> {
                 let numbers = at(links, link as usize)?.coordinate(coordinates)?;
                 Ok((numbers, numbers[1].abs()))
             }
-            SumMeasure::Line { points, reference } => {
+            SumMeasure::Line { points, reference } if HAS_LINES => {
                 // ends that move across their part cancel in its rate
                 let (mut sum, mut speed) = ([-reference, T::ZERO, T::ZERO], T::ZERO);
                 self.each_part((points, starts), here.1, |part| {
@@ -225,10 +211,12 @@ impl<T: Real, S: Space<T>> Couplings<'_, T, S> {
                 })?;
                 Ok((sum, speed))
             }
-            SumMeasure::Swing { axes } | SumMeasure::Twist { axes, .. } => {
+            SumMeasure::Swing { axes } | SumMeasure::Twist { axes, .. } if HAS_BALL_ANGLES => {
                 let numbers = self.ball_angle((of, axes, starts), here)?;
                 Ok(([numbers[0], numbers[1], T::ZERO], numbers[1].abs()))
             }
+            // Not in this build: a model with one is not loaded.
+            _ => Err(Outside),
         }
     }
 
@@ -243,7 +231,9 @@ impl<T: Real, S: Space<T>> Couplings<'_, T, S> {
         let row = place.0;
         let mut sum = match self.of_joints(row, here)? {
             Some(sum) => sum,
-            None => self.of_terms(place, here, out)?,
+            None if curves::IS_BUILT || HAS_LINES => self.of_terms(place, here, out)?,
+            // Not in this build: a model with one is not loaded.
+            None => return Err(Outside),
         };
         sum.add([-row.value, T::ZERO, T::ZERO], T::ZERO);
         if row.guide != NONE {
@@ -287,15 +277,20 @@ impl<T: Real, S: Space<T>> Couplings<'_, T, S> {
         }
         for (i, term) in row.terms.range().zip(range(self.terms, row.terms.range())?) {
             let ([m, rate, known], speed) = self.measure((&term.of, row.starts), here)?;
-            let [f, slope, bend] = self.function(term.curve, m)?;
+            let identity = [m, T::ONE, T::ZERO];
+            let [f, slope, bend] =
+                if term.has_curve() { self.function(term.curve, m)? } else { identity };
             let (value, slope) = (term.factor * f, term.factor * slope);
             let bias = slope * known + term.factor * bend * rate * rate;
             sum.add([value, slope * rate, bias], slope * speed);
             let Some((gradient, slopes)) = &mut out else { continue };
-            if term.curve != NONE {
+            if term.has_curve() {
                 *at_mut(slopes, i)? = slope;
             }
             let SumMeasure::Line { points, .. } = term.of else { continue };
+            if !HAS_LINES {
+                continue;
+            }
             self.each_part((points, row.starts), here.1, |part| {
                 for ((start, arm), n) in part.ends.iter().zip([-part.direction, part.direction]) {
                     let place = start.side as usize * n_rows + k;
@@ -316,18 +311,18 @@ impl<T: Real, S: Space<T>> Couplings<'_, T, S> {
     ) -> Result<(), Outside> {
         for term in range(self.terms, row.terms.range())? {
             let mut slope = term.factor;
-            if term.curve != NONE {
+            if term.has_curve() {
                 let ([m, ..], _) = self.measure((&term.of, row.starts), here)?;
                 slope *= self.function(term.curve, m)?[1];
             }
             match term.of {
                 SumMeasure::Joint { link, .. } => take(SumEnd::Joint { link, slope })?,
-                SumMeasure::Swing { axes } | SumMeasure::Twist { axes, .. } => {
+                SumMeasure::Swing { axes } | SumMeasure::Twist { axes, .. } if HAS_BALL_ANGLES => {
                     let (links, g) = self.ball_wrench((&term.of, axes, row.starts), here.1)?;
                     take(SumEnd::Link { link: links[0], wrench: g * -slope })?;
                     take(SumEnd::Link { link: links[1], wrench: g * slope })?;
                 }
-                SumMeasure::Line { points, .. } => {
+                SumMeasure::Line { points, .. } if HAS_LINES => {
                     self.each_part((points, row.starts), here.1, |part| {
                         let directions = [-part.direction, part.direction];
                         for ((start, arm), n) in part.ends.iter().zip(directions) {
@@ -337,6 +332,8 @@ impl<T: Real, S: Space<T>> Couplings<'_, T, S> {
                         Ok(())
                     })?;
                 }
+                // Not in this build: a model with one is not loaded.
+                _ => return Err(Outside),
             }
         }
         Ok(())
@@ -344,7 +341,7 @@ impl<T: Real, S: Space<T>> Couplings<'_, T, S> {
 
     /// The links at which a row begins.
     pub(crate) fn starts_of(&self, row: &CoupledRow<T>) -> Result<&[LinkStart], Outside> {
-        range(self.starts, row.starts.range())
+        if HAS_LINES { range(self.starts, row.starts.range()) } else { Ok(&[]) }
     }
 
     /// The links whose coordinates a row has: each with the side by which it travels inward, and g.

@@ -1,14 +1,10 @@
 //! The tables of couplings, filled while a tree is built.
 
-use crate::coupled::{
-    CoupledRow, Couplings, CurveTable, LinePoint, LinkStart, NONE, SumMeasure, SumTerm,
-};
-use crate::loops::index;
-use crate::plan::Span;
+use crate::coupled::{CoupledRow, Couplings, LinePoint, LinkStart, NONE, SumMeasure, SumTerm};
+use crate::curves::CurveTables;
 use crate::space::Space;
 use alloc::vec::Vec;
 use mbs_core::Real;
-use mbs_core::measure::PreparedCurve;
 
 /// Where a row begins: at a link with K, or at the joint of a link with g.
 pub(crate) struct Begin<'a> {
@@ -25,9 +21,7 @@ pub(crate) struct CouplingTables<T: Real, S: Space<T>> {
     pub(crate) terms: Vec<SumTerm<T>>,
     pub(crate) points: Vec<LinePoint<T, S>>,
     pub(crate) starts: Vec<LinkStart>,
-    pub(crate) curves: Vec<CurveTable<T>>,
-    pub(crate) knots: Vec<[T; 2]>,
-    pub(crate) numbers: Vec<T>,
+    pub(crate) curves: CurveTables<T>,
 }
 
 impl<T: Real, S: Space<T>> Default for CouplingTables<T, S> {
@@ -37,28 +31,23 @@ impl<T: Real, S: Space<T>> Default for CouplingTables<T, S> {
             terms: Vec::new(),
             points: Vec::new(),
             starts: Vec::new(),
-            curves: Vec::new(),
-            knots: Vec::new(),
-            numbers: Vec::new(),
+            curves: CurveTables::default(),
         }
     }
 }
 
 impl<T: Real, S: Space<T>> CouplingTables<T, S> {
     pub(crate) fn slices(&self) -> Couplings<'_, T, S> {
+        let (curves, knots, numbers) = self.curves.slices();
         Couplings {
             n_cut: self.n_cut,
             terms: &self.terms,
             points: &self.points,
             starts: &self.starts,
-            curves: &self.curves,
-            knots: &self.knots,
-            numbers: &self.numbers,
+            curves,
+            knots,
+            numbers,
         }
-    }
-
-    pub(crate) fn n_terms(&self) -> usize {
-        self.terms.len()
     }
 
     /// Where a row begins: at the links of its lines, and at the joints whose coordinates it has.
@@ -75,28 +64,4 @@ impl<T: Real, S: Space<T>> CouplingTables<T, S> {
         });
         starts.chain(joints).collect()
     }
-
-    /// The number of a curve that is added.
-    pub(crate) fn add_curve(&mut self, curve: &PreparedCurve<T>) -> u32 {
-        let table = match curve {
-            PreparedCurve::Identity => return NONE,
-            PreparedCurve::Spline { knots, curvature, period } => CurveTable::Spline {
-                knots: extend(&mut self.knots, knots),
-                first: extend(&mut self.numbers, curvature).first,
-                period: *period,
-            },
-            PreparedCurve::Polynomial(coefficients) => {
-                CurveTable::Polynomial { coefficients: extend(&mut self.numbers, coefficients) }
-            }
-        };
-        self.curves.push(table);
-        index(self.curves.len() - 1)
-    }
-}
-
-/// Adds a list to another; where it stands there.
-fn extend<X: Copy>(to: &mut Vec<X>, list: &[X]) -> Span {
-    let first = index(to.len());
-    to.extend_from_slice(list);
-    Span { first, end: index(to.len()) }
 }

@@ -74,7 +74,7 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         }
         for step in &mut feedback.steps {
             if let FeedbackOperation::Curve { curve, .. } = &mut step.operation {
-                *curve = self.couplings.add_curve(&feedback.curves[*curve as usize]);
+                *curve = self.couplings.curves.add(&feedback.curves[*curve as usize]);
             }
         }
         self.feedback = feedback;
@@ -93,7 +93,7 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         let (first_term, first_start) = (self.couplings.terms.len(), self.couplings.starts.len());
         for term in terms {
             let of = self.sum_measure(term, (scene, links), first_start)?;
-            let curve = self.couplings.add_curve(&term.curve);
+            let curve = self.couplings.curves.add(&term.curve);
             self.couplings.terms.push(SumTerm { factor: term.factor / scale, curve, of });
         }
         let terms = Span { first: index(first_term), end: index(self.couplings.terms.len()) };

@@ -18,6 +18,7 @@ mod coupled_rows;
 mod coupling_tables;
 #[cfg(feature = "alloc")]
 mod couplings;
+pub mod curves;
 #[cfg(feature = "alloc")]
 mod cut;
 pub mod energy_balance;

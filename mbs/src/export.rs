@@ -4,7 +4,7 @@ use crate::settings::ResolvedMethod;
 use crate::simulation::Simulation;
 use crate::stop::StopError;
 use mbs_core::effects::Value as EffectValue;
-use mbs_core::scene::{CouplingTerm, Dimension, Effect, Scene, SignalKind};
+use mbs_core::scene::{CouplingMeasure, CouplingTerm, Dimension, Effect, Scene, SignalKind};
 use mbs_nostd::LoadError;
 use mbs_nostd::export::{Collected, MovingSignal, bytes, source};
 use mbs_nostd::format::Axes;
@@ -27,9 +27,7 @@ pub enum ExportError {
     Stop(StopError),
     /// An effect of this name is code, which no table has.
     Effect(String),
-    /// A coupling of this name is not written for controllers: it has a length or a curve.
-    Coupling(String),
-    /// An effect of this name is on a sum with a length or a curve, which is not written for controllers.
+    /// An effect of this name is on an angle of a ball, which is not written for controllers.
     Sum(String),
     /// A signal of this name is a wave, a ramp or a table that holds or repeats, or a guide follows it that is no spline or step.
     Signal(String),
@@ -48,16 +46,10 @@ impl core::fmt::Display for ExportError {
             Self::Effect(name) => {
                 write!(f, "effect `{name}` is a law in code, which cannot be written as a table")
             }
-            Self::Coupling(name) => {
-                write!(
-                    f,
-                    "coupling `{name}` cannot be written for a controller: it has lengths or curves"
-                )
-            }
             Self::Sum(name) => {
                 write!(
                     f,
-                    "effect `{name}` cannot be written for a controller: its sum has lengths, angles of balls or curves"
+                    "effect `{name}` cannot be written for a controller: it acts on an angle of a ball"
                 )
             }
             Self::Signal(name) => {
@@ -142,9 +134,6 @@ fn in_space<S: Axes<f64>, const D: usize>(
     };
     let title = format!("The scene \"{}\"", scene.name.escape_default());
     let rust = source(&model, (&title, is_single)).map_err(|error| match error {
-        LoadError::Coupling { coupling } => {
-            ExportError::Coupling(scene.couplings[coupling].name.clone())
-        }
         LoadError::Sum { .. } => ExportError::Sum(on_sum(scene)),
         _ => in_code(),
     })?;
@@ -160,14 +149,13 @@ fn guided_ball<T>(scene: &Scene<T>) -> Option<String> {
     balls.next().map(|(joint, _)| joint.name.clone())
 }
 
-/// The name of the first enabled effect on a sum with a length, an angle of a ball or a curve.
+/// The name of the first enabled effect on an angle of a ball.
 fn on_sum<T: Clone>(scene: &Scene<T>) -> String {
-    let has_other = |term: &CouplingTerm<T>| term.curve.is_some() || term.of.coordinate().is_none();
+    let is_ball = |term: &CouplingTerm<T>| matches!(term.of, CouplingMeasure::Ball { .. });
     let is_it = |effect: &&Effect<T>| {
         effect.enabled
             && effect.kind.values().iter().any(|value| match value {
-                EffectValue::Terms(terms) => terms.iter().any(has_other),
-                EffectValue::Line(points) => points.len() > 2,
+                EffectValue::Terms(terms) => terms.iter().any(is_ball),
                 _ => false,
             })
     };

@@ -101,7 +101,8 @@ pub fn spline_change<T: Real>((knots, curvature): (&[[T; 2]], &[T]), period: T, 
     sum
 }
 
-/// x in the period that begins at `first`.
+/// x in the period that begins at `first`. Images for controllers keep one copy.
+#[cfg_attr(not(feature = "alloc"), inline(never))]
 fn taken_into<T: Real>(x: T, first: T, period: T) -> T {
     let turns = libm::floor(((x - first) / period).to_f64());
     x - T::from_f64(turns) * period

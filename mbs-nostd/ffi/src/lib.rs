@@ -14,8 +14,8 @@ type Scalar = f32;
 type Scalar = f64;
 
 /// Room for a vehicle of about twenty bodies: change the numbers to fit a model, and build again.
-type Model = Tables<Scalar, Spatial, 24, 16, 40, 96, 40, 64, 32, 96, 64>;
-type Room = Solver<Scalar, Spatial, 24, 96, 72, 40, 1024, 1024, 8, 32, 12, 32, 4>;
+type Model = Tables<Scalar, Spatial, 24, 16, 40, 96, 40, 64, 32, 96, 64, 32>;
+type Room = Solver<Scalar, Spatial, 24, 96, 72, 40, 1024, 1024, 8, 32, 12, 32, 6, 32>;
 
 const OK: c_int = 0;
 const NULL: c_int = 1;

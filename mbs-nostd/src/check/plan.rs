@@ -1,17 +1,15 @@
 //! The order of elimination: every number in its lists points into them.
 
-use super::{Look, ends_by, ensure, sides};
+use super::{Look, ends_by, ensure, is_within, sides};
 use crate::check::LoadError;
 use mbs_core::Real;
 use mbs_recursive::coupled;
-use mbs_recursive::plan::Span;
 use mbs_recursive::space::Space;
 
 impl<T: Real, S: Space<T>> Look<'_, '_, T, S> {
     pub(super) fn plan(&self) -> Result<(), LoadError> {
         let (plan, n) = (&self.m.loops.plan, self.m.loops.loops.len());
         ensure(n == 0 || plan.stations.len() == self.sizes.links, "stations", 0)?;
-        let is_within = |span: Span, end: usize| span.first <= span.end && span.end as usize <= end;
         let is_lap = |lap: u32| (lap as usize) < n;
         for (i, station) in plan.stations.iter().enumerate() {
             let holds = is_within(station.passes, plan.passes.len())

@@ -1,11 +1,11 @@
-//! Operations on signals, and the functions that they name.
+//! Operations on signals.
 
-use super::{Look, ends_by, ensure};
+use super::{Look, ensure};
 use crate::check::LoadError;
 use crate::model::Model;
 use mbs_core::Real;
 use mbs_core::feedback::FeedbackOperation as Operation;
-use mbs_recursive::coupled::{CurveTable, NONE};
+use mbs_recursive::coupled::NONE;
 use mbs_recursive::space::Space;
 
 impl<T: Real, S: Space<T>> Look<'_, '_, T, S> {
@@ -39,25 +39,6 @@ impl<T: Real, S: Space<T>> Look<'_, '_, T, S> {
             ensure(link > 0 && self.has_one_coordinate(link), "measured coordinates", i)?;
         }
         ensure(model.start.signals.len() == feedback.n_states, "states of signals", 0)?;
-        self.curves()
-    }
-
-    fn curves(&self) -> Result<(), LoadError> {
-        let couplings = &self.m.loops.couplings;
-        for (i, curve) in couplings.curves.iter().enumerate() {
-            let holds = match curve {
-                CurveTable::Spline { knots, first, .. } => {
-                    knots.first <= knots.end
-                        && knots.end as usize <= couplings.knots.len()
-                        && ends_by(*first, knots.range().len(), couplings.numbers.len())
-                }
-                CurveTable::Polynomial { coefficients } => {
-                    coefficients.first <= coefficients.end
-                        && coefficients.end as usize <= couplings.numbers.len()
-                }
-            };
-            ensure(holds, "curves", i)?;
-        }
         Ok(())
     }
 }

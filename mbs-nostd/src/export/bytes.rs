@@ -2,10 +2,11 @@
 
 use crate::format::{Axes, Bytes, Record};
 use crate::model::Model;
-use crate::tables::{HEAD, WITH_ROTORS, WITH_SIGNALS};
+use crate::tables::{HEAD, WITH_CURVES, WITH_LINES, WITH_ROTORS, WITH_SIGNALS};
 use alloc::vec::Vec;
 use mbs_core::Real;
 use mbs_core::laws::entry::{Entry, EntryWriter};
+use mbs_recursive::coupled::Couplings;
 
 impl Bytes {
     /// A list of what laws refer to.
@@ -20,13 +21,16 @@ impl Bytes {
 
     /// Operations on signals, with what they refer to.
     fn signals<T: Real + Record, S: Axes<T>>(&mut self, model: &Model<'_, T, S>) -> bool {
-        let (feedback, couplings) = (&model.mechanism.feedback, &model.mechanism.loops.couplings);
+        let feedback = &model.mechanism.feedback;
         self.list(feedback.steps)
             && self.list(feedback.links)
-            && self.list(couplings.curves)
-            && self.list(couplings.knots)
-            && self.list(couplings.numbers)
+            && self.curves(&model.mechanism.loops.couplings)
             && self.list(model.start.signals)
+    }
+
+    /// Curves, with what they are made of.
+    fn curves<T: Real + Record, S: Axes<T>>(&mut self, of: &Couplings<'_, T, S>) -> bool {
+        self.list(of.curves) && self.list(of.knots) && self.list(of.numbers)
     }
 }
 
@@ -41,16 +45,24 @@ pub fn bytes<T: Real + Record, S: Axes<T>>(
     let tables = m.tables.tables();
     let to = &mut Bytes { bytes: Vec::new(), is_single };
     let width = if is_single { 4 } else { 8 };
+    let couplings = &m.loops.couplings;
     let (has_rotors, has_signals) = (!m.rotors.is_empty(), !m.feedback.steps.is_empty());
-    let version =
-        HEAD[1] + u32::from(has_rotors) * WITH_ROTORS + u32::from(has_signals) * WITH_SIGNALS;
+    let (has_curves, has_lines) =
+        (!has_signals && !couplings.curves.is_empty(), !couplings.points.is_empty());
+    let parts = [
+        (has_rotors, WITH_ROTORS),
+        (has_signals, WITH_SIGNALS),
+        (has_curves, WITH_CURVES),
+        (has_lines, WITH_LINES),
+    ];
+    let version = parts.iter().filter(|(has_it, _)| *has_it).fold(HEAD[1], |sum, (_, x)| sum + x);
     let done = [HEAD[0], version].write(to)
         && [S::DIMENSION, width].write(to)
         && to.list(m.links)
         && to.list(plan.stations)
         && to.list(m.loops.loops)
         && to.list(m.loops.rows)
-        && to.list(m.loops.couplings.terms)
+        && to.list(couplings.terms)
         && to.list(plan.passes)
         && to.list(plan.pairs)
         && to.list(plan.ends)
@@ -71,14 +83,16 @@ pub fn bytes<T: Real + Record, S: Axes<T>>(
         && to.list(begin.v)
         && to.list(begin.a)
         && m.loops.floor.write(to)
-        && m.loops.couplings.n_cut.write(to)
+        && couplings.n_cut.write(to)
         && m.gravity.write(to)
         && m.base.write(to)
         && m.length.write(to)
         && [m.n_coordinates, m.n_freedoms].write(to)
         && begin.t.write(to)
         && (!has_rotors || to.list(m.rotors))
-        && (!has_signals || to.signals(model));
+        && (!has_signals || to.signals(model))
+        && (!has_curves || to.curves(couplings))
+        && (!has_lines || (to.list(couplings.points) && to.list(couplings.starts)));
     done.then(|| core::mem::take(&mut to.bytes))
 }
 

@@ -8,9 +8,9 @@ use mbs_core::inputs::{Prescribed, SignalGraph};
 use mbs_core::laws::Part;
 use mbs_core::measure::PreparedCurve;
 use mbs_core::scene::{Interpolation, SignalId, SignalKind};
-use mbs_recursive::coupled::{Couplings, CurveTable, NONE};
+use mbs_recursive::coupled::Couplings;
+use mbs_recursive::curves::CurveTables;
 use mbs_recursive::feedback::FeedbackSlices;
-use mbs_recursive::plan::Span;
 use mbs_recursive::slices::TreeSlices;
 use mbs_recursive::space::Space;
 
@@ -39,9 +39,7 @@ impl core::error::Error for MovingSignal {}
 pub(super) struct SignalTables<T> {
     steps: Vec<FeedbackStep<T>>,
     n_states: usize,
-    curves: Vec<CurveTable<T>>,
-    knots: Vec<[T; 2]>,
-    numbers: Vec<T>,
+    curves: CurveTables<T>,
 }
 
 impl<T: Real> SignalTables<T> {
@@ -50,14 +48,11 @@ impl<T: Real> SignalTables<T> {
         prescribed: &Prescribed<T>,
         mechanism: &TreeSlices<'_, T, S>,
     ) -> Self {
-        let couplings = &mechanism.loops.couplings;
-        let program = prescribed.program();
+        let (program, couplings) = (prescribed.program(), &mechanism.loops.couplings);
         let mut tables = Self {
             steps: program.steps,
             n_states: program.starts.len(),
-            curves: couplings.curves.to_vec(),
-            knots: couplings.knots.to_vec(),
-            numbers: couplings.numbers.to_vec(),
+            curves: CurveTables::copied((couplings.curves, couplings.knots, couplings.numbers)),
         };
         let curve_of = |step: &FeedbackStep<T>| match step.operation {
             FeedbackOperation::Curve { curve, .. } => Some((step.to, curve)),
@@ -68,7 +63,7 @@ impl<T: Real> SignalTables<T> {
             let Some((to, number)) = curve_of(&tables.steps[i]) else { continue };
             let known = known.iter().find(|(of, _)| *of == to).map(|(_, curve)| *curve);
             let number =
-                known.unwrap_or_else(|| tables.add_curve(&program.curves[number as usize]));
+                known.unwrap_or_else(|| tables.curves.add(&program.curves[number as usize]));
             if let FeedbackOperation::Curve { curve, .. } = &mut tables.steps[i].operation {
                 *curve = number;
             }
@@ -76,29 +71,13 @@ impl<T: Real> SignalTables<T> {
         tables
     }
 
-    /// The number of a function that is added.
-    fn add_curve(&mut self, curve: &PreparedCurve<T>) -> u32 {
-        let table = match curve {
-            PreparedCurve::Identity => return NONE,
-            PreparedCurve::Spline { knots, curvature, period } => CurveTable::Spline {
-                knots: extend(&mut self.knots, knots),
-                first: extend(&mut self.numbers, curvature).first,
-                period: *period,
-            },
-            PreparedCurve::Polynomial(coefficients) => {
-                CurveTable::Polynomial { coefficients: extend(&mut self.numbers, coefficients) }
-            }
-        };
-        self.curves.push(table);
-        index(self.curves.len() - 1)
-    }
-
     /// The couplings with these functions.
     pub(super) fn couplings<'a, S: Space<T>>(
         &'a self,
         of: &Couplings<'a, T, S>,
     ) -> Couplings<'a, T, S> {
-        Couplings { curves: &self.curves, knots: &self.knots, numbers: &self.numbers, ..*of }
+        let (curves, knots, numbers) = self.curves.slices();
+        Couplings { curves, knots, numbers, ..*of }
     }
 
     /// The operations, with the links of the measured coordinates.
@@ -162,13 +141,6 @@ pub(super) fn add_laws<T: Real>(
         });
     }
     Ok(())
-}
-
-/// Adds a list to another; where it stands there.
-fn extend<X: Copy>(to: &mut Vec<X>, list: &[X]) -> Span {
-    let first = index(to.len());
-    to.extend_from_slice(list);
-    Span { first, end: index(to.len()) }
 }
 
 fn index(i: usize) -> u32 {

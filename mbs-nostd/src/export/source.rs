@@ -1,13 +1,15 @@
 //! A model as a file of Rust: constant tables, and a solver of just their size.
 
 use super::collect::{elements, needs};
-use crate::check::{Checked, LoadError, Sizes};
+use crate::check::{Checked, LoadError, MIN_SIDES, Sizes};
 use crate::format::{Axes, Record};
 use crate::model::Model;
 use alloc::format;
 use alloc::string::String;
+use alloc::vec::Vec;
 use mbs_core::Real;
 use mbs_core::laws::entry::{Entry, EntryWriter};
+use mbs_recursive::coupled::Couplings;
 
 /// Begins an expression of a struct.
 pub(crate) fn open(name: &str, to: &mut String) {
@@ -86,7 +88,8 @@ pub fn source<T: Real + Record, S: Axes<T>>(
     model: &Model<'_, T, S>,
     (title, is_single): (&str, bool),
 ) -> Result<String, LoadError> {
-    let sizes = Checked::new(model)?.sizes();
+    let checked = Checked::new(model)?;
+    let sizes = checked.sizes();
     let m = &model.mechanism;
     let scalar = if is_single { "f32" } else { "f64" };
     let space = if S::DIMENSION == 3 { "Spatial" } else { "Planar" };
@@ -122,29 +125,28 @@ pub fn source<T: Real + Record, S: Axes<T>>(
         sizes.gains,
         sizes.guides,
         sizes.courses,
-        further(&sizes)
+        further(&sizes, checked.n_slopes())
     );
     lists(model, &mut to);
     let law_inputs = law_inputs(m.tables, &mut to);
     let signals = signals(model, &mut to);
-    constant(model, (&law_inputs, signals), &mut to);
+    let couplings = couplings(&m.loops.couplings, &mut to);
+    constant(model, (&law_inputs, &couplings, signals), &mut to);
     Ok(to)
 }
 
 /// The sizes of a solver that have defaults, where the model needs others.
-fn further(sizes: &Sizes) -> String {
-    let signals = format!(", {}, {}", sizes.states, sizes.followed);
-    match (sizes.sides > 2, sizes.followed > 0) {
-        (true, _) => format!("{signals}, {}", sizes.sides),
-        (false, true) => signals,
-        (false, false) => String::new(),
-    }
+fn further(sizes: &Sizes, n_slopes: usize) -> String {
+    let all = [(sizes.states, 0), (sizes.followed, 0), (sizes.sides, MIN_SIDES), (n_slopes, 0)];
+    let last = all.iter().rposition(|(needed, default)| needed != default);
+    let written = all.iter().take(last.map_or(0, |last| last + 1));
+    written.map(|(needed, _)| format!(", {needed}")).collect()
 }
 
 /// The constant that holds all tables.
 fn constant<T: Real + Record, S: Axes<T>>(
     model: &Model<'_, T, S>,
-    (law_inputs, [curves, feedback, states]): (&str, [&str; 3]),
+    (law_inputs, couplings, [feedback, states]): (&str, &str, [&str; 2]),
     to: &mut String,
 ) {
     let m = &model.mechanism;
@@ -165,7 +167,7 @@ fn constant<T: Real + Record, S: Axes<T>>(
          \x20               updates: &UPDATES,\n\
          \x20           }},\n\
          \x20           floor: {},\n\
-         \x20           couplings: Couplings {{ n_cut: {}, terms: &TERMS, {curves}..Couplings::none() }},\n\
+         \x20           couplings: Couplings {{ n_cut: {}, terms: &TERMS, {couplings} }},\n\
          \x20       }},\n\
          \x20       loads: &LOADS,\n\
          \x20       rotors: &ROTORS,\n\
@@ -224,26 +226,42 @@ fn lists<T: Real + Record, S: Axes<T>>(model: &Model<'_, T, S>, to: &mut String)
     table("A", "Scalar", begin.a, to);
 }
 
-/// The tables of signals, if there are operations on them: what couplings, feedback and start have of them.
+/// The tables of signals, if there are operations on them: what feedback and start have of them.
 fn signals<T: Real + Record, S: Axes<T>>(
     model: &Model<'_, T, S>,
     to: &mut String,
-) -> [&'static str; 3] {
-    let (feedback, couplings) = (&model.mechanism.feedback, &model.mechanism.loops.couplings);
+) -> [&'static str; 2] {
+    let feedback = &model.mechanism.feedback;
     if feedback.steps.is_empty() {
-        return ["", "FeedbackSlices::none()", "&[]"];
+        return ["FeedbackSlices::none()", "&[]"];
     }
     table("OPERATIONS", "FeedbackStep<Scalar>", feedback.steps, to);
     table("MEASURED", "u32", feedback.links, to);
     table("STATES", "[Scalar; 2]", model.start.signals, to);
-    table("CURVES", "CurveTable<Scalar>", couplings.curves, to);
-    table("CURVE_KNOTS", "[Scalar; 2]", couplings.knots, to);
-    table("CURVE_NUMBERS", "Scalar", couplings.numbers, to);
     [
-        "curves: &CURVES, knots: &CURVE_KNOTS, numbers: &CURVE_NUMBERS, ",
         "FeedbackSlices { steps: &OPERATIONS, links: &MEASURED, n_states: STATES.len(), signals: &[], ..FeedbackSlices::none() }",
         "&STATES",
     ]
+}
+
+/// The curves and lines of couplings that are not empty, and the fields that hold them, with what stands for others.
+fn couplings<T: Real + Record, S: Axes<T>>(of: &Couplings<'_, T, S>, to: &mut String) -> String {
+    let mut fields = Vec::new();
+    if !of.curves.is_empty() {
+        table("CURVES", "CurveTable<Scalar>", of.curves, to);
+        table("CURVE_KNOTS", "[Scalar; 2]", of.knots, to);
+        table("CURVE_NUMBERS", "Scalar", of.numbers, to);
+        fields.push("curves: &CURVES, knots: &CURVE_KNOTS, numbers: &CURVE_NUMBERS");
+    }
+    if !of.points.is_empty() {
+        table("POINTS", "LinePoint<Scalar, Axes>", of.points, to);
+        table("STARTS", "LinkStart", of.starts, to);
+        fields.push("points: &POINTS, starts: &STARTS");
+    }
+    if of.curves.is_empty() || of.points.is_empty() {
+        fields.push("..Couplings::none()");
+    }
+    fields.join(", ")
 }
 
 /// The tables of laws that are not empty, and the expression that holds them.

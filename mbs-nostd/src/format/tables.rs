@@ -6,7 +6,7 @@ use crate::inputs::Motion;
 use mbs_core::Real;
 use mbs_core::laws::Part;
 use mbs_recursive::closed_loop::ClosedLoop;
-use mbs_recursive::coupled::{CoupledRow, SumMeasure, SumTerm};
+use mbs_recursive::coupled::{CoupledRow, LinePoint, LinkStart, SumMeasure, SumTerm};
 use mbs_recursive::link::{Link, LinkKind, LinkRotor};
 use mbs_recursive::loads::{BodyLoad, Load, Measure, SumLoad};
 use mbs_recursive::plan::{End, LoopCoupling, Pair, Pass, Span, Station, Update};
@@ -41,7 +41,10 @@ record_struct!([T: Real + Record] CoupledRow<T> = CoupledRow {
 record_struct!([T: Real + Record] SumTerm<T> = SumTerm { factor, curve, of });
 record_enum!([T: Real + Record] SumMeasure<T> = SumMeasure {
     0 Joint { link link, side side },
+    1 Line { points points, reference reference },
 });
+record_struct!([T: Real + Record, S: Axes<T>] LinePoint<T, S> = LinePoint { start, point });
+record_struct!([] LinkStart = LinkStart { link, side });
 
 record_struct!([T: Real + Record] LinkRotor<T> = LinkRotor { link, inertia });
 

@@ -2,6 +2,8 @@
 
 use super::Operations;
 use super::count;
+use super::couplings;
+use super::curves::SPLINE;
 use crate::inputs::{Motion, Prescriptions, SignalLaw};
 use mbs_core::Real;
 use mbs_recursive::loads::{Load, Measure};
@@ -11,9 +13,6 @@ use mbs_recursive::space::Space;
 const fn ops(products: u64, sums: u64) -> Operations {
     Operations::new(products, sums)
 }
-
-/// A cubic spline with its derivatives.
-pub(super) const SPLINE: Operations = ops(22, 14).and(4, 0, 0);
 
 /// A step that takes its time, with its derivatives.
 const STEP: Operations = ops(16, 7).and(3, 0, 0);
@@ -108,11 +107,7 @@ pub(super) fn load<T: Real, S: Space<T>>(
                 measured + parts.resist * count(n)
             }
         }
-        // Each term measured, and its joint's answer.
-        Load::Sum(sum) => {
-            let terms = count(sum.terms.range().len());
-            sum.law.operations() + ops(15, 16) * terms + across + ops(2, 2)
-        }
+        Load::Sum(sum) => couplings::sum(&m.loops.couplings, sum, parts.resist),
         Load::Angle { law, .. } => law.operations() + across + ops(0, 1),
         Load::Constant { .. } => parts.turned + parts.wrench + ops(0, parts.motion),
         Load::Force { turns, .. } => {

@@ -5,11 +5,14 @@
 //! at the ancestor     m³/6 for Λ, m²/2 rows of N + 1 numbers, m (N + 1) and a square of N numbers each, couplings m m' (m/2 + N + 1)
 //! ```
 
-use super::{Operations, count, joints};
+use super::{Operations, count, couplings, joints};
 use mbs_core::Real;
 use mbs_recursive::rows::Row;
 use mbs_recursive::slices::TreeSlices;
 use mbs_recursive::space::{Numbers, Space};
+
+/// Entries that the values of a row look up, and its residual [-]: a slider-crank's on a Cortex-M7, rounded up.
+const ROW_ENTRIES: u64 = 4;
 
 const fn ops(products: u64, sums: u64) -> Operations {
     Operations::new(products, sums)
@@ -34,7 +37,12 @@ const fn solve(rows: u64) -> Operations {
 pub(super) fn residual<T: Real, S: Space<T>>(m: &TreeSlices<'_, T, S>) -> Operations {
     let n = motion::<T, S>();
     let terms = count(m.loops.couplings.terms.len());
-    ops(4 * n, 2 * (n - 1) + 2 + 2 * n + 2) * count(m.loops.rows.len()) + ops(terms, 2 * terms)
+    let mut sum =
+        ops(4 * n, 2 * (n - 1) + 2 + 2 * n + 2) * count(m.loops.rows.len()) + ops(terms, 2 * terms);
+    for row in m.loops.rows {
+        sum += couplings::residual(row) + Operations::entries(ROW_ENTRIES);
+    }
+    sum
 }
 
 /// Values, rates, gradients and biases of all rows.
@@ -43,6 +51,7 @@ pub(super) fn rows<T: Real, S: Space<T>>(m: &TreeSlices<'_, T, S>) -> Operations
     let ends = if is_spatial { ops(54, 51) } else { ops(20, 18) };
     let mut sum = ends * count(m.loops.loops.len());
     for row in m.loops.rows {
+        sum += Operations::entries(ROW_ENTRIES);
         sum += match (row, is_spatial) {
             (Row::Coincidence { .. }, true) => ops(24, 17),
             (Row::Coincidence { .. }, false) => ops(10, 7),
@@ -51,10 +60,7 @@ pub(super) fn rows<T: Real, S: Space<T>>(m: &TreeSlices<'_, T, S>) -> Operations
             (Row::Dot { .. }, true) => ops(85, 55),
             (Row::Dot { .. }, false) => ops(37, 17),
             (Row::Length { .. }, true) => ops(40, 25).and(1, 0, 0),
-            (Row::Coupled(row), _) => {
-                let terms = count(row.terms.range().len());
-                ops(8 * terms + 3, 8 * terms + 12)
-            }
+            (Row::Coupled(row), _) => couplings::row(&m.loops.couplings, row),
             (Row::Length { .. }, false) => ops(22, 12).and(1, 0, 0),
             // the first row has the lowest point
             (Row::Height { .. } | Row::Blade { .. }, _) => ops(240, 200).and(1, 1, 0),
@@ -70,22 +76,26 @@ pub(super) fn evaluation<T: Real, S: Space<T>>(m: &TreeSlices<'_, T, S>) -> Oper
     let gathered = if S::DIMENSION == 3 { ops(6, 6) } else { ops(2, 2) };
     let square = if S::DIMENSION == 3 { ops(27, 21) } else { ops(9, 6) };
     let lap_rows = |lap: u32| m.loops.loops.get(lap as usize).map_or(0, |lap| u64::from(lap.n));
-    let is_coupled = |lap: u32| {
+    let slopes = |lap: u32| {
         let first = m.loops.loops.get(lap as usize).map(|lap| lap.first as usize);
-        matches!(first.and_then(|k| m.loops.rows.get(k)), Some(Row::Coupled(_)))
+        match first.and_then(|k| m.loops.rows.get(k)) {
+            // K b over all numbers, and g, which is looked for among the terms
+            Some(Row::Coupled(row)) => {
+                ops(n, n) + Operations::entries(count(row.terms.range().len()))
+            }
+            _ => Operations::NONE,
+        }
     };
     let plan = &m.loops.plan;
     // K of all sides behind the first one are added to it.
-    let added = plan.passes.iter().fold(1, |most, pass| most.max(u64::from(pass.side)));
+    let added = couplings::added(m);
     let mut sum = opening(m);
     for (station, link) in plan.stations.iter().zip(m.links) {
         let f = count(link.kind.n_freedoms::<T, S>());
         for pass in plan.passes.get(station.passes.range()).unwrap_or(&[]) {
             let row = joints::pass::<T, S>(link.kind) + ops(n, n + 1) + gathered;
             let row = row + ops(2 * f, 2 * f + 1) + Operations::entries(1);
-            // K b over all numbers, and g
-            let row = if is_coupled(pass.lap) { row + ops(n, n) } else { row };
-            sum += row * lap_rows(pass.lap);
+            sum += (row + slopes(pass.lap)) * lap_rows(pass.lap);
         }
         for pair in plan.pairs.get(station.pairs.range()).unwrap_or(&[]) {
             let rows = |pass: u32| plan.passes.get(pass as usize).map_or(0, |p| lap_rows(p.lap));

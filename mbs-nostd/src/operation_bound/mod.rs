@@ -2,7 +2,7 @@
 //!
 //! ```text
 //! step         inputs + (E + 1) reach + E evaluation + P projection          E evaluations, P projections, σ further sweeps
-//!              (+ inputs + evaluation where courses are written between steps)
+//!              (+ inputs + evaluation where courses are written between steps, + 2 inputs + Σ links place + gaps of parts where there are lines)
 //! evaluation   Σ links [place, inertia, eliminate, advance, (+ inward shift unless on the ground)]
 //!              + Σ loops [rows, passes, elimination, opening, residual] + rotors + signals + effects [spread, forces ahead] + σ (response + residual)
 //! response     Σ links [impulse, advance (+ shift)] + Σ loops [passes and eliminations of l alone, opening]
@@ -13,8 +13,10 @@
 //! that are not level the longest search for the nearest point: there the count is a bound.
 //!
 //! Products, sums and differences, quotients, roots, and calls of sine with cosine or of the arc tangent are counted. Changes of
-//! sign, comparisons and copies are not: they are in the instructions of the others.
+//! sign, comparisons and copies are not: they are in the instructions of the others, and of the entries that links, rows and terms look up.
 
+mod couplings;
+mod curves;
 mod effects;
 mod joints;
 mod loops;
@@ -29,6 +31,11 @@ use mbs_recursive::bounded::Bounds;
 use mbs_recursive::link::Link;
 use mbs_recursive::space::{Numbers, Space};
 
+/// Entries that a step looks up beside those of links and loops [-]: a pendulum's of two links on a Cortex-M7, rounded up.
+const STEP_ENTRIES: u64 = 8;
+/// Entries that an evaluation looks up for a link [-]: as above.
+const LINK_ENTRIES: u64 = 8;
+
 /// The operations of one step within `bounds`.
 ///
 /// Cost: linear in the tables.
@@ -40,12 +47,13 @@ pub fn step<T: Real, S: Space<T>>(model: &Model<'_, T, S>, bounds: Bounds) -> Op
     let evaluations = u64::from(bounds.evaluations.max(1));
     // h² β and h γ; the time at the end, for inputs and for the state.
     let mut total = Operations::new(3, 2) + effects::inputs(&model.prescriptions);
+    total += Operations::entries(STEP_ENTRIES);
     let reach = Operations::new(7, 6) * freedoms + moves::<T, S>(m.links);
     total += reach * (evaluations + 1);
     // What the accelerations changed by, and its scale.
     let mut evaluation = Operations::new(1, freedoms);
     for link in skip_ground(m.links) {
-        evaluation += joints::evaluation::<T, S>(link);
+        evaluation += joints::evaluation::<T, S>(link) + Operations::entries(LINK_ENTRIES);
     }
     evaluation += Operations::new(0, count(m.rotors.len()));
     evaluation += signals::evaluation(m);
@@ -67,12 +75,12 @@ pub fn step<T: Real, S: Space<T>>(model: &Model<'_, T, S>, bounds: Bounds) -> Op
         evaluation += loops::rows(m) + loops::evaluation(m) + residual;
         evaluation += (residual + answer) * u64::from(bounds.sweeps);
         let mut projection = loops::rows(m) + response(m) * 2 + moves::<T, S>(m.links);
-        for link in skip_ground(m.links) {
-            projection += joints::place::<T, S>(link.kind);
-        }
+        projection += places::<T, S>(m.links);
         projection += Operations::new(0, freedoms);
         total += projection * u64::from(bounds.projections);
     }
+    let ends = [effects::inputs(&model.prescriptions), places::<T, S>(m.links)];
+    total += couplings::collapse(m, ends);
     let written = |course: &SignalLaw<T>| matches!(course, SignalLaw::Input(_));
     if model.prescriptions.courses.iter().any(written) {
         // A step after a course was written begins with an evaluation.
@@ -83,6 +91,15 @@ pub fn step<T: Real, S: Space<T>>(model: &Model<'_, T, S>, bounds: Bounds) -> Op
 
 fn skip_ground<T: Real, S: Space<T>>(links: &[Link<T, S>]) -> impl Iterator<Item = &Link<T, S>> {
     links.iter().skip(1)
+}
+
+/// Places and velocities of all links.
+fn places<T: Real, S: Space<T>>(links: &[Link<T, S>]) -> Operations {
+    let mut sum = Operations::NONE;
+    for link in skip_ground(links) {
+        sum += joints::place::<T, S>(link.kind);
+    }
+    sum
 }
 
 /// Coordinates moved along freedoms.

@@ -1,9 +1,9 @@
 //! Operations on signals, with how these answer to what is measured: of the branch that costs most.
 
-use super::{Operations, count, effects};
+use super::Operations;
+use super::curves::function;
 use mbs_core::Real;
 use mbs_core::feedback::FeedbackOperation;
-use mbs_recursive::coupled::{Couplings, CurveTable};
 use mbs_recursive::slices::TreeSlices;
 use mbs_recursive::space::Space;
 
@@ -33,18 +33,4 @@ pub(super) fn evaluation<T: Real, S: Space<T>>(m: &TreeSlices<'_, T, S>) -> Oper
         };
     }
     sum
-}
-
-/// A function with its two derivatives.
-fn function<T: Real, S: Space<T>>(couplings: &Couplings<'_, T, S>, curve: u32) -> Operations {
-    match couplings.curves.get(curve as usize) {
-        Some(CurveTable::Polynomial { coefficients }) => {
-            ops(3, 4) * count(coefficients.range().len())
-        }
-        Some(CurveTable::Spline { period, .. }) if *period > T::ZERO => {
-            effects::SPLINE + ops(1, 2).and(1, 0, 0)
-        }
-        Some(CurveTable::Spline { .. }) => effects::SPLINE,
-        None => Operations::NONE,
-    }
 }

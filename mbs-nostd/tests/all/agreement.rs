@@ -189,13 +189,6 @@ fn rotors_turn_on_a_controller_as_in_the_recursion() {
 }
 
 #[test]
-fn a_cam_is_refused_for_a_controller_with_its_coupling() {
-    let cam = DRIVEN.replace("factor = 0.5", "factor = 0.5, coefficients = [0.0, 1.0, 0.2]");
-    let refused = apart_on_controller(&format!("{GEARS}{cam}"));
-    assert_eq!(refused, Err(LoadError::Coupling { coupling: 1 }));
-}
-
-#[test]
 fn laws_on_sums_act_on_a_controller_as_in_the_recursion() {
     let spring =
         "[[effect]]\nkind = \"torsion-spring\"\nstiffness = 9.0\ndamping = 0.3\nfree_value = 0.2\n";
@@ -204,9 +197,6 @@ fn laws_on_sums_act_on_a_controller_as_in_the_recursion() {
     for scene in [GEARS, alone] {
         assert_eq!(apart_on_controller(&format!("{scene}{spring}{sum}")), Ok(0.0));
     }
-    let curve = sum.replace("factor = 1.0", "factor = 1.0, coefficients = [0.0, 1.0, 0.2]");
-    let refused = apart_on_controller(&format!("{GEARS}{spring}{curve}"));
-    assert_eq!(refused, Err(LoadError::Sum { entry: 0 }));
 }
 
 /// Largest difference of a coordinate from the converged trapezoidal rule over 10 s [m or rad].

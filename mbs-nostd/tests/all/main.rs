@@ -5,4 +5,5 @@ mod support;
 mod agreement;
 mod inputs;
 mod operation_bound;
+mod ropes_and_cams;
 mod signals;

@@ -1,5 +1,6 @@
 //! The bound, by a number that counts what is done with it.
 
+use crate::ropes_and_cams::{HOIST, SUMS, WINCH};
 use crate::signals::{ARM, LINE};
 use crate::support::counted::{Counted, done};
 use crate::support::start;
@@ -11,8 +12,8 @@ use mbs_nostd::{Bounds, Planar, Solver, Spatial, Tables, Unwatched};
 use mbs_recursive::rows::Row;
 use mbs_testkit::file;
 
-type Room<S> = Solver<Counted, S, 64, 80, 48, 160, 4096, 4096, 2, 24, 4, 24>;
-type RoomTables<S> = Tables<Counted, S, 64, 48, 160, 512, 64, 64, 24, 80, 40>;
+type Room<S> = Solver<Counted, S, 64, 80, 48, 160, 4096, 4096, 2, 24, 4, 24, 6, 8>;
+type RoomTables<S> = Tables<Counted, S, 64, 48, 160, 512, 64, 64, 24, 80, 40, 16>;
 
 /// A scene of the repository or of this test.
 fn scene(name: &str) -> Scene<f64> {
@@ -108,6 +109,19 @@ fn couplings_stay_below_the_bound() {
     for (sweeps, projections) in [(0, 1), (2, 2)] {
         let bounds = Bounds { evaluations: 2, sweeps, projections };
         is_bound("couplings", counted_of::<Planar, 2>(&mbs_testkit::scene(text), bounds));
+    }
+}
+
+#[test]
+fn curves_and_lines_stay_below_the_bound() {
+    for (evaluations, sweeps, projections) in [(1, 0, 1), (2, 2, 2)] {
+        let bounds = Bounds { evaluations, sweeps, projections };
+        for text in [HOIST, &format!("{HOIST}{SUMS}")] {
+            let counts = counted_of::<Planar, 2>(&mbs_testkit::scene(text), bounds);
+            is_bound("hoist", counts);
+        }
+        let counts = counted_of::<Spatial, 3>(&mbs_testkit::scene(WINCH), bounds);
+        is_bound("winch", counts);
     }
 }
 

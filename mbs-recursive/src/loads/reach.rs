@@ -21,8 +21,9 @@ impl<T: Real> Reach<T> {
         (self.place * measure.stiffness + self.speed * measure.damping).max(T::ZERO)
     }
 
-    /// A tension with the unit wrench `w` on a link that was to have the acceleration `a`.
-    #[inline]
+    /// A tension with the unit wrench `w` on a link that was to have the acceleration `a`. Images for controllers keep one copy.
+    #[cfg_attr(feature = "alloc", inline)]
+    #[cfg_attr(not(feature = "alloc"), inline(never))]
     pub(super) fn resist<S: Space<T>>(
         self,
         c: &mut ArticulatedInertia<T, S>,

@@ -15,8 +15,8 @@ const TARGET: &str = "thumbv7em-none-eabihf";
 const PATIENCE: Duration = Duration::from_secs(600);
 
 /// Features of mbs-nostd: machine elements, and all of them.
-pub(super) const ELEMENTS: [&str; 6] =
-    ["couplings", "rolling", "rotors", "signals", "sums", "elements"];
+pub(super) const ELEMENTS: [&str; 8] =
+    ["couplings", "curves", "lines", "rolling", "rotors", "signals", "sums", "elements"];
 
 pub(super) const M7: Board = Board { machine: "mps2-an500", cpu: "cortex-m7" };
 
@@ -29,9 +29,9 @@ pub(super) struct Board {
     pub(super) cpu: &'static str,
 }
 
-/// Writes a scene as a table of Rust; where.
+/// Writes a scene, named by its file beside or among the scenes, as a table of Rust; where.
 pub(super) fn export(scene: &str, precision: &str, models: &Path) -> Result<PathBuf, String> {
-    let file = models.join(format!("{scene}-{precision}.rs"));
+    let file = models.join(format!("{}-{precision}.rs", name(scene)));
     let mut command = Command::new(process::tested("mbs", "command")?);
     command.arg("export").arg(format!("scenes/{scene}.toml")).args([
         "--precision",
@@ -41,6 +41,11 @@ pub(super) fn export(scene: &str, precision: &str, models: &Path) -> Result<Path
     command.arg(&file).arg("--binary").arg(file.with_extension("mbs"));
     run(command.current_dir(process::root()))?;
     Ok(file)
+}
+
+/// The name of a scene.
+pub(super) fn name(scene: &str) -> &str {
+    scene.rsplit('/').next().unwrap_or(scene)
 }
 
 /// Builds the firmware with a model; the image, and its sizes.

@@ -24,8 +24,8 @@ const OF_TIRES: [&str; 5] =
 const OF_BUSHINGS: &str = "5loads8rotation";
 
 /// Modules of machine elements, and the feature of all of these.
-const OF_ELEMENTS: (&str, [&str; 4]) =
-    ("elements", ["12coupled_rows", "8feedback", "5loads3sum", "7rolling"]);
+const OF_ELEMENTS: (&str, [&str; 5]) =
+    ("elements", ["12coupled_rows", "13coupled_lines", "8feedback", "5loads3sum", "7rolling"]);
 
 /// The features that bring code, and mangled modules that must not be in an image without them.
 fn features() -> Vec<(&'static str, Vec<String>)> {
