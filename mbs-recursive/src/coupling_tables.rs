@@ -8,6 +8,7 @@ use crate::plan::Span;
 use crate::space::Space;
 use alloc::vec::Vec;
 use mbs_core::Real;
+use mbs_core::laws::code::Codes;
 use mbs_core::measure::PreparedCurve;
 
 /// Where a row begins: at a link with K, or at the joint of a link with g.
@@ -45,7 +46,7 @@ impl<T: Real, S: Space<T>> Default for CouplingTables<T, S> {
 }
 
 impl<T: Real, S: Space<T>> CouplingTables<T, S> {
-    pub(crate) fn slices(&self) -> Couplings<'_, T, S> {
+    pub(crate) fn slices<'a>(&'a self, relations: &'a Codes) -> Couplings<'a, T, S> {
         Couplings {
             n_cut: self.n_cut,
             terms: &self.terms,
@@ -54,6 +55,7 @@ impl<T: Real, S: Space<T>> CouplingTables<T, S> {
             curves: &self.curves,
             knots: &self.knots,
             numbers: &self.numbers,
+            relations: Some(relations),
         }
     }
 

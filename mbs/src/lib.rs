@@ -62,6 +62,7 @@ pub use front::{
 pub use interrupt::Interrupt;
 pub use mbs_core::formulation::{Formulation, SwitchError};
 pub use mbs_core::laws::code::{BodyLaw, Force, ForceLaw, Measured, MeasuredBody};
+pub use mbs_core::laws::relation::Relation;
 pub use mbs_core::scene::{
     BallAngle, BodyId, CouplingId, CouplingMeasure, CouplingTerm, Curve, EffectId, EffectKind,
     GROUND, GuideId, InitialId, Interpolation, JointId, JointLimits, Motion, Number, OutputId,

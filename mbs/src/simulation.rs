@@ -87,7 +87,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         self.formulation.codes(&self.model).forget();
         let made = self.advance_by(rest);
         made.map_err(|error| match self.formulation.codes(&self.model).failed() {
-            Some(effect) => StepError::Law { effect },
+            Some(failed) => failed.into(),
             None => self.collapsing(rest).unwrap_or(error),
         })
     }

@@ -41,6 +41,7 @@ pub(crate) fn train(n: usize, has_gears: bool) -> Scene<f64> {
     let coupling = |i: usize| Coupling {
         name: format!("mesh-{i}"),
         terms: vec![term(i), term(i + 1)],
+        relation: None,
         value: 0.0,
         motion: None,
     };

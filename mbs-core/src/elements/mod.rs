@@ -20,6 +20,8 @@ mod dot;
 mod guided;
 mod linear;
 #[cfg(feature = "alloc")]
+mod related;
+#[cfg(feature = "alloc")]
 mod rolling;
 
 pub use ball::ball_directions;
@@ -27,7 +29,7 @@ pub use ball::ball_directions;
 pub(crate) use combination::add_gradient;
 pub use combination::{Span, Term, combine};
 pub use coupled::{
-    Coupled, CoupledTables, CoupledTerm, Curves, Measurand, NONE, Signed, add_measure_gradient,
+    Coupled, CoupledForm, CoupledTables, CoupledTerm, Curves, Measurand, NONE, Signed, add_measure_gradient,
     has_collapsed, is_open, rate_and_bias, value as measured_value,
 };
 pub use distance::Distance;

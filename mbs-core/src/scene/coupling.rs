@@ -4,10 +4,12 @@
 //! sum_k c_k m_k(q) = value + f(t)          m_k: a joint coordinate, unwrapped, or a length; or a curve of one
 //! ```
 //!
-//! Every kind of coupling is such a sum; the constructors below write them. Coordinates and lengths count from the reference
-//! configuration.
+//! Every kind of coupling is such a sum; the constructors below write them. A [relation](Coupling::relation) in code holds any
+//! other function of the measures. Coordinates and lengths count from the reference configuration.
 
 use crate::Real;
+use crate::laws::code::Code;
+use crate::laws::relation::Relation;
 use crate::scene::{BodyId, Curve, JointId, Motion, Number, Vector3};
 use alloc::string::String;
 use alloc::vec;
@@ -23,6 +25,8 @@ pub struct Coupling<T> {
     pub name: String,
     /// The terms of the sum, at least one.
     pub terms: Vec<CouplingTerm<T>>,
+    /// A user-defined function of the terms that is held in place of their sum; in code only.
+    pub relation: Option<Code<dyn Relation>>,
     /// What the sum is, from the reference configuration [unit of a factor times its coordinate].
     pub value: T,
     /// What is added to the value in the course of time.
@@ -89,6 +93,26 @@ impl BallAngle {
     }
 }
 
+impl From<JointId> for CouplingMeasure<Number> {
+    fn from(joint: JointId) -> Self {
+        Self::Coordinate { joint, number: 0 }
+    }
+}
+
+impl From<(JointId, usize)> for CouplingMeasure<Number> {
+    fn from((joint, number): (JointId, usize)) -> Self {
+        Self::Coordinate { joint, number }
+    }
+}
+
+impl CouplingMeasure<Number> {
+    /// The length of a line over points of bodies [m].
+    #[must_use]
+    pub fn line<P: Into<Vector3>>(points: impl IntoIterator<Item = (BodyId, P)>) -> Self {
+        Self::Length { points: points.into_iter().map(|(body, at)| (body, at.into().0)).collect() }
+    }
+}
+
 impl<T> CouplingMeasure<T> {
     /// The joint and the number of a coordinate; `None` of a length, and of an angle of a ball.
     #[must_use]
@@ -147,7 +171,21 @@ impl Coupling<Number> {
     /// Any terms, whose sum is zero.
     #[must_use]
     pub const fn of(terms: Vec<CouplingTerm<Number>>) -> Self {
-        Self { name: String::new(), terms, value: Number::ZERO, motion: None }
+        Self { name: String::new(), terms, relation: None, value: Number::ZERO, motion: None }
+    }
+
+    /// A user-defined relation of measures, whose value is zero: a joint stands for its first coordinate.
+    ///
+    /// It is code, which no file has. Where it is zero elsewhere than in the reference configuration, its measures count from there all
+    /// the same; another value is [held](Self::holding) or [follows time](Self::driven).
+    #[must_use]
+    pub fn relation<M: Into<CouplingMeasure<Number>>>(
+        measures: impl IntoIterator<Item = M>,
+        relation: impl Relation + 'static,
+    ) -> Self {
+        let term = |of: M| CouplingTerm { factor: 1.into(), of: of.into(), curve: None };
+        let relation = Some(relation.into());
+        Self { relation, ..Self::of(measures.into_iter().map(term).collect()) }
     }
 
     /// Two wheels in external mesh about parallel axes: `teeth[0]` of the first turn against `teeth[1]` of the second.
@@ -213,8 +251,7 @@ impl Coupling<Number> {
     /// A line of constant length over points of bodies [m], without friction: it pulls and pushes.
     #[must_use]
     pub fn rope<P: Into<Vector3>>(points: impl IntoIterator<Item = (BodyId, P)>) -> Self {
-        let points = points.into_iter().map(|(body, at)| (body, at.into().0)).collect();
-        let of = CouplingMeasure::Length { points };
+        let of = CouplingMeasure::line(points);
         Self::of(vec![CouplingTerm { factor: 1.into(), of, curve: None }])
     }
 

@@ -44,6 +44,7 @@ fn moving<T: Real>(scene: &Scene<T>, (joint, number): (JointId, usize)) -> Scene
     let rate_of_one = Coupling {
         name: String::new(),
         terms: vec![CouplingTerm { factor: T::ONE, of, curve: None }],
+        relation: None,
         value: T::ZERO,
         motion: Some(Motion::Ramp { rate: T::ONE }),
     };

@@ -17,7 +17,7 @@ fn joint(index: usize) -> JointId {
 
 fn couple(scene: &mut Scene<f64>, terms: Vec<CouplingTerm<f64>>) {
     let name = format!("coupling {}", scene.couplings.len());
-    scene.couplings.push(Coupling { name, terms, value: 0.0, motion: None });
+    scene.couplings.push(Coupling { name, terms, relation: None, value: 0.0, motion: None });
 }
 
 fn term(index: usize, number: usize, factor: f64) -> CouplingTerm<f64> {

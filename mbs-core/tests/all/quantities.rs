@@ -333,7 +333,7 @@ fn a_driven_coupling_and_a_guide_give_what_the_motion_needs() {
     let of = CouplingMeasure::Coordinate { joint, number: 0 };
     let terms = vec![CouplingTerm { factor: 2.0, of, curve: None }];
     let motion = Some(Motion::Input(INPUT));
-    s.couplings.push(Coupling { name: "drive".into(), terms, value: 0.0, motion });
+    s.couplings.push(Coupling { name: "drive".into(), terms, relation: None, value: 0.0, motion });
     let coupling = CouplingId::new(0);
     let quantities = [
         Quantity::Effort { coupling },

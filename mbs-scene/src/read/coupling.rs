@@ -82,7 +82,7 @@ pub(crate) fn read<'a>(
         _ => return fields.unknown_word("kind", kind, &KINDS),
     };
     let name = fields.name_or("coupling", index)?;
-    Ok(Coupling { name, terms, value, motion })
+    Ok(Coupling { name, terms, relation: None, value, motion })
 }
 
 const TERMS: &str = "a list of terms like { joint = \"j\", factor = 1.0 }";
