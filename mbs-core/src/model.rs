@@ -169,6 +169,11 @@ pub trait Model<T: Real>: Cliques + Sync {
         element: usize,
         block: &mut [T],
     );
+    /// The second derivatives of the rows of one element that [`write_block`](Self::write_block) leaves out, and a search needs: those
+    /// of user-defined relations at `q` with multipliers `lambda`, packed as a block; empty: none.
+    fn row_curvature(&self, _q: &[T], _terms: &Terms<T>, _lambda: &[T], _element: usize) -> Vec<T> {
+        Vec::new()
+    }
     /// See [`BlockSource::has_block`].
     #[inline]
     fn has_block(&self, _terms: &Terms<T>, _tangent: &Tangent<'_, T>, _element: usize) -> bool {

@@ -230,7 +230,8 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         TIMES.iter().all(|&t| {
             self.prescribed.write(T::from_f64(t), &self.prescribed.inputs(), &mut guides, &mut []);
             let here = (&self.links[..], &placed[..], (&[][..], &[][..], &guides[..]));
-            let value = self.couplings.slices(self.tables.codes()).evaluate((row, 0, 1), here, None);
+            let value =
+                self.couplings.slices(self.tables.codes()).evaluate((row, 0, 1), here, None);
             value.is_ok_and(|value| {
                 value.row[0].abs() <= value.parts[0] * T::from_f64(ROUNDING).max(T::EPSILON)
             })

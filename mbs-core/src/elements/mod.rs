@@ -29,8 +29,8 @@ pub use ball::ball_directions;
 pub(crate) use combination::add_gradient;
 pub use combination::{Span, Term, combine};
 pub use coupled::{
-    Coupled, CoupledForm, CoupledTables, CoupledTerm, Curves, Measurand, NONE, Signed, add_measure_gradient,
-    has_collapsed, is_open, rate_and_bias, value as measured_value,
+    Coupled, CoupledForm, CoupledTables, CoupledTerm, Curves, Measurand, NONE, Signed,
+    add_measure_gradient, has_collapsed, is_open, rate_and_bias, value as measured_value,
 };
 pub use distance::Distance;
 pub use dot::Dot;

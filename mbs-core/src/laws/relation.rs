@@ -85,9 +85,15 @@ impl RelationFault {
     #[must_use]
     pub const fn advice(&self) -> &'static str {
         match self {
-            Self::NotFinite => "let it have numbers in the reference configuration, where all measures are zero, and at the start",
-            Self::Gradient { .. } => "correct the gradient: one derivative for each number, in the order of the terms",
-            Self::Curvature { .. } => "correct the curvature: sum_ij H_ij rates_i rates_j, mixed derivatives twice",
+            Self::NotFinite => {
+                "let it have numbers in the reference configuration, where all measures are zero, and at the start"
+            }
+            Self::Gradient { .. } => {
+                "correct the gradient: one derivative for each number, in the order of the terms"
+            }
+            Self::Curvature { .. } => {
+                "correct the curvature: sum_ij H_ij rates_i rates_j, mixed derivatives twice"
+            }
             Self::TooMany { .. } => "split it into several couplings of fewer measures",
             Self::Curve { .. } => "let the relation have the curve",
         }
@@ -110,7 +116,9 @@ impl Display for RelationFault {
             Self::TooMany { found } => {
                 write!(f, "has {found} terms; a relation takes {MAX_ARGUMENTS}")
             }
-            Self::Curve { term } => write!(f, "has a curve in term {}, beside a relation", term + 1),
+            Self::Curve { term } => {
+                write!(f, "has a curve in term {}, beside a relation", term + 1)
+            }
         }
     }
 }

@@ -8,8 +8,8 @@ use super::row_builder::{CoupledDraft, GroupDraft, MeasureDraft, RowDraft, diffe
 use crate::Real;
 use crate::algebra::{Vector, along, norm};
 use crate::elements::{
-    Coupled, CoupledForm, CoupledTables, Curves, Measurand, NONE, Span, add_measure_gradient, combine,
-    has_collapsed, measured_value,
+    Coupled, CoupledForm, CoupledTables, Curves, Measurand, NONE, Span, add_measure_gradient,
+    combine, has_collapsed, measured_value,
 };
 use crate::measure::{Arguments, CouplingInput, PreparedCurve, TermInput};
 use crate::model::{Owner, Terms};
@@ -174,6 +174,27 @@ impl<T: Real, const D: usize> NaturalModel<T, D> {
                 }
             }
         }
+    }
+
+    /// The second derivatives of the relations among the rows of an element, packed as its block; empty where there are none.
+    pub(super) fn relation_curvature(
+        &self,
+        at: (&[T], &Terms<T>),
+        lambda: &[T],
+        element: usize,
+    ) -> Vec<T> {
+        let group = &self.groups[element];
+        let (rows, k) = (group.rows.range(), group.clique.len());
+        let first = self.coupled.partition_point(|row| (row.row as usize) < rows.start);
+        let coupled = self.coupled[first..].iter().take_while(|row| (row.row as usize) < rows.end);
+        let mut block = Vec::new();
+        for row in coupled {
+            let CoupledForm::Relation(number) = row.form else { continue };
+            block.resize(k * (k + 1) / 2, T::ZERO);
+            let weight = lambda[row.row as usize] * row.inverse;
+            self.add_relation_curvature((row, number), at, weight, (group, &mut block));
+        }
+        block
     }
 
     /// Likewise of a relation: weight (sum_k phi_k H(a_k) + sum_kl phi_kl grad a_k grad a_l^T).

@@ -70,7 +70,13 @@ fn free_bodies_share_and_gears_reflect() {
         curve: None,
     };
     let terms = vec![term(0, 20.0), term(1, 40.0)];
-    geared.couplings.push(Coupling { name: "k".into(), terms, relation: None, value: 0.7, motion: None });
+    geared.couplings.push(Coupling {
+        name: "k".into(),
+        terms,
+        relation: None,
+        value: 0.7,
+        motion: None,
+    });
     is_near(moved_mass(&geared, (JointId::new(0), 0)), i1 + 0.25 * i2);
     is_near(moved_mass(&geared, (JointId::new(1), 0)), i2 + 4.0 * i1);
 }

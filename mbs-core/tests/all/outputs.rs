@@ -260,7 +260,13 @@ fn a_rope_beside_the_line_of_a_rod_gives_the_rod_its_rotation() {
         let points = vec![(GROUND, [0.5, 0.0, 1.0]), (rod, [0.5, beside, 0.0])];
         let of = CouplingMeasure::Length { points };
         let terms = vec![CouplingTerm { factor: 1.0, of, curve: None }];
-        s.couplings.push(Coupling { name: "rope".into(), terms, relation: None, value: 0.0, motion: None });
+        s.couplings.push(Coupling {
+            name: "rope".into(),
+            terms,
+            relation: None,
+            value: 0.0,
+            motion: None,
+        });
         let model = NaturalModel::<f64, 3>::new(&s).expect("a model");
         model.has_full_rotation(rod)
     };

@@ -36,6 +36,7 @@ mod random;
 mod readings;
 mod realtime;
 mod reference;
+mod relations;
 mod rolling;
 mod ropes;
 mod rotors;
