@@ -8,6 +8,7 @@ use mbs_core::control::{
     Accepted, Driver, EnergyRule, Event, Invariant, LocalError, Rules, Stepper, TrialStep,
 };
 use mbs_core::formulation::Formulation;
+use mbs_core::laws::code::CodeOwner;
 use mbs_core::model::{Model, State};
 use mbs_core::natural::{ModelError, NaturalModel};
 use mbs_core::outputs::{Events, Turns};
@@ -23,6 +24,10 @@ pub(crate) struct Control<T: Real, const D: usize> {
     /// In natural coordinates: a tree has its turns.
     turns: Option<Turns<T, D>>,
     saved: State<T>,
+    /// The law in code by which trials failed last, and when [s].
+    failed: Option<(CodeOwner, T)>,
+    /// The largest step [s].
+    max_step: T,
 }
 
 impl<T: Real, const D: usize> Control<T, D> {
@@ -56,7 +61,15 @@ impl<T: Real, const D: usize> Control<T, D> {
         events.iter_mut().for_each(|events| events.start(state));
         let is_tree = settings.formulation.row().relative;
         let turns = (!is_tree).then(|| Turns::new(scene, model));
-        Ok(Some(Self { driver, estimate, events, turns, saved: state.clone() }))
+        Ok(Some(Self {
+            driver,
+            estimate,
+            events,
+            turns,
+            saved: state.clone(),
+            failed: None,
+            max_step: lengths.step_max,
+        }))
     }
 
     /// State that the next step continues from.
@@ -89,11 +102,23 @@ impl<T: Real, const D: usize> Control<T, D> {
     ) -> Result<Accepted<T>, StepError> {
         self.saved.copy_from(state);
         formulation.save_trial();
-        let Self { driver, estimate, events, turns, saved } = self;
+        let Self { driver, estimate, events, turns, saved, .. } = self;
         let (estimate, turns) = (*estimate, turns.as_ref());
         let mut trial = Trial { model, formulation, state, saved, estimate, events, turns };
         let t = trial.state.t;
         driver.step(&mut trial, invariant, (t, rest))
+    }
+
+    /// Notes by which law in code trials of a step to time `t` [s] failed, if they did.
+    pub(crate) fn note(&mut self, failed: Option<CodeOwner>, t: T) {
+        if let Some(failed) = failed {
+            self.failed = Some((failed, t));
+        }
+    }
+
+    /// The law in code by which trials failed within a largest step before time `t` [s]: steps that came to an end there did so by it.
+    pub(crate) fn failed_before(&self, t: T) -> Option<CodeOwner> {
+        self.failed.filter(|(_, at)| t - *at <= self.max_step).map(|(failed, _)| failed)
     }
 }
 

@@ -86,9 +86,17 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     pub fn advance(&mut self, rest: T) -> Result<Accepted<T>, StepError> {
         self.formulation.codes(&self.model).forget();
         let made = self.advance_by(rest);
-        made.map_err(|error| match self.formulation.codes(&self.model).failed() {
-            Some(failed) => failed.into(),
-            None => self.collapsing(rest).unwrap_or(error),
+        let failed = self.formulation.codes(&self.model).failed();
+        if let Some(control) = &mut self.control {
+            control.note(failed, self.state.t);
+        }
+        made.map_err(|error| {
+            let before = || self.control.as_ref()?.failed_before(self.state.t);
+            let is_short = matches!(error, StepError::StepTooSmall { .. });
+            match failed.or_else(|| before().filter(|_| is_short)) {
+                Some(failed) => failed.into(),
+                None => self.collapsing(rest).unwrap_or(error),
+            }
         })
     }
 

@@ -113,14 +113,16 @@ fn a_relation_of_angles_and_a_length_is_the_coupling_of_curves_and_a_line() {
             CouplingTerm { factor: 1.into(), of: line(), curve: None },
         ]);
         let scenes = [own, library].map(|of| scene(&wheels(dimension), [of]));
-        // rounding and the iterations' tolerance over 300 steps
-        are_alike([&scenes[0], &scenes[1]], 0.3, |_| 1e-9);
+        // rounding and the iterations' tolerance over 300 steps; state space changes its basis by what rounding says
+        let allowed = |way: Way| if way.0 == "state-space" { 1e-6 } else { 1e-8 };
+        are_alike([&scenes[0], &scenes[1]], 0.3, allowed);
     }
 }
 
 #[test]
 fn formulations_agree_on_a_relation_of_angles_and_a_length_that_mixes_them() {
     for dimension in [2, 3] {
+        // what the iterations' tolerance leaves of rates of 20 rad/s in 800 steps
         let measures = [0, 1].map(|joint| CouplingMeasure::from(JointId::new(joint)));
         let measures = measures.into_iter().chain([line(&points(dimension))]);
         let scene =

@@ -60,7 +60,7 @@ fn a_relation_that_is_not_finite_ends_the_step_with_the_name_of_its_coupling() {
             // Not every formulation has every rule.
             let Ok(mut sim) = m.simulate(&method) else { continue };
             let error = sim.advance_to(1.0).expect_err("the relation ends");
-            assert_eq!(error.code(), "relation-not-finite", "{method:?}: {error}");
+            assert_eq!(error.code(), "relation-not-finite", "{method:?}, {what:?}: {error}");
             assert!(error.to_string().starts_with("`track`: its relation"), "{error}");
             let x = sim.value(joints[1]);
             assert!(x.is_finite() && x < -0.05 && sim.time() > 0.01, "{method:?}: {x}");
