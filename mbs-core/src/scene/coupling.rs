@@ -176,8 +176,8 @@ impl Coupling<Number> {
 
     /// A user-defined relation of measures, whose value is zero: a joint stands for its first coordinate.
     ///
-    /// It is code, which no file has. Where it is zero elsewhere than in the reference configuration, its measures count from there all
-    /// the same; another value is [held](Self::holding) or [follows time](Self::driven).
+    /// Measures count from the reference configuration. Another value is [held](Self::holding) or [follows time](Self::driven). It is
+    /// code, which no file has.
     #[must_use]
     pub fn relation<M: Into<CouplingMeasure<Number>>>(
         measures: impl IntoIterator<Item = M>,

@@ -131,8 +131,8 @@ fn formulations_agree_on_a_relation_of_angles_and_a_length_that_mixes_them() {
             crate::common::oracle::agree_in_the_limit(
                 &scene,
                 way,
-                (2.5e-4, 0.2, 200),
-                1e-8,
+                (5e-4, 0.2, 100),
+                1e-7,
                 |_| (),
             );
         }
