@@ -40,6 +40,7 @@ mod relations;
 mod rolling;
 mod ropes;
 mod rotors;
+mod signal_times;
 mod signals;
 mod slack_ropes;
 mod states;
