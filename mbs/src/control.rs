@@ -3,12 +3,12 @@
 use crate::checkpoint::ControlSnapshot;
 use crate::choice::StepRule;
 use crate::settings::ResolvedMethod;
+use crate::signal_ends::SignalEnds;
 use mbs_core::Real;
 use mbs_core::control::{
     Accepted, Driver, EnergyRule, Event, Invariant, Limit, LocalError, Rules, Stepper, TrialStep,
 };
 use mbs_core::formulation::Formulation;
-use mbs_core::inputs::{SignalTime, SignalTimes};
 use mbs_core::laws::code::CodeOwner;
 use mbs_core::model::{Model, State};
 use mbs_core::natural::{ModelError, NaturalModel};
@@ -30,13 +30,8 @@ pub(crate) struct Control<T: Real, const D: usize> {
     /// The largest step [s].
     max_step: T,
     /// When signals jump or have corners, where steps end at events.
-    times: Option<SignalTimes<T>>,
+    ends: Option<SignalEnds<T>>,
 }
-
-/// How long before a jump of a signal a step ends, in units of rounding of the time [-]: its trials see none of it.
-const BEFORE_JUMP: f64 = 32.0;
-/// Time to a jump or a corner that is no step, in the same units [-]. Chosen, not tuned.
-const NO_STEP: f64 = 64.0;
 
 impl<T: Real, const D: usize> Control<T, D> {
     /// As the settings say; nothing for steps of fixed length.
@@ -77,7 +72,7 @@ impl<T: Real, const D: usize> Control<T, D> {
             saved: state.clone(),
             failed: None,
             max_step: lengths.step_max,
-            times: settings.events.then(|| model.prescribed().signal_times()),
+            ends: settings.events.then(|| SignalEnds::new(model)),
         }))
     }
 
@@ -109,7 +104,7 @@ impl<T: Real, const D: usize> Control<T, D> {
         invariant: &mut Invariant,
         rest: T,
     ) -> Result<Accepted<T>, StepError> {
-        let ahead = self.ahead(state.t, rest);
+        let ahead = self.ends.as_ref().and_then(|ends| ends.ahead(state.t, rest));
         self.saved.copy_from(state);
         formulation.save_trial();
         let Self { driver, estimate, events, turns, saved, .. } = self;
@@ -118,42 +113,13 @@ impl<T: Real, const D: usize> Control<T, D> {
         let length = ahead.map_or(rest, |(_, length)| length);
         let t = trial.state.t;
         let made = driver.step(&mut trial, invariant, (t, length))?;
-        let Some((SignalTime { time, is_jump }, _)) = ahead else { return Ok(made) };
-        if !made.is_last {
-            return Ok(made);
-        }
-        if is_jump {
-            trial.formulation.pass_jump(model, trial.state, time)?;
-        } else {
-            trial.formulation.set_time(time);
-            trial.state.t = time;
-        }
-        // multipliers bend here: nothing is extrapolated
-        trial.state.dt = T::ZERO;
+        let Some((at, _)) = ahead.filter(|_| made.is_last) else { return Ok(made) };
+        SignalEnds::pass(&at, (model, &mut *trial.formulation), trial.state)?;
         if let Some(events) = trial.events {
             events.start(trial.state);
         }
-        let attempt = TrialStep { t: time, ..made.attempt };
+        let attempt = TrialStep { t: trial.state.t, ..made.attempt };
         Ok(Accepted { attempt, limit: Limit::Event, is_last: false, ..made })
-    }
-
-    /// The first jump or corner of a signal within `rest` [s] from time `t` [s], and the length of the step that ends there: of a jump just
-    /// before it.
-    fn ahead(&self, t: T, rest: T) -> Option<(SignalTime<T>, T)> {
-        let mut after = t;
-        loop {
-            let ahead = self.times.as_ref()?.after(after)?;
-            let rounding = T::EPSILON * ahead.time.abs();
-            let before = if ahead.is_jump { rounding * T::from_f64(BEFORE_JUMP) } else { T::ZERO };
-            let length = ahead.time - before - t;
-            if !(length < rest) {
-                return None;
-            }
-            if length > rounding * T::from_f64(NO_STEP) {
-                return Some((ahead, length));
-            }
-            after = ahead.time;
-        }
     }
 
     /// Notes by which law in code trials of a step to time `t` [s] failed, if they did.

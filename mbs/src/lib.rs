@@ -30,6 +30,7 @@ mod rest;
 mod rolling_pull;
 mod run;
 mod settings;
+mod signal_ends;
 mod simulation;
 mod statics;
 mod stop;
