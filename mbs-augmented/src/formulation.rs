@@ -2,7 +2,7 @@
 
 use crate::history::History as OfWorkspace;
 use crate::index_change::{ConstraintIndex, IndexChange, IndexHistory};
-use crate::inputs::take_inputs;
+use crate::inputs::{pass_jump, take_inputs};
 use crate::options::Options;
 use crate::workspace::Workspace;
 use crate::{index1, index3};
@@ -109,6 +109,15 @@ where
         state: &mut State<T>,
     ) -> Result<(), StepError> {
         take_inputs(model, state, &mut self.workspace).map(drop)
+    }
+
+    fn pass_jump(
+        &mut self,
+        model: &NaturalModel<T, D>,
+        state: &mut State<T>,
+        to: T,
+    ) -> Result<(), StepError> {
+        pass_jump(model, state, &mut self.workspace, to)
     }
 
     fn prepare(

@@ -27,6 +27,34 @@ pub fn take_inputs<T: Real, M: Model<T>, S: SpdSolver<T>>(
     if !has_new_inputs(model, s) {
         return Ok(false);
     }
+    take_loads(model, s, w, s.t)?;
+    Ok(true)
+}
+
+/// Makes accelerations, multipliers and power of `s`, just before a signal jumps, those just after, at time `to` [s].
+///
+/// Cost: as for inputs that change.
+///
+/// # Errors
+/// [`StepError`]; the state is then unchanged.
+pub fn pass_jump<T: Real, M: Model<T>, S: SpdSolver<T>>(
+    model: &M,
+    s: &mut State<T>,
+    w: &mut Workspace<T, S>,
+    to: T,
+) -> Result<(), StepError> {
+    take_loads(model, s, w, to)?;
+    s.t = to;
+    Ok(())
+}
+
+/// From the loads of `s` to those of the inputs that are set, at time `to` [s].
+fn take_loads<T: Real, M: Model<T>, S: SpdSolver<T>>(
+    model: &M,
+    s: &mut State<T>,
+    w: &mut Workspace<T, S>,
+    to: T,
+) -> Result<(), StepError> {
     let (n, factor) = (w.equations.f.len(), w.scale.factor);
     w.begin(model, (Options::index1().penalty, T::ONE, T::ONE));
     w.scale.factor = factor;
@@ -37,11 +65,11 @@ pub fn take_inputs<T: Real, M: Model<T>, S: SpdSolver<T>>(
 
     // -dQ = -Q(u) + Q(u_n)
     let (eq, change) = (&mut w.equations, &mut w.projection.change[..n]);
-    let before = load_at(model, s, false, &mut eq.terms);
+    let before = load_at(model, (s, s.t), false, &mut eq.terms);
     model.evaluate(&s.q, &mut eq.terms);
     eq.assemble(model, None, T::ONE);
     change.copy_from_slice(&eq.f);
-    let after = load_at(model, s, true, &mut eq.terms);
+    let after = load_at(model, (s, to), true, &mut eq.terms);
     eq.assemble(model, None, T::ONE);
     for (change, &f) in change.iter_mut().zip(&eq.f) {
         *change = f - *change;
@@ -62,5 +90,5 @@ pub fn take_inputs<T: Real, M: Model<T>, S: SpdSolver<T>>(
     w.settled = w.equations.counts;
     let response = (&w.end.a[..n], &w.lambda[..], after - before);
     add_response(model, s, response, &mut w.equations.terms);
-    Ok(true)
+    Ok(())
 }

@@ -2,7 +2,7 @@
 
 use crate::options::Options;
 use crate::workspace::Workspace;
-use crate::{index3, take_inputs};
+use crate::{index3, pass_jump, take_inputs};
 use alloc::boxed::Box;
 use core::fmt::Debug;
 use mbs_core::formulation::{Formulation, energies};
@@ -69,6 +69,15 @@ where
         state: &mut State<T>,
     ) -> Result<(), StepError> {
         take_inputs(model, &self.options, state, &mut self.workspace).map(drop)
+    }
+
+    fn pass_jump(
+        &mut self,
+        model: &NaturalModel<T, D>,
+        state: &mut State<T>,
+        to: T,
+    ) -> Result<(), StepError> {
+        pass_jump(model, &self.options, state, &mut self.workspace, to)
     }
 
     fn history(&self) -> History<T> {

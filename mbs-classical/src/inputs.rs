@@ -29,6 +29,36 @@ pub fn take_inputs<T: Real, M: Model<T>, S: SymmetricSolver<T>>(
     if !has_new_inputs(model, s) {
         return Ok(false);
     }
+    take_loads(model, options, s, w, s.t)?;
+    Ok(true)
+}
+
+/// Makes accelerations, multipliers and power of `s`, just before a signal jumps, those just after, at time `to` [s].
+///
+/// Cost: as for inputs that change.
+///
+/// # Errors
+/// [`StepError`]; the state is then unchanged.
+pub fn pass_jump<T: Real, M: Model<T>, S: SymmetricSolver<T>>(
+    model: &M,
+    options: &Options<T>,
+    s: &mut State<T>,
+    w: &mut Workspace<T, S>,
+    to: T,
+) -> Result<(), StepError> {
+    take_loads(model, options, s, w, to)?;
+    s.t = to;
+    Ok(())
+}
+
+/// From the loads of `s` to those of the inputs that are set, at time `to` [s].
+fn take_loads<T: Real, M: Model<T>, S: SymmetricSolver<T>>(
+    model: &M,
+    options: &Options<T>,
+    s: &mut State<T>,
+    w: &mut Workspace<T, S>,
+    to: T,
+) -> Result<(), StepError> {
     let n = w.n;
     w.begin(options.regularisation);
     for rows in [&mut w.mu, &mut w.lambda, &mut w.rates] {
@@ -37,12 +67,12 @@ pub fn take_inputs<T: Real, M: Model<T>, S: SymmetricSolver<T>>(
     w.end.a.fill(T::ZERO);
 
     // -dQ = -Q(u) + Q(u_n)
-    let before = load_at(model, s, false, &mut w.terms);
+    let before = load_at(model, (s, s.t), false, &mut w.terms);
     model.evaluate(&s.q, &mut w.terms);
     w.factor(model, (T::ZERO, T::ZERO), false, options.rank)?;
     w.assemble(model, Mass::None, T::ONE, false);
     w.change[..n].copy_from_slice(&w.f[..n]);
-    let after = load_at(model, s, true, &mut w.terms);
+    let after = load_at(model, (s, to), true, &mut w.terms);
     w.assemble(model, Mass::None, T::ONE, false);
     for (change, &f) in w.change[..n].iter_mut().zip(&w.f) {
         *change = f - *change;
@@ -58,5 +88,5 @@ pub fn take_inputs<T: Real, M: Model<T>, S: SymmetricSolver<T>>(
     };
     solve_response(model, w, sweep, |w| [&w.f[..n], &w.end.a])?;
     add_response(model, s, (&w.end.a[..n], &w.lambda, after - before), &mut w.terms);
-    Ok(true)
+    Ok(())
 }

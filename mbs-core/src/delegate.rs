@@ -99,6 +99,15 @@ macro_rules! delegate_model {
         ) {
             self.$model.write_block(terms, tangent, element, block);
         }
+        fn row_curvature(
+            &self,
+            q: &[$T],
+            terms: &$crate::model::Terms<$T>,
+            lambda: &[$T],
+            element: usize,
+        ) -> $crate::model::Block<$T> {
+            self.$model.row_curvature(q, terms, lambda, element)
+        }
         #[inline]
         fn has_block(
             &self,

@@ -36,6 +36,17 @@ pub trait Formulation<T: Real, const D: usize>: Debug + Send + Sync + Erased<T, 
         state: &mut State<T>,
     ) -> Result<(), StepError>;
 
+    /// Makes the state, just before a signal jumps, that just after, at time `to` [s]: the mechanism stays where it is.
+    ///
+    /// # Errors
+    /// [`StepError`]; the state is then unchanged.
+    fn pass_jump(
+        &mut self,
+        model: &NaturalModel<T, D>,
+        state: &mut State<T>,
+        to: T,
+    ) -> Result<(), StepError>;
+
     /// One step of fixed length, from the inputs to the energies at its end: what a loop of such steps calls, once a step.
     ///
     /// # Errors

@@ -1,8 +1,10 @@
 //! Prescribed functions of time: guide laws and courses, prepared once.
 
+mod breaks;
 mod feedback;
 mod signals;
 
+pub use breaks::{SignalTime, SignalTimes};
 pub use feedback::Feedback;
 pub use signals::SignalGraph;
 pub(crate) use signals::curvatures;
@@ -252,6 +254,12 @@ impl<T: Real> Prescribed<T> {
                 *to = [value, rate, T::ZERO];
             }
         }
+    }
+
+    /// The times at which signals, and tables of forces, jump or have corners. Cost: one pass over them; allocates.
+    #[must_use]
+    pub fn signal_times(&self) -> SignalTimes<T> {
+        SignalTimes::new(&self.signals, self.courses.iter().map(|(_, course)| course.course()))
     }
 
     /// Does a course name a signal that follows the motion?

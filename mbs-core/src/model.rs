@@ -95,6 +95,9 @@ pub struct Load<'a, T> {
     pub force: T,
 }
 
+/// A square block of numbers, row by row.
+pub type Block<T> = Vec<T>;
+
 /// A mechanism in dependent coordinates with constant mass matrix.
 pub trait Model<T: Real>: Cliques + Sync {
     /// Who shares the work of a step in this model: its evaluation does, and a formulation's vectors.
@@ -169,6 +172,17 @@ pub trait Model<T: Real>: Cliques + Sync {
         element: usize,
         block: &mut [T],
     );
+    /// The second derivatives of the rows of one element that [`write_block`](Self::write_block) leaves out, and a search needs: those
+    /// of user-defined relations at `q` with multipliers `lambda`, packed as a block; empty: none.
+    fn row_curvature(
+        &self,
+        _q: &[T],
+        _terms: &Terms<T>,
+        _lambda: &[T],
+        _element: usize,
+    ) -> Block<T> {
+        Vec::new()
+    }
     /// See [`BlockSource::has_block`].
     #[inline]
     fn has_block(&self, _terms: &Terms<T>, _tangent: &Tangent<'_, T>, _element: usize) -> bool {

@@ -315,7 +315,7 @@ impl<'a, T: Real, M: Model<T>, S: SymmetricSolver<T>> Search<'a, T, M, S> {
     /// Factors at the present terms; is the matrix positive where J d = 0?
     fn factor(&mut self, s: T) -> bool {
         self.factorizations += 1;
-        let is_regular = self.w.factor(self.model, s, &self.lambda).is_ok();
+        let is_regular = self.w.factor(self.model, s, (&self.q, &self.lambda)).is_ok();
         is_regular && self.w.solver.inertia().negative == self.w.m
     }
 

@@ -339,7 +339,7 @@ impl<'a, T: Real, M: Model<T>, S: SymmetricSolver<T>> Field<'a, T, M, S> {
     }
 
     fn factor(&mut self) -> Result<(), LinearError> {
-        let result = self.w.factor(self.model, T::ZERO, &[]);
+        let result = self.w.factor(self.model, T::ZERO, (&[], &[]));
         result.map_err(|error| LinearError::NoInertia { unknown: error.unknown })
     }
 

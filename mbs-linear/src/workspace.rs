@@ -17,7 +17,7 @@ use alloc::vec::Vec;
 use mbs_core::algebra::norm_inf;
 use mbs_core::model::{Load, Model, Tangent, Terms};
 use mbs_core::saddle::{Saddle, SaddleSystem};
-use mbs_core::{FactorError, Real, SymmetricSolver};
+use mbs_core::{BlockSource, FactorError, Real, SymmetricSolver};
 
 /// Compliance δ of a constraint, relative to the compliance of its row [-]. Chosen, not tuned.
 const DELTA: f64 = 1e-9;
@@ -72,12 +72,12 @@ impl<T: Real, S: SymmetricSolver<T>> Workspace<T, S> {
         }
     }
 
-    /// Factors the saddle matrix at the terms as last evaluated, with the weight `s` [s^2] of the stiffness.
+    /// Factors the saddle matrix at the terms as last evaluated at `q`, with the weight `s` [s^2] of the stiffness.
     pub(crate) fn factor<M: Model<T>>(
         &mut self,
         model: &M,
         s: T,
-        lambda: &[T],
+        (q, lambda): (&[T], &[T]),
     ) -> Result<(), FactorError> {
         for (x, &l) in self.scaled.iter_mut().zip(lambda) {
             *x = l * s;
@@ -106,7 +106,7 @@ impl<T: Real, S: SymmetricSolver<T>> Workspace<T, S> {
                 self.delta[row] = compliance * T::from_f64(DELTA);
             }
         }
-        self.solver.factor(&SaddleSystem {
+        let system = SaddleSystem {
             model,
             saddle: &self.saddle,
             terms: &self.terms,
@@ -115,7 +115,8 @@ impl<T: Real, S: SymmetricSolver<T>> Workspace<T, S> {
             delta: &self.delta,
             load: Load { mass: None, multipliers: None, force: T::ZERO },
             rates: &[],
-        })
+        };
+        self.solver.factor(&Curved { system, at: geometric.map(|lambda| (q, lambda)) })
     }
 
     /// (d, e) = (saddle matrix)^-1 (b, c), all in `f`.
@@ -186,6 +187,32 @@ impl<T: Real, S: SymmetricSolver<T>> Workspace<T, S> {
         let work = forces.iter().zip(&self.sizes).map(|(&f, &size)| f * size);
         work.zip(&self.diagonal)
             .fold(T::ZERO, |most, (f, &m)| if m > floor { most.max(f / m) } else { most })
+    }
+}
+
+/// A saddle system with the second derivatives of its rows at positions and multipliers, where these are given.
+struct Curved<'a, T, M> {
+    system: SaddleSystem<'a, T, M>,
+    at: Option<(&'a [T], &'a [T])>,
+}
+
+impl<T: Real, M: Model<T>> BlockSource<T> for Curved<'_, T, M> {
+    fn write_block(&self, element: usize, block: &mut [T]) {
+        self.system.write_block(element, block);
+        let (model, Some((q, lambda))) = (self.system.model, self.at) else { return };
+        let curvature = model.row_curvature(q, self.system.terms, lambda, element);
+        let (k, rows) = (model.clique(element).len(), model.rows(element).len());
+        // columns of the coordinates are longer here by the rows
+        let (mut from, mut to) = (0, 0);
+        for length in (1..=k).rev().take_while(|_| !curvature.is_empty()) {
+            let column = block[to..to + length].iter_mut();
+            column.zip(&curvature[from..]).for_each(|(to, &x)| *to += x);
+            (from, to) = (from + length, to + length + rows);
+        }
+    }
+
+    fn write_residual(&self, element: usize, residual: &mut [T]) {
+        self.system.write_residual(element, residual);
     }
 }
 

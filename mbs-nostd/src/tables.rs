@@ -246,6 +246,7 @@ impl<
     }
 
     /// What the rows of couplings refer to.
+    #[allow(clippy::needless_update, reason = "with `alloc` there is a field more")]
     fn couplings_of_rows(&self) -> Couplings<'_, T, S> {
         Couplings {
             n_cut: self.n_cut,
@@ -255,6 +256,7 @@ impl<
             curves: &self.curves,
             knots: &self.curve_knots.0,
             numbers: &self.curve_knots.1,
+            ..Couplings::none()
         }
     }
 

@@ -5,6 +5,7 @@
 //! Φ̇ = Σ gᵢ żᵢ + Σ K V,   Φ̈ = Σ gᵢ z̈ᵢ + Σ K a + bias
 //!
 //! joint coordinate    m = z                  g = c f',   bias = c f'' ż²;  a guided joint: bias + c f' z̈
+//! relation            φ(c₁ m₁ .. cₙ mₙ) in place of the sum: related.rs
 //! line over points    m = Σ |d| − L          n = d/|d|,   K = (s × n, n) at the end of a part, its opposite at the beginning
 //!                                            bias = Σ (n·s̈ + (ḋ·ḋ − (n·ḋ)²)/|d|)
 //! ```
@@ -134,6 +135,9 @@ pub struct Couplings<'a, T: Real, S: Space<T>> {
     pub knots: &'a [[T; 2]],
     /// Second derivatives of splines at their knots, and coefficients of polynomials.
     pub numbers: &'a [T],
+    /// User-defined relations.
+    #[cfg(feature = "alloc")]
+    pub relations: Option<&'a mbs_core::laws::code::Codes>,
 }
 
 /// A mechanism at an instant: its links and where they are, and its coordinates, velocities and guides.
@@ -154,13 +158,13 @@ pub(crate) struct CoupledValue<T> {
 
 impl<T: Real> CoupledValue<T> {
     /// Of no term.
-    const fn zero() -> Self {
+    pub(crate) const fn zero() -> Self {
         Self { row: [T::ZERO; 3], parts: [T::ZERO; 2] }
     }
 
     /// Adds what a term or a guide gives, and the size of what its rate is made of.
     #[inline(always)]
-    fn add(&mut self, x: [T; 3], speed: T) {
+    pub(crate) fn add(&mut self, x: [T; 3], speed: T) {
         self.row.iter_mut().zip(x).for_each(|(sum, x)| *sum += x);
         self.parts = [self.parts[0] + x[0].abs(), self.parts[1] + speed.abs()];
     }
@@ -170,8 +174,17 @@ impl<T: Real, S: Space<T>> Couplings<'_, T, S> {
     /// Of a mechanism without couplings.
     #[must_use]
     pub const fn none() -> Self {
-        let n_cut = u32::MAX;
-        Self { n_cut, terms: &[], points: &[], starts: &[], curves: &[], knots: &[], numbers: &[] }
+        Self {
+            n_cut: u32::MAX,
+            terms: &[],
+            points: &[],
+            starts: &[],
+            curves: &[],
+            knots: &[],
+            numbers: &[],
+            #[cfg(feature = "alloc")]
+            relations: None,
+        }
     }
 
     /// f, f' and f'' of a term's curve.
@@ -231,6 +244,8 @@ impl<T: Real, S: Space<T>> Couplings<'_, T, S> {
         let row = place.0;
         let mut sum = match self.of_joints(row, here)? {
             Some(sum) => sum,
+            #[cfg(feature = "alloc")]
+            None if self.is_related(row) => self.of_relation(place, here, out)?,
             None if curves::IS_BUILT || HAS_LINES => self.of_terms(place, here, out)?,
             // Not in this build: a model with one is not loaded.
             None => return Err(Outside),
@@ -287,17 +302,7 @@ impl<T: Real, S: Space<T>> Couplings<'_, T, S> {
             if term.has_curve() {
                 *at_mut(slopes, i)? = slope;
             }
-            let SumMeasure::Line { points, .. } = term.of else { continue };
-            if !HAS_LINES {
-                continue;
-            }
-            self.each_part((points, row.starts), here.1, |part| {
-                for ((start, arm), n) in part.ends.iter().zip([-part.direction, part.direction]) {
-                    let place = start.side as usize * n_rows + k;
-                    *at_mut(gradient, place)? += S::wrench(arm, &n) * slope;
-                }
-                Ok(())
-            })?;
+            self.add_gradient((term, row.starts, slope), (k, n_rows), here.1, gradient)?;
         }
         Ok(sum)
     }

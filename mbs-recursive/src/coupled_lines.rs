@@ -1,7 +1,7 @@
 //! Lines over points of links, part by part: lengths, how they grow, and where they are lost.
 
-use crate::coupled::{CoupledRow, Couplings, LinePoint, LinkStart, SumMeasure};
-use crate::indexing::{Outside, at, range};
+use crate::coupled::{CoupledRow, Couplings, LinePoint, LinkStart, SumMeasure, SumTerm};
+use crate::indexing::{Outside, at, at_mut, range};
 use crate::link::LinkMotion;
 use crate::plan::Span;
 use crate::space::{Numbers, Space};
@@ -37,6 +37,25 @@ impl<T: Real, S: Space<T>> Couplings<'_, T, S> {
             }
         }
         Ok(())
+    }
+
+    /// Adds what a term that is a line has of the gradient of row `k` of `n_rows`, with its slope.
+    #[inline(always)]
+    pub(crate) fn add_gradient(
+        &self,
+        (term, starts, slope): (&SumTerm<T>, Span, T),
+        (k, n_rows): (usize, usize),
+        placed: &[LinkMotion<T, S>],
+        gradient: &mut [S::Motion],
+    ) -> Result<(), Outside> {
+        let SumMeasure::Line { points, .. } = term.of else { return Ok(()) };
+        self.each_part((points, starts), placed, |part| {
+            for ((start, arm), n) in part.ends.iter().zip([-part.direction, part.direction]) {
+                let place = start.side as usize * n_rows + k;
+                *at_mut(gradient, place)? += S::wrench(arm, &n) * slope;
+            }
+            Ok(())
+        })
     }
 
     /// The part of a row's lines that has no length left, or whose ends met, while the links went from one place to another.

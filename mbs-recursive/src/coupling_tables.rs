@@ -5,6 +5,7 @@ use crate::curves::CurveTables;
 use crate::space::Space;
 use alloc::vec::Vec;
 use mbs_core::Real;
+use mbs_core::laws::code::Codes;
 
 /// Where a row begins: at a link with K, or at the joint of a link with g.
 pub(crate) struct Begin<'a> {
@@ -37,7 +38,7 @@ impl<T: Real, S: Space<T>> Default for CouplingTables<T, S> {
 }
 
 impl<T: Real, S: Space<T>> CouplingTables<T, S> {
-    pub(crate) fn slices(&self) -> Couplings<'_, T, S> {
+    pub(crate) fn slices<'a>(&'a self, relations: &'a Codes) -> Couplings<'a, T, S> {
         let (curves, knots, numbers) = self.curves.slices();
         Couplings {
             n_cut: self.n_cut,
@@ -47,6 +48,7 @@ impl<T: Real, S: Space<T>> CouplingTables<T, S> {
             curves,
             knots,
             numbers,
+            relations: Some(relations),
         }
     }
 

@@ -7,6 +7,7 @@ use crate::feedback::FeedbackMeasure;
 use crate::link::{Link, LinkKind};
 use crate::loops::index;
 use crate::plan::Span;
+use crate::related::ARGUMENTS;
 use crate::rows::Row;
 use crate::space::{Numbers, Space};
 use crate::state::TreeState;
@@ -29,13 +30,20 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         }
         self.couplings.n_cut = index(self.loops.len());
         let links = self.coordinate_links(scene);
-        let mut guide = scene.guides.len();
+        let (mut guide, mut relations) = (scene.guides.len(), 0);
         for (i, coupling) in scene.couplings.iter().enumerate() {
             let input = CouplingInput::new(coupling);
             let sum = input.sum.is_some().then_some(guide);
             guide += usize::from(sum.is_some());
-            let added = self.add_terms((&input.terms, input.scale()), (scene, &links));
+            // the factors of a relation's terms are its own
+            let by = if input.relation.is_some() { T::ONE } else { input.scale() };
+            let added = self.add_terms((&input.terms, by), (scene, &links));
             let (terms, starts) = added.map_err(|_| TreeError::Coupling { coupling: i })?;
+            if input.relation.is_some() {
+                let terms = &mut self.couplings.terms[terms.range()];
+                terms.iter_mut().for_each(|term| term.curve = ARGUMENTS | relations);
+                relations += 1;
+            }
             let is_angle = self.is_angle(terms);
             let inverse = T::ONE / input.scale();
             let guide = sum.map_or(NONE, index);
@@ -242,7 +250,8 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         TIMES.iter().all(|&t| {
             self.prescribed.write(T::from_f64(t), &self.prescribed.inputs(), &mut guides, &mut []);
             let here = (&self.links[..], &placed[..], (&[][..], &[][..], &guides[..]));
-            let value = self.couplings.slices().evaluate((row, 0, 1), here, None);
+            let value =
+                self.couplings.slices(self.tables.codes()).evaluate((row, 0, 1), here, None);
             value.is_ok_and(|value| {
                 value.row[0].abs() <= value.parts[0] * T::from_f64(ROUNDING).max(T::EPSILON)
             })

@@ -179,6 +179,17 @@ impl<T: Real, S: Space<T>, const D: usize> Formulation<T, D> for Tree<T, S> {
         Ok(())
     }
 
+    fn pass_jump(
+        &mut self,
+        natural: &NaturalModel<T, D>,
+        state: &mut State<T>,
+        to: T,
+    ) -> Result<(), StepError> {
+        self.model.pass_jump(&self.options, &mut self.state, &mut self.workspace, to)?;
+        self.write(natural, state);
+        Ok(())
+    }
+
     fn save_trial(&mut self) {
         self.saved.copy_from(&self.state);
         self.saved_energies = self.energies;

@@ -52,6 +52,8 @@ pub mod plan;
 mod project;
 #[cfg(feature = "alloc")]
 mod quantities;
+#[cfg(feature = "alloc")]
+mod related;
 pub mod rolling;
 pub mod rotor;
 pub mod rows;

@@ -305,12 +305,42 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         if !self.prescribed.differs(&state.inputs, &state.applied) {
             return Ok(false);
         }
+        self.take_loads(options, state, workspace, state.t)?;
+        Ok(true)
+    }
+
+    /// Makes the accelerations of a state, just before a signal jumps, those just after, at time `to` [s].
+    ///
+    /// Cost: one evaluation; no allocation.
+    ///
+    /// # Errors
+    /// [`StepError`]; the state is then unchanged.
+    pub fn pass_jump(
+        &self,
+        options: &Options<T>,
+        state: &mut TreeState<T>,
+        workspace: &mut Workspace<T, S>,
+        to: T,
+    ) -> Result<(), StepError> {
+        self.take_loads(options, state, workspace, to)?;
+        state.t = to;
+        Ok(())
+    }
+
+    /// From the loads of a state to those of the inputs that are set, at time `to` [s].
+    fn take_loads(
+        &self,
+        options: &Options<T>,
+        state: &mut TreeState<T>,
+        workspace: &mut Workspace<T, S>,
+        to: T,
+    ) -> Result<(), StepError> {
         let m = self.mechanism();
         let mut s = workspace.store();
         self.place_in(state, &mut s);
         let before = own(energy_balance::potential(&m, &s.instant(&m)));
         let at_end = (&state.applied[..], &state.inputs[..]);
-        self.prescribed.write_end(state.t, at_end, (s.guides, s.courses));
+        self.prescribed.write_end(to, at_end, (s.guides, s.courses));
         own(s.begin_signals(T::ZERO, &state.signals));
         accelerations(&m, options, Level::Fine, &mut s).map_err(|fault| failure(&m, fault))?;
         let after = own(energy_balance::potential(&m, &s.instant(&m)));
@@ -323,7 +353,7 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         state.lambda.copy_from_slice(s.lambda);
         state.signals.copy_from_slice(s.signals.ends);
         self.prescribed.apply(&state.inputs, &mut state.applied);
-        Ok(true)
+        Ok(())
     }
 
     /// Kinetic and potential energy of a state [J].

@@ -167,7 +167,7 @@ impl<T: Real, S: Space<T>> Workspace<T, S> {
             condensed: vec![ArticulatedInertia::empty(); links],
             motions: vec![S::Motion::zero(); 2 * links],
             gradients: vec![S::Motion::zero(); 2 * model.order.n_sides * rows],
-            slopes: vec![T::ZERO; model.couplings.slices().n_slopes()],
+            slopes: vec![T::ZERO; model.mechanism().loops.couplings.n_slopes()],
             rows: vec![[T::ZERO; 3]; rows],
             multipliers: vec![T::ZERO; 5 * rows],
             blocks: vec![T::ZERO; model.order.n_blocks],

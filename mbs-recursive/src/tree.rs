@@ -335,7 +335,7 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
                 rows: &self.rows,
                 plan: self.order.plan(),
                 floor: self.floor,
-                couplings: self.couplings.slices(),
+                couplings: self.couplings.slices(self.tables.codes()),
             },
             loads: &self.loads,
             rotors: &self.rotors,

@@ -131,7 +131,7 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
             links: &self.links,
             placed: &[],
             coordinates: (&state.z, &state.v, &guides),
-            couplings: &self.couplings.slices(),
+            couplings: &self.couplings.slices(self.tables.codes()),
             law_inputs: LawInputs::courses(&[]),
             base: S::Point::zero(),
         })

@@ -3,7 +3,7 @@
 use crate::history::History as OfWorkspace;
 use crate::options::Options;
 use crate::workspace::Workspace;
-use crate::{step::step, take_inputs};
+use crate::{pass_jump, step::step, take_inputs};
 use alloc::boxed::Box;
 use mbs_core::Real;
 use mbs_core::formulation::Formulation;
@@ -60,6 +60,15 @@ impl<T: Real, const D: usize> Formulation<T, D> for StateSpace<T> {
         state: &mut State<T>,
     ) -> Result<(), StepError> {
         take_inputs(model, state, &mut self.workspace).map(drop)
+    }
+
+    fn pass_jump(
+        &mut self,
+        model: &NaturalModel<T, D>,
+        state: &mut State<T>,
+        to: T,
+    ) -> Result<(), StepError> {
+        pass_jump(model, state, &mut self.workspace, to)
     }
 
     fn history(&self) -> History<T> {

@@ -25,6 +25,34 @@ pub fn take_inputs<T: Real, M: Model<T>>(
     if !has_new_inputs(model, s) {
         return Ok(false);
     }
+    take_loads(model, s, w, s.t)?;
+    Ok(true)
+}
+
+/// Makes accelerations, multipliers and power of `s`, just before a signal jumps, those just after, at time `to` [s].
+///
+/// Cost: as for inputs that change.
+///
+/// # Errors
+/// [`StepError`]; the state is then unchanged.
+pub fn pass_jump<T: Real, M: Model<T>>(
+    model: &M,
+    s: &mut State<T>,
+    w: &mut Workspace<T>,
+    to: T,
+) -> Result<(), StepError> {
+    take_loads(model, s, w, to)?;
+    s.t = to;
+    Ok(())
+}
+
+/// From the loads of `s` to those of the inputs that are set, at time `to` [s].
+fn take_loads<T: Real, M: Model<T>>(
+    model: &M,
+    s: &mut State<T>,
+    w: &mut Workspace<T>,
+    to: T,
+) -> Result<(), StepError> {
     let n = model.n_unknowns();
     if w.is_stale {
         select_pivots(model, s, w)?;
@@ -33,12 +61,12 @@ pub fn take_inputs<T: Real, M: Model<T>>(
     w.dq.fill(T::ZERO);
 
     // -dQ = -Q(u) + Q(u_n), kept in the place of velocities
-    let before = load_at(model, s, false, &mut w.terms);
+    let before = load_at(model, (s, s.t), false, &mut w.terms);
     w.move_to(model, s)?;
     w.basis.evaluate(&w.elimination);
     w.balance(model, T::ONE);
     w.v[..n].copy_from_slice(&w.balance);
-    let after = load_at(model, s, true, &mut w.terms);
+    let after = load_at(model, (s, to), true, &mut w.terms);
     w.balance(model, T::ONE);
     for (load, balance) in w.v[..n].iter_mut().zip(&mut w.balance) {
         *balance -= *load;
@@ -69,5 +97,5 @@ pub fn take_inputs<T: Real, M: Model<T>>(
     }
     w.solve_transposed();
     add_response(model, s, (&w.a[..n], &w.lambda, after - before), &mut w.terms);
-    Ok(true)
+    Ok(())
 }

@@ -33,6 +33,9 @@ const LARGE_BASIS: f64 = 10.0;
 const LOST: f64 = 16.0;
 /// Correction that is rounding, in units of rounding of the scene's length [-]. Chosen, not tuned.
 const PLACE_ROUNDINGS: f64 = 4.0;
+/// Correction at which positions that come no nearer have arrived away from singular positions, in units of rounding of the scene's length
+/// [-]: rounding of a user-defined relation of angles of a thousand turns.
+const STALLED: f64 = 1024.0;
 /// Ratio of the smallest pivot to its usual size, below which a singular position is near [-]. Chosen, not tuned.
 const NEAR_SINGULAR: f64 = 0.1;
 
@@ -160,6 +163,9 @@ impl<T: Real> Workspace<T> {
             }
             self.is_stale |= iterations >= MANY_POSITIONS;
             if iterations > 0 && !(size <= last * T::from_f64(CONTRACTION)) {
+                if size <= T::EPSILON * T::from_f64(STALLED) * length && !self.is_near_singular() {
+                    return Ok(());
+                }
                 return Err(self.lost_branch(iterations + 1, size / length));
             }
             add_dependent(self.elimination.dependent(), &self.change, &mut self.dq);
@@ -168,9 +174,13 @@ impl<T: Real> Workspace<T> {
         Err(self.lost_branch(MAX_POSITIONS, last / length))
     }
 
+    fn is_near_singular(&self) -> bool {
+        self.pivots.smallest < self.usual * T::from_f64(NEAR_SINGULAR)
+    }
+
     /// Positions that are not certain: near a singular position for its sake, elsewhere for the length of the step.
     fn lost_branch(&self, iterations: u32, correction: T) -> StepError {
-        if self.pivots.smallest < self.usual * T::from_f64(NEAR_SINGULAR) {
+        if self.is_near_singular() {
             return self.rank_lost();
         }
         let (correction, unknown) = (correction.to_f64(), largest(&self.change));

@@ -3,11 +3,13 @@
 use crate::checkpoint::ControlSnapshot;
 use crate::choice::StepRule;
 use crate::settings::ResolvedMethod;
+use crate::signal_ends::SignalEnds;
 use mbs_core::Real;
 use mbs_core::control::{
-    Accepted, Driver, EnergyRule, Event, Invariant, LocalError, Rules, Stepper, TrialStep,
+    Accepted, Driver, EnergyRule, Event, Invariant, Limit, LocalError, Rules, Stepper, TrialStep,
 };
 use mbs_core::formulation::Formulation;
+use mbs_core::laws::code::CodeOwner;
 use mbs_core::model::{Model, State};
 use mbs_core::natural::{ModelError, NaturalModel};
 use mbs_core::outputs::{Events, Turns};
@@ -23,6 +25,12 @@ pub(crate) struct Control<T: Real, const D: usize> {
     /// In natural coordinates: a tree has its turns.
     turns: Option<Turns<T, D>>,
     saved: State<T>,
+    /// The law in code by which trials failed last, and when [s].
+    failed: Option<(CodeOwner, T)>,
+    /// The largest step [s].
+    max_step: T,
+    /// When signals jump or have corners, where steps end at events.
+    ends: Option<SignalEnds<T>>,
 }
 
 impl<T: Real, const D: usize> Control<T, D> {
@@ -56,7 +64,16 @@ impl<T: Real, const D: usize> Control<T, D> {
         events.iter_mut().for_each(|events| events.start(state));
         let is_tree = settings.formulation.row().relative;
         let turns = (!is_tree).then(|| Turns::new(scene, model));
-        Ok(Some(Self { driver, estimate, events, turns, saved: state.clone() }))
+        Ok(Some(Self {
+            driver,
+            estimate,
+            events,
+            turns,
+            saved: state.clone(),
+            failed: None,
+            max_step: lengths.step_max,
+            ends: settings.events.then(|| SignalEnds::new(model)),
+        }))
     }
 
     /// State that the next step continues from.
@@ -79,7 +96,7 @@ impl<T: Real, const D: usize> Control<T, D> {
         self.events.iter_mut().for_each(|events| events.start(state));
     }
 
-    /// One step of at most `rest` [s].
+    /// One step of at most `rest` [s], which ends where a signal jumps or has a corner.
     pub(crate) fn step(
         &mut self,
         (model, formulation): (&NaturalModel<T, D>, &mut dyn Formulation<T, D>),
@@ -87,13 +104,34 @@ impl<T: Real, const D: usize> Control<T, D> {
         invariant: &mut Invariant,
         rest: T,
     ) -> Result<Accepted<T>, StepError> {
+        let ahead = self.ends.as_ref().and_then(|ends| ends.ahead(state.t, rest));
         self.saved.copy_from(state);
         formulation.save_trial();
-        let Self { driver, estimate, events, turns, saved } = self;
+        let Self { driver, estimate, events, turns, saved, .. } = self;
         let (estimate, turns) = (*estimate, turns.as_ref());
         let mut trial = Trial { model, formulation, state, saved, estimate, events, turns };
+        let length = ahead.map_or(rest, |(_, length)| length);
         let t = trial.state.t;
-        driver.step(&mut trial, invariant, (t, rest))
+        let made = driver.step(&mut trial, invariant, (t, length))?;
+        let Some((at, _)) = ahead.filter(|_| made.is_last) else { return Ok(made) };
+        SignalEnds::pass(&at, (model, &mut *trial.formulation), trial.state)?;
+        if let Some(events) = trial.events {
+            events.start(trial.state);
+        }
+        let attempt = TrialStep { t: trial.state.t, ..made.attempt };
+        Ok(Accepted { attempt, limit: Limit::Event, is_last: false, ..made })
+    }
+
+    /// Notes by which law in code trials of a step to time `t` [s] failed, if they did.
+    pub(crate) fn note(&mut self, failed: Option<CodeOwner>, t: T) {
+        if let Some(failed) = failed {
+            self.failed = Some((failed, t));
+        }
+    }
+
+    /// The law in code by which trials failed within a largest step before time `t` [s]: steps that came to an end there did so by it.
+    pub(crate) fn failed_before(&self, t: T) -> Option<CodeOwner> {
+        self.failed.filter(|(_, at)| t - *at <= self.max_step).map(|(failed, _)| failed)
     }
 }
 

@@ -30,6 +30,7 @@ mod recorder;
 mod rest;
 mod run;
 mod settings;
+mod signal_ends;
 mod simulation;
 mod statics;
 mod stop;
@@ -62,6 +63,7 @@ pub use front::{
 pub use interrupt::Interrupt;
 pub use mbs_core::formulation::{Formulation, SwitchError};
 pub use mbs_core::laws::code::{BodyLaw, Force, ForceLaw, Measured, MeasuredBody};
+pub use mbs_core::laws::relation::Relation;
 pub use mbs_core::scene::{
     BallAngle, BodyId, CouplingId, CouplingKind, CouplingMeasure, CouplingTerm, Curve, EffectId,
     EffectKind, GROUND, GuideId, InitialId, Interpolation, JointId, JointLimits, Motion, Number,

@@ -12,7 +12,7 @@ use mbs_core::step::StepError;
 pub struct Names {
     bodies: Vec<String>,
     joints: Vec<String>,
-    couplings: Vec<String>,
+    pub(crate) couplings: Vec<String>,
     rollings: Vec<String>,
     /// The bodies at the ends of the parts of each coupling's lines; `None`: the ground.
     parts: Vec<Vec<[Option<usize>; 2]>>,

@@ -7,6 +7,7 @@ use crate::control::Control;
 use crate::methods::{Demands, Request};
 use crate::ready::AssembledScene;
 use crate::settings::ResolvedMethod;
+use crate::signal_ends::SignalEnds;
 use crate::stop::StopError;
 use mbs_core::Real;
 use mbs_core::control::{Accepted, Invariant, Limit, TrialStep};
@@ -33,6 +34,8 @@ pub struct Simulation<T: Real, const D: usize> {
     sizes: [usize; 3],
     initial_energy: [f64; 2],
     control: Option<Box<Control<T, D>>>,
+    /// Of methods that control their steps within those of a run.
+    ends: Option<SignalEnds<T>>,
     invariant: Invariant,
 }
 
@@ -68,13 +71,25 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         let [kinetic, potential, _] = energies_at(&*formulation, &model, &state);
         let control = Control::new(scene, settings, &model, &state);
         let control = control.map_err(|e| StopError::Start(e.into()))?.map(Box::new);
+        let has_ends = settings.events && settings.integrator.controls_its_step();
+        let ends = has_ends.then(|| SignalEnds::new(&model));
         let is_damped =
             scene.effects.iter().any(|effect| effect.enabled && effect.kind.dissipates());
         let (ground, epsilon) = (ground(scene, settings, &model), T::EPSILON.to_f64());
         let invariant = Invariant::new([kinetic, potential, 0.0], ground, epsilon);
         let invariant = invariant.with_dampers(is_damped);
         let initial_energy = [kinetic, potential];
-        Ok(Self { model, state, formulation, start, sizes, initial_energy, control, invariant })
+        Ok(Self {
+            model,
+            state,
+            formulation,
+            start,
+            sizes,
+            initial_energy,
+            control,
+            ends,
+            invariant,
+        })
     }
 }
 
@@ -86,9 +101,17 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     pub fn advance(&mut self, rest: T) -> Result<Accepted<T>, StepError> {
         self.formulation.codes(&self.model).forget();
         let made = self.advance_by(rest);
-        made.map_err(|error| match self.formulation.codes(&self.model).failed() {
-            Some(effect) => StepError::Law { effect },
-            None => self.collapsing(rest).unwrap_or(error),
+        let failed = self.formulation.codes(&self.model).failed();
+        if let Some(control) = &mut self.control {
+            control.note(failed, self.state.t);
+        }
+        made.map_err(|error| {
+            let before = || self.control.as_ref()?.failed_before(self.state.t);
+            let is_short = matches!(error, StepError::StepTooSmall { .. });
+            match failed.or_else(|| before().filter(|_| is_short)) {
+                Some(failed) => failed.into(),
+                None => self.collapsing(rest).unwrap_or(error),
+            }
         })
     }
 
@@ -103,7 +126,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     }
 
     fn advance_by(&mut self, rest: T) -> Result<Accepted<T>, StepError> {
-        let Self { model, state, formulation, control, invariant, .. } = self;
+        let Self { model, state, formulation, control, ends, invariant, .. } = self;
         let formulation = &mut **formulation;
         // Before a formulation prepares its index for the step.
         let step = Step { dt: rest, length: model.length() }.checked()?;
@@ -111,7 +134,10 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             formulation.take_inputs(model, state)?;
             return control.step((model, formulation), state, invariant, rest);
         }
-        let (report, energies) = formulation.advance(model, step, state)?;
+        let (report, energies) = match ends {
+            Some(ends) => ends.advance((model, formulation), step, state)?,
+            None => formulation.advance(model, step, state)?,
+        };
         let change = invariant.change(energies);
         invariant.mark(state.t.to_f64(), energies);
         let t = state.t;

@@ -100,9 +100,9 @@ impl StopError {
         Self::Step(error, owner)
     }
 
-    /// That a user-defined law failed, where one did; else this.
+    /// That a user-defined law or relation failed, where one did; else this.
     pub(crate) fn or_law(self, codes: &Codes) -> Self {
-        codes.failed().map_or(self, |effect| Self::Step(StepError::Law { effect }, None))
+        codes.failed().map_or(self, |failed| Self::Step(failed.into(), None))
     }
 
     /// A search without equilibrium, given whose unknowns and rows are.
@@ -201,6 +201,7 @@ impl StopError {
             }
             Self::Step(StepError::TwistOpen { .. }, _) => "twist-open",
             Self::Step(StepError::Law { .. }, _) => "law-not-finite",
+            Self::Step(StepError::Relation { .. }, _) => "relation-not-finite",
             Self::Step(..) => "step-failed",
             Self::AlmostDependent(_) => "almost-dependent",
             Self::Reaction(_) => "no-reactions",
@@ -329,6 +330,9 @@ impl StopError {
             Self::Output { output } => names.outputs.get(*output),
             Self::Friction { effect, .. } => names.effects.get(*effect),
             Self::Step(StepError::Law { effect }, _) => names.effects.get(*effect as usize),
+            Self::Step(StepError::Relation { coupling }, _) => {
+                names.couplings.get(*coupling as usize)
+            }
             _ => None,
         };
         let part = if let Self::Step(error, _) = self { names.part_of(error, self) } else { None };

@@ -9,6 +9,7 @@ use crate::inputs::SignalInput;
 use crate::laws::Part;
 use crate::laws::body::BodyLaw;
 use crate::laws::code::{BodyLaw as BodyCode, Code, ForceLaw};
+use crate::laws::relation::Relation;
 use crate::laws::scalar::Law;
 use crate::measure::TermInput;
 use crate::scene::{BodyId, CouplingTerm, Dimension, Freedom, JointId, Signal, Surroundings};
@@ -68,6 +69,11 @@ impl<T: Real> Compiler<'_, T> {
         let effect = number(self.effect);
         let number = self.actions.tables.codes.add_body(effect, law);
         CodeBodyLaw::new(number, [self.course(input), self.clock()])
+    }
+
+    /// The relation of a coupling that is an object.
+    pub(super) fn relation(&mut self, coupling: usize, relation: &Code<dyn Relation>) {
+        self.actions.tables.codes.add_relation(number(coupling), relation);
     }
 
     /// Adds an action by a law. One whose feature is off has none: its effect is refused before.

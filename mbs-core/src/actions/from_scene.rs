@@ -29,6 +29,11 @@ impl<T: Real> Actions<T> {
                 tables: Tables::empty(),
             },
         };
+        for (coupling, of) in scene.couplings.iter().enumerate() {
+            if let Some(relation) = &of.relation {
+                compiler.relation(coupling, relation);
+            }
+        }
         for (effect, e) in scene.effects.iter().enumerate().filter(|(_, e)| e.enabled) {
             if let Some((feature, false)) = e.kind.row().feature {
                 return Err(ActionError::LeftOut { effect, feature });

@@ -95,12 +95,23 @@ pub struct Coupled<T> {
     pub inverse: T,
     /// Number of the guide that is its sum; [`NONE`]: it is zero.
     pub guide: u32,
-    /// Is the sum constant, and without curves?
-    pub is_linear: bool,
+    /// What of its terms is held.
+    pub form: CoupledForm,
     /// Row number.
     pub row: u32,
     /// The row's place in the Jacobian store.
     pub place: Span,
+}
+
+/// What of its terms a coupling holds.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum CoupledForm {
+    /// A sum that is constant, and without curves.
+    Linear,
+    /// A sum that follows time, or has curves.
+    Sum,
+    /// A user-defined relation, by its number among them.
+    Relation(u32),
 }
 
 /// The tables that couplings refer to.
@@ -198,7 +209,7 @@ impl<T: Real> Coupled<T> {
         let change = |x: Span| combine::<T, D>(x.of(tables.pool), dq);
         let at = |x: Span| before(x) + change(x);
         let (gradient, row) = (self.place.of_mut(jacobian), self.row as usize);
-        if !self.is_linear {
+        if self.form != CoupledForm::Linear {
             phi[row] = self.evaluate_with(tables, at, (memory, sum), gradient);
             return;
         }
@@ -285,7 +296,7 @@ pub fn value<T: Real, const D: usize>(
 }
 
 /// The remembered angle, and how far the angle is from it; of other measures zero and the value.
-fn base_and_change<T: Real, const D: usize>(
+pub(super) fn base_and_change<T: Real, const D: usize>(
     of: &Measurand<T>,
     at: impl Fn(Span) -> Vector<T, D>,
     memory: &[T],

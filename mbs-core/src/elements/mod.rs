@@ -8,7 +8,7 @@
 //! | [`Distance`] | (d.d - L^2) / 2L | +-d / L | d'.d' / L |
 //! | [`Dot`] | s x.y - c | s (A^T y + B^T x) | 2 s x'.y' |
 //! | [`Linear`] | sum_k a_k e_k - c | constant | 0 |
-//! | [`Coupled`] | (sum_k c_k m_k - s) / c | see there | see there |
+//! | [`Coupled`] | (sum_k c_k m_k - s) / c, or a function of m_k | see there | see there |
 //! | [`RollingRows`] | n.(r - p), and rows of velocities | see there | see there |
 //! | [`Guided`] | (cos f x2 - sin f x1).y, or s x.y - f, or (z_j.y_i - z_i.y_j)/2 with z = exp(f) x | as `Dot` | with f', f'' |
 
@@ -20,6 +20,8 @@ mod dot;
 mod guided;
 mod linear;
 #[cfg(feature = "alloc")]
+mod related;
+#[cfg(feature = "alloc")]
 mod rolling;
 
 pub use ball::ball_directions;
@@ -27,8 +29,8 @@ pub use ball::ball_directions;
 pub(crate) use combination::add_gradient;
 pub use combination::{Span, Term, combine};
 pub use coupled::{
-    Coupled, CoupledTables, CoupledTerm, Curves, Measurand, NONE, Signed, add_measure_gradient,
-    has_collapsed, is_open, rate_and_bias, value as measured_value,
+    Coupled, CoupledForm, CoupledTables, CoupledTerm, Curves, Measurand, NONE, Signed,
+    add_measure_gradient, has_collapsed, is_open, rate_and_bias, value as measured_value,
 };
 pub use distance::Distance;
 pub use dot::Dot;

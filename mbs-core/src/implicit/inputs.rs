@@ -6,7 +6,7 @@
 //! ```
 //!
 //! A rule takes the force at the beginning of a step from the accelerations there: with these, an input acts in the whole step from the
-//! moment it is set. What a law stores under another input is booked as work. Formulations solve for (da, dl), each with its own matrix.
+//! moment it is set. A signal that jumps does the same: u is then that just after, u_n that just before. What a law stores under another input is booked as work. Formulations solve for (da, dl), each with its own matrix.
 
 use crate::Real;
 use crate::model::{Model, State, Terms};
@@ -22,11 +22,11 @@ pub fn has_new_inputs<T: Real, M: Model<T>>(model: &M, s: &State<T>) -> bool {
     model.inputs().is_some_and(|inputs| inputs.differs(&s.inputs, &s.applied))
 }
 
-/// Evaluates the forces at `s` with the inputs that it was reached with, or with those that are set now if `is_new`; returns the
-/// potential energy [J].
+/// Evaluates the forces of time `t` [s] at `s` with the inputs that it was reached with, or with those that are set now if `is_new`;
+/// returns the potential energy [J].
 pub fn load_at<T: Real, M: Model<T>>(
     model: &M,
-    s: &State<T>,
+    (s, t): (&State<T>, T),
     is_new: bool,
     terms: &mut Terms<T>,
 ) -> T {
@@ -35,7 +35,7 @@ pub fn load_at<T: Real, M: Model<T>>(
     if let Some(inputs) = model.inputs() {
         let of_effects = if is_new { &s.inputs } else { &s.applied };
         let at_end = (&s.applied[..], &of_effects[..]);
-        inputs.write_end(s.t, at_end, (&mut terms.guides, &mut terms.courses));
+        inputs.write_end(t, at_end, (&mut terms.guides, &mut terms.courses));
     }
     model.evaluate_forces(&s.q, &s.v, terms);
     model.potential_energy(&s.q, terms)

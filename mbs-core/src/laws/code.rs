@@ -1,13 +1,14 @@
-//! User-defined laws with data: objects behind two traits, which see doubles whatever a run computes in.
+//! User-defined laws with data: objects behind traits, which see doubles whatever a run computes in.
 //!
 //! ```text
 //! along a line, about or along a joint   (t, m, m', u) -> f, df/dm, df/dm', V
 //! on a body                              (t, place, velocity, direction, angular velocity, u) -> force, moment
 //! ```
 //!
-//! u are three numbers that are set between steps. Where no allocation or no pointer that threads share can be had, laws are functions:
+//! [Relations](Relation) of couplings are objects too. u are three numbers that are set between steps. Where no allocation or no pointer that threads share can be had, laws are functions:
 //! [`user`](super::user).
 
+use super::relation::Relation;
 use alloc::vec::Vec;
 use core::fmt::{self, Debug, Formatter};
 use core::ops::Deref;
@@ -152,6 +153,7 @@ macro_rules! code {
 }
 code!(ForceLaw);
 code!(BodyLaw);
+code!(Relation);
 
 impl<L: ?Sized> Clone for Code<L> {
     fn clone(&self) -> Self {
@@ -179,34 +181,48 @@ impl<L: ?Sized> Deref for Code<L> {
     }
 }
 
-/// The laws of a model that are objects, by number, with the effects that they belong to; and which of them failed.
+/// The laws of a model that are objects, by number, with the effects and couplings that they belong to; and which of them failed.
 #[derive(Debug)]
 pub struct Codes {
     forces: Vec<(u32, Code<dyn ForceLaw>)>,
     bodies: Vec<(u32, Code<dyn BodyLaw>)>,
-    /// The first effect whose law gave what is not finite; [`NONE`].
+    relations: Vec<(u32, Code<dyn Relation>)>,
+    /// The first effect whose law gave what is not finite, else the first coupling above [`COUPLINGS`]; [`NONE`].
     failed: AtomicU32,
+}
+
+/// What a law in code belongs to.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum CodeOwner {
+    /// The effect in the scene.
+    Effect(u32),
+    /// The coupling in the scene.
+    Coupling(u32),
 }
 
 /// No law has failed.
 const NONE: u32 = u32::MAX;
+/// Couplings are numbered from here on among what has failed: no scene has as many effects.
+const COUPLINGS: u32 = 1 << 31;
 
 impl Default for Codes {
     fn default() -> Self {
-        Self { forces: Vec::new(), bodies: Vec::new(), failed: AtomicU32::new(NONE) }
+        let (forces, bodies, relations) = (Vec::new(), Vec::new(), Vec::new());
+        Self { forces, bodies, relations, failed: AtomicU32::new(NONE) }
     }
 }
 
 impl Clone for Codes {
     fn clone(&self) -> Self {
         let (forces, bodies) = (self.forces.clone(), self.bodies.clone());
-        Self { forces, bodies, ..Self::default() }
+        Self { forces, bodies, relations: self.relations.clone(), ..Self::default() }
     }
 }
 
 impl PartialEq for Codes {
     fn eq(&self, other: &Self) -> bool {
-        (&self.forces, &self.bodies) == (&other.forces, &other.bodies)
+        (&self.forces, &self.bodies, &self.relations)
+            == (&other.forces, &other.bodies, &other.relations)
     }
 }
 
@@ -223,17 +239,33 @@ impl Codes {
         number(self.bodies.len() - 1)
     }
 
+    /// Adds the relation of a coupling.
+    pub(crate) fn add_relation(&mut self, coupling: u32, relation: &Code<dyn Relation>) {
+        self.relations.push((coupling, relation.clone()));
+    }
+
     /// From now on failures are those of what comes.
     pub fn forget(&self) {
-        if !(self.forces.is_empty() && self.bodies.is_empty()) {
+        if self.failed.load(Ordering::Relaxed) != NONE {
             self.failed.store(NONE, Ordering::Relaxed);
         }
     }
 
-    /// The first effect in the scene whose law gave what is not finite since failures were [forgotten](Self::forget).
+    /// The first effect in the scene whose law gave what is not finite since failures were [forgotten](Self::forget), else the first
+    /// such coupling.
     #[must_use]
-    pub fn failed(&self) -> Option<u32> {
-        Some(self.failed.load(Ordering::Relaxed)).filter(|effect| *effect != NONE)
+    pub fn failed(&self) -> Option<CodeOwner> {
+        match self.failed.load(Ordering::Relaxed) {
+            NONE => None,
+            effect if effect < COUPLINGS => Some(CodeOwner::Effect(effect)),
+            coupling => Some(CodeOwner::Coupling(coupling - COUPLINGS)),
+        }
+    }
+
+    /// The relation of this number, in the order of the scene's couplings that have one.
+    #[must_use]
+    pub const fn relation(&self, number: u32) -> NumberedRelation<'_> {
+        NumberedRelation { codes: self, number }
     }
 
     /// A law of a line or a joint; NaN where it fails.
@@ -268,6 +300,42 @@ impl Codes {
         self.failed.fetch_min(effect, Ordering::Relaxed);
         #[cfg(not(target_has_atomic = "32"))]
         self.failed.store(effect.min(self.failed.load(Ordering::Relaxed)), Ordering::Relaxed);
+    }
+}
+
+/// A relation of [`Codes`], which notes where it fails and gives NaN there.
+#[derive(Debug, Clone, Copy)]
+pub struct NumberedRelation<'a> {
+    codes: &'a Codes,
+    number: u32,
+}
+
+impl NumberedRelation<'_> {
+    #[cold]
+    fn fail(&self) -> f64 {
+        if let Some((coupling, _)) = self.codes.relations.get(self.number as usize) {
+            self.codes.fail(COUPLINGS | *coupling);
+        }
+        f64::NAN
+    }
+}
+
+impl Relation for NumberedRelation<'_> {
+    fn evaluate(&self, at: &[f64], gradient: &mut [f64]) -> f64 {
+        if let Some((_, relation)) = self.codes.relations.get(self.number as usize) {
+            let value = relation.evaluate(at, gradient);
+            if value.is_finite() && gradient.iter().all(|x| x.is_finite()) {
+                return value;
+            }
+        }
+        gradient.fill(f64::NAN);
+        self.fail()
+    }
+
+    fn curvature(&self, at: &[f64], rates: &[f64]) -> f64 {
+        let relation = self.codes.relations.get(self.number as usize);
+        let along = relation.map(|(_, relation)| relation.curvature(at, rates));
+        along.filter(|along| along.is_finite()).unwrap_or_else(|| self.fail())
     }
 }
 

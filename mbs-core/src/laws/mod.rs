@@ -18,6 +18,7 @@ mod law_inputs;
 pub mod operations;
 mod part;
 pub mod polynomial;
+pub mod relation;
 pub mod road;
 pub mod road_contact;
 pub mod scalar;

@@ -43,6 +43,10 @@ fn propagated<T: Real>(
     coupling: &CouplingInput<T>,
     (values, signals): (&mut [Vec<Option<T>>], &[[T; 3]]),
 ) -> bool {
+    // a relation is not solved for one of its numbers
+    if coupling.relation.is_some() {
+        return false;
+    }
     let (mut rest, mut open) = (coupling.sum_at(T::ZERO, signals), None);
     for term in &coupling.terms {
         let Some((joint, number)) = term.coordinate else { return false };

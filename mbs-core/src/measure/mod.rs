@@ -2,6 +2,7 @@
 //!
 //! Held, such a sum is a [coupling](crate::scene::Coupling). Here too: where something that rolls touches its plane.
 
+mod arguments;
 mod contact;
 #[cfg(feature = "alloc")]
 mod coupling;
@@ -17,6 +18,7 @@ mod rotor;
 #[cfg(feature = "alloc")]
 mod term;
 
+pub use arguments::Arguments;
 pub use contact::{Moving, lies_flat, lowest_place, lowest_point};
 #[cfg(feature = "alloc")]
 pub use coupling::CouplingInput;

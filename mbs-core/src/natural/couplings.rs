@@ -8,10 +8,10 @@ use super::row_builder::{CoupledDraft, GroupDraft, MeasureDraft, RowDraft, diffe
 use crate::Real;
 use crate::algebra::{Vector, along, norm};
 use crate::elements::{
-    Coupled, CoupledTables, Curves, Measurand, NONE, Span, add_measure_gradient, combine,
-    has_collapsed, measured_value,
+    Coupled, CoupledForm, CoupledTables, Curves, Measurand, NONE, Span, add_measure_gradient,
+    combine, has_collapsed, measured_value,
 };
-use crate::measure::{CouplingInput, PreparedCurve, TermInput};
+use crate::measure::{Arguments, CouplingInput, PreparedCurve, TermInput};
 use crate::model::{Owner, Terms};
 use crate::scene::{BallAngle, BodyId, CouplingMeasure, Dimension, transverse};
 use alloc::vec;
@@ -20,21 +20,29 @@ use alloc::vec::Vec;
 impl<T: Real> Builder<'_, T> {
     /// Adds the rows of the couplings.
     pub(super) fn add_couplings(&mut self) {
-        let mut guide = self.scene.guides.len();
+        let (mut guide, mut relations) = (self.scene.guides.len(), 0);
         for (i, coupling) in self.scene.couplings.iter().enumerate() {
             let input = CouplingInput::new(coupling);
             let scale = input.scale();
+            // the factors of a relation's terms are its own
+            let by = if input.relation.is_some() { T::ONE } else { scale };
             let terms: Vec<_> =
-                input.terms.iter().map(|term| self.coupled_draft(term, scale)).collect();
+                input.terms.iter().map(|term| self.coupled_draft(term, by)).collect();
             let number = input.sum.is_some().then_some(guide);
             guide += usize::from(input.sum.is_some());
             let is_linear = !coupling.is_driven() && terms.iter().all(|t| t.curve.is_identity());
+            let form = match input.relation {
+                Some(_) => CoupledForm::Relation(relations),
+                None if is_linear => CoupledForm::Linear,
+                None => CoupledForm::Sum,
+            };
+            relations += u32::from(input.relation.is_some());
             let mut group = GroupDraft::new(Owner::Coupling(i));
             group.rows.push(RowDraft::Coupled {
                 terms,
                 inverse: T::ONE / scale,
                 guide: number,
-                is_linear,
+                form,
             });
             self.groups.push(group);
         }
@@ -139,6 +147,11 @@ impl<T: Real, const D: usize> NaturalModel<T, D> {
         let (k, rows) = (group.clique.len(), group.rows.range());
         let at = |x: Span| combine::<T, D>(x.of(&self.pool), q);
         for row in self.coupled.iter().filter(|row| rows.contains(&(row.row as usize))) {
+            if let CoupledForm::Relation(number) = row.form {
+                let weight = lambda[row.row as usize] * row.inverse;
+                self.add_relation_curvature((row, number), (q, terms), weight, (group, block));
+                continue;
+            }
             for term in row.terms.of(&self.coupled_terms) {
                 let measures = term.measures.of(&self.coupled_measures);
                 let mut gradient = vec![T::ZERO; group.width as usize];
@@ -159,6 +172,71 @@ impl<T: Real, const D: usize> NaturalModel<T, D> {
                         block,
                     );
                 }
+            }
+        }
+    }
+
+    /// The second derivatives of the relations among the rows of an element, packed as its block; empty where there are none.
+    pub(super) fn relation_curvature(
+        &self,
+        at: (&[T], &Terms<T>),
+        lambda: &[T],
+        element: usize,
+    ) -> Vec<T> {
+        let group = &self.groups[element];
+        let (rows, k) = (group.rows.range(), group.clique.len());
+        let first = self.coupled.partition_point(|row| (row.row as usize) < rows.start);
+        let coupled = self.coupled[first..].iter().take_while(|row| (row.row as usize) < rows.end);
+        let mut block = Vec::new();
+        for row in coupled {
+            let CoupledForm::Relation(number) = row.form else { continue };
+            block.resize(k * (k + 1) / 2, T::ZERO);
+            let weight = lambda[row.row as usize] * row.inverse;
+            self.add_relation_curvature((row, number), at, weight, (group, &mut block));
+        }
+        block
+    }
+
+    /// Likewise of a relation: weight (sum_k phi_k H(a_k) + sum_kl phi_kl grad a_k grad a_l^T).
+    fn add_relation_curvature(
+        &self,
+        (row, number): (&Coupled<T>, u32),
+        (q, terms): (&[T], &Terms<T>),
+        weight: T,
+        (group, block): (&Group, &mut [T]),
+    ) {
+        let at = |x: Span| combine::<T, D>(x.of(&self.pool), q);
+        let relation = self.codes().relation(number);
+        let mut arguments = Arguments::default();
+        let mut gradients = Vec::new();
+        for term in row.terms.of(&self.coupled_terms) {
+            let mut gradient = vec![T::ZERO; group.width as usize];
+            let mut m = T::ZERO;
+            for measure in term.measures.of(&self.coupled_measures) {
+                let by = term.factor * measure.sign;
+                m += by * measured_value(&measure.of, at, &terms.angles);
+                add_measure_gradient(&measure.of, &self.pool, at, by, &mut gradient);
+            }
+            arguments.push([m, T::ZERO], T::ZERO);
+            gradients.push(gradient);
+        }
+        arguments.evaluate(&relation);
+        let k = group.clique.len();
+        let second = |i, j| weight * arguments.second_derivative(&relation, i, j);
+        for (i, a) in gradients.iter().enumerate() {
+            add_squares(block, k, [a], [second(i, i)]);
+            for (j, b) in gradients.iter().enumerate().take(i) {
+                // a b^T + b a^T = ((a + b)(a + b)^T - (a - b)(a - b)^T)/2
+                let by = |s: T| -> Vec<T> { a.iter().zip(b).map(|(&x, &y)| x + s * y).collect() };
+                let (sum, difference) = (by(T::ONE), by(-T::ONE));
+                let half = second(i, j) * T::HALF;
+                add_squares(block, k, [&sum, &difference], [half, -half]);
+            }
+        }
+        for (i, term) in row.terms.of(&self.coupled_terms).iter().enumerate() {
+            for measure in term.measures.of(&self.coupled_measures) {
+                let s = weight * arguments.slope(i) * term.factor * measure.sign;
+                self.add_measure_curvature(&measure.of, q, s, group, block);
             }
         }
     }

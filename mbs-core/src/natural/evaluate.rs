@@ -11,6 +11,7 @@ use crate::model::{Load, Model, Owner, ScalarForce, SignalValues, State, Tangent
 use crate::step::StepError;
 use crate::team::Alone;
 use alloc::vec;
+use alloc::vec::Vec;
 use core::ops::Range;
 
 /// Calls a kernel with the number of unknowns of a group known to the compiler, where bodies, joints and effects between two bodies
@@ -250,6 +251,10 @@ impl<T: Real, const D: usize> Model<T> for NaturalModel<T, D> {
     ) {
         let group = &self.groups[element];
         sized!(group.clique.len(), self.write_sized_block(terms, tangent, group, block));
+    }
+
+    fn row_curvature(&self, q: &[T], terms: &Terms<T>, lambda: &[T], element: usize) -> Vec<T> {
+        self.relation_curvature((q, terms), lambda, element)
     }
 
     #[inline]

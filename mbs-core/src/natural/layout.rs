@@ -303,11 +303,11 @@ impl<T: Real, const D: usize> Layout<T, D> {
                 let motion = GuidedMotion::Rotation { x, y: other, number: index(*number) };
                 self.model.guided.push(Guided { motion, y, guide: index(*guide), row, place });
             }
-            RowDraft::Coupled { terms, inverse, guide, is_linear } => {
+            RowDraft::Coupled { terms, inverse, guide, form } => {
                 let terms = self.coupled_terms(terms, columns);
                 let guide = guide.map_or(NONE, index);
-                let (inverse, is_linear) = (*inverse, *is_linear);
-                self.model.coupled.push(Coupled { terms, inverse, guide, is_linear, row, place });
+                let (inverse, form) = (*inverse, *form);
+                self.model.coupled.push(Coupled { terms, inverse, guide, form, row, place });
             }
             RowDraft::Rolling(draft) => self.add_rolling(draft, (columns, group), (row, place)),
         }

@@ -13,7 +13,9 @@ use super::row_builder::{CoupledDraft, GroupDraft, MeasureDraft, RowDraft};
 use super::sharing::{Entity, EntityKind};
 use crate::Real;
 use crate::algebra::{Coef, Vector, unit};
-use crate::elements::{Measurand, Signed, Span, combine, measured_value, rate_and_bias};
+use crate::elements::{
+    CoupledForm, Measurand, Signed, Span, combine, measured_value, rate_and_bias,
+};
 use crate::measure::{PreparedCurve, RotorInput};
 use crate::model::{Owner, State};
 use crate::scene::BodyId;
@@ -48,7 +50,7 @@ impl<T: Real> Builder<'_, T> {
                 terms: vec![term(T::ONE, own), term(-T::ONE, of)],
                 inverse: T::ONE,
                 guide: None,
-                is_linear: true,
+                form: CoupledForm::Linear,
             });
             group.rows.extend(axes.into_iter().skip(1).map(|y| RowDraft::Dot {
                 x: x(),

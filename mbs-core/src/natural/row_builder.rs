@@ -4,6 +4,7 @@ use super::basis::Combination;
 use super::sharing::{Entity, EntityKind};
 use crate::Real;
 use crate::algebra::{Coef, Vector};
+use crate::elements::CoupledForm;
 use crate::laws::body::BodyLaw;
 use crate::laws::scalar::Law;
 use crate::measure::{PreparedCurve, RollingInput};
@@ -50,7 +51,7 @@ pub(crate) enum RowDraft<T: Real> {
         terms: Vec<CoupledDraft<T>>,
         inverse: T,
         guide: Option<usize>,
-        is_linear: bool,
+        form: CoupledForm,
     },
     Rolling(Box<RollingDraft<T>>),
 }

@@ -7,6 +7,7 @@ use super::model::NaturalModel;
 use crate::Real;
 use crate::algebra::Vector;
 use crate::blocks::Cliques;
+use crate::elements::{CoupledForm, Span, combine};
 use crate::model::{Model, Terms};
 use crate::team::{Team, sum};
 
@@ -35,8 +36,14 @@ impl<T: Real, const D: usize> NaturalModel<T, D> {
             }
             for row in part.coupled(&self.coupled) {
                 let [sum, ..] = Self::sum_of(row.guide, guides);
-                let row = part.coupling(row);
-                row.evaluate::<D>(&self.coupled_tables(), (q, angles), sum, (phi, jacobian));
+                let (row, out) = (part.coupling(row), (&mut phi[..], &mut jacobian[..]));
+                if let CoupledForm::Relation(number) = row.form {
+                    let at = |x: Span| combine::<T, D>(x.of(&self.pool), q);
+                    let related = (&self.coupled_tables(), &self.codes().relation(number));
+                    row.evaluate_relation(related, at, (angles, sum), out);
+                    continue;
+                }
+                row.evaluate::<D>(&self.coupled_tables(), (q, angles), sum, out);
             }
             for row in part.rollings(&self.rollings) {
                 part.rolling(row).evaluate::<D>(&self.pool, q, (phi, jacobian));
@@ -72,7 +79,14 @@ impl<T: Real, const D: usize> NaturalModel<T, D> {
             for row in part.coupled(&self.coupled) {
                 let [sum, ..] = Self::sum_of(row.guide, guides);
                 let (from, out) = ((q, dq, angles), (&mut phi[..], &mut jacobian[..]));
-                part.coupling(row).advance::<D>(&self.coupled_tables(), from, (phi_n, sum), out);
+                let row = part.coupling(row);
+                if let CoupledForm::Relation(number) = row.form {
+                    let of = |x: Span, q: &[T]| combine::<T, D>(x.of(&self.pool), q);
+                    let related = (&self.coupled_tables(), &self.codes().relation(number));
+                    row.evaluate_relation(related, |x| of(x, q) + of(x, dq), (angles, sum), out);
+                    continue;
+                }
+                row.advance::<D>(&self.coupled_tables(), from, (phi_n, sum), out);
             }
             for row in part.rollings(&self.rollings) {
                 let out = (&mut phi[..], &mut jacobian[..]);
@@ -145,9 +159,15 @@ impl<T: Real, const D: usize> NaturalModel<T, D> {
                 bias[row.row as usize - first] = row.bias::<T, D>(&self.pool, (q, v), guides);
             }
             for row in part.coupled(&self.coupled) {
-                let sum = Self::sum_of(row.guide, guides);
-                bias[row.row as usize - first] =
-                    row.bias::<D>(&self.coupled_tables(), (q, v, angles), sum);
+                let (sum, at) = (Self::sum_of(row.guide, guides), row.row as usize - first);
+                let (tables, here) = (self.coupled_tables(), (q, v, angles));
+                bias[at] = match row.form {
+                    CoupledForm::Relation(number) => {
+                        let related = (&tables, &self.codes().relation(number));
+                        row.relation_bias::<D>(related, here, sum)
+                    }
+                    _ => row.bias::<D>(&tables, here, sum),
+                };
             }
             for row in part.rollings(&self.rollings) {
                 row.bias::<D>(&self.pool, (q, v), &mut bias[row.row as usize - first..]);

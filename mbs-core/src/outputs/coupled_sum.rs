@@ -2,7 +2,7 @@
 //!
 //! ```text
 //! sum    = sum_k c_k f_k(m_k),   its rate sum_k c_k f_k' m_k'
-//! effort = lambda:  a term acts with w = c_k f_k' lambda
+//! effort = lambda:  a term acts with w = c_k f_k' lambda;  of a relation phi(c_k m_k) with w = c_k phi_k lambda
 //! angle    moment w g on the second body, -w g on the first:  g.a = 1 about its axis, g.b = 0 about the other of two axes
 //! slide    force w d at the joint's place on the second body, -w d on the first body there
 //! ball     moment w g on the second body, -w g on the first:  g of a swing or a twist
@@ -17,7 +17,9 @@ use super::wrench::{Applied, Wrench};
 use crate::Real;
 use crate::algebra::{Vector, along as unit_along, cross, norm, raised};
 use crate::elements::{ball, ball_directions};
-use crate::measure::{CouplingInput, PreparedCurve, TermInput};
+use crate::laws::code::Code;
+use crate::laws::relation::Relation;
+use crate::measure::{Arguments, CouplingInput, PreparedCurve, TermInput};
 use crate::model::State;
 use crate::natural::{Affine, NaturalModel, unwrap};
 use crate::scene::{BallAngle, BodyId, CouplingMeasure, Dimension, Scene, transverse};
@@ -29,6 +31,8 @@ use alloc::vec::Vec;
 #[derive(Debug, Clone)]
 pub(super) struct CoupledSum<T: Real, const D: usize> {
     terms: Vec<SumTerm<T, D>>,
+    /// What is held of the terms; `None`: their sum.
+    relation: Option<Code<dyn Relation>>,
     /// The moving bodies that it acts on, ascending.
     bodies: Vec<usize>,
     /// The largest force, or moment over the scene's length, of a term without a curve at an effort of one.
@@ -68,8 +72,16 @@ impl<T: Real, const D: usize> CoupledSum<T, D> {
     /// Of `scene.couplings[index]` in a scene that passed its check.
     pub(super) fn new(scene: &Scene<T>, model: &NaturalModel<T, D>, index: usize) -> Self {
         let coupling = &scene.couplings[index];
-        let sum = Self::of_terms((scene, model), &CouplingInput::new(coupling).terms, None);
-        Self { teeth: ToothForce::new(scene, model, coupling).map(Box::new), ..sum }
+        let input = CouplingInput::new(coupling);
+        let mut sum = Self::of_terms((scene, model), &input.terms, None);
+        if input.relation.is_some() {
+            let slopes = (0..input.terms.len()).map(|k| input.reference_slope(k));
+            let forces = sum.terms.iter().zip(slopes).map(|(term, slope)| term.force(slope, model));
+            sum.scale = forces.fold(T::ZERO, T::max);
+            sum.relation = input.relation;
+        }
+        sum.teeth = ToothForce::new(scene, model, coupling).map(Box::new);
+        sum
     }
 
     /// Of these terms; `remembered` is the first place of the angles that the state remembers for them.
@@ -84,15 +96,14 @@ impl<T: Real, const D: usize> CoupledSum<T, D> {
             let angles = parts.iter().filter(|part| part.is_remembered()).count();
             remembered = remembered.map(|first| first + angles);
             bodies.extend(parts.iter().flat_map(|part| part.bodies).filter_map(BodyId::index));
-            let is_angle = parts.iter().any(Part::is_angle);
-            let length = if is_angle { model.length() } else { T::ONE };
-            scale = scale.max(term.factor.abs() / length);
-            SumTerm { factor: term.factor, curve: term.curve.clone(), parts }
+            let of = SumTerm { factor: term.factor, curve: term.curve.clone(), parts };
+            scale = scale.max(of.force(term.factor, model));
+            of
         });
         let terms = terms.collect();
         bodies.sort_unstable();
         bodies.dedup();
-        Self { terms, bodies, scale, teeth: None }
+        Self { terms, relation: None, bodies, scale, teeth: None }
     }
 
     /// Is it an angle, without slides and lengths?
@@ -117,6 +128,13 @@ impl<T: Real, const D: usize> CoupledSum<T, D> {
 
     /// The sum and its rate; angles continue from those that the state remembers.
     pub(super) fn measure(&self, state: &State<T>) -> [T; 2] {
+        if self.relation.is_some() {
+            let (value, arguments) = self.related(state);
+            let terms = self.terms.iter().enumerate();
+            let rates =
+                terms.map(|(k, term)| arguments.slope(k) * term.factor * term.evaluate(state).1);
+            return [value, rates.fold(T::ZERO, |sum, rate| sum + rate)];
+        }
         self.terms.iter().fold([T::ZERO; 2], |[sum, rate], term| {
             let ([value, slope], m_t) = term.evaluate(state);
             [sum + term.factor * value, rate + term.factor * slope * m_t]
@@ -128,15 +146,35 @@ impl<T: Real, const D: usize> CoupledSum<T, D> {
         if let Some(teeth) = &self.teeth {
             return teeth.apply(effort, state, take);
         }
-        for term in &self.terms {
-            let ([_, slope], _) = term.evaluate(state);
+        let related = self.relation.is_some().then(|| self.related(state).1);
+        for (k, term) in self.terms.iter().enumerate() {
+            let slope = match &related {
+                Some(arguments) => arguments.slope(k),
+                None => term.evaluate(state).0[1],
+            };
             let weight = term.factor * slope * effort;
             term.parts.iter().for_each(|part| part.apply(weight, state, &mut take));
         }
     }
+
+    /// The value of the relation, zero without one, and its derivatives.
+    fn related(&self, state: &State<T>) -> (T, Arguments<T>) {
+        let mut arguments = Arguments::default();
+        for term in &self.terms {
+            arguments.push([term.factor * term.evaluate(state).0[0], T::ZERO], T::ZERO);
+        }
+        let value = self.relation.as_ref().map(|relation| arguments.evaluate(&**relation));
+        (value.unwrap_or(T::ZERO), arguments)
+    }
 }
 
 impl<T: Real, const D: usize> SumTerm<T, D> {
+    /// The force, or moment over the scene's length, that a growth by it makes of an effort of one.
+    fn force(&self, slope: T, model: &NaturalModel<T, D>) -> T {
+        let is_angle = self.parts.iter().any(Part::is_angle);
+        slope.abs() / if is_angle { model.length() } else { T::ONE }
+    }
+
     /// f(m), f'(m) and the rate of m.
     fn evaluate(&self, state: &State<T>) -> ([T; 2], T) {
         let (mut m, mut m_t) = (T::ZERO, T::ZERO);

@@ -20,8 +20,8 @@
 //! The band is 1e-9 of the scene's length (of a radian for angles), ten times what steps are solved to; in `f32` 128 roundings.
 //! To it comes what the rounding of the time leaves at the rate of the gap.
 //!
-//! Not found: kinks of dampers, friction and user-defined laws, and those of signals' tables, whose times are known beforehand. Nor
-//! are a road's kinks under a wheel in the air, or two places of a road that become equally near in a hollow as tight as the wheel.
+//! Not found: kinks of dampers, friction and user-defined laws, and those of signals, whose times are known beforehand
+//! ([`SignalTimes`](crate::inputs::SignalTimes)). Nor are a road's kinks under a wheel in the air, or two places of a road that become equally near in a hollow as tight as the wheel.
 
 use super::cubic::Cubic;
 use super::load::{Gap, Load, Loads, N_READING, Reading};

@@ -4,10 +4,12 @@
 //! sum_k c_k m_k(q) = value + f(t)          m_k: a joint coordinate, unwrapped, or a length; or a curve of one
 //! ```
 //!
-//! Every kind of coupling is such a sum; the constructors below write them. Coordinates and lengths count from the reference
-//! configuration.
+//! Every kind of coupling is such a sum; the constructors below write them. A [relation](Coupling::relation) in code holds any
+//! other function of the measures. Coordinates and lengths count from the reference configuration.
 
 use crate::Real;
+use crate::laws::code::Code;
+use crate::laws::relation::Relation;
 use crate::scene::{
     BodyId, CouplingMeasure, CouplingTerm, Curve, JointId, Motion, Number, Vector3,
 };
@@ -25,6 +27,8 @@ pub struct Coupling<T> {
     pub name: String,
     /// The terms of the sum, at least one.
     pub terms: Vec<CouplingTerm<T>>,
+    /// A user-defined function of the terms that is held in place of their sum; in code only.
+    pub relation: Option<Code<dyn Relation>>,
     /// What the sum is, from the reference configuration [unit of a factor times its coordinate].
     pub value: T,
     /// What is added to the value in the course of time.
@@ -58,7 +62,14 @@ impl<T> Coupling<T> {
     /// Any terms, whose sum is `value`; without a name.
     #[must_use]
     pub const fn sum(terms: Vec<CouplingTerm<T>>, value: T) -> Self {
-        Self { name: String::new(), terms, value, motion: None, kind: CouplingKind::General }
+        Self {
+            name: String::new(),
+            terms,
+            relation: None,
+            value,
+            motion: None,
+            kind: CouplingKind::General,
+        }
     }
 
     /// Does its sum change with time?
@@ -89,6 +100,20 @@ impl Coupling<Number> {
     #[must_use]
     pub const fn of(terms: Vec<CouplingTerm<Number>>) -> Self {
         Self::sum(terms, Number::ZERO)
+    }
+
+    /// A user-defined relation of measures, whose value is zero: a joint stands for its first coordinate.
+    ///
+    /// Measures count from the reference configuration. Another value is [held](Self::holding) or [follows time](Self::driven). It is
+    /// code, which no file has.
+    #[must_use]
+    pub fn relation<M: Into<CouplingMeasure<Number>>>(
+        measures: impl IntoIterator<Item = M>,
+        relation: impl Relation + 'static,
+    ) -> Self {
+        let term = |of: M| CouplingTerm { factor: 1.into(), of: of.into(), curve: None };
+        let relation = Some(relation.into());
+        Self { relation, ..Self::of(measures.into_iter().map(term).collect()) }
     }
 
     /// Two wheels in external mesh about parallel axes: `teeth[0]` of the first turn against `teeth[1]` of the second.
@@ -154,8 +179,7 @@ impl Coupling<Number> {
     /// A line of constant length over points of bodies [m], without friction: it pulls and pushes.
     #[must_use]
     pub fn rope<P: Into<Vector3>>(points: impl IntoIterator<Item = (BodyId, P)>) -> Self {
-        let points = points.into_iter().map(|(body, at)| (body, at.into().0)).collect();
-        let of = CouplingMeasure::Length { points };
+        let of = CouplingMeasure::line(points);
         let terms = vec![CouplingTerm { factor: 1.into(), of, curve: None }];
         Self { kind: CouplingKind::Rope, ..Self::of(terms) }
     }

@@ -63,6 +63,26 @@ impl BallAngle {
     }
 }
 
+impl From<JointId> for CouplingMeasure<Number> {
+    fn from(joint: JointId) -> Self {
+        Self::Coordinate { joint, number: 0 }
+    }
+}
+
+impl From<(JointId, usize)> for CouplingMeasure<Number> {
+    fn from((joint, number): (JointId, usize)) -> Self {
+        Self::Coordinate { joint, number }
+    }
+}
+
+impl CouplingMeasure<Number> {
+    /// The length of a line over points of bodies [m].
+    #[must_use]
+    pub fn line<P: Into<Vector3>>(points: impl IntoIterator<Item = (BodyId, P)>) -> Self {
+        Self::Length { points: points.into_iter().map(|(body, at)| (body, at.into().0)).collect() }
+    }
+}
+
 impl<T> CouplingMeasure<T> {
     /// The joint that it is of; `None` of a length.
     #[must_use]

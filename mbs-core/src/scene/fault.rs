@@ -1,6 +1,7 @@
 //! What can be wrong with a scene, and what to do about it.
 
 use super::{Dimension, JointKind};
+use crate::laws::relation::RelationFault;
 use crate::scene::SignalBreak;
 use core::fmt::{self, Display, Formatter};
 
@@ -211,6 +212,8 @@ pub enum SceneFault {
     },
     /// A key that this kind needs is missing.
     Missing,
+    /// A relation of a coupling that no step can take.
+    Relation(RelationFault),
     /// A key that this kind does not use is there.
     NotUsed,
 }
@@ -317,6 +320,7 @@ impl SceneFault {
             Self::RotorRatio(_) => {
                 "write how far the rotor turns for each unit of the joint's coordinate"
             }
+            Self::Relation(fault) => fault.advice(),
             Self::NotUsed => "remove it",
         }
     }
@@ -487,6 +491,7 @@ impl SceneFault {
             Self::RotorRatio(x) => {
                 write!(f, "makes an inertia of {x} at the joint: inertia times its square")
             }
+            Self::Relation(fault) => write!(f, "{fault}"),
             Self::NotUsed => write!(f, "has no meaning here"),
         }
     }

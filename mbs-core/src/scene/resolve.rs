@@ -194,6 +194,7 @@ impl<T> Coupling<T> {
         Coupling {
             name: self.name.clone(),
             terms: self.terms.iter().map(|term| term.map(f)).collect(),
+            relation: self.relation.clone(),
             value: f(&self.value),
             motion: self.motion.as_ref().map(|motion| motion.map(f)),
             kind: match &self.kind {

@@ -1,6 +1,8 @@
 //! What can stop a step, and what options cannot be.
 
 use crate::FactorError;
+#[cfg(feature = "alloc")]
+use crate::laws::code::CodeOwner;
 
 /// A step that could not be made. The state is as it was before the step.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -98,6 +100,12 @@ pub enum StepError {
         /// The effect in the scene.
         effect: u32,
     },
+    /// The user-defined relation of a coupling gave a number that is infinite or NaN.
+    #[cfg(feature = "alloc")]
+    Relation {
+        /// The coupling in the scene.
+        coupling: u32,
+    },
     /// A guided angle ended at the false root, half a turn from its guide.
     OppositeBranch {
         /// The row of the guide.
@@ -175,6 +183,10 @@ impl StepError {
             Self::Law { .. } => {
                 "the law of the effect gave a number that is infinite or NaN: give it a finite force, tangent and energy wherever it is asked, or try a smaller step"
             }
+            #[cfg(feature = "alloc")]
+            Self::Relation { .. } => {
+                "the relation of the coupling gave a number that is infinite or NaN: give it finite derivatives wherever it is asked, or try a smaller step"
+            }
             Self::OppositeBranch { .. } => {
                 "the guided angle jumped half a turn away from its guide: try a smaller step"
             }
@@ -243,6 +255,16 @@ impl core::fmt::Display for StepError {
 }
 
 impl core::error::Error for StepError {}
+
+#[cfg(feature = "alloc")]
+impl From<CodeOwner> for StepError {
+    fn from(failed: CodeOwner) -> Self {
+        match failed {
+            CodeOwner::Effect(effect) => Self::Law { effect },
+            CodeOwner::Coupling(coupling) => Self::Relation { coupling },
+        }
+    }
+}
 
 impl From<FactorError> for StepError {
     fn from(error: FactorError) -> Self {

@@ -258,9 +258,7 @@ fn couplings<T: Real + Record, S: Axes<T>>(of: &Couplings<'_, T, S>, to: &mut St
         table("STARTS", "LinkStart", of.starts, to);
         fields.push("points: &POINTS, starts: &STARTS");
     }
-    if of.curves.is_empty() || of.points.is_empty() {
-        fields.push("..Couplings::none()");
-    }
+    fields.push("..Couplings::none()");
     fields.join(", ")
 }
 

@@ -145,7 +145,7 @@ pub static MODEL: Model<'static, Scalar, Axes> = Model {
                 updates: &UPDATES,
             },
             floor: [0.14285714285714285, 0.11428571428571425],
-            couplings: Couplings { n_cut: 0, terms: &TERMS, curves: &CURVES, knots: &CURVE_KNOTS, numbers: &CURVE_NUMBERS, points: &POINTS, starts: &STARTS },
+            couplings: Couplings { n_cut: 0, terms: &TERMS, curves: &CURVES, knots: &CURVE_KNOTS, numbers: &CURVE_NUMBERS, points: &POINTS, starts: &STARTS, ..Couplings::none() },
         },
         loads: &LOADS,
         rotors: &ROTORS,

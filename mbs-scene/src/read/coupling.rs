@@ -89,7 +89,7 @@ pub(crate) fn read<'a>(
         (_, Some(mesh)) => CouplingKind::Mesh(mesh),
         _ => CouplingKind::General,
     };
-    Ok(Coupling { name, terms, value, motion, kind })
+    Ok(Coupling { name, terms, relation: None, value, motion, kind })
 }
 
 /// The keys of where teeth touch.

@@ -359,8 +359,11 @@ impl Writer<'_> {
         Ok(keys)
     }
 
-    /// Any coupling is written as the sum that it is: of a rope, or of anything.
+    /// Any coupling is written as the sum that it is: of a rope, or of anything; a relation is code.
     fn coupling(self, coupling: &Coupling<Number>) -> Result<Keys, WriteError> {
+        if coupling.relation.is_some() {
+            return Err(WriteError::InCode(format!("coupling `{}`", coupling.name)));
+        }
         let mut keys = Keys::default();
         keys.push("name", coupling.name.as_str());
         let is_rope = coupling.kind == CouplingKind::Rope;

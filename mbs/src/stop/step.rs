@@ -88,6 +88,9 @@ pub(super) fn write_step(error: &StepError, f: &mut core::fmt::Formatter<'_>) ->
         StepError::Law { .. } => {
             write!(f, "its law gave a number that is infinite or not a number")
         }
+        StepError::Relation { .. } => {
+            write!(f, "its relation gave a number that is infinite or not a number")
+        }
         other => write!(f, "{other}"),
     }
 }
@@ -125,6 +128,9 @@ pub(super) fn step_hint(error: &StepError) -> &'static str {
         }
         StepError::Law { .. } => {
             "give a finite force, tangent and energy wherever the law is asked; if the motion should not lead there, try a smaller step"
+        }
+        StepError::Relation { .. } => {
+            "give a finite value, gradient and curvature wherever the relation is asked; if the motion should not lead there, try a smaller step"
         }
         _ => "try a smaller step, or another formulation",
     }

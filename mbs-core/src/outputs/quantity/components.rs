@@ -43,9 +43,9 @@ pub enum ComponentForm {
     Wrench,
 }
 
-/// The unit of what is done work on by a force: `N m` on an angle, `N` on a length.
+/// The unit of what is done work on by a force: `N` on a length, `N m` on an angle and on a number.
 fn effort(unit: &str) -> &'static str {
-    if unit == "rad" { "N m" } else { "N" }
+    if unit == "m" { "N" } else { "N m" }
 }
 
 impl ComponentForm {

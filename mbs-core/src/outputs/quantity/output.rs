@@ -29,8 +29,10 @@ impl<T: Clone> Quantity<T> {
                 (freedoms, None)
             }
             Target::Coupling(coupling) => {
-                let terms = &scene.couplings[coupling.index()].terms;
-                (&[][..], Some(unit_of_sum(scene, terms)))
+                let of = &scene.couplings[coupling.index()];
+                // what a relation makes of its measures is its own
+                let is_sum = of.relation.is_none();
+                (&[][..], Some(if is_sum { unit_of_sum(scene, &of.terms) } else { "-" }))
             }
             Target::Effect(effect) if form == ComponentForm::Contact => {
                 if !scene.effects[effect.index()].kind.is_one_sided() {

@@ -5,11 +5,13 @@ use super::vector::Place;
 use crate::Real;
 use crate::algebra::{Vector, norm};
 use crate::inputs::SignalGraph;
-use crate::measure::{CouplingInput, MeshedWheels, given_values};
+use crate::laws::relation::{self, MAX_ARGUMENTS, Relation, RelationFault};
+use crate::measure::{CouplingInput, MeshedWheels, TermInput, given_values};
 use crate::scene::{
     BodyId, CouplingKind, CouplingMeasure, CouplingTerm, Curve, Entry, Freedom, JointId, Mesh,
     Scene, SceneError, SceneFault,
 };
+use alloc::vec::Vec;
 
 pub(super) fn check<T: Real>(scene: &Scene<T>) -> Result<(), SceneError> {
     for (i, coupling) in scene.couplings.iter().enumerate() {
@@ -19,15 +21,48 @@ pub(super) fn check<T: Real>(scene: &Scene<T>) -> Result<(), SceneError> {
         if coupling.terms.iter().any(is_ball) {
             return place.fault("terms", SceneFault::BallHeld);
         }
+        if let Some(relation) = &coupling.relation {
+            check_relation(&**relation, &coupling.terms, place)?;
+        }
         place.finite("value", coupling.value)?;
         if let Some(motion) = &coupling.motion {
             check_law(motion, place)?;
         }
         if let CouplingKind::Mesh(mesh) = &coupling.kind {
+            if coupling.relation.is_some() {
+                return place.fault("at", SceneFault::NoMesh);
+            }
             check_mesh(scene, &coupling.terms, mesh, place)?;
         }
     }
     Ok(())
+}
+
+/// A relation has no more terms than it may, without curves, and its derivatives are right in the reference configuration.
+fn check_relation<T: Real>(
+    relation: &dyn Relation,
+    terms: &[CouplingTerm<T>],
+    place: Place,
+) -> Result<(), SceneError> {
+    if terms.len() > MAX_ARGUMENTS {
+        let fault = RelationFault::TooMany { found: terms.len() };
+        return place.fault("terms", SceneFault::Relation(fault));
+    }
+    if let Some(term) = terms.iter().position(|term| term.curve.is_some()) {
+        return place.fault("terms", SceneFault::Relation(RelationFault::Curve { term }));
+    }
+    if terms.iter().any(|term| term.factor.is_zero()) {
+        return place.fault("terms", SceneFault::NoTerm);
+    }
+    let zeros = [0.0; MAX_ARGUMENTS];
+    check_derivatives(relation, &zeros[..terms.len()], place)
+}
+
+fn check_derivatives(relation: &dyn Relation, at: &[f64], place: Place) -> Result<(), SceneError> {
+    match relation::check(relation, at) {
+        Ok(()) => Ok(()),
+        Err(fault) => place.fault("relation", SceneFault::Relation(fault)),
+    }
 }
 
 /// Each term has a measure, and one a factor.
@@ -192,19 +227,24 @@ pub(super) fn check_starts<T: Real>(scene: &Scene<T>) -> Result<(), SceneError> 
     let signals = SignalGraph::new(&scene.signals).values(T::ZERO);
     for (i, coupling) in scene.couplings.iter().enumerate() {
         let input = CouplingInput::new(coupling);
-        let (mut sum, mut size) = (T::ZERO, T::ONE);
-        let is_known = input.terms.iter().all(|term| {
-            let Some((joint, number)) = term.coordinate else { return false };
-            given[joint].get(number).copied().flatten().is_some_and(|value| {
-                let part = term.factor * term.curve.at(value)[0];
-                (sum, size) = (sum + part, size.max(part.abs()));
-                true
-            })
-        });
+        let value = |term: &TermInput<T>| {
+            let (joint, number) = term.coordinate?;
+            given[joint].get(number).copied().flatten()
+        };
+        let Some(values) = input.terms.iter().map(value).collect::<Option<Vec<_>>>() else {
+            continue;
+        };
+        let place = scene.place(Entry::Coupling(i));
+        if let Some(relation) = &coupling.relation {
+            let at = |(term, &value): (&TermInput<T>, &T)| (term.factor * value).to_f64();
+            let at: Vec<f64> = input.terms.iter().zip(&values).map(at).collect();
+            check_derivatives(&**relation, &at, place)?;
+        }
+        let [sum, size] = input.value_at(&values);
         let needed = input.sum_at(T::ZERO, &signals);
-        if is_known && !((sum - needed).abs() <= agreement::<T>() * size) {
+        if !((sum - needed).abs() <= agreement::<T>() * size.max(T::ONE)) {
             let numbers = [sum, needed].map(T::to_f64);
-            return scene.place(Entry::Coupling(i)).fault("value", SceneFault::SumAtStart(numbers));
+            return place.fault("value", SceneFault::SumAtStart(numbers));
         }
     }
     Ok(())

@@ -1,0 +1,298 @@
+//! User-defined relations: twice differentiable functions of several measured numbers, which a coupling holds.
+//!
+//! ```text
+//! phi(m_1 .. m_n) = value + f(t),    phi' = g . m',    phi'' = g . m'' + m'^T H m'
+//! ```
+//!
+//! g is the gradient of phi, H its matrix of second derivatives. A relation gives H along rates alone, as one number.
+
+use core::fmt::{self, Debug, Display, Formatter};
+
+/// Most numbers that a relation is of [-]: they and their derivatives stand on the stack of a step.
+pub const MAX_ARGUMENTS: usize = 16;
+
+/// A twice differentiable function of several numbers, with data of its own. Held, it is a coupling: `Coupling::relation`.
+///
+/// It sees and gives doubles: in a run of 32 digits 16 of them are the relation's. A number that is infinite or NaN ends the step with
+/// [`StepError::Relation`](crate::step::StepError::Relation). A scene whose derivatives are not those of its values is refused where
+/// [`check`] finds it, in the reference configuration and at start values.
+///
+/// # Examples
+/// ```
+/// use mbs_core::laws::relation::{Relation, check};
+/// /// A bead on an ellipse, by its two coordinates: (x/a)^2 + (y/b)^2.
+/// #[derive(Debug)]
+/// struct Ellipse { axes: [f64; 2] }
+///
+/// impl Relation for Ellipse {
+///     fn evaluate(&self, at: &[f64], gradient: &mut [f64]) -> f64 {
+///         let [x, y] = [at[0] / self.axes[0], at[1] / self.axes[1]];
+///         gradient[0] = 2.0 * x / self.axes[0];
+///         gradient[1] = 2.0 * y / self.axes[1];
+///         x * x + y * y
+///     }
+///     fn curvature(&self, _: &[f64], rates: &[f64]) -> f64 {
+///         let [x, y] = [rates[0] / self.axes[0], rates[1] / self.axes[1]];
+///         2.0 * (x * x + y * y)
+///     }
+/// }
+/// assert_eq!(check(&Ellipse { axes: [2.0, 1.0] }, &[1.2, 0.8]), Ok(()));
+/// ```
+pub trait Relation: Send + Sync + Debug {
+    /// The value at these numbers; its derivatives with respect to each of them go into `gradient`, which is as long.
+    ///
+    /// A function of `at` alone, for it is called at trial states, in any order and from several threads.
+    fn evaluate(&self, at: &[f64], gradient: &mut [f64]) -> f64;
+
+    /// The second derivative along `rates`: `sum_ij d2 phi/(dm_i dm_j) rates_i rates_j`, mixed terms twice.
+    ///
+    /// It is also the second derivative by time of the value, were `rates` constant.
+    fn curvature(&self, at: &[f64], rates: &[f64]) -> f64;
+}
+
+/// What makes a relation useless.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
+pub enum RelationFault {
+    /// A number is infinite or NaN.
+    NotFinite,
+    /// A derivative is not that of the value.
+    Gradient {
+        /// Which one, from 0.
+        argument: usize,
+        /// The derivative that the relation gives, and that of its values.
+        numbers: [f64; 2],
+    },
+    /// The curvature is not that of the gradient.
+    Curvature {
+        /// The curvature that the relation gives, and that of its gradients.
+        numbers: [f64; 2],
+    },
+    /// More than [`MAX_ARGUMENTS`] terms.
+    TooMany {
+        /// How many.
+        found: usize,
+    },
+    /// A curve beside a relation.
+    Curve {
+        /// The term that has it, from 0.
+        term: usize,
+    },
+}
+
+impl RelationFault {
+    /// What to do about it.
+    #[must_use]
+    pub const fn advice(&self) -> &'static str {
+        match self {
+            Self::NotFinite => {
+                "let it have numbers in the reference configuration, where all measures are zero, and at the start"
+            }
+            Self::Gradient { .. } => {
+                "correct the gradient: one derivative for each number, in the order of the terms"
+            }
+            Self::Curvature { .. } => {
+                "correct the curvature: sum_ij H_ij rates_i rates_j, mixed derivatives twice"
+            }
+            Self::TooMany { .. } => "split it into several couplings of fewer measures",
+            Self::Curve { .. } => "let the relation have the curve",
+        }
+    }
+}
+
+impl Display for RelationFault {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::NotFinite => write!(f, "gives a number that is infinite or NaN"),
+            Self::Gradient { argument, numbers: [given, found] } => write!(
+                f,
+                "has the derivative {given:e} by its number {}, but its values change by {found:e}",
+                argument + 1
+            ),
+            Self::Curvature { numbers: [given, found] } => write!(
+                f,
+                "has the curvature {given:e} along some rates, but its gradients change by {found:e}"
+            ),
+            Self::TooMany { found } => {
+                write!(f, "has {found} terms; a relation takes {MAX_ARGUMENTS}")
+            }
+            Self::Curve { term } => {
+                write!(f, "has a curve in term {}, beside a relation", term + 1)
+            }
+        }
+    }
+}
+
+impl core::error::Error for RelationFault {}
+
+/// Steps of the differences [m or rad]: a derivative that is right is met by one of them, whatever length the relation changes over.
+const STEPS: [f64; 3] = [1e-3, 1e-5, 1e-7];
+/// Difference of a derivative that is right from a quotient of differences, relative [-]: such errors are of second order in the step, and
+/// those of a wrong formula of order one. Chosen, not tuned.
+const AGREEMENT: f64 = 1e-3;
+/// The same beside the largest derivative [-]: where one is zero, its quotient is what the third derivatives make of it. Chosen, not tuned.
+const BESIDE_LARGEST: f64 = 1e-6;
+/// Rounding of a value, in units of that of its size [-]: a formula has a few dozen operations. Chosen, not tuned.
+const ROUNDINGS: f64 = 64.0;
+
+/// Compares the derivatives of a relation with central differences of its values, and its curvature with those of its gradient.
+///
+/// Differences whose ends lie outside of where the relation has finite values are left out. Where a derivative is zero by chance, such as
+/// in the reference configuration, a wrong formula may pass: check at several places.
+///
+/// Cost: some seven evaluations for each number.
+///
+/// # Errors
+/// [`RelationFault`] with the first derivative that differs.
+///
+/// # Panics
+/// If there are more than [`MAX_ARGUMENTS`] numbers.
+pub fn check(relation: &(impl Relation + ?Sized), at: &[f64]) -> Result<(), RelationFault> {
+    let n = at.len();
+    let mut given = [0.0; MAX_ARGUMENTS];
+    let value = relation.evaluate(at, &mut given[..n]);
+    let is_finite = value.is_finite() && given.iter().all(|x| x.is_finite());
+    let mut rates = [0.0; MAX_ARGUMENTS];
+    for (k, rate) in rates[..n].iter_mut().enumerate() {
+        // different ones, so that no two mixed derivatives stand for each other
+        *rate = 1.0 / (1.0 + k as f64 / 3.0);
+    }
+    let along_all = relation.curvature(at, &rates[..n]);
+    if !is_finite || !along_all.is_finite() {
+        return Err(RelationFault::NotFinite);
+    }
+    let largest = given.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
+    let floor = BESIDE_LARGEST * if largest > 0.0 { largest } else { 1.0 };
+    for argument in 0..n {
+        let unit = unit(argument);
+        let of = |at: &[f64]| relation.evaluate(at, &mut [0.0; MAX_ARGUMENTS][..n]);
+        if let Some(found) = differing((at, &unit[..n]), given[argument], floor, of) {
+            let numbers = [given[argument], found];
+            return Err(RelationFault::Gradient { argument, numbers });
+        }
+    }
+    let units = (0..n).map(unit);
+    for along in units.chain([rates]) {
+        let along = &along[..n];
+        let given = relation.curvature(at, along);
+        let of = |at: &[f64]| {
+            let mut gradient = [0.0; MAX_ARGUMENTS];
+            let _ = relation.evaluate(at, &mut gradient[..n]);
+            gradient.iter().zip(along).map(|(g, rate)| g * rate).sum()
+        };
+        let floor = BESIDE_LARGEST * along_all.abs().max(largest).max(BESIDE_LARGEST);
+        if let Some(found) = differing((at, along), given, floor, of) {
+            return Err(RelationFault::Curvature { numbers: [given, found] });
+        }
+    }
+    Ok(())
+}
+
+fn unit(k: usize) -> [f64; MAX_ARGUMENTS] {
+    core::array::from_fn(|i| if i == k { 1.0 } else { 0.0 })
+}
+
+/// The derivative of a function along a direction by differences, where it is none of `given`'s size; of those found the nearest.
+fn differing(
+    (at, along): (&[f64], &[f64]),
+    given: f64,
+    floor: f64,
+    of: impl Fn(&[f64]) -> f64,
+) -> Option<f64> {
+    let mut nearest: Option<f64> = None;
+    for step in STEPS {
+        let [before, after] = [-step, step].map(|step| {
+            let mut place = [0.0; MAX_ARGUMENTS];
+            let numbers = place.iter_mut().zip(at).zip(along);
+            numbers.for_each(|((x, at), along)| *x = at + step * along);
+            of(&place[..at.len()])
+        });
+        let found = (after - before) / (2.0 * step);
+        if !found.is_finite() {
+            continue;
+        }
+        let rounding = ROUNDINGS * f64::EPSILON * before.abs().max(after.abs()) / step;
+        let allowed = AGREEMENT * found.abs().max(given.abs()) + floor + rounding;
+        if (found - given).abs() <= allowed {
+            return None;
+        }
+        if nearest.is_none_or(|other| (found - given).abs() < (other - given).abs()) {
+            nearest = Some(found);
+        }
+    }
+    nearest
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// x y^2 z / l^3, with factors on its derivatives: of one they are right.
+    #[derive(Debug)]
+    struct Product {
+        length: f64,
+        by: [f64; 3],
+        mixed: f64,
+    }
+
+    impl Relation for Product {
+        fn evaluate(&self, at: &[f64], gradient: &mut [f64]) -> f64 {
+            let [x, y, z] = [at[0], at[1], at[2]].map(|x| x / self.length);
+            let slopes = [y * y * z, 2.0 * x * y * z, x * y * y];
+            for (to, (slope, by)) in gradient.iter_mut().zip(slopes.iter().zip(self.by)) {
+                *to = by * slope / self.length;
+            }
+            x * y * y * z
+        }
+
+        fn curvature(&self, at: &[f64], rates: &[f64]) -> f64 {
+            let [x, y, z] = [at[0], at[1], at[2]].map(|x| x / self.length);
+            let [u, v, w] = [rates[0], rates[1], rates[2]].map(|x| x / self.length);
+            let mixed = 2.0 * y * z * u * v + y * y * u * w + 2.0 * x * y * v * w;
+            2.0 * x * z * v * v + 2.0 * self.mixed * mixed
+        }
+    }
+
+    #[test]
+    fn a_relation_is_right_over_any_length_and_each_wrong_derivative_is_found() {
+        // in the unit of the relation, off the axes
+        let place = [0.7, -1.3, 0.4];
+        for length in [1e-4, 1.0, 1e3] {
+            let at = place.map(|x| x * length);
+            let right = Product { length, by: [1.0; 3], mixed: 1.0 };
+            assert_eq!(check(&right, &at), Ok(()), "{length}");
+            for k in 0..3 {
+                let mut by = [1.0; 3];
+                by[k] = -1.0;
+                let fault = check(&Product { length, by, mixed: 1.0 }, &at);
+                let Err(RelationFault::Gradient { argument, numbers: [given, found] }) = fault
+                else {
+                    panic!("{length}, {k}: {fault:?}")
+                };
+                assert_eq!(argument, k);
+                assert!((given + found).abs() < 1e-2 * found.abs(), "{given} {found}");
+            }
+            // mixed derivatives once instead of twice
+            let fault = check(&Product { length, by: [1.0; 3], mixed: 0.5 }, &at);
+            assert!(matches!(fault, Err(RelationFault::Curvature { .. })), "{length}: {fault:?}");
+        }
+    }
+
+    #[test]
+    fn a_relation_that_is_not_finite_is_refused_and_one_at_the_edge_of_its_values_is_not() {
+        #[derive(Debug)]
+        struct Root;
+        impl Relation for Root {
+            fn evaluate(&self, at: &[f64], gradient: &mut [f64]) -> f64 {
+                gradient[0] = 0.5 / at[0].sqrt();
+                at[0].sqrt()
+            }
+            fn curvature(&self, at: &[f64], rates: &[f64]) -> f64 {
+                -0.25 * rates[0] * rates[0] / (at[0] * at[0].sqrt())
+            }
+        }
+        assert_eq!(check(&Root, &[-1.0]), Err(RelationFault::NotFinite));
+        assert_eq!(check(&Root, &[0.0]), Err(RelationFault::NotFinite));
+        assert_eq!(check(&Root, &[2e-5]), Ok(()));
+    }
+}

@@ -1,0 +1,68 @@
+//! User-defined relations: rows over joint coordinates and lengths whose terms are not summed.
+//!
+//! ```text
+//! Φ = (φ(c₁ m₁ .. cₙ mₙ) − s(t)) / c          c: its largest derivative in the reference configuration
+//! Φ̈ = Σ φₖ cₖ m̈ₖ + ṁᵀ H ṁ                     head = K b + g as of a sum, with the slopes φₖ cₖ
+//! ```
+//!
+//! The terms of such a row have a number of their relation in place of a curve: their slopes are noted, as those of curves are.
+
+use crate::coupled::{CoupledRow, CoupledValue, Couplings, Gradients, Here, NONE};
+use crate::indexing::{Outside, at_mut, range};
+use crate::space::{Numbers, Space};
+use mbs_core::Real;
+use mbs_core::laws::code::NumberedRelation;
+use mbs_core::measure::Arguments;
+
+/// Curves from this number on are none: their term is an argument of the relation that has the rest for its number. No scene has as
+/// many curves.
+pub(crate) const ARGUMENTS: u32 = 1 << 31;
+
+impl<T: Real, S: Space<T>> Couplings<'_, T, S> {
+    /// Is the row that of a relation?
+    #[inline(always)]
+    pub(crate) fn is_related(&self, row: &CoupledRow<T>) -> bool {
+        let first = self.terms.get(row.terms.first as usize);
+        first.is_some_and(|term| term.curve >= ARGUMENTS && term.curve != NONE)
+    }
+
+    fn relation(&self, row: &CoupledRow<T>) -> Result<NumberedRelation<'_>, Outside> {
+        let first = self.terms.get(row.terms.first as usize).ok_or(Outside)?;
+        Ok(self.relations.ok_or(Outside)?.relation(first.curve - ARGUMENTS))
+    }
+
+    /// The terms of a row that is a relation.
+    #[inline(never)]
+    pub(crate) fn of_relation(
+        &self,
+        (row, k, n_rows): (&CoupledRow<T>, usize, usize),
+        here: Here<'_, T, S>,
+        mut out: Option<Gradients<'_, T, S>>,
+    ) -> Result<CoupledValue<T>, Outside> {
+        let relation = self.relation(row)?;
+        let terms = range(self.terms, row.terms.range())?;
+        let mut arguments = Arguments::default();
+        for term in terms {
+            let ([m, rate, _], _) = self.measure((&term.of, row.starts), here)?;
+            arguments.push([term.factor * m, T::ZERO], term.factor * rate);
+        }
+        let value = arguments.evaluate(&relation) * row.inverse;
+        let bent = arguments.curvature(&relation) * row.inverse;
+        let mut sum = CoupledValue::zero();
+        sum.add([value, T::ZERO, bent], T::ZERO);
+        if let Some((gradient, _)) = &mut out {
+            gradient.iter_mut().skip(k).step_by(n_rows.max(1)).for_each(|k| *k = S::Motion::zero());
+        }
+        for ((i, term), number) in row.terms.range().zip(terms).zip(0..) {
+            let ([m, rate, known], speed) = self.measure((&term.of, row.starts), here)?;
+            let slope = arguments.slope(number) * row.inverse * term.factor;
+            sum.add([T::ZERO, slope * rate, slope * known], slope * speed);
+            // its value is rounded as its parts are
+            sum.parts[0] += (slope * m).abs();
+            let Some((gradient, slopes)) = &mut out else { continue };
+            *at_mut(slopes, i)? = slope;
+            self.add_gradient((term, row.starts, slope), (k, n_rows), here.1, gradient)?;
+        }
+        Ok(sum)
+    }
+}
