@@ -285,10 +285,7 @@ impl ResolvedMethod {
                     .or(of_scene(solver.error_tolerance))
                     .unwrap_or(DEFAULT_ERROR),
             )?,
-            events: overrides
-                .events
-                .or(solver.locate_events)
-                .unwrap_or(rule != StepRule::Fixed || integrator.controls_its_step()),
+            events: overrides.events.or(solver.locate_events).unwrap_or(is_controlled),
             energy_alarm: positive(
                 "energy_alarm",
                 overrides.energy_alarm.or(of_scene(solver.energy_alarm)).unwrap_or(DEFAULT_ALARM),

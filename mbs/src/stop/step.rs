@@ -28,6 +28,9 @@ pub(super) fn step_owner(
     })
 }
 
+/// What user-defined code did.
+const NO_NUMBER: &str = "gave a number that is infinite or not a number";
+
 /// What happened; what to try is the hint's.
 pub(super) fn write_step(error: &StepError, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
     match error {
@@ -85,12 +88,8 @@ pub(super) fn write_step(error: &StepError, f: &mut core::fmt::Formatter<'_>) ->
         StepError::OppositeBranch { .. } => {
             write!(f, "the guided angle jumped half a turn away from its guide")
         }
-        StepError::Law { .. } => {
-            write!(f, "its law gave a number that is infinite or not a number")
-        }
-        StepError::Relation { .. } => {
-            write!(f, "its relation gave a number that is infinite or not a number")
-        }
+        StepError::Law { .. } => write!(f, "its law {NO_NUMBER}"),
+        StepError::Relation { .. } => write!(f, "its relation {NO_NUMBER}"),
         other => write!(f, "{other}"),
     }
 }

@@ -128,7 +128,13 @@ fn formulations_agree_on_a_relation_of_angles_and_a_length_that_mixes_them() {
         let scene =
             scene(&wheels(dimension), [Coupling::relation(measures, Mixed { product: 0.1 })]);
         for way in WAYS.into_iter().filter(|way| way.1 == "trapezoidal") {
-            crate::common::oracle::agree_in_the_limit(&scene, way, (5e-4, 0.2, 100), 1e-6, |_| ());
+            crate::common::oracle::agree_in_the_limit(
+                &scene,
+                way,
+                (2.5e-4, 0.2, 200),
+                1e-6,
+                |_| (),
+            );
         }
         crate::common::oracle::energy_balances(&scene);
     }
