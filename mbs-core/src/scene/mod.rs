@@ -5,6 +5,8 @@
 //! The table of joints ([`JOINTS`]) needs no allocation.
 
 #[cfg(feature = "alloc")]
+mod advice;
+#[cfg(feature = "alloc")]
 pub mod align;
 #[cfg(feature = "alloc")]
 mod axes;
