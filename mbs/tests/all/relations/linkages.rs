@@ -136,7 +136,6 @@ fn formulations_agree_on_a_relation_of_angles_and_a_length_that_mixes_them() {
                 |_| (),
             );
         }
-        crate::common::oracle::energy_balances(&scene);
     }
 }
 
