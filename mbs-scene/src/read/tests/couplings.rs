@@ -138,18 +138,6 @@ fn what_couples_nothing_is_refused_with_its_place() {
             "remove it; keys: name, kind, joints, teeth, radii, ratio, mesh, at, pressure_angle",
         ),
         (
-            "kind = \"gear\"\njoints = [\"a\", \"b\"]\nteeth = [20, 30]\nat = [0.5, 0, 0]",
-            "42:6",
-            "`at` is not where wheels with these factors touch, which is at [0.4, 0, 0]",
-            "write this place, or move it along the axes",
-        ),
-        (
-            "kind = \"rope\"\npoints = [{ body = \"w\", at = [0, 0, 0] }, { body = \"u\", at = [0, 1, 0] }]\nlength = 1\nvalue = 0",
-            "42:9",
-            "both `length` and `value` are given",
-            "keep one",
-        ),
-        (
             "kind = \"screw\"\njoint = \"c\"\nlead = 0",
             "41:8",
             "a screw without lead does not move its slide",
@@ -178,6 +166,26 @@ fn what_couples_nothing_is_refused_with_its_place() {
             "41:9",
             "`table` begins with 0 and ends with 1, but is periodic",
             "end the table with the value that it begins with",
+        ),
+    ] {
+        refused(&read(&with(coupling)).unwrap_err(), place, message, hint);
+    }
+}
+
+#[test]
+fn pitch_points_and_ropes_that_say_two_things_are_refused_with_their_place() {
+    for (coupling, place, message, hint) in [
+        (
+            "kind = \"gear\"\njoints = [\"a\", \"b\"]\nteeth = [20, 30]\nat = [0.5, 0, 0]",
+            "42:6",
+            "`at` is not where wheels with these factors touch, which is at [0.4, 0, 0]",
+            "write this place, or move it along the axes",
+        ),
+        (
+            "kind = \"rope\"\npoints = [{ body = \"w\", at = [0, 0, 0] }, { body = \"u\", at = [0, 1, 0] }]\nlength = 1\nvalue = 0",
+            "42:9",
+            "both `length` and `value` are given",
+            "keep one",
         ),
     ] {
         refused(&read(&with(coupling)).unwrap_err(), place, message, hint);
