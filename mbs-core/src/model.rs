@@ -261,6 +261,9 @@ impl<T: Real, M: Model<T>> BlockSource<T> for System<'_, T, M> {
     }
 }
 
+/// A block of second derivatives, packed; empty where there are none.
+pub type RowCurvature<T> = Vec<T>;
+
 /// What a state has of signals: states of those that have one, then the signals that follow the motion, each with its rate.
 pub type SignalValues<T> = Vec<[T; 2]>;
 

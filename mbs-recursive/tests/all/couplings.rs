@@ -95,13 +95,8 @@ fn couple(scene: &mut Scene<f64>, random: &mut Random) {
         let of = CouplingMeasure::Coordinate { joint, number };
         terms.push(CouplingTerm { factor: 1.0 + 2.0 * random.next(), of, curve: None });
     }
-    scene.couplings.push(Coupling {
-        name: String::new(),
-        terms,
-        relation: None,
-        value: 0.0,
-        motion: None,
-    });
+    let (name, relation) = (String::new(), None);
+    scene.couplings.push(Coupling { name, terms, relation, value: 0.0, motion: None });
 }
 
 /// Accelerations and efforts against [M -Cᵀ; C 0] (a, e) = (-bias, 0); returns how far they are apart, relative.
