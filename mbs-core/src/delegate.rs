@@ -105,7 +105,7 @@ macro_rules! delegate_model {
             terms: &$crate::model::Terms<$T>,
             lambda: &[$T],
             element: usize,
-        ) -> $crate::model::Block<$T> {
+        ) -> $crate::model::RowCurvature<$T> {
             self.$model.row_curvature(q, terms, lambda, element)
         }
         #[inline]

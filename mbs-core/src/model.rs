@@ -95,9 +95,6 @@ pub struct Load<'a, T> {
     pub force: T,
 }
 
-/// A square block of numbers, row by row.
-pub type Block<T> = Vec<T>;
-
 /// A mechanism in dependent coordinates with constant mass matrix.
 pub trait Model<T: Real>: Cliques + Sync {
     /// Who shares the work of a step in this model: its evaluation does, and a formulation's vectors.
@@ -180,7 +177,7 @@ pub trait Model<T: Real>: Cliques + Sync {
         _terms: &Terms<T>,
         _lambda: &[T],
         _element: usize,
-    ) -> Block<T> {
+    ) -> RowCurvature<T> {
         Vec::new()
     }
     /// See [`BlockSource::has_block`].
@@ -269,6 +266,9 @@ impl<T: Real, M: Model<T>> BlockSource<T> for System<'_, T, M> {
         self.model.sum_residuals(self.terms, &self.load, f)
     }
 }
+
+/// A block of second derivatives, packed; empty where there are none.
+pub type RowCurvature<T> = Vec<T>;
 
 /// What a state has of signals: states of those that have one, then the signals that follow the motion, each with its rate.
 pub type SignalValues<T> = Vec<[T; 2]>;

@@ -68,17 +68,18 @@ impl<T: Real> Times<T> {
     }
 
     fn after(&self, t: T) -> Option<T> {
-        let next = |t: T| self.times.get(self.times.partition_point(|time| *time <= t)).copied();
+        let next = |begin: T| {
+            let at = self.times.partition_point(|time| *time + begin <= t);
+            self.times.get(at).map(|time| *time + begin)
+        };
         let [first, period] = self.period;
         if !(period > T::ZERO) {
-            return next(t);
+            return next(T::ZERO);
         }
         // rounding may take the time into the period before or after its own
         let turns = T::from_f64(libm::floor(((t - first) / period).to_f64()));
-        [-T::ONE, T::ZERO, T::ONE].into_iter().find_map(|more| {
-            let begin = (turns + more) * period;
-            next(t - begin).map(|time| time + begin).filter(|time| *time > t)
-        })
+        let mut near = [-T::ONE, T::ZERO, T::ONE].into_iter();
+        near.find_map(|more| next((turns + more) * period))
     }
 }
 
