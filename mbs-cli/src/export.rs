@@ -72,7 +72,9 @@ fn refusal(error: &ExportError) -> Refusal {
         ExportError::Sum(_) => {
             "let it act on a joint with one coordinate, or on a length over `points`"
         }
-        ExportError::Effect(_) => "leave user-defined laws out: a table cannot hold code",
+        ExportError::Effect(_) | ExportError::Relation(_) => {
+            "leave user-defined laws out: a table cannot hold code"
+        }
         ExportError::Signal(_) => {
             "make it a step, a table without `hold` and `periodic`, or an `input`"
         }

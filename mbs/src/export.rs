@@ -31,6 +31,8 @@ pub enum ExportError {
     Sum(String),
     /// A signal of this name is a wave, a ramp or a table that holds or repeats, or a guide follows it that is no spline or step.
     Signal(String),
+    /// A coupling of this name is a relation in code.
+    Relation(String),
     /// A signal of this name measures a length or an angle of a ball, which is not written for controllers.
     Measure(String),
     /// The guide of a joint of this name gives a rotation vector, which is not written for controllers.
@@ -57,6 +59,12 @@ impl core::fmt::Display for ExportError {
                     f,
                     "signal `{name}` cannot be written for a controller: it is a wave, a ramp or a table that holds or repeats, or a \
                      guide follows it that is no spline or step"
+                )
+            }
+            Self::Relation(name) => {
+                write!(
+                    f,
+                    "coupling `{name}` is a relation in code, which cannot be written as a table"
                 )
             }
             Self::Measure(name) => {
@@ -107,6 +115,9 @@ fn in_space<S: Axes<f64>, const D: usize>(
 ) -> Result<Exported, ExportError> {
     if let Some(name) = guided_ball(scene) {
         return Err(ExportError::Guide(name));
+    }
+    if let Some(coupling) = scene.couplings.iter().find(|coupling| coupling.relation.is_some()) {
+        return Err(ExportError::Relation(coupling.name.clone()));
     }
     let is_no_coordinate = |kind: &SignalKind<f64>| matches!(kind, SignalKind::Measure { of, .. } if of.coordinate().is_none());
     if let Some(signal) = scene.signals.iter().find(|signal| is_no_coordinate(&signal.kind)) {

@@ -13,7 +13,7 @@ pub const MAX_ARGUMENTS: usize = 16;
 
 /// A twice differentiable function of several numbers, with data of its own. Held, it is a coupling: `Coupling::relation`.
 ///
-/// It sees and gives doubles: in a run of 32 digits 16 of them are the relation's. A number that is infinite or NaN ends the step with
+/// It sees and gives doubles: a run of 32 digits, whose rows hold to more than 16, refuses it. A number that is infinite or NaN ends the step with
 /// [`StepError::Relation`](crate::step::StepError::Relation). A scene whose derivatives are not those of its values is refused where
 /// [`check`] finds it, in the reference configuration and at start values.
 ///
@@ -73,6 +73,8 @@ pub enum RelationFault {
         /// How many.
         found: usize,
     },
+    /// A run of more digits than a double has.
+    Doubles,
     /// A curve beside a relation.
     Curve {
         /// The term that has it, from 0.
@@ -95,6 +97,7 @@ impl RelationFault {
                 "correct the curvature: sum_ij H_ij rates_i rates_j, mixed derivatives twice"
             }
             Self::TooMany { .. } => "split it into several couplings of fewer measures",
+            Self::Doubles => "run it in doubles, `f64`",
             Self::Curve { .. } => "let the relation have the curve",
         }
     }
@@ -116,6 +119,7 @@ impl Display for RelationFault {
             Self::TooMany { found } => {
                 write!(f, "has {found} terms; a relation takes {MAX_ARGUMENTS}")
             }
+            Self::Doubles => write!(f, "gives doubles, 16 digits, which rows of 32 cannot hold"),
             Self::Curve { term } => {
                 write!(f, "has a curve in term {}, beside a relation", term + 1)
             }

@@ -54,6 +54,9 @@ fn check_relation<T: Real>(
     if terms.iter().any(|term| term.factor.is_zero()) {
         return place.fault("terms", SceneFault::NoTerm);
     }
+    if T::EPSILON.to_f64() < f64::EPSILON {
+        return place.fault("relation", SceneFault::Relation(RelationFault::Doubles));
+    }
     let zeros = [0.0; MAX_ARGUMENTS];
     check_derivatives(relation, &zeros[..terms.len()], place)
 }

@@ -2,6 +2,7 @@
 
 use super::{Product, Sum, of_joints, slides, with};
 use mbs::core::laws::relation::{MAX_ARGUMENTS, RelationFault};
+use mbs::core::real::DoubleDouble;
 use mbs::core::scene::SceneFault;
 use mbs::{
     Body, Coupling, CouplingTerm, Curve, Error, FormulationKind, GROUND, Joint, JointId, Mechanism,
@@ -176,6 +177,8 @@ fn what_is_written_and_exported_refuses_relations_by_name() {
     assert!(error.to_string().contains("`track`"), "{error}");
     let bodies = [("a", 1.0, "ground", [1.0, 0.0, 0.0]), ("b", 1.0, "ground", [0.0, 1.0, 0.0])];
     let scene = with(&slides(2, [0.0; 3], &bodies), [of_joints(&[0, 1], Product).holding(1.0)]);
+    let pairs = scene.resolve::<DoubleDouble>().expect_err("a relation has 16 digits");
+    assert_eq!(pairs.fault, SceneFault::Relation(RelationFault::Doubles));
     let scene = scene.resolve::<f64>().expect("a scene");
     let settings = mbs::ResolvedMethod::new(&scene, &Method::new(FormulationKind::Recursive));
     let settings = settings.expect("settings");
