@@ -12,6 +12,7 @@ use crate::indexing::{Outside, at_mut, range};
 use crate::space::{Numbers, Space};
 use mbs_core::Real;
 use mbs_core::laws::code::NumberedRelation;
+use mbs_core::laws::relation::MAX_ARGUMENTS;
 use mbs_core::measure::Arguments;
 
 /// Curves from this number on are none: their term is an argument of the relation that has the rest for its number. No scene has as
@@ -42,8 +43,10 @@ impl<T: Real, S: Space<T>> Couplings<'_, T, S> {
         let relation = self.relation(row)?;
         let terms = range(self.terms, row.terms.range())?;
         let mut arguments = Arguments::default();
-        for term in terms {
-            let ([m, rate, _], _) = self.measure((&term.of, row.starts), here)?;
+        let mut measured = [([T::ZERO; 3], T::ZERO); MAX_ARGUMENTS];
+        for (term, to) in terms.iter().zip(&mut measured) {
+            *to = self.measure((&term.of, row.starts), here)?;
+            let ([m, rate, _], _) = *to;
             arguments.push([term.factor * m, T::ZERO], term.factor * rate);
         }
         let value = arguments.evaluate(&relation) * row.inverse;
@@ -53,8 +56,8 @@ impl<T: Real, S: Space<T>> Couplings<'_, T, S> {
         if let Some((gradient, _)) = &mut out {
             gradient.iter_mut().skip(k).step_by(n_rows.max(1)).for_each(|k| *k = S::Motion::zero());
         }
-        for ((i, term), number) in row.terms.range().zip(terms).zip(0..) {
-            let ([m, rate, known], speed) = self.measure((&term.of, row.starts), here)?;
+        for (number, ((i, term), of)) in row.terms.range().zip(terms).zip(measured).enumerate() {
+            let ([m, rate, known], speed) = of;
             let slope = arguments.slope(number) * row.inverse * term.factor;
             sum.add([T::ZERO, slope * rate, slope * known], slope * speed);
             // its value is rounded as its parts are

@@ -4,8 +4,7 @@
 //! phi = phi(r) + g . (m - r),    r: the numbers m as doubles, g the gradient there
 //! ```
 //!
-//! What doubles do not hold of a number is added by the gradient: Newton's method then sees no rounding of many turns, nor of an
-//! evaluation in doubles where a run has more digits.
+//! What doubles do not hold of a number is added by the gradient: Newton's method then sees no rounding of many turns.
 
 use crate::Real;
 use crate::laws::relation::{MAX_ARGUMENTS, Relation};
