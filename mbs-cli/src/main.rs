@@ -6,6 +6,7 @@
 
 mod analysis;
 mod bar;
+mod check;
 mod compare;
 mod doctor;
 mod explain;
@@ -13,6 +14,7 @@ mod export;
 mod files;
 mod generate;
 mod keep;
+mod manual;
 mod precision;
 mod realtime;
 mod refusal;
@@ -71,6 +73,12 @@ enum Command {
     Generate(generate::Arguments),
     /// Run a scene with many varied numbers, into one table; the same command continues a killed sweep.
     Sweep(sweep::Arguments),
+    /// Read scenes and assemble them, without a run.
+    Check(check::Arguments),
+    /// List the tables and kinds of scene files; with a name, its keys, units, defaults and an example.
+    Kinds(manual::Kinds),
+    /// Write a JSON Schema of scene files, for editors.
+    Schema(manual::Schema),
 }
 
 fn main() -> ExitCode {
@@ -102,6 +110,9 @@ fn main() -> ExitCode {
         Command::Modes(arguments) => analysis::modes(&arguments),
         Command::Generate(arguments) => generate::main(&arguments),
         Command::Sweep(arguments) => sweep::main(&arguments),
+        Command::Check(arguments) => check::main(&arguments),
+        Command::Kinds(arguments) => manual::kinds(&arguments),
+        Command::Schema(_) => manual::schema(),
     }
 }
 

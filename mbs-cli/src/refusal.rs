@@ -6,7 +6,7 @@ use core::fmt::Display;
 use mbs::folder::{FolderError, WriteError};
 use mbs::scene_file::{Place, ReadError};
 use mbs::{CheckpointError, INTERRUPTED, PrecisionError, SettingsError};
-use serde_json::json;
+use serde_json::{Value, json};
 use std::path::Path;
 use std::process::ExitCode;
 
@@ -116,12 +116,30 @@ impl Refusal {
 
     /// Says it on standard error.
     pub(crate) fn warn(&self) {
+        warn(&self.text());
+    }
+
+    /// Its text for people.
+    pub(crate) fn text(&self) -> String {
         let Self { message, hint, .. } = self;
-        warn(&match &self.place {
+        match &self.place {
             Some(at) => at.1.render(&at.0, message, hint),
             None if hint.is_empty() => format!("error: {message}"),
             None => format!("error: {message}\nhint: {hint}"),
-        });
+        }
+    }
+
+    /// The same for programs.
+    pub(crate) fn error(&self) -> Value {
+        let place = self.place.as_deref();
+        json!({
+            "code": self.code,
+            "message": self.message,
+            "file": place.map(|(file, _)| file),
+            "line": place.map(|(_, place)| place.line),
+            "column": place.map(|(_, place)| place.column),
+            "hint": self.hint,
+        })
     }
 
     /// Where JSON is asked for, the object; gives the exit status.
@@ -130,16 +148,7 @@ impl Refusal {
         if !wants_json() {
             return status;
         }
-        let place = self.place.as_deref();
-        let object = json!({ "error": {
-            "code": self.code,
-            "message": self.message,
-            "file": place.map(|(file, _)| file),
-            "line": place.map(|(_, place)| place.line),
-            "column": place.map(|(_, place)| place.column),
-            "hint": self.hint,
-        }});
-        say(&object.to_string(), status)
+        say(&json!({ "error": self.error() }).to_string(), status)
     }
 }
 

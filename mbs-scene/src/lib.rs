@@ -3,6 +3,8 @@
 mod dice;
 pub mod format;
 mod generate;
+pub mod keys;
+pub mod manual;
 mod read;
 mod write;
 

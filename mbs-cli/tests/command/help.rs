@@ -3,8 +3,20 @@
 use super::{json, run, scene, text};
 use std::path::Path;
 
-const COMMANDS: [&str; 9] =
-    ["run", "compare", "explain", "doctor", "export", "equilibrium", "modes", "generate", "sweep"];
+const COMMANDS: [&str; 12] = [
+    "run",
+    "compare",
+    "explain",
+    "doctor",
+    "export",
+    "equilibrium",
+    "modes",
+    "generate",
+    "sweep",
+    "check",
+    "kinds",
+    "schema",
+];
 
 /// Most words of a line: rule 1 of the language in docs/NOTATION.md.
 const MAX_WORDS: usize = 25;

@@ -20,6 +20,7 @@ mod hostile;
 mod inputs;
 #[cfg(not(any(feature = "f32", feature = "dd")))]
 mod lean;
+mod manual;
 mod realtime;
 mod refusals;
 mod sweep;

@@ -3,10 +3,7 @@
 use crate::read::fields::{Fields, Read};
 use mbs_core::scene::{Body, Inertia, Number};
 
-const KEYS: [&str; 6] = ["name", "mass", "center", "inertia", "rod", "point"];
-
 pub(crate) fn read(fields: &Fields<'_>) -> Read<Body<Number>> {
-    fields.allow(&KEYS, &[])?;
     let context = fields.context;
     let (name, mass) = (fields.name()?, fields.number("mass")?);
     if fields.get("point").is_some() {
@@ -19,8 +16,7 @@ pub(crate) fn read(fields: &Fields<'_>) -> Read<Body<Number>> {
     if let Some(item) = fields.get("rod") {
         fields.exclusive("rod", "center")?;
         fields.exclusive("rod", "inertia")?;
-        let ends = context.table(item, "a table: { from = [..], to = [..] }")?;
-        ends.allow(&["from", "to"], &[])?;
+        let ends = context.table(item, "a table: { from = [..], to = [..] }", "rod")?;
         let (from, to) = (ends.vector("from")?, ends.vector("to")?);
         let center = core::array::from_fn(|i| Number::HALF * (from[i].clone() + to[i].clone()));
         return Ok(Body { name, mass, center, inertia: Inertia::Rod { from, to } });

@@ -15,16 +15,12 @@ mod named;
 use self::named::{Named, Needed};
 use crate::read::ReadFault;
 use crate::read::fields::{Context, Fields, Read};
-use crate::read::motion::{MOTION_KEYS, read_motion};
+use crate::read::motion::read_motion;
 use crate::read::tree::{Item, Node};
 use mbs_core::scene::{
     Axis, BallAngle, Coupling, CouplingKind, CouplingMeasure, CouplingTerm, Curve, Freedom, Joint,
     JointId, Mesh, Motion, Number,
 };
-
-/// The kinds of coupling.
-const KINDS: [&str; 9] =
-    ["gear", "rack", "screw", "belt", "mimic", "differential", "cam", "rope", "linear"];
 
 /// Most teeth of a wheel [-]. Chosen, not tuned: more is no count.
 const MAX_TEETH: u32 = 1_000_000;
@@ -38,25 +34,22 @@ pub(crate) fn read<'a>(
     fields: &Fields<'a>,
     joints: &'a [Joint<Number>],
 ) -> Read<Coupling<Number>> {
-    let kind = fields.word("kind")?;
+    let (kind, fields) = &fields.kind()?;
     let held = |terms| (terms, Number::ZERO, None);
-    let (terms, value, motion) = match kind.0 {
+    let (terms, value, motion) = match *kind {
         "gear" => held(gear(fields, joints)?),
         "rack" => {
-            allow(fields, &["joints", "radius"])?;
             let [pinion, rack] = pair(fields, joints)?;
             let radius = minus(fields.number("radius")?);
             held(vec![rack.term(fields, Needed::Slide, one())?, pinion.turn(fields, radius)?])
         }
         "screw" => held(screw(fields, joints)?),
         "belt" => {
-            allow(fields, &["joints", "radii", "crossed"])?;
             let ([first, second], [r1, r2]) = (pair(fields, joints)?, radii(fields)?);
             let r2 = if fields.flag("crossed", false)? { r2 } else { minus(r2) };
             held(vec![first.turn(fields, r1)?, second.turn(fields, r2)?])
         }
         "mimic" => {
-            allow(fields, &["joint", "of", "factor", "offset"])?;
             let [joint, of] =
                 ["joint", "of"].map(|key| Named::new(fields, fields.need(key)?, joints));
             let factor = minus(fields.number_or("factor", "1")?);
@@ -68,7 +61,6 @@ pub(crate) fn read<'a>(
         }
         "differential" => held(differential(fields, joints)?),
         "cam" => {
-            allow(fields, &["joints", "table", "periodic", "coefficients"])?;
             let [shaft, follower] = pair(fields, joints)?;
             let curve = Some(need_curve(fields)?);
             let of_shaft =
@@ -76,24 +68,19 @@ pub(crate) fn read<'a>(
             held(vec![follower.term(fields, Needed::Only, one())?, of_shaft])
         }
         "rope" => rope(fields, joints)?,
-        "linear" => {
-            allow(fields, &[&["terms", "value"], &MESH_KEYS[..], &MOTION_KEYS[..]].concat())?;
+        _ => {
             let terms = read_terms(fields, fields.need("terms")?, joints)?;
             (terms, fields.number_or_zero("value")?, read_motion(fields)?)
         }
-        _ => return fields.unknown_word("kind", kind, &KINDS),
     };
     let name = fields.name_or("coupling", index)?;
-    let kind = match (kind.0, read_mesh(fields)?) {
+    let kind = match (*kind, read_mesh(fields)?) {
         ("rope", _) => CouplingKind::Rope,
         (_, Some(mesh)) => CouplingKind::Mesh(mesh),
         _ => CouplingKind::General,
     };
     Ok(Coupling { name, terms, relation: None, value, motion, kind })
 }
-
-/// The keys of where teeth touch.
-const MESH_KEYS: [&str; 2] = ["at", "pressure_angle"];
 
 /// The pressure angle of teeth that name none [rad]: 20 degrees, that of standard teeth (ISO 53).
 const PRESSURE_ANGLE: &str = "0.34906585039886591538473815369772254270";
@@ -109,46 +96,6 @@ fn read_mesh(fields: &Fields<'_>) -> Read<Option<Mesh<Number>>> {
 }
 
 const TERMS: &str = "a list of terms like { joint = \"j\", factor = 1.0 }";
-
-/// The keys of a term; the last one is that of an angle of a ball.
-pub(crate) const TERM_KEYS: [&str; 8] =
-    ["joint", "coordinate", "points", "factor", "table", "periodic", "coefficients", "axis"];
-
-/// The keys of all kinds.
-const EVERY_KEY: [&str; 28] = [
-    "joints",
-    "joint",
-    "teeth",
-    "radii",
-    "ratio",
-    "mesh",
-    "radius",
-    "lead",
-    "crossed",
-    "of",
-    "factor",
-    "offset",
-    "table",
-    "periodic",
-    "coefficients",
-    "points",
-    "length",
-    "drum",
-    "terms",
-    "value",
-    "ends",
-    "sine",
-    "ramp",
-    "input",
-    "signal",
-    "coordinate",
-    "at",
-    "pressure_angle",
-];
-
-fn allow(fields: &Fields<'_>, keys: &[&'static str]) -> Read<()> {
-    fields.allow(&[&["name", "kind"], keys].concat(), &EVERY_KEY)
-}
 
 pub(crate) fn one() -> Number {
     Number::from(1.0)
@@ -201,7 +148,6 @@ fn teeth<'a>(context: &Context<'a>, item: &'a Item) -> Read<[Number; 2]> {
 
 /// Wheels in mesh: by teeth or radii with the sense of the mesh, or by a ratio.
 fn gear<'a>(fields: &Fields<'a>, joints: &'a [Joint<Number>]) -> Read<Vec<CouplingTerm<Number>>> {
-    allow(fields, &[&["joints", "teeth", "radii", "ratio", "mesh"], &MESH_KEYS[..]].concat())?;
     for [one, other] in
         [["teeth", "radii"], ["teeth", "ratio"], ["radii", "ratio"], ["mesh", "ratio"]]
     {
@@ -269,7 +215,6 @@ const TWO_PI: &str = "6.28318530717958647692528676655900576839433879875021";
 
 /// One cylindrical joint, or a turn and a slide.
 fn screw<'a>(fields: &Fields<'a>, joints: &'a [Joint<Number>]) -> Read<Vec<CouplingTerm<Number>>> {
-    allow(fields, &["joint", "joints", "lead"])?;
     fields.exclusive("joint", "joints")?;
     let item = fields.need("lead")?;
     let lead = fields.context.number(item)?;
@@ -300,7 +245,6 @@ fn differential<'a>(
     fields: &Fields<'a>,
     joints: &'a [Joint<Number>],
 ) -> Read<Vec<CouplingTerm<Number>>> {
-    allow(fields, &["joints", "teeth"])?;
     let context = fields.context;
     let [a, b, cage] = context
         .exactly(fields.need("joints")?, "a list of three joint names: two wheels, the cage")?;
@@ -315,7 +259,6 @@ fn differential<'a>(
 
 /// A line of constant length over points, or one that a drum takes in.
 fn rope<'a>(fields: &Fields<'a>, joints: &'a [Joint<Number>]) -> Read<Sum> {
-    allow(fields, &[&["points", "length", "drum", "terms", "value"], &MOTION_KEYS[..]].concat())?;
     let context = fields.context;
     if let Some(item) = fields.get("terms") {
         ["points", "length", "drum"].iter().try_for_each(|key| fields.exclusive("terms", key))?;
@@ -341,8 +284,7 @@ fn rope<'a>(fields: &Fields<'a>, joints: &'a [Joint<Number>]) -> Read<Sum> {
     let line = CouplingTerm { factor: one(), of: CouplingMeasure::Length { points }, curve: None };
     let mut terms = vec![line];
     if let Some(item) = fields.get("drum") {
-        let drum = context.table(item, "a table: { joint = .., radius = .. }")?;
-        drum.allow(&["joint", "radius"], &[])?;
+        let drum = context.table(item, "a table: { joint = .., radius = .. }", "drum")?;
         let joint = Named::new(&drum, drum.need("joint")?, joints)?;
         terms.push(joint.turn(&drum, drum.number("radius")?)?);
     }
@@ -356,8 +298,7 @@ pub(crate) fn read_points<'a>(
     let context = fields.context;
     let form = "a list of points like { body = \"b\", at = [0.0, 0.0] }";
     let point = |item| {
-        let point = context.table(item, form)?;
-        point.allow(&["body", "at"], &[])?;
+        let point = context.table(item, form, "line point")?;
         Ok((context.body(point.need("body")?)?, point.vector("at")?))
     };
     let points = context.list(item, form)?;
@@ -412,9 +353,10 @@ fn read_term<'a>(
     joints: &'a [Joint<Number>],
 ) -> Read<CouplingTerm<Number>> {
     let context = fields.context;
-    let term = context.table(item, "a term like { joint = \"j\", factor = 1.0 }")?;
-    let is_ball = ball_angle(&term, joints)?.is_some();
-    term.allow(&TERM_KEYS[..TERM_KEYS.len() - usize::from(!is_ball)], &[])?;
+    let term = context.table(item, "a term like { joint = \"j\", factor = 1.0 }", "term")?;
+    if ball_angle(&term, joints)?.is_none() {
+        term.unused(&["axis"])?;
+    }
     let of = read_measure(&term, joints)?;
     Ok(CouplingTerm { factor: term.number_or("factor", "1")?, of, curve: read_curve(&term)? })
 }

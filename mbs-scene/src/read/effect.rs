@@ -6,10 +6,8 @@ use crate::read::ReadFault;
 use crate::read::coupling::ball_angle;
 use crate::read::fields::{Fields, Read};
 use crate::read::tree::{Item, Node};
-use mbs_core::effects::{Default, EFFECTS, Field, Form, Row, Value};
+use mbs_core::effects::{Default, EFFECTS, Field, Form, Value};
 use mbs_core::scene::{AxisFrame, BallAngle, Effect, EffectKind, Joint, Number, Signal};
-
-const COMMON: [&str; 3] = ["name", "kind", "enabled"];
 
 /// Reads an effect; without a name it is called `effect-N`, counted from 1.
 pub(crate) fn read(
@@ -17,24 +15,10 @@ pub(crate) fn read(
     fields: &Fields<'_>,
     joints: &[Joint<Number>],
 ) -> Read<Effect<Number>> {
-    let word = fields.word("kind")?;
+    let (word, fields) = &fields.kind()?;
     let named: Vec<usize> =
-        (0..EFFECTS.len()).filter(|&row| EFFECTS[row].names.contains(&word.0)).collect();
-    if named.is_empty() {
-        let names: Vec<_> = EFFECTS.iter().flat_map(|row| row.names).copied().collect();
-        return fields.unknown_word("kind", word, &names);
-    }
-    let keys = |row: &'static Row| row.fields.iter().flat_map(Field::keys);
-    let mut known = COMMON.to_vec();
-    for key in named.iter().flat_map(|&row| keys(&EFFECTS[row])) {
-        if !known.contains(&key) {
-            known.push(key);
-        }
-    }
-    let elsewhere: Vec<&str> = EFFECTS.iter().flat_map(keys).collect();
-    let on_ball = if known.contains(&"joint") { on_ball(fields, &named, joints)? } else { None };
-    known.extend(on_ball.map(|_| "axis"));
-    fields.allow(&known, &elsewhere)?;
+        (0..EFFECTS.len()).filter(|&row| EFFECTS[row].names.contains(word)).collect();
+    let on_ball = on_ball(fields, &named, joints)?;
     let name = fields.name_or("effect", index)?;
     let enabled = fields.flag("enabled", true)?;
     let row = match on_ball {
@@ -46,7 +30,7 @@ pub(crate) fn read(
     };
     let is_swing = on_ball.is_some_and(|(_, angle)| angle == BallAngle::Swing);
     let all = EFFECTS[row].fields;
-    let written = all.iter().map(|field| value::read(fields, field, (word.0, joints)));
+    let written = all.iter().map(|field| value::read(fields, field, (word, joints)));
     let written: Vec<Option<Value<Number>>> = written.collect::<Read<_>>()?;
     let value = |i: usize| match &written[i] {
         Some(value) => {
@@ -77,10 +61,16 @@ fn on_ball(
     joints: &[Joint<Number>],
 ) -> Read<Option<(usize, BallAngle)>> {
     let row = named.iter().copied().find(|&row| first_form(row) == Some(Form::Terms));
-    match row.filter(|_| fields.get("terms").is_none()) {
-        Some(row) => Ok(ball_angle(fields, joints)?.map(|angle| (row, angle))),
-        None => Ok(None),
+    let has_joint = |row: &usize| matches!(first_form(*row), Some(Form::Joint(_)));
+    if !named.iter().any(has_joint) {
+        return Ok(None);
     }
+    let Some(row) = row else { return Ok(None) };
+    let angle = if fields.get("terms").is_none() { ball_angle(fields, joints)? } else { None };
+    if angle.is_none() {
+        fields.unused(&["axis"])?;
+    }
+    Ok(angle.map(|angle| (row, angle)))
 }
 
 /// Kinds that share a name differ by their first key. One on a sum or a line has no key of the others.

@@ -1,5 +1,6 @@
 //! Typed access to the keys of one table.
 
+use crate::keys::{self, Table};
 use crate::read::names::Names;
 use crate::read::tree::{Item, Member, Node, Span};
 use crate::read::{ReadError, ReadFault, SceneFile};
@@ -21,6 +22,8 @@ pub(crate) struct Fields<'a> {
     pub(crate) context: Context<'a>,
     pub(crate) header: &'a Span,
     pub(crate) members: &'a [Member],
+    /// The tables of keys, of which one is meant.
+    pub(crate) tables: &'static [Table],
 }
 
 pub(crate) type Read<T> = Result<T, ReadError>;
@@ -39,11 +42,17 @@ impl<'a> Context<'a> {
         self.fault(&item.span, ReadFault::WrongType { expected, found })
     }
 
-    pub(crate) fn table(&self, item: &'a Item, expected: &'static str) -> Read<Fields<'a>> {
-        match &item.node {
-            Node::Table(members) => Ok(Fields { context: *self, header: &item.span, members }),
-            _ => self.wrong_type(item, expected),
-        }
+    /// A table of that header. Its keys are checked here where they do not depend on its kind or form.
+    pub(crate) fn table(
+        &self,
+        item: &'a Item,
+        expected: &'static str,
+        header: &str,
+    ) -> Read<Fields<'a>> {
+        let Node::Table(members) = &item.node else { return self.wrong_type(item, expected) };
+        let tables = keys::of(header);
+        let fields = Fields { context: *self, header: &item.span, members, tables };
+        if tables.len() == 1 { fields.checked() } else { Ok(fields) }
     }
 
     pub(crate) fn list(&self, item: &'a Item, expected: &'static str) -> Read<&'a [Item]> {
@@ -188,6 +197,7 @@ impl<'a> Context<'a> {
 
 impl<'a> Fields<'a> {
     pub(crate) fn get(&self, key: &str) -> Option<&'a Item> {
+        debug_assert!(self.is_of_header(key), "`{key}` is in no table of `{}`", self.header_name());
         self.members.iter().find(|member| member.key == key).map(|member| &member.item)
     }
 
@@ -198,18 +208,73 @@ impl<'a> Fields<'a> {
         }
     }
 
-    /// Refuses keys outside `known`; those in `elsewhere` are reported as known but not used here.
-    pub(crate) fn allow(&self, known: &[&'static str], elsewhere: &[&'static str]) -> Read<()> {
-        let Some(stranger) = self.members.iter().find(|m| !known.contains(&m.key.as_str())) else {
-            return Ok(());
+    /// The word at `kind`, and the fields with the tables of that kind, by which the keys are checked.
+    pub(crate) fn kind(&self) -> Read<(&'a str, Self)> {
+        let word = self.word("kind")?;
+        let tables = keys::of_kind(self.tables, word.0);
+        if !tables.is_empty() {
+            return Ok((word.0, self.checked_by(tables)?));
+        }
+        let mut known: Vec<_> = self.tables.iter().filter_map(|table| table.kind).collect();
+        known.dedup();
+        self.unknown_word("kind", word, &known)
+    }
+
+    /// The fields with those tables, by which the keys are checked.
+    pub(crate) fn checked_by(&self, tables: &'static [Table]) -> Read<Self> {
+        Self { tables, ..*self }.checked()
+    }
+
+    /// The fields with the tables that have the first of two keys where that is written, else with those that have the other.
+    pub(crate) fn by(&self, one: &str, other: &str) -> Read<Self> {
+        let key = if self.get(one).is_some() { one } else { other };
+        self.checked_by(keys::together(self.tables, |table| table.key(key).is_some()))
+    }
+
+    /// Refuses keys that are in no table; those in another table of the header are reported as known but not used here.
+    pub(crate) fn checked(self) -> Read<Self> {
+        let is_known = |member: &&Member| self.known().any(|known| known == member.key);
+        let Some(stranger) = self.members.iter().find(|member| !is_known(member)) else {
+            return Ok(self);
         };
-        let (key, known) = (stranger.key.clone(), known.to_vec());
-        let fault = if elsewhere.contains(&stranger.key.as_str()) {
+        let key = stranger.key.clone();
+        let mut known = Vec::new();
+        for key in self.known() {
+            if !known.contains(&key) {
+                known.push(key);
+            }
+        }
+        let fault = if self.is_of_header(&key) {
             ReadFault::UnusedKey { key, known }
         } else {
             ReadFault::UnknownKey { key, known }
         };
         self.context.fault(&stranger.key_span, fault)
+    }
+
+    /// Is the key in a table of the header, of whatever kind?
+    fn is_of_header(&self, key: &str) -> bool {
+        keys::of(self.header_name()).iter().any(|table| table.key(key).is_some())
+    }
+
+    fn header_name(&self) -> &'static str {
+        self.tables.first().map_or("", |table| table.header)
+    }
+
+    /// The keys of its tables in a scene of this dimension.
+    fn known(&self) -> impl Iterator<Item = &'static str> {
+        let dimension = self.context.dimension;
+        self.tables.iter().flat_map(move |table| table.keys_of(dimension).map(|key| key.name))
+    }
+
+    /// Refuses keys that have no meaning beside the others that are written.
+    pub(crate) fn unused(&self, keys: &[&str]) -> Read<()> {
+        let unused = self.members.iter().find(|member| keys.contains(&member.key.as_str()));
+        let Some(member) = unused else { return Ok(()) };
+        let mut known: Vec<_> = self.known().filter(|known| !keys.contains(known)).collect();
+        known.dedup();
+        let fault = ReadFault::UnusedKey { key: member.key.clone(), known };
+        self.context.fault(&member.key_span, fault)
     }
 
     /// At most one of two keys.

@@ -1,26 +1,17 @@
 //! `[[joint]]`.
 
+use crate::read::ReadFault;
 use crate::read::fields::{Fields, Read};
-use mbs_core::scene::{Body, BodyId, Dimension, Joint, JointKind, JointLimits, Number};
-
-const KEYS: [&str; 8] = ["name", "kind", "bodies", "at", "axis", "axes", "points", "direction"];
-/// Keys that every joint may have; the check says which have no meaning.
-const LIMITS: [&str; 3] = ["range", "effort_limit", "velocity_limit"];
+use mbs_core::scene::{Body, BodyId, Joint, JointKind, JointLimits, Number};
 
 /// Reads a joint; a free one is placed at the centre of mass of one of the bodies by default.
 pub(crate) fn read(fields: &Fields<'_>, known: &[Body<Number>]) -> Read<Joint<Number>> {
-    let kind = read_kind(fields)?;
+    let (word, fields) = &fields.kind()?;
+    let Some(kind) = JointKind::ALL.into_iter().find(|kind| kind.name() == *word) else {
+        return fields.context.fault(fields.header, ReadFault::Missing { key: "kind" });
+    };
     let dimension = fields.context.dimension;
-    // Spatial kinds keep their axes in planar scenes: the check speaks about the kind, which is the fault there.
-    let needed = kind.needs_axes(dimension);
-    let axis_keys = kind.axis_keys(dimension);
-    let has_hinge = kind.is_link() && dimension == Dimension::Spatial;
-    let place = if kind.is_link() { "points" } else { "at" };
-    let mut keys = vec!["name", "kind", "bodies", place];
-    keys.extend((0..2).filter(|&i| needed[i] || has_hinge && i == 0).map(|i| axis_keys[i]));
-    keys.dedup();
-    keys.extend(LIMITS);
-    fields.allow(&keys, &KEYS)?;
+    let (needed, axis_keys) = (kind.needs_axes(dimension), kind.axis_keys(dimension));
     let bodies = fields.pair()?;
     let kind = kind_between(kind, bodies, known);
     let points = if kind.is_link() {
@@ -75,14 +66,6 @@ fn read_limits(fields: &Fields<'_>) -> Read<JointLimits<Number>> {
         effort: fields.optional("effort_limit")?,
         velocity: fields.optional("velocity_limit")?,
     })
-}
-
-fn read_kind(fields: &Fields<'_>) -> Read<JointKind> {
-    let word = fields.word("kind")?;
-    match JointKind::ALL.into_iter().find(|kind| kind.name() == word.0) {
-        Some(kind) => Ok(kind),
-        None => fields.unknown_word("kind", word, &JointKind::ALL.map(JointKind::name)),
-    }
 }
 
 /// The kind that a joint is between these bodies: a free one of a point mass does not turn.

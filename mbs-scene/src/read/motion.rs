@@ -4,23 +4,17 @@ use crate::read::ReadFault;
 use crate::read::fields::{Fields, Read};
 use mbs_core::scene::{Guide, InitialCondition, InitialTarget, Joint, Motion, Number, TableEnds};
 
-const INITIAL_KEYS: [&str; 7] =
-    ["joint", "value", "rate", "body", "at", "velocity", "angular_velocity"];
-
 pub(crate) fn read_initial(fields: &Fields<'_>) -> Read<InitialCondition<Number>> {
     let context = fields.context;
     fields.exclusive("joint", "body")?;
+    let fields = &fields.by("body", "joint")?;
     let target = match fields.get("body") {
-        Some(body) => {
-            fields.allow(&["body", "at", "velocity", "angular_velocity"], &INITIAL_KEYS)?;
-            InitialTarget::Body {
-                body: context.moving_body(body)?,
-                velocity: point_velocity(fields)?,
-                angular_velocity: angular_velocity(fields)?,
-            }
-        }
+        Some(body) => InitialTarget::Body {
+            body: context.moving_body(body)?,
+            velocity: point_velocity(fields)?,
+            angular_velocity: angular_velocity(fields)?,
+        },
         None => {
-            fields.allow(&["joint", "value", "rate"], &INITIAL_KEYS)?;
             let numbers = |key| fields.get(key).map(|item| context.numbers(item)).transpose();
             let joint = context.joint(fields.need("joint")?)?;
             InitialTarget::Joint { joint, value: numbers("value")?, rate: numbers("rate")? }
@@ -60,13 +54,10 @@ pub(crate) fn read_guides(
         fields.exclusive(law, "signals")?;
     }
     let is_of_body = fields.get("body").is_some();
-    let mut known: Vec<&str> = if is_of_body {
-        vec!["body", "at", "signals"]
-    } else {
-        [&["joint", "coordinate", "signals"][..], &LAWS].concat()
-    };
-    known.extend(fields.get("table").map(|_| "ends"));
-    fields.allow(&known, &GUIDE_KEYS)?;
+    let fields = &fields.by("body", "joint")?;
+    if !is_of_body && fields.get("table").is_none() {
+        fields.unused(&["ends"])?;
+    }
     // the free joint of a guided body has the body's name
     let of = if is_of_body { "body" } else { "joint" };
     let joint = context.joint(fields.need(of)?)?;
@@ -91,26 +82,8 @@ pub(crate) fn read_guides(
     }
 }
 
-/// The keys of guides, all of them.
-const GUIDE_KEYS: [&str; 11] = [
-    "joint",
-    "body",
-    "at",
-    "coordinate",
-    "table",
-    "ends",
-    "sine",
-    "ramp",
-    "input",
-    "signal",
-    "signals",
-];
-
 /// The keys that each give a function of time.
 const LAWS: [&str; 5] = ["table", "sine", "ramp", "input", "signal"];
-
-/// The keys of a function of time.
-pub(crate) const MOTION_KEYS: [&str; 6] = ["table", "ends", "sine", "ramp", "input", "signal"];
 
 /// A function of time, where one of its keys is there.
 pub(crate) fn read_motion(fields: &Fields<'_>) -> Read<Option<Motion<Number>>> {
@@ -119,22 +92,22 @@ pub(crate) fn read_motion(fields: &Fields<'_>) -> Read<Option<Motion<Number>>> {
     }
     let context = fields.context;
     let law = if let Some(item) = fields.get("sine") {
-        let sine =
-            context.table(item, "a table: { amplitude = .., frequency = .., phase = .. }")?;
-        sine.allow(&["amplitude", "frequency", "phase"], &[])?;
+        let sine = context.table(
+            item,
+            "a table: { amplitude = .., frequency = .., phase = .. }",
+            "sine",
+        )?;
         Motion::Sine {
             amplitude: sine.number("amplitude")?,
             frequency: sine.number("frequency")?,
             phase: sine.number_or_zero("phase")?,
         }
     } else if let Some(item) = fields.get("ramp") {
-        let ramp = context.table(item, "a table: { rate = .. }")?;
-        ramp.allow(&["rate"], &[])?;
+        let ramp = context.table(item, "a table: { rate = .. }", "ramp")?;
         Motion::Ramp { rate: ramp.number("rate")? }
     } else if let Some(item) = fields.get("input") {
         let form = "a table: { value = .., rate = .., acceleration = .. }";
-        let input = context.table(item, form)?;
-        input.allow(&["value", "rate", "acceleration"], &[])?;
+        let input = context.table(item, form, "motion input")?;
         let number = |key| input.number_or_zero(key);
         Motion::Input([number("value")?, number("rate")?, number("acceleration")?])
     } else if let Some(item) = fields.get("signal") {

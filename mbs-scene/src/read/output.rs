@@ -1,5 +1,6 @@
 //! `[[output]]` and `[solver]`.
 
+use crate::keys::{FORMS, ORIENTATION, of_target};
 use crate::read::ReadFault;
 use crate::read::error::OWNER;
 use crate::read::fields::{Fields, Read};
@@ -10,16 +11,6 @@ use mbs_core::scene::{BodyId, CouplingId, EffectId, Number, Output, RollingId, S
 /// Keys that say what an output is of; one at most.
 const OWNERS: [&str; 6] = ["joint", "body", "coupling", "rolling", "effect", "signal"];
 
-/// What `as` says of an orientation: the word, and the quantity that is meant.
-const FORMS: [(&str, &str); 3] = [
-    ("quaternion", ORIENTATION),
-    ("matrix", "rotation-matrix"),
-    ("rotation-vector", "rotation-vector"),
-];
-
-/// The quantity that `as` belongs to.
-const ORIENTATION: &str = "orientation";
-
 /// Reads an output of a scene with the names of its couplings, rollings and effects.
 pub(crate) fn read(
     fields: &Fields<'_>,
@@ -28,13 +19,6 @@ pub(crate) fn read(
 ) -> Read<Output<Number>> {
     for (i, one) in OWNERS.iter().enumerate() {
         OWNERS[i + 1..].iter().try_for_each(|other| fields.exclusive(one, other))?;
-    }
-    let keys = |of: &[&'static str]| [&["name"], of, &["quantity"]].concat();
-    let mut every = Vec::new();
-    for key in QUANTITIES.iter().flat_map(|row| row.target.keys()) {
-        if !every.contains(key) {
-            every.push(*key);
-        }
     }
     let word = fields.get("quantity").map(|_| fields.word("quantity")).transpose()?;
     let has_owner = OWNERS.iter().any(|owner| fields.get(owner).is_some());
@@ -49,7 +33,7 @@ pub(crate) fn read(
     };
     let rows: Vec<&QuantityRow> = QUANTITIES.iter().filter(is_here).collect();
     let Some(first) = rows.first() else {
-        fields.allow(&keys(&every), &[])?;
+        fields.checked()?;
         return fields.context.fault(fields.header, ReadFault::Missing { key: OWNER });
     };
     let mut word = word.unwrap_or((first.name, fields.header));
@@ -69,8 +53,10 @@ pub(crate) fn read(
     let Some(kind) = rows.iter().find(|row| row.has_name(word.0)).map(|row| row.target) else {
         return unknown();
     };
-    let form: &[&str] = if has_form { &["as"] } else { &[] };
-    fields.allow(&[&keys(kind.keys())[..], form].concat(), &keys(&every))?;
+    let fields = &fields.checked_by(of_target(kind))?;
+    if !has_form {
+        fields.unused(&["as"])?;
+    }
     let target = target(fields, kind, (centers, names))?;
     let Some(quantity) = Quantity::of(word.0, target) else { return unknown() };
     Ok(Output { name: fields.name()?, quantity })
@@ -126,22 +112,6 @@ fn target(
 }
 
 pub(crate) fn read_solver(fields: &Fields<'_>) -> Read<SolverTable<Number>> {
-    fields.allow(
-        &[
-            "formulation",
-            "integrator",
-            "step",
-            "step_max",
-            "tolerance",
-            "penalty",
-            "step_control",
-            "energy_tolerance",
-            "error_tolerance",
-            "locate_events",
-            "energy_alarm",
-        ],
-        &[],
-    )?;
     let context = fields.context;
     let word = |key| -> Read<Option<String>> {
         fields.get(key).map(|item| context.text(item).map(str::to_owned)).transpose()

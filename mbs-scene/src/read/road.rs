@@ -1,18 +1,10 @@
 //! `[road]`: features under all wheels, or different ones on the left and on the right.
 
+use crate::keys::{self, FEATURE};
 use crate::read::fields::{Context, Fields, Read};
 use crate::read::tree::{Item, Node};
 use mbs_core::scene::{Number, Road, RoadFeature};
 
-/// A kind of feature and its keys.
-const KINDS: [(&str, &[&str]); 5] = [
-    ("flat", &["height"]),
-    ("ramp", &["start", "length", "height", "rounding"]),
-    ("stairs", &["start", "tread", "riser", "height", "count"]),
-    ("bump", &["start", "length", "amplitude", "height", "shape"]),
-    ("table", &["points"]),
-];
-const TRACKS: [&str; 4] = ["features", "left", "right", "speed"];
 /// Most steps of one staircase. Chosen, not tuned: a slip of a count ends in a message.
 const MOST_STEPS: u32 = 10_000;
 /// Rounded corners of a ramp as a share of its length, where none is written.
@@ -27,9 +19,10 @@ pub(crate) fn read(fields: &Fields<'_>) -> Read<Road<Number>> {
         for key in ["features", "left", "right"] {
             fields.exclusive("kind", key)?;
         }
-        return Ok(both(vec![feature(fields, &["speed"])?]));
+        return Ok(both(vec![feature(fields)?]));
     }
-    fields.allow(&TRACKS, &elsewhere())?;
+    let several = keys::together(fields.tables, |table| table.kind.is_none());
+    let fields = &fields.checked_by(several)?;
     if let Some(item) = fields.get("features") {
         fields.exclusive("features", "left")?;
         fields.exclusive("features", "right")?;
@@ -42,26 +35,22 @@ pub(crate) fn read(fields: &Fields<'_>) -> Read<Road<Number>> {
     Ok(Road { left: track("left")?, right: track("right")?, speed })
 }
 
-fn elsewhere() -> Vec<&'static str> {
-    KINDS.iter().flat_map(|(_, keys)| *keys).copied().collect()
-}
-
 /// A list of features, or one.
 fn features(context: &Context<'_>, item: &Item) -> Read<Vec<RoadFeature<Number>>> {
     let form = "a feature { kind = .. }, or a list of them";
     if let Node::Table(_) = item.node {
-        return Ok(vec![feature(&context.table(item, form)?, &[])?]);
+        return Ok(vec![feature(&context.table(item, form, FEATURE)?)?]);
     }
-    context.list(item, form)?.iter().map(|item| feature(&context.table(item, form)?, &[])).collect()
+    context
+        .list(item, form)?
+        .iter()
+        .map(|item| feature(&context.table(item, form, FEATURE)?))
+        .collect()
 }
 
 /// One feature.
-fn feature(fields: &Fields<'_>, beside: &[&'static str]) -> Read<RoadFeature<Number>> {
-    let word = fields.word("kind")?;
-    let Some((kind, keys)) = KINDS.iter().find(|(name, _)| *name == word.0) else {
-        return fields.unknown_word("kind", word, &KINDS.map(|(name, _)| name));
-    };
-    fields.allow(&[&["kind"], beside, *keys].concat(), &elsewhere())?;
+fn feature(fields: &Fields<'_>) -> Read<RoadFeature<Number>> {
+    let (kind, fields) = &fields.kind()?;
     Ok(match *kind {
         "flat" => RoadFeature::Flat { height: fields.number_or_zero("height")? },
         "ramp" => ramp(fields)?,

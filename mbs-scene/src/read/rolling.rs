@@ -3,23 +3,9 @@
 use crate::read::fields::{Fields, Read};
 use mbs_core::scene::{BodyId, Number, Rolling, RollingKind, RollingPlane};
 
-/// The kinds and their keys.
-const KINDS: [(&str, &[&str]); 3] = [
-    ("wheel", &["center", "axis", "radius"]),
-    ("ball", &["center", "radius"]),
-    ("blade", &["at", "direction"]),
-];
-/// Keys of every kind.
-const COMMON: [&str; 5] = ["name", "kind", "body", "on", "plane"];
-
 /// Reads a rolling; without a name it is called `rolling-N`, counted from 1.
 pub(crate) fn read(index: usize, fields: &Fields<'_>) -> Read<Rolling<Number>> {
-    let word = fields.word("kind")?;
-    let Some((kind, keys)) = KINDS.iter().find(|(name, _)| *name == word.0) else {
-        return fields.unknown_word("kind", word, &KINDS.map(|(name, _)| name));
-    };
-    let every: Vec<&str> = KINDS.iter().flat_map(|(_, keys)| *keys).copied().collect();
-    fields.allow(&[&COMMON[..], keys].concat(), &every)?;
+    let (kind, fields) = &fields.kind()?;
     let context = &fields.context;
     let body = context.moving_body(fields.need("body")?)?;
     let (kind, at) = match *kind {
@@ -44,8 +30,7 @@ pub(crate) fn read(index: usize, fields: &Fields<'_>) -> Read<Rolling<Number>> {
     let plane = match fields.get("plane") {
         None => None,
         Some(item) => {
-            let plane = context.table(item, "a table { point = [..], normal = [..] }")?;
-            plane.allow(&["point", "normal"], &[])?;
+            let plane = context.table(item, "a table { point = [..], normal = [..] }", "plane")?;
             Some(RollingPlane { point: plane.vector("point")?, normal: plane.vector("normal")? })
         }
     };

@@ -1,6 +1,6 @@
 //! The scene that a file means, table by table; and the places of its entries.
 
-use crate::read::coupling::TERM_KEYS;
+use crate::keys::{self, FILE};
 use crate::read::document::SceneFile;
 use crate::read::fields::{Context, Fields, Read};
 use crate::read::names::Names;
@@ -16,14 +16,8 @@ use mbs_core::scene::{
 };
 use std::collections::BTreeMap;
 
-const TABLES: [&str; 12] = [
-    "scene", "body", "joint", "initial", "guide", "coupling", "rolling", "signal", "effect",
-    "road", "solver", "output",
-];
 /// The joints of a file with those of its guided bodies, and the guides.
 type JointsAndGuides = (Vec<Joint<Number>>, Vec<Guide<Number>>);
-
-const SCENE_KEYS: [&str; 5] = ["name", "dimension", "gravity", "duration", "start"];
 
 impl SceneFile {
     /// The scene in the precision `T`, checked: every number is the one of `T` nearest to its decimal text.
@@ -57,10 +51,9 @@ impl SceneFile {
         let Some(item) = self.top("scene") else {
             return context.fault(&(0..0), ReadFault::Missing { key: "[scene]" });
         };
-        let dimension = read_dimension(&context.table(item, "a table: [scene]")?)?;
+        let dimension = read_dimension(&context.table(item, "a table: [scene]", "scene")?)?;
         let context = Context { dimension, ..context };
-        let header = context.table(item, "a table: [scene]")?;
-        header.allow(&SCENE_KEYS, &[])?;
+        let header = context.table(item, "a table: [scene]", "scene")?;
         let body_data = self.entries(&context, "body", |_, fields| body::read(fields))?;
         let centers: Vec<[Number; 3]> = body_data.iter().map(|body| body.center.clone()).collect();
         let (joints, guides) = self.joints_and_guides(&context, &body_data)?;
@@ -86,7 +79,7 @@ impl SceneFile {
             signals: self.entries(&context, "signal", |_, fields| signal::read(fields, &joints))?,
             joints,
             road: match self.top("road") {
-                Some(item) => road::read(&context.table(item, "a table: [road]")?)?,
+                Some(item) => road::read(&context.table(item, "a table: [road]", "road")?)?,
                 None => Default::default(),
             },
             start: read_start(&header)?,
@@ -95,7 +88,9 @@ impl SceneFile {
                 output::read(fields, &centers, [&of_couplings, &of_rollings, &of_effects])
             })?,
             solver: match self.top("solver") {
-                Some(item) => output::read_solver(&context.table(item, "a table: [solver]")?)?,
+                Some(item) => {
+                    output::read_solver(&context.table(item, "a table: [solver]", "solver")?)?
+                }
                 None => Default::default(),
             },
         })
@@ -146,7 +141,8 @@ impl SceneFile {
         };
         let of_key = |members: &'a [Member], key: &str| members.iter().find(|m| m.key == key);
         // what an effect has not itself stands in its terms
-        let is_of_term = matches!(entry, Entry::Effect(_)) && TERM_KEYS.contains(&field);
+        let is_of_term = matches!(entry, Entry::Effect(_))
+            && keys::of("term").iter().any(|table| table.key(field).is_some());
         let value = |members: &'a [Member]| {
             let terms = || of_key(members, "terms").filter(|_| is_of_term);
             of_key(members, field).or_else(terms)
@@ -240,12 +236,13 @@ impl SceneFile {
             .list(item, "a list of tables, each under a header in double brackets like [[body]]")?
             .iter()
             .enumerate()
-            .map(|(i, item)| read(i, &context.table(item, "a table")?))
+            .map(|(i, item)| read(i, &context.table(item, "a table", key)?))
             .collect()
     }
 
     fn check_tables(&self, context: &Context<'_>) -> Read<()> {
-        Fields { context: *context, header: &(0..0), members: &self.root }.allow(&TABLES, &[])
+        let (members, tables) = (&self.root[..], keys::of(FILE));
+        Fields { context: *context, header: &(0..0), members, tables }.checked().map(|_| ())
     }
 
     /// The name as written, else the file's name without directories and ending.

@@ -6,37 +6,13 @@ use crate::read::motion::{read_ends, read_table};
 use crate::read::tree::{Item, Node};
 use mbs_core::scene::{Interpolation, Joint, NamedSignal, Number, SignalId, SignalKind};
 
-/// The kinds of signal, each with its keys.
-const KINDS: [(&str, &[&str]); 15] = [
-    ("constant", &["value"]),
-    ("table", &["table", "interpolation", "periodic", "ends"]),
-    ("sine", &["amplitude", "frequency", "phase", "offset"]),
-    ("chirp", &["amplitude", "frequency", "to_frequency", "duration", "phase", "offset"]),
-    ("ramp", &["rate", "start", "end", "rounding"]),
-    ("step", &["from", "to", "at", "rise"]),
-    ("sum", &["of", "factors"]),
-    ("product", &["of"]),
-    ("curve", &["of", "table", "periodic", "coefficients"]),
-    ("clamp", &["of", "lower", "upper"]),
-    ("input", &["value", "unit"]),
-    ("measure", &["joint", "coordinate", "axis", "points", "quantity"]),
-    ("lag", &["of", "time", "value"]),
-    ("integral", &["of", "lower", "upper", "value"]),
-    ("pid", &["target", "measured", "p", "i", "d", "limit"]),
-];
-
 /// Reads a signal.
 pub(crate) fn read<'a>(
     fields: &Fields<'a>,
     joints: &'a [Joint<Number>],
 ) -> Read<NamedSignal<Number>> {
-    let word = fields.word("kind")?;
-    let Some((_, keys)) = KINDS.iter().find(|(name, _)| *name == word.0) else {
-        return fields.unknown_word("kind", word, &KINDS.map(|(name, _)| name));
-    };
-    let elsewhere: Vec<&str> = KINDS.iter().flat_map(|(_, keys)| *keys).copied().collect();
-    fields.allow(&[&["name", "kind"], *keys].concat(), &elsewhere)?;
-    Ok(NamedSignal { name: fields.name()?, kind: kind(fields, word.0, joints)? })
+    let (word, fields) = &fields.kind()?;
+    Ok(NamedSignal { name: fields.name()?, kind: kind(fields, word, joints)? })
 }
 
 fn kind<'a>(

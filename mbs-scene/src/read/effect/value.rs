@@ -145,8 +145,7 @@ fn line(fields: &Fields<'_>, item: &Item) -> Read<Vec<(BodyId, [Number; 3])>> {
 
 /// `{ stiffness = .., friction = .. }`.
 fn slip(fields: &Fields<'_>, item: &Item) -> Read<LongitudinalSlip<Number>> {
-    let table = fields.context.table(item, "a table: { stiffness = .., friction = .. }")?;
-    table.allow(&["stiffness", "friction"], &[])?;
+    let table = fields.context.table(item, "a table: { stiffness = .., friction = .. }", "slip")?;
     let [stiffness, friction] = ["stiffness", "friction"].map(|key| table.number(key));
     Ok(LongitudinalSlip { stiffness: stiffness?, friction: friction? })
 }
@@ -169,8 +168,7 @@ fn side(fields: &Fields<'_>) -> Read<Option<CalspanCoefficients<Number>>> {
         return Ok(Some(CalspanCoefficients::of_iltis()));
     };
     let form = "a table: { a = [..], omega = .., b = [..], skid = .., trail = [..] }";
-    let table = fields.context.table(item, form)?;
-    table.allow(&["a", "omega", "b", "skid", "trail"], &[])?;
+    let table = fields.context.table(item, form, "calspan")?;
     let context = table.context;
     Ok(Some(CalspanCoefficients {
         a: context.numbers_of(table.need("a")?, "five numbers: [A0, A1, A2, A3, A4]")?,

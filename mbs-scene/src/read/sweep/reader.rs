@@ -5,14 +5,13 @@ use super::fault::MOST_MEMBERS;
 use super::parameter::{Combine, Parameter};
 use super::path::{self, Address};
 use super::values::Range;
+use crate::keys::{self, SWEEP_FILE};
 use crate::read::fields::{Context, Fields, Read};
 use crate::read::names::Names;
 use crate::read::tree::{Item, Node, Span};
 use crate::read::{ReadFault, SceneFile};
 use mbs_core::scene::Dimension;
 
-const TABLES: [&str; 2] = ["sweep", "vary"];
-const KEYS: [&str; 9] = ["path", "also", "shift", "name", "values", "from", "to", "count", "step"];
 const COMBINE: [&str; 3] = ["grid", "zip", "latin-hypercube"];
 const SCALES: [&str; 2] = ["linear", "log"];
 
@@ -26,10 +25,11 @@ pub(super) fn read(sweep: &SceneFile, scene: &SceneFile) -> Read<(Combine, Vec<P
         joints: &none,
         signals: &none,
     };
-    Fields { context, header: &(0..0), members: sweep.root() }.allow(&TABLES, &[])?;
+    let (members, tables) = (sweep.root(), keys::of(SWEEP_FILE));
+    Fields { context, header: &(0..0), members, tables }.checked()?;
     let header = sweep.root().iter().find(|member| member.key == "sweep");
     let (combine, seed) = match header {
-        Some(member) => read_header(&context.table(&member.item, "a table: [sweep]")?)?,
+        Some(member) => read_header(&context.table(&member.item, "a table: [sweep]", "sweep")?)?,
         None => (Combine::Grid, 0),
     };
     let parameters: Vec<Parameter> = sweep
@@ -45,7 +45,6 @@ pub(super) fn fault<R>(context: &Context<'_>, span: &Span, fault: SweepFault) ->
 }
 
 fn read_header(header: &Fields<'_>) -> Read<(Combine, u64)> {
-    header.allow(&["name", "combine", "samples", "seed"], &[])?;
     if header.get("name").is_some() {
         header.name()?;
     }
@@ -61,7 +60,7 @@ fn read_header(header: &Fields<'_>) -> Read<(Combine, u64)> {
         let n = header.count("samples", MOST_MEMBERS)?;
         return Ok((Combine::Latin(n), read_seed(header)?));
     }
-    header.allow(&["name", "combine"], &["samples", "seed"])?;
+    header.unused(&["samples", "seed"])?;
     Ok((if word == "zip" { Combine::Zip } else { Combine::Grid }, 0))
 }
 
@@ -82,9 +81,6 @@ fn read_parameter(
     (combine, seed, index): (Combine, u64, usize),
 ) -> Read<Parameter> {
     let context = fields.context;
-    let mut known = KEYS.to_vec();
-    known.push("scale");
-    fields.allow(&known, &[])?;
     let item = fields.need("path")?;
     let path = context.text(item)?;
     let place = address(&context, item, scene)?;
@@ -133,9 +129,7 @@ fn address(context: &Context<'_>, item: &Item, scene: &SceneFile) -> Read<Addres
 /// `values = [..]`; they keep their decimal text.
 fn read_values(fields: &Fields<'_>, combine: Combine, parameter: &mut Parameter) -> Read<()> {
     let context = fields.context;
-    let others = ["from", "to", "count", "step", "scale"];
-    let known: Vec<_> = KEYS.into_iter().filter(|key| !others.contains(key)).collect();
-    fields.allow(&known, &others)?;
+    fields.unused(&["from", "to", "count", "step", "scale"])?;
     let item = fields.need("values")?;
     if let Combine::Latin(_) = combine {
         let known = vec!["path", "also", "shift", "name", "from", "to", "scale"];
@@ -183,8 +177,7 @@ fn read_range(
     }
     let numbers = match combine {
         Combine::Latin(n) => {
-            let known = ["path", "also", "shift", "name", "from", "to", "scale"];
-            fields.allow(&known, &["count", "step"])?;
+            fields.unused(&["count", "step"])?;
             range.strata(n, seed, index)
         }
         _ => range_values(fields, &range)?,

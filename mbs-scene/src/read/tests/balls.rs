@@ -72,7 +72,7 @@ const REFUSED: &[[&str; 4]] = &[
     [
         "terms = [{ joint = \"a\", coordinate = \"turn\", axis = [0, 0, 1] }]",
         "31:46",
-        "unknown key `axis`",
+        "`axis` has no meaning here",
         "",
     ],
 ];

@@ -153,7 +153,7 @@ fn outputs_of_unknown_parts_are_refused_at_the_name() {
     let e = refusal("body = \"lower\"\nquantity = \"orientation\"\nas = \"matrx\"");
     refused(&e, &format!("{}:6", line + 2), "unknown as `matrx`", "`matrix`");
     let e = refusal("body = \"lower\"\nquantity = \"kinetic-energy\"\nas = \"matrix\"");
-    refused(&e, &format!("{}:1", line + 2), "unknown key `as`", "keys");
+    refused(&e, &format!("{}:1", line + 2), "`as` has no meaning here", "keys");
     let e = refusal("quantity = \"position\"");
     refused(
         &e,

@@ -1,0 +1,84 @@
+//! `mbs check SCENE...`.
+
+use crate::files;
+use crate::refusal::Refusal;
+use crate::run::stopped;
+use crate::say::{say, warn};
+use crate::status::REFUSED;
+use clap::Args;
+use mbs::scene_file::format::counted;
+use mbs::{Method, Names, ResolvedMethod, sizes_at_start};
+use serde_json::{Value, json};
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+
+const STATUS: &str = "\
+Example: mbs check scenes/*.toml
+Exit status:
+  0  every scene is read, and assembles at t = 0
+  1  one of them is refused, or does not assemble";
+
+/// Arguments of `mbs check`.
+#[derive(Debug, Args)]
+#[command(after_help = STATUS)]
+pub(crate) struct Arguments {
+    /// Scene files.
+    #[arg(required = true)]
+    scenes: Vec<PathBuf>,
+    /// Print one JSON object for each file, a line each.
+    #[arg(long)]
+    json: bool,
+}
+
+/// What is known of a scene that passes: coordinates, constraints, rank.
+type Sizes = [usize; 3];
+
+/// Why a scene does not pass: an object for programs, and the text.
+type Failure = (Value, String);
+
+/// Runs the command.
+pub(crate) fn main(arguments: &Arguments) -> ExitCode {
+    let mut text = String::new();
+    let mut status = ExitCode::SUCCESS;
+    for path in &arguments.scenes {
+        let file = path.display().to_string();
+        let checked = check(path);
+        if let Err((_, why)) = &checked {
+            status = ExitCode::from(REFUSED);
+            warn(why);
+        }
+        text += &match (checked, arguments.json) {
+            (checked, true) => object(&file, checked).to_string() + "\n",
+            (Ok([coordinates, constraints, rank]), false) => format!(
+                "{file}: {} of freedom ({}, {} of rank {rank})\n",
+                counted(coordinates - rank, "degree"),
+                counted(coordinates, "coordinate"),
+                counted(constraints, "constraint"),
+            ),
+            (Err(_), false) => String::new(),
+        };
+    }
+    say(&text, status)
+}
+
+/// Reads a scene, checks its settings, and assembles it.
+fn check(path: &Path) -> Result<Sizes, Failure> {
+    let refused = |refusal: Refusal| (refusal.error(), refusal.text());
+    let (document, scene) = files::scene(path).map_err(refused)?;
+    let settings = ResolvedMethod::new(&scene, &Method::default());
+    settings.map_err(|error| refused(files::refusal(&error, &document)))?;
+    sizes_at_start(&scene).map_err(|error| {
+        let report = error.report(0.0, &Names::new(&scene));
+        (json!(report), stopped("no start", &report, &error, &document))
+    })
+}
+
+fn object(file: &str, checked: Result<Sizes, Failure>) -> Value {
+    match checked {
+        Ok([coordinates, constraints, rank]) => json!({
+            "scene": file, "completed": true, "error": null,
+            "coordinates": coordinates, "constraints": constraints, "constraint_rank": rank, "dof": coordinates - rank,
+        }),
+        Err((error, _)) => json!({ "scene": file, "completed": false, "error": error }),
+    }
+}

@@ -1,0 +1,264 @@
+//! `[[coupling]]`, its terms, and lines over points.
+
+use super::Value::{
+    Coordinate, Counts, Flag, Number, NumberOr, Numbers, Of, Place, Rows, Several, SomeNumbers,
+    Vector, Word,
+};
+use super::guide::motion;
+use super::{Key, Part, Table, Value, inside, kinds, listed, may, name_or, need};
+
+pub(super) fn tables() -> Vec<Table> {
+    let mut tables = kinds(
+        "coupling",
+        &[name_or("`coupling-N`")],
+        [
+            ("gear", gear()),
+            ("rack", rack()),
+            ("screw", screw()),
+            ("belt", belt()),
+            ("mimic", mimic()),
+            ("differential", differential()),
+            ("cam", cam()),
+            ("rope", rope()),
+            ("linear", linear()),
+        ],
+    );
+    tables.extend([term(), point(), drum()]);
+    tables
+}
+
+fn joints(n: usize, meaning: &str) -> Key {
+    need("joints", Several(Part::Joint, n), "", meaning)
+}
+
+fn rack() -> Table {
+    let radius = "Pitch radius of the pinion; negative for the other sense.";
+    let keys = vec![
+        joints(2, "Turn of the pinion, slide of the rack."),
+        need("radius", Number, "m", radius),
+    ];
+    listed("coupling", "A rack on a pinion: s - radius a = 0.", keys)
+}
+
+fn belt() -> Table {
+    let crossed = "Whether the belt is crossed: the wheels turn in opposite senses.";
+    let keys = vec![
+        joints(2, "Turns of the wheels."),
+        need("radii", Numbers(2), "m", "Radii of the wheels."),
+        may("crossed", Flag, "", "false", crossed),
+    ];
+    listed("coupling", "A belt or chain on two wheels: r1 a1 - r2 a2 = 0.", keys)
+}
+
+fn mimic() -> Table {
+    let keys = vec![
+        need("joint", Of(Part::Joint), "", "The joint of x."),
+        need("of", Of(Part::Joint), "", "The joint of y."),
+        may("factor", Number, "", "1", "Factor."),
+        may("offset", Number, "rad or m", "0", "Offset."),
+    ];
+    listed("coupling", "One coordinate follows another: x - factor y = offset.", keys)
+}
+
+fn differential() -> Table {
+    let keys = vec![
+        joints(3, "Turns of the two wheels, and of the cage."),
+        may("teeth", Counts(2), "", "[1, 1]", "Teeth of the two wheels."),
+    ];
+    let meaning =
+        "Wheels on a cage: Na (a - c) + Nb (b - c) = 0. A planetary set has sun, ring and carrier.";
+    listed("coupling", meaning, keys)
+}
+
+fn gear() -> Table {
+    let mut keys = vec![
+        joints(2, "Turns of the wheels."),
+        may(
+            "teeth",
+            Counts(2),
+            "",
+            "one of `teeth`, `radii`, `ratio` is needed",
+            "Teeth of the wheels; axes parallel.",
+        ),
+        may("radii", Numbers(2), "m", "none", "Pitch radii of the wheels; axes parallel."),
+        may("ratio", Number, "", "none", "Second angle per first, with its sign; any axes."),
+        may(
+            "mesh",
+            Word(vec!["external", "internal"]),
+            "",
+            "external",
+            "Whether one wheel stands inside the other.",
+        ),
+    ];
+    keys.extend(mesh());
+    listed("coupling", "Wheels in mesh: N1 a1 + N2 a2 = 0, internal N1 a1 - N2 a2 = 0.", keys)
+}
+
+/// Where teeth touch.
+fn mesh() -> [Key; 2] {
+    [
+        may(
+            "at",
+            Place,
+            "m",
+            "none",
+            "Pitch point: the bearings then carry the force of the teeth.",
+        ),
+        may(
+            "pressure_angle",
+            Number,
+            "rad",
+            "20 degrees",
+            "Pressure angle of the teeth, beside `at`.",
+        ),
+    ]
+}
+
+fn screw() -> Table {
+    listed(
+        "coupling",
+        "A screw: s - lead/(2 pi) a = 0.",
+        vec![
+            may(
+                "joint",
+                Of(Part::Joint),
+                "",
+                "needed without `joints`",
+                "A cylindrical joint, which has turn and slide.",
+            ),
+            may(
+                "joints",
+                Several(Part::Joint, 2),
+                "",
+                "needed without `joint`",
+                "The turn, the slide.",
+            ),
+            need("lead", Number, "m", "Slide per turn."),
+        ],
+    )
+}
+
+/// A curve of a number: a spline or a polynomial.
+pub(super) fn curve(table: &str) -> Vec<Key> {
+    vec![
+        may("table", Rows, "", "none", table),
+        may("periodic", Flag, "", "false", "Whether the table repeats with its first and last x."),
+        may(
+            "coefficients",
+            SomeNumbers,
+            "",
+            "none",
+            "A polynomial in place of a table: c0, c1, ... of increasing power.",
+        ),
+    ]
+}
+
+fn cam() -> Table {
+    let mut keys = vec![joints(2, "The shaft, the follower.")];
+    keys.extend(curve("Lift of the follower over the shaft: rows `[x, f]`, a cubic spline."));
+    listed("coupling", "A cam: x - f(a) = 0.", keys)
+}
+
+fn rope() -> Table {
+    let mut keys = vec![
+        may(
+            "points",
+            Value::Tables("line point"),
+            "",
+            "needed without `terms`",
+            "The points that the rope passes, each on its body.",
+        ),
+        may(
+            "length",
+            NumberOr(vec!["reference"]),
+            "m",
+            "`reference`",
+            "Length of the rope; `reference`: that in the reference configuration.",
+        ),
+        may("drum", Value::Table("drum"), "", "none", "A drum that takes the rope in."),
+        may("terms", Value::Tables("term"), "", "none", "A sum in place of `points`."),
+        may("value", Number, "m", "0", "Length above that in the reference configuration."),
+    ];
+    keys.extend(motion("m"));
+    listed(
+        "coupling",
+        "A rope of constant length, which holds both ways: length + radius a = value.",
+        keys,
+    )
+}
+
+fn linear() -> Table {
+    let mut keys = vec![
+        need("terms", Value::Tables("term"), "", "The terms of the sum."),
+        may("value", Number, "rad or m", "0", "What the sum is."),
+    ];
+    keys.extend(mesh());
+    keys.extend(motion("rad or m"));
+    listed(
+        "coupling",
+        "A sum of coordinates and lengths that holds, or follows a function of time.",
+        keys,
+    )
+}
+
+/// What a sum or a signal measures.
+pub(super) fn measure() -> Vec<Key> {
+    vec![
+        may("joint", Of(Part::Joint), "", "needed without `points`", "A joint."),
+        may(
+            "coordinate",
+            Coordinate,
+            "",
+            "the only one",
+            "Its coordinate; of a ball `\"swing\"` or `\"twist\"`.",
+        ),
+        may(
+            "axis",
+            Vector,
+            "",
+            "needed beside `swing` and `twist`",
+            "The axis of the angle of a ball.",
+        )
+        .in_space(),
+        may(
+            "points",
+            Value::Tables("line point"),
+            "",
+            "none",
+            "A line in place of a joint: its length.",
+        ),
+    ]
+}
+
+fn term() -> Table {
+    let mut keys = measure();
+    keys.push(may("factor", Number, "", "1", "Factor of the coordinate or length."));
+    keys.extend(curve("A curve of the coordinate or length: rows `[x, f]`, a cubic spline."));
+    inside(
+        "term",
+        "A term of a sum: a coordinate of a joint or a length, from the reference configuration.",
+        keys,
+    )
+}
+
+fn point() -> Table {
+    inside(
+        "line point",
+        "A point of a line.",
+        vec![
+            need("body", Of(Part::Body), "", "The body on which it is."),
+            need("at", Place, "m", "Its place."),
+        ],
+    )
+}
+
+fn drum() -> Table {
+    inside(
+        "drum",
+        "A drum of a rope.",
+        vec![
+            need("joint", Of(Part::Joint), "", "The turn of the drum."),
+            need("radius", Number, "m", "Its radius; negative for the other sense."),
+        ],
+    )
+}

@@ -1,0 +1,134 @@
+//! `[[initial]]` and `[[guide]]`, and functions of time.
+
+use super::Value::{
+    Coordinate, Number, NumberOrVector, Of, Place, Rows, Some, SomeNumbers, Vector, Word,
+};
+use super::{Key, Part, Table, Value, inside, listed, may, need};
+
+pub(super) fn tables() -> Vec<Table> {
+    let mut tables = initial();
+    tables.extend(guides());
+    tables.extend(functions());
+    tables
+}
+
+/// The tables of entries by joint, then those by body.
+fn initial() -> Vec<Table> {
+    let of_joint = listed(
+        "initial",
+        "Coordinates of a joint at the start. What is written holds exactly; the rest follows from the constraints.",
+        vec![
+            need("joint", Of(Part::Joint), "", "The joint."),
+            may(
+                "value",
+                SomeNumbers,
+                "rad or m",
+                "follows",
+                "Its coordinates, from the reference configuration.",
+            ),
+            may(
+                "rate",
+                SomeNumbers,
+                "rad/s or m/s",
+                "follows",
+                "Their rates; of a ball the relative angular velocity, global axes.",
+            ),
+        ],
+    );
+    let of_body = listed(
+        "initial",
+        "Velocities of a body at the start.",
+        vec![
+            need("body", Of(Part::MovingBody), "", "The body."),
+            may("at", Place, "m", "needed beside `velocity`", "A material point of it."),
+            may("velocity", Vector, "m/s", "follows", "Velocity of that point."),
+            may(
+                "angular_velocity",
+                NumberOrVector,
+                "rad/s",
+                "follows",
+                "Angular velocity, global axes.",
+            ),
+        ],
+    );
+    vec![of_joint, of_body]
+}
+
+/// The keys that give a function of time.
+pub(super) fn motion(unit: &'static str) -> Vec<Key> {
+    vec![
+        may(
+            "table",
+            Rows,
+            "s and rad or m",
+            "none",
+            "Rows `[time, value]`: a cubic spline, held outside.",
+        ),
+        may(
+            "ends",
+            Word(vec!["natural", "level"]),
+            "",
+            "natural",
+            "Ends of the spline: without curvature, or at rest.",
+        ),
+        may("sine", Value::Table("sine"), "", "none", "A sine of time."),
+        may("ramp", Value::Table("ramp"), "", "none", "A constant rate."),
+        may(
+            "input",
+            Value::Table("motion input"),
+            "",
+            "none",
+            "Set from outside between steps; here its start.",
+        ),
+        may("signal", Of(Part::Signal), unit, "none", "A smooth signal."),
+    ]
+}
+
+fn guides() -> Vec<Table> {
+    let mut keys = vec![
+        need("joint", Of(Part::Joint), "", "The joint."),
+        may("coordinate", Coordinate, "", "0", "Which of its coordinates."),
+    ];
+    keys.extend(motion("rad or m"));
+    let signals = "Signals for all coordinates, in their order.";
+    keys.push(may("signals", Some(Part::Signal), "rad or m", "none", signals));
+    let of_joint = listed(
+        "guide",
+        "A prescribed motion of a joint coordinate, from the reference configuration: a motor of known motion. The joint's `effort` is the moment or force that it takes.",
+        keys,
+    );
+    let of_body = listed(
+        "guide",
+        "A prescribed motion of a body against the ground: x, y and the angle in the plane; x, y, z and the rotation vector in space.",
+        vec![
+            need("body", Of(Part::MovingBody), "", "The body."),
+            may("at", Place, "m", "its centre of mass", "The point that is guided."),
+            need("signals", Some(Part::Signal), "m, rad", signals),
+        ],
+    );
+    vec![of_joint, of_body]
+}
+
+fn functions() -> Vec<Table> {
+    vec![
+        inside(
+            "sine",
+            "amplitude sin(2 pi frequency t + phase).",
+            vec![
+                need("amplitude", Number, "rad or m", "Amplitude."),
+                need("frequency", Number, "Hz", "Frequency."),
+                may("phase", Number, "rad", "0", "Phase at t = 0."),
+            ],
+        ),
+        inside("ramp", "rate t.", vec![need("rate", Number, "rad/s or m/s", "Rate.")]),
+        inside(
+            "motion input",
+            "What a guide holds until it is set.",
+            vec![
+                may("value", Number, "rad or m", "0", "Value at the start."),
+                may("rate", Number, "rad/s or m/s", "0", "Rate at the start."),
+                may("acceleration", Number, "rad/s^2 or m/s^2", "0", "Acceleration at the start."),
+            ],
+        ),
+    ]
+}

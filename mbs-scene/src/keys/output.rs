@@ -1,0 +1,102 @@
+//! `[[output]]`, by the quantities of mbs-core.
+
+use super::Value::{Name, Of, Place, Word};
+use super::{Key, Part, Table, listed, may, need};
+use mbs_core::outputs::{QUANTITIES, TargetKind};
+
+/// What `as` says of an orientation: the word, and the quantity that it means.
+pub(crate) const FORMS: [(&str, &str); 3] = [
+    ("quaternion", ORIENTATION),
+    ("matrix", "rotation-matrix"),
+    ("rotation-vector", "rotation-vector"),
+];
+
+/// The quantity to which `as` belongs.
+pub(crate) const ORIENTATION: &str = "orientation";
+
+/// What outputs are of.
+const TARGETS: [TargetKind; 10] = [
+    TargetKind::Point,
+    TargetKind::RelativePoint,
+    TargetKind::Body,
+    TargetKind::RelativeBody,
+    TargetKind::Joint,
+    TargetKind::Coupling,
+    TargetKind::Rolling,
+    TargetKind::Effect,
+    TargetKind::Signal,
+    TargetKind::Scene,
+];
+
+/// A table for each.
+pub(super) fn tables() -> Vec<Table> {
+    TARGETS.map(table).to_vec()
+}
+
+/// The table of outputs of such a target.
+pub(crate) fn of_target(target: TargetKind) -> &'static [Table] {
+    let i = TARGETS.iter().position(|other| *other == target).unwrap_or(0);
+    super::of("output").get(i..=i).unwrap_or_default()
+}
+
+fn table(target: TargetKind) -> Table {
+    let rows = || QUANTITIES.iter().filter(move |row| row.target == target);
+    let mut keys = vec![need("name", Name, "", "Name of the channel.")];
+    keys.extend(target.keys().iter().map(|key| owner(key)));
+    let words: Vec<_> = rows().flat_map(|row| [Some(row.name), row.alias]).flatten().collect();
+    let first = rows().next().map_or("", |row| row.name);
+    let is_default = match target {
+        TargetKind::Scene | TargetKind::Body => false,
+        _ => !target.is_relative(),
+    };
+    let key = need("quantity", Word(words.clone()), "", "What is measured.");
+    keys.push(if is_default {
+        Key { is_needed: false, default: first.into(), ..key }
+    } else {
+        key
+    });
+    if words.contains(&ORIENTATION) {
+        let forms = FORMS.map(|(form, _)| form).to_vec();
+        keys.push(may("as", Word(forms), "", "quaternion", "Form of an `orientation`."));
+    }
+    listed("output", meaning(target), keys)
+}
+
+/// A key that says what an output is of.
+fn owner(key: &'static str) -> Key {
+    match key {
+        "body" => need(key, Of(Part::MovingBody), "", "The body."),
+        "at" => may(key, Place, "m", "its centre of mass", "A material point of the body."),
+        "relative_to" => need(key, Of(Part::Body), "", "Another body, in whose axes it is seen."),
+        "origin" => may(
+            key,
+            Place,
+            "m",
+            "its centre of mass",
+            "The point of that body from which positions count.",
+        ),
+        "joint" => need(key, Of(Part::Joint), "", "The joint."),
+        "coupling" => need(key, Of(Part::Coupling), "", "The coupling."),
+        "rolling" => need(key, Of(Part::Rolling), "", "What rolls."),
+        "effect" => need(key, Of(Part::Effect), "", "The effect."),
+        _ => need(key, Of(Part::Signal), "", "The signal."),
+    }
+}
+
+/// What a target is.
+const fn meaning(target: TargetKind) -> &'static str {
+    match target {
+        TargetKind::Point => "A channel of a point of a body, global axes.",
+        TargetKind::RelativePoint => "A channel of a point of a body, seen from another body.",
+        TargetKind::Body => "A channel of a body.",
+        TargetKind::RelativeBody => "A channel of a body, seen from another body.",
+        TargetKind::Joint => {
+            "A channel of a joint. Its reaction is what the first body does to the second, global axes."
+        }
+        TargetKind::Coupling => "A channel of a coupling.",
+        TargetKind::Rolling => "A channel of what rolls.",
+        TargetKind::Effect => "A channel of an effect.",
+        TargetKind::Signal => "A channel of a signal.",
+        TargetKind::Scene => "A channel of the whole scene.",
+    }
+}

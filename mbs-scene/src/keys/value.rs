@@ -1,0 +1,142 @@
+//! What stands at a key.
+
+/// What stands at a key.
+#[derive(Debug, Clone, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Value {
+    /// The name of the entry.
+    Name,
+    /// A text.
+    Text,
+    /// A number.
+    Number,
+    /// A number, or one of these words.
+    NumberOr(Vec<&'static str>),
+    /// A whole number from 1.
+    Count,
+    /// So many whole numbers from 1.
+    Counts(usize),
+    /// True or false.
+    Flag,
+    /// One of these words.
+    Word(Vec<&'static str>),
+    /// A coordinate of a joint: its name, or its number from 0.
+    Coordinate,
+    /// A direction, or another vector that is no place: numbers for the scene's dimension.
+    Vector,
+    /// So many of them.
+    Vectors(usize),
+    /// One number, or a vector.
+    NumberOrVector,
+    /// A place in the reference configuration.
+    Place,
+    /// So many of them.
+    Places(usize),
+    /// So many numbers.
+    Numbers(usize),
+    /// Numbers, one or more; one alone may stand without brackets.
+    SomeNumbers,
+    /// Rows of numbers.
+    Rows,
+    /// The name of a part of the scene.
+    Of(Part),
+    /// The names of so many of them.
+    Several(Part, usize),
+    /// The names of one or more of them.
+    Some(Part),
+    /// One name, or a list of them.
+    OneOrSome(Part),
+    /// A table of that header.
+    Table(&'static str),
+    /// A list of tables of that header.
+    Tables(&'static str),
+    /// One of them, or a list.
+    TableOrTables(&'static str),
+    /// Two places, or a list of tables of that header.
+    PlacesOrTables(&'static str),
+    /// A path to a number of a scene.
+    Path,
+    /// One of them, or a list.
+    PathOrPaths,
+}
+
+/// What a name refers to.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Part {
+    /// A body, or `"ground"`.
+    Body,
+    /// A body that moves.
+    MovingBody,
+    /// A joint.
+    Joint,
+    /// A coupling.
+    Coupling,
+    /// What rolls.
+    Rolling,
+    /// A signal.
+    Signal,
+    /// An effect.
+    Effect,
+}
+
+impl Part {
+    /// Its name in sentences.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Body | Self::MovingBody => "body",
+            Self::Joint => "joint",
+            Self::Coupling => "coupling",
+            Self::Rolling => "rolling",
+            Self::Signal => "signal",
+            Self::Effect => "effect",
+        }
+    }
+}
+
+impl Value {
+    /// What to write, in a few words.
+    #[must_use]
+    pub fn form(&self) -> String {
+        let words = |words: &[&str]| {
+            let words: Vec<_> = words.iter().map(|word| format!("`\"{word}\"`")).collect();
+            words.join(", ")
+        };
+        let several = |n: usize, of: &str| match n {
+            2 => format!("two {of}"),
+            3 => format!("three {of}"),
+            n => format!("{n} {of}"),
+        };
+        match self {
+            Self::Name | Self::Text => "text".to_owned(),
+            Self::Number => "number".to_owned(),
+            Self::NumberOr(of) => format!("number, or {}", words(of)),
+            Self::Count => "whole number from 1".to_owned(),
+            Self::Counts(n) => several(*n, "whole numbers from 1"),
+            Self::Flag => "`true` or `false`".to_owned(),
+            Self::Word(of) if of.iter().all(|word| word.parse::<u32>().is_ok()) => of.join(" or "),
+            Self::Word(of) => words(of),
+            Self::Coordinate => "name or number of a coordinate".to_owned(),
+            Self::Vector => "vector".to_owned(),
+            Self::Vectors(n) => several(*n, "vectors"),
+            Self::NumberOrVector => "number in the plane, vector in space".to_owned(),
+            Self::Place => "place".to_owned(),
+            Self::Places(n) => several(*n, "places"),
+            Self::Numbers(n) => several(*n, "numbers"),
+            Self::SomeNumbers => "number, or list of numbers".to_owned(),
+            Self::Rows => "list of rows".to_owned(),
+            Self::Of(Part::Body) => "body, or `\"ground\"`".to_owned(),
+            Self::Of(part) => part.name().to_owned(),
+            Self::Several(Part::Body, n) => several(*n, "bodies, or `\"ground\"`"),
+            Self::Several(part, n) => several(*n, &format!("{}s", part.name())),
+            Self::Some(part) => format!("list of {}s", part.name()),
+            Self::OneOrSome(part) => format!("{}, or list of them", part.name()),
+            Self::Table(header) => format!("table: {header}"),
+            Self::Tables(header) => format!("list of tables: {header}"),
+            Self::TableOrTables(header) => format!("table, or list of tables: {header}"),
+            Self::PlacesOrTables(header) => format!("two places, or list of tables: {header}"),
+            Self::Path => "path".to_owned(),
+            Self::PathOrPaths => "path, or list of paths".to_owned(),
+        }
+    }
+}

@@ -1,0 +1,130 @@
+//! A JSON Schema of scene files, for editors and other programs: the subset of draft 4 that TOML editors read.
+
+use crate::keys::{self, FILE, Key, Part, TABLES, Table, Value};
+use serde_json::{Map, Value as Json, json};
+
+/// The schema of a scene file. Objects are closed: a key that is not in it is none.
+///
+/// ```
+/// let schema: serde_json::Value = serde_json::from_str(&mbs_scene::manual::schema()).unwrap();
+/// assert_eq!(schema["additionalProperties"], false);
+/// ```
+#[must_use]
+pub fn schema() -> String {
+    let mut schema = keys::of(FILE).first().map(of_table).unwrap_or_default();
+    let mut definitions = Map::new();
+    for table in TABLES.iter().filter(|table| table.header != FILE) {
+        definitions.entry(table.header).or_insert_with(|| of_header(table.header));
+    }
+    if let Json::Object(schema) = &mut schema {
+        schema.insert("$schema".into(), "http://json-schema.org/draft-04/schema#".into());
+        schema.insert("title".into(), "mbs scene".into());
+        schema.insert("definitions".into(), definitions.into());
+    }
+    serde_json::to_string_pretty(&schema).unwrap_or_default() + "\n"
+}
+
+/// Any of the tables of a header.
+fn of_header(header: &str) -> Json {
+    let tables: Vec<Json> = keys::of(header).iter().map(of_table).collect();
+    match <[Json; 1]>::try_from(tables) {
+        Ok([table]) => table,
+        Err(tables) => json!({ "anyOf": tables }),
+    }
+}
+
+fn of_table(table: &Table) -> Json {
+    let mut properties = Map::new();
+    let mut required: Vec<&str> = Vec::new();
+    for key in &table.keys {
+        let others = || table.keys.iter().filter(|other| other.name == key.name);
+        let forms: Vec<Json> = others().map(of_key).collect();
+        // a key of planar and one of spatial scenes: the file says which it is, the schema does not know
+        let form = match <[Json; 1]>::try_from(forms) {
+            Ok([form]) => form,
+            Err(forms) => json!({ "anyOf": forms }),
+        };
+        properties.insert(key.name.to_owned(), form);
+        let is_needed = others().all(|other| other.is_needed)
+            && (key.dimension.is_none() || others().count() > 1);
+        if is_needed && !required.contains(&key.name) {
+            required.push(key.name);
+        }
+    }
+    let mut object = json!({
+        "type": "object",
+        "description": table.meaning,
+        "properties": properties,
+        "additionalProperties": false,
+    });
+    if !required.is_empty() {
+        object["required"] = required.into();
+    }
+    object
+}
+
+fn of_key(key: &Key) -> Json {
+    let mut form = of_value(&key.value);
+    let unit = if key.unit.is_empty() { String::new() } else { format!(" [{}]", key.unit) };
+    let description = format!("{}{unit}", key.meaning);
+    if let Json::Object(form) = &mut form {
+        form.insert("description".into(), description.into());
+        // what is a value, not an explanation
+        if let Ok(default @ (Json::Number(_) | Json::Bool(_))) = serde_json::from_str(&key.default)
+        {
+            form.insert("default".into(), default);
+        }
+    }
+    form
+}
+
+fn of_value(value: &Value) -> Json {
+    let list = |of: Json, n: Option<usize>| match n {
+        Some(n) => json!({ "type": "array", "items": of, "minItems": n, "maxItems": n }),
+        None => json!({ "type": "array", "items": of }),
+    };
+    let text = || json!({ "type": "string" });
+    let number = || json!({ "type": "number" });
+    let count = || json!({ "type": "integer", "minimum": 1 });
+    let vector = || json!({ "type": "array", "items": number(), "minItems": 2, "maxItems": 3 });
+    let any_of = |forms: Vec<Json>| json!({ "anyOf": forms });
+    let table =
+        |header: &str| json!({ "$ref": format!("#/definitions/{}", header.replace(' ', "%20")) });
+    let name = |part: &Part| match part {
+        Part::MovingBody => json!({ "type": "string", "not": { "enum": ["ground"] } }),
+        _ => text(),
+    };
+    match value {
+        Value::Name | Value::Text | Value::Path => text(),
+        Value::Number => number(),
+        Value::NumberOr(words) => any_of(vec![number(), json!({ "enum": words })]),
+        Value::Count => count(),
+        Value::Counts(n) => list(count(), Some(*n)),
+        Value::Flag => json!({ "type": "boolean" }),
+        Value::Word(words) if words.iter().all(|word| word.parse::<u32>().is_ok()) => {
+            let numbers: Vec<u32> = words.iter().filter_map(|word| word.parse().ok()).collect();
+            json!({ "enum": numbers })
+        }
+        Value::Word(words) => json!({ "enum": words }),
+        Value::Coordinate => any_of(vec![text(), json!({ "type": "integer", "minimum": 0 })]),
+        Value::Vector | Value::Place => vector(),
+        Value::Vectors(n) | Value::Places(n) => list(vector(), Some(*n)),
+        Value::NumberOrVector => any_of(vec![number(), vector()]),
+        Value::Numbers(n) => list(number(), Some(*n)),
+        Value::SomeNumbers => any_of(vec![number(), list(number(), None)]),
+        Value::Rows => {
+            list(json!({ "type": "array", "items": any_of(vec![number(), vector()]) }), None)
+        }
+        Value::Of(part) => name(part),
+        Value::Several(part, n) => list(name(part), Some(*n)),
+        Value::Some(part) => list(name(part), None),
+        Value::OneOrSome(part) => any_of(vec![name(part), list(name(part), None)]),
+        Value::Table(header) => table(header),
+        Value::Tables(header) => list(table(header), None),
+        Value::TableOrTables(header) => any_of(vec![table(header), list(table(header), None)]),
+        Value::PlacesOrTables(header) => {
+            any_of(vec![list(vector(), Some(2)), list(table(header), None)])
+        }
+        Value::PathOrPaths => any_of(vec![text(), list(text(), None)]),
+    }
+}
