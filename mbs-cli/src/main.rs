@@ -39,7 +39,7 @@ struct Cli {
     #[command(subcommand)]
     command: Command,
     /// Read files of more than 64 MiB or 8 million values; they may need eighty times their size in memory.
-    #[arg(long, global = true)]
+    #[arg(long, global = true, display_order = 900)]
     big: bool,
 }
 
