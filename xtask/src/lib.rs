@@ -1,5 +1,6 @@
 //! Jobs of this repository: run a scene, run every check, cross-compile the `no_std` crates; and what the jobs of `lab` share with them.
 
+pub mod bundle;
 pub mod check;
 pub mod child;
 pub mod command;

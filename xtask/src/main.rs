@@ -4,7 +4,7 @@ use clap::error::ErrorKind::InvalidSubcommand;
 use clap::{CommandFactory, Parser, Subcommand};
 use std::ffi::OsString;
 use std::process::ExitCode;
-use xtask::{check, nostd, package, pick, process, races, simulate};
+use xtask::{bundle, check, nostd, package, pick, process, races, simulate};
 
 /// The jobs of `lab`.
 const LAB: &str = "Jobs that measure, each with its own --help; they are compiled when one is asked for: bench, choice, counts, estimate, fuzz, gauntlet, peers, profile, report, steps, tables";
@@ -57,6 +57,8 @@ enum Job {
     Races,
     /// Cross-compile the no_std crates for a microcontroller, without and with alloc
     CheckNostd,
+    /// Bundle the part of three.js that pages contain, with the versions of its lock file; needs node and npm
+    Bundle,
     /// A job of `lab`, and its words
     #[command(external_subcommand)]
     Lab(Vec<OsString>),
@@ -72,6 +74,7 @@ fn main() -> ExitCode {
         Job::Pick => pick::pick(),
         Job::Package => package::package(),
         Job::Races => races::races(),
+        Job::Bundle => bundle::bundle(),
         Job::CheckNostd => nostd::check_nostd(),
         Job::Lab(words) if words[0].to_str().is_some_and(|job| LAB.contains(job)) => {
             process::hand_over(process::cargo().arg("lab").args(words))
