@@ -1,6 +1,6 @@
 //! A report: titled tables, for the terminal as text and for a browser as one HTML file.
 
-use crate::page::{STYLE, escape};
+use crate::page::{Page, PageSection, escape};
 use core::fmt::Write;
 use mbs::record::Provenance;
 
@@ -59,22 +59,11 @@ impl Report {
     /// As one HTML file without references to anything outside; it needs no script.
     #[must_use]
     pub fn page(&self) -> String {
-        let title = escape(&self.title);
-        let mut out = format!(
-            "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
-             <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n\
-             <meta name=\"color-scheme\" content=\"light dark\">\n<title>{title}</title>\n\
-             <style>\n{STYLE}</style>\n</head>\n<body>\n<header>\n<h1>{title}</h1>\n"
-        );
-        if let Some(error) = &self.error {
-            let _ =
-                writeln!(out, "<p class=\"stopped\" role=\"alert\">The run {}</p>", escape(error));
-        }
-        out += "</header>\n<main>\n";
-        for section in self.sections.iter().chain([&Section::made(self.provenance.rows())]) {
-            section.write_card(&mut out);
-        }
-        out + "</main>\n</body>\n</html>\n"
+        let error = self.error.as_ref().map(|error| PageSection::Error(format!("The run {error}")));
+        let tables = self.sections.iter().cloned().map(PageSection::Table);
+        let made = PageSection::Table(Section::made(self.provenance.rows()));
+        let sections = error.into_iter().chain(tables).chain([made]).collect();
+        Page { title: self.title.clone(), sections, pack: None }.html()
     }
 }
 

@@ -1,6 +1,5 @@
 #![doc = include_str!("../README.md")]
 
-mod animation;
 mod changes;
 mod channels;
 mod checkpoint;
@@ -19,6 +18,7 @@ mod interrupt;
 mod joint_limits;
 mod methods;
 mod modes;
+mod motion;
 mod named;
 mod names;
 mod one_way;

@@ -206,7 +206,7 @@ impl<'a, T: Real, const D: usize> Run<'a, T, D> {
         let record = RunRecord {
             scene: run.scene.name.clone(),
             channels: run.recorder.series(),
-            animation: Some(run.animation.animation),
+            motion: Some(run.motion.finish(run.scene)),
             energy: Some(run.recorder.energy()),
             violation: Some(run.recorder.violation()),
             iterations: Some(run.recorder.iterations()),

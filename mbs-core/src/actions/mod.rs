@@ -13,6 +13,7 @@ mod tables;
 pub(crate) use compile::{Compiler, direction_of, part};
 pub use error::ActionError;
 pub(crate) use needs::{Need, needs};
+pub use road::track_heights;
 pub use tables::Tables;
 
 use crate::inputs::Prescribed;

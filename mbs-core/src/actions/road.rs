@@ -1,12 +1,14 @@
 //! The road of a scene as tables, made when the first wheel asks.
 
+use super::Tables;
 use super::compile::{Compiler, part};
 use crate::Real;
 use crate::inputs::SignalInput;
-use crate::laws::road::Feature;
+use crate::laws::road::{Feature, height};
 use crate::laws::{Part, guide};
 use crate::scene::RoadFeature;
 use alloc::vec;
+use alloc::vec::Vec;
 
 impl<T: Real> Compiler<'_, T> {
     /// The tracks of the left and the right wheels, and the course of a road that moves.
@@ -15,14 +17,18 @@ impl<T: Real> Compiler<'_, T> {
             return roads;
         }
         let road = self.among.road;
-        let left = self.features(&road.left);
-        let right = if road.left == road.right { left } else { self.features(&road.right) };
+        let tables = &mut self.actions.tables;
+        let left = tables.track(&road.left);
+        let right = if road.left == road.right { left } else { tables.track(&road.right) };
         let travel = (!road.speed.is_zero()).then(|| self.input(SignalInput::travel(road.speed)));
         *self.roads.insert(([left, right], travel))
     }
+}
 
-    fn features(&mut self, features: &[RoadFeature<T>]) -> Part {
-        let first = self.actions.tables.features.len();
+impl<T: Real> Tables<T> {
+    /// Takes the features of a track in.
+    fn track(&mut self, features: &[RoadFeature<T>]) -> Part {
+        let first = self.features.len();
         for feature in features {
             let feature = match feature {
                 RoadFeature::Flat { height } => Feature::Flat(*height),
@@ -39,7 +45,7 @@ impl<T: Real> Compiler<'_, T> {
                         height: *height,
                         rounding: *riser * T::HALF,
                     };
-                    self.actions.tables.features.extend((0..*count).map(rise));
+                    self.features.extend((0..*count).map(rise));
                     continue;
                 }
                 RoadFeature::Bump { start, length, amplitude } => {
@@ -47,18 +53,28 @@ impl<T: Real> Compiler<'_, T> {
                 }
                 RoadFeature::Table(points) => self.spline(points),
             };
-            self.actions.tables.features.push(feature);
+            self.features.push(feature);
         }
-        part(first, self.actions.tables.features.len())
+        part(first, self.features.len())
     }
 
     fn spline(&mut self, points: &[[T; 2]]) -> Feature<T> {
-        let tables = &mut self.actions.tables;
-        let first = tables.knots.len();
-        tables.knots.extend_from_slice(points);
-        tables.curvatures.resize(tables.knots.len(), T::ZERO);
+        let first = self.knots.len();
+        self.knots.extend_from_slice(points);
+        self.curvatures.resize(self.knots.len(), T::ZERO);
         let scratch = &mut vec![T::ZERO; points.len()];
-        guide::spline_curvatures(points, &mut tables.curvatures[first..], scratch);
-        Feature::Spline(part(first, tables.knots.len()))
+        guide::spline_curvatures(points, &mut self.curvatures[first..], scratch);
+        Feature::Spline(part(first, self.knots.len()))
     }
+}
+
+/// Heights of a track [m] at places along x [m]; zero where the Cargo feature of tires is off.
+///
+/// Cost: the features of the track for each place.
+#[must_use]
+pub fn track_heights<T: Real>(track: &[RoadFeature<T>], at: &[T]) -> Vec<T> {
+    let mut tables = Tables::empty();
+    let part = tables.track(track);
+    let inputs = tables.law_inputs(&[]);
+    at.iter().map(|&x| height(part, &inputs, x).value).collect()
 }

@@ -2,12 +2,13 @@
 
 use super::captions;
 use super::plots::{Look, Panel, looks, panels};
-use crate::page::{PLOT, STYLE, escape, fill};
+use crate::page::{STYLE, escape, fill};
 use crate::report::Section;
 use mbs_study::compare::results::{Comparison, ConvergenceMap};
 use serde::Serialize;
 
 const TEMPLATE: &str = include_str!("page.html");
+const PLOT: &str = include_str!("plot.js");
 const SCRIPT: &str = include_str!("page.js");
 const OWN_STYLE: &str = include_str!("page.css");
 

@@ -3,16 +3,16 @@
 /// Most points of a line: more than a screen has columns for it.
 pub(super) const MAX_POINTS: usize = 1500;
 
-/// Indices to keep: the first, the last, and the smallest and largest value of each of `MAX_POINTS/2 - 1` stretches.
+/// Indices to keep, at most `most` of them: the first, the last, and the smallest and largest value of each of `most/2 - 1` stretches.
 ///
 /// Values that are not finite are kept once per stretch, so that gaps survive too. Cost: one pass.
-pub(super) fn kept(values: &[f64]) -> Vec<usize> {
-    if values.len() <= MAX_POINTS {
+pub(super) fn kept(values: &[f64], most: usize) -> Vec<usize> {
+    if values.len() <= most {
         return (0..values.len()).collect();
     }
     // three indices at most per stretch: smallest, largest, first gap; and the two ends
     let has_gaps = values.iter().any(|x| !x.is_finite());
-    let n_stretches = (MAX_POINTS - 2) / if has_gaps { 3 } else { 2 };
+    let n_stretches = most.saturating_sub(2).max(3) / if has_gaps { 3 } else { 2 };
     let mut indices = vec![0];
     for stretch in 0..n_stretches {
         let start = stretch * values.len() / n_stretches;
@@ -46,12 +46,13 @@ pub(super) fn envelope(values: &[f64]) -> Vec<usize> {
     indices
 }
 
-/// Evenly spread indices, the first and the last among them.
-pub(super) fn spread(n: usize) -> Vec<usize> {
-    if n <= MAX_POINTS {
+/// Evenly spread indices, at most `most` of them, the first and the last among them.
+pub(super) fn spread(n: usize, most: usize) -> Vec<usize> {
+    let most = most.max(2);
+    if n <= most {
         return (0..n).collect();
     }
-    (0..MAX_POINTS).map(|i| i * (n - 1) / (MAX_POINTS - 1)).collect()
+    (0..most).map(|i| i * (n - 1) / (most - 1)).collect()
 }
 
 #[cfg(test)]
@@ -63,12 +64,12 @@ mod tests {
         let mut values = vec![0.0; 100_000];
         values[31_415] = 7.0;
         values[27_182] = -3.0;
-        let indices = kept(&values);
+        let indices = kept(&values, MAX_POINTS);
         assert!(indices.len() <= MAX_POINTS);
         assert!(indices.contains(&31_415) && indices.contains(&27_182));
         assert!(indices.starts_with(&[0]) && indices.ends_with(&[99_999]));
         values[5] = f64::NAN;
-        let indices = kept(&values);
+        let indices = kept(&values, MAX_POINTS);
         assert!(indices.len() <= MAX_POINTS && indices.contains(&5) && indices.contains(&31_415));
     }
 
@@ -84,9 +85,9 @@ mod tests {
 
     #[test]
     fn short_series_are_kept_whole() {
-        assert_eq!(kept(&[1.0, 2.0, 3.0]), [0, 1, 2]);
-        assert_eq!(spread(3), [0, 1, 2]);
-        let indices = spread(10_000);
+        assert_eq!(kept(&[1.0, 2.0, 3.0], MAX_POINTS), [0, 1, 2]);
+        assert_eq!(spread(3, MAX_POINTS), [0, 1, 2]);
+        let indices = spread(10_000, MAX_POINTS);
         assert_eq!((indices.len(), indices[0], indices[MAX_POINTS - 1]), (MAX_POINTS, 0, 9_999));
     }
 }

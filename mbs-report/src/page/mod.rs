@@ -1,48 +1,20 @@
-//! The page of a run: one self-contained HTML file with animation and plots.
+//! Pages: one self-contained HTML file each, made of sections; and the page of a run.
 //!
-//! Style, script and data are inside the file; it opens from disk and asks the network for nothing.
+//! Style, scripts and data are inside the file; it opens from disk and asks the network for nothing. Texts and tables are HTML, so a page has
+//! its numbers without scripts.
 
 mod captions;
-mod data;
 mod decimate;
+mod motion;
+mod pack;
+mod panels;
+mod run;
+mod section;
 #[cfg(test)]
 mod tests;
 
-use mbs::record::RunRecord;
-
-const TEMPLATE: &str = include_str!("page.html");
-pub(crate) const STYLE: &str = include_str!("style.css");
-pub(crate) const PLOT: &str = include_str!("plot.js");
-const MOTION: &str = include_str!("motion.js");
-const MAIN: &str = include_str!("main.js");
-
-/// Writes the page of a run: one HTML file without references to anything outside.
-///
-/// Series are thinned to at most 1500 points per line; the smallest and largest value of every stretch stay,
-/// so peaks survive. Numbers that are not finite leave gaps.
-///
-/// # Examples
-/// ```
-/// let record = mbs::record::RunRecord { scene: "pendulum".into(), ..Default::default() };
-/// let html = mbs_report::page(&record);
-/// assert!(html.starts_with("<!doctype html>") && html.contains("<title>pendulum</title>"));
-/// ```
-#[must_use]
-pub fn page(record: &RunRecord) -> String {
-    let title = escape(&record.scene);
-    // `<` inside a text of the data must not end the script element it stands in
-    let data = data::json(record).replace('<', "\\u003c");
-    let scripts = [PLOT, MOTION, MAIN].concat();
-    fill(
-        TEMPLATE,
-        &[
-            ("{{title}}", &title),
-            ("{{style}}", STYLE),
-            ("{{data}}", &data),
-            ("{{script}}", &scripts),
-        ],
-    )
-}
+pub use run::page;
+pub(crate) use section::{Page, PageSection, STYLE};
 
 /// Puts parts in the places of their marks, which stand in this order. One pass, so that what they contain is never taken for a
 /// mark.

@@ -1,5 +1,6 @@
 //! The page holds what it was given and refers to nothing outside.
 
+use super::pack::tests::unpacked;
 use crate::page;
 use mbs::record::*;
 use mbs_core::outputs::Component;
@@ -10,7 +11,8 @@ fn record() -> RunRecord {
     wave[12_345] = 9.876_54;
     let component = |label: &str| Component { label: label.into(), unit: "m".into() };
     let channel = Channel { name: "tip".into(), components: vec![component("x"), component("y")] };
-    let frames = times.iter().map(|t| vec![0.0, 0.0, t.cos(), t.sin()]).collect();
+    let pose = |t: &f64| [t.cos(), t.sin(), 0.0, (t / 2.0).cos(), 0.0, 0.0, (t / 2.0).sin()];
+    let poses = times.iter().flat_map(pose).collect();
     RunRecord {
         scene: "a </script><b>{{data}}".into(),
         channels: vec![ChannelSeries {
@@ -18,21 +20,38 @@ fn record() -> RunRecord {
             times: times.clone(),
             values: vec![wave.clone(), vec![f64::NAN; times.len()]],
         }],
-        animation: Some(Animation {
+        motion: Some(RecordedMotion {
             dimension: 2,
+            length: 1.0,
             times,
-            frames,
-            bodies: vec![Polyline { name: "rod".into(), chains: vec![vec![0, 1]] }],
+            poses,
+            bodies: vec![DrawnBody { name: "rod".into(), mass: 1.0 }],
             ..Default::default()
         }),
         ..Default::default()
     }
 }
 
-fn data(html: &str) -> serde_json::Value {
-    let start = html.find("id=\"data\">").unwrap() + "id=\"data\">".len();
-    let end = start + html[start..].find("</script>").unwrap();
-    serde_json::from_str(&html[start..end]).unwrap()
+/// The text of a script element.
+fn script<'a>(html: &'a str, id: &str) -> &'a str {
+    let mark = format!("id=\"{id}\">");
+    let start = html.find(&mark).unwrap() + mark.len();
+    &html[start..start + html[start..].find("</script>").unwrap()]
+}
+
+type Groups = Vec<Vec<Vec<i64>>>;
+
+fn data(html: &str) -> (serde_json::Value, Groups) {
+    unpacked(script(html, "pack"))
+}
+
+/// The numbers of a column that a header names.
+fn numbers(column: &serde_json::Value, groups: &Groups) -> Vec<f64> {
+    let index = |key: &str| usize::try_from(column[key].as_u64().unwrap()).unwrap();
+    let [low, step] = ["low", "step"].map(|key| column[key].as_f64().unwrap());
+    let whole = &groups[index("group")][index("column")];
+    #[allow(clippy::cast_precision_loss, reason = "far below 2^53")]
+    whole.iter().map(|x| low + step * *x as f64).collect()
 }
 
 #[test]
@@ -43,37 +62,82 @@ fn the_page_is_self_contained() {
         assert!(!links.contains(word), "{word}");
     }
     assert!(html.contains("<title>a &lt;/script&gt;&lt;b&gt;{{data}}</title>"));
-    assert_eq!(html.matches("</script>").count(), 2);
+    assert_eq!(html.matches("</script>").count(), 3);
 }
 
 #[test]
-fn peaks_survive_and_gaps_are_null() {
-    let json = data(&page(&record()));
-    assert_eq!(json["scene"], "a </script><b>{{data}}");
-    let lines = json["panels"][0]["lines"].as_array().unwrap();
-    let y = lines[0]["y"].as_array().unwrap();
-    assert!(y.len() <= 1500 && y.iter().any(|y| y == 9.876_54));
-    assert!(lines[1]["y"].as_array().unwrap().iter().all(serde_json::Value::is_null));
-    assert_eq!(json["motion"]["frames"].as_array().unwrap().len(), 1500);
+fn the_licence_of_the_library_stands_in_the_page_that_contains_it() {
+    let html = page(&record());
+    assert!(script(&html, "three").len() > 100_000 && html.contains("three.js authors"));
+    let without = page(&RunRecord::default());
+    assert!(script(&without, "three").is_empty() && !without.contains("three.js authors"));
 }
 
 #[test]
-fn numbers_of_one_unit_share_a_panel_and_vectors_have_their_own() {
-    let number = |name: &str, unit: &str| ChannelSeries {
+fn peaks_survive_and_gaps_are_gaps() {
+    let (header, groups) = data(&page(&record()));
+    let lines = header["panels"][0]["lines"].as_array().unwrap();
+    let y = numbers(&lines[0]["y"], &groups);
+    // the peak is the largest value, which is the end of the range
+    let peak = y.iter().copied().fold(0.0, f64::max);
+    assert!(y.len() <= 1500 && (peak - 9.876_54).abs() < 1e-9, "{} points, {peak}", y.len());
+    let gaps = &header["panels"][1]["lines"][0]["y"];
+    let group = usize::try_from(gaps["group"].as_u64().unwrap()).unwrap();
+    assert!(groups[group][0].iter().all(|whole| *whole == 65_535));
+    let times = numbers(&header["motion"]["times"], &groups);
+    assert_eq!(times.len(), 600);
+}
+
+#[test]
+fn places_and_turns_are_those_of_the_run_to_the_steps_that_they_are_packed_by() {
+    let (header, groups) = data(&page(&record()));
+    let motion = &header["motion"];
+    let times = numbers(&motion["times"], &groups);
+    let x = numbers(&motion["places"][0], &groups);
+    let z = numbers(&motion["turns"][3], &groups);
+    for ((t, x), z) in times.iter().zip(x).zip(z) {
+        // half of 1e-5 of a metre, of 2^-14, and of 1e-6 of twenty seconds
+        assert!((x - t.cos()).abs() < 2e-5, "{t}");
+        assert!((z - (t / 2.0).sin()).abs() < 5e-5, "{t}");
+    }
+}
+
+fn number(name: &str, unit: &str, values: [f64; 2]) -> ChannelSeries {
+    ChannelSeries {
         channel: Channel {
             name: name.into(),
             components: vec![Component { label: String::new(), unit: unit.into() }],
         },
-        times: vec![0.0],
-        values: vec![vec![1.0]],
-    };
+        times: vec![0.0, 1.0],
+        values: vec![values.to_vec()],
+    }
+}
+
+#[test]
+fn numbers_of_one_unit_share_a_panel_unless_their_ranges_are_far_apart() {
     let mut record = record();
-    record.channels.extend([number("a", "rad"), number("b", "m"), number("c", "rad")]);
-    let json = data(&page(&record));
+    record.channels = vec![
+        number("a", "rad", [0.0, 1.0]),
+        number("b", "m", [0.0, 1.0]),
+        number("c", "rad", [5.0, 5.1]),
+        number("d", "rad", [0.0, 50.0]),
+    ];
+    let html = page(&record);
+    let (json, _) = data(&html);
     let titles: Vec<_> =
         json["panels"].as_array().unwrap().iter().map(|p| p["title"].as_str().unwrap()).collect();
-    assert_eq!(titles, ["tip", "a, c", "b"]);
-    assert_eq!(json["panels"][1]["caption"], "Outputs a, c over time [rad].");
+    assert_eq!(titles, ["a, c", "b", "d"]);
+    assert!(html.contains("Outputs a, c over time [rad]."));
+}
+
+#[test]
+fn what_stands_still_is_listed_and_not_drawn() {
+    let mut record = record();
+    record.channels = vec![number("moves", "m", [0.0, 1.0]), number("rests", "m", [2.5, 2.5])];
+    let html = page(&record);
+    let (json, _) = data(&html);
+    assert_eq!(json["panels"].as_array().unwrap().len(), 1);
+    assert!(html.contains("<td>rests</td><td>2.5 m</td>"));
 }
 
 #[test]
@@ -83,5 +147,29 @@ fn lists_of_uneven_length_do_not_panic() {
     record.energy = Some(EnergySeries { times: vec![0.0; 4], ..Default::default() });
     record.violation = Some(ViolationSeries::default());
     record.iterations = Some(IterationSeries { times: vec![0.0], counts: vec![] });
+    record.motion.as_mut().unwrap().poses.truncate(30);
     assert!(page(&record).len() > 1000);
+}
+
+#[test]
+fn a_page_of_noise_stays_below_four_megabytes_and_says_what_it_left_out() {
+    let times: Vec<f64> = (0..1500).map(f64::from).collect();
+    // values without any order: nothing can be packed below the two bytes of a step
+    let noise = |seed: u32| -> Vec<f64> {
+        let mut x = seed;
+        let next = |_| {
+            x = x.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+            f64::from(x)
+        };
+        (0..1500).map(next).collect()
+    };
+    let channel = |i: u32| ChannelSeries {
+        times: times.clone(),
+        values: vec![noise(i)],
+        ..number(&format!("channel {i}"), &format!("unit {i}"), [0.0, 1.0])
+    };
+    let record = RunRecord { channels: (0..1600).map(channel).collect(), ..Default::default() };
+    let html = page(&record);
+    assert!(html.len() < 4_000_000, "{}", html.len());
+    assert!(html.contains("run.csv has all rows"));
 }

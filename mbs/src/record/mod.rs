@@ -7,6 +7,7 @@ mod choice;
 mod csv;
 mod estimate;
 mod json;
+mod motion;
 mod outputs;
 mod realtime;
 mod series;
@@ -20,9 +21,13 @@ pub use choice::{
 pub use csv::{CsvWriter, append_steps, write_steps};
 pub use estimate::ErrorEstimate;
 pub use json::{Contact, EnergySummary, MethodChoice, RunError, RunSummary, ViolationSummary};
+pub use motion::{
+    BodyPlace, DrawnBody, DrawnLine, DrawnPoint, DrawnRoad, DrawnShape, LineStyle, N_POSE,
+    RecordedMotion, RoadStrip, ShapeForm,
+};
 pub use outputs::Outputs;
 pub use realtime::{Degraded, MarginSummary, Overrun, RealtimeSummary, Times, write_overruns};
 pub use series::{
-    Animation, Channel, ChannelSeries, ControlSummary, EnergySeries, IterationSeries, Polyline,
-    Provenance, RunRecord, StepRow, StepSeries, Trace, ViolationSeries,
+    Channel, ChannelSeries, ControlSummary, EnergySeries, IterationSeries, Provenance, RunRecord,
+    StepRow, StepSeries, ViolationSeries,
 };

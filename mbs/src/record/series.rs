@@ -1,5 +1,6 @@
 //! What a run leaves behind, as plain data: channels, pictures, energies, counts.
 
+use super::RecordedMotion;
 use mbs_core::outputs::Component;
 use mbs_core::scene::{Output, Scene};
 
@@ -49,8 +50,8 @@ pub struct RunRecord {
     pub provenance: Provenance,
     /// Recorded channels.
     pub channels: Vec<ChannelSeries>,
-    /// Pictures of the motion.
-    pub animation: Option<Animation>,
+    /// The motion of the bodies, and what is drawn of them.
+    pub motion: Option<RecordedMotion>,
     /// Energies.
     pub energy: Option<EnergySeries>,
     /// Constraint violation.
@@ -113,45 +114,6 @@ pub struct ChannelSeries {
     pub times: Vec<f64>,
     /// One series per component, each as long as `times`.
     pub values: Vec<Vec<f64>>,
-}
-
-/// A stick figure over time.
-#[derive(Debug, Clone, Default, PartialEq)]
-pub struct Animation {
-    /// 2 or 3: how many numbers a point has.
-    pub dimension: usize,
-    /// The direction that points up in the picture of a spatial scene; zero: +z.
-    pub up: [f64; 3],
-    /// Times of the frames [s].
-    pub times: Vec<f64>,
-    /// Frames: the numbers of all points, one after the other [m].
-    pub frames: Vec<Vec<f64>>,
-    /// What is drawn between the points.
-    pub bodies: Vec<Polyline>,
-    /// Points of the ground [m]; planar scenes leave the third number zero.
-    pub ground: Vec<[f64; 3]>,
-    /// Fixed straight guides: a place [m] and a direction.
-    pub rails: Vec<[[f64; 3]; 2]>,
-    /// Points whose path is drawn.
-    pub traces: Vec<Trace>,
-}
-
-/// A body as lines between moving points.
-#[derive(Debug, Clone, Default, PartialEq, Eq)]
-pub struct Polyline {
-    /// Name of the body.
-    pub name: String,
-    /// Chains of point indices; a chain of one point is a dot.
-    pub chains: Vec<Vec<usize>>,
-}
-
-/// The path of a point.
-#[derive(Debug, Clone, Default, PartialEq, Eq)]
-pub struct Trace {
-    /// Name, for the legend.
-    pub name: String,
-    /// Index of the point in a frame.
-    pub point: usize,
 }
 
 /// Energies over time [J].

@@ -86,7 +86,7 @@ impl<T: Real, const D: usize> Record<'_, T, D> {
         tape.count(&mut self.done)?;
         tape.float(&mut self.reached)?;
         self.recorder.walk(tape)?;
-        self.animation.walk(tape)?;
+        self.motion.walk(tape)?;
         self.measures.walk(tape)?;
         self.walk_contacts(simulation, tape)?;
         self.limits.walk(tape)?;

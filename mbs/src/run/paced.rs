@@ -100,7 +100,7 @@ pub(crate) fn paced<T: Real, const D: usize>(
         Err(Unready::Stopped(error)) => return Ok(run.finish(Duration::ZERO, Some(*error))),
     };
     run.record.recorder.reserve(track.periods);
-    run.record.animation.reserve(settings.duration);
+    run.record.motion.reserve(settings.duration);
     let Run { simulation, record } = match run.started() {
         Ok(run) => run,
         Err(outcome) => return Ok(*outcome),

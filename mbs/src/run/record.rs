@@ -1,13 +1,13 @@
 //! What a run records of its steps: rows, maxima, counts, contacts, and the alarms that end it.
 
 use super::clock::Clock;
-use crate::animation::AnimationRecorder;
 use crate::channels::Channels;
 use crate::checkpoint::{CheckpointWriter, Identity};
 use crate::driver::StepObserver;
 use crate::energy_alarm::Alarm;
 use crate::friction::Frictions;
 use crate::joint_limits::LimitWatch;
+use crate::motion::MotionRecorder;
 use crate::one_way::OneWayWatch;
 use crate::record::{Channel, ControlSummary, RealtimeSummary, StepRow};
 use crate::recorder::{RecordRows, Recorder, StepMark};
@@ -59,7 +59,7 @@ pub(super) struct Record<'a, T: Real, const D: usize> {
     pub(super) limits: LimitWatch<T, D>,
     pub(super) one_way: OneWayWatch<T, D>,
     pub(super) recorder: Recorder,
-    pub(super) animation: AnimationRecorder<T, D>,
+    pub(super) motion: MotionRecorder<T, D>,
     values: Vec<T>,
     /// Where the components of the scene's channels end, and what writes those behind them.
     n_measured: usize,
@@ -105,7 +105,7 @@ impl<'a, T: Real, const D: usize> Record<'a, T, D> {
             limits: LimitWatch::new(scene, simulation.model())?,
             one_way: OneWayWatch::new(scene, simulation.model()),
             recorder: Recorder::new(channels, n_rows, simulation.invariant().initial(), keep),
-            animation: AnimationRecorder::new(scene, simulation.model(), settings.duration),
+            motion: MotionRecorder::new(scene, simulation.model(), settings.duration),
             values: vec![T::ZERO; n],
             others: None,
             mark: StepMark::default(),
@@ -165,7 +165,7 @@ impl<'a, T: Real, const D: usize> Record<'a, T, D> {
             *level = T::from_f64(core::mem::take(lowest));
         }
         if self.recorder.keeps_all() {
-            self.animation.offer(self.mark.t, &state.q, is_last);
+            self.motion.offer(self.mark.t, &state.q, is_last);
         }
         self.recorder.keep(&self.mark, &self.values);
         Ok(())

@@ -15,6 +15,9 @@ const WIDTHS: [u32; 2] = [1280, 390];
 /// Catches what a page throws, before anything of it runs.
 const CATCH: &str = "<script>window.probeFaults = []; addEventListener(\"error\", (e) => window.probeFaults.push(e.message));</script>";
 
+/// Takes WebGL away from a page.
+const WITHOUT_WEBGL: &str = "<script>window.probeWithoutWebGL = true; const whole = HTMLCanvasElement.prototype.getContext; HTMLCanvasElement.prototype.getContext = function (kind, ...rest) { return /webgl/.test(kind) ? null : whole.call(this, kind, ...rest); };</script>";
+
 /// Makes the pages of a run and of a comparison, and looks at them.
 ///
 /// # Errors
@@ -38,6 +41,7 @@ pub(crate) fn check() -> Result<Outcome, String> {
     for page in pages {
         look(browser, &folder.join(page))?;
     }
+    look_with(browser, &folder.join("run.html"), WITHOUT_WEBGL)?;
     Ok(Outcome::Passed(format!("{} at {WIDTHS:?} px", pages.join(", "))))
 }
 
@@ -58,10 +62,15 @@ pub fn browser() -> Option<&'static str> {
 ///
 /// What is wrong with it.
 pub fn look(browser: &str, page: &Path) -> Result<(), String> {
+    look_with(browser, page, "")
+}
+
+/// Looks at a page with a script before anything of it.
+fn look_with(browser: &str, page: &Path, before: &str) -> Result<(), String> {
     let place = |e: std::io::Error| format!("{}: {e}", page.display());
     let html = fs::read_to_string(page).map_err(place)?;
     let probed = page.with_extension("probed.html");
-    fs::write(&probed, with_probe(&html)).map_err(place)?;
+    fs::write(&probed, with_probe(&html, before)).map_err(place)?;
     let mut faults = Vec::new();
     for width in WIDTHS {
         let frame = page.with_extension("frame.html");
@@ -78,9 +87,9 @@ pub fn look(browser: &str, page: &Path) -> Result<(), String> {
     if faults.is_empty() { Ok(()) } else { Err(faults.join("\n")) }
 }
 
-fn with_probe(html: &str) -> String {
+fn with_probe(html: &str, before: &str) -> String {
     let probe = format!("<script>{}</script></body>", include_str!("probe.js"));
-    html.replacen("<head>", &format!("<head>{CATCH}"), 1).replacen("</body>", &probe, 1)
+    html.replacen("<head>", &format!("<head>{CATCH}{before}"), 1).replacen("</body>", &probe, 1)
 }
 
 /// What the probe reported, from the page as the browser leaves it.
@@ -98,7 +107,8 @@ fn dom(browser: &str, page: &Path) -> Result<String, String> {
     command.args([
         "--headless",
         "--no-sandbox",
-        "--disable-gpu",
+        "--use-angle=swiftshader",
+        "--enable-unsafe-swiftshader",
         "--disable-dev-shm-usage",
         "--no-first-run",
         "--disable-background-networking",
@@ -134,7 +144,7 @@ mod tests {
 
     #[test]
     fn a_page_gets_the_probe_and_its_report_is_read() {
-        let page = with_probe("<html><head><title>x</title></head><body>y</body></html>");
+        let page = with_probe("<html><head><title>x</title></head><body>y</body></html>", "");
         assert!(
             page.starts_with("<html><head><script>window.probeFaults")
                 && page.ends_with("</script></body></html>")

@@ -1,10 +1,12 @@
 // Looks at a page from within, as a reader would: is everything in its place, and does it answer to pointer and buttons?
-addEventListener("load", () => setTimeout(() => {
+addEventListener("load", () => setTimeout(async () => {
   const faults = window.probeFaults, must = (holds, what) => { if (!holds) faults.push(what); };
   const said = (text) => (text || "").trim().slice(0, 40);
   const boxes = (nodes) => [...nodes].map((node) => [node, node.getBoundingClientRect()]).filter(([, b]) => b.width > 0 && b.height > 0);
   const over = (a, b) => Math.min(a.right, b.right) - Math.max(a.left, b.left) > 1.5 && Math.min(a.bottom, b.bottom) - Math.max(a.top, b.top) > 1.5;
 
+  // pages with data of their own are drawn when it is read
+  for (let i = 0; i < 200 && document.getElementById("pack") && !document.documentElement.dataset.ready; i++) await new Promise((go) => setTimeout(go, 50));
   must(performance.getEntriesByType("resource").length === 0, "something is fetched");
   must(document.documentElement.scrollWidth <= innerWidth + 1, `the page is ${document.documentElement.scrollWidth} wide on ${innerWidth}`);
   for (const svg of document.querySelectorAll("svg")) {
@@ -21,6 +23,46 @@ addEventListener("load", () => setTimeout(() => {
     must(button.scrollWidth <= button.clientWidth + 1, `button "${said(button.textContent)}" is too narrow`);
     buttons.slice(i + 1).forEach(([other, room]) => must(!over(box, room), `button "${said(button.textContent)}" lies over "${said(other.textContent)}"`));
   });
+
+  const page = window.mbsPage, view = page?.view;
+  if (view) {
+    // the share of pixels that are not the background's, and a sum that changes with the picture
+    const seen = () => {
+      view.draw();
+      const copy = document.createElement("canvas"), n = 200;
+      copy.width = copy.height = n;
+      const pencil = copy.getContext("2d");
+      pencil.drawImage(view.canvas, 0, 0, n, n);
+      const pixels = pencil.getImageData(0, 0, n, n).data;
+      let drawn = 0, sum = 0;
+      for (let i = 0; i < pixels.length; i += 4) {
+        const differs = [0, 1, 2, 3].some((c) => Math.abs(pixels[i + c] - pixels[c]) > 6);
+        if (differs) { drawn++; sum += i * (1 + pixels[i]); }
+      }
+      return [drawn / (n * n), sum];
+    };
+    must(view.kind === (window.probeWithoutWebGL ? "lines" : "three"), `the motion is drawn by ${view.kind}`);
+    page.clock.seek(page.clock.start);
+    const [share, first] = seen();
+    must(share > 0.002, `the motion fills ${share} of its canvas`);
+    page.clock.seek(0.3 * page.clock.start + 0.7 * page.clock.end);
+    must(seen()[1] !== first, "the picture is the same at two times");
+    const [, still] = seen(), scroll = scrollY;
+    view.canvas.dispatchEvent(new WheelEvent("wheel", { deltaY: -300, bubbles: true, cancelable: true }));
+    await new Promise((go) => setTimeout(go, 100));
+    must(seen()[1] !== still, "the wheel does not change the picture");
+    must(scrollY === scroll, "the wheel scrolls the page");
+    document.body.dispatchEvent(new KeyboardEvent("keydown", { key: " ", bubbles: true }));
+    must(page.controls.isPlaying(), "space does not play");
+    page.controls.play(false);
+  }
+  if (page?.plots.length) {
+    const { start, end } = page.clock, middle = (start + end) / 2;
+    page.shared.set(start, middle);
+    must(Math.abs(page.shared.span[1] - middle) < 1e-9 * (end - start), "a zoomed plot has another window");
+    page.shared.reset();
+    must(page.shared.span[0] === start && page.shared.span[1] === end, "the window does not come back");
+  }
 
   const keys = [...document.querySelectorAll("#keys button")];
   if (keys.length) {

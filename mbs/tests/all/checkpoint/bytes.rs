@@ -53,7 +53,7 @@ fn no_bytes_do_harm() {
         let (scene, settings, bytes) = run_bytes(case);
         assert!(Checkpoint::read(&bytes[..]).is_ok());
         // what comes before the state says whose it is
-        let begin = Parts::of_run([bytes.clone()], &settings)[0].place("simulation").start;
+        let begin = Parts::of_run(bytes.clone(), &settings).place("simulation").start;
         let strategy = (prop::collection::vec((0..bytes.len(), any::<u8>()), 1..4), 0..bytes.len());
         let config = ProptestConfig { cases: 300, failure_persistence: None, ..Default::default() };
         let rng = TestRng::deterministic_rng(Default::default());

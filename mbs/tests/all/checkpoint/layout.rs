@@ -9,8 +9,6 @@ const N_HEAD: usize = 28;
 const N_INVARIANT: usize = mbs::core::control::Invariant::N_HISTORY;
 /// Numbers of a spring as last evaluated.
 const N_MEASURE: u64 = 7;
-/// Numbers in a picture at most, in the scenes that are tried.
-const MOST_IN_PICTURE: usize = 1000;
 
 /// The bytes of a checkpoint in `f64`, and the parts that have a name.
 #[derive(Debug, Clone)]
@@ -28,21 +26,12 @@ impl Parts {
         Self { places: walk.places, bytes }
     }
 
-    /// Of checkpoints of one run. How many numbers a picture has is not in them: as many as make all end where they do, which a single
-    /// picture among zeros leaves open.
-    pub(super) fn of_run<const N: usize>(
-        all: [Vec<u8>; N],
-        settings: &ResolvedMethod,
-    ) -> [Self; N] {
-        let places = |bytes: &[u8], n| {
-            let mut walk = Walk::new(bytes);
-            walk.simulation(settings)?;
-            walk.record(n)?;
-            (walk.at == bytes.len()).then_some(walk.places)
-        };
-        let fits = |n: &usize| all.iter().all(|bytes| places(bytes, *n).is_some());
-        let n = (0..MOST_IN_PICTURE).rev().find(fits).expect("all is there, and nothing else");
-        all.map(|bytes| Self { places: places(&bytes, n).expect("it fits"), bytes })
+    /// Of the checkpoint of a run.
+    pub(super) fn of_run(bytes: Vec<u8>, settings: &ResolvedMethod) -> Self {
+        let mut walk = Walk::new(&bytes);
+        walk.simulation(settings).and_then(|()| walk.record()).expect("all is there");
+        assert_eq!(walk.at, bytes.len(), "nothing else is there");
+        Self { places: walk.places, bytes }
     }
 
     /// The bytes of the whole file.
@@ -299,8 +288,8 @@ impl<'a> Walk<'a> {
         Some(())
     }
 
-    /// What a run has beside its simulation, with so many numbers in a picture.
-    fn record(&mut self, in_picture: usize) -> Option<()> {
+    /// What a run has beside its simulation.
+    fn record(&mut self) -> Option<()> {
         self.named("count of steps", |walk| walk.numbers(1))?;
         self.numbers(1)?;
         self.named("rows", |walk| {
@@ -314,7 +303,7 @@ impl<'a> Walk<'a> {
         self.named("pictures", |walk| {
             walk.numbers(1)?;
             walk.list_of_numbers()?;
-            walk.list(|walk| walk.numbers(in_picture as u64))
+            walk.list_of_numbers()
         })?;
         self.named("turns of angles", |walk| {
             walk.list_of_numbers()?;

@@ -43,7 +43,7 @@ fn kept<const D: usize>(
     let whole = results(&whole.expect("no checkpoint to refuse"));
     std::fs::remove_dir_all(&out).expect("it is ours");
     let Copies { first, bytes, .. } = copies;
-    (whole, Parts::of_run([first, bytes], settings))
+    (whole, [first, bytes].map(|bytes| Parts::of_run(bytes, settings)))
 }
 
 /// That a run gives the same from its checkpoint before time `at`, and something else where one of the items is left out: it is

@@ -1,0 +1,65 @@
+//! The motion of a run in a pack: pictures, and what is drawn.
+
+use super::decimate::spread;
+use super::pack::{Column, Pack};
+use mbs::record::{N_POSE, RecordedMotion};
+use serde_json::{Value, json};
+
+/// Step of places, relative to the scene's length [-]: a hundredth of a millimetre on a metre. A fraction of the path would jitter where
+/// the view follows a vehicle.
+const PLACE_STEP: f64 = 1e-5;
+/// Step of the numbers of a quaternion [-]: a tenth of a milliradian.
+const TURN_STEP: f64 = 1.0 / 16_384.0;
+/// Step of times, relative to the time of the run [-].
+pub(super) const TIME_STEP: f64 = 1e-6;
+
+/// Packs a motion with at most so many pictures; `None`: there is nothing to draw.
+pub(super) fn packed(motion: &RecordedMotion, most: usize, pack: &mut Pack) -> Option<Value> {
+    let n = motion.bodies.len() * N_POSE;
+    let is_whole = |k: &usize| {
+        let picture = motion.poses.get(k * n..(k + 1) * n);
+        picture.is_some_and(|poses| poses.iter().all(|x| x.is_finite()))
+    };
+    let kept: Vec<usize> = (0..motion.times.len()).filter(is_whole).collect();
+    let kept: Vec<usize> = spread(kept.len(), most).into_iter().map(|i| kept[i]).collect();
+    if n == 0 || kept.is_empty() {
+        return None;
+    }
+    let column = |i: usize| -> Vec<f64> { kept.iter().map(|k| motion.poses[k * n + i]).collect() };
+    let columns = |numbers: core::ops::Range<usize>| -> Vec<Vec<f64>> {
+        let of_body = |body: usize| numbers.clone().map(move |i| body * N_POSE + i);
+        (0..motion.bodies.len()).flat_map(of_body).map(column).collect()
+    };
+    let step = PLACE_STEP * if motion.length > 0.0 { motion.length } else { 1.0 };
+    let times: Vec<f64> = kept.iter().map(|k| motion.times[*k]).collect();
+    Some(json!({
+        "dimension": motion.dimension,
+        "up": motion.up,
+        "length": motion.length,
+        "times": times_of(&times, pack),
+        "places": pack.fixed(&columns(0..3), step),
+        "turns": pack.fixed(&columns(3..N_POSE), TURN_STEP),
+        "bodies": motion.bodies,
+        "shapes": motion.shapes,
+        "lines": motion.lines,
+        "traces": motion.traces,
+        "joints": motion.joints,
+        "road": motion.road.as_ref().map(|road| json!({
+            "start": road.start,
+            "spacing": road.spacing,
+            "speed": road.speed,
+            "sides": road.strips.iter().map(|strip| strip.sides).collect::<Vec<_>>(),
+            "heights": pack.fixed(
+                &road.strips.iter().map(|strip| strip.heights.clone()).collect::<Vec<_>>(),
+                step,
+            ),
+        })),
+    }))
+}
+
+/// Packs times [s] to a part of the time of the run.
+pub(super) fn times_of(times: &[f64], pack: &mut Pack) -> Column {
+    let length = times.last().copied().unwrap_or(0.0).abs();
+    let step = TIME_STEP * if length > 0.0 { length } else { 1.0 };
+    pack.fixed(&[times.to_vec()], step)[0]
+}

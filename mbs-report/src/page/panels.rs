@@ -1,0 +1,244 @@
+//! The plots of a run: which lines share a panel, and their packed points.
+
+use super::captions;
+use super::decimate::{envelope, kept};
+use super::motion::times_of;
+use super::pack::{Column, Pack};
+use super::section::PlotFrame;
+use mbs::record::{ChannelSeries, RunRecord};
+use serde::Serialize;
+use serde_json::Value;
+use std::collections::BTreeMap;
+
+/// Most lines of one panel [-]: more have no colours of their own.
+const MAX_LINES: usize = 6;
+/// Ranges that differ by more than this ratio have panels of their own [-]: the smaller line would look flat.
+const MAX_RATIO: f64 = 20.0;
+/// Range below which a channel stands still, relative to the largest size among channels of its unit [-]: rounding.
+const STILL: f64 = 1e-9;
+
+/// The plots of a run, as they go into a pack.
+#[derive(Debug, Default)]
+pub(super) struct Panels {
+    panels: Vec<Panel>,
+    /// Most points of a line.
+    most: usize,
+    /// Times that lines have in common, and where they are packed.
+    shared: Vec<(Vec<f64>, Column)>,
+}
+
+#[derive(Debug, Serialize)]
+struct Panel {
+    #[serde(skip)]
+    frame: PlotFrame,
+    /// The owner of the lines of a vector.
+    #[serde(skip)]
+    owner: Option<String>,
+    /// The range of its first line.
+    #[serde(skip)]
+    range: f64,
+    title: String,
+    unit: String,
+    log: bool,
+    steps: bool,
+    lines: Vec<Line>,
+}
+
+#[derive(Debug, Serialize)]
+struct Line {
+    name: String,
+    t: Column,
+    y: Column,
+}
+
+/// Which points of a line are drawn.
+#[derive(Debug, Clone, Copy)]
+enum Thinning {
+    /// Peaks of both signs.
+    Peaks,
+    /// The upper edge: what a residual falls to between its peaks says nothing.
+    Edge,
+}
+
+impl Panels {
+    /// For lines of at most so many points.
+    pub(super) fn new(most: usize) -> Self {
+        Self { most, ..Self::default() }
+    }
+
+    /// Panels in the pack.
+    pub(super) fn json(&self) -> Value {
+        serde_json::to_value(&self.panels).unwrap_or_default()
+    }
+
+    fn line(
+        &mut self,
+        (name, thinning): (&str, Thinning),
+        (times, values): (&[f64], &[f64]),
+        pack: &mut Pack,
+    ) -> Line {
+        let n = times.len().min(values.len());
+        let indices = match thinning {
+            Thinning::Peaks => kept(&values[..n], self.most),
+            Thinning::Edge => envelope(&values[..n]),
+        };
+        let t: Vec<f64> = indices.iter().map(|i| times[*i]).collect();
+        let y: Vec<f64> = indices.iter().map(|i| values[*i]).collect();
+        let column = match self.shared.iter().find(|(times, _)| *times == t) {
+            Some((_, column)) => *column,
+            None => {
+                let column = times_of(&t, pack);
+                self.shared.push((t, column));
+                column
+            }
+        };
+        Line { name: name.to_owned(), t: column, y: pack.ranged(&[y])[0] }
+    }
+
+    /// Vectors have a panel for each unit; channels of one number share a panel with others of their unit. Lines whose ranges are far apart
+    /// have panels of their own. What stands still is listed: name, value and unit.
+    pub(super) fn add_channels(
+        &mut self,
+        channels: &[ChannelSeries],
+        pack: &mut Pack,
+    ) -> (Vec<PlotFrame>, Vec<Vec<String>>) {
+        let first = self.panels.len();
+        let mut still = Vec::new();
+        let sizes = sizes(channels);
+        for series in channels {
+            let channel = &series.channel;
+            let owner = (channel.components.len() > 1).then(|| channel.name.clone());
+            let columns = channel.components.iter().zip(channel.columns()).zip(&series.values);
+            for ((component, column), values) in columns {
+                let range = extent(values).0;
+                let size = sizes.get(component.unit.as_str()).copied().unwrap_or(0.0);
+                if range <= STILL * size && values.len() > 1 && range.is_finite() {
+                    let value = mbs_scene::format::significant(values[0]);
+                    still.push(vec![column, format!("{value} {}", component.unit)]);
+                    continue;
+                }
+                let line = self.line((&column, Thinning::Peaks), (&series.times, values), pack);
+                let open = self.panels[first..].iter_mut().find(|panel| {
+                    panel.owner == owner
+                        && panel.unit == component.unit
+                        && panel.lines.len() < MAX_LINES
+                        && (range.max(panel.range) <= MAX_RATIO * range.min(panel.range))
+                });
+                match open {
+                    Some(panel) => panel.lines.push(line),
+                    None => self.push((&component.unit, owner.clone(), range), vec![line]),
+                }
+            }
+        }
+        for panel in &mut self.panels[first..] {
+            let names: Vec<&str> = panel.lines.iter().map(|line| line.name.as_str()).collect();
+            panel.frame.caption = captions::channel(&names, &panel.unit);
+            let is_whole = |owner: &&String| names.len() > 1 && !owner.is_empty();
+            let title = panel.owner.as_ref().filter(is_whole).cloned();
+            panel.title = title.unwrap_or_else(|| names.join(", "));
+            panel.frame.title.clone_from(&panel.title);
+        }
+        (self.frames(first), still)
+    }
+
+    fn push(&mut self, (unit, owner, range): (&str, Option<String>, f64), lines: Vec<Line>) {
+        let frame =
+            PlotFrame { panel: self.panels.len(), unit: unit.to_owned(), ..PlotFrame::default() };
+        let (title, unit) = (String::new(), unit.to_owned());
+        self.panels.push(Panel {
+            frame,
+            owner,
+            range,
+            title,
+            unit,
+            log: false,
+            steps: false,
+            lines,
+        });
+    }
+
+    fn frames(&self, first: usize) -> Vec<PlotFrame> {
+        self.panels[first..].iter().map(|panel| panel.frame.clone()).collect()
+    }
+
+    fn named(
+        &mut self,
+        (title, unit, caption): (&str, &str, String),
+        lines: Vec<Line>,
+    ) -> &mut Panel {
+        let at = self.panels.len();
+        self.push((unit, None, 0.0), lines);
+        let panel = &mut self.panels[at];
+        title.clone_into(&mut panel.title);
+        title.clone_into(&mut panel.frame.title);
+        panel.frame.caption = caption;
+        panel
+    }
+
+    /// Energy, violation, iterations, steps.
+    pub(super) fn add_health(&mut self, record: &RunRecord, pack: &mut Pack) -> Vec<PlotFrame> {
+        let first = self.panels.len();
+        let peaks = |name| (name, Thinning::Peaks);
+        let edge = |name| (name, Thinning::Edge);
+        if let Some(energy) = &record.energy {
+            let t = &energy.times;
+            let error = self.line(peaks("Pi(t) - Pi(0)"), (t, &energy.invariant_error), pack);
+            self.named(("energy error", "J", captions::energy_error(energy)), vec![error]);
+            let kinetic = self.line(peaks("T"), (t, &energy.kinetic), pack);
+            let potential = self.line(peaks("V"), (t, &energy.potential), pack);
+            self.named(("energies", "J", captions::energies()), vec![kinetic, potential]);
+        }
+        if let Some(violation) = &record.violation {
+            let levels = [
+                ("position", &violation.position),
+                ("velocity", &violation.velocity),
+                ("acceleration", &violation.acceleration),
+            ];
+            let lines = levels.map(|(name, values)| {
+                self.line(edge(name), (&violation.times, &logarithms(values)), pack)
+            });
+            let caption = captions::violation(violation);
+            let text = ("constraint violation", "m, m/s, m/s^2 (rad, ...)", caption);
+            self.named(text, lines.into()).log = true;
+        }
+        if let Some(iterations) = &record.iterations {
+            let counts: Vec<f64> = iterations.counts.iter().map(|n| f64::from(*n)).collect();
+            let line = self.line(edge("iterations"), (&iterations.times, &counts), pack);
+            let caption = captions::iterations(iterations);
+            self.named(("Newton iterations", "per step", caption), vec![line]).steps = true;
+        }
+        if let Some(steps) = &record.steps {
+            let lengths: Vec<f64> = steps.rows.iter().map(|row| row.length).collect();
+            let line = self.line(peaks("step"), (&steps.times, &logarithms(&lengths)), pack);
+            let panel = self.named(("step size", "s", captions::steps(steps)), vec![line]);
+            (panel.log, panel.steps) = (true, true);
+        }
+        self.frames(first)
+    }
+}
+
+/// Exponents of ten: what a logarithmic axis shows, packed evenly over its decades. What is not positive is a gap.
+fn logarithms(values: &[f64]) -> Vec<f64> {
+    values.iter().map(|x| if *x > 0.0 { x.log10() } else { f64::NAN }).collect()
+}
+
+/// Range of the finite values, and the largest size; infinite and zero where there are none.
+fn extent(values: &[f64]) -> (f64, f64) {
+    let finite = || values.iter().copied().filter(|x| x.is_finite());
+    let low = finite().fold(f64::INFINITY, f64::min);
+    let high = finite().fold(f64::NEG_INFINITY, f64::max);
+    if low <= high { (high - low, low.abs().max(high.abs())) } else { (f64::INFINITY, 0.0) }
+}
+
+/// The largest size among the channels of each unit.
+fn sizes(channels: &[ChannelSeries]) -> BTreeMap<&str, f64> {
+    let mut sizes = BTreeMap::new();
+    for series in channels {
+        for (component, values) in series.channel.components.iter().zip(&series.values) {
+            let (_, size) = extent(values);
+            let largest = sizes.entry(component.unit.as_str()).or_insert(0.0_f64);
+            *largest = largest.max(size);
+        }
+    }
+    sizes
+}

@@ -1,0 +1,135 @@
+//! The page of a run: what stopped it, key numbers, the motion, plots, statistics, and how it was made.
+
+use super::decimate::MAX_POINTS;
+use super::motion;
+use super::pack::Pack;
+use super::panels::Panels;
+use super::section::{Page, PageSection};
+use crate::report::{Section, row};
+use mbs::record::RunRecord;
+use serde_json::json;
+
+/// Most bytes of the data of a page, as text: with scripts it is below four megabytes.
+const MAX_PACK: usize = 3_600_000;
+/// Most pictures of the motion [-]: as many as a run records.
+const MAX_PICTURES: usize = 600;
+/// Halvings of pictures and points of lines before what is there is taken [-].
+const HALVINGS: u32 = 5;
+/// Labels of the summary that stand at the top of the page.
+const FIGURES: [&str; 5] = [
+    "degrees of freedom",
+    "time reached",
+    "steps",
+    "CPU time of the steps",
+    "largest energy error",
+];
+
+/// What the script draws, and the sections that name it.
+struct Drawn {
+    pack: String,
+    view: Option<PageSection>,
+    plots: Vec<PageSection>,
+    health: Vec<PageSection>,
+}
+
+/// Writes the page of a run: one HTML file without references to anything outside.
+///
+/// Series are thinned to at most 1500 points per line; the smallest and largest value of every stretch stay,
+/// so peaks survive. Numbers that are not finite leave gaps. Lines are drawn to 1/65000 of their range.
+///
+/// # Examples
+/// ```
+/// let record = mbs::record::RunRecord { scene: "pendulum".into(), ..Default::default() };
+/// let html = mbs_report::page(&record);
+/// assert!(html.starts_with("<!doctype html>") && html.contains("<title>pendulum</title>"));
+/// ```
+#[must_use]
+pub fn page(record: &RunRecord) -> String {
+    let (drawn, halvings) = fitting(record);
+    let mut sections = Vec::new();
+    let stop =
+        record.error.as_ref().map(|error| PageSection::Error(format!("The run stopped {error}")));
+    sections.extend(stop);
+    let mut notes = record.notes.clone();
+    if halvings > 0 {
+        notes.push(format!(
+            "The page has one in {} of the pictures and points that a page may have; run.csv has all rows.",
+            1 << halvings
+        ));
+    }
+    if !notes.is_empty() {
+        sections.push(PageSection::Notes(notes));
+    }
+    let figures = record.summary.iter().filter(|(label, _)| FIGURES.contains(&label.as_str()));
+    let figures: Vec<_> = figures.map(|(label, value)| [label.clone(), value.clone()]).collect();
+    if !figures.is_empty() {
+        sections.push(PageSection::Cards(figures));
+    }
+    sections.extend(drawn.view);
+    sections.extend(drawn.plots);
+    if let [head, rows @ ..] = record.choice.as_slice() {
+        sections.push(PageSection::Table(Section {
+            title: "What was chosen, and what the others would have cost".to_owned(),
+            caption: "CPU time of the whole run and error of its outputs as the pilot predicts them. All trials are in choice.json and \
+                      choice.csv."
+                .to_owned(),
+            head: head.clone(),
+            rows: rows.to_vec(),
+            ..Section::default()
+        }));
+    }
+    let rows = record.summary.iter().map(|(label, value)| row(label, value.clone())).collect();
+    let mut health = vec![PageSection::Table(Section::new("Summary", &[], rows))];
+    health.extend(drawn.health);
+    sections.push(PageSection::Fold("Solver health".to_owned(), health));
+    sections.push(PageSection::Table(Section::made(record.provenance.rows())));
+    Page { title: record.scene.clone(), sections, pack: Some(drawn.pack) }.html()
+}
+
+/// What is drawn, with half the pictures and points as often as the pack is too large; and how often that was.
+fn fitting(record: &RunRecord) -> (Drawn, u32) {
+    let mut halvings = 0;
+    loop {
+        let drawn = drawn(record, MAX_PICTURES >> halvings, MAX_POINTS >> halvings);
+        if drawn.pack.len() <= MAX_PACK || halvings == HALVINGS {
+            return (drawn, halvings);
+        }
+        halvings += 1;
+    }
+}
+
+fn drawn(record: &RunRecord, pictures: usize, points: usize) -> Drawn {
+    let mut pack = Pack::default();
+    let motion = record.motion.as_ref().and_then(|m| motion::packed(m, pictures, &mut pack));
+    let mut panels = Panels::new(points);
+    let (frames, still) = panels.add_channels(&record.channels, &mut pack);
+    let health = panels.add_health(record, &mut pack);
+    let pack = pack.text(json!({ "motion": motion, "panels": panels.json() }));
+    let view = motion.is_some().then(|| PageSection::View(caption(record)));
+    let mut plots = Vec::new();
+    if !frames.is_empty() {
+        plots.push(PageSection::Plots(frames));
+    }
+    if !still.is_empty() {
+        let table = Section::new("", &[], still);
+        plots.push(PageSection::Fold(
+            "Outputs that stand still".to_owned(),
+            vec![PageSection::Table(table)],
+        ));
+    }
+    Drawn { pack, view, plots, health: vec![PageSection::Plots(health)] }
+}
+
+/// What the view shows that is not seen at once.
+fn caption(record: &RunRecord) -> String {
+    let motion = record.motion.as_ref();
+    let has_traces = motion.is_some_and(|motion| !motion.traces.is_empty());
+    let is_spatial = motion.is_some_and(|motion| motion.dimension == 3);
+    let first = if is_spatial {
+        "Boxes have the inertia of their bodies. Left button turns, right button or two fingers move, wheel or pinch zooms."
+    } else {
+        "Left or right button moves, wheel or pinch zooms."
+    };
+    let paths = if has_traces { " Lines are the paths of outputs." } else { "" };
+    format!("{first}{paths} Keys: space, arrows, Home, End, f (fit), l (labels), 1 to 4 (sides).")
+}

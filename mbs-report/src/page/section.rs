@@ -1,0 +1,156 @@
+//! A page as sections of data, and the one HTML file that they make.
+
+use super::{escape, fill};
+use crate::report::Section;
+use core::fmt::Write;
+
+/// The frame of all pages.
+const FRAME: &str = include_str!("web/frame.html");
+/// The style of all pages.
+pub(crate) const STYLE: &str = include_str!("web/style.css");
+/// The licence of three.js, which pages with a view contain.
+const LICENCE: &str = include_str!("web/three/LICENSE");
+/// The part of three.js that pages use, deflated and in base64.
+const THREE: &str = include_str!("web/three/three.txt");
+/// The scripts of pages with a view or plots, in the order of their use.
+const SCRIPTS: [&str; 8] = [
+    include_str!("web/pack.js"),
+    include_str!("web/clock.js"),
+    include_str!("web/motion.js"),
+    include_str!("web/shapes.js"),
+    include_str!("web/view.js"),
+    include_str!("web/lines.js"),
+    include_str!("web/plot.js"),
+    include_str!("web/main.js"),
+];
+
+/// A page: its title, and its sections from top to bottom.
+#[derive(Debug, Default)]
+pub(crate) struct Page {
+    pub(crate) title: String,
+    pub(crate) sections: Vec<PageSection>,
+    /// The pack that the view and the plots draw, as text.
+    pub(crate) pack: Option<String>,
+}
+
+/// A section. Texts and tables are HTML without scripts; the view and the plots are drawn from the page's pack.
+#[derive(Debug)]
+pub(crate) enum PageSection {
+    /// Why there is less than was asked for.
+    Error(String),
+    /// What the reader should know.
+    Notes(Vec<String>),
+    /// Key numbers: label and value.
+    Cards(Vec<[String; 2]>),
+    /// The motion in three dimensions, with a sentence below it.
+    View(String),
+    /// Plots over time.
+    Plots(Vec<PlotFrame>),
+    /// A titled table.
+    Table(Section),
+    /// Sections that are folded under a title.
+    Fold(String, Vec<PageSection>),
+    /// A text of lines.
+    Text(String),
+}
+
+/// What a plot has beside its lines.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct PlotFrame {
+    /// Its number among the panels of the pack.
+    pub(crate) panel: usize,
+    pub(crate) title: String,
+    pub(crate) unit: String,
+    pub(crate) caption: String,
+}
+
+impl Page {
+    /// The page as one HTML file without references to anything outside.
+    pub(crate) fn html(&self) -> String {
+        let title = escape(&self.title);
+        let mut body = String::new();
+        self.sections.iter().for_each(|section| section.write(&mut body));
+        let mut scripts = String::new();
+        if let Some(pack) = &self.pack {
+            let has_view = self.sections.iter().any(|s| matches!(s, PageSection::View(_)));
+            if has_view {
+                let licence = vec![PageSection::Text(LICENCE.to_owned())];
+                let title = "Licence of three.js, which draws the motion".to_owned();
+                PageSection::Fold(title, licence).write(&mut body);
+            }
+            let three = if has_view { THREE.trim_end() } else { "" };
+            // Writing into a String has nothing to fail on.
+            let _ = writeln!(scripts, "<script type=\"text/plain\" id=\"pack\">{pack}</script>");
+            let _ = writeln!(scripts, "<script type=\"text/plain\" id=\"three\">{three}</script>");
+            let _ = writeln!(scripts, "<script>\n\"use strict\";\n{}</script>", SCRIPTS.concat());
+        }
+        fill(
+            FRAME,
+            &[
+                ("{{title}}", &title),
+                ("{{style}}", STYLE),
+                ("{{heading}}", &title),
+                ("{{sections}}", &body),
+                ("{{scripts}}", &scripts),
+            ],
+        )
+    }
+}
+
+impl PageSection {
+    fn write(&self, out: &mut String) {
+        // Writing into a String has nothing to fail on.
+        let _ = match self {
+            Self::Error(text) => {
+                writeln!(out, "<p class=\"stopped\" role=\"alert\">{}</p>", escape(text))
+            }
+            Self::Notes(notes) => {
+                let items = notes.iter().map(|note| format!("<li>{}</li>", escape(note)));
+                writeln!(out, "<ul class=\"notes\">{}</ul>", items.collect::<String>())
+            }
+            Self::Cards(cards) => {
+                let card = |[label, value]: &[String; 2]| {
+                    format!("<div><dt>{}</dt><dd>{}</dd></div>", escape(label), escape(value))
+                };
+                let cards = cards.iter().map(card);
+                writeln!(out, "<dl class=\"figures\">{}</dl>", cards.collect::<String>())
+            }
+            Self::View(caption) => {
+                out.push_str(&fill(
+                    include_str!("web/view.html"),
+                    &[("{{caption}}", &escape(caption))],
+                ));
+                Ok(())
+            }
+            Self::Plots(frames) => {
+                out.push_str("<div class=\"graphs\">\n");
+                frames.iter().for_each(|frame| frame.write(out));
+                writeln!(out, "</div>")
+            }
+            Self::Table(section) => {
+                section.write_card(out);
+                Ok(())
+            }
+            Self::Fold(title, sections) => {
+                let _ =
+                    writeln!(out, "<details class=\"card\"><summary>{}</summary>", escape(title));
+                sections.iter().for_each(|section| section.write(out));
+                writeln!(out, "</details>")
+            }
+            Self::Text(text) => writeln!(out, "<pre>{}</pre>", escape(text)),
+        };
+    }
+}
+
+impl PlotFrame {
+    fn write(&self, out: &mut String) {
+        let Self { panel, title, unit, caption } = self;
+        let (title, unit, caption) = (escape(title), escape(unit), escape(caption));
+        let _ = writeln!(
+            out,
+            "<figure class=\"card graph\" data-panel=\"{panel}\"><h2>{title} <span class=\"unit\">[{unit}]</span></h2>\
+             <canvas tabindex=\"0\" role=\"img\" aria-label=\"{caption}\"></canvas><div class=\"legend\"></div>\
+             <figcaption class=\"caption\">{caption}</figcaption></figure>"
+        );
+    }
+}

@@ -1,0 +1,65 @@
+//! What is drawn between places on bodies: springs, dampers, bumpers, forces, bars of constant length, ropes.
+
+use super::Drawing;
+use crate::record::{DrawnLine, LineStyle, RecordedMotion};
+use mbs_core::Real;
+use mbs_core::effects::{ActsOn, EffectKind};
+use mbs_core::scene::{BodyId, CouplingMeasure};
+
+impl<T: Real> Drawing<'_, T> {
+    /// Adds the lines of effects, of links and of couplings.
+    pub(super) fn add_lines(&self, motion: &mut RecordedMotion) {
+        for effect in self.scene.effects.iter().filter(|effect| effect.enabled) {
+            if effect.kind.acts_on() == ActsOn::Line {
+                let places = effect.kind.places().into_iter().map(|(_, body, at)| (body, at));
+                self.add_line((&effect.name, style(&effect.kind)), places, motion);
+            }
+        }
+        for joint in self.scene.joints.iter().filter(|joint| joint.kind.is_link()) {
+            let places = joint.bodies.into_iter().zip(joint.points);
+            self.add_line((&joint.name, LineStyle::Link), places, motion);
+        }
+        for coupling in &self.scene.couplings {
+            for term in &coupling.terms {
+                if let CouplingMeasure::Length { points } = &term.of {
+                    let places = points.iter().copied();
+                    self.add_line((&coupling.name, LineStyle::Rope), places, motion);
+                }
+            }
+        }
+    }
+
+    fn add_line(
+        &self,
+        (name, style): (&str, LineStyle),
+        places: impl Iterator<Item = (BodyId, [T; 3])>,
+        motion: &mut RecordedMotion,
+    ) {
+        let places: Vec<_> = places.map(|(body, at)| self.place(body, at)).collect();
+        let style = if places.len() > 2 { LineStyle::Rope } else { style };
+        if places.len() > 1 {
+            motion.lines.push(DrawnLine { name: name.to_owned(), style, places });
+        }
+    }
+}
+
+/// How an effect along a line is drawn.
+fn style<T: Real>(kind: &EffectKind<T>) -> LineStyle {
+    let of = |is_spring: bool, is_damper: bool| match (is_spring, is_damper) {
+        (true, true) => LineStyle::CoilDamper,
+        (false, true) => LineStyle::Damper,
+        _ => LineStyle::Coil,
+    };
+    match kind {
+        EffectKind::SpringDamper(spring) => {
+            of(!spring.stiffness.is_zero(), !spring.damping.is_zero())
+        }
+        EffectKind::LineSpring(spring) => {
+            of(!spring.stiffness.is_zero(), !spring.damping.is_zero())
+        }
+        EffectKind::Polynomial(polynomial) => of(!polynomial.of_rate, polynomial.of_rate),
+        EffectKind::Bumper(_) => LineStyle::Bumper,
+        EffectKind::LinePolynomial(_) => LineStyle::Coil,
+        _ => LineStyle::Actuator,
+    }
+}

@@ -1,0 +1,52 @@
+//! Principal moments and axes of inertia: Jacobi's rotations of a symmetric 3 x 3 matrix.
+
+/// Rounds over the three entries beside the diagonal [-]: each at least squares their size, so that six are beyond rounding.
+const ROUNDS: usize = 8;
+
+/// Principal moments and their axes, unit vectors of a right-handed frame, of [xx, yy, zz, xy, yz, zx].
+pub(super) fn principal([xx, yy, zz, xy, yz, zx]: [f64; 6]) -> ([f64; 3], [[f64; 3]; 3]) {
+    let mut a = [[xx, xy, zx], [xy, yy, yz], [zx, yz, zz]];
+    let mut axes = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+    for (p, q) in (0..ROUNDS).flat_map(|_| [(0, 1), (0, 2), (1, 2)]) {
+        if a[p][q] == 0.0 {
+            continue;
+        }
+        // tan of the angle that makes a[p][q] zero; the smaller of two
+        let theta = (a[q][q] - a[p][p]) / (2.0 * a[p][q]);
+        let t = theta.signum() / (theta.abs() + (theta * theta + 1.0).sqrt());
+        let c = 1.0 / (t * t + 1.0).sqrt();
+        let s = t * c;
+        for row in &mut a {
+            (row[p], row[q]) = (c * row[p] - s * row[q], s * row[p] + c * row[q]);
+        }
+        for i in 0..3 {
+            (a[p][i], a[q][i]) = (c * a[p][i] - s * a[q][i], s * a[p][i] + c * a[q][i]);
+            (axes[p][i], axes[q][i]) =
+                (c * axes[p][i] - s * axes[q][i], s * axes[p][i] + c * axes[q][i]);
+        }
+    }
+    ([a[0][0], a[1][1], a[2][2]], axes)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_turned_inertia_has_its_own_moments_along_its_own_axes() {
+        // diag(1, 2, 4) turned about (1, 1, 1)/sqrt 3 by a third of a turn, then about z by 0.3
+        let (sin, cos) = 0.3_f64.sin_cos();
+        let axes = [[0.0, 0.0, 1.0], [cos, sin, 0.0], [-sin, cos, 0.0]];
+        let of = |i: usize, j: usize| {
+            (0..3).map(|k| [1.0, 2.0, 4.0][k] * axes[k][i] * axes[k][j]).sum::<f64>()
+        };
+        let matrix = [of(0, 0), of(1, 1), of(2, 2), of(0, 1), of(1, 2), of(2, 0)];
+        let (moments, found) = principal(matrix);
+        for (moment, axis) in moments.iter().zip(found) {
+            let k = [1.0, 2.0, 4.0].iter().position(|x: &f64| (x - moment).abs() < 1e-12);
+            let k = k.expect("a moment of the diagonal");
+            let along: f64 = (0..3).map(|i| axes[k][i] * axis[i]).sum();
+            assert!((along.abs() - 1.0).abs() < 1e-12, "{axis:?}");
+        }
+    }
+}
