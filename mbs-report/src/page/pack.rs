@@ -111,6 +111,7 @@ fn scale(column: &[f64]) -> (f64, f64) {
 
 /// Bytes in base64, with padding.
 pub(crate) fn base64(bytes: &[u8]) -> String {
+    /// The letters of the values 0 to 63, by RFC 4648.
     const LETTERS: &[u8; 64] = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
     let mut text = String::with_capacity(bytes.len().div_ceil(3) * 4);
     for three in bytes.chunks(3) {

@@ -49,7 +49,7 @@ pub(crate) enum PageSection {
     /// A titled table.
     Table(Section),
     /// Sections that are folded under a title.
-    Fold(String, Vec<PageSection>),
+    Fold(String, Vec<Self>),
     /// A text of lines.
     Text(String),
 }

@@ -1,6 +1,6 @@
 //! What is drawn of joints, by what they let move: pins, sockets, rails with blocks, marks of the ground; and planes on which bodies roll.
 
-use super::Drawing;
+use super::drawing::Drawing;
 use super::pose::unit_of;
 use crate::record::{DrawnPoint, DrawnShape, RecordedMotion, ShapeForm};
 use mbs_core::Real;

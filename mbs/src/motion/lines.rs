@@ -1,6 +1,6 @@
 //! What is drawn between places on bodies: springs, dampers, bumpers, forces, bars of constant length, ropes.
 
-use super::Drawing;
+use super::drawing::Drawing;
 use crate::record::{DrawnLine, LineStyle, RecordedMotion};
 use mbs_core::Real;
 use mbs_core::effects::{ActsOn, EffectKind};

@@ -1,5 +1,6 @@
 //! The motion of a run as it goes: the poses of all bodies at up to 600 instants.
 
+mod drawing;
 mod joints;
 mod lines;
 mod pose;
@@ -8,11 +9,12 @@ mod road;
 mod shapes;
 
 use crate::checkpoint::tape::{Tape, Walked, holds};
-use crate::record::{BodyPlace, DrawnBody, DrawnPoint, N_POSE, RecordedMotion};
+use crate::record::{DrawnBody, N_POSE, RecordedMotion};
+use drawing::Drawing;
 use mbs_core::Real;
 use mbs_core::natural::NaturalModel;
-use mbs_core::scene::{BodyId, Dimension, Quantity, Scene};
-use pose::{BodyPose, cross};
+use mbs_core::scene::{Dimension, Scene};
+use pose::BodyPose;
 
 /// Most pictures kept of a run [-]: ten seconds at sixty a second.
 const MAX_PICTURES: f64 = 600.0;
@@ -101,40 +103,4 @@ impl<T: Real, const D: usize> MotionRecorder<T, D> {
 
 fn body<T: Real>(name: &str, mass: T) -> DrawnBody {
     DrawnBody { name: name.to_owned(), mass: mass.to_f64() }
-}
-
-/// What is drawn of a scene.
-struct Drawing<'a, T> {
-    scene: &'a Scene<T>,
-    /// The scene's length [m].
-    length: f64,
-}
-
-impl<T: Real> Drawing<'_, T> {
-    /// A place of the reference configuration on a body.
-    fn place(&self, body: BodyId, at: [T; 3]) -> BodyPlace {
-        place(self.scene, body, at)
-    }
-
-    fn is_planar(&self) -> bool {
-        self.scene.dimension == Dimension::Planar
-    }
-
-    fn traces(&self) -> Vec<DrawnPoint> {
-        let outputs = self.scene.outputs.iter();
-        let trace = |output: &mbs_core::scene::Output<T>| match output.quantity {
-            Quantity::Position { body, at } => {
-                Some(DrawnPoint { name: output.name.clone(), place: self.place(body, at) })
-            }
-            _ => None,
-        };
-        outputs.filter_map(trace).collect()
-    }
-}
-
-/// A place of the reference configuration on a body.
-fn place<T: Real>(scene: &Scene<T>, body: BodyId, at: [T; 3]) -> BodyPlace {
-    let body = body.index();
-    let center = body.map_or([T::ZERO; 3], |body| scene.bodies[body].center);
-    BodyPlace { body, at: [0, 1, 2].map(|i| (at[i] - center[i]).to_f64()) }
 }

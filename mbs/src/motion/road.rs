@@ -26,7 +26,8 @@ pub(super) fn under<T: Real>(scene: &Scene<T>, motion: &RecordedMotion) -> Optio
             _ => None,
         })
         .collect();
-    let ways: Vec<BodyPlace> = tires.iter().map(|(b, at)| super::place(scene, *b, *at)).collect();
+    let ways: Vec<BodyPlace> =
+        tires.iter().map(|(b, at)| super::drawing::place(scene, *b, *at)).collect();
     let pictures = 0..motion.times.len();
     let places = pictures.flat_map(|k| ways.iter().filter_map(move |way| motion.place(k, way)));
     let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);

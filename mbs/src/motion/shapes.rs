@@ -1,8 +1,9 @@
 //! What is drawn of the bodies: rods, boxes and capsules of their inertia, wheels, strokes to their joints, planar polygons.
 
-use super::pose::{dot, unit_of};
+use super::drawing::Drawing;
+use super::pose::{cross, dot, unit_of};
 use super::principal::principal;
-use super::{Drawing, cross};
+
 use crate::record::{DrawnShape, RecordedMotion, ShapeForm};
 use mbs_core::Real;
 use mbs_core::effects::{EffectKind, Tire};
