@@ -1,0 +1,41 @@
+//! Places of a scene as the picture has them.
+
+use crate::record::{BodyPlace, DrawnPoint};
+use mbs_core::Real;
+use mbs_core::scene::{BodyId, Dimension, Quantity, Scene};
+
+/// What is drawn of a scene.
+pub(super) struct Drawing<'a, T> {
+    pub(super) scene: &'a Scene<T>,
+    /// The scene's length [m].
+    pub(super) length: f64,
+}
+
+impl<T: Real> Drawing<'_, T> {
+    /// A place of the reference configuration on a body.
+    pub(super) fn place(&self, body: BodyId, at: [T; 3]) -> BodyPlace {
+        place(self.scene, body, at)
+    }
+
+    pub(super) fn is_planar(&self) -> bool {
+        self.scene.dimension == Dimension::Planar
+    }
+
+    pub(super) fn traces(&self) -> Vec<DrawnPoint> {
+        let outputs = self.scene.outputs.iter();
+        let trace = |output: &mbs_core::scene::Output<T>| match output.quantity {
+            Quantity::Position { body, at } => {
+                Some(DrawnPoint { name: output.name.clone(), place: self.place(body, at) })
+            }
+            _ => None,
+        };
+        outputs.filter_map(trace).collect()
+    }
+}
+
+/// A place of the reference configuration on a body.
+pub(super) fn place<T: Real>(scene: &Scene<T>, body: BodyId, at: [T; 3]) -> BodyPlace {
+    let body = body.index();
+    let center = body.map_or([T::ZERO; 3], |body| scene.bodies[body].center);
+    BodyPlace { body, at: [0, 1, 2].map(|i| (at[i] - center[i]).to_f64()) }
+}
