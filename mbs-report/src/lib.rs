@@ -5,6 +5,7 @@ mod diagnosis;
 mod explanation;
 mod page;
 mod report;
+mod table;
 
 pub use compare::comparison_page;
 pub use diagnosis::report as diagnosis;

@@ -5,7 +5,7 @@ use super::motion;
 use super::pack::Pack;
 use super::panels::Panels;
 use super::section::{Page, PageSection};
-use crate::report::{Section, row};
+use crate::table::{Section, row};
 use mbs::record::RunRecord;
 use serde_json::json;
 

@@ -1,7 +1,7 @@
 //! A page as sections of data, and the one HTML file that they make.
 
-use super::{escape, fill};
-use crate::report::Section;
+use super::text::{escape, fill};
+use crate::table::Section;
 use core::fmt::Write;
 
 /// The frame of all pages.
