@@ -35,6 +35,7 @@ mod simulation;
 mod sizes;
 mod statics;
 mod stop;
+mod tally;
 mod tilt;
 pub mod words;
 

@@ -4,9 +4,10 @@
 use crate::checkpoint::tape::{Tape, Walked, holds};
 use crate::precision::is_finer;
 use crate::record::{
-    Channel, ChannelSeries, ControlSummary, EnergySeries, IterationSeries, StepRow, StepSeries,
-    ViolationSeries, ViolationSummary,
+    Channel, ChannelSeries, ChannelSummary, ComponentStatistics, ControlSummary, EnergySeries,
+    IterationSeries, StepRow, StepSeries, ViolationSeries, ViolationSummary,
 };
+use crate::tally::Tallies;
 use mbs_core::Real;
 use mbs_core::control::Limit;
 use mbs_core::real::DoubleDouble;
@@ -52,6 +53,8 @@ pub(crate) struct Recorder {
     keep: RecordRows,
     /// Least and largest value of each component over the rows, kept or not.
     ranges: Vec<[f64; 2]>,
+    /// Statistics over every step that is taken, whatever rows there are.
+    tallies: Tallies,
 }
 
 /// Which rows of a run stay in memory.
@@ -96,6 +99,7 @@ impl Recorder {
         tape.floats(&mut self.max_violation)?;
         self.recent.walk(tape)?;
         tape.places(&mut self.ranges, |tape, range| tape.floats(range))?;
+        self.tallies.walk(tape)?;
         let (n_marks, n_rows, n_rests) = (self.marks.len(), self.rows.len(), self.rests.len());
         holds(n_marks > 0 && n_marks as u64 <= 2 * MOST_ROWS && self.every > 0)?;
         holds(n_rows == n_marks * self.n_columns && (n_rests == 0 || n_rests == n_rows))
@@ -120,6 +124,7 @@ impl Recorder {
     ) -> Self {
         let n_columns: usize = channels.iter().map(|c| c.components.len()).sum();
         Self {
+            tallies: Tallies::new(&channels),
             channels,
             marks: Vec::new(),
             rows: Vec::new(),
@@ -158,6 +163,11 @@ impl Recorder {
     /// The last step ends at `t` [s], whatever its rounded length says.
     pub(crate) fn end_at(&mut self, t: f64) {
         self.recent.t = t;
+    }
+
+    /// Takes the components of all channels at `t` [s] into the statistics.
+    pub(crate) fn measure<T: Real>(&mut self, t: f64, values: &[T]) {
+        self.tallies.take(t, values);
     }
 
     /// Keeps a row; `values` are all components of all channels.
@@ -263,7 +273,8 @@ impl Recorder {
 
     pub(crate) fn series(&self) -> Vec<ChannelSeries> {
         let mut first = 0;
-        let of_channel = |channel: &Channel| {
+        let stats = self.tallies.of_channels(&self.channels);
+        let of_channel = |(channel, stats): (&Channel, Vec<ComponentStatistics>)| {
             let values = (0..channel.components.len()).map(|c| {
                 let column = first + c;
                 self.table().map(|(_, row)| row[column]).collect()
@@ -272,11 +283,19 @@ impl Recorder {
                 channel: channel.clone(),
                 times: self.column(|mark| mark.t),
                 values: values.collect(),
+                stats,
             };
             first += channel.components.len();
             series
         };
-        self.channels.iter().map(of_channel).collect()
+        self.channels.iter().zip(stats).map(of_channel).collect()
+    }
+
+    /// The statistics as objects.
+    pub(crate) fn summaries(&self) -> Vec<ChannelSummary> {
+        let stats = self.tallies.of_channels(&self.channels);
+        let each = self.channels.iter().zip(&stats);
+        each.map(|(channel, stats)| ChannelSummary::new(channel, stats)).collect()
     }
 
     pub(crate) fn energy(&self) -> EnergySeries {

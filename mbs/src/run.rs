@@ -187,6 +187,7 @@ impl<'a, T: Real, const D: usize> Run<'a, T, D> {
             violation: run.recorder.violation_summary(),
             realtime: run.realtime,
             outputs: Outputs(run.recorder.last()),
+            channels: run.recorder.summaries(),
             digits: run.recorder.last_long().map(Outputs),
             coordinates,
             constraints,

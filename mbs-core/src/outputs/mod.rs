@@ -36,7 +36,8 @@ pub use exerted::EffectWrenches;
 pub use forces::Forces;
 pub use measure::{Measures, start_values};
 pub use quantity::{
-    Component, ComponentForm, QUANTITIES, Quantity, QuantityRow, RelativePoint, Target, TargetKind,
+    Component, ComponentForm, Magnitude, QUANTITIES, Quantity, QuantityRow, RelativePoint, Target,
+    TargetKind, magnitudes,
 };
 pub use reaction::{LARGEST_BLOCK, Reactions};
 pub use turns::Turns;

@@ -10,7 +10,11 @@ fn record() -> RunRecord {
     let mut wave: Vec<f64> = times.iter().map(|t| t.sin()).collect();
     wave[12_345] = 9.876_54;
     let component = |label: &str| Component { label: label.into(), unit: "m".into() };
-    let channel = Channel { name: "tip".into(), components: vec![component("x"), component("y")] };
+    let channel = Channel {
+        name: "tip".into(),
+        components: vec![component("x"), component("y")],
+        ..Channel::default()
+    };
     let pose = |t: &f64| [t.cos(), t.sin(), 0.0, (t / 2.0).cos(), 0.0, 0.0, (t / 2.0).sin()];
     let poses = times.iter().flat_map(pose).collect();
     RunRecord {
@@ -19,6 +23,7 @@ fn record() -> RunRecord {
             channel,
             times: times.clone(),
             values: vec![wave.clone(), vec![f64::NAN; times.len()]],
+            ..ChannelSeries::default()
         }],
         motion: Some(RecordedMotion {
             dimension: 2,
@@ -107,9 +112,11 @@ fn number(name: &str, unit: &str, values: [f64; 2]) -> ChannelSeries {
         channel: Channel {
             name: name.into(),
             components: vec![Component { label: String::new(), unit: unit.into() }],
+            ..Channel::default()
         },
         times: vec![0.0, 1.0],
         values: vec![values.to_vec()],
+        ..ChannelSeries::default()
     }
 }
 

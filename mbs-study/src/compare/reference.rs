@@ -281,7 +281,7 @@ mod tests {
 
     fn channels() -> Vec<Channel> {
         let component = Component { label: String::new(), unit: "rad".into() };
-        vec![Channel { name: "a".into(), components: vec![component] }]
+        vec![Channel { name: "a".into(), quantity: "", components: vec![component] }]
     }
 
     /// sin t at instants, wrong by `error`.

@@ -200,7 +200,7 @@ mod tests {
 
     fn channels() -> Vec<Channel> {
         let part = |label: &str| Component { label: label.into(), unit: "m".into() };
-        vec![Channel { name: "tip".into(), components: vec![part("x"), part("y")] }]
+        vec![Channel { name: "tip".into(), quantity: "", components: vec![part("x"), part("y")] }]
     }
 
     const INSTANTS: Instants = Instants { count: 4, interval: 0.5 };

@@ -75,8 +75,11 @@ pub(super) struct FunctionColumns<'a, T: Real, const D: usize> {
 impl<T: Real, const D: usize> Columns<T, D> for FunctionColumns<'_, T, D> {
     fn channels(&self) -> Vec<Channel> {
         let component = || Component { label: String::new(), unit: String::new() };
-        let channel =
-            |f: &Function| Channel { name: f.name.clone(), components: vec![component()] };
+        let channel = |f: &Function| Channel {
+            name: f.name.clone(),
+            quantity: "",
+            components: vec![component()],
+        };
         self.functions.iter().map(channel).collect()
     }
 

@@ -5,6 +5,7 @@ use super::estimate::ErrorEstimate;
 use super::outputs::Outputs;
 use super::realtime::RealtimeSummary;
 use super::series::ControlSummary;
+use super::statistics::ChannelSummary;
 
 /// The summary of a run: one JSON object. Numbers that are not finite are written as `null`.
 #[derive(Debug, Clone, Default, PartialEq, serde::Serialize)]
@@ -60,7 +61,9 @@ pub struct RunSummary {
     pub realtime: Option<RealtimeSummary>,
     /// Channels at `end_time`.
     pub outputs: Outputs,
-    /// The same as texts of 32 digits, where the run had them: most readers of JSON keep no more than 17.
+    /// Statistics of each channel over every step.
+    pub channels: Vec<ChannelSummary>,
+    /// The outputs as texts of 32 digits, where the run had them: most readers of JSON keep no more than 17.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub digits: Option<Outputs<String>>,
     /// How accurate the outputs are; absent where no estimate was made.

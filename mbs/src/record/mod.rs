@@ -11,6 +11,7 @@ mod motion;
 mod outputs;
 mod realtime;
 mod series;
+mod statistics;
 #[cfg(test)]
 mod tests;
 
@@ -31,3 +32,5 @@ pub use series::{
     Channel, ChannelSeries, ControlSummary, EnergySeries, IterationSeries, Provenance, RunRecord,
     StepRow, StepSeries, ViolationSeries,
 };
+pub(crate) use statistics::measured;
+pub use statistics::{ChannelSummary, ComponentStatistics, Statistics};

@@ -1,14 +1,17 @@
 //! What a run leaves behind, as plain data: channels, pictures, energies, counts.
 
 use super::RecordedMotion;
+use super::statistics::ComponentStatistics;
 use mbs_core::outputs::Component;
 use mbs_core::scene::{Output, Scene};
 
 /// A recorded channel: its name and its components.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct Channel {
     /// Name, unique among the channels.
     pub name: String,
+    /// What it measures, as scene files call it; empty of an output that is code.
+    pub quantity: &'static str,
     /// Components in the order of the record; one for a number.
     pub components: Vec<Component>,
 }
@@ -24,6 +27,7 @@ impl Channel {
     #[must_use]
     pub fn of_scene<T: Clone>(scene: &Scene<T>) -> Vec<Self> {
         let channel = |output: Output<T>| Self {
+            quantity: output.quantity.row().name,
             components: output.quantity.components(scene),
             name: output.name,
         };
@@ -106,7 +110,7 @@ impl Provenance {
 }
 
 /// A channel over time.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, Default, PartialEq)]
 pub struct ChannelSeries {
     /// Name and components.
     pub channel: Channel,
@@ -114,6 +118,8 @@ pub struct ChannelSeries {
     pub times: Vec<f64>,
     /// One series per component, each as long as `times`.
     pub values: Vec<Vec<f64>>,
+    /// Statistics over every step, rows or not: of each component, then of the magnitude of each vector.
+    pub stats: Vec<ComponentStatistics>,
 }
 
 /// Energies over time [J].

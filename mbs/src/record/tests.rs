@@ -33,7 +33,7 @@ fn units_of_joint_coordinates_put_translations_first() {
 
 fn channel(name: &str) -> Channel {
     let component = mbs_core::outputs::Component { label: String::new(), unit: "m".into() };
-    Channel { name: name.into(), components: vec![component] }
+    Channel { name: name.into(), quantity: "", components: vec![component] }
 }
 
 proptest! {

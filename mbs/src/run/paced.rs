@@ -83,7 +83,7 @@ pub(crate) fn paced<T: Real, const D: usize>(
     let mut channels = Channel::of_scene(scene);
     if track.has_level {
         let one = Component { label: String::new(), unit: "level".to_owned() };
-        channels.push(Channel { name: LEVEL.to_owned(), components: vec![one] });
+        channels.push(Channel { name: LEVEL.to_owned(), quantity: "level", components: vec![one] });
     }
     let mut run =
         match Run::<T, D>::new(scene, settings, channels, (track.periods, RecordRows::All)) {

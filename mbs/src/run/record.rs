@@ -61,6 +61,8 @@ pub(super) struct Record<'a, T: Real, const D: usize> {
     pub(super) recorder: Recorder,
     pub(super) motion: MotionRecorder<T, D>,
     values: Vec<T>,
+    /// Are these the values of the state, which the statistics have?
+    is_measured: bool,
     /// Where the components of the scene's channels end, and what writes those behind them.
     n_measured: usize,
     pub(super) others: Option<&'a mut dyn Columns<T, D>>,
@@ -107,6 +109,7 @@ impl<'a, T: Real, const D: usize> Record<'a, T, D> {
             recorder: Recorder::new(channels, n_rows, simulation.invariant().initial(), keep),
             motion: MotionRecorder::new(scene, simulation.model(), settings.duration),
             values: vec![T::ZERO; n],
+            is_measured: false,
             others: None,
             mark: StepMark::default(),
             counts: Counts::default(),
@@ -151,34 +154,54 @@ impl<'a, T: Real, const D: usize> Record<'a, T, D> {
         self.clock.get()
     }
 
-    /// Records a row, or no row where an output is not finite.
-    fn row(&mut self, simulation: &Simulation<T, D>, is_last: bool) -> Result<(), StopError> {
-        let state = simulation.state();
+    /// Evaluates all outputs at the state, once, and takes them into the statistics.
+    ///
+    /// # Errors
+    /// One that is not finite: the statistics are without it.
+    fn measure(&mut self, simulation: &Simulation<T, D>) -> Result<(), StopError> {
+        if self.is_measured {
+            return Ok(());
+        }
         let (values, others) = self.values.split_at_mut(self.n_measured);
         let n_others = others.len() - usize::from(self.level.is_some());
         let (others, level) = others.split_at_mut(n_others);
-        self.measures.write(state, values)?;
+        self.measures.write(simulation.state(), values)?;
         if let Some(columns) = &mut self.others {
             columns.write(simulation, others)?;
         }
-        if let ([level], Some(lowest)) = (level, &mut self.level) {
-            *level = T::from_f64(core::mem::take(lowest));
+        if let ([level], Some(lowest)) = (level, self.level) {
+            *level = T::from_f64(lowest);
         }
+        self.recorder.measure(self.mark.t, &self.values);
+        self.is_measured = true;
+        Ok(())
+    }
+
+    /// Records a row, or no row where an output is not finite.
+    fn row(&mut self, simulation: &Simulation<T, D>, is_last: bool) -> Result<(), StopError> {
+        self.measure(simulation)?;
+        // the next row has the lowest level from here on
+        self.level = self.level.map(|_| 0.0);
         if self.recorder.keeps_all() {
-            self.motion.offer(self.mark.t, &state.q, is_last);
+            self.motion.offer(self.mark.t, &simulation.state().q, is_last);
         }
         self.recorder.keep(&self.mark, &self.values);
         Ok(())
     }
 
-    /// A row where one is due after step or period `k`, and the alarm.
+    /// The statistics of a step, a row where one is due after step or period `k`, and the alarm.
     fn row_if_due(
         &mut self,
         simulation: &Simulation<T, D>,
         (k, is_last): (u64, bool),
     ) -> Result<(), StopError> {
-        let is_due = self.recorder.keeps(k) || is_last;
-        let recorded = if is_due { self.row(simulation, is_last) } else { Ok(()) };
+        let recorded = if self.recorder.keeps(k) || is_last {
+            self.row(simulation, is_last)
+        } else if self.recorder.keeps_all() {
+            self.measure(simulation)
+        } else {
+            Ok(())
+        };
         // energy that is lost says more than an output that is not finite for it
         let passed = self.frictions.passed(simulation);
         self.alarm.rings_for(simulation, is_last, passed).map_or(recorded, Err)
@@ -222,6 +245,7 @@ impl<'a, T: Real, const D: usize> Record<'a, T, D> {
             },
         };
         self.recorder.mark(&self.mark);
+        self.is_measured = false;
         self.counts.control.take(&self.mark.step);
         tracked
     }
@@ -239,7 +263,10 @@ impl<T: Real, const D: usize> StepObserver<T, D> for Record<'_, T, D> {
         self.counts.worst = self.counts.worst.max(to - from);
         self.begun = to;
         taken?;
-        if self.periods.is_none() {
+        if self.periods.is_some() {
+            // what is not finite stops the run at the end of its period
+            let _ = self.measure(now);
+        } else {
             let k = self.done + 1;
             self.row_if_due(now, (k, is_last))?;
             if !is_last && self.keep(now, k) {
@@ -269,6 +296,7 @@ impl<T: Real, const D: usize> StepObserver<T, D> for Record<'_, T, D> {
         if is_over && self.recorder.last_time().is_none_or(|last| last < self.reached) {
             let energies = now.invariant().energies();
             self.mark = StepMark { t: self.reached, energies, ..StepMark::default() };
+            self.is_measured = false;
             // a row that cannot be recorded is no other reason to stop
             let _ = self.row(now, true);
         }

@@ -44,6 +44,7 @@ mod signal_times;
 mod signals;
 mod slack_ropes;
 mod states;
+mod statistics;
 mod sums;
 mod threads;
 mod tooth_forces;

@@ -4,6 +4,7 @@ use crate::scene::{Dimension, Freedom};
 use alloc::format;
 use alloc::string::String;
 use alloc::vec::Vec;
+use core::ops::Range;
 
 /// A component of a channel.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -13,6 +14,45 @@ pub struct Component {
     /// Unit, such as `m` or `rad/s`.
     pub unit: String,
 }
+
+/// Components of a channel that are one vector.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Magnitude {
+    /// What follows the dot in the name of a column with its magnitude: `abs`; of a wrench `F` and `M`.
+    pub label: &'static str,
+    /// Its unit.
+    pub unit: String,
+    /// The places of its components in the channel.
+    pub places: Range<usize>,
+}
+
+/// The vectors among the components of a channel: `x`, `y`, `z`, forces and moments. Quaternions, matrices and coordinates of a joint are
+/// none, and a vector of one component is a number.
+///
+/// ```
+/// use mbs_core::outputs::{Component, magnitudes};
+/// let wrench = ["Fx", "Fy", "Mz"].map(|label| Component { label: label.into(), unit: "N".into() });
+/// let [force] = &magnitudes(&wrench)[..] else { panic!("one vector") };
+/// assert_eq!((force.label, force.places.clone()), ("F", 0..2));
+/// ```
+#[must_use]
+pub fn magnitudes(components: &[Component]) -> Vec<Magnitude> {
+    let of = |(prefix, label): (&str, &'static str)| {
+        let is_part = |component: &Component| {
+            // a number without a unit is of a rotation
+            component.unit != "-"
+                && component.label.strip_prefix(prefix).is_some_and(|x| AXES.contains(&x))
+        };
+        let first = components.iter().position(is_part)?;
+        let n = components[first..].iter().take_while(|component| is_part(component)).count();
+        let unit = components[first].unit.clone();
+        (n > 1).then_some(Magnitude { label, unit, places: first..first + n })
+    };
+    [("", "abs"), ("F", "F"), ("M", "M")].into_iter().filter_map(of).collect()
+}
+
+/// Letters of the axes.
+const AXES: [&str; 3] = ["x", "y", "z"];
 
 /// The form of a quantity's components.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -57,7 +97,7 @@ impl ComponentForm {
         measured: Option<&str>,
     ) -> Vec<Component> {
         let one = |label: &str, unit: &str| Component { label: label.into(), unit: unit.into() };
-        let axes = &["x", "y", "z"][..dimension.count()];
+        let axes = &AXES[..dimension.count()];
         let about = if dimension == Dimension::Planar { &["z"] } else { axes };
         let coordinates = |unit: &dyn Fn(&str) -> String| {
             let units = |f: &Freedom| core::iter::repeat_n(f.unit(), f.n_coordinates());

@@ -82,7 +82,8 @@ mod tests {
 
     fn channel(name: &str, units: &[&str]) -> Channel {
         let component = |unit: &&str| Component { label: String::new(), unit: (*unit).to_owned() };
-        Channel { name: name.to_owned(), components: units.iter().map(component).collect() }
+        let components = units.iter().map(component).collect();
+        Channel { name: name.to_owned(), quantity: "", components }
     }
 
     #[test]

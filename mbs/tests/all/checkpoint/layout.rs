@@ -300,6 +300,10 @@ impl<'a> Walk<'a> {
             walk.mark()?;
             walk.list(|walk| walk.numbers(2))
         })?;
+        self.named("statistics", |walk| {
+            walk.option(|walk| walk.numbers(2))?;
+            walk.list(|walk| walk.numbers(6))
+        })?;
         self.named("pictures", |walk| {
             walk.numbers(1)?;
             walk.list_of_numbers()?;
