@@ -6,6 +6,7 @@
 
 mod analysis;
 mod bar;
+mod channels;
 mod check;
 mod compare;
 mod doctor;

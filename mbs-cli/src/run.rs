@@ -101,6 +101,12 @@ pub(crate) struct Arguments {
     /// Print one JSON object on standard output and nothing else.
     #[arg(long)]
     json: bool,
+    /// Show the statistics of all outputs, not of the first 20 rows alone.
+    #[arg(long)]
+    all: bool,
+    /// Write the units as the second line of run.csv.
+    #[arg(long, requires = "out")]
+    units: bool,
     /// Precision: f32, f64 or dd (pairs of doubles, 32 digits, for reference runs). Default: f64.
     #[arg(long, value_name = "P")]
     pub(crate) precision: Option<String>,
@@ -341,14 +347,16 @@ fn report(
         } else {
             let provenance = arguments.provenance(&run.overrides, settings);
             let id = files::results_id(&run.begun.document, settings);
-            let whole = write_files(outcome, folder, (provenance, &id));
+            let provenance =
+                Provenance { step: words::steps(&outcome.summary.method_used), ..provenance };
+            let whole = write_files(outcome, folder, (provenance, &id), arguments.units);
             if let Some(whole) = Refusal::unless_lost(whole, &mut status) {
                 (object, written) = (whole, Some(folder.path()));
                 run.kept.end(matches!(error, Some(StopError::Interrupted)));
             }
         }
     }
-    let text = if arguments.json { object } else { table::text(outcome, written) };
+    let text = if arguments.json { object } else { table::text(outcome, written, arguments.all) };
     let status = say(&text, status);
     if let Some(error) = error.filter(|_| !arguments.json) {
         let report = outcome.summary.error.as_ref();
@@ -381,9 +389,13 @@ fn write_files(
     outcome: &Outcome,
     folder: &Folder,
     (provenance, id): (Provenance, &str),
+    has_units: bool,
 ) -> Result<String, WriteError> {
     let mut part = folder.begin(id)?;
-    part.table("run.csv", |sink| outcome.write_csv(sink))?;
+    part.table("run.csv", |sink| match has_units {
+        true => outcome.write_csv_with_units(sink),
+        false => outcome.write_csv(sink),
+    })?;
     part.table("steps.csv", |sink| outcome.write_steps(sink))?;
     realtime::write(&mut part, &outcome.summary)?;
     let chosen = outcome.summary.chosen.as_ref();

@@ -1,13 +1,14 @@
 //! The short table at the end of a run.
 
+use crate::channels;
 use mbs::record::RunSummary;
 use mbs::scene_file::format::{counted, significant};
 use mbs::{Outcome, words};
 use std::fmt::Write;
 use std::path::Path;
 
-/// Summary, outputs and notes as text.
-pub(crate) fn text(outcome: &Outcome, out: Option<&Path>) -> String {
+/// Summary, statistics and notes as text; of the statistics all rows, or the first ones.
+pub(crate) fn text(outcome: &Outcome, out: Option<&Path>, is_all: bool) -> String {
     let s = &outcome.summary;
     let mut text = String::new();
     let mut line = |line: String| {
@@ -19,6 +20,7 @@ pub(crate) fn text(outcome: &Outcome, out: Option<&Path>) -> String {
         for (label, value) in rows(s) {
             line(format!("  {label:<24} {value}"));
         }
+        channels::lines(&s.channels, is_all).into_iter().for_each(&mut line);
     }
     for reason in s.chosen.iter().filter(|c| c.evidence.is_some()).flat_map(|c| &c.reasons) {
         line(format!("chosen: {reason}"));
@@ -37,24 +39,16 @@ pub(crate) fn text(outcome: &Outcome, out: Option<&Path>) -> String {
 }
 
 fn headline(s: &RunSummary) -> String {
-    let formulation = s.chosen.as_ref().map_or(s.formulation.as_str(), |c| c.formulation.as_str());
-    let is_of_its_own = matches!(s.integrator.as_str(), "rk54" | "rk853" | "gbs" | "radau5");
-    #[allow(clippy::cast_precision_loss, reason = "for three digits")]
-    let mean = s.end_time / s.steps.max(1) as f64;
-    let lengths = match &s.control {
-        Some(c) => format!("{} to {} s", words::few(c.smallest_step), words::few(c.largest_step)),
-        None if is_of_its_own => format!("{} s on average", words::few(mean)),
-        None => format!("{} s", significant(s.step)),
-    };
-    let integrator = match s.integrator.as_str() {
+    let integrator = match s.method_used.integrator.as_str() {
         "" | "trapezoidal" => String::new(),
         other => format!(" {other}"),
     };
     format!(
-        "{}: {formulation}{integrator}, {}, {} of {lengths} to t = {} s{}",
+        "{}: {}{integrator}, {}, {} to t = {} s{}",
         s.scene,
+        s.method_used.formulation,
         s.precision,
-        counted(usize::try_from(s.steps).unwrap_or(usize::MAX), "step"),
+        words::steps(&s.method_used),
         significant(s.end_time),
         if s.completed { "" } else { " (stopped)" }
     )
@@ -89,10 +83,6 @@ fn rows(s: &RunSummary) -> Vec<(&str, String)> {
     rows.extend(s.control.as_ref().map(|control| ("control of the step", words::control(control))));
     let paced = s.realtime.iter().flat_map(mbs::realtime::rows);
     rows.extend(paced.map(|(label, value): (&str, String)| (label, value)));
-    for (name, values) in &s.outputs.0 {
-        let values: Vec<String> = values.iter().map(|v| fixed(*v)).collect();
-        rows.push((name, values.join("  ")));
-    }
     rows.extend(s.estimate.iter().flat_map(|e| words::estimate(e)));
     rows
 }

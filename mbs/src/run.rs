@@ -24,7 +24,7 @@ use mbs_core::Real;
 use mbs_core::scene::Scene;
 pub(crate) use record::Columns;
 use record::{Record, RunCheckpoints};
-use summary::{contact, energy_summary, not_started, plain_summary};
+use summary::{contact, energy_summary, method_used, not_started, plain_summary};
 
 pub use outcome::Outcome;
 
@@ -173,6 +173,7 @@ impl<'a, T: Real, const D: usize> Run<'a, T, D> {
         let control =
             ControlSummary { rule: settings.rule.name(), index_changes, ..run.counts.control };
         let summary = RunSummary {
+            method_used: method_used(settings, &run.counts, end_time),
             steps: run.counts.steps,
             completed: error.is_none(),
             error: error.as_ref().map(|e| e.report(end_time, &Names::new(run.scene))),

@@ -4,12 +4,11 @@ pub use mbs_scene::format::{duration, few, size};
 
 use crate::choice::IntegratorKind;
 use crate::methods::ROUNDINGS;
-use crate::record::{Contact, ControlSummary, ErrorEstimate, RunError, RunSummary};
+use crate::record::{Contact, ControlSummary, ErrorEstimate, MethodUsed, RunError, RunSummary};
 use crate::settings::ResolvedMethod;
 use mbs_core::Real;
 use mbs_core::scene::{Body, BodyId, Inertia, Scene};
-use mbs_scene::format::rounded;
-use mbs_scene::format::significant;
+use mbs_scene::format::{counted, rounded, significant};
 
 /// The summary table of a page.
 pub(crate) fn summary_rows(s: &RunSummary) -> Vec<(String, String)> {
@@ -23,7 +22,8 @@ pub(crate) fn summary_rows(s: &RunSummary) -> Vec<(String, String)> {
             "coordinates, constraints, their rank",
             format!("{}, {}, {}", s.coordinates, s.constraints, s.constraint_rank),
         ),
-        row("steps", s.steps.to_string()),
+        row("method", method(&s.method_used)),
+        row("steps", steps(&s.method_used)),
         row("time reached", format!("{} s", significant(s.end_time))),
         row("Newton iterations", s.iterations.to_string()),
         row("factorisations", s.factorizations.to_string()),
@@ -68,6 +68,27 @@ pub fn estimate(e: &ErrorEstimate) -> Vec<(&'static str, String)> {
 fn small(x: f64) -> String {
     if x == 0.0 { "0".to_owned() } else { format!("{x:.1e}") }
 }
+
+/// The method that ran.
+fn method(m: &MethodUsed) -> String {
+    [m.formulation.as_str(), &m.integrator].join(" ").trim_end().to_owned()
+}
+
+/// How many steps there were, and how long they were.
+#[must_use]
+pub fn steps(m: &MethodUsed) -> String {
+    let count = counted(usize::try_from(m.steps).unwrap_or(usize::MAX), "step");
+    match (m.smallest_step, m.largest_step) {
+        (Some(a), Some(b)) if (b - a).abs() <= SAME_STEP * b => {
+            format!("{count} of {} s", significant(b))
+        }
+        (Some(a), Some(b)) => format!("{count} of {} to {} s", few(a), few(b)),
+        _ => format!("{count} of {} s on average", few(m.mean_step)),
+    }
+}
+
+/// Difference of two steps that counts as none, relative to them [-]: ends of fixed steps round.
+const SAME_STEP: f64 = 1e-9;
 
 /// Drift and scatter of the energy invariant, for a table.
 #[must_use]

@@ -338,3 +338,47 @@ fn a_loop_that_cannot_close_at_the_start_gives_a_header_and_no_rows() {
     assert_eq!(csv.lines().count(), 1, "{csv}");
     assert!(csv.starts_with("t,"));
 }
+
+#[test]
+fn the_table_of_a_run_has_its_peaks_and_fits_into_a_hundred_columns() {
+    let scene = scene("slider-crank");
+    let shown = text(&run(&[&scene, "--duration", "0.2", "--no-estimate"]).stdout);
+    let head = shown.lines().position(|line| line.contains(" unit ")).expect("a table");
+    let rows = shown.lines().skip(head).take_while(|line| line.starts_with("  "));
+    assert!(rows.clone().all(|line| line.chars().count() <= 100) && rows.count() > 1, "{shown}");
+    let object = json(&run(&[&scene, "--duration", "0.2", "--no-estimate", "--json"]));
+    let channel = &object["channels"][0];
+    let peak = format!("{:.4}", channel["at_max"][0].as_f64().expect("a time"));
+    let row = shown.lines().nth(head + 1).expect("a row");
+    assert!(
+        row.contains(channel["name"].as_str().expect("a name")) && row.contains(&peak),
+        "{row}"
+    );
+}
+
+#[test]
+fn units_are_a_line_of_their_own_where_they_are_asked_for() {
+    let out = std::path::Path::new(env!("CARGO_TARGET_TMPDIR")).join("with-units");
+    let out = out.to_str().expect("a plain path");
+    let scene = scene("slider-crank");
+    let both = [&["--units"][..], &[]].map(|more| {
+        let arguments = [&[scene.as_str(), "--duration", "0.01", "--out", out], more].concat();
+        assert_eq!(run(&arguments).status.code(), Some(0));
+        std::fs::read_to_string(format!("{out}/run.csv")).expect("it is there")
+    });
+    let [with, without] = both.each_ref().map(|text| text.lines().collect::<Vec<_>>());
+    assert_eq!((with[0], &with[2..]), (without[0], &without[1..]));
+    assert!(with[1].starts_with("s,") && with[1].split(',').count() == with[0].split(',').count());
+}
+
+#[test]
+fn the_method_that_ran_is_named_with_the_range_of_its_steps() {
+    let scene = scene("slider-crank");
+    let controlled = ["--duration", "0.2", "--step-control", "error", "--json", "--no-estimate"];
+    let object = json(&run(&[&[scene.as_str()], &controlled[..]].concat()));
+    let [used, control] = ["method_used", "control"].map(|key| &object[key]);
+    assert_eq!(used["smallest_step"], control["smallest_step"]);
+    assert_eq!(used["largest_step"], control["largest_step"]);
+    assert_eq!((&used["steps"], &used["integrator"]), (&object["steps"], &object["integrator"]));
+    assert_ne!(used["formulation"], "auto");
+}

@@ -24,7 +24,7 @@ pub use writer::{CheckpointWriter, FILE};
 
 pub(crate) use file::{Kind, whole};
 pub(crate) use identity::Identity;
-pub(crate) use rows::write_rows;
+pub(crate) use rows::{Head, write_rows};
 pub(crate) use snapshot::{ControlSnapshot, SimulationSnapshot, inputs};
 
 #[cfg(doc)]

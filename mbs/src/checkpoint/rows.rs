@@ -57,7 +57,8 @@ fn texts(recorder: &Recorder, from: usize) -> io::Result<[Vec<u8>; 2]> {
     let (mut rows, mut steps) = (Vec::new(), Vec::new());
     let table = recorder.table().skip(from);
     let long = recorder.long_table().skip(from);
-    write_rows((&mut rows, &recorder.channels), from == 0, table, long)?;
+    let head = if from == 0 { Head::Names } else { Head::None };
+    write_rows((&mut rows, &recorder.channels), head, table, long)?;
     let series = recorder.step_series(from, ControlSummary::default());
     if from == 0 {
         write_steps(&mut steps, &series)?;
@@ -67,17 +68,31 @@ fn texts(recorder: &Recorder, from: usize) -> io::Result<[Vec<u8>; 2]> {
     Ok([rows, steps])
 }
 
+/// What stands before the rows.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Head {
+    /// Nothing: the file has it.
+    None,
+    /// The names of the columns.
+    Names,
+    /// The names, then the units.
+    Units,
+}
+
 /// Rows as CSV: with all digits where there are long ones.
 pub(crate) fn write_rows<'a>(
     (sink, channels): (impl Write, &[Channel]),
-    has_header: bool,
+    head: Head,
     table: impl Iterator<Item = (f64, &'a [f64])>,
     mut long: impl Iterator<Item = Vec<DoubleDouble>>,
 ) -> io::Result<()> {
-    let mut csv = match has_header {
-        true => CsvWriter::new(sink, channels)?,
-        false => CsvWriter::append(sink, channels),
+    let mut csv = match head {
+        Head::None => CsvWriter::append(sink, channels),
+        Head::Names | Head::Units => CsvWriter::new(sink, channels)?,
     };
+    if head == Head::Units {
+        csv.units(channels)?;
+    }
     for (t, row) in table {
         match long.next() {
             Some(row) => csv.long_row(t, &row)?,

@@ -1,6 +1,6 @@
 //! Rows of a run as columns: contiguous arrays by name.
 
-use crate::checkpoint::write_rows;
+use crate::checkpoint::{Head, write_rows};
 use crate::record::Channel;
 use std::io;
 
@@ -74,6 +74,6 @@ impl Table {
             .map(|i| self.columns.iter().map(|column| column[i]).collect())
             .collect();
         let table = self.time.iter().zip(&rows).map(|(t, row)| (*t, &row[..]));
-        write_rows((sink, &self.channels), true, table, core::iter::empty())
+        write_rows((sink, &self.channels), Head::Names, table, core::iter::empty())
     }
 }

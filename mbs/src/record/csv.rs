@@ -34,6 +34,17 @@ impl<W: Write> CsvWriter<W> {
         Ok(Self { out, n_columns: header.len(), n_rows: 0 })
     }
 
+    /// Writes the units as a line: that of the time, then those of the channels.
+    ///
+    /// # Errors
+    /// Those of the sink.
+    pub fn units(&mut self, channels: &[Channel]) -> io::Result<()> {
+        let of_channel = |channel: &Channel| channel.components.clone();
+        let units = channels.iter().flat_map(of_channel).map(|component| component.unit);
+        let units: Vec<String> = core::iter::once("s".to_owned()).chain(units).collect();
+        self.out.write_record(&units).map_err(io::Error::from)
+    }
+
     /// Continues a file that has its header.
     pub fn append(sink: W, channels: &[Channel]) -> Self {
         let n_columns = 1 + channels.iter().map(|channel| channel.components.len()).sum::<usize>();

@@ -19,6 +19,8 @@ pub struct RunSummary {
     pub integrator: String,
     /// `f32`, `f64`, `dd`.
     pub precision: String,
+    /// The method that ran, and its steps.
+    pub method_used: MethodUsed,
     /// 2 or 3.
     pub dimension: usize,
     /// Coordinates of the formulation that ran.
@@ -81,6 +83,25 @@ pub struct RunSummary {
     /// How many more there were than are listed.
     #[serde(skip_serializing_if = "is_zero")]
     pub contacts_left_out: u64,
+}
+
+/// The method that ran, and its steps.
+#[derive(Debug, Clone, Default, PartialEq, serde::Serialize)]
+pub struct MethodUsed {
+    /// Formulation.
+    pub formulation: String,
+    /// Integrator.
+    pub integrator: String,
+    /// Steps done.
+    pub steps: u64,
+    /// The shortest step [s]; absent where the integrator makes steps within those that are observed.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub smallest_step: Option<f64>,
+    /// The longest step [s]; absent there too.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub largest_step: Option<f64>,
+    /// Time reached over the number of steps [s].
+    pub mean_step: f64,
 }
 
 /// A contact made or broken.

@@ -21,7 +21,9 @@ pub use choice::{
 };
 pub use csv::{CsvWriter, append_steps, write_steps};
 pub use estimate::ErrorEstimate;
-pub use json::{Contact, EnergySummary, MethodChoice, RunError, RunSummary, ViolationSummary};
+pub use json::{
+    Contact, EnergySummary, MethodChoice, MethodUsed, RunError, RunSummary, ViolationSummary,
+};
 pub use motion::{
     BodyPlace, DrawnBody, DrawnLine, DrawnPoint, DrawnRoad, DrawnShape, LineStyle, N_POSE,
     RecordedMotion, RoadStrip, ShapeForm,

@@ -1,6 +1,6 @@
 //! What a run gives: its summary, and what its files are made of.
 
-use crate::checkpoint::write_rows;
+use crate::checkpoint::{Head, write_rows};
 use crate::record::{Channel, ErrorEstimate, Provenance, RunRecord, RunSummary, StepSeries};
 use crate::stop::StopError;
 use crate::words::summary_rows;
@@ -30,7 +30,16 @@ impl Outcome {
     /// Those of the sink.
     pub fn write_csv(&self, sink: impl io::Write) -> io::Result<()> {
         let table = self.table.iter().map(|(t, row)| (*t, &row[..]));
-        write_rows((sink, &self.channels), true, table, self.long_table.iter().cloned())
+        write_rows((sink, &self.channels), Head::Names, table, self.long_table.iter().cloned())
+    }
+
+    /// The same with the units as the second line.
+    ///
+    /// # Errors
+    /// Those of the sink.
+    pub fn write_csv_with_units(&self, sink: impl io::Write) -> io::Result<()> {
+        let table = self.table.iter().map(|(t, row)| (*t, &row[..]));
+        write_rows((sink, &self.channels), Head::Units, table, self.long_table.iter().cloned())
     }
 
     /// Writes the steps as CSV: their lengths, and what came of them.

@@ -1,8 +1,11 @@
 //! Parts of a run's summary.
 
 use super::Outcome;
+use super::record::Counts;
 use crate::names::Names;
-use crate::record::{Channel, Contact, EnergySummary, RunRecord, RunSummary, StepSeries};
+use crate::record::{
+    Channel, Contact, EnergySummary, MethodUsed, RunRecord, RunSummary, StepSeries,
+};
 use crate::settings::ResolvedMethod;
 use crate::stop::StopError;
 use crate::words::{stop_text, summary_rows};
@@ -34,12 +37,37 @@ pub(super) fn energy_summary(invariant: &Invariant) -> EnergySummary {
     }
 }
 
+/// The method that ran, and its steps up to time `reached` [s].
+pub(super) fn method_used(settings: &ResolvedMethod, counts: &Counts, reached: f64) -> MethodUsed {
+    let control = &counts.control;
+    // where they differ the integrator has made steps of its own
+    let is_known = control.accepted == counts.steps && counts.steps > 0;
+    #[allow(clippy::cast_precision_loss, reason = "step counts stay far below 2^53")]
+    let mean_step = reached / counts.steps.max(1) as f64;
+    MethodUsed {
+        steps: counts.steps,
+        smallest_step: is_known.then_some(control.smallest_step),
+        largest_step: is_known.then_some(control.largest_step),
+        mean_step,
+        ..plain_method(settings)
+    }
+}
+
+fn plain_method(settings: &ResolvedMethod) -> MethodUsed {
+    MethodUsed {
+        formulation: settings.formulation.name().to_owned(),
+        integrator: settings.integrator.name().to_owned(),
+        ..MethodUsed::default()
+    }
+}
+
 pub(super) fn plain_summary<T: Real>(scene: &Scene<T>, settings: &ResolvedMethod) -> RunSummary {
     RunSummary {
         scene: scene.name.clone(),
         formulation: settings.asked.clone(),
         integrator: settings.integrator.name().to_owned(),
         precision: settings.precision.name().to_owned(),
+        method_used: plain_method(settings),
         dimension: scene.dimension.count(),
         step: settings.step,
         chosen: settings.chosen(),
