@@ -3,7 +3,7 @@
 use super::table;
 use crate::Real;
 use crate::laws::LawInputs;
-use crate::laws::body::{BodyMotion, NeverLaw, UnitWrench, WrenchesLaw};
+use crate::laws::body::{BodyMotion, NeverLaw, TireForces, UnitWrench, WrenchesLaw};
 use crate::laws::corner::LawCorner;
 use crate::laws::entry::{Entry, EntryReader, EntryWriter};
 use crate::laws::operations::Operations;

@@ -144,6 +144,8 @@ macro_rules! laws {
             fn has_fade() -> bool;
             /// Its gap with the rate, then where it is over its road and how fast, along and up.
             fn watch(motion: &BodyMotion<T>, law_inputs: &LawInputs<'_, T>) -> [[T; 2]; 3];
+            /// What the road does to a tire; `None` of other laws.
+            fn tire(motion: &BodyMotion<T>, law_inputs: &LawInputs<'_, T>) -> Option<TireForces<T>>;
             /// Can it have kinks besides those of its gaps?
             fn may_have_kinks() -> bool;
             /// Hands out its kinks, in no order.

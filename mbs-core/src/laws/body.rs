@@ -48,6 +48,23 @@ pub(crate) fn put<T>(out: &mut [UnitWrench<T>], place: usize, action: UnitWrench
     }
 }
 
+/// What the road does to a tire.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct TireForces<T> {
+    /// Force along the road's normal [N].
+    pub load: T,
+    /// Force across the tire's plane, along its axis [N].
+    pub side: T,
+    /// Force along the plane, in the direction of axis times normal [N].
+    pub longitudinal: T,
+    /// Moment about the normal [N m].
+    pub aligning: T,
+    /// Angle between motion and plane where there is a side force [rad].
+    pub slip_angle: T,
+    /// The point of the tire that is nearest to the road [m], global axes.
+    pub contact: [T; 3],
+}
+
 /// Most unit wrenches of a law on a body [-]: a tire has five.
 pub const MAX_ACTIONS: usize = 5;
 
@@ -107,6 +124,11 @@ pub trait WrenchesLaw<T: Real>: Entry<T> + Copy {
     /// Its gap with the rate, then where it is over its road and how fast, along and up.
     fn watch(&self, _motion: &BodyMotion<T>, _supplies: &LawInputs<'_, T>) -> [[T; 2]; 3] {
         [[T::ZERO; 2]; 3]
+    }
+
+    /// What the road does to a tire; `None` of other laws.
+    fn tire(&self, _motion: &BodyMotion<T>, _inputs: &LawInputs<'_, T>) -> Option<TireForces<T>> {
+        None
     }
 
     /// Can it have kinks besides those of its gaps?

@@ -29,7 +29,7 @@
 //! camber out of the deflection, so that its radial force has no potential, and takes v_y at the centre. With either, its ramp
 //! steers at 10, 20 and 30 m/s end within 0.04 % of the way across.
 
-use super::body::{BodyMotion, UnitWrench, WrenchesLaw, put};
+use super::body::{BodyMotion, MAX_ACTIONS, TireForces, UnitWrench, WrenchesLaw, put};
 
 use super::bumper;
 use super::calspan::{self, Coefficients};
@@ -401,6 +401,28 @@ impl<T: Real> WrenchesLaw<T> for TireLaw<T> {
         let TireContact { deflection, place, speed } = self.contact(motion, law_inputs);
         let [depth, rate] = deflection;
         [[-depth, rate], [place[0], speed[0]], [place[1], speed[1]]]
+    }
+
+    fn tire(&self, motion: &BodyMotion<T>, law_inputs: &LawInputs<'_, T>) -> Option<TireForces<T>> {
+        let mut out = [UnitWrench::default(); MAX_ACTIONS];
+        self.evaluate(motion, law_inputs, &mut out);
+        let Stand { stance, .. } = self.stand(motion, law_inputs);
+        let [radial, rolling, side, aligning, slip] = out.map(|action| action.measure);
+        let (center, axis) = (Vector::<T, 3>::from(motion.position), Vector::from(motion.axis));
+        // r = -(d / cos g) e,   e = (n - (u.n) u) / cos g
+        let lean = if self.leans { axis.dot(&stance.normal) } else { T::ZERO };
+        let flat = stance.normal - axis * lean;
+        let slow = T::from_f64(STANDSTILL);
+        let effective = (rolling.rate * rolling.rate + slow * slow).sqrt();
+        let unit = flat * (T::ONE / norm(&flat).max(T::from_f64(LEAST_WIDTH)));
+        Some(TireForces {
+            load: -radial.tension * stance.stretch,
+            side: -side.tension,
+            longitudinal: -(rolling.tension + slip.tension),
+            aligning: -aligning.tension,
+            slip_angle: side.rate.atan2(effective),
+            contact: (center - unit * stance.reach).into(),
+        })
     }
 
     fn may_have_kinks(&self) -> bool {

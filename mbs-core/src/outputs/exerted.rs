@@ -6,6 +6,7 @@ use super::rotor::RotorTorque;
 use super::wrench::Wrench;
 use crate::Real;
 use crate::algebra::Matrix;
+use crate::laws::body::TireForces;
 use crate::laws::scalar::ScalarForce;
 use crate::model::State;
 use crate::natural::{ModelError, NaturalModel};
@@ -89,6 +90,14 @@ impl<T: Real, const D: usize> EffectWrenches<T, D> {
             let gaps = load.reading(state, &law_inputs).gaps;
             gaps.iter().take(load.n_gaps()).fold(depth, |depth, gap| depth.max(-gap.value))
         })
+    }
+
+    /// What the road does to a tire; zeros where the effect is none, or is not there.
+    pub(super) fn tire(&self, effect: usize, state: &State<T>) -> TireForces<T> {
+        let law_inputs = self.loads.law_inputs();
+        let turned = |body| self.turned(body, state);
+        let mut loads = self.loads_of(Some(effect));
+        loads.find_map(|load| load.tire((state, &law_inputs), turned)).unwrap_or_default()
     }
 
     /// Value, rate and acceleration of a signal.

@@ -31,6 +31,7 @@ mod kinds;
 mod modes;
 mod observers;
 mod oracle;
+mod output_quantities;
 mod points;
 mod random;
 mod readings;

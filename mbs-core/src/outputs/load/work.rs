@@ -11,6 +11,7 @@ use super::apply::{for_each_action, motion};
 use crate::Real;
 use crate::algebra::{Matrix, Vector, raised};
 use crate::laws::LawInputs;
+use crate::laws::body::TireForces;
 use crate::laws::scalar::ScalarForce;
 use crate::model::State;
 use crate::scene::BodyId;
@@ -63,6 +64,17 @@ impl<T: Real, const D: usize> Load<T, D> {
                 sum
             }
         }
+    }
+
+    /// What the road does to a tire; `None` of what is none. `turned` gives the rotation of a body.
+    pub(in crate::outputs) fn tire(
+        &self,
+        (state, law_inputs): (&State<T>, &LawInputs<'_, T>),
+        turned: impl Fn(BodyId) -> Matrix<T, 3>,
+    ) -> Option<TireForces<T>> {
+        let Self::OnBody { body, point, frame, axis, law } = self else { return None };
+        let axis = turned(BodyId::Body(*body)) * axis;
+        law.tire(&motion((point, frame), &axis, state), law_inputs)
     }
 
     /// Power that it gives to bodies [W]; `turned` gives the rotation of a body.

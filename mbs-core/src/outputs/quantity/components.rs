@@ -71,6 +71,10 @@ pub enum ComponentForm {
     Measured(&'static str),
     /// One number of an effect that acts on one side only; nothing of others.
     Contact,
+    /// One number of a tire, with its unit; nothing of other effects.
+    Tire(&'static str),
+    /// A place of a tire [m]; nothing of other effects.
+    TirePoint,
     /// One number of an effect that has a free value or acts on one side only, with its unit; nothing of others.
     Deflection,
     /// `xx`, `xy` and so on, row by row.
@@ -108,9 +112,10 @@ impl ComponentForm {
         match self {
             Self::Axial(unit) if about.len() == 1 => [one("", unit)].into(),
             Self::Vector(unit) | Self::Axial(unit) => axes.iter().map(|x| one(x, unit)).collect(),
+            Self::TirePoint => axes.iter().map(|x| one(x, "m")).collect(),
             Self::Coordinates(per) => coordinates(&|unit| format!("{unit}{per}")),
             Self::Efforts => coordinates(&|unit| effort(unit).into()),
-            Self::Number(unit) => [one("", unit)].into(),
+            Self::Number(unit) | Self::Tire(unit) => [one("", unit)].into(),
             Self::Contact => [one("", "-")].into(),
             Self::Deflection => measured.map(|unit| one("", unit)).into_iter().collect(),
             Self::Matrix => {

@@ -14,6 +14,8 @@ macro_rules! list {
                 Velocity in velocity;
                 /// Acceleration of a point of a body [m/s^2], global axes.
                 Acceleration in acceleration;
+                /// Acceleration of a point of a body less gravity [m/s^2], global axes: what an accelerometer measures.
+                ProperAcceleration in proper_acceleration;
             }
             relative {
                 /// Position of a point of a body from the origin of another body, in that body's axes [m].
@@ -90,6 +92,19 @@ macro_rules! list {
                 EffectPower in effect_power;
                 /// Whether a bumper, a limit or a tire is in contact [-]: one where a gap of it is below zero, else zero.
                 EffectContact in effect_contact;
+                /// Load of a tire [N]: the force of the road along its normal.
+                TireLoad in tire_load;
+                /// Force of the road on a tire across its plane [N], along its axis.
+                TireSideForce in tire_side_force;
+                /// Force of the road on a tire along its plane [N], by rolling resistance and slip: along its axis times the normal.
+                TireLongitudinalForce in tire_longitudinal_force;
+                /// Angle between the motion of a tire with a side force and its plane [rad]; zero above the road. At standstill it is regularised as
+                /// the side force is.
+                TireSlipAngle in tire_slip_angle;
+                /// Moment of the road on a tire about the road's normal [N m].
+                TireAligningTorque in tire_aligning_torque;
+                /// Point of a tire that is nearest to the road, in its plane [m], global axes; above the road, the point below it on the road.
+                TireContactPoint in tire_contact_point;
             }
             of Signal(signal: SignalId) {
                 /// The value of a signal, in its unit.

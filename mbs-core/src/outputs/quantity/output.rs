@@ -40,6 +40,15 @@ impl<T: Clone> Quantity<T> {
                 }
                 (&[][..], None)
             }
+            Target::Effect(effect)
+                if matches!(form, ComponentForm::Tire(_) | ComponentForm::TirePoint) =>
+            {
+                // a tire alone stands on the road
+                if !scene.effects[effect.index()].kind.row().needs_road {
+                    return Vec::new();
+                }
+                (&[][..], None)
+            }
             Target::Effect(effect) if form == ComponentForm::Deflection => {
                 (&[][..], unit_of_deflection(scene, effect))
             }

@@ -1,0 +1,27 @@
+//! Contact point of a tire.
+
+use super::kind::{Instant, Maker, Measured};
+use super::{ComponentForm, QuantityRow, TargetKind};
+use crate::Real;
+use crate::scene::EffectId;
+use core::marker::PhantomData;
+
+pub(super) const ROW: QuantityRow =
+    QuantityRow::new("contact-point", TargetKind::Effect, ComponentForm::TirePoint).of_effects();
+
+/// The effect.
+#[derive(Debug, Clone)]
+pub(in crate::outputs) struct TireContactPoint<T: Real, const D: usize>(usize, PhantomData<T>);
+
+impl<T: Real, const D: usize> Measured<T, D> for TireContactPoint<T, D> {
+    type Of = EffectId;
+
+    fn new(of: EffectId, _: &mut Maker<'_, T, D>) -> Self {
+        Self(of.index(), PhantomData)
+    }
+
+    fn write(&self, now: &Instant<'_, T, D>, out: &mut [T]) {
+        let point = now.effects.map_or([T::ZERO; 3], |all| all.tire(self.0, now.state).contact);
+        out.copy_from_slice(&point[..out.len()]);
+    }
+}
