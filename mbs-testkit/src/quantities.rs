@@ -52,6 +52,6 @@ pub fn every(scene: &Scene<f64>) -> Vec<Quantity<f64>> {
 
 /// Makes these the outputs of a scene, by number.
 pub fn show(scene: &mut Scene<f64>, quantities: impl IntoIterator<Item = Quantity<f64>>) {
-    let named = |(i, quantity)| Output { name: format!("channel-{i}"), quantity };
+    let named = |(i, quantity)| Output::new(quantity).named(&format!("channel-{i}"));
     scene.outputs = quantities.into_iter().enumerate().map(named).collect();
 }

@@ -81,7 +81,7 @@ impl StaticEquilibrium {
         let moved = moved(scene, &from, &places(&state));
         let reaction = |(index, joint): (usize, &Joint<f64>)| {
             let quantity = Quantity::Reaction { joint: JointId::new(index) };
-            Output { name: joint.name.clone(), quantity }
+            Output::new(quantity).named(&joint.name)
         };
         let reactions = scene.joints.iter().enumerate().map(reaction).collect();
         let joints = Scene { outputs: Vec::new(), ..scene.clone() }.channels();

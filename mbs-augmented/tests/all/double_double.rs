@@ -69,7 +69,7 @@ fn hold(counts: &[u32], exact: &[Exact]) {
     let mut scene = file_in("two-four-bars");
     let Quantity::Position { body, at } = scene.outputs[0].quantity else { panic!("a position") };
     let velocity = Quantity::Velocity { body, at };
-    scene.outputs.push(Output { name: "crank-end-velocity".into(), quantity: velocity });
+    scene.outputs.push(Output::new(velocity).named("crank-end-velocity"));
     let times: Vec<u32> = exact.iter().map(|(t, _)| *t).collect();
     let runs: Vec<_> = counts.iter().map(|&n| (n, ends(&scene, &times, n))).collect();
     for (place, (t, values)) in exact.iter().enumerate() {

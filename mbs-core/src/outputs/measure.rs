@@ -2,7 +2,7 @@
 
 use super::coordinate::Coordinate;
 use super::forces::Forces;
-use super::quantity::{Channel, Instant, Maker};
+use super::quantity::{Channel, Instant, Maker, magnitudes};
 use crate::Real;
 use crate::measure::given_values;
 use crate::model::State;
@@ -10,6 +10,7 @@ use crate::natural::{ModelError, NaturalModel};
 use crate::scene::Scene;
 use crate::step::StepError;
 use alloc::vec::Vec;
+use core::ops::Range;
 
 /// Largest relative difference of all turns by positions and by rates for which an angle is known [-]: that of the trapezoidal rule at half a
 /// radian a step.
@@ -21,8 +22,8 @@ const MISFIT: f64 = 2e-2;
 /// followed by the rates. Counting starts from the scene's initial value (an `[[initial]]` entry or a guide at time zero), else from zero.
 #[derive(Debug, Clone)]
 pub struct Measures<T: Real, const D: usize> {
-    /// What each channel reads, and its number of components.
-    channels: Vec<(Channel<T, D>, usize)>,
+    /// What each channel reads, its number of components, and the vectors among them whose magnitudes follow.
+    channels: Vec<(Channel<T, D>, usize, Vec<Range<usize>>)>,
     /// Last values of all tracked joint coordinates, then their rates, then their turns since the start by the rates, then what the
     /// positions have less, then the time.
     memory: Vec<T>,
@@ -43,11 +44,14 @@ impl<T: Real, const D: usize> Measures<T, D> {
         let mut maker = Maker { scene, model, starts: &starts, values: Vec::new() };
         let outputs = scene.channels();
         let channels = outputs.iter().map(|output| {
-            let length = output.quantity.components(scene).len();
-            (Channel::new(&output.quantity, &mut maker), length)
+            let components = output.quantity.components(scene);
+            let vectors = if output.magnitude { magnitudes(&components) } else { Vec::new() };
+            let vectors = vectors.into_iter().map(|vector| vector.places).collect();
+            (Channel::new(&output.quantity, &mut maker), components.len(), vectors)
         });
-        let channels: Vec<_> = channels.collect();
-        let (mut memory, n_components) = (maker.values, channels.iter().map(|c| c.1).sum());
+        let channels: Vec<(_, _, Vec<_>)> = channels.collect();
+        let n_components = channels.iter().map(|(_, n, vectors)| n + vectors.len()).sum();
+        let mut memory = maker.values;
         let n_values = memory.len();
         memory.resize(4 * n_values, T::ZERO);
         // No state was seen yet: the first one is followed from the start values.
@@ -63,7 +67,7 @@ impl<T: Real, const D: usize> Measures<T, D> {
 
     /// Number of components of each channel, in order.
     pub fn lengths(&self) -> impl Iterator<Item = usize> + '_ {
-        self.channels.iter().map(|channel| channel.1)
+        self.channels.iter().map(|(_, n, vectors)| n + vectors.len())
     }
 
     /// The last values of the joint coordinates that are followed, with their turns; then the state from which following them continues.
@@ -110,7 +114,7 @@ impl<T: Real, const D: usize> Measures<T, D> {
         let has_passed = dt > T::ZERO && time[0] >= T::ZERO;
         time[0] = state.t;
         let mut lost = Ok(());
-        for (channel, _) in channels {
+        for (channel, ..) in channels {
             let Some(value) = channel.followed() else { continue };
             let mut at = value.start;
             for (number, coordinate) in value.coordinates.iter().enumerate() {
@@ -171,9 +175,14 @@ impl<T: Real, const D: usize> Measures<T, D> {
             (forces.and_then(Forces::reactions), forces.and_then(Forces::effects));
         let now = Instant { state, values, reactions, effects };
         let mut rest = out;
-        for (channel, length) in &self.channels {
+        for (channel, length, vectors) in &self.channels {
             let (here, tail) = rest.split_at_mut(*length);
             channel.write(&now, here);
+            let (sizes, tail) = tail.split_at_mut(vectors.len());
+            for (size, places) in sizes.iter_mut().zip(vectors) {
+                let square = here[places.clone()].iter().fold(T::ZERO, |sum, x| sum + *x * *x);
+                *size = square.sqrt();
+            }
             rest = tail;
         }
         tracked

@@ -47,6 +47,8 @@ impl SceneFault {
                 "ask for `force`, `energy` or `power`, or name an effect along a line or on a joint"
             }
             Self::NoContact => "name a bumper, a limit or a tire",
+            Self::NotATire => "name a tire, or leave the output out",
+            Self::NoVector => "leave `magnitude` out, or choose a quantity with components x and y",
             Self::NoDeflection => "name a spring, a bumper, a limit or a tire",
             Self::UnknownCoordinate(_) => "count the joint's coordinates from 0",
             Self::NeedsCoordinate { .. } => "write one of these names",

@@ -69,7 +69,7 @@ impl<T: Real> Scene<T> {
         }
         road::check(self)?;
         for (i, output) in self.outputs.iter().enumerate() {
-            output::check(self, &output.quantity, self.place(Entry::Output(i)))?;
+            output::check(self, output, self.place(Entry::Output(i)))?;
         }
         point::check(self)
     }

@@ -74,6 +74,10 @@ pub enum SceneFault {
     NoContact,
     /// The effect has neither a free value nor a gap: it has no deflection.
     NoDeflection,
+    /// An output of a tire is of another effect.
+    NotATire,
+    /// An output without a vector has no magnitude.
+    NoVector,
     /// The coordinate is not there; the number of coordinates that the joint has.
     UnknownCoordinate(usize),
     /// The coordinate is a component of a rotation, which is no angle of its own.
@@ -257,6 +261,8 @@ impl SceneFault {
                 "is not measured by this effect, which acts on bodies in several directions"
             ),
             Self::NoContact => write!(f, "is not known of this effect, which acts on both sides"),
+            Self::NotATire => write!(f, "is of tires alone"),
+            Self::NoVector => write!(f, "the quantity has no vector, and so no magnitude"),
             Self::NoDeflection => {
                 write!(f, "is not known of this effect, which has neither a free value nor a gap")
             }

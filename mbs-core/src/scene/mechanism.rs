@@ -7,6 +7,7 @@ use crate::scene::{
     InitialId, Joint, JointId, NamedSignal, OutputId, Road, Rolling, RollingId, SignalId,
     SolverTable, Start, Surroundings,
 };
+use alloc::format;
 use alloc::string::String;
 use alloc::vec::Vec;
 use core::ops::{Index, IndexMut};
@@ -91,13 +92,15 @@ pub struct Output<T> {
     pub name: String,
     /// What is measured.
     pub quantity: Quantity<T>,
+    /// Has it a column with the magnitude of each of its vectors?
+    pub magnitude: bool,
 }
 
 impl<T> Output<T> {
     /// An output without a name.
     #[must_use]
     pub const fn new(quantity: Quantity<T>) -> Self {
-        Self { name: String::new(), quantity }
+        Self { name: String::new(), quantity, magnitude: false }
     }
 }
 
@@ -161,7 +164,45 @@ impl<T: Clone> Scene<T> {
         };
         let joints = self.joints.iter().enumerate().filter(|(_, joint)| moves(joint));
         let value = |index| Quantity::JointValue { joint: JointId::new(index) };
-        joints.map(|(i, joint)| Output { name: joint.name.clone(), quantity: value(i) }).collect()
+        joints.map(|(i, joint)| Output::new(value(i)).named(&joint.name)).collect()
+    }
+
+    /// Adds value, rate and reaction of every joint, and the force of every effect that is not switched off; what an output measures already is
+    /// not repeated. The value of a joint has its name, the rest the name and what it is; where an output has that, a number follows.
+    pub fn show_all(&mut self)
+    where
+        T: PartialEq,
+    {
+        for i in 0..self.joints.len() {
+            let (joint, at) = (JointId::new(i), &self.joints[i]);
+            let name = at.name.clone();
+            if at.kind.n_coordinates(self.dimension) > 0 && !self.turns_point(at) {
+                self.show(name.clone(), Quantity::JointValue { joint });
+                self.show(format!("{name} rate"), Quantity::JointRate { joint });
+            }
+            self.show(format!("{name} reaction"), Quantity::Reaction { joint });
+        }
+        for i in 0..self.effects.len() {
+            if self.effects[i].enabled {
+                let name = format!("{} force", self.effects[i].name);
+                self.show(name, Quantity::EffectForce { effect: EffectId::new(i) });
+            }
+        }
+    }
+
+    /// Adds an output, unless there is one of the same quantity.
+    fn show(&mut self, name: String, quantity: Quantity<T>)
+    where
+        T: PartialEq,
+    {
+        if self.outputs.iter().any(|output| output.quantity == quantity) {
+            return;
+        }
+        // one of these is free: there are more of them than outputs
+        let numbered = (2..self.outputs.len() + 3).map(|i| format!("{name} {i}"));
+        let is_free = |name: &String| self.outputs.iter().all(|output| output.name != *name);
+        let name = core::iter::once(name.clone()).chain(numbered).find(is_free);
+        self.outputs.push(Output::new(quantity).named(&name.unwrap_or_default()));
     }
 }
 

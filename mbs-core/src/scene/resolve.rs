@@ -284,7 +284,8 @@ impl<T> RoadFeature<T> {
 
 impl<T> Output<T> {
     fn map<U>(&self, f: &mut impl FnMut(&T) -> U) -> Output<U> {
-        Output { name: self.name.clone(), quantity: self.quantity.map(f) }
+        let (name, quantity) = (self.name.clone(), self.quantity.map(f));
+        Output { name, quantity, magnitude: self.magnitude }
     }
 }
 

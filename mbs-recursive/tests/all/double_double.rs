@@ -132,10 +132,9 @@ fn andrews_mechanism_has_all_digits_of_its_reference() {
     ];
     for name in joints {
         let joint = scene.joints.iter().position(|joint| joint.name == name).expect("a joint");
-        scene.outputs.push(Output {
-            name: name.into(),
-            quantity: Quantity::JointRate { joint: JointId::new(joint) },
-        });
+        scene
+            .outputs
+            .push(Output::new(Quantity::JointRate { joint: JointId::new(joint) }).named(name));
     }
     let mut run = Run::new(&scene, 1e-26);
     let starts = [

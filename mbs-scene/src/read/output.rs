@@ -59,7 +59,8 @@ pub(crate) fn read(
     }
     let target = target(fields, kind, (centers, names))?;
     let Some(quantity) = Quantity::of(word.0, target) else { return unknown() };
-    Ok(Output { name: fields.name()?, quantity })
+    let magnitude = fields.flag("magnitude", false)?;
+    Ok(Output { name: fields.name()?, quantity, magnitude })
 }
 
 /// What an output is of.

@@ -65,7 +65,8 @@ impl SceneFile {
         let of_couplings = Names::new(couplings.iter().map(|x| x.name.clone()).collect());
         let of_rollings = Names::new(rollings.iter().map(|x| x.name.clone()).collect());
         let of_effects = Names::new(effects.iter().map(|x| x.name.clone()).collect());
-        Ok(Scene {
+        let road = |item| road::read(&context.table(item, "a table: [road]", "road")?);
+        let scene = Scene {
             name: self.scene_name(&header)?,
             dimension,
             gravity: header.get("gravity").map(|item| context.vector(item)).transpose()?,
@@ -78,10 +79,7 @@ impl SceneFile {
             rollings,
             signals: self.entries(&context, "signal", |_, fields| signal::read(fields, &joints))?,
             joints,
-            road: match self.top("road") {
-                Some(item) => road::read(&context.table(item, "a table: [road]", "road")?)?,
-                None => Default::default(),
-            },
+            road: self.top("road").map(road).transpose()?.unwrap_or_default(),
             start: read_start(&header)?,
             effects,
             outputs: self.entries(&context, "output", |_, fields| {
@@ -93,7 +91,8 @@ impl SceneFile {
                 }
                 None => Default::default(),
             },
-        })
+        };
+        with_asked(&header, scene)
     }
 
     /// The joints of a file, then those of its guided bodies; and the guides.
@@ -262,6 +261,20 @@ fn read_dimension(header: &Fields<'_>) -> Read<Dimension> {
         Node::Number(text) if text == "3" => Ok(Dimension::Spatial),
         Node::Number(text) => header.unknown_word("dimension", (text, &item.span), &["2", "3"]),
         _ => header.number("dimension").map(|_| Dimension::Planar),
+    }
+}
+
+/// The scene with the outputs of all joints and effects, where its header asks for them.
+fn with_asked(header: &Fields<'_>, mut scene: Scene<Number>) -> Read<Scene<Number>> {
+    if header.get("outputs").is_none() {
+        return Ok(scene);
+    }
+    match header.word("outputs")? {
+        ("all", _) => {
+            scene.show_all();
+            Ok(scene)
+        }
+        word => header.unknown_word("outputs", word, &["all"]),
     }
 }
 

@@ -487,14 +487,14 @@ impl Writer<'_> {
                 keys.push("rolling", rolling.name.as_str());
             }
             Target::Effect(effect) => {
-                let effect = self.scene.effects.get(effect.index());
-                let effect = effect.ok_or(WriteError::UnknownReference("effect"))?;
-                keys.push("effect", effect.name.as_str());
+                let effect = self.scene.effects.get(effect.index()).map(|e| e.name.as_str());
+                keys.push("effect", effect.ok_or(WriteError::UnknownReference("effect"))?);
             }
             Target::Signal(signal) => keys.push("signal", self.signal_name(signal)?),
             Target::Scene => {}
         }
         keys.push("quantity", output.quantity.row().name);
+        output.magnitude.then(|| keys.push("magnitude", Node::Bool(true)));
         Ok(keys)
     }
 }

@@ -28,7 +28,7 @@ impl Channel {
     pub fn of_scene<T: Clone>(scene: &Scene<T>) -> Vec<Self> {
         let channel = |output: Output<T>| Self {
             quantity: output.quantity.row().name,
-            components: output.quantity.components(scene),
+            components: output.components(scene),
             name: output.name,
         };
         scene.channels().into_iter().map(channel).collect()

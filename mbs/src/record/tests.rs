@@ -102,6 +102,8 @@ fn json_has_exactly_the_keys_of_the_format() {
         "energy",
         "violation",
         "outputs",
+        "channels",
+        "method_used",
     ];
     expected.sort_unstable();
     assert_eq!(keys(&json), expected);
@@ -126,4 +128,44 @@ fn json_has_exactly_the_keys_of_the_format() {
     assert_eq!(keys(&json["contacts"][0]), ["effect", "event", "time"]);
     assert_eq!(json["contacts"][1]["end"], "upper");
     assert_eq!(json["contacts_left_out"], 3);
+}
+
+#[test]
+fn magnitudes_have_columns_where_they_are_asked_for() {
+    let tip = r#"output = [{ name = "tip", body = "b", at = [1, 0, 0], magnitude = true }, { name = "r", joint = "rail", quantity = "reaction", magnitude = true }]"#;
+    let expected = [
+        "tip.x", "tip.y", "tip.z", "tip.abs", "r.Fx", "r.Fy", "r.Fz", "r.Mx", "r.My", "r.Mz",
+        "r.F", "r.M",
+    ];
+    assert_eq!(columns(tip), expected);
+}
+
+#[test]
+fn outputs_of_all_joints_and_effects_are_added_once() {
+    let all = SCENE.replace("duration = 1", "duration = 1, outputs = \"all\"");
+    let more = r#"
+effect = [{ name = "spring", kind = "torsion-spring", joint = "rail", coordinate = 0, stiffness = 1 }]
+output = [{ name = "rail rate", joint = "rail" }]"#;
+    let scene = SceneFile::parse(&(all + more), "x").unwrap().scene::<f64>().unwrap();
+    let found: Vec<_> =
+        Channel::of_scene(&scene).into_iter().map(|c| (c.name, c.quantity)).collect();
+    let expected = [
+        ("rail rate", "value"),
+        ("rail rate 2", "rate"),
+        ("rail reaction", "reaction"),
+        ("spring force", "force"),
+    ];
+    assert_eq!(found, expected.map(|(name, quantity)| (name.to_owned(), quantity)));
+}
+
+#[test]
+fn what_has_no_vector_has_no_magnitude() {
+    for (output, word) in [
+        (r#"{ name = "x", joint = "rail", magnitude = true }"#, "no magnitude"),
+        (r#"{ name = "x", body = "b", quantity = "orientation", magnitude = true }"#, "magnitude"),
+    ] {
+        let text = format!("{SCENE}output = [{output}]");
+        let error = SceneFile::parse(&text, "x").unwrap().scene::<f64>().unwrap_err();
+        assert!(error.to_string().contains(word), "{error}");
+    }
 }

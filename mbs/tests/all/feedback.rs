@@ -300,7 +300,7 @@ fn the_servo_arm_ends_at_its_targets_with_the_torques_of_its_weight() {
         let further = std::array::from_fn(|i| at[i] + axes[k][i]);
         for (name, at) in [("centre", body.center), ("joint", at), ("axis", further)] {
             let quantity = Quantity::Position { body: BodyId::Body(k), at };
-            scene.outputs.push(Output { name: format!("{name}-{k}"), quantity });
+            scene.outputs.push(Output::new(quantity).named(&format!("{name}-{k}")));
         }
     }
     let joints: Vec<_> = (0..n).collect();
@@ -309,7 +309,7 @@ fn the_servo_arm_ends_at_its_targets_with_the_torques_of_its_weight() {
             scene.signals.iter().position(|s| s.name == format!("servo-{}", scene.joints[k].name));
         let signal = mbs::core::scene::SignalId::new(signal.expect("a servo"));
         let quantity = Quantity::SignalValue { signal };
-        scene.outputs.push(Output { name: format!("torque-{k}"), quantity });
+        scene.outputs.push(Output::new(quantity).named(&format!("torque-{k}")));
     }
     for formulation in ["index-3", "recursive"] {
         let rows = rows(&scene, Way(formulation, "trapezoidal"), (2e-3, 6.0), 3000);

@@ -80,7 +80,7 @@ fn the_redundant_spatial_four_bar_moves_like_the_planar_one_or_is_refused() {
         [1, 2].map(|joint| (spatial.joints[joint].points[0], planar.joints[joint].points[0]));
     let output = |body, at| {
         let quantity = Quantity::Position { body: BodyId::Body(body), at };
-        Output { name: format!("pin {body}"), quantity }
+        Output::new(quantity).named(&format!("pin {body}"))
     };
     spatial.outputs = vec![output(0, pins[0].0), output(1, pins[1].0)];
     planar.outputs = vec![output(0, pins[0].1), output(1, pins[1].1)];

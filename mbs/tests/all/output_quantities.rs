@@ -3,7 +3,8 @@
 use crate::common::{run, scene};
 use mbs::core::effects::Value;
 use mbs::core::outputs::Quantity;
-use mbs::core::scene::{BodyId, EffectId, Output, Scene};
+use mbs::core::scene::{BodyId, EffectId, JointId, Output, Scene};
+use mbs::record::Provenance;
 use mbs::{Method, Search, StaticEquilibrium};
 
 /// Difference from the weight at an equilibrium, relative [-]: its residual is below 1e-12.
@@ -23,7 +24,7 @@ fn tires(scene: &Scene<f64>) -> Vec<EffectId> {
 }
 
 fn show(scene: &mut Scene<f64>, quantities: Vec<Quantity<f64>>) {
-    let named = |(i, quantity): (usize, _)| Output { name: i.to_string(), quantity };
+    let named = |(i, quantity): (usize, _)| Output::new(quantity).named(&i.to_string());
     scene.outputs = quantities.into_iter().enumerate().map(named).collect();
 }
 
@@ -63,6 +64,28 @@ fn a_point_in_free_fall_has_no_proper_acceleration() {
     for (t, row) in rows {
         assert!(row.iter().all(|x| x.abs() < SAME * GRAVITY), "{t}: {row:?}");
     }
+}
+
+#[test]
+fn a_column_of_magnitudes_is_the_root_of_the_sum_of_squares_of_its_components() {
+    let mut scene = scene("iltis-suspension");
+    let joint = JointId::new(0);
+    show(&mut scene, vec![Quantity::Reaction { joint }]);
+    scene.outputs[0].magnitude = true;
+    let outcome = run(&scene, &Method { duration: Some(0.1), ..Method::default() });
+    let mut largest = 0.0_f64;
+    for (t, row) in outcome.rows() {
+        let [force, moment] = [&row[..3], &row[3..6]].map(|x| x.iter().map(|x| x * x).sum::<f64>());
+        assert!((row[6] - force.sqrt()).abs() <= ROUNDING * row[6], "{t}: {row:?}");
+        assert!((row[7] - moment.sqrt()).abs() <= ROUNDING * row[7], "{t}: {row:?}");
+        assert_eq!(row.len(), 8);
+        largest = largest.max(row[6]);
+    }
+    // the statistics have each magnitude once
+    let stats = &outcome.record(Provenance::default()).channels[0].stats;
+    assert_eq!(stats.len(), 8);
+    assert!((stats[6].of.max - largest).abs() <= ROUNDING * largest, "{stats:?}");
+    assert!(largest > 1.0);
 }
 
 type Vector = [f64; 3];

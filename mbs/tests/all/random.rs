@@ -149,7 +149,7 @@ fn described_apart(
                     body: mbs::core::scene::BodyId::Body(body),
                     at,
                 };
-                mbs::core::scene::Output { name: format!("centre-{i}"), quantity }
+                mbs::core::scene::Output::new(quantity).named(&format!("centre-{i}"))
             })
             .collect();
         scene

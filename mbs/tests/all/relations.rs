@@ -84,7 +84,7 @@ fn with(text: &str, couplings: impl IntoIterator<Item = Coupling>) -> Scene<Numb
         ("effort", Quantity::Effort { coupling }),
         ("value", Quantity::CouplingValue { coupling }),
     ];
-    scene.outputs.extend(of.map(|(name, quantity)| Output { name: name.into(), quantity }));
+    scene.outputs.extend(of.map(|(name, quantity)| Output::new(quantity).named(name)));
     scene
 }
 

@@ -132,7 +132,7 @@ fn steering_ramps_end_where_those_of_an_independent_program_do() {
         let quantities = at.map(place).into_iter().chain(at.map(speed));
         scene.outputs = quantities
             .enumerate()
-            .map(|(i, quantity)| Output { name: format!("{i}"), quantity })
+            .map(|(i, quantity)| Output::new(quantity).named(&format!("{i}")))
             .collect();
         for formulation in ["index-3", "recursive"] {
             let outcome = common::run_in(&scene, formulation, None);
@@ -164,7 +164,7 @@ fn steering_ramps_end_where_those_of_an_independent_program_do() {
 fn run(name: &str, formulation: &str, (step, duration): (f64, f64)) -> (Vec<[f64; 4]>, f64) {
     let mut scene = common::scene(name);
     let at = scene.bodies[0].center;
-    let output = |name: &str, quantity| Output { name: name.into(), quantity };
+    let output = |name: &str, quantity| Output::new(quantity).named(name);
     scene.outputs = vec![
         output("place", Quantity::Position { body: BodyId::Body(0), at }),
         output("acceleration", Quantity::Acceleration { body: BodyId::Body(0), at }),

@@ -93,6 +93,12 @@ fn effort(unit: &str) -> &'static str {
 }
 
 impl ComponentForm {
+    /// Is it of tires alone?
+    #[must_use]
+    pub const fn is_of_tire(self) -> bool {
+        matches!(self, Self::Tire(_) | Self::TirePoint)
+    }
+
     /// Each component; of a joint with these freedoms, of a coupling or an effect with the unit of what it measures.
     pub(super) fn of(
         self,

@@ -1,6 +1,6 @@
 //! Outputs by what they measure, and the components of a quantity.
 
-use super::components::{Component, ComponentForm};
+use super::components::{Component, ComponentForm, Magnitude, magnitudes};
 use super::effect_deflection::has_free_value;
 use super::{Quantity, RelativePoint, Target};
 use crate::effects::{ActsOn, Value};
@@ -11,6 +11,23 @@ use crate::scene::{
 use alloc::vec::Vec;
 
 super::list::list!(constructors);
+
+impl<T: Clone> Output<T> {
+    /// Its components in a scene: those of its quantity, then the magnitudes that it has columns for.
+    ///
+    /// # Panics
+    /// As [`Quantity::components`].
+    #[must_use]
+    pub fn components(&self, scene: &Scene<T>) -> Vec<Component> {
+        let mut components = self.quantity.components(scene);
+        if self.magnitude {
+            let of = |x: Magnitude| Component { label: x.label.into(), unit: x.unit };
+            let more: Vec<_> = magnitudes(&components).into_iter().map(of).collect();
+            components.extend(more);
+        }
+        components
+    }
+}
 
 impl<T: Clone> Quantity<T> {
     /// Its components in a scene.
@@ -40,9 +57,7 @@ impl<T: Clone> Quantity<T> {
                 }
                 (&[][..], None)
             }
-            Target::Effect(effect)
-                if matches!(form, ComponentForm::Tire(_) | ComponentForm::TirePoint) =>
-            {
+            Target::Effect(effect) if form.is_of_tire() => {
                 // a tire alone stands on the road
                 if !scene.effects[effect.index()].kind.row().needs_road {
                     return Vec::new();

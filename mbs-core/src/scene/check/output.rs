@@ -3,10 +3,23 @@
 use super::reference::known_body;
 use super::vector::Place;
 use crate::Real;
-use crate::outputs::{Quantity, RelativePoint, Target};
-use crate::scene::{BodyId, Scene, SceneError, SceneFault};
+use crate::outputs::{Quantity, RelativePoint, Target, magnitudes};
+use crate::scene::{BodyId, Output, Scene, SceneError, SceneFault};
 
 pub(super) fn check<T: Real>(
+    scene: &Scene<T>,
+    output: &Output<T>,
+    place: Place,
+) -> Result<(), SceneError> {
+    let quantity = &output.quantity;
+    of_target(scene, quantity, place)?;
+    if output.magnitude && magnitudes(&quantity.components(scene)).is_empty() {
+        return place.fault("magnitude", SceneFault::NoVector);
+    }
+    Ok(())
+}
+
+fn of_target<T: Real>(
     scene: &Scene<T>,
     quantity: &Quantity<T>,
     place: Place,
@@ -43,6 +56,7 @@ pub(super) fn check<T: Real>(
                 let fault = match quantity {
                     Quantity::EffectContact { .. } => SceneFault::NoContact,
                     Quantity::EffectDeflection { .. } => SceneFault::NoDeflection,
+                    _ if quantity.row().components.is_of_tire() => SceneFault::NotATire,
                     _ => SceneFault::NoMeasure,
                 };
                 place.fault("quantity", fault)

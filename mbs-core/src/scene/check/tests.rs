@@ -100,10 +100,8 @@ fn names_are_there_free_and_different() {
     assert_eq!(found, (Entry::Body(0), "name", SceneFault::ReservedName));
     let found = refused(planar(), |s| s.joints[1].name = " ".into());
     assert_eq!(found, (Entry::Joint(1), "name", SceneFault::ReservedName));
-    let twice = |name: &str| Output {
-        name: name.into(),
-        quantity: Quantity::JointRate { joint: JointId::new(0) },
-    };
+    let twice =
+        |name: &str| Output::new(Quantity::JointRate { joint: JointId::new(0) }).named(name);
     let found = refused(planar(), |s| s.outputs = vec![twice("a"), twice("a")]);
     assert_eq!(found, (Entry::Output(1), "name", SceneFault::DuplicateName(0)));
     let found = refused(planar(), |s| s.outputs = vec![twice("t")]);

@@ -65,7 +65,7 @@ pub(crate) fn guide(scene: &mut Scene<f64>, joint: usize, law: Motion<f64>) {
 /// Adds an output channel.
 pub(crate) fn output(scene: &mut Scene<f64>, quantity: Quantity<f64>) {
     let name = format!("output {}", scene.outputs.len());
-    scene.outputs.push(Output { name, quantity });
+    scene.outputs.push(Output::new(quantity).named(&name));
 }
 
 /// The model of a checked scene and its consistent start.

@@ -73,6 +73,17 @@ fn every_quantity_of_the_table_reads_back_as_it_was_written() {
 }
 
 #[test]
+fn magnitudes_and_outputs_of_all_are_kept() {
+    let text = "[scene]\ndimension = 2\nduration = 1\noutputs = \"all\"\n[[body]]\nname = \"b\"\nmass = 1\ncenter = [0, 0]\n\
+                inertia = 1\n[[joint]]\nname = \"j\"\nkind = \"revolute\"\nbodies = [\"ground\", \"b\"]\nat = [0, 0]\n\
+                [[output]]\nname = \"p\"\nbody = \"b\"\nat = [1, 0]\nmagnitude = true\n";
+    let scene = SceneFile::parse(text, "x").and_then(|file| file.numbers()).expect("a scene");
+    let found: Vec<_> = scene.outputs.iter().map(|x| (x.name.as_str(), x.magnitude)).collect();
+    assert_eq!(found, [("p", true), ("j", false), ("j rate", false), ("j reaction", false)]);
+    assert_eq!(again(&scene), scene);
+}
+
+#[test]
 fn thirty_two_digits_are_kept() {
     let text = "[scene]\ndimension = 2\nduration = 0.33333333333333333333333333333333\n\
                 gravity = [1e-3, -9.80665000000000000000000001]\n";
