@@ -9,6 +9,7 @@ mod bar;
 mod channels;
 mod check;
 mod compare;
+mod diff;
 mod doctor;
 mod explain;
 mod export;
@@ -60,6 +61,8 @@ enum Command {
     Run(Box<run::Arguments>),
     /// Measure CPU time and true error of every method over a range of steps; --resume continues it.
     Compare(compare::Arguments),
+    /// Compare the results of two runs: peaks, root mean squares, largest difference and when.
+    Diff(diff::Arguments),
     /// Report what a scene simulates, what it does not, and the measured cost of each effect.
     Explain(explain::Arguments),
     /// Report faults and doubts, with remedies: dependent joints by name, reactions, branches, masses, units, start.
@@ -104,6 +107,7 @@ fn main() -> ExitCode {
     match cli.command {
         Command::Run(arguments) => run::main(&arguments),
         Command::Compare(arguments) => compare::main(&arguments),
+        Command::Diff(arguments) => diff::main(&arguments),
         Command::Explain(arguments) => explain::main(&arguments),
         Command::Doctor(arguments) => doctor::main(&arguments),
         Command::Export(arguments) => export::main(&arguments),

@@ -28,6 +28,7 @@ pub mod realtime;
 pub mod record;
 mod recorder;
 mod rest;
+pub mod results;
 mod run;
 mod settings;
 mod signal_ends;

@@ -41,8 +41,10 @@ fn keys<'a>(value: &'a Value, found: &mut BTreeSet<&'a str>) {
 #[test]
 fn json_keys_are_those_of_the_contract() {
     let lists = lists();
+    let other = scene("double-pendulum");
     for (command, name, options) in [
-        ("run", "double-pendulum", &["--duration", "0.05"][..]),
+        ("diff", "double-pendulum", &[other.as_str(), "--within", "1"][..]),
+        ("run", "double-pendulum", &["--duration", "0.05"]),
         ("explain", "tree-30", &["--duration", "0.02"]),
         ("doctor", "spatial-four-bar", &["--duration", "0.05"]),
         ("equilibrium", "rssr", &[]),

@@ -3,9 +3,10 @@
 use super::{json, run, scene, text};
 use std::path::Path;
 
-const COMMANDS: [&str; 12] = [
+const COMMANDS: [&str; 13] = [
     "run",
     "compare",
+    "diff",
     "explain",
     "doctor",
     "export",

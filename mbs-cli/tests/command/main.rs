@@ -10,6 +10,7 @@ mod choice;
 mod command;
 mod compare;
 mod contract;
+mod diff;
 mod doctor;
 mod double_double;
 mod explain;

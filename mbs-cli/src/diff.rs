@@ -1,0 +1,155 @@
+//! `mbs diff A B`.
+
+use crate::channels::{number, time};
+use crate::files;
+use crate::refusal::Refusal;
+use crate::say::say;
+use crate::signals;
+use crate::status::STOPPED;
+use clap::Args;
+use mbs::results::{ColumnDifference, Difference, ResultTable, difference};
+use mbs::{Method, run_document};
+use serde_json::json;
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+
+/// Most characters of a column's name in the table: it then fits into a hundred columns.
+const NAME_WIDTH: usize = 26;
+
+/// Arguments of `mbs diff`.
+#[derive(Debug, Args)]
+pub(crate) struct Arguments {
+    /// First run: a directory that `mbs run --out` has written, or a scene file, which is run.
+    a: PathBuf,
+    /// Second run.
+    b: PathBuf,
+    /// Largest difference, relative to the range of each channel; beyond it the exit status is 2. Default: none.
+    #[arg(long, value_name = "RATIO", value_parser = ratio)]
+    within: Option<f64>,
+    /// Name of a channel, or of one of its columns; may be repeated. Default: all.
+    #[arg(long, value_name = "NAME")]
+    channel: Vec<String>,
+    /// Print one JSON object on standard output and nothing else.
+    #[arg(long)]
+    json: bool,
+}
+
+fn ratio(text: &str) -> Result<f64, String> {
+    let number = text.parse::<f64>().ok().filter(|x| *x >= 0.0 && x.is_finite());
+    number.ok_or_else(|| "write a number of at least zero, such as 1e-6".to_owned())
+}
+
+/// Runs the command.
+pub(crate) fn main(arguments: &Arguments) -> ExitCode {
+    match compared(arguments) {
+        Ok(found) => report(arguments, &found),
+        Err(refusal) => refusal.report(),
+    }
+}
+
+fn compared(arguments: &Arguments) -> Result<Difference, Refusal> {
+    let (a, b) = (results(&arguments.a)?, results(&arguments.b)?);
+    let found = difference(&a, &b, &arguments.channel);
+    let missing = |name: &&String| {
+        let has = |table: &ResultTable| {
+            table.columns.iter().any(|x| x.channel == **name || x.name == **name)
+        };
+        !has(&a) && !has(&b)
+    };
+    if let Some(name) = arguments.channel.iter().find(missing) {
+        let known: Vec<_> = a.columns.iter().map(|column| column.channel.as_str()).collect();
+        return Err(unknown(name, known));
+    }
+    if found.columns.is_empty() {
+        let hint = "compare runs that have an output of the same name";
+        return Err(Refusal::new("no-common-channel", "both runs have no channel in common", hint));
+    }
+    Ok(found)
+}
+
+/// The refusal of a channel that is not there.
+pub(crate) fn unknown(name: &str, mut known: Vec<&str>) -> Refusal {
+    known.dedup();
+    let hint = format!("name one of: {}", known.join(", "));
+    Refusal::new("unknown-channel", format!("there is no channel `{name}`"), hint)
+}
+
+/// The results in a directory, or those of a scene that is run; else the refusal.
+pub(crate) fn results(path: &Path) -> Result<ResultTable, Refusal> {
+    let unreadable = |error: &dyn core::fmt::Display| {
+        let hint = "give a directory that `mbs run SCENE --out DIR` has written, or a scene";
+        Refusal::new("results-unreadable", error, hint)
+    };
+    if path.is_dir() {
+        return ResultTable::open(path).map_err(|error| unreadable(&error));
+    }
+    let overrides = Method { interrupt: signals::heeded(), ..Method::default() };
+    let begun = files::begin(path, &overrides, (None, &[]))?;
+    let outcome = run_document((&begun.document, &begun.scene), &begun.settings, &mut |_| {});
+    let outcome = outcome.map_err(|error| Refusal::scene(&error))?;
+    ResultTable::of_outcome(&outcome).map_err(|error| unreadable(&error))
+}
+
+fn report(arguments: &Arguments, found: &Difference) -> ExitCode {
+    let is_within = arguments.within.map(|within| found.is_within(within));
+    let status = match is_within {
+        Some(false) => ExitCode::from(STOPPED),
+        _ => ExitCode::SUCCESS,
+    };
+    let text = if arguments.json {
+        let [a, b] = [&arguments.a, &arguments.b].map(|path| path.display().to_string());
+        let object = json!({
+            "runs": [a, b],
+            "within": arguments.within,
+            "is_within": is_within,
+            "ends": found.ends,
+            "columns": found.columns,
+            "only_a": found.only_a,
+            "only_b": found.only_b,
+        });
+        format!("{object:#}\n")
+    } else {
+        lines(found, arguments.within).join("\n") + "\n"
+    };
+    say(&text, status)
+}
+
+fn lines(found: &Difference, within: Option<f64>) -> Vec<String> {
+    let head = ["peak A", "peak B", "RMS A", "RMS B", "largest"];
+    let head = head.map(|x| format!("{x:>11}")).concat();
+    let mut lines = vec![format!("  {:<NAME_WIDTH$} {:<6}{head}{:>9}", "", "unit", "at [s]")];
+    lines.extend(found.columns.iter().map(line));
+    for (names, which) in [(&found.only_a, "first"), (&found.only_b, "second")] {
+        if !names.is_empty() {
+            lines.push(format!("  in the {which} run alone: {}", names.join(", ")));
+        }
+    }
+    if !found.ends_together() {
+        let [a, b] = found.ends.map(time);
+        lines.push(format!("  the runs end at {a} and {b} s: compared up to the first end"));
+    }
+    let worst = found.columns.iter().max_by(|a, b| a.relative.total_cmp(&b.relative));
+    if let Some(ColumnDifference { name, relative, .. }) = worst {
+        let verdict = match within {
+            Some(most) if found.is_within(most) => format!(", within {most:e}"),
+            Some(most) if *relative > most => format!(", beyond {most:e}"),
+            _ => String::new(),
+        };
+        let share = number(*relative);
+        lines.push(format!("  largest difference: {share} of the range, of {name}{verdict}"));
+    }
+    lines
+}
+
+fn line(column: &ColumnDifference) -> String {
+    let ([a, b], [c, d]) = (column.peaks, column.rms);
+    let numbers = [a, b, c, d, column.difference].map(|x| format!("{:>11}", number(x))).concat();
+    let n = column.name.chars().count().saturating_sub(NAME_WIDTH);
+    // the end of a name says which component it is
+    let name = match n {
+        0 => column.name.clone(),
+        _ => ['…'].into_iter().chain(column.name.chars().skip(n + 1)).collect(),
+    };
+    let at = time(column.at);
+    format!("  {name:<NAME_WIDTH$} {:<6}{numbers}{at:>9}", column.unit)
+}

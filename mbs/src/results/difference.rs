@@ -1,0 +1,141 @@
+//! How two runs differ, column by column.
+//!
+//! ```text
+//! d = max |a(t) - b(t)|    over the times of both, a and b linear between rows
+//! ```
+//!
+//! A difference of two such lines is one too, with its corners at the times of both: its largest value is at one of them.
+
+use super::read::{ResultColumn, ResultTable};
+
+/// Rounding that counts as no difference, relative to the largest value of a channel [-]: a channel that stands still has no range.
+const ROUNDING: f64 = 1e-12;
+/// Difference of the ends of two runs that counts as none, relative to them [-]: sums of steps round.
+const SAME_END: f64 = 1e-9;
+
+/// How a column differs in two runs.
+#[derive(Debug, Clone, Default, PartialEq, serde::Serialize)]
+pub struct ColumnDifference {
+    /// Name of the column.
+    pub name: String,
+    /// Its unit.
+    pub unit: String,
+    /// Largest magnitude in each run.
+    pub peaks: [f64; 2],
+    /// Root mean square in each run.
+    pub rms: [f64; 2],
+    /// The largest difference.
+    pub difference: f64,
+    /// When it is [s].
+    pub at: f64,
+    /// The range of the channel: the largest of its components that have this unit, in both runs.
+    pub range: f64,
+    /// Difference over range.
+    pub relative: f64,
+}
+
+/// How two runs differ.
+#[derive(Debug, Clone, Default, PartialEq, serde::Serialize)]
+pub struct Difference {
+    /// Columns that both have.
+    pub columns: Vec<ColumnDifference>,
+    /// Channels that the first run alone has.
+    pub only_a: Vec<String>,
+    /// Channels that the second run alone has.
+    pub only_b: Vec<String>,
+    /// When each run ends [s].
+    pub ends: [f64; 2],
+}
+
+impl Difference {
+    /// Do both runs end at the same time, and is no column farther from the other than `within` times its range?
+    #[must_use]
+    pub fn is_within(&self, within: f64) -> bool {
+        self.ends_together() && self.columns.iter().all(|column| column.relative <= within)
+    }
+
+    /// Do both runs end at the same time?
+    #[must_use]
+    pub fn ends_together(&self) -> bool {
+        let [a, b] = self.ends;
+        (a - b).abs() <= SAME_END * a.abs().max(b.abs())
+    }
+}
+
+/// The difference of two runs in the channels of these names; of no names, in all.
+#[must_use]
+pub fn difference(a: &ResultTable, b: &ResultTable, names: &[String]) -> Difference {
+    let is_asked = |column: &&ResultColumn| {
+        names.is_empty() || names.iter().any(|x| *x == column.channel || *x == column.name)
+    };
+    let both = a.columns.iter().filter(is_asked);
+    let both = both.filter_map(|column| Some((column, b.column(&column.name)?)));
+    let columns = both.map(|(x, y)| of_columns((a, x), (b, y))).collect();
+    let only = |one: &ResultTable, other: &ResultTable| {
+        let missing = |column: &&ResultColumn| other.column(&column.name).is_none();
+        let missing = one.columns.iter().filter(is_asked).filter(missing);
+        let mut names: Vec<_> = missing.map(|column| column.channel.clone()).collect();
+        names.dedup();
+        names
+    };
+    Difference { columns, only_a: only(a, b), only_b: only(b, a), ends: [a.end(), b.end()] }
+}
+
+fn of_columns(
+    (a, x): (&ResultTable, &ResultColumn),
+    (b, y): (&ResultTable, &ResultColumn),
+) -> ColumnDifference {
+    let (mut difference, mut at) = (0.0, a.times[0].max(b.times[0]));
+    let span = at..=a.end().min(b.end());
+    let times = a.times.iter().chain(&b.times).filter(|t| span.contains(t));
+    let (mut i, mut j) = (0, 0);
+    let mut times: Vec<f64> = times.copied().collect();
+    times.sort_by(f64::total_cmp);
+    for t in times {
+        let here =
+            (value(&a.times, &x.values, t, &mut i) - value(&b.times, &y.values, t, &mut j)).abs();
+        if here > difference {
+            (difference, at) = (here, t);
+        }
+    }
+    let [of_a, of_b] = [(a, x), (b, y)].map(|(table, column)| scale(table, column));
+    let range = of_a[0].max(of_b[0]);
+    let floor = ROUNDING * of_a[1].max(of_b[1]);
+    let relative = match difference <= floor {
+        true => 0.0,
+        false => difference / range.max(floor),
+    };
+    ColumnDifference {
+        name: x.name.clone(),
+        unit: x.unit.clone(),
+        peaks: [x.peak, y.peak],
+        rms: [x.rms, y.rms],
+        difference,
+        at,
+        range,
+        relative,
+    }
+}
+
+/// The largest range, and the largest magnitude, among the columns of a column's channel that have its unit.
+fn scale(table: &ResultTable, of: &ResultColumn) -> [f64; 2] {
+    let same = table.columns.iter().filter(|x| x.channel == of.channel && x.unit == of.unit);
+    same.fold([0.0; 2], |[range, size], column| {
+        let least = column.values.iter().copied().fold(f64::INFINITY, f64::min);
+        let most = column.values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        [range.max(most - least), size.max(most.abs()).max(least.abs())]
+    })
+}
+
+/// The value at a time within the rows, linear between them; `from` is where the last search ended, as times grow.
+fn value(times: &[f64], values: &[f64], t: f64, from: &mut usize) -> f64 {
+    while *from + 1 < times.len() && times[*from + 1] <= t {
+        *from += 1;
+    }
+    let i = *from;
+    if i + 1 == times.len() || t <= times[i] {
+        return values[i];
+    }
+    let share = (t - times[i]) / (times[i + 1] - times[i]);
+    values[i] + share * (values[i + 1] - values[i])
+}

@@ -1,0 +1,9 @@
+//! Results that were written, read again: rows and statistics of a run; and how two runs differ.
+
+mod difference;
+mod read;
+#[cfg(test)]
+mod tests;
+
+pub use difference::{ColumnDifference, Difference, difference};
+pub use read::{ResultColumn, ResultTable, UnreadableResults};
