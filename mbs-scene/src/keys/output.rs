@@ -1,6 +1,6 @@
 //! `[[output]]`, by the quantities of mbs-core.
 
-use super::Value::{Name, Of, Place, Word};
+use super::Value::{Flag, Name, Of, Place, Word};
 use super::{Key, Part, Table, listed, may, need};
 use mbs_core::outputs::{QUANTITIES, TargetKind};
 
@@ -55,6 +55,8 @@ fn table(target: TargetKind) -> Table {
     } else {
         key
     });
+    let magnitude = "Whether a vector has its magnitude as a column too, `NAME.abs`; a reaction `NAME.F` and `NAME.M`.";
+    keys.push(may("magnitude", Flag, "", "false", magnitude));
     if words.contains(&ORIENTATION) {
         let forms = FORMS.map(|(form, _)| form).to_vec();
         keys.push(may("as", Word(forms), "", "quaternion", "Form of an `orientation`."));

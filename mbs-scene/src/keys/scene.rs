@@ -42,6 +42,13 @@ fn keys() -> Vec<Key> {
             "initial",
             "Start from the initial conditions, from a static equilibrium, or from the one next to the reference configuration.",
         ),
+        may(
+            "outputs",
+            Word(vec!["all"]),
+            "",
+            "those of `[[output]]`",
+            "`all` adds values, rates and reactions of all joints, and forces of all effects.",
+        ),
     ]
 }
 
