@@ -61,7 +61,7 @@ fn what_does_not_assemble_does_not_pass() {
 
 #[test]
 fn the_manual_names_the_methods_that_run() {
-    use mbs::scene_file::keys::{Value as Form, tables};
+    use mbs::scene_file::keys::{KeyValue, tables};
     let solver = tables().iter().find(|table| table.header == "solver").expect("the table");
     let sorted = |words: &[&'static str]| {
         let mut words = words.to_vec();
@@ -69,7 +69,7 @@ fn the_manual_names_the_methods_that_run() {
         words
     };
     let words = |key: &str| match &solver.key(key).expect("the key").value {
-        Form::Word(words) => sorted(words),
+        KeyValue::Word(words) => sorted(words),
         other => panic!("{key}: {other:?}"),
     };
     assert_eq!(words("formulation"), sorted(&mbs::FORMULATIONS));

@@ -1,9 +1,10 @@
 //! `[[body]]`.
 
-use super::Value::{Name, Number, Place};
-use super::{Table, Value, inside, listed, may, need};
+use super::table::{KeyTable, inside, listed, may, need};
+use super::value::KeyValue;
+use super::value::KeyValue::{Name, Number, Place};
 
-pub(super) fn tables() -> Vec<Table> {
+pub(super) fn tables() -> Vec<KeyTable> {
     let inertia = "Inertia about the centre of mass, global axes: one number in the plane, `[Ixx, Iyy, Izz, Ixy, Iyz, Izx]` in space.";
     let body = listed(
         "body",
@@ -18,10 +19,10 @@ pub(super) fn tables() -> Vec<Table> {
                 "needed, unless `rod` or `point` is there",
                 "Centre of mass.",
             ),
-            may("inertia", Value::SomeNumbers, "kg m^2", "needed beside `center`", inertia),
+            may("inertia", KeyValue::SomeNumbers, "kg m^2", "needed beside `center`", inertia),
             may(
                 "rod",
-                Value::Table("rod"),
+                KeyValue::Table("rod"),
                 "",
                 "none",
                 "A uniform slender rod: centre and inertia follow.",

@@ -1,13 +1,14 @@
 //! `[[coupling]]`, its terms, and lines over points.
 
-use super::Value::{
+use super::guide::motion;
+use super::table::{Key, KeyTable, inside, kinds, listed, may, name_or, need};
+use super::value::KeyValue::{
     Coordinate, Counts, Flag, Number, NumberOr, Numbers, Of, Place, Rows, Several, SomeNumbers,
     Vector, Word,
 };
-use super::guide::motion;
-use super::{Key, Part, Table, Value, inside, kinds, listed, may, name_or, need};
+use super::value::{KeyValue, Referent};
 
-pub(super) fn tables() -> Vec<Table> {
+pub(super) fn tables() -> Vec<KeyTable> {
     let mut tables = kinds(
         "coupling",
         &[name_or("`coupling-N`")],
@@ -28,10 +29,10 @@ pub(super) fn tables() -> Vec<Table> {
 }
 
 fn joints(n: usize, meaning: &str) -> Key {
-    need("joints", Several(Part::Joint, n), "", meaning)
+    need("joints", Several(Referent::Joint, n), "", meaning)
 }
 
-fn rack() -> Table {
+fn rack() -> KeyTable {
     let radius = "Pitch radius of the pinion; negative for the other sense.";
     let keys = vec![
         joints(2, "Turn of the pinion, slide of the rack."),
@@ -40,7 +41,7 @@ fn rack() -> Table {
     listed("coupling", "A rack on a pinion: s - radius a = 0.", keys)
 }
 
-fn belt() -> Table {
+fn belt() -> KeyTable {
     let crossed = "Whether the belt is crossed: the wheels turn in opposite senses.";
     let keys = vec![
         joints(2, "Turns of the wheels."),
@@ -50,17 +51,17 @@ fn belt() -> Table {
     listed("coupling", "A belt or chain on two wheels: r1 a1 - r2 a2 = 0.", keys)
 }
 
-fn mimic() -> Table {
+fn mimic() -> KeyTable {
     let keys = vec![
-        need("joint", Of(Part::Joint), "", "The joint of x."),
-        need("of", Of(Part::Joint), "", "The joint of y."),
+        need("joint", Of(Referent::Joint), "", "The joint of x."),
+        need("of", Of(Referent::Joint), "", "The joint of y."),
         may("factor", Number, "", "1", "Factor."),
         may("offset", Number, "rad or m", "0", "Offset."),
     ];
     listed("coupling", "One coordinate follows another: x - factor y = offset.", keys)
 }
 
-fn differential() -> Table {
+fn differential() -> KeyTable {
     let keys = vec![
         joints(3, "Turns of the two wheels, and of the cage."),
         may("teeth", Counts(2), "", "[1, 1]", "Teeth of the two wheels."),
@@ -70,7 +71,7 @@ fn differential() -> Table {
     listed("coupling", meaning, keys)
 }
 
-fn gear() -> Table {
+fn gear() -> KeyTable {
     let mut keys = vec![
         joints(2, "Turns of the wheels."),
         may(
@@ -114,21 +115,21 @@ fn mesh() -> [Key; 2] {
     ]
 }
 
-fn screw() -> Table {
+fn screw() -> KeyTable {
     listed(
         "coupling",
         "A screw: s - lead/(2 pi) a = 0.",
         vec![
             may(
                 "joint",
-                Of(Part::Joint),
+                Of(Referent::Joint),
                 "",
                 "needed without `joints`",
                 "A cylindrical joint, which has turn and slide.",
             ),
             may(
                 "joints",
-                Several(Part::Joint, 2),
+                Several(Referent::Joint, 2),
                 "",
                 "needed without `joint`",
                 "The turn, the slide.",
@@ -153,17 +154,17 @@ pub(super) fn curve(table: &str) -> Vec<Key> {
     ]
 }
 
-fn cam() -> Table {
+fn cam() -> KeyTable {
     let mut keys = vec![joints(2, "The shaft, the follower.")];
     keys.extend(curve("Lift of the follower over the shaft: rows `[x, f]`, a cubic spline."));
     listed("coupling", "A cam: x - f(a) = 0.", keys)
 }
 
-fn rope() -> Table {
+fn rope() -> KeyTable {
     let mut keys = vec![
         may(
             "points",
-            Value::Tables("line point"),
+            KeyValue::Tables("line point"),
             "",
             "needed without `terms`",
             "The points that the rope passes, each on its body.",
@@ -175,8 +176,8 @@ fn rope() -> Table {
             "`reference`",
             "Length of the rope; `reference`: that in the reference configuration.",
         ),
-        may("drum", Value::Table("drum"), "", "none", "A drum that takes the rope in."),
-        may("terms", Value::Tables("term"), "", "none", "A sum in place of `points`."),
+        may("drum", KeyValue::Table("drum"), "", "none", "A drum that takes the rope in."),
+        may("terms", KeyValue::Tables("term"), "", "none", "A sum in place of `points`."),
         may("value", Number, "m", "0", "Length above that in the reference configuration."),
     ];
     keys.extend(motion("m"));
@@ -187,9 +188,9 @@ fn rope() -> Table {
     )
 }
 
-fn linear() -> Table {
+fn linear() -> KeyTable {
     let mut keys = vec![
-        need("terms", Value::Tables("term"), "", "The terms of the sum."),
+        need("terms", KeyValue::Tables("term"), "", "The terms of the sum."),
         may("value", Number, "rad or m", "0", "What the sum is."),
     ];
     keys.extend(mesh());
@@ -204,7 +205,7 @@ fn linear() -> Table {
 /// What a sum or a signal measures.
 pub(super) fn measure() -> Vec<Key> {
     vec![
-        may("joint", Of(Part::Joint), "", "needed without `points`", "A joint."),
+        may("joint", Of(Referent::Joint), "", "needed without `points`", "A joint."),
         may(
             "coordinate",
             Coordinate,
@@ -222,7 +223,7 @@ pub(super) fn measure() -> Vec<Key> {
         .in_space(),
         may(
             "points",
-            Value::Tables("line point"),
+            KeyValue::Tables("line point"),
             "",
             "none",
             "A line in place of a joint: its length.",
@@ -230,7 +231,7 @@ pub(super) fn measure() -> Vec<Key> {
     ]
 }
 
-fn term() -> Table {
+fn term() -> KeyTable {
     let mut keys = measure();
     keys.push(may("factor", Number, "", "1", "Factor of the coordinate or length."));
     keys.extend(curve("A curve of the coordinate or length: rows `[x, f]`, a cubic spline."));
@@ -241,23 +242,23 @@ fn term() -> Table {
     )
 }
 
-fn point() -> Table {
+fn point() -> KeyTable {
     inside(
         "line point",
         "A point of a line.",
         vec![
-            need("body", Of(Part::Body), "", "The body on which it is."),
+            need("body", Of(Referent::Body), "", "The body on which it is."),
             need("at", Place, "m", "Its place."),
         ],
     )
 }
 
-fn drum() -> Table {
+fn drum() -> KeyTable {
     inside(
         "drum",
         "A drum of a rope.",
         vec![
-            need("joint", Of(Part::Joint), "", "The turn of the drum."),
+            need("joint", Of(Referent::Joint), "", "The turn of the drum."),
             need("radius", Number, "m", "Its radius; negative for the other sense."),
         ],
     )

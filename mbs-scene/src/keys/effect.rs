@@ -1,11 +1,12 @@
 //! `[[effect]]`, by the table of effects of mbs-core.
 
-use super::Value::{Flag, Number, NumberOr, Numbers, OneOrSome, Rows, Word};
-use super::{Key, Part, Standing, Table, Value, inside, may, name_or, need};
+use super::table::{Key, KeyTable, Standing, inside, may, name_or, need};
+use super::value::KeyValue::{Flag, Number, NumberOr, Numbers, OneOrSome, Rows, Word};
+use super::value::{KeyValue, Referent};
 use mbs_core::effects::{Default, EFFECTS, Field, Form, Row, SignalForm};
 
 /// The tables of the kinds, those of one name together; then what stands inside them.
-pub(super) fn tables() -> Vec<Table> {
+pub(super) fn tables() -> Vec<KeyTable> {
     let mut tables = Vec::new();
     let mut names: Vec<&str> = Vec::new();
     for name in EFFECTS.iter().flat_map(|row| row.names) {
@@ -20,7 +21,7 @@ pub(super) fn tables() -> Vec<Table> {
     tables
 }
 
-fn table(name: &'static str, row: &'static Row) -> Table {
+fn table(name: &'static str, row: &'static Row) -> KeyTable {
     let mut keys = vec![
         name_or("`effect-N`"),
         need("kind", Word(vec![name]), "", "The kind."),
@@ -32,47 +33,45 @@ fn table(name: &'static str, row: &'static Row) -> Table {
         let angle = [
             may(
                 "joint",
-                Value::Of(Part::Joint),
+                KeyValue::Of(Referent::Joint),
                 "",
                 "none",
                 "A ball joint in place of `terms`, beside `coordinate` and `axis`.",
             ),
             may("coordinate", Word(vec!["swing", "twist"]), "", "none", "The angle of the ball."),
-            may("axis", Value::Vector, "", "none", "The axis of that angle."),
+            may("axis", KeyValue::Vector, "", "none", "The axis of that angle."),
         ];
         keys.extend(angle.map(Key::in_space));
     }
     if has(Form::Line) {
         keys.push(may(
             "bodies",
-            Value::Several(Part::Body, 2),
+            KeyValue::Several(Referent::Body, 2),
             "",
             "none",
             "The bodies of two places in `points`.",
         ));
     }
-    let (kind, standing, example) = (Some(name), Standing::Listed, None);
-    Table { header: "effect", kind, standing, meaning: meaning(row), keys, example }
+    // that of a tire is long
+    let law = if row.law == "see below" { "docs/EFFECTS.md has it" } else { row.law };
+    let (kind, meaning, example) = (Some(name), meaning(row).to_owned(), None);
+    KeyTable { header: "effect", kind, standing: Standing::Listed, meaning, law, keys, example }
 }
 
-/// What a kind acts on, and its law.
-fn meaning(row: &Row) -> String {
-    let on = match row.fields.first().map(|field| field.form) {
-        Some(Form::Bodies) => "Between two bodies",
-        Some(Form::Joint(_)) => "On a coordinate of a joint",
-        Some(Form::Terms) => "On a sum of coordinates and lengths",
-        Some(Form::Line) => "On a line over points",
-        _ => "On a body",
-    };
-    match row.law {
-        "see below" => format!("{on}: a wheel on the road; docs/EFFECTS.md has its law."),
-        law => format!("{on}: {law}."),
+/// What a kind acts on.
+fn meaning(row: &Row) -> &'static str {
+    match row.fields.first().map(|field| field.form) {
+        Some(Form::Bodies) => "Between two bodies.",
+        Some(Form::Joint(_)) => "On a coordinate of a joint.",
+        Some(Form::Terms) => "On a sum of coordinates and lengths.",
+        Some(Form::Line) => "On a line over points.",
+        _ => "On a body.",
     }
 }
 
-/// The keys of a field.
-fn of_field(field: &'static Field) -> Vec<Key> {
-    let default = match field.default {
+/// What holds where a key is not written; `None`: it must be.
+fn default(default: Default) -> Option<String> {
+    match default {
         Default::Needed => None,
         Default::Number(number) => Some(number.to_owned()),
         Default::As(other) => Some(format!("as `{other}`")),
@@ -82,7 +81,12 @@ fn of_field(field: &'static Field) -> Vec<Key> {
         Default::Open => Some("by the moved mass".to_owned()),
         Default::OpenWith(other) => Some(format!("by the moved mass where `{other}` is, else 0")),
         Default::Nothing => Some("none".to_owned()),
-    };
+    }
+}
+
+/// The keys of a field.
+fn of_field(field: &'static Field) -> Vec<Key> {
+    let default = default(field.default);
     let meaning = field.meaning.trim();
     let key = |name, value| match &default {
         None => need(name, value, field.unit, meaning),
@@ -93,19 +97,25 @@ fn of_field(field: &'static Field) -> Vec<Key> {
     };
     let key_of = |value| vec![key(field.key, value)];
     match field.form {
-        Form::Bodies => key_of(Value::Several(Part::Body, 2)),
-        Form::Body => key_of(Value::Of(Part::MovingBody)),
-        Form::Joint(_) | Form::Spin => key_of(Value::Of(Part::Joint)),
+        Form::Bodies => key_of(KeyValue::Several(Referent::Body, 2)),
+        Form::Body => key_of(KeyValue::Of(Referent::MovingBody)),
+        Form::Joint(_) | Form::Spin => key_of(KeyValue::Of(Referent::Joint)),
         Form::Coordinate => {
-            vec![may(field.key, Value::Coordinate, "", "the only one, or the only turn", meaning)]
+            vec![may(
+                field.key,
+                KeyValue::Coordinate,
+                "",
+                "the only one, or the only turn",
+                meaning,
+            )]
         }
         Form::Terms => {
-            vec![may(field.key, Value::Tables("term"), "", "needed without `joint`", meaning)]
+            vec![may(field.key, KeyValue::Tables("term"), "", "needed without `joint`", meaning)]
         }
-        Form::Point => key_of(Value::Place),
-        Form::Points(_) => key_of(Value::Places(2)),
-        Form::Line => key_of(Value::PlacesOrTables("line point")),
-        Form::Axis | Form::MaybeAxis => key_of(Value::Vector),
+        Form::Point => key_of(KeyValue::Place),
+        Form::Points(_) => key_of(KeyValue::Places(2)),
+        Form::Line => key_of(KeyValue::PlacesOrTables("line point")),
+        Form::Axis | Form::MaybeAxis => key_of(KeyValue::Vector),
         Form::Number(_) => key_of(Number),
         Form::Length => {
             vec![may(field.key, NumberOr(vec!["reference"]), field.unit, "reference", meaning)]
@@ -121,13 +131,13 @@ fn of_field(field: &'static Field) -> Vec<Key> {
             word(field.key, &["none", "calspan"], "none"),
             may(
                 "coefficients",
-                Value::Table("calspan"),
+                KeyValue::Table("calspan"),
                 "",
                 "those of the Iltis",
                 "Coefficients of the side force.",
             ),
         ],
-        Form::Slip => key_of(Value::Table("slip")),
+        Form::Slip => key_of(KeyValue::Table("slip")),
         _ => Vec::new(),
     }
 }
@@ -136,8 +146,8 @@ fn of_field(field: &'static Field) -> Vec<Key> {
 fn signal(field: &'static Field, form: SignalForm, default: &Option<String>) -> Vec<Key> {
     let value = match form {
         SignalForm::Scalar => Number,
-        SignalForm::Moment => Value::NumberOrVector,
-        SignalForm::Vector => Value::Vector,
+        SignalForm::Moment => KeyValue::NumberOrVector,
+        SignalForm::Vector => KeyValue::Vector,
         _ => Numbers(3),
     };
     let default = default.clone().unwrap_or_else(|| "needed without `table` and `signal`".into());
@@ -159,7 +169,7 @@ fn signal(field: &'static Field, form: SignalForm, default: &Option<String>) -> 
         ),
         may(
             "signal",
-            OneOrSome(Part::Signal),
+            OneOrSome(Referent::Signal),
             field.unit,
             "none",
             "A signal in place of a constant; of a vector one for each component.",
@@ -167,7 +177,7 @@ fn signal(field: &'static Field, form: SignalForm, default: &Option<String>) -> 
     ]
 }
 
-fn slip() -> Table {
+fn slip() -> KeyTable {
     inside(
         "slip",
         "Force of a tire by slip along its plane.",
@@ -178,7 +188,7 @@ fn slip() -> Table {
     )
 }
 
-fn calspan() -> Table {
+fn calspan() -> KeyTable {
     let omega = "Ratio of the load at which the cornering stiffness is largest.";
     inside(
         "calspan",

@@ -1,10 +1,5 @@
 //! Examples of tables, each in a scene that has what it names.
 
-use super::Table;
-
-/// The examples of all tables.
-const EXAMPLES: &str = include_str!("examples.toml");
-
 /// An example of a table: a part of a scene file that is read and run by a test.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Example {
@@ -47,7 +42,7 @@ impl Base {
 
 impl Base {
     /// The base of that name in the file of examples.
-    fn of_name(name: &str) -> Option<Self> {
+    pub(super) fn of_name(name: &str) -> Option<Self> {
         Some(match name {
             "whole" => Self::Whole,
             "planar" => Self::Planar,
@@ -57,21 +52,5 @@ impl Base {
             "sweep" => Self::Sweep,
             _ => return None,
         })
-    }
-}
-
-/// Adds its example to each table.
-pub(super) fn add(tables: &mut [Table]) {
-    for block in EXAMPLES.split("\n#: ").skip(1) {
-        let Some((title, text)) = block.split_once('\n') else { continue };
-        let Some((name, base)) = title.rsplit_once(", ") else { continue };
-        let Some(base) = Base::of_name(base) else { continue };
-        let is_meant = |table: &&mut Table| {
-            let kind = table.kind.map(|kind| format!(" {kind}")).unwrap_or_default();
-            table.example.is_none() && name == format!("{}{kind}", table.header)
-        };
-        if let Some(table) = tables.iter_mut().find(is_meant) {
-            table.example = Some(Example { base, text: text.trim() });
-        }
     }
 }

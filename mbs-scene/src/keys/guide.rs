@@ -1,11 +1,12 @@
 //! `[[initial]]` and `[[guide]]`, and functions of time.
 
-use super::Value::{
+use super::table::{Key, KeyTable, inside, listed, may, need};
+use super::value::KeyValue::{
     Coordinate, Number, NumberOrVector, Of, Place, Rows, Some, SomeNumbers, Vector, Word,
 };
-use super::{Key, Part, Table, Value, inside, listed, may, need};
+use super::value::{KeyValue, Referent};
 
-pub(super) fn tables() -> Vec<Table> {
+pub(super) fn tables() -> Vec<KeyTable> {
     let mut tables = initial();
     tables.extend(guides());
     tables.extend(functions());
@@ -13,12 +14,12 @@ pub(super) fn tables() -> Vec<Table> {
 }
 
 /// The tables of entries by joint, then those by body.
-fn initial() -> Vec<Table> {
+fn initial() -> Vec<KeyTable> {
     let of_joint = listed(
         "initial",
         "Coordinates of a joint at the start. What is written holds exactly; the rest follows from the constraints.",
         vec![
-            need("joint", Of(Part::Joint), "", "The joint."),
+            need("joint", Of(Referent::Joint), "", "The joint."),
             may(
                 "value",
                 SomeNumbers,
@@ -39,7 +40,7 @@ fn initial() -> Vec<Table> {
         "initial",
         "Velocities of a body at the start.",
         vec![
-            need("body", Of(Part::MovingBody), "", "The body."),
+            need("body", Of(Referent::MovingBody), "", "The body."),
             may("at", Place, "m", "needed beside `velocity`", "A material point of it."),
             may("velocity", Vector, "m/s", "follows", "Velocity of that point."),
             may(
@@ -71,27 +72,27 @@ pub(super) fn motion(unit: &'static str) -> Vec<Key> {
             "natural",
             "Ends of the spline: without curvature, or at rest.",
         ),
-        may("sine", Value::Table("sine"), "", "none", "A sine of time."),
-        may("ramp", Value::Table("ramp"), "", "none", "A constant rate."),
+        may("sine", KeyValue::Table("sine"), "", "none", "A sine of time."),
+        may("ramp", KeyValue::Table("ramp"), "", "none", "A constant rate."),
         may(
             "input",
-            Value::Table("motion input"),
+            KeyValue::Table("motion input"),
             "",
             "none",
             "Set from outside between steps; here its start.",
         ),
-        may("signal", Of(Part::Signal), unit, "none", "A smooth signal."),
+        may("signal", Of(Referent::Signal), unit, "none", "A smooth signal."),
     ]
 }
 
-fn guides() -> Vec<Table> {
+fn guides() -> Vec<KeyTable> {
     let mut keys = vec![
-        need("joint", Of(Part::Joint), "", "The joint."),
+        need("joint", Of(Referent::Joint), "", "The joint."),
         may("coordinate", Coordinate, "", "0", "Which of its coordinates."),
     ];
     keys.extend(motion("rad or m"));
     let signals = "Signals for all coordinates, in their order.";
-    keys.push(may("signals", Some(Part::Signal), "rad or m", "none", signals));
+    keys.push(may("signals", Some(Referent::Signal), "rad or m", "none", signals));
     let of_joint = listed(
         "guide",
         "A prescribed motion of a joint coordinate, from the reference configuration: a motor of known motion. The joint's `effort` is the moment or force that it takes.",
@@ -101,15 +102,15 @@ fn guides() -> Vec<Table> {
         "guide",
         "A prescribed motion of a body against the ground: x, y and the angle in the plane; x, y, z and the rotation vector in space.",
         vec![
-            need("body", Of(Part::MovingBody), "", "The body."),
+            need("body", Of(Referent::MovingBody), "", "The body."),
             may("at", Place, "m", "its centre of mass", "The point that is guided."),
-            need("signals", Some(Part::Signal), "m, rad", signals),
+            need("signals", Some(Referent::Signal), "m, rad", signals),
         ],
     );
     vec![of_joint, of_body]
 }
 
-fn functions() -> Vec<Table> {
+fn functions() -> Vec<KeyTable> {
     vec![
         inside(
             "sine",
@@ -125,7 +126,7 @@ fn functions() -> Vec<Table> {
             "motion input",
             "What a guide holds until it is set.",
             vec![
-                may("value", Number, "rad or m", "0", "Value at the start."),
+                may("value", Number, "rad or m", "0", "KeyValue at the start."),
                 may("rate", Number, "rad/s or m/s", "0", "Rate at the start."),
                 may("acceleration", Number, "rad/s^2 or m/s^2", "0", "Acceleration at the start."),
             ],

@@ -1,20 +1,23 @@
 //! `[[joint]]`, by the kinds of joint of mbs-core.
 
-use super::Value::{Name, Number, Numbers, Place, Places, Several, Vector, Vectors, Word};
-use super::{Key, Part, Standing, Table, may, need};
-use mbs_core::scene::{Dimension, JointKind};
+use super::table::{Key, KeyTable, Standing, may, need};
+use super::value::KeyValue::{
+    Name, Number, Numbers, Place, Places, Several, Vector, Vectors, Word,
+};
+use super::value::Referent;
+use mbs_core::scene::{Axis, Dimension, JointKind};
 
-pub(super) fn tables() -> Vec<Table> {
+pub(super) fn tables() -> Vec<KeyTable> {
     JointKind::ALL.map(table).to_vec()
 }
 
-fn table(kind: JointKind) -> Table {
+fn table(kind: JointKind) -> KeyTable {
     let mut keys = vec![
         need("name", Name, "", "Name, by which others refer to it."),
         need("kind", Word(vec![kind.name()]), "", "The kind."),
         need(
             "bodies",
-            Several(Part::Body, 2),
+            Several(Referent::Body, 2),
             "",
             "The two bodies; the second moves against the first.",
         ),
@@ -29,11 +32,12 @@ fn table(kind: JointKind) -> Table {
     });
     keys.extend(axes(kind));
     keys.extend(limits(kind));
-    Table {
+    KeyTable {
         header: "joint",
         kind: Some(kind.name()),
         standing: Standing::Listed,
         meaning: meaning(kind),
+        law: "",
         keys,
         example: None,
     }
@@ -82,15 +86,14 @@ fn axes(kind: JointKind) -> Vec<Key> {
 }
 
 fn axis(kind: JointKind, dimension: Dimension) -> &'static str {
-    match kind {
-        JointKind::Planar => "Normal of the plane, in the first body.",
-        JointKind::Prismatic | JointKind::PinInSlot => {
-            "Direction of the slide, in the first body; its length does not matter."
-        }
-        _ if dimension == Dimension::Spatial => {
-            "Axis, right-hand rule; its length does not matter."
-        }
-        _ => "Axis.",
+    let [along, across] =
+        [Axis::First, Axis::Second].map(|axis| kind.slides_along(axis, dimension));
+    if across {
+        "Normal of the plane, in the first body."
+    } else if along {
+        "Direction of the slide, in the first body; its length does not matter."
+    } else {
+        "Axis, right-hand rule; its length does not matter."
     }
 }
 

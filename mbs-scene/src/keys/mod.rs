@@ -14,92 +14,24 @@ mod rolling;
 mod scene;
 mod signal;
 mod sweep;
+mod table;
 #[cfg(test)]
 mod tests;
 mod value;
 
 pub use example::{Base, Example};
-pub(crate) use output::{FORMS, ORIENTATION, of_target};
+pub(crate) use output::{FORMS, ORIENTATION};
 pub(crate) use road::FEATURE;
 pub(crate) use scene::FILE;
 pub(crate) use sweep::FILE as SWEEP_FILE;
-pub use value::{Part, Value};
+pub use table::{Key, KeyTable, Standing};
+pub use value::{KeyValue, Referent};
 
-use mbs_core::scene::Dimension;
+use mbs_core::outputs::TargetKind;
 use std::sync::LazyLock;
 
-/// One key of a table.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Key {
-    /// As it is written.
-    pub name: &'static str,
-    /// What stands there.
-    pub value: Value,
-    /// SI unit; empty: none.
-    pub unit: &'static str,
-    /// Must it be written?
-    pub is_needed: bool,
-    /// What holds where it is not written, or when it must be; empty: nothing.
-    pub default: String,
-    /// The scenes that have it; `None`: all.
-    pub dimension: Option<Dimension>,
-    /// One sentence.
-    pub meaning: String,
-}
-
-/// Where a table stands in a file.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Standing {
-    /// Once in a file: `[scene]`.
-    Once,
-    /// In a list: `[[body]]`.
-    Listed,
-    /// As the value of a key: `rod = { ... }`.
-    Inside,
-}
-
-/// A table of a file, of one kind.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Table {
-    /// Its name.
-    pub header: &'static str,
-    /// The word at its key `kind`; `None`: it has no kinds.
-    pub kind: Option<&'static str>,
-    /// Where it stands.
-    pub standing: Standing,
-    /// What it is, in one or a few sentences.
-    pub meaning: String,
-    /// Its keys, in the order in which they are explained.
-    pub keys: Vec<Key>,
-    /// An example; `None` where that of another table shows it.
-    pub example: Option<Example>,
-}
-
-impl Table {
-    /// Its key of that name.
-    #[must_use]
-    pub fn key(&self, name: &str) -> Option<&Key> {
-        self.keys.iter().find(|key| key.name == name)
-    }
-
-    /// As it stands in a file: `[scene]`, `[[body]]`; one that stands inside others has its name alone.
-    #[must_use]
-    pub fn title(&self) -> String {
-        match self.standing {
-            Standing::Once => format!("[{}]", self.header),
-            Standing::Listed => format!("[[{}]]", self.header),
-            Standing::Inside => self.header.to_owned(),
-        }
-    }
-
-    /// The keys that a scene of that dimension has.
-    pub(crate) fn keys_of(&self, dimension: Dimension) -> impl Iterator<Item = &Key> {
-        self.keys.iter().filter(move |key| key.dimension.is_none_or(|only| only == dimension))
-    }
-}
-
 /// See [`tables`].
-pub(crate) static TABLES: LazyLock<Vec<Table>> = LazyLock::new(|| {
+pub(crate) static TABLES: LazyLock<Vec<KeyTable>> = LazyLock::new(|| {
     let mut tables = [
         scene::tables(),
         body::tables(),
@@ -115,92 +47,57 @@ pub(crate) static TABLES: LazyLock<Vec<Table>> = LazyLock::new(|| {
         sweep::tables(),
     ]
     .concat();
-    example::add(&mut tables);
+    add_examples(&mut tables);
     tables
 });
 
 /// All tables of scene files and of sweep files; those of one header, and of one kind, stand together.
 #[must_use]
-pub fn tables() -> &'static [Table] {
+pub fn tables() -> &'static [KeyTable] {
     &TABLES
 }
 
 /// The tables of a header, of all kinds.
-pub(crate) fn of(header: &str) -> &'static [Table] {
+pub(crate) fn of(header: &str) -> &'static [KeyTable] {
     together(&TABLES, |table| table.header == header)
 }
 
 /// Those of a kind among the tables of a header.
-pub(crate) fn of_kind(tables: &'static [Table], kind: &str) -> &'static [Table] {
+pub(crate) fn of_kind(tables: &'static [KeyTable], kind: &str) -> &'static [KeyTable] {
     together(tables, |table| table.kind == Some(kind))
+}
+
+/// The table of outputs of such a target.
+pub(crate) fn of_target(target: TargetKind) -> &'static [KeyTable] {
+    let i = output::TARGETS.iter().position(|other| *other == target).unwrap_or(0);
+    of("output").get(i..=i).unwrap_or_default()
 }
 
 /// The tables of which something holds; they stand together.
 pub(crate) fn together(
-    tables: &'static [Table],
-    is_meant: impl Fn(&Table) -> bool,
-) -> &'static [Table] {
+    tables: &'static [KeyTable],
+    is_meant: impl Fn(&KeyTable) -> bool,
+) -> &'static [KeyTable] {
     let first = tables.iter().position(&is_meant).unwrap_or(tables.len());
     let n = tables[first..].iter().take_while(|table| is_meant(table)).count();
     &tables[first..first + n]
 }
 
-/// A key that must be written.
-fn need(name: &'static str, value: Value, unit: &'static str, meaning: &str) -> Key {
-    let (default, dimension) = (String::new(), None);
-    Key { name, value, unit, is_needed: true, default, dimension, meaning: meaning.to_owned() }
-}
+/// The examples of all tables.
+const EXAMPLES: &str = include_str!("examples.toml");
 
-/// A key that may be left out, and what holds then.
-fn may(name: &'static str, value: Value, unit: &'static str, default: &str, meaning: &str) -> Key {
-    Key { is_needed: false, default: default.to_owned(), ..need(name, value, unit, meaning) }
-}
-
-impl Key {
-    /// The same in spatial scenes alone.
-    fn in_space(self) -> Self {
-        Self { dimension: Some(Dimension::Spatial), ..self }
+/// Adds its example to each table.
+fn add_examples(tables: &mut [KeyTable]) {
+    for block in EXAMPLES.split("\n#: ").skip(1) {
+        let Some((title, text)) = block.split_once('\n') else { continue };
+        let Some((name, base)) = title.rsplit_once(", ") else { continue };
+        let Some(base) = Base::of_name(base) else { continue };
+        let is_meant = |table: &&mut KeyTable| {
+            let kind = table.kind.map(|kind| format!(" {kind}")).unwrap_or_default();
+            table.example.is_none() && name == format!("{}{kind}", table.header)
+        };
+        if let Some(table) = tables.iter_mut().find(is_meant) {
+            table.example = Some(Example { base, text: text.trim() });
+        }
     }
-
-    /// The same in planar scenes alone.
-    fn in_the_plane(self) -> Self {
-        Self { dimension: Some(Dimension::Planar), ..self }
-    }
-}
-
-/// A table that stands in a list.
-fn listed(header: &'static str, meaning: &str, keys: Vec<Key>) -> Table {
-    let (kind, standing, example) = (None, Standing::Listed, None);
-    Table { header, kind, standing, meaning: meaning.to_owned(), keys, example }
-}
-
-/// A table that stands once in a file.
-fn once(header: &'static str, meaning: &str, keys: Vec<Key>) -> Table {
-    Table { standing: Standing::Once, ..listed(header, meaning, keys) }
-}
-
-/// A table that is the value of a key.
-fn inside(header: &'static str, meaning: &str, keys: Vec<Key>) -> Table {
-    Table { standing: Standing::Inside, ..listed(header, meaning, keys) }
-}
-
-/// Tables of a header with kinds: each has the key `kind`, and those that all have, before its own.
-fn kinds<const N: usize>(
-    header: &'static str,
-    common: &[Key],
-    kinds: [(&'static str, Table); N],
-) -> Vec<Table> {
-    let table = |(kind, table): (&'static str, Table)| {
-        let mut keys = common.to_vec();
-        let first = usize::from(common.first().is_some_and(|key| key.name == "name"));
-        keys.insert(first, need("kind", Value::Word(vec![kind]), "", "The kind."));
-        keys.extend(table.keys);
-        Table { header, kind: Some(kind), keys, ..table }
-    };
-    kinds.into_iter().map(table).collect()
-}
-
-/// A name that may be left out.
-fn name_or(default: &str) -> Key {
-    may("name", Value::Name, "", default, "Name, by which others refer to it.")
 }

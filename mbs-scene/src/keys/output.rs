@@ -1,7 +1,8 @@
 //! `[[output]]`, by the quantities of mbs-core.
 
-use super::Value::{Flag, Name, Of, Place, Word};
-use super::{Key, Part, Table, listed, may, need};
+use super::table::{Key, KeyTable, listed, may, need};
+use super::value::KeyValue::{Flag, Name, Of, Place, Word};
+use super::value::Referent;
 use mbs_core::outputs::{QUANTITIES, TargetKind};
 
 /// What `as` says of an orientation: the word, and the quantity that it means.
@@ -15,7 +16,7 @@ pub(crate) const FORMS: [(&str, &str); 3] = [
 pub(crate) const ORIENTATION: &str = "orientation";
 
 /// What outputs are of.
-const TARGETS: [TargetKind; 10] = [
+pub(super) const TARGETS: [TargetKind; 10] = [
     TargetKind::Point,
     TargetKind::RelativePoint,
     TargetKind::Body,
@@ -29,17 +30,11 @@ const TARGETS: [TargetKind; 10] = [
 ];
 
 /// A table for each.
-pub(super) fn tables() -> Vec<Table> {
+pub(super) fn tables() -> Vec<KeyTable> {
     TARGETS.map(table).to_vec()
 }
 
-/// The table of outputs of such a target.
-pub(crate) fn of_target(target: TargetKind) -> &'static [Table] {
-    let i = TARGETS.iter().position(|other| *other == target).unwrap_or(0);
-    super::of("output").get(i..=i).unwrap_or_default()
-}
-
-fn table(target: TargetKind) -> Table {
+fn table(target: TargetKind) -> KeyTable {
     let rows = || QUANTITIES.iter().filter(move |row| row.target == target);
     let mut keys = vec![need("name", Name, "", "Name of the channel.")];
     keys.extend(target.keys().iter().map(|key| owner(key)));
@@ -67,9 +62,11 @@ fn table(target: TargetKind) -> Table {
 /// A key that says what an output is of.
 fn owner(key: &'static str) -> Key {
     match key {
-        "body" => need(key, Of(Part::MovingBody), "", "The body."),
+        "body" => need(key, Of(Referent::MovingBody), "", "The body."),
         "at" => may(key, Place, "m", "its centre of mass", "A material point of the body."),
-        "relative_to" => need(key, Of(Part::Body), "", "Another body, in whose axes it is seen."),
+        "relative_to" => {
+            need(key, Of(Referent::Body), "", "Another body, in whose axes it is seen.")
+        }
         "origin" => may(
             key,
             Place,
@@ -77,11 +74,11 @@ fn owner(key: &'static str) -> Key {
             "its centre of mass",
             "The point of that body from which positions count.",
         ),
-        "joint" => need(key, Of(Part::Joint), "", "The joint."),
-        "coupling" => need(key, Of(Part::Coupling), "", "The coupling."),
-        "rolling" => need(key, Of(Part::Rolling), "", "What rolls."),
-        "effect" => need(key, Of(Part::Effect), "", "The effect."),
-        _ => need(key, Of(Part::Signal), "", "The signal."),
+        "joint" => need(key, Of(Referent::Joint), "", "The joint."),
+        "coupling" => need(key, Of(Referent::Coupling), "", "The coupling."),
+        "rolling" => need(key, Of(Referent::Rolling), "", "What rolls."),
+        "effect" => need(key, Of(Referent::Effect), "", "The effect."),
+        _ => need(key, Of(Referent::Signal), "", "The signal."),
     }
 }
 

@@ -1,13 +1,13 @@
 //! `[road]`: features under the wheels.
 
-use super::Value::{Count, Number, Rows, TableOrTables, Word};
-use super::{Key, Standing, Table, inside, kinds, may, need, once};
+use super::table::{Key, KeyTable, Standing, inside, kinds, may, need, once};
+use super::value::KeyValue::{Count, Number, Rows, TableOrTables, Word};
 
 /// The header of a feature that stands inside `[road]`.
 pub(crate) const FEATURE: &str = "road feature";
 
 /// A road with one feature: `[road]` with `kind`; then a road with several; then features inside it.
-pub(super) fn tables() -> Vec<Table> {
+pub(super) fn tables() -> Vec<KeyTable> {
     let speed = may(
         "speed",
         Number,
@@ -30,13 +30,13 @@ pub(super) fn tables() -> Vec<Table> {
     let alone = features.iter().cloned().map(|table| {
         let mut keys = table.keys;
         keys.push(speed.clone());
-        Table { header: "road", standing: Standing::Once, keys, ..table }
+        KeyTable { header: "road", standing: Standing::Once, keys, ..table }
     });
-    let alone: Vec<Table> = alone.collect();
+    let alone: Vec<KeyTable> = alone.collect();
     [vec![several], alone, features].concat()
 }
 
-fn features() -> [(&'static str, Table); 5] {
+fn features() -> [(&'static str, KeyTable); 5] {
     let number = |name, meaning| need(name, Number, "m", meaning);
     let start = || number("start", "Where it begins, along x.");
     let of = |meaning, keys: Vec<Key>| inside(FEATURE, meaning, keys);

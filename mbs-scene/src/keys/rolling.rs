@@ -1,14 +1,21 @@
 //! `[[rolling]]`.
 
-use super::Value::{Number, Of, Place, Vector};
-use super::{Part, Table, Value, inside, kinds, listed, may, name_or, need};
+use super::table::{KeyTable, inside, kinds, listed, may, name_or, need};
+use super::value::KeyValue::{Number, Of, Place, Vector};
+use super::value::{KeyValue, Referent};
 
-pub(super) fn tables() -> Vec<Table> {
+pub(super) fn tables() -> Vec<KeyTable> {
     let common = [
         name_or("`rolling-N`"),
-        need("body", Of(Part::MovingBody), "", "The body that rolls or slides."),
-        may("on", Of(Part::Body), "", "ground", "The body on which it rolls."),
-        may("plane", Value::Table("plane"), "", "level, and touching", "The plane, fixed in `on`."),
+        need("body", Of(Referent::MovingBody), "", "The body that rolls or slides."),
+        may("on", Of(Referent::Body), "", "ground", "The body on which it rolls."),
+        may(
+            "plane",
+            KeyValue::Table("plane"),
+            "",
+            "level, and touching",
+            "The plane, fixed in `on`.",
+        ),
     ];
     let center = need("center", Place, "m", "Centre of the disc or ball.");
     let radius = need("radius", Number, "m", "Radius.");

@@ -1,18 +1,19 @@
 //! `[scene]`, `[solver]`, and the file itself.
 
-use super::Value::{Flag, Number, Numbers, Text, Vector, Word};
-use super::{Key, Table, Value, inside, may, need, once};
+use super::table::{Key, KeyTable, inside, may, need, once};
+use super::value::KeyValue;
+use super::value::KeyValue::{Flag, Number, Numbers, Text, Vector, Word};
 
 /// The header of the file itself, whose keys are the tables.
 pub(crate) const FILE: &str = "scene file";
 
-pub(super) fn tables() -> Vec<Table> {
-    let listed = |name, meaning| may(name, Value::Tables(name), "", "none", meaning);
+pub(super) fn tables() -> Vec<KeyTable> {
+    let listed = |name, meaning| may(name, KeyValue::Tables(name), "", "none", meaning);
     let file = inside(
         FILE,
         "The tables of a scene file.",
         vec![
-            need("scene", Value::Table("scene"), "", "The scene as a whole."),
+            need("scene", KeyValue::Table("scene"), "", "The scene as a whole."),
             listed("body", "Bodies."),
             listed("joint", "Joints between two bodies."),
             listed("initial", "Values and rates at the start."),
@@ -21,8 +22,8 @@ pub(super) fn tables() -> Vec<Table> {
             listed("rolling", "What rolls without slipping, and blades."),
             listed("signal", "Numbers over time, by name."),
             listed("effect", "Springs, dampers, forces, tires, friction and stops."),
-            may("road", Value::Table("road"), "", "level, at height 0", "The road under tires."),
-            may("solver", Value::Table("solver"), "", "all defaults", "Method and steps."),
+            may("road", KeyValue::Table("road"), "", "level, at height 0", "The road under tires."),
+            may("solver", KeyValue::Table("solver"), "", "all defaults", "Method and steps."),
             listed("output", "Channels of the results; without one, each joint's coordinates."),
         ],
     );
@@ -65,7 +66,7 @@ pub(crate) const STEP_CONTROLS: [&str; 6] =
     ["fixed", "energy", "energy-printed", "error", "both", "energy-published"];
 
 /// `[solver]`.
-pub(super) fn solver() -> Vec<Table> {
+pub(super) fn solver() -> Vec<KeyTable> {
     let keys = [methods(), steps()].concat();
     vec![once("solver", "Method and steps. The command line overrides each key.", keys)]
 }

@@ -1,15 +1,16 @@
 //! `[[signal]]`.
 
-use super::Value::{Flag, Name, Number, Of, Rows, Some, SomeNumbers, Text, Word};
 use super::coupling::{curve, measure};
-use super::{Key, Part, Table, kinds, listed, may, need};
+use super::table::{Key, KeyTable, kinds, listed, may, need};
+use super::value::KeyValue::{Flag, Name, Number, Of, Rows, Some, SomeNumbers, Text, Word};
+use super::value::Referent;
 
-pub(super) fn tables() -> Vec<Table> {
+pub(super) fn tables() -> Vec<KeyTable> {
     let name = need("name", Name, "", "Name, by which others refer to it.");
     let [functions, others] = [functions(), of_signals()];
     let [lag, integral, pid] = states();
     let all = [
-        ("constant", of("The same at all times.", vec![number("value", "Value.")])),
+        ("constant", of("The same at all times.", vec![number("value", "KeyValue.")])),
         ("table", table()),
     ];
     let last = [
@@ -29,7 +30,7 @@ pub(super) fn tables() -> Vec<Table> {
     .concat()
 }
 
-fn of(meaning: &str, keys: Vec<Key>) -> Table {
+fn of(meaning: &str, keys: Vec<Key>) -> KeyTable {
     listed("signal", meaning, keys)
 }
 
@@ -42,11 +43,11 @@ fn zero(name: &'static str, meaning: &str) -> Key {
 }
 
 fn one() -> Key {
-    need("of", Of(Part::Signal), "", "The signal.")
+    need("of", Of(Referent::Signal), "", "The signal.")
 }
 
 /// Functions of time.
-fn functions() -> [(&'static str, Table); 4] {
+fn functions() -> [(&'static str, KeyTable); 4] {
     let wave = || {
         vec![
             number("amplitude", "Amplitude."),
@@ -69,8 +70,8 @@ fn functions() -> [(&'static str, Table); 4] {
 }
 
 /// What is made of other signals.
-fn of_signals() -> [(&'static str, Table); 4] {
-    let several = || need("of", Some(Part::Signal), "", "The signals.");
+fn of_signals() -> [(&'static str, KeyTable); 4] {
+    let several = || need("of", Some(Referent::Signal), "", "The signals.");
     let factors = may("factors", SomeNumbers, "", "ones", "A factor for each.");
     let mut of_curve = vec![one()];
     of_curve.extend(curve("Rows `[x, f]`: a cubic spline."));
@@ -83,17 +84,17 @@ fn of_signals() -> [(&'static str, Table); 4] {
     ]
 }
 
-fn input() -> Table {
+fn input() -> KeyTable {
     of(
         "Set by its name between steps, or by `mbs run --inputs`.",
         vec![
-            zero("value", "Value at the start."),
+            zero("value", "KeyValue at the start."),
             may("unit", Text, "", "none", "Unit, for tables and plots."),
         ],
     )
 }
 
-fn measured() -> Table {
+fn measured() -> KeyTable {
     let mut keys = measure();
     let words = Word(vec!["value", "rate"]);
     keys.push(may("quantity", words, "", "value", "The coordinate or length, or its rate."));
@@ -101,9 +102,9 @@ fn measured() -> Table {
 }
 
 /// Signals with a state.
-fn states() -> [Table; 3] {
+fn states() -> [KeyTable; 3] {
     let open = |name, meaning| may(name, Number, "", "none", meaning);
-    let start = || zero("value", "Value at the start.");
+    let start = || zero("value", "KeyValue at the start.");
     let lag = vec![one(), need("time", Number, "s", "Time constant."), start()];
     let limits = [open("lower", "Lower limit."), open("upper", "Upper limit.")];
     let integral = [vec![one()], limits.to_vec(), vec![start()]].concat();
@@ -114,7 +115,7 @@ fn states() -> [Table; 3] {
     ]
 }
 
-fn table() -> Table {
+fn table() -> KeyTable {
     listed(
         "signal",
         "Through the rows of a table, held outside.",
@@ -139,7 +140,7 @@ fn table() -> Table {
     )
 }
 
-fn ramp() -> Table {
+fn ramp() -> KeyTable {
     listed(
         "signal",
         "rate (t - start) from `start` to `end`; zero before, held after.",
@@ -152,27 +153,27 @@ fn ramp() -> Table {
     )
 }
 
-fn step() -> Table {
+fn step() -> KeyTable {
     listed(
         "signal",
         "From one value to another: a jump, or smooth within `rise`.",
         vec![
-            may("from", Number, "", "0", "Value before."),
-            need("to", Number, "", "Value after."),
+            may("from", Number, "", "0", "KeyValue before."),
+            need("to", Number, "", "KeyValue after."),
             may("at", Number, "s", "0", "When it begins."),
             may("rise", Number, "s", "0", "Time that it takes."),
         ],
     )
 }
 
-fn pid() -> Table {
+fn pid() -> KeyTable {
     let gain = |name, meaning| may(name, Number, "", "0", meaning);
     listed(
         "signal",
         "A controller: p e + i (integral of e) + d e', with e = target - measured.",
         vec![
-            need("target", Of(Part::Signal), "", "What is asked for."),
-            need("measured", Of(Part::Signal), "", "What there is."),
+            need("target", Of(Referent::Signal), "", "What is asked for."),
+            need("measured", Of(Referent::Signal), "", "What there is."),
             gain("p", "Gain of the difference."),
             gain("i", "Gain of its integral."),
             gain("d", "Gain of its rate."),

@@ -1,19 +1,19 @@
 //! The tables of sweep files: `[sweep]` and `[[vary]]`.
 
-use super::Value::{Count, Number, Path, PathOrPaths, SomeNumbers, Text, Word};
-use super::{Table, inside, listed, may, need, once};
-use crate::keys::Value;
+use super::table::{KeyTable, inside, listed, may, need, once};
+use super::value::KeyValue;
+use super::value::KeyValue::{Count, Number, Path, PathOrPaths, SomeNumbers, Text, Word};
 
 /// The header of a sweep file itself.
 pub(crate) const FILE: &str = "sweep file";
 
-pub(super) fn tables() -> Vec<Table> {
+pub(super) fn tables() -> Vec<KeyTable> {
     let file = inside(
         FILE,
         "The tables of a sweep file.",
         vec![
-            may("sweep", Value::Table("sweep"), "", "a grid", "How values are combined."),
-            need("vary", Value::Tables("vary"), "", "The parameters."),
+            may("sweep", KeyValue::Table("sweep"), "", "a grid", "How values are combined."),
+            need("vary", KeyValue::Tables("vary"), "", "The parameters."),
         ],
     );
     let sweep = once(

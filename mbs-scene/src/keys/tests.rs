@@ -54,10 +54,10 @@ fn keys_have_a_meaning_and_a_default_or_must_be_written() {
 #[test]
 fn tables_that_keys_name_are_there() {
     for key in TABLES.iter().flat_map(|table| &table.keys) {
-        if let Value::Table(header)
-        | Value::Tables(header)
-        | Value::TableOrTables(header)
-        | Value::PlacesOrTables(header) = key.value
+        if let KeyValue::Table(header)
+        | KeyValue::Tables(header)
+        | KeyValue::TableOrTables(header)
+        | KeyValue::PlacesOrTables(header) = key.value
         {
             assert!(!of(header).is_empty(), "{}: {header}", key.name);
         }
@@ -79,7 +79,8 @@ fn tables_of_a_header_and_of_a_kind_stand_together() {
 #[test]
 fn each_needed_key_is_missed_by_its_reader() {
     // an output without one of its keys is another output
-    let is_tried = |table: &&Table| table.standing == Standing::Listed && table.header != "output";
+    let is_tried =
+        |table: &&KeyTable| table.standing == Standing::Listed && table.header != "output";
     for table in TABLES.iter().filter(is_tried) {
         let Some(example) = table.example.as_ref().filter(|e| e.base != Base::Sweep) else {
             continue;

@@ -3,7 +3,7 @@
 /// What stands at a key.
 #[derive(Debug, Clone, PartialEq, Eq)]
 #[non_exhaustive]
-pub enum Value {
+pub enum KeyValue {
     /// The name of the entry.
     Name,
     /// A text.
@@ -39,13 +39,13 @@ pub enum Value {
     /// Rows of numbers.
     Rows,
     /// The name of a part of the scene.
-    Of(Part),
+    Of(Referent),
     /// The names of so many of them.
-    Several(Part, usize),
+    Several(Referent, usize),
     /// The names of one or more of them.
-    Some(Part),
+    Some(Referent),
     /// One name, or a list of them.
-    OneOrSome(Part),
+    OneOrSome(Referent),
     /// A table of that header.
     Table(&'static str),
     /// A list of tables of that header.
@@ -62,7 +62,7 @@ pub enum Value {
 
 /// What a name refers to.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Part {
+pub enum Referent {
     /// A body, or `"ground"`.
     Body,
     /// A body that moves.
@@ -79,7 +79,7 @@ pub enum Part {
     Effect,
 }
 
-impl Part {
+impl Referent {
     /// Its name in sentences.
     #[must_use]
     pub const fn name(self) -> &'static str {
@@ -94,7 +94,7 @@ impl Part {
     }
 }
 
-impl Value {
+impl KeyValue {
     /// What to write, in a few words.
     #[must_use]
     pub fn form(&self) -> String {
@@ -125,9 +125,9 @@ impl Value {
             Self::Numbers(n) => several(*n, "numbers"),
             Self::SomeNumbers => "number, or list of numbers".to_owned(),
             Self::Rows => "list of rows".to_owned(),
-            Self::Of(Part::Body) => "body, or `\"ground\"`".to_owned(),
+            Self::Of(Referent::Body) => "body, or `\"ground\"`".to_owned(),
             Self::Of(part) => part.name().to_owned(),
-            Self::Several(Part::Body, n) => several(*n, "bodies, or `\"ground\"`"),
+            Self::Several(Referent::Body, n) => several(*n, "bodies, or `\"ground\"`"),
             Self::Several(part, n) => several(*n, &format!("{}s", part.name())),
             Self::Some(part) => format!("list of {}s", part.name()),
             Self::OneOrSome(part) => format!("{}, or list of them", part.name()),

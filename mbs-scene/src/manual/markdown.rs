@@ -1,7 +1,7 @@
 //! docs/SCENES.md: the tables as Markdown.
 
-use super::{entries, groups};
-use crate::keys::{Base, Key, Standing, Table};
+use super::groups::{entries, groups};
+use crate::keys::{Base, Key, KeyTable, Standing};
 use mbs_core::scene::Dimension;
 use std::fmt::Write;
 
@@ -23,11 +23,11 @@ pub fn markdown() -> String {
     text
 }
 
-fn of_group(text: &mut String, group: &'static [Table]) {
+fn of_group(text: &mut String, group: &'static [KeyTable]) {
     let first = &group[0];
     let title = first.title();
     let _ = match first.standing {
-        Standing::Inside => write!(text, "\n## Table: {title}\n"),
+        Standing::Inside => write!(text, "\n## KeyTable: {title}\n"),
         _ => write!(text, "\n## `{title}`\n"),
     };
     for entry in entries(group) {
@@ -40,7 +40,7 @@ fn of_group(text: &mut String, group: &'static [Table]) {
     }
 }
 
-fn of_table(text: &mut String, table: &Table) {
+fn of_table(text: &mut String, table: &KeyTable) {
     let meaning = table.meaning.replace('|', "\\|");
     let _ = write!(
         text,

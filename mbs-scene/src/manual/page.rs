@@ -1,7 +1,7 @@
 //! What `mbs kinds` prints: the list of tables and kinds, and the page of one.
 
-use super::{entries, first_sentence, groups};
-use crate::keys::{Key, Table};
+use super::groups::{entries, first_sentence, groups};
+use crate::keys::{Key, KeyTable};
 use crate::read::nearest_name;
 use mbs_core::scene::Dimension;
 use std::fmt::Write;
@@ -58,32 +58,36 @@ pub fn page(name: &str) -> Result<String, String> {
 }
 
 /// A line for each kind.
-fn kinds(text: &mut String, group: &'static [Table]) {
+fn kinds(text: &mut String, group: &'static [KeyTable]) {
     for entry in entries(group) {
         line(text, &format!("  {}", entry[0].kind.unwrap_or("several features")), &entry[0]);
     }
 }
 
 /// A name, and the first sentence of what it is.
-fn line(text: &mut String, name: &str, table: &Table) {
+fn line(text: &mut String, name: &str, table: &KeyTable) {
     let column = NAMES + 2;
-    wrapped(text, (&format!("{name:<column$}"), column), first_sentence(&table.meaning));
+    let what = if table.law.is_empty() { first_sentence(&table.meaning) } else { table.law };
+    wrapped(text, (&format!("{name:<column$}"), column), what);
 }
 
 /// The kinds of a table.
-fn overview(group: &'static [Table]) -> String {
+fn overview(group: &'static [KeyTable]) -> String {
     let mut text = format!("{}: its kinds\n\n", group[0].title());
     kinds(&mut text, group);
     text + "\n`mbs kinds KIND` has the keys of each.\n"
 }
 
-fn of_table(text: &mut String, table: &Table) {
+fn of_table(text: &mut String, table: &KeyTable) {
     if !text.is_empty() {
         text.push('\n');
     }
     let kind = table.kind.map(|kind| format!(" kind = \"{kind}\"")).unwrap_or_default();
     let _ = writeln!(text, "{}{kind}", table.title());
     wrapped(text, ("  ", 2), &table.meaning);
+    if !table.law.is_empty() {
+        wrapped(text, ("  Law:", 2), table.law);
+    }
     text.push('\n');
     for key in &table.keys {
         of_key(text, key);

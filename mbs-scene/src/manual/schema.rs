@@ -1,6 +1,6 @@
 //! A JSON Schema of scene files, for editors and other programs: the subset of draft 4 that TOML editors read.
 
-use crate::keys::{self, FILE, Key, Part, TABLES, Table, Value};
+use crate::keys::{self, FILE, Key, KeyTable, KeyValue, Referent, TABLES};
 use serde_json::{Map, Value as Json, json};
 
 /// The schema of a scene file. Objects are closed: a key that is not in it is none.
@@ -33,7 +33,7 @@ fn of_header(header: &str) -> Json {
     }
 }
 
-fn of_table(table: &Table) -> Json {
+fn of_table(table: &KeyTable) -> Json {
     let mut properties = Map::new();
     let mut required: Vec<&str> = Vec::new();
     for key in &table.keys {
@@ -78,7 +78,7 @@ fn of_key(key: &Key) -> Json {
     form
 }
 
-fn of_value(value: &Value) -> Json {
+fn of_value(value: &KeyValue) -> Json {
     let list = |of: Json, n: Option<usize>| match n {
         Some(n) => json!({ "type": "array", "items": of, "minItems": n, "maxItems": n }),
         None => json!({ "type": "array", "items": of }),
@@ -90,41 +90,41 @@ fn of_value(value: &Value) -> Json {
     let any_of = |forms: Vec<Json>| json!({ "anyOf": forms });
     let table =
         |header: &str| json!({ "$ref": format!("#/definitions/{}", header.replace(' ', "%20")) });
-    let name = |part: &Part| match part {
-        Part::MovingBody => json!({ "type": "string", "not": { "enum": ["ground"] } }),
+    let name = |part: &Referent| match part {
+        Referent::MovingBody => json!({ "type": "string", "not": { "enum": ["ground"] } }),
         _ => text(),
     };
     match value {
-        Value::Name | Value::Text | Value::Path => text(),
-        Value::Number => number(),
-        Value::NumberOr(words) => any_of(vec![number(), json!({ "enum": words })]),
-        Value::Count => count(),
-        Value::Counts(n) => list(count(), Some(*n)),
-        Value::Flag => json!({ "type": "boolean" }),
-        Value::Word(words) if words.iter().all(|word| word.parse::<u32>().is_ok()) => {
+        KeyValue::Name | KeyValue::Text | KeyValue::Path => text(),
+        KeyValue::Number => number(),
+        KeyValue::NumberOr(words) => any_of(vec![number(), json!({ "enum": words })]),
+        KeyValue::Count => count(),
+        KeyValue::Counts(n) => list(count(), Some(*n)),
+        KeyValue::Flag => json!({ "type": "boolean" }),
+        KeyValue::Word(words) if words.iter().all(|word| word.parse::<u32>().is_ok()) => {
             let numbers: Vec<u32> = words.iter().filter_map(|word| word.parse().ok()).collect();
             json!({ "enum": numbers })
         }
-        Value::Word(words) => json!({ "enum": words }),
-        Value::Coordinate => any_of(vec![text(), json!({ "type": "integer", "minimum": 0 })]),
-        Value::Vector | Value::Place => vector(),
-        Value::Vectors(n) | Value::Places(n) => list(vector(), Some(*n)),
-        Value::NumberOrVector => any_of(vec![number(), vector()]),
-        Value::Numbers(n) => list(number(), Some(*n)),
-        Value::SomeNumbers => any_of(vec![number(), list(number(), None)]),
-        Value::Rows => {
+        KeyValue::Word(words) => json!({ "enum": words }),
+        KeyValue::Coordinate => any_of(vec![text(), json!({ "type": "integer", "minimum": 0 })]),
+        KeyValue::Vector | KeyValue::Place => vector(),
+        KeyValue::Vectors(n) | KeyValue::Places(n) => list(vector(), Some(*n)),
+        KeyValue::NumberOrVector => any_of(vec![number(), vector()]),
+        KeyValue::Numbers(n) => list(number(), Some(*n)),
+        KeyValue::SomeNumbers => any_of(vec![number(), list(number(), None)]),
+        KeyValue::Rows => {
             list(json!({ "type": "array", "items": any_of(vec![number(), vector()]) }), None)
         }
-        Value::Of(part) => name(part),
-        Value::Several(part, n) => list(name(part), Some(*n)),
-        Value::Some(part) => list(name(part), None),
-        Value::OneOrSome(part) => any_of(vec![name(part), list(name(part), None)]),
-        Value::Table(header) => table(header),
-        Value::Tables(header) => list(table(header), None),
-        Value::TableOrTables(header) => any_of(vec![table(header), list(table(header), None)]),
-        Value::PlacesOrTables(header) => {
+        KeyValue::Of(part) => name(part),
+        KeyValue::Several(part, n) => list(name(part), Some(*n)),
+        KeyValue::Some(part) => list(name(part), None),
+        KeyValue::OneOrSome(part) => any_of(vec![name(part), list(name(part), None)]),
+        KeyValue::Table(header) => table(header),
+        KeyValue::Tables(header) => list(table(header), None),
+        KeyValue::TableOrTables(header) => any_of(vec![table(header), list(table(header), None)]),
+        KeyValue::PlacesOrTables(header) => {
             any_of(vec![list(vector(), Some(2)), list(table(header), None)])
         }
-        Value::PathOrPaths => any_of(vec![text(), list(text(), None)]),
+        KeyValue::PathOrPaths => any_of(vec![text(), list(text(), None)]),
     }
 }

@@ -1,5 +1,6 @@
 //! The manual has every key, and what it says of a kind is on its page.
 
+use super::groups::{entries, groups};
 use super::*;
 
 #[test]

@@ -1,6 +1,6 @@
 //! Typed access to the keys of one table.
 
-use crate::keys::{self, Table};
+use crate::keys::{self, KeyTable};
 use crate::read::names::Names;
 use crate::read::tree::{Item, Member, Node, Span};
 use crate::read::{ReadError, ReadFault, SceneFile};
@@ -23,7 +23,7 @@ pub(crate) struct Fields<'a> {
     pub(crate) header: &'a Span,
     pub(crate) members: &'a [Member],
     /// The tables of keys, of which one is meant.
-    pub(crate) tables: &'static [Table],
+    pub(crate) tables: &'static [KeyTable],
 }
 
 pub(crate) type Read<T> = Result<T, ReadError>;
@@ -221,7 +221,7 @@ impl<'a> Fields<'a> {
     }
 
     /// The fields with those tables, by which the keys are checked.
-    pub(crate) fn checked_by(&self, tables: &'static [Table]) -> Read<Self> {
+    pub(crate) fn checked_by(&self, tables: &'static [KeyTable]) -> Read<Self> {
         Self { tables, ..*self }.checked()
     }
 

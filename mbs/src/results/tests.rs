@@ -46,7 +46,7 @@ fn what_one_run_alone_has_is_named_and_runs_of_other_lengths_differ() {
     let b = table(&[0.0, 1.0, 2.0], &[("z", "", &[0.0; 3]), ("x", "", &[0.0, 1.0, 9.0])]);
     let found = difference(&a, &b, &[]);
     assert_eq!((found.only_a.clone(), found.only_b.clone()), (vec!["y".into()], vec!["z".into()]));
-    // compared as long as both go on
+    // compared while both last
     assert_eq!(found.columns[0].relative, 0.0);
     assert!(!found.is_within(1.0) && !found.ends_together());
     assert_eq!(difference(&a, &b, &["y".to_owned()]).columns, []);

@@ -1,0 +1,39 @@
+//! Tables in the order of the manual.
+
+use crate::keys::{KeyTable, TABLES};
+
+/// The tables that stand in files, apart from the files themselves, each header's together.
+pub(super) fn groups() -> Vec<&'static [KeyTable]> {
+    let mut groups = Vec::new();
+    let mut rest = &TABLES[..];
+    while let Some(first) = rest.first() {
+        let n = rest.iter().take_while(|table| table.header == first.header).count();
+        let (group, after) = rest.split_at(n);
+        rest = after;
+        if ![crate::keys::FILE, crate::keys::SWEEP_FILE].contains(&first.header) {
+            groups.push(group);
+        }
+    }
+    groups
+}
+
+/// The same tables, those of one kind together.
+pub(super) fn entries(group: &'static [KeyTable]) -> Vec<&'static [KeyTable]> {
+    let mut entries: Vec<&'static [KeyTable]> = Vec::new();
+    let mut rest = group;
+    while let Some(first) = rest.first() {
+        let n = match first.kind {
+            Some(kind) => rest.iter().take_while(|table| table.kind == Some(kind)).count(),
+            None => 1,
+        };
+        let (entry, after) = rest.split_at(n);
+        entries.push(entry);
+        rest = after;
+    }
+    entries
+}
+
+/// The first sentence of a text.
+pub(super) fn first_sentence(text: &str) -> &str {
+    text.find(". ").map_or(text, |end| &text[..=end])
+}
