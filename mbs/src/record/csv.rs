@@ -1,6 +1,7 @@
 //! CSV: one row per recorded time, written as the run goes.
 
-use super::series::{Channel, StepSeries};
+use super::channel::Channel;
+use super::series::StepSeries;
 use mbs_core::real::DoubleDouble;
 use mbs_scene::format::{full, shortest};
 use std::io::{self, Write};

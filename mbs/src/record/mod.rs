@@ -3,6 +3,7 @@
 #[doc(hidden)]
 pub mod alias;
 mod change;
+mod channel;
 mod choice;
 mod csv;
 mod estimate;
@@ -16,6 +17,7 @@ mod statistics;
 mod tests;
 
 pub use change::OutputChange;
+pub use channel::Channel;
 pub use choice::{
     Candidate, Fallback, PilotReference, PilotReport, SecondLook, TrialEntry, write_choice,
 };
@@ -31,8 +33,8 @@ pub use motion::{
 pub use outputs::Outputs;
 pub use realtime::{Degraded, MarginSummary, Overrun, RealtimeSummary, Times, write_overruns};
 pub use series::{
-    Channel, ChannelSeries, ControlSummary, EnergySeries, IterationSeries, Provenance, RunRecord,
-    StepRow, StepSeries, ViolationSeries,
+    ChannelSeries, ControlSummary, EnergySeries, IterationSeries, Provenance, RunRecord, StepRow,
+    StepSeries, ViolationSeries,
 };
 pub(crate) use statistics::measured;
 pub use statistics::{ChannelSummary, ComponentStatistics, Statistics};

@@ -1,49 +1,8 @@
 //! What a run leaves behind, as plain data: channels, pictures, energies, counts.
 
 use super::RecordedMotion;
+use super::channel::Channel;
 use super::statistics::ComponentStatistics;
-use mbs_core::outputs::Component;
-use mbs_core::scene::{Output, Scene};
-
-/// A recorded channel: its name and its components.
-#[derive(Debug, Clone, Default, PartialEq, Eq)]
-pub struct Channel {
-    /// Name, unique among the channels.
-    pub name: String,
-    /// What it measures, as scene files call it; empty of an output that is code.
-    pub quantity: &'static str,
-    /// Components in the order of the record; one for a number.
-    pub components: Vec<Component>,
-}
-
-impl Channel {
-    /// The channels of a scene: its outputs, or every joint coordinate when it names none.
-    ///
-    /// Vectors have components `x`, `y`, `z`; joints with several coordinates `1`, `2`, ...; reactions
-    /// `Fx`, `Fy`, `Mz` or `Fx`, `Fy`, `Fz`, `Mx`, `My`, `Mz`.
-    ///
-    /// # Panics
-    /// If an output points to a joint that is not there; [`Scene::check`] refuses those.
-    #[must_use]
-    pub fn of_scene<T: Clone>(scene: &Scene<T>) -> Vec<Self> {
-        let channel = |output: Output<T>| Self {
-            quantity: output.quantity.row().name,
-            components: output.components(scene),
-            name: output.name,
-        };
-        scene.channels().into_iter().map(channel).collect()
-    }
-
-    /// The names of its columns: `name`, or `name.x`, `name.y`, ...
-    pub fn columns(&self) -> impl Iterator<Item = String> + '_ {
-        self.components.iter().map(|component| {
-            if component.label.is_empty() {
-                return self.name.clone();
-            }
-            format!("{}.{}", self.name, component.label)
-        })
-    }
-}
 
 /// Everything the page of a run shows. Series may have any number of points; the page thins them.
 #[derive(Debug, Clone, Default, PartialEq)]

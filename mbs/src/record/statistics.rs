@@ -1,6 +1,6 @@
 //! Statistics of channels over every step of a run.
 
-use super::series::Channel;
+use super::channel::Channel;
 use mbs_core::outputs::magnitudes;
 
 /// Statistics of a number over every step, the start among them.
