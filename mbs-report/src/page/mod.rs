@@ -10,6 +10,7 @@ mod pack;
 mod panels;
 mod run;
 mod section;
+mod statistics;
 #[cfg(test)]
 mod tests;
 mod text;

@@ -5,6 +5,7 @@ use super::motion;
 use super::pack::Pack;
 use super::panels::Panels;
 use super::section::{Page, PageSection};
+use super::statistics;
 use crate::table::{Section, row};
 use mbs::record::RunRecord;
 use serde_json::json;
@@ -67,6 +68,7 @@ pub fn page(record: &RunRecord) -> String {
     }
     sections.extend(drawn.view);
     sections.extend(drawn.plots);
+    sections.extend(statistics::section(&record.channels));
     if let [head, rows @ ..] = record.choice.as_slice() {
         sections.push(PageSection::Table(Section {
             title: "What was chosen, and what the others would have cost".to_owned(),

@@ -121,6 +121,29 @@ fn number(name: &str, unit: &str, values: [f64; 2]) -> ChannelSeries {
 }
 
 #[test]
+fn the_page_has_the_peaks_of_each_component_and_when_they_came() {
+    let mut record = record();
+    record.channels[0].stats = vec![ComponentStatistics {
+        label: "x".into(),
+        unit: "m".into(),
+        of: Statistics {
+            min: -1.0,
+            at_min: 4.5,
+            max: 9.87654,
+            at_max: 12.345,
+            rms: 0.7,
+            end: 0.25,
+        },
+        ..ComponentStatistics::default()
+    }];
+    let row = ["tip.x", "m", "-1", "4.5", "9.87654", "12.345", "0.7", "0.25"];
+    let row: String = row.iter().map(|cell| format!("<td>{cell}</td>")).collect();
+    let html = page(&record).replace("<th scope=\"row\">tip.x</th>", "<td>tip.x</td>");
+    let html = html.replace("<td class=\"number\">", "<td>");
+    assert!(html.contains(&row), "{}", &html[html.find("Statistics").unwrap_or(0)..][..600]);
+}
+
+#[test]
 fn numbers_of_one_unit_share_a_panel_unless_their_ranges_are_far_apart() {
     let mut record = record();
     record.channels = vec![
