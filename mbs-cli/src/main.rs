@@ -17,6 +17,7 @@ mod files;
 mod generate;
 mod keep;
 mod manual;
+mod plot;
 mod precision;
 mod realtime;
 mod refusal;
@@ -75,6 +76,8 @@ enum Command {
     Modes(analysis::Modes),
     /// Write a large scene: chain, tree, n-four-bar, net, or a convoy of a vehicle.
     Generate(generate::Arguments),
+    /// Draw channels of one or several runs over each other (SVG), or write them as one table (CSV).
+    Plot(plot::Arguments),
     /// Run a scene with many varied numbers, into one table; the same command continues a killed sweep.
     Sweep(sweep::Arguments),
     /// Read scenes and assemble them, without a run.
@@ -114,6 +117,7 @@ fn main() -> ExitCode {
         Command::Equilibrium(arguments) => analysis::equilibrium(&arguments),
         Command::Modes(arguments) => analysis::modes(&arguments),
         Command::Generate(arguments) => generate::main(&arguments),
+        Command::Plot(arguments) => plot::main(&arguments),
         Command::Sweep(arguments) => sweep::main(&arguments),
         Command::Check(arguments) => check::main(&arguments),
         Command::Kinds(arguments) => manual::kinds(&arguments),

@@ -3,7 +3,7 @@
 use super::{json, run, scene, text};
 use std::path::Path;
 
-const COMMANDS: [&str; 13] = [
+const COMMANDS: [&str; 14] = [
     "run",
     "compare",
     "diff",
@@ -13,6 +13,7 @@ const COMMANDS: [&str; 13] = [
     "equilibrium",
     "modes",
     "generate",
+    "plot",
     "sweep",
     "check",
     "kinds",
@@ -23,8 +24,8 @@ const COMMANDS: [&str; 13] = [
 const MAX_WORDS: usize = 25;
 
 /// Options with a value that have no default: the command asks for one of them, or they choose the size of a family.
-const NO_DEFAULT: [&str; 7] =
-    ["--rust", "--binary", "--count", "--rows", "--columns", "--of", "--resume"];
+const NO_DEFAULT: [&str; 8] =
+    ["--out <FILE>", "--rust", "--binary", "--count", "--rows", "--columns", "--of", "--resume"];
 
 fn help(command: &str) -> String {
     let arguments: &[&str] = if command == "--help" { &[] } else { &["--help"] };

@@ -1,0 +1,147 @@
+//! The picture: panels below each other, with a line for each run.
+
+use crate::refusal::Refusal;
+use mbs::scene_file::format::{rounded, significant};
+use plotters::prelude::*;
+
+/// Width of a picture, and height of each panel in it [px]. Chosen, not tuned.
+const PANEL: (u32, u32) = (900, 300);
+/// Parts of a line along its panel: each gives the least and the largest of its points, so that no peak is lost.
+const PARTS: usize = 900;
+/// Room beyond the values, relative to their range [-]. Chosen, not tuned.
+const MARGIN: f64 = 0.05;
+/// Range of an axis whose values are all the same, relative to them [-]. Chosen, not tuned.
+const LEAST_RANGE: f64 = 1e-6;
+/// Height of texts, and room for the numbers of the axes [px]. Chosen, not tuned.
+const TEXT: [u32; 3] = [13, 70, 38];
+/// Digits of the numbers of an axis [-]. Chosen, not tuned.
+const AXIS_DIGITS: usize = 6;
+/// Colours of the runs, one after the other: apart for those who see few colours (Okabe and Ito).
+const COLOURS: [RGBColor; 6] = [
+    RGBColor(0, 114, 178),
+    RGBColor(213, 94, 0),
+    RGBColor(0, 158, 115),
+    RGBColor(204, 121, 167),
+    RGBColor(86, 180, 233),
+    RGBColor(0, 0, 0),
+];
+
+/// A number of an axis, without zeros at its end.
+fn number(x: f64) -> String {
+    significant(rounded(x, AXIS_DIGITS))
+}
+
+/// A line of a run.
+#[derive(Debug)]
+pub(super) struct Line {
+    pub(super) label: String,
+    /// Number of the run, which has a colour.
+    pub(super) run: usize,
+    pub(super) points: Vec<(f64, f64)>,
+}
+
+/// Lines over the same axes.
+#[derive(Debug)]
+pub(super) struct Panel {
+    /// Titles of the axes, across and up.
+    pub(super) titles: [String; 2],
+    pub(super) lines: Vec<Line>,
+    /// Are magnitudes shown by their logarithm?
+    pub(super) is_log: bool,
+}
+
+/// The picture as SVG; else the refusal of one that cannot be drawn.
+pub(super) fn drawn(panels: &[Panel]) -> Result<String, Refusal> {
+    let mut text = String::new();
+    let rows = u32::try_from(panels.len()).unwrap_or(1).max(1);
+    {
+        let area =
+            SVGBackend::with_string(&mut text, (PANEL.0, PANEL.1 * rows)).into_drawing_area();
+        let fault = |error: &dyn core::fmt::Display| {
+            Refusal::new("out-unwritable", format!("the picture cannot be drawn: {error}"), "")
+        };
+        area.fill(&WHITE).map_err(|error| fault(&error))?;
+        for (panel, place) in panels.iter().zip(area.split_evenly((rows as usize, 1))) {
+            draw(panel, &place).map_err(|error| fault(&error))?;
+        }
+        area.present().map_err(|error| fault(&error))?;
+    }
+    Ok(text)
+}
+
+type Place<'a> = DrawingArea<SVGBackend<'a>, plotters::coord::Shift>;
+type Fault<'a> = DrawingAreaErrorKind<<SVGBackend<'a> as DrawingBackend>::ErrorType>;
+
+fn draw<'a>(panel: &Panel, place: &Place<'a>) -> Result<(), Fault<'a>> {
+    let lines: Vec<(&Line, Vec<(f64, f64)>)> =
+        panel.lines.iter().map(|line| (line, shown(&line.points, panel.is_log))).collect();
+    let all = || lines.iter().flat_map(|(_, points)| points);
+    let [x, y] = [range(all().map(|p| p.0)), range(all().map(|p| p.1))];
+    let [height, left, below] = TEXT;
+    let mut chart = ChartBuilder::on(place)
+        .margin(8)
+        .x_label_area_size(below)
+        .y_label_area_size(left)
+        .build_cartesian_2d(x, y)?;
+    let (is_log, font) = (panel.is_log, ("sans-serif", height).into_font());
+    let of_axis = |y: &f64| if is_log { number(10_f64.powf(*y)) } else { number(*y) };
+    chart
+        .configure_mesh()
+        .light_line_style(WHITE)
+        .bold_line_style(RGBColor(225, 225, 225))
+        .label_style(font.clone())
+        .axis_desc_style(font.clone())
+        .x_desc(panel.titles[0].as_str())
+        .y_desc(panel.titles[1].as_str())
+        .x_label_formatter(&|x| number(*x))
+        .y_label_formatter(&of_axis)
+        .y_labels(6)
+        .draw()?;
+    let is_named = lines.len() > 1;
+    for (line, points) in lines {
+        let colour = COLOURS[line.run % COLOURS.len()];
+        let series = chart.draw_series(LineSeries::new(points, colour.stroke_width(2)))?;
+        if is_named {
+            let sample =
+                move |(x, y)| PathElement::new([(x, y), (x + 18, y)], colour.stroke_width(2));
+            series.label(line.label.as_str()).legend(sample);
+        }
+    }
+    if is_named {
+        let labels = &mut chart.configure_series_labels();
+        labels.background_style(WHITE.mix(0.8)).border_style(RGBColor(200, 200, 200));
+        labels.label_font(font).position(SeriesLabelPosition::UpperRight).draw()?;
+    }
+    Ok(())
+}
+
+/// The points that are drawn: of each part of the line the least and the largest, in their order; zeros have no logarithm.
+fn shown(points: &[(f64, f64)], is_log: bool) -> Vec<(f64, f64)> {
+    let mapped = points.iter().map(|&(x, y)| (x, if is_log { y.abs().log10() } else { y }));
+    let points: Vec<(f64, f64)> = mapped.filter(|point| point.1.is_finite()).collect();
+    if points.len() <= 2 * PARTS {
+        return points;
+    }
+    let part = |part: &[(f64, f64)]| {
+        let by = |a: &&(f64, f64), b: &&(f64, f64)| a.1.total_cmp(&b.1);
+        let place = |of: Option<&(f64, f64)>| {
+            of.and_then(|of| part.iter().position(|point| core::ptr::eq(point, of)))
+        };
+        let mut both = [place(part.iter().min_by(by)), place(part.iter().max_by(by))];
+        both.sort_unstable();
+        both.into_iter().flatten().map(|i| part[i]).collect::<Vec<_>>()
+    };
+    points.chunks(points.len().div_ceil(PARTS)).flat_map(part).collect()
+}
+
+/// The range of an axis over these values.
+fn range(values: impl Iterator<Item = f64>) -> core::ops::Range<f64> {
+    let ends = [f64::INFINITY, f64::NEG_INFINITY];
+    let [low, high] = values.fold(ends, |[low, high], x| [low.min(x), high.max(x)]);
+    if low > high {
+        return 0.0..1.0;
+    }
+    let least = LEAST_RANGE * low.abs().max(high.abs()).max(LEAST_RANGE);
+    let room = MARGIN * (high - low).max(least);
+    low - room..high + room
+}

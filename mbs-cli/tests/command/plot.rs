@@ -1,0 +1,54 @@
+//! `mbs plot`: pictures and tables of runs, and what is refused.
+
+use super::{plain, run, scene, status, text};
+use std::path::Path;
+
+/// Draws the slider-crank into a file of that name; gives its text.
+fn plotted(name: &str, arguments: &[&str]) -> String {
+    let out = plain(Path::new(env!("CARGO_TARGET_TMPDIR")).join(name));
+    let scene = scene("slider-crank");
+    let output = run("plot", &[&[scene.as_str(), "--out", &out], arguments].concat());
+    assert_eq!(status(&output), 0, "{}", text(&output.stderr));
+    std::fs::read_to_string(out).expect("it was written")
+}
+
+#[test]
+fn a_picture_has_a_panel_for_each_column_with_its_unit() {
+    let svg = plotted("plot-all.svg", &[]);
+    assert!(svg.starts_with("<svg") && svg.contains("t [s]"));
+    let one = plotted("plot-one.svg", &["--channel", "crank-angle"]);
+    assert_eq!(one.matches("t [s]").count(), 1);
+    assert!(one.contains("crank-angle [rad]"));
+}
+
+#[test]
+fn runs_over_each_other_are_named_and_a_table_has_the_rows_of_both() {
+    let twice = scene("slider-crank");
+    let svg = plotted("plot-two.svg", &[&twice, "--channel", "crank-angle"]);
+    assert_eq!(svg.matches("slider-crank").count(), 2, "two runs in the legend");
+    let one = plotted("plot-one.csv", &[]).lines().count();
+    let two = plotted("plot-two.csv", &[&twice]);
+    assert!(two.starts_with("run,t,"));
+    assert_eq!(two.lines().count(), 2 * one - 1);
+}
+
+#[test]
+fn one_column_is_drawn_over_another() {
+    let csv = plotted("plot-names.csv", &[]);
+    let names: Vec<&str> = csv.lines().next().expect("a header").split(',').skip(2).collect();
+    let svg = plotted("plot-xy.svg", &["--xy", names[0], names[1], "--log"]);
+    assert!(svg.contains(names[0]) && svg.contains(names[1]) && !svg.contains("t [s]"));
+}
+
+#[test]
+fn other_endings_and_unknown_channels_are_refused() {
+    let scene = scene("slider-crank");
+    for (arguments, why) in [
+        (&["--out", "picture.bmp"][..], ".svg or .csv"),
+        (&["--out", "none.svg", "--channel", "crank-angel"], "name one of: crank-angle"),
+    ] {
+        let output = run("plot", &[&[scene.as_str()], arguments].concat());
+        assert_eq!(status(&output), 1);
+        assert!(text(&output.stderr).contains(why), "{}", text(&output.stderr));
+    }
+}
