@@ -17,6 +17,7 @@ mod files;
 mod generate;
 mod keep;
 mod manual;
+mod new;
 mod plot;
 mod precision;
 mod realtime;
@@ -80,6 +81,8 @@ enum Command {
     Plot(plot::Arguments),
     /// Run a scene with many varied numbers, into one table; the same command continues a killed sweep.
     Sweep(sweep::Arguments),
+    /// Write a small scene to begin from; without a name, list them.
+    New(new::Arguments),
     /// Read scenes and assemble them, without a run.
     Check(check::Arguments),
     /// List the tables and kinds of scene files; with a name, its keys, units, defaults and an example.
@@ -119,6 +122,7 @@ fn main() -> ExitCode {
         Command::Generate(arguments) => generate::main(&arguments),
         Command::Plot(arguments) => plot::main(&arguments),
         Command::Sweep(arguments) => sweep::main(&arguments),
+        Command::New(arguments) => new::main(&arguments),
         Command::Check(arguments) => check::main(&arguments),
         Command::Kinds(arguments) => manual::kinds(&arguments),
         Command::Schema(_) => manual::schema(),

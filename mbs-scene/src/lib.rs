@@ -6,6 +6,7 @@ mod generate;
 pub mod keys;
 pub mod manual;
 mod read;
+pub mod templates;
 mod write;
 
 pub use dice::Dice;

@@ -3,7 +3,7 @@
 use super::{json, run, scene, text};
 use std::path::Path;
 
-const COMMANDS: [&str; 14] = [
+const COMMANDS: [&str; 15] = [
     "run",
     "compare",
     "diff",
@@ -15,6 +15,7 @@ const COMMANDS: [&str; 14] = [
     "generate",
     "plot",
     "sweep",
+    "new",
     "check",
     "kinds",
     "schema",

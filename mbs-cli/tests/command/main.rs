@@ -22,6 +22,7 @@ mod inputs;
 #[cfg(not(any(feature = "f32", feature = "dd")))]
 mod lean;
 mod manual;
+mod new;
 mod plot;
 mod realtime;
 mod refusals;
