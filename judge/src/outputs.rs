@@ -6,7 +6,7 @@ use crate::vector::{Quaternion, Vector, add, cross, norm, rotation};
 
 impl Quantity {
     /// Names of those of a body's point.
-    pub const OF_POINTS: &[&str] = &["position", "velocity", "acceleration"];
+    pub const OF_POINTS: &[&str] = &["position", "velocity", "acceleration", "proper-acceleration"];
     /// Names of those of a body.
     pub const OF_BODIES: &[&str] = &[
         "angular-velocity",
@@ -26,6 +26,7 @@ impl Quantity {
             ("position", Some(at)) => Self::Position(body, at),
             ("velocity", Some(at)) => Self::Velocity(body, at),
             ("acceleration", Some(at)) => Self::Acceleration(body, at),
+            ("proper-acceleration", Some(at)) => Self::ProperAcceleration(body, at),
             ("angular-velocity", None) => Self::AngularVelocity(body),
             ("angular-acceleration", None) => Self::AngularAcceleration(body),
             ("orientation", None) => Self::Orientation(body),
@@ -65,6 +66,10 @@ impl Mechanism {
                 let a = self.evaluate(state).accelerations[body];
                 let turning = add(cross([a[3], a[4], a[5]], seat.arm), seat.bias);
                 vector(add([a[0], a[1], a[2]], turning))
+            }
+            Quantity::ProperAcceleration(body, at) => {
+                let moved = self.show(state, Quantity::Acceleration(body, at)).into_iter();
+                moved.zip(self.scene.gravity).map(|(a, g)| a - g).collect()
             }
             Quantity::AngularVelocity(body) => {
                 places.of(Some(body)).w[if planar { 2 } else { 0 }..].to_vec()

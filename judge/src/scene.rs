@@ -306,6 +306,8 @@ pub enum Quantity {
     Velocity(usize, Vector),
     /// Of a body's point.
     Acceleration(usize, Vector),
+    /// Of a body's point: its acceleration without gravity.
+    ProperAcceleration(usize, Vector),
     /// Of a body.
     AngularVelocity(usize),
     /// Of a body.

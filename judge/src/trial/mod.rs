@@ -244,6 +244,7 @@ fn kind(quantity: Quantity) -> usize {
         Quantity::Position(..) => 0,
         Quantity::Velocity(..) => 1,
         Quantity::Acceleration(..)
+        | Quantity::ProperAcceleration(..)
         | Quantity::AngularAcceleration(..)
         | Quantity::JointAcceleration(..) => 2,
         Quantity::Value(..)

@@ -24,7 +24,7 @@ impl Template {
     #[must_use]
     pub fn meaning(&self) -> &'static str {
         let line = self.text.lines().next().unwrap_or_default().trim_start_matches(['#', ' ']);
-        line.find(['.', ':']).map_or(line, |end| &line[..end])
+        line.find('.').map_or(line, |end| &line[..end])
     }
 }
 
