@@ -23,11 +23,23 @@ pub(super) fn tables() -> Vec<KeyTable> {
             listed("signal", "Numbers over time, by name."),
             listed("effect", "Springs, dampers, forces, tires, friction and stops."),
             may("road", KeyValue::Table("road"), "", "level, at height 0", "The road under tires."),
+            may(
+                "parameters",
+                KeyValue::Parameters,
+                "",
+                "none",
+                "Numbers by name, for expressions.",
+            ),
             may("solver", KeyValue::Table("solver"), "", "all defaults", "Method and steps."),
             listed("output", "Channels of the results; without one, each joint's coordinates."),
         ],
     );
-    vec![file, once("scene", "The scene as a whole.", keys())]
+    let parameters = "Numbers by name: each is a number, or an expression of others. A text stands wherever a number does.";
+    vec![
+        file,
+        once("scene", "The scene as a whole.", keys()),
+        once("parameters", parameters, Vec::new()),
+    ]
 }
 
 fn keys() -> Vec<Key> {

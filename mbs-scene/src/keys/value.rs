@@ -54,6 +54,8 @@ pub enum KeyValue {
     TableOrTables(&'static str),
     /// Two places, or a list of tables of that header.
     PlacesOrTables(&'static str),
+    /// A table of names with a number each.
+    Parameters,
     /// A path to a number of a scene.
     Path,
     /// One of them, or a list.
@@ -135,6 +137,7 @@ impl KeyValue {
             Self::Tables(header) => format!("list of tables: {header}"),
             Self::TableOrTables(header) => format!("table, or list of tables: {header}"),
             Self::PlacesOrTables(header) => format!("two places, or list of tables: {header}"),
+            Self::Parameters => "table of names, each with a number".to_owned(),
             Self::Path => "path".to_owned(),
             Self::PathOrPaths => "path, or list of paths".to_owned(),
         }

@@ -84,7 +84,8 @@ fn of_value(value: &KeyValue) -> Json {
         None => json!({ "type": "array", "items": of }),
     };
     let text = || json!({ "type": "string" });
-    let number = || json!({ "type": "number" });
+    // a text is an expression
+    let number = || json!({ "type": ["number", "string"] });
     let count = || json!({ "type": "integer", "minimum": 1 });
     let vector = || json!({ "type": "array", "items": number(), "minItems": 2, "maxItems": 3 });
     let any_of = |forms: Vec<Json>| json!({ "anyOf": forms });
@@ -125,6 +126,7 @@ fn of_value(value: &KeyValue) -> Json {
         KeyValue::PlacesOrTables(header) => {
             any_of(vec![list(vector(), Some(2)), list(table(header), None)])
         }
+        KeyValue::Parameters => json!({ "type": "object", "additionalProperties": number() }),
         KeyValue::PathOrPaths => any_of(vec![text(), list(text(), None)]),
     }
 }

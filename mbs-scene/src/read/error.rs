@@ -16,6 +16,15 @@ struct Parts {
     fault: ReadFault,
 }
 
+/// What is wrong with an expression, and what to do.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct ExpressionFault {
+    /// What is wrong.
+    pub message: String,
+    /// What to do.
+    pub hint: String,
+}
+
 /// The faults of a scene file.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
@@ -117,10 +126,18 @@ pub enum ReadFault {
         /// What is there.
         found: &'static str,
     },
-    /// A text where a number is needed.
-    NumberInText {
+    /// An expression that has no value.
+    Expression(ExpressionFault),
+    /// A number with a unit of other dimensions than the key's.
+    OtherUnit {
+        /// The key.
+        key: &'static str,
+        /// Its unit.
+        unit: &'static str,
         /// The text as written.
         text: String,
+        /// What it is.
+        found: String,
     },
     /// The count of numbers or entries in a list is wrong.
     WrongCount {
@@ -245,12 +262,10 @@ impl Display for ReadFault {
             Self::OfPoint { name, .. } => write!(f, "`{name}` is a point: it has no orientation"),
             Self::GroundDoesNotMove => write!(f, "the ground does not move"),
             Self::WrongType { expected, found } => write!(f, "expected {expected}, found {found}"),
-            Self::NumberInText { text } => match units::quantity(text) {
-                Some((_, unit)) if !unit.is_empty() => {
-                    write!(f, "expected a number, found `{text}`: units are not written")
-                }
-                _ => write!(f, "expected a number, found the text `{text}`"),
-            },
+            Self::Expression(fault) => f.write_str(&fault.message),
+            Self::OtherUnit { key, unit, text, found } => {
+                write!(f, "`{text}` is {found}, `{key}` is in {unit}")
+            }
             Self::WrongCount { needed, found } => {
                 write!(f, "expected {needed} entries, found {found}")
             }
@@ -298,7 +313,8 @@ impl ReadFault {
             Self::NotUtf8 => "save the file as UTF-8".to_owned(),
             Self::Syntax { line, .. } => units::of_line(line)
                 .unwrap_or_else(|| "see https://toml.io for the syntax of the file".to_owned()),
-            Self::NumberInText { text } => units::hint(text),
+            Self::Expression(fault) => fault.hint.clone(),
+            Self::OtherUnit { unit, .. } => format!("write a number in {unit}, or with such a unit"),
             Self::UnknownKey { key, known } => nearest_name(key, known, "keys"),
             Self::UnusedKey { known, .. } => format!("remove it; {}", listing(known, "keys")),
             Self::UnknownWord { found, known, .. } => nearest_name(found, known, "choices"),

@@ -1,8 +1,10 @@
 //! Typed access to the keys of one table.
 
 use crate::keys::{self, KeyTable};
+use crate::read::expression::unit;
 use crate::read::names::Names;
 use crate::read::tree::{Item, Member, Node, Span};
+use crate::read::values::Values;
 use crate::read::{ReadError, ReadFault, SceneFile};
 use mbs_core::scene::{BallAngle, BodyId, Dimension, Freedom, Joint, JointId, Number, SignalId};
 
@@ -14,6 +16,7 @@ pub(crate) struct Context<'a> {
     pub(crate) bodies: &'a Names,
     pub(crate) joints: &'a Names,
     pub(crate) signals: &'a Names,
+    pub(crate) values: &'a Values<'a>,
 }
 
 /// One table of the file.
@@ -98,9 +101,7 @@ impl<'a> Context<'a> {
     pub(crate) fn number(&self, item: &Item) -> Read<Number> {
         let text = match &item.node {
             Node::Number(text) => text,
-            Node::Text(text) => {
-                return self.fault(&item.span, ReadFault::NumberInText { text: text.clone() });
-            }
+            Node::Text(text) => return Ok(self.values.number(text, &item.span)?.0),
             _ => return self.wrong_type(item, "a number"),
         };
         match Number::from_decimal(text) {
@@ -300,11 +301,27 @@ impl<'a> Fields<'a> {
     }
 
     pub(crate) fn number(&self, key: &'static str) -> Read<Number> {
-        self.context.number(self.need(key)?)
+        self.in_unit(key, self.need(key)?)
     }
 
     pub(crate) fn optional(&self, key: &str) -> Read<Option<Number>> {
-        self.get(key).map(|item| self.context.number(item)).transpose()
+        self.get(key).map(|item| self.in_unit(key, item)).transpose()
+    }
+
+    /// A number; one that is written with a unit alone must have the dimensions of the key's.
+    fn in_unit(&self, key: &str, item: &Item) -> Read<Number> {
+        let Node::Text(text) = &item.node else { return self.context.number(item) };
+        let (number, dimensions) = self.context.values.number(text, &item.span)?;
+        let known = self.tables.iter().find_map(|table| table.key(key));
+        let Some((dimensions, key)) = dimensions.zip(known) else { return Ok(number) };
+        let ways = unit::of_key(key.unit);
+        if ways.is_empty() || ways.contains(&dimensions) {
+            return Ok(number);
+        }
+        let found = unit::described(dimensions);
+        let (key, unit) = (key.name, key.unit);
+        let fault = ReadFault::OtherUnit { key, unit, text: text.clone(), found };
+        self.context.fault(&item.span, fault)
     }
 
     pub(crate) fn number_or_zero(&self, key: &str) -> Read<Number> {

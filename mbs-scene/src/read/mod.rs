@@ -6,6 +6,7 @@ mod document;
 mod edit;
 mod effect;
 mod error;
+mod expression;
 mod fields;
 mod guided;
 mod hints;
@@ -24,6 +25,7 @@ mod sweep;
 mod tests;
 pub(crate) mod tree;
 mod units;
+mod values;
 
 pub use document::SceneFile;
 pub use error::{ReadError, ReadFault};

@@ -5,14 +5,15 @@ use crate::read::document::SceneFile;
 use crate::read::fields::{Context, Fields, Read};
 use crate::read::names::Names;
 use crate::read::tree::{Item, Member, Node};
+use crate::read::values::Values;
 use crate::read::{
     Place, ReadError, ReadFault, body, coupling, effect, joint, motion, output, road, rolling,
     signal,
 };
 use mbs_core::Real;
 use mbs_core::scene::{
-    Body, Dimension, Entry, Guide, Joint, Number, Scene, SceneError, SceneFault, Start,
-    signal_order,
+    Body, Dimension, Entry, Guide, Joint, Number, Scene, SceneError, SceneFault, SolverTable,
+    Start, signal_order,
 };
 use std::collections::BTreeMap;
 
@@ -37,7 +38,9 @@ impl SceneFile {
         let joints = Names::new([joints.list(), &self.guided_bodies()?].concat());
         // the dimension is not known yet; nothing dimensional is read before it is
         let dimension = Dimension::Planar;
+        let values = Values::new(self)?;
         let context = Context {
+            values: &values,
             document: self,
             dimension,
             bodies: &bodies,
@@ -86,9 +89,7 @@ impl SceneFile {
                 output::read(fields, &centers, [&of_couplings, &of_rollings, &of_effects])
             })?,
             solver: match self.top("solver") {
-                Some(item) => {
-                    output::read_solver(&context.table(item, "a table: [solver]", "solver")?)?
-                }
+                Some(item) => read_solver(&context, item)?,
                 None => Default::default(),
             },
         };
@@ -276,6 +277,10 @@ fn with_asked(header: &Fields<'_>, mut scene: Scene<Number>) -> Read<Scene<Numbe
         }
         word => header.unknown_word("outputs", word, &["all"]),
     }
+}
+
+fn read_solver<'a>(context: &Context<'a>, item: &'a Item) -> Read<SolverTable<Number>> {
+    output::read_solver(&context.table(item, "a table: [solver]", "solver")?)
 }
 
 fn read_start(header: &Fields<'_>) -> Read<Start> {

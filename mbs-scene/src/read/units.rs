@@ -1,49 +1,10 @@
-//! Numbers that are written with a unit: scene files have SI numbers without one.
+//! Numbers that are written with a unit and without quotes, which is no TOML.
 
-/// Units by name, with what they are in SI: numerator, denominator, and the SI unit.
-const UNITS: [(&str, f64, f64, &str); 38] = [
-    ("m", 1.0, 1.0, "m"),
-    ("mm", 1.0, 1e3, "m"),
-    ("cm", 1.0, 1e2, "m"),
-    ("um", 1.0, 1e6, "m"),
-    ("km", 1e3, 1.0, "m"),
-    ("in", 254.0, 1e4, "m"),
-    ("kg", 1.0, 1.0, "kg"),
-    ("g", 1.0, 1e3, "kg"),
-    ("mg", 1.0, 1e6, "kg"),
-    ("t", 1e3, 1.0, "kg"),
-    ("s", 1.0, 1.0, "s"),
-    ("sec", 1.0, 1.0, "s"),
-    ("ms", 1.0, 1e3, "s"),
-    ("us", 1.0, 1e6, "s"),
-    ("min", 60.0, 1.0, "s"),
-    ("h", 3600.0, 1.0, "s"),
-    ("N", 1.0, 1.0, "N"),
-    ("kN", 1e3, 1.0, "N"),
-    ("MN", 1e6, 1.0, "N"),
-    ("Nm", 1.0, 1.0, "N m"),
-    ("N*m", 1.0, 1.0, "N m"),
-    ("N m", 1.0, 1.0, "N m"),
-    ("N/m", 1.0, 1.0, "N/m"),
-    ("N/mm", 1e3, 1.0, "N/m"),
-    ("kN/m", 1e3, 1.0, "N/m"),
-    ("N*s/m", 1.0, 1.0, "N s/m"),
-    ("Ns/m", 1.0, 1.0, "N s/m"),
-    ("m/s", 1.0, 1.0, "m/s"),
-    ("km/h", 1e3, 3600.0, "m/s"),
-    ("m/s^2", 1.0, 1.0, "m/s^2"),
-    ("rad", 1.0, 1.0, "rad"),
-    ("rad/s", 1.0, 1.0, "rad/s"),
-    ("deg", core::f64::consts::PI, 180.0, "rad"),
-    ("\u{b0}", core::f64::consts::PI, 180.0, "rad"),
-    ("rpm", core::f64::consts::PI, 30.0, "rad/s"),
-    ("Hz", 1.0, 1.0, "Hz"),
-    ("kg*m^2", 1.0, 1.0, "kg m^2"),
-    ("kg m^2", 1.0, 1.0, "kg m^2"),
-];
+use super::expression::evaluate;
+use crate::format::shortest;
 
 /// A text that begins with a decimal number: that number, and what follows it.
-pub(crate) fn quantity(text: &str) -> Option<(&str, &str)> {
+fn quantity(text: &str) -> Option<(&str, &str)> {
     let text = text.trim();
     let is_part = |c: char| c.is_ascii_digit() || matches!(c, '.' | '+' | '-' | '_');
     let mut end = text.find(|c| !is_part(c)).unwrap_or(text.len());
@@ -59,23 +20,22 @@ pub(crate) fn quantity(text: &str) -> Option<(&str, &str)> {
     Some((number, rest.trim()))
 }
 
-/// What to write instead of a text.
-pub(crate) fn hint(text: &str) -> String {
-    let Some((number, unit)) = quantity(text) else {
-        return "write a number, in SI units and without quotes".to_owned();
+/// What to write instead of a number with a unit.
+fn hint(text: &str) -> Option<String> {
+    let (number, unit) = quantity(text)?;
+    let plain = number.replace('_', "");
+    let unit =
+        unit.replace('\u{b0}', "deg").replace("Nm", "N*m").replace("Ns", "N*s").replace(' ', "*");
+    let with_unit = format!("{plain} {unit}");
+    let mut none = |_: &str| Err([String::new(), String::new()]);
+    let value = evaluate(&with_unit, &mut none).ok().map(|found| found.value.hi());
+    let Some(value) = value else {
+        return Some("write a number alone, in SI units (m, kg, s, N, rad)".to_owned());
     };
-    if unit.is_empty() {
-        return format!("write {number}, without quotes");
-    }
-    let known = UNITS.iter().find(|(name, ..)| *name == unit);
-    let (Some((_, over, under, si)), Ok(value)) = (known, number.replace('_', "").parse::<f64>())
-    else {
-        return "write a number alone: all numbers are in SI units (m, kg, s, N, rad)".to_owned();
-    };
-    #[allow(clippy::float_cmp, reason = "both are written as one")]
-    let number =
-        if over == under { number.to_owned() } else { format!("{:?}", value * over / under) };
-    format!("write {number}: all numbers are in SI units, here in {si}")
+    #[allow(clippy::float_cmp, reason = "is it the same number?")]
+    let is_same = plain.parse::<f64>().is_ok_and(|number| number == value);
+    let si = if is_same { number.to_owned() } else { shortest(value) };
+    Some(format!("write {si}, in SI units, or \"{with_unit}\" in quotes"))
 }
 
 /// What to do about a line that is not TOML because a number in it has a unit.
@@ -84,10 +44,8 @@ pub(crate) fn of_line(line: &str) -> Option<String> {
     let value = value.split('#').next()?;
     let is_unit = |unit: &str| unit.starts_with(|c: char| c.is_alphabetic() || c == '\u{b0}');
     let parts = value.split([',', '[', ']', '{', '}', '=']);
-    parts
-        .map(str::trim)
-        .find(|part| quantity(part).is_some_and(|(_, unit)| is_unit(unit)))
-        .map(hint)
+    let mut parts = parts.map(str::trim);
+    parts.find(|part| quantity(part).is_some_and(|(_, unit)| is_unit(unit))).and_then(hint)
 }
 
 #[cfg(test)]
@@ -97,27 +55,24 @@ mod tests {
     #[test]
     fn numbers_with_units_are_converted_to_si() {
         for (text, expected) in [
-            ("1 kg", "write 1: all numbers are in SI units, here in kg"),
-            ("5mm", "write 0.005: all numbers are in SI units, here in m"),
-            ("-2.5e-1 kN/m", "write -250.0: all numbers are in SI units, here in N/m"),
-            ("90 deg", "write 1.5707963267948966: all numbers are in SI units, here in rad"),
-            ("72 km/h", "write 20.0: all numbers are in SI units, here in m/s"),
-            ("1 in", "write 0.0254: all numbers are in SI units, here in m"),
-            ("1.0", "write 1.0, without quotes"),
-            ("3 furlongs", "write a number alone: all numbers are in SI units (m, kg, s, N, rad)"),
-            ("much", "write a number, in SI units and without quotes"),
-            ("", "write a number, in SI units and without quotes"),
+            ("1 kg", "write 1, in SI units, or \"1 kg\" in quotes"),
+            ("5mm", "write 0.005, in SI units, or \"5 mm\" in quotes"),
+            ("-2.5e-1 kN/m", "write -250, in SI units, or \"-2.5e-1 kN/m\" in quotes"),
+            ("90°", "write 1.5707963267948966, in SI units, or \"90 deg\" in quotes"),
+            ("72 km/h", "write 20, in SI units, or \"72 km/h\" in quotes"),
+            ("3 N m", "write 3, in SI units, or \"3 N*m\" in quotes"),
+            ("3 furlongs", "write a number alone, in SI units (m, kg, s, N, rad)"),
         ] {
-            assert_eq!(hint(text), expected, "{text}");
+            assert_eq!(hint(text).as_deref(), Some(expected), "{text}");
         }
     }
 
     #[test]
     fn lines_whose_fault_is_another_are_left_alone() {
-        assert!(of_line("mass = 1.0 kg # heavy").expect("a unit").starts_with("write 1.0:"));
-        assert!(of_line("stiffness = 3e4N/m").expect("a unit").starts_with("write 3e4:"));
+        assert!(of_line("mass = 1.0 kg # heavy").expect("a unit").starts_with("write 1.0,"));
+        assert!(of_line("stiffness = 3e4N/m").expect("a unit").starts_with("write 3e4,"));
         let place = of_line("rod = { from = [0.0, 0.0], to = [40 mm, 0] }").expect("a unit");
-        assert!(place.starts_with("write 0.04:"), "{place}");
+        assert!(place.starts_with("write 0.04,"), "{place}");
         for line in ["mass = 1.0", "mass 1.0 kg", "name = \"a", "at = [1, 2", "[scene", "x = 1 = 2"]
         {
             assert_eq!(of_line(line), None, "{line}");

@@ -96,7 +96,8 @@ fn signal(fields: &Fields<'_>, form: SignalForm) -> Read<Option<Signal<Number>>>
     let rows = context.list(table, "a list of rows [time, value]")?;
     let read_row = |row| match context.list(row, "a row [time, value]")? {
         [time, flat @ ..]
-            if !is_scalar && matches!(flat, [Item { node: Node::Number(_), .. }, ..]) =>
+            if !is_scalar
+                && matches!(flat, [Item { node: Node::Number(_) | Node::Text(_), .. }, ..]) =>
         {
             Ok((context.number(time)?, context.components(row, flat)?))
         }

@@ -9,6 +9,7 @@ use crate::keys::{self, SWEEP_FILE};
 use crate::read::fields::{Context, Fields, Read};
 use crate::read::names::Names;
 use crate::read::tree::{Item, Node, Span};
+use crate::read::values::Values;
 use crate::read::{ReadFault, SceneFile};
 use mbs_core::scene::Dimension;
 
@@ -18,7 +19,9 @@ const SCALES: [&str; 2] = ["linear", "log"];
 /// How values are combined, and the parameters in the order of the file.
 pub(super) fn read(sweep: &SceneFile, scene: &SceneFile) -> Read<(Combine, Vec<Parameter>)> {
     let none = Names::default();
+    let values = Values::new(sweep)?;
     let context = Context {
+        values: &values,
         document: sweep,
         dimension: Dimension::Planar,
         bodies: &none,
@@ -136,15 +139,19 @@ fn read_values(fields: &Fields<'_>, combine: Combine, parameter: &mut Parameter)
         return context.fault(&item.span, ReadFault::UnusedKey { key: "values".to_owned(), known });
     }
     for item in context.list(item, "a list of numbers")? {
-        context.number(item)?;
-        let Node::Number(text) = &item.node else { continue };
-        parameter.texts.push(text.clone());
+        parameter.texts.push(decimal(&context, item)?);
         parameter.value_spans.push(item.span.clone());
     }
     match parameter.texts.is_empty() {
         true => fault(&context, &item.span, SweepFault::NoValues),
         false => Ok(()),
     }
+}
+
+/// The decimal text of a number, as it is written where it is no expression.
+fn decimal(context: &Context<'_>, item: &Item) -> Read<String> {
+    let number = context.number(item)?;
+    Ok(if let Node::Number(text) = &item.node { text.clone() } else { number.text() })
 }
 
 /// `from`, `to`, and how many between them.
@@ -184,9 +191,7 @@ fn read_range(
     };
     parameter.texts = numbers.into_iter().map(|x| x.to_string()).collect();
     for item in ends {
-        if let Node::Number(text) = &item.node {
-            parameter.ends.push((text.clone(), item.span.clone()));
-        }
+        parameter.ends.push((decimal(&context, item)?, item.span.clone()));
     }
     // what a range gives between its ends is shown at the end of the range
     parameter.value_spans = vec![ends[1].span.clone()];

@@ -217,7 +217,7 @@ fn wrong_values_are_refused_with_place_and_hint() {
     refuse(vec![
         (mass(""), "", "nothing to vary", "`from`"),
         (mass("values = []"), "[]", "nothing to vary", "`values`"),
-        (mass("values = [1, 'x']"), "'x'", "expected a number", "write a number"),
+        (mass("values = [1, 'x']"), "x", "`x` is no parameter", "write a number"),
         (mass("values = [1.0, -2.5]"), "-2.5", "refuses -2.5 as `body.lower.mass`", "zero or more"),
         (mass("values = [1.0, inf]"), "inf", "not a finite number", "finite"),
         (mass("values = [1]\nfrom = 1"), "from", "no meaning here", "remove it"),

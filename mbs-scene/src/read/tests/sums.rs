@@ -119,8 +119,8 @@ const REFUSED_LINES: &[[&str; 4]] = &[
     ],
     [
         "points = [{ body = \"w\", at = [0, 0, 0] }, { body = \"u\", at = [2, 0, 0] }]\nfree_length = \"relaxed\"",
-        "38:15",
-        "expected a number, found the text `relaxed`",
+        "38:16",
+        "`relaxed` is no parameter",
         "",
     ],
     [

@@ -1,0 +1,16 @@
+//! Expressions: numbers with units, parameters and functions, in the text of a value.
+//!
+//! ```text
+//! sum      = product { (+|-) product }          power = atom [ ^ whole number up to 64 ]
+//! product  = signed { (*|/) signed }            atom  = number [unit] | ( sum ) | pi | name | function ( sum [, sum] )
+//! signed   = - signed | power                   unit  = name [^ whole] { (*|/) name [^ whole] }, without blanks
+//! ```
+//!
+//! `-2^2` is -4. All is computed in pairs of doubles, and rounded once to the digits of a run.
+
+mod evaluate;
+#[cfg(test)]
+mod tests;
+pub(crate) mod unit;
+
+pub(crate) use evaluate::{Fault, evaluate, is_reserved};
