@@ -100,7 +100,7 @@ fn guides() -> Vec<KeyTable> {
     );
     let of_body = listed(
         "guide",
-        "A prescribed motion of a body against the ground: x, y and the angle in the plane; x, y, z and the rotation vector in space.",
+        "A prescribed motion of a body against the ground. In the plane it has x, y and the angle; in space x, y, z and the rotation vector.",
         vec![
             need("body", Of(Referent::MovingBody), "", "The body."),
             may("at", Place, "m", "its centre of mass", "The point that is guided."),
