@@ -16,8 +16,8 @@ use std::collections::HashMap;
 const MAX_CHAIN: usize = 64;
 /// Words that keys take in place of a number.
 const WORDS: [&str; 1] = ["reference"];
-/// Digits of a value's text after the first: it reads back as the same pair of doubles.
-const DIGITS: usize = 40;
+/// Digits of a value's text after the first: 32 in all, those of a pair of doubles.
+const DIGITS: usize = 31;
 
 /// The parameters of a file, with their values.
 #[derive(Debug)]
@@ -72,6 +72,8 @@ impl<'a> Values<'a> {
         let found = evaluate(text, &mut named)
             .map_err(|fault| refused(self.document, (text, span), fault))?;
         let decimal = format!("{:.DIGITS$e}", found.value);
+        let (digits, exponent) = decimal.split_once('e').unwrap_or((&decimal, "0"));
+        let decimal = format!("{}0e{exponent}", digits.trim_end_matches('0'));
         let number = Number::from_decimal(&decimal).filter(|number| number.to_f64().is_finite());
         match number {
             Some(number) => Ok((number, found.dimensions)),
