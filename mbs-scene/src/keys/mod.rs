@@ -31,7 +31,7 @@ use mbs_core::outputs::TargetKind;
 use std::sync::LazyLock;
 
 /// See [`tables`].
-pub(crate) static TABLES: LazyLock<Vec<KeyTable>> = LazyLock::new(|| {
+static TABLES: LazyLock<Vec<KeyTable>> = LazyLock::new(|| {
     let mut tables = [
         scene::tables(),
         body::tables(),

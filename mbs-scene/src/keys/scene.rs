@@ -66,15 +66,15 @@ fn keys() -> Vec<Key> {
 }
 
 /// Formulations, as the solver's table and the command line name them.
-pub(crate) const FORMULATIONS: [&str; 7] =
+const FORMULATIONS: [&str; 7] =
     ["auto", "index-1", "index-3", "multi-index", "classical", "state-space", "recursive"];
 
 /// Integrators, as the solver's table and the command line name them.
-pub(crate) const INTEGRATORS: [&str; 9] =
+const INTEGRATORS: [&str; 9] =
     ["trapezoidal", "newmark", "generalised-alpha", "hht", "rk4", "rk54", "rk853", "gbs", "radau5"];
 
 /// Controls of the step, as the solver's table and the command line name them; the last is another name of the third.
-pub(crate) const STEP_CONTROLS: [&str; 6] =
+const STEP_CONTROLS: [&str; 6] =
     ["fixed", "energy", "energy-printed", "error", "both", "energy-published"];
 
 /// `[solver]`.

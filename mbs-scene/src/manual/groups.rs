@@ -1,11 +1,11 @@
 //! Tables in the order of the manual.
 
-use crate::keys::{KeyTable, TABLES};
+use crate::keys::{KeyTable, tables};
 
 /// The tables that stand in files, apart from the files themselves, each header's together.
 pub(super) fn groups() -> Vec<&'static [KeyTable]> {
     let mut groups = Vec::new();
-    let mut rest = &TABLES[..];
+    let mut rest = tables();
     while let Some(first) = rest.first() {
         let n = rest.iter().take_while(|table| table.header == first.header).count();
         let (group, after) = rest.split_at(n);

@@ -1,6 +1,6 @@
 //! A JSON Schema of scene files, for editors and other programs: the subset of draft 4 that TOML editors read.
 
-use crate::keys::{self, FILE, Key, KeyTable, KeyValue, Referent, TABLES};
+use crate::keys::{self, FILE, Key, KeyTable, KeyValue, Referent, tables};
 use serde_json::{Map, Value as Json, json};
 
 /// The schema of a scene file. Objects are closed: a key that is not in it is none.
@@ -13,7 +13,7 @@ use serde_json::{Map, Value as Json, json};
 pub fn schema() -> String {
     let mut schema = keys::of(FILE).first().map(of_table).unwrap_or_default();
     let mut definitions = Map::new();
-    for table in TABLES.iter().filter(|table| table.header != FILE) {
+    for table in tables().iter().filter(|table| table.header != FILE) {
         definitions.entry(table.header).or_insert_with(|| of_header(table.header));
     }
     if let Json::Object(schema) = &mut schema {

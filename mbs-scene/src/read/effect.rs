@@ -60,12 +60,12 @@ fn on_ball(
     named: &[usize],
     joints: &[Joint<Number>],
 ) -> Read<Option<(usize, BallAngle)>> {
-    let row = named.iter().copied().find(|&row| first_form(row) == Some(Form::Terms));
-    let has_joint = |row: &usize| matches!(first_form(*row), Some(Form::Joint(_)));
-    if !named.iter().any(has_joint) {
+    let mut forms = named.iter().map(|&row| first_form(row));
+    let on_sum = named.iter().copied().find(|&row| first_form(row) == Some(Form::Terms));
+    let Some(row) = on_sum.filter(|_| forms.any(|form| matches!(form, Some(Form::Joint(_)))))
+    else {
         return Ok(None);
-    }
-    let Some(row) = row else { return Ok(None) };
+    };
     let angle = if fields.get("terms").is_none() { ball_angle(fields, joints)? } else { None };
     if angle.is_none() {
         fields.unused(&["axis"])?;
