@@ -1,9 +1,10 @@
 //! `mbs equilibrium SCENE` and `mbs modes SCENE`.
 
-use crate::files::{folder, scene as load};
+use crate::files::folder;
 use crate::refusal::Refusal;
 use crate::run::stopped;
 use crate::say::{say, warn};
+use crate::scene::SceneArgument;
 use crate::status::STOPPED;
 use crate::table::fixed;
 use clap::{Args, ValueEnum};
@@ -21,8 +22,8 @@ use std::process::ExitCode;
 /// What both commands know.
 #[derive(Debug, Args)]
 pub(crate) struct Common {
-    /// Scene file (TOML).
-    scene: PathBuf,
+    #[command(flatten)]
+    scene: SceneArgument,
     /// Print one JSON object on standard output and nothing else.
     #[arg(long)]
     json: bool,
@@ -100,7 +101,7 @@ fn command(
     file: &str,
     analyse: impl Fn(&Scene<f64>) -> Result<(Value, String), StopError>,
 ) -> ExitCode {
-    let begun = load(&common.scene).and_then(|both| {
+    let begun = common.scene.read().and_then(|both| {
         let folder = common.out.as_ref().map(|out| folder(out, &[file])).transpose()?;
         Ok((both, folder))
     });
@@ -132,7 +133,7 @@ fn write(
     (file, object): (&str, &str),
     document: &SceneFile,
 ) -> Result<String, WriteError> {
-    folder.begin(&id(&[document.text(), file]))?.finish(file, object)
+    folder.begin(&id(&[&document.whole_text(), file]))?.finish(file, object)
 }
 
 /// The JSON object of an analysis that could not be made.

@@ -4,6 +4,7 @@ use crate::files;
 use crate::refusal::Refusal;
 use crate::run::stopped;
 use crate::say::{say, warn};
+use crate::scene::SceneArgument;
 use crate::status::REFUSED;
 use clap::Args;
 use mbs::scene_file::format::counted;
@@ -64,7 +65,7 @@ pub(crate) fn main(arguments: &Arguments) -> ExitCode {
 /// Reads a scene, checks its settings, and assembles it.
 fn check(path: &Path) -> Result<Sizes, Failure> {
     let refused = |refusal: Refusal| (refusal.error(), refusal.text());
-    let (document, scene) = files::scene(path).map_err(refused)?;
+    let (document, scene) = SceneArgument::new(path, &[]).read().map_err(refused)?;
     let settings = ResolvedMethod::new(&scene, &Method::default());
     settings.map_err(|error| refused(files::refusal(&error, &document)))?;
     sizes_at_start(&scene).map_err(|error| {

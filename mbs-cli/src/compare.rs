@@ -3,6 +3,7 @@
 use crate::bar::{bar, ticks};
 use crate::refusal::Refusal;
 use crate::say::{say, warn};
+use crate::scene::SceneArgument;
 use crate::status::STOPPED;
 use crate::{files, signals};
 use clap::Args;
@@ -18,8 +19,8 @@ use std::process::ExitCode;
 /// Arguments of `mbs compare`.
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
-    /// Scene file (TOML).
-    pub(crate) scene: PathBuf,
+    #[command(flatten)]
+    pub(crate) scene: SceneArgument,
     /// Formulations, such as index-3,recursive. Default: all.
     #[arg(long, value_name = "F,..", value_delimiter = ',')]
     formulation: Vec<String>,
@@ -145,7 +146,7 @@ impl Arguments {
             ("budget", unusual(self.budget, plain.budget)),
             ("reference", self.reference.as_ref().map(|path| path.display().to_string())),
         ];
-        let scene = self.scene.display();
+        let scene = self.scene.line();
         let command = files::command_line(&format!("compare {scene}"), &options);
         let switches = [(self.no_maps, " --no-maps"), (self.choice, " --choice")];
         switches.into_iter().filter(|(is, _)| *is).fold(command, |text, (_, switch)| text + switch)
@@ -179,7 +180,7 @@ const FILES: [&str; 4] = ["compare.csv", "compare.json", "compare.html", "compar
 /// The comparison, and where its results go, with their id.
 fn run(arguments: &Arguments) -> Result<(Comparison, Option<(Folder, String)>), Refusal> {
     let request = Request { interrupt: signals::heeded(), ..arguments.request()? };
-    let document = files::document(&arguments.scene, "scene file")?;
+    let document = arguments.scene.document()?;
     let table = arguments.table()?;
     let folder = arguments.out.as_ref().map(|out| files::folder(out, &FILES)).transpose()?;
     let mut bar = Bar::new(arguments.json);
@@ -188,7 +189,8 @@ fn run(arguments: &Arguments) -> Result<(Comparison, Option<(Folder, String)>), 
     let comparison = compare(&document, &request, table, place, &mut bar);
     bar.bar.finish_and_clear();
     let mut comparison = comparison.map_err(|error| refusal(&error, folder.is_some()))?;
-    let written = folder.map(|folder| (folder, id(&[document.text(), &arguments.command()])));
+    let written =
+        folder.map(|folder| (folder, id(&[&document.whole_text(), &arguments.command()])));
     let origin = &mut comparison.provenance;
     origin.command = arguments.command();
     origin.version = format!("mbs {}", env!("CARGO_PKG_VERSION"));

@@ -4,6 +4,7 @@ use crate::channels::{number, time};
 use crate::files;
 use crate::refusal::Refusal;
 use crate::say::say;
+use crate::scene::SceneArgument;
 use crate::signals;
 use crate::status::STOPPED;
 use clap::Args;
@@ -48,7 +49,7 @@ pub(crate) fn main(arguments: &Arguments) -> ExitCode {
 }
 
 fn compared(arguments: &Arguments) -> Result<Difference, Refusal> {
-    let (a, b) = (results(&arguments.a)?, results(&arguments.b)?);
+    let (a, b) = (results(&arguments.a, &[])?, results(&arguments.b, &[])?);
     let found = difference(&a, &b, &arguments.channel);
     let missing = |name: &&String| {
         let has = |table: &ResultTable| {
@@ -74,17 +75,21 @@ pub(crate) fn unknown(name: &str, mut known: Vec<&str>) -> Refusal {
     Refusal::new("unknown-channel", format!("there is no channel `{name}`"), hint)
 }
 
-/// The results in a directory, or those of a scene that is run; else the refusal.
-pub(crate) fn results(path: &Path) -> Result<ResultTable, Refusal> {
+/// The results in a directory, or those of a scene that is run, with those values set; else the refusal.
+pub(crate) fn results(path: &Path, set: &[String]) -> Result<ResultTable, Refusal> {
     let unreadable = |error: &dyn core::fmt::Display| {
         let hint = "give a directory that `mbs run SCENE --out DIR` has written, or a scene";
         Refusal::new("results-unreadable", error, hint)
     };
     if path.is_dir() {
+        if !set.is_empty() {
+            let message = format!("--set changes scenes, and `{}` has results", path.display());
+            return Err(Refusal::new("set-refused", message, "give a scene, or leave --set out"));
+        }
         return ResultTable::open(path).map_err(|error| unreadable(&error));
     }
     let overrides = Method { interrupt: signals::heeded(), ..Method::default() };
-    let begun = files::begin(path, &overrides, (None, &[]))?;
+    let begun = files::begin(&SceneArgument::new(path, set), &overrides, (None, &[]))?;
     let outcome = run_document((&begun.document, &begun.scene), &begun.settings, &mut |_| {});
     let outcome = outcome.map_err(|error| Refusal::scene(&error))?;
     ResultTable::of_outcome(&outcome).map_err(|error| unreadable(&error))

@@ -2,6 +2,7 @@
 
 use crate::refusal::Refusal;
 use crate::say::say;
+use crate::scene::SceneArgument;
 use crate::status::STOPPED;
 use crate::{files, signals};
 use clap::Args;
@@ -23,8 +24,8 @@ Exit status:
 #[derive(Debug, Args)]
 #[command(after_help = STATUS)]
 pub(crate) struct Arguments {
-    /// Scene file (TOML).
-    scene: PathBuf,
+    #[command(flatten)]
+    scene: SceneArgument,
     /// Print one JSON object on standard output and nothing else.
     #[arg(long)]
     json: bool,
@@ -81,7 +82,7 @@ fn write_results(begun: &files::Begun, checkup: &Checkup, arguments: &Arguments)
     ];
     let command = if arguments.still { "doctor --still" } else { "doctor" };
     let provenance = files::provenance((command, &arguments.scene), &options, settings);
-    let line = |entry: Entry, key: &str| Some(document.place(entry, key).line);
+    let line = |entry: Entry, key: &str| Some(document.place(entry, key).1.line);
     let (report, text) = diagnosis(scene, checkup, &line, provenance);
     let mut status = match checkup.worst() {
         Some(Severity::Fault) => ExitCode::from(STOPPED),

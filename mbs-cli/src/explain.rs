@@ -4,6 +4,7 @@ use crate::precision::NO_PAIRS;
 use crate::refusal::Refusal;
 use crate::run::unplanned;
 use crate::say::{say, warn};
+use crate::scene::SceneArgument;
 use crate::status::STOPPED;
 use crate::{files, signals};
 use clap::Args;
@@ -17,8 +18,8 @@ use std::process::ExitCode;
 /// Arguments of `mbs explain`.
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
-    /// Scene file (TOML).
-    pub(crate) scene: PathBuf,
+    #[command(flatten)]
+    pub(crate) scene: SceneArgument,
     /// Formulation. Default: the scene's, else auto.
     #[arg(long, value_name = "F")]
     formulation: Option<String>,

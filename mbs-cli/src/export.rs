@@ -2,6 +2,7 @@
 
 use crate::files;
 use crate::refusal::Refusal;
+use crate::scene::SceneArgument;
 use clap::Args;
 use mbs::export::{ExportError, export, ladder};
 use mbs::{Method, Precision, ResolvedMethod};
@@ -11,8 +12,8 @@ use std::process::ExitCode;
 /// Arguments of `mbs export`.
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
-    /// Scene file (TOML).
-    pub(crate) scene: PathBuf,
+    #[command(flatten)]
+    pub(crate) scene: SceneArgument,
     /// Rust file to write: constant tables, and a solver of exactly their size.
     #[arg(long, value_name = "FILE", required_unless_present = "binary")]
     rust: Option<PathBuf>,
@@ -36,7 +37,7 @@ pub(crate) fn main(arguments: &Arguments) -> ExitCode {
 }
 
 fn written(arguments: &Arguments) -> Result<(), Refusal> {
-    let (document, scene) = files::scene(&arguments.scene)?;
+    let (document, scene) = arguments.scene.read()?;
     let overrides = Method {
         formulation: Some("recursive".to_owned()),
         integrator: Some("trapezoidal".to_owned()),

@@ -2,6 +2,7 @@
 
 use crate::refusal::Refusal;
 use crate::say::{plain, warn};
+use crate::scene::SceneArgument;
 use mbs::core::scene::{Entry, Scene};
 use mbs::folder::{Folder, WriteError, id, write_file};
 use mbs::record::{PilotReport, Provenance};
@@ -35,22 +36,14 @@ pub(crate) struct Begun {
     pub(crate) folder: Option<Folder>,
 }
 
-/// Reads a scene file and its scene; else the refusal.
-pub(crate) fn scene(path: &Path) -> Result<(SceneFile, Scene<f64>), Refusal> {
-    let document = document(path, "scene file")?;
-    let scene = document.scene::<f64>();
-    let scene = scene.map_err(|error| Refusal::read("scene-refused", &error))?;
-    Ok((document, scene))
-}
-
 /// Reads a scene, settles how it is run, and takes the place of its results, since what cannot be written should not be computed; else the
 /// refusal.
 pub(crate) fn begin(
-    path: &Path,
+    scene: &SceneArgument,
     overrides: &Method,
     (out, files): (Option<&Path>, &[&str]),
 ) -> Result<Begun, Refusal> {
-    let (document, scene) = scene(path)?;
+    let (document, scene) = scene.read()?;
     let settings = ResolvedMethod::new(&scene, overrides)
         .and_then(|settings| settings.check_step(&scene, overrides).map(|()| settings))
         .map_err(|e| refusal(&e, &document))?;
@@ -90,6 +83,11 @@ pub(crate) fn folder(out: &Path, files: &[&str]) -> Result<Folder, Refusal> {
     Ok(folder)
 }
 
+/// Does a path stand for standard input?
+pub(crate) fn is_standard(path: &Path) -> bool {
+    path == Path::new("-")
+}
+
 /// Reads a file of a kind that is called `what`; else the refusal.
 pub(crate) fn document(path: &Path, what: &str) -> Result<SceneFile, Refusal> {
     let bytes = read(path, what)?;
@@ -101,7 +99,11 @@ pub(crate) fn document(path: &Path, what: &str) -> Result<SceneFile, Refusal> {
             &format!("has more than {} million values", MOST_VALUES / 1_000_000),
         ));
     }
-    let document = SceneFile::from_bytes(&bytes, &path.display().to_string());
+    let (name, folder) = match is_standard(path) {
+        true => ("standard input".to_owned(), Path::new("")),
+        false => (path.display().to_string(), path.parent().unwrap_or(Path::new(""))),
+    };
+    let document = SceneFile::from_bytes_in(&bytes, &name, folder);
     document.map_err(|error| Refusal::read("scene-refused", &error))
 }
 
@@ -118,18 +120,22 @@ fn too_large(path: &Path, why: &str) -> Refusal {
 
 /// The bytes of a file; nothing where it is too large.
 fn bytes(path: &Path) -> io::Result<Option<Vec<u8>>> {
-    let file = File::open(path)?;
-    if IS_BIG.load(Ordering::Relaxed) {
-        let mut bytes = Vec::new();
-        let mut file = file;
-        return file.read_to_end(&mut bytes).map(|_| Some(bytes));
-    }
-    if file.metadata()?.len() > MOST_BYTES {
-        return Ok(None);
+    let mut bytes = Vec::new();
+    let is_big = IS_BIG.load(Ordering::Relaxed);
+    let mut source: Box<dyn Read> = if is_standard(path) {
+        Box::new(io::stdin().lock())
+    } else {
+        let file = File::open(path)?;
+        if !is_big && file.metadata()?.len() > MOST_BYTES {
+            return Ok(None);
+        }
+        Box::new(file)
+    };
+    if is_big {
+        return source.read_to_end(&mut bytes).map(|_| Some(bytes));
     }
     // a device has no size and may have no end
-    let mut bytes = Vec::new();
-    file.take(MOST_BYTES + 1).read_to_end(&mut bytes)?;
+    source.take(MOST_BYTES + 1).read_to_end(&mut bytes)?;
     Ok((bytes.len() as u64 <= MOST_BYTES).then_some(bytes))
 }
 
@@ -148,7 +154,8 @@ pub(crate) fn refusal(error: &SettingsError, document: &SceneFile) -> Refusal {
     let refusal = Refusal::settings(error);
     match error {
         SettingsError::NotBuilt { key, from_scene: true, .. } => {
-            refusal.at(document.file(), document.place(Entry::Solver, key))
+            let (file, place) = document.place(Entry::Solver, key);
+            refusal.at(file, place)
         }
         SettingsError::Scene(error) => Refusal::read("scene-refused", &document.meaning(*error)),
         _ => refusal,
@@ -159,7 +166,7 @@ pub(crate) fn refusal(error: &SettingsError, document: &SceneFile) -> Refusal {
 pub(crate) fn results_id(document: &SceneFile, settings: &ResolvedMethod) -> String {
     // what a pilot measured differs from time to time, and threads change no bit
     let same = ResolvedMethod { choice: None, threads: 1, ..settings.clone() };
-    id(&[document.text(), &format!("{same:?}")])
+    id(&[&document.whole_text(), &format!("{same:?}")])
 }
 
 /// Replaces an object and its page in the directory, where there is one; gives the object as it is there, and what to say of it.
@@ -193,12 +200,12 @@ pub(crate) fn command_line(begin: &str, options: &[(&str, Option<String>)]) -> S
 
 /// How a result was made: the command with the options that were given.
 pub(crate) fn provenance(
-    (command, scene): (&str, &Path),
+    (command, scene): (&str, &SceneArgument),
     options: &[(&str, Option<String>)],
     settings: &ResolvedMethod,
 ) -> Provenance {
     Provenance {
-        command: command_line(&format!("{command} {}", scene.display()), options),
+        command: command_line(&format!("{command} {}", scene.line()), options),
         precision: settings.precision.name().to_owned(),
         formulation: settings.formulation.name().to_owned(),
         integrator: settings.integrator.name().to_owned(),
@@ -225,7 +232,7 @@ fn unreadable(path: &Path, what: &str, error: &io::Error) -> Refusal {
     } else if with_ending.is_file() {
         format!("did you mean `{}`?", with_ending.display())
     } else {
-        format!("give the path of a {what}; it ends with .toml")
+        format!("give the path of a {what}; it ends with .toml or .json")
     };
     let message = format!("cannot read `{}`: {}", path.display(), plain(error));
     Refusal::new("file-unreadable", message, hint)

@@ -24,6 +24,7 @@ mod realtime;
 mod refusal;
 mod run;
 mod say;
+mod scene;
 mod signals;
 mod status;
 mod sweep;
@@ -138,14 +139,14 @@ impl Command {
             Self::Explain(arguments) => (&arguments.precision, &arguments.scene),
             Self::Export(arguments) => (&arguments.precision, &arguments.scene),
             Self::Sweep(arguments) => (&arguments.precision, &arguments.scene),
-            Self::Compare(arguments) if arguments.scene.is_file() => {
+            Self::Compare(arguments) if arguments.scene.is_there() => {
                 return Ok(arguments.precisions());
             }
             _ => return Ok(Vec::new()),
         };
         match named(name) {
             Some(Precision::DoubleDouble) if !matches!(self, Self::Run(_)) => Err(NO_PAIRS),
-            named => Ok(named.into_iter().filter(|_| scene.is_file()).collect()),
+            named => Ok(named.into_iter().filter(|_| scene.is_there()).collect()),
         }
     }
 }

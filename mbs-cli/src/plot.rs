@@ -22,6 +22,9 @@ pub(crate) struct Arguments {
     /// Runs: directories that `mbs run --out` has written, or scene files, which are run.
     #[arg(required = true)]
     runs: Vec<PathBuf>,
+    /// Another value at a path of the scenes among them, as sweeps write it: body.rod.mass=2. May be repeated.
+    #[arg(long, value_name = "PATH=VALUE", display_order = 800)]
+    set: Vec<String>,
     /// Picture (.svg) or table (.csv) that is written.
     #[arg(long, value_name = "FILE")]
     out: PathBuf,
@@ -51,7 +54,8 @@ fn plotted(arguments: &Arguments) -> Result<String, Refusal> {
         let message = format!("`{}` is neither a picture nor a table", path.display());
         return Err(Refusal::new("usage", message, "give a file that ends with .svg or .csv"));
     }
-    let runs: Result<Vec<_>, _> = arguments.runs.iter().map(|run| results(run)).collect();
+    let runs: Result<Vec<_>, _> =
+        arguments.runs.iter().map(|run| results(run, &arguments.set)).collect();
     let runs: Vec<(String, ResultTable)> =
         arguments.runs.iter().map(|run| label(run)).zip(runs?).collect();
     let names = names(&runs, arguments.xy.as_ref().unwrap_or(&arguments.channel))?;

@@ -5,6 +5,7 @@ use crate::files::Begun;
 use crate::precision::{named, unbuilt};
 use crate::refusal::Refusal;
 use crate::say::{say, warn};
+use crate::scene::SceneArgument;
 use crate::status::STOPPED;
 use crate::{files, keep, realtime, signals, table};
 use clap::Args;
@@ -28,8 +29,8 @@ const NOT_CHOSEN: [&str; 3] = ["checkpoint", "resume", "realtime"];
 /// Arguments of `mbs run`.
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
-    /// Scene file (TOML).
-    pub(crate) scene: PathBuf,
+    #[command(flatten)]
+    pub(crate) scene: SceneArgument,
     /// Formulation: auto, index-1, index-3, multi-index, classical, state-space or recursive. Default: the scene's, else auto.
     #[arg(long, value_name = "F")]
     formulation: Option<String>,
@@ -256,7 +257,7 @@ fn begin(arguments: &Arguments) -> Result<Run, Stop> {
     overrides.interrupt = signals::heeded();
     // Of a scene that is not there that is said.
     if let Some(missing) = named(&overrides.precision).filter(|p| !p.is_built())
-        && arguments.scene.is_file()
+        && arguments.scene.is_there()
     {
         return Err(Stop::Unbuilt(missing));
     }
@@ -380,8 +381,8 @@ pub(crate) fn stopped(
     // A key that is not written has the place of its entry's header.
     let header = document.place(entry, "");
     let places = error.fields().iter().map(|field| document.place(entry, field));
-    let place = places.into_iter().find(|place| *place != header).unwrap_or(header);
-    place.render(document.file(), &message, &report.hint)
+    let (file, place) = places.into_iter().find(|place| *place != header).unwrap_or(header);
+    place.render(file, &message, &report.hint)
 }
 
 /// Replaces the files of the directory; gives the JSON object as it is there.

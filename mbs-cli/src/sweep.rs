@@ -3,6 +3,7 @@
 use crate::bar::bar;
 use crate::refusal::Refusal;
 use crate::say::{say, warn};
+use crate::scene::SceneArgument;
 use crate::status::STOPPED;
 use crate::{files, signals};
 use clap::Args;
@@ -19,8 +20,8 @@ use std::process::ExitCode;
 /// Arguments of `mbs sweep`.
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
-    /// Scene file (TOML).
-    pub(crate) scene: PathBuf,
+    #[command(flatten)]
+    pub(crate) scene: SceneArgument,
     /// Sweep file (TOML): the numbers to vary, and how; docs/SWEEPS.md lists its keys.
     sweep: PathBuf,
     /// Runs at the same time. Default: one for each processor.
@@ -85,7 +86,7 @@ pub(crate) fn main(arguments: &Arguments) -> ExitCode {
 }
 
 fn run(arguments: &Arguments) -> Result<(Report, PathBuf), Refusal> {
-    let (document, _) = files::scene(&arguments.scene)?;
+    let (document, _) = arguments.scene.read()?;
     let sweep = files::document(&arguments.sweep, "sweep file")?;
     let overrides = arguments.overrides();
     let study = Study::new(document.clone(), &sweep, &overrides);

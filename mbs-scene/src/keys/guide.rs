@@ -126,7 +126,7 @@ fn functions() -> Vec<KeyTable> {
             "motion input",
             "What a guide holds until it is set.",
             vec![
-                may("value", Number, "rad or m", "0", "KeyValue at the start."),
+                may("value", Number, "rad or m", "0", "Value at the start."),
                 may("rate", Number, "rad/s or m/s", "0", "Rate at the start."),
                 may("acceleration", Number, "rad/s^2 or m/s^2", "0", "Acceleration at the start."),
             ],

@@ -9,6 +9,7 @@ mod example;
 mod guide;
 mod joint;
 mod output;
+mod point;
 mod road;
 mod rolling;
 mod scene;
@@ -21,6 +22,7 @@ mod value;
 
 pub use example::{Base, Example};
 pub(crate) use output::{FORMS, ORIENTATION};
+pub(crate) use point::{DIRECTION, PLACE};
 pub(crate) use road::FEATURE;
 pub(crate) use scene::FILE;
 pub(crate) use sweep::FILE as SWEEP_FILE;
@@ -34,6 +36,7 @@ use std::sync::LazyLock;
 static TABLES: LazyLock<Vec<KeyTable>> = LazyLock::new(|| {
     let mut tables = [
         scene::tables(),
+        point::tables(),
         body::tables(),
         joint::tables(),
         guide::tables(),

@@ -14,6 +14,8 @@ pub(super) fn tables() -> Vec<KeyTable> {
         "The tables of a scene file.",
         vec![
             need("scene", KeyValue::Table("scene"), "", "The scene as a whole."),
+            listed("include", "Parts of other files."),
+            listed("point", "Places by name."),
             listed("body", "Bodies."),
             listed("joint", "Joints between two bodies."),
             listed("initial", "Values and rates at the start."),

@@ -10,7 +10,7 @@ pub(super) fn tables() -> Vec<KeyTable> {
     let [functions, others] = [functions(), of_signals()];
     let [lag, integral, pid] = states();
     let all = [
-        ("constant", of("The same at all times.", vec![number("value", "KeyValue.")])),
+        ("constant", of("The same at all times.", vec![number("value", "Value.")])),
         ("table", table()),
     ];
     let last = [
@@ -88,7 +88,7 @@ fn input() -> KeyTable {
     of(
         "Set by its name between steps, or by `mbs run --inputs`.",
         vec![
-            zero("value", "KeyValue at the start."),
+            zero("value", "Value at the start."),
             may("unit", Text, "", "none", "Unit, for tables and plots."),
         ],
     )
@@ -104,7 +104,7 @@ fn measured() -> KeyTable {
 /// Signals with a state.
 fn states() -> [KeyTable; 3] {
     let open = |name, meaning| may(name, Number, "", "none", meaning);
-    let start = || zero("value", "KeyValue at the start.");
+    let start = || zero("value", "Value at the start.");
     let lag = vec![one(), need("time", Number, "s", "Time constant."), start()];
     let limits = [open("lower", "Lower limit."), open("upper", "Upper limit.")];
     let integral = [vec![one()], limits.to_vec(), vec![start()]].concat();
@@ -158,8 +158,8 @@ fn step() -> KeyTable {
         "signal",
         "From one value to another: a jump, or smooth within `rise`.",
         vec![
-            may("from", Number, "", "0", "KeyValue before."),
-            need("to", Number, "", "KeyValue after."),
+            may("from", Number, "", "0", "Value before."),
+            need("to", Number, "", "Value after."),
             may("at", Number, "s", "0", "When it begins."),
             may("rise", Number, "s", "0", "Time that it takes."),
         ],

@@ -79,6 +79,8 @@ pub enum Referent {
     Signal,
     /// An effect.
     Effect,
+    /// A point.
+    Point,
 }
 
 impl Referent {
@@ -92,6 +94,7 @@ impl Referent {
             Self::Rolling => "rolling",
             Self::Signal => "signal",
             Self::Effect => "effect",
+            Self::Point => "point",
         }
     }
 }

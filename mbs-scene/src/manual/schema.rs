@@ -87,10 +87,12 @@ fn of_value(value: &KeyValue) -> Json {
     // a text is an expression
     let number = || json!({ "type": ["number", "string"] });
     let count = || json!({ "type": "integer", "minimum": 1 });
-    let vector = || json!({ "type": "array", "items": number(), "minItems": 2, "maxItems": 3 });
     let any_of = |forms: Vec<Json>| json!({ "anyOf": forms });
     let table =
         |header: &str| json!({ "$ref": format!("#/definitions/{}", header.replace(' ', "%20")) });
+    let numbers = || json!({ "type": "array", "items": number(), "minItems": 2, "maxItems": 3 });
+    let vector = || any_of(vec![numbers(), table(keys::DIRECTION)]);
+    let place = || any_of(vec![numbers(), text(), table(keys::PLACE)]);
     let name = |part: &Referent| match part {
         Referent::MovingBody => json!({ "type": "string", "not": { "enum": ["ground"] } }),
         _ => text(),
@@ -108,8 +110,10 @@ fn of_value(value: &KeyValue) -> Json {
         }
         KeyValue::Word(words) => json!({ "enum": words }),
         KeyValue::Coordinate => any_of(vec![text(), json!({ "type": "integer", "minimum": 0 })]),
-        KeyValue::Vector | KeyValue::Place => vector(),
-        KeyValue::Vectors(n) | KeyValue::Places(n) => list(vector(), Some(*n)),
+        KeyValue::Vector => vector(),
+        KeyValue::Place => place(),
+        KeyValue::Vectors(n) => list(vector(), Some(*n)),
+        KeyValue::Places(n) => list(place(), Some(*n)),
         KeyValue::NumberOrVector => any_of(vec![number(), vector()]),
         KeyValue::Numbers(n) => list(number(), Some(*n)),
         KeyValue::SomeNumbers => any_of(vec![number(), list(number(), None)]),
@@ -124,7 +128,7 @@ fn of_value(value: &KeyValue) -> Json {
         KeyValue::Tables(header) => list(table(header), None),
         KeyValue::TableOrTables(header) => any_of(vec![table(header), list(table(header), None)]),
         KeyValue::PlacesOrTables(header) => {
-            any_of(vec![list(vector(), Some(2)), list(table(header), None)])
+            any_of(vec![list(place(), Some(2)), list(table(header), None)])
         }
         KeyValue::Parameters => json!({ "type": "object", "additionalProperties": number() }),
         KeyValue::PathOrPaths => any_of(vec![text(), list(text(), None)]),

@@ -1,30 +1,50 @@
 //! A scene file as read, before the precision of the run is known.
 
-use crate::read::tree::{self, Item, Member, Node, Span};
-use crate::read::{Place, ReadError, ReadFault};
+use super::include;
+use super::json;
+use super::texts::Texts;
+use super::tree::{self, Item, Member, Node, Span};
+use super::{Place, ReadError, ReadFault};
+use std::path::{Path, PathBuf};
 
-/// A scene file: syntax tree, text and name. Numbers are decimal text.
+/// A scene file: syntax tree, texts and name. Numbers are decimal text. What it includes is in its tree.
 #[derive(Debug, Clone, Default)]
 pub struct SceneFile {
-    pub(super) file: String,
-    pub(super) text: String,
+    pub(super) texts: Texts,
     pub(super) root: Vec<Member>,
+    /// Where the files lie that it may include; `None`: it may not.
+    pub(super) folder: Option<PathBuf>,
 }
 
 impl SceneFile {
-    /// Reads the text of a scene file; `file` is the name that messages show.
+    /// Reads the text of a scene file; `file` is the name that messages show. A text that begins with `{`, and that of a file whose
+    /// name ends with `.json`, is JSON, else TOML.
     ///
     /// # Errors
-    /// [`ReadFault::Syntax`] when the text is not TOML. What the text means is read by [`Self::scene`].
+    /// [`ReadFault::Syntax`] when the text is neither, and [`ReadFault::Include`] where it includes a file: a text alone lies in no
+    /// folder. What the text means is read by [`Self::scene`].
     pub fn parse(text: &str, file: &str) -> Result<Self, ReadError> {
-        match tree::parse(text) {
-            Ok(root) => Ok(Self { file: file.to_owned(), text: text.to_owned(), root }),
-            Err((message, span)) => {
-                let place = Place::of(text, &span);
-                let fault = ReadFault::Syntax { message, line: place.text.clone() };
-                Err(ReadError::new(file, place, fault))
-            }
-        }
+        Self::parsed(text, file, None)
+    }
+
+    /// The same of a text that lies in a folder, with the files that it includes.
+    ///
+    /// # Errors
+    /// As [`Self::parse`], and those of the included files.
+    pub fn parse_in(text: &str, file: &str, folder: &Path) -> Result<Self, ReadError> {
+        Self::parsed(text, file, Some(folder.to_owned()))
+    }
+
+    pub(super) fn parsed(
+        text: &str,
+        file: &str,
+        folder: Option<PathBuf>,
+    ) -> Result<Self, ReadError> {
+        let texts = Texts::new(file, text);
+        let root = syntax(&texts, 0)?;
+        let mut document = Self { texts, root, folder };
+        include::resolve(&mut document)?;
+        Ok(document)
     }
 
     /// Reads the bytes of a scene file.
@@ -32,31 +52,43 @@ impl SceneFile {
     /// # Errors
     /// [`ReadFault::NotUtf8`] with the place of the first bad byte, and those of [`Self::parse`].
     pub fn from_bytes(bytes: &[u8], file: &str) -> Result<Self, ReadError> {
-        match core::str::from_utf8(bytes) {
-            Ok(text) => Self::parse(text, file),
-            Err(error) => {
-                let good = error.valid_up_to();
-                let text = String::from_utf8_lossy(bytes);
-                let place = Place::of(&text, &(good..good));
-                Err(ReadError::new(file, place, ReadFault::NotUtf8))
-            }
-        }
+        Self::parse(utf8(bytes, file)?, file)
+    }
+
+    /// Reads the bytes of a scene file that lies in a folder.
+    ///
+    /// # Errors
+    /// As [`Self::from_bytes`] and [`Self::parse_in`].
+    pub fn from_bytes_in(bytes: &[u8], file: &str, folder: &Path) -> Result<Self, ReadError> {
+        Self::parse_in(utf8(bytes, file)?, file, folder)
     }
 
     /// The file as it was named to [`Self::parse`].
     #[must_use]
     pub fn file(&self) -> &str {
-        &self.file
+        &self.texts.main().name
     }
 
-    /// The text of the file.
+    /// The text of the file. What it includes, and what a command line sets, is not in it: see [`Self::whole_text`].
     #[must_use]
     pub fn text(&self) -> &str {
-        &self.text
+        &self.texts.main().text
+    }
+
+    /// All texts of which the scene is made, one behind the other: the same scene has the same.
+    #[must_use]
+    pub fn whole_text(&self) -> String {
+        let texts = self.texts.list().iter().map(|text| text.text.as_str());
+        texts.collect::<Vec<_>>().join("\n")
+    }
+
+    /// The files of which it is made, as messages name them: itself, then those that it includes.
+    pub fn files(&self) -> impl Iterator<Item = &str> {
+        self.texts.list().iter().filter(|text| text.is_file).map(|text| text.name.as_str())
     }
 
     pub(crate) fn error(&self, span: &Span, fault: ReadFault) -> ReadError {
-        ReadError::new(&self.file, Place::of(&self.text, span), fault)
+        self.texts.error(span, fault)
     }
 
     /// Entries of a list of tables.
@@ -78,5 +110,38 @@ impl SceneFile {
 
     pub(crate) fn top(&self, key: &str) -> Option<&Item> {
         self.root.iter().find(|member| member.key == key).map(|member| &member.item)
+    }
+}
+
+fn utf8<'a>(bytes: &'a [u8], file: &str) -> Result<&'a str, ReadError> {
+    core::str::from_utf8(bytes).map_err(|error| {
+        let good = error.valid_up_to();
+        let text = String::from_utf8_lossy(bytes);
+        ReadError::new(file, Place::of(&text, &(good..good)), ReadFault::NotUtf8)
+    })
+}
+
+/// The tree of the text that begins at a byte.
+pub(super) fn syntax(texts: &Texts, start: usize) -> Result<Vec<Member>, ReadError> {
+    let text = texts.of(&(start..start));
+    let is_json = match Path::new(&text.name).extension().and_then(|ending| ending.to_str()) {
+        Some("json") => true,
+        Some("toml") => false,
+        _ => text.text.trim_start().starts_with('{'),
+    };
+    let (format, tree) = match is_json {
+        true => ("JSON", json::parse(&text.text)),
+        false => ("TOML", tree::parse(&text.text)),
+    };
+    match tree {
+        Ok(mut root) => {
+            root.iter_mut().for_each(|member| member.shift(start));
+            Ok(root)
+        }
+        Err((message, span)) => {
+            let span = start + span.start..start + span.end;
+            let line = texts.place(&span).1.text;
+            Err(texts.error(&span, ReadFault::Syntax { format, message, line }))
+        }
     }
 }

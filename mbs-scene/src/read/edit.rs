@@ -2,6 +2,7 @@
 
 use super::sweep::path;
 use super::tree::{Item, Member, Node, Span};
+use super::values::Values;
 use super::{Place, ReadError, ReadFault, SceneFile, SweepFault};
 use mbs_core::scene::Number;
 use std::path::Path;
@@ -14,7 +15,7 @@ impl SceneFile {
     pub fn read(path: impl AsRef<Path>) -> Result<Self, ReadError> {
         let (path, file) = (path.as_ref(), path.as_ref().display().to_string());
         match std::fs::read(path) {
-            Ok(bytes) => Self::from_bytes(&bytes, &file),
+            Ok(bytes) => Self::from_bytes_in(&bytes, &file, folder_of(path)),
             Err(error) => {
                 let fault = ReadFault::Unreadable { problem: error.to_string() };
                 Err(ReadError::new(&file, Place::of("", &(0..0)), fault))
@@ -27,28 +28,47 @@ impl SceneFile {
     /// # Errors
     /// [`SweepFault`] for a path to nothing, or to something that is no number.
     pub fn number(&self, path: &str) -> Result<Number, SweepFault> {
-        let address = path::address(self.root(), path)?;
-        let text = path::number(self.root(), &address).and_then(Number::from_decimal);
-        text.ok_or(SweepFault::PathSyntax("it names no finite number"))
+        let address = path::address(self, path)?;
+        self.number_at(&address).ok_or(SweepFault::PathSyntax("it names no finite number"))
     }
 
-    /// The file with another number at a path; all else keeps its text, comments too.
+    /// The number at an address, or the value of the expression there.
+    pub(super) fn number_at(&self, address: &[usize]) -> Option<Number> {
+        let item = path::item(self.root(), address)?;
+        match &item.node {
+            Node::Number(text) => Number::from_decimal(text),
+            Node::Text(text) => Some(Values::new(self).ok()?.number(text, &item.span).ok()?.0),
+            _ => None,
+        }
+    }
+
+    /// The file with another number at a path; all else keeps its text, comments too. Where it includes others, none of the texts is
+    /// changed.
     ///
     /// Cost: the text is parsed again.
     ///
     /// # Errors
     /// As [`Self::number`].
     pub fn with_number(&self, path: &str, number: &Number) -> Result<Self, SweepFault> {
-        let address = path::address(self.root(), path)?;
+        let address = path::address(self, path)?;
+        if self.texts.list().len() > 1 {
+            let mut file = self.clone();
+            path::replace(file.root_mut(), &address, number.text());
+            file.note(&format!("{path} = {number}"));
+            return Ok(file);
+        }
         let span = path::span(self.root(), &address).unwrap_or(0..0);
         let text = spliced(self.text(), vec![(span, number.text())]);
         let not_toml = |_| SweepFault::PathSyntax("the number is not finite");
-        Self::parse(&text, self.file()).map_err(not_toml)
+        Self::parsed(&text, self.file(), self.folder.clone()).map_err(not_toml)
     }
 
     /// The text with the values and entries of another scene, by their trees; `None` where that takes more than other values of keys,
     /// further keys, and further entries.
     pub(crate) fn edited(&self, old: &[Member], new: &[Member]) -> Option<String> {
+        if self.texts.list().len() > 1 {
+            return None;
+        }
         let mut changes = Changes { text: self.text(), edits: Vec::new(), tail: String::new() };
         if old.iter().any(|m| member(new, &m.key).is_none()) {
             return None;
@@ -79,6 +99,11 @@ impl SceneFile {
         let text = spliced(self.text(), changes.edits);
         Some(if changes.tail.is_empty() { text } else { format!("{text}\n{}", changes.tail) })
     }
+}
+
+/// The folder in which a file lies.
+fn folder_of(path: &Path) -> &Path {
+    path.parent().unwrap_or(Path::new(""))
 }
 
 /// What changes in a text.

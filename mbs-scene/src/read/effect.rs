@@ -5,7 +5,7 @@ mod value;
 use crate::read::ReadFault;
 use crate::read::coupling::ball_angle;
 use crate::read::fields::{Fields, Read};
-use crate::read::tree::{Item, Node};
+use crate::read::tree::Node;
 use mbs_core::effects::{Default, EFFECTS, Field, Form, Value};
 use mbs_core::scene::{AxisFrame, BallAngle, Effect, EffectKind, Joint, Number, Signal};
 
@@ -112,12 +112,12 @@ fn has_line(fields: &Fields<'_>, row: usize) -> bool {
     has_tables(fields, "points") || (is_flagged && is_between)
 }
 
-/// Does a list of tables stand at a key?
+/// Does a list of tables stand at a key, which are no places from points?
 fn has_tables(fields: &Fields<'_>, key: &str) -> bool {
     match fields.get(key).map(|item| &item.node) {
-        Some(Node::List(items)) => {
-            matches!(items.first(), Some(Item { node: Node::Table(_), .. }))
-        }
+        Some(Node::List(items)) => items
+            .first()
+            .is_some_and(|item| matches!(item.node, Node::Table(_)) && item.get("of").is_none()),
         _ => false,
     }
 }

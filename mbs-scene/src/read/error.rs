@@ -14,9 +14,11 @@ struct Parts {
     file: String,
     place: Place,
     fault: ReadFault,
+    /// A line for each file that includes this one.
+    included: Vec<String>,
 }
 
-/// What is wrong with an expression, and what to do.
+/// What is wrong with an expression or an included file, and what to do.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct ExpressionFault {
     /// What is wrong.
@@ -36,8 +38,10 @@ pub enum ReadFault {
     },
     /// The file is not UTF-8 text.
     NotUtf8,
-    /// The file is not TOML.
+    /// The file is not TOML, or not JSON.
     Syntax {
+        /// `TOML` or `JSON`.
+        format: &'static str,
         /// The parser's message.
         message: String,
         /// The line it speaks about.
@@ -128,6 +132,8 @@ pub enum ReadFault {
     },
     /// An expression that has no value.
     Expression(ExpressionFault),
+    /// A file that cannot be included; what is wrong, and what to do.
+    Include(ExpressionFault),
     /// A number with a unit of other dimensions than the key's.
     OtherUnit {
         /// The key.
@@ -155,6 +161,13 @@ pub enum ReadFault {
     NotPositive {
         /// The number.
         number: f64,
+    },
+    /// A point with the name of another.
+    SamePoint {
+        /// The name.
+        name: String,
+        /// The first of that name, from 0.
+        first: usize,
     },
     /// A screw without lead.
     NoLead,
@@ -192,7 +205,13 @@ pub enum ReadFault {
 
 impl ReadError {
     pub(crate) fn new(file: &str, place: Place, fault: ReadFault) -> Self {
-        Self(Box::new(Parts { file: file.to_owned(), place, fault }))
+        Self(Box::new(Parts { file: file.to_owned(), place, fault, included: Vec::new() }))
+    }
+
+    /// The same in a file that others include.
+    pub(crate) fn included(mut self, by: Vec<String>) -> Self {
+        self.0.included = by;
+        self
     }
 
     /// The file as it was named to the reader.
@@ -213,10 +232,13 @@ impl ReadError {
         &self.0.fault
     }
 
-    /// What to do about it.
+    /// What to do about it, and where the file is included, where it is.
     #[must_use]
     pub fn hint(&self) -> String {
-        self.0.fault.hint()
+        let included = self.0.included.iter().map(String::as_str);
+        let hint = self.0.fault.hint();
+        let lines: Vec<_> = core::iter::once(hint.as_str()).chain(included).collect();
+        lines.join("\n")
     }
 
     /// `file:line:column: message`, the line with a caret, and `hint: ...`; ends with a line end.
@@ -228,7 +250,7 @@ impl ReadError {
 
 impl Display for ReadError {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
-        let Parts { file, place, fault } = &*self.0;
+        let Parts { file, place, fault, .. } = &*self.0;
         write!(f, "{file}:{}:{}: {fault}", place.line, place.column)
     }
 }
@@ -240,7 +262,7 @@ impl Display for ReadFault {
         match self {
             Self::Unreadable { problem } => write!(f, "the file cannot be read: {problem}"),
             Self::NotUtf8 => write!(f, "the file is not UTF-8 text"),
-            Self::Syntax { message, .. } => write!(f, "not TOML: {message}"),
+            Self::Syntax { format, message, .. } => write!(f, "not {format}: {message}"),
             Self::UnknownKey { key, .. } => write!(f, "unknown key `{key}`"),
             Self::UnusedKey { key, .. } => write!(f, "`{key}` has no meaning here"),
             Self::UnknownWord { key, found, .. } => write!(f, "unknown {key} `{found}`"),
@@ -262,7 +284,7 @@ impl Display for ReadFault {
             Self::OfPoint { name, .. } => write!(f, "`{name}` is a point: it has no orientation"),
             Self::GroundDoesNotMove => write!(f, "the ground does not move"),
             Self::WrongType { expected, found } => write!(f, "expected {expected}, found {found}"),
-            Self::Expression(fault) => f.write_str(&fault.message),
+            Self::Expression(fault) | Self::Include(fault) => f.write_str(&fault.message),
             Self::OtherUnit { key, unit, text, found } => {
                 write!(f, "`{text}` is {found}, `{key}` is in {unit}")
             }
@@ -271,6 +293,9 @@ impl Display for ReadFault {
             }
             Self::NotFinite { text } => write!(f, "`{text}` is not a finite number"),
             Self::NotPositive { number } => write!(f, "must be larger than zero, but is {number}"),
+            Self::SamePoint { name, first } => {
+                write!(f, "`{name}` is already the name of point {}", first + 1)
+            }
             Self::NoLead => write!(f, "a screw without lead does not move its slide"),
             Self::AxesNotParallel => {
                 write!(
@@ -311,9 +336,10 @@ impl ReadFault {
         match self {
             Self::Unreadable { .. } => "name a file that exists and that may be read".to_owned(),
             Self::NotUtf8 => "save the file as UTF-8".to_owned(),
+            Self::Syntax { format: "JSON", .. } => "see https://www.json.org for the syntax of the file".to_owned(),
             Self::Syntax { line, .. } => units::of_line(line)
                 .unwrap_or_else(|| "see https://toml.io for the syntax of the file".to_owned()),
-            Self::Expression(fault) => fault.hint.clone(),
+            Self::Expression(fault) | Self::Include(fault) => fault.hint.clone(),
             Self::OtherUnit { unit, .. } => format!("write a number in {unit}, or with such a unit"),
             Self::UnknownKey { key, known } => nearest_name(key, known, "keys"),
             Self::UnusedKey { known, .. } => format!("remove it; {}", listing(known, "keys")),
@@ -332,6 +358,7 @@ impl ReadFault {
             }
             Self::NotFinite { .. } => "write a finite decimal number".to_owned(),
             Self::NotPositive { .. } => "write a number larger than zero".to_owned(),
+            Self::SamePoint { .. } => "give it a name of its own".to_owned(),
             Self::NoLead => "write how far the slide moves in one turn [m]".to_owned(),
             Self::AxesNotParallel => {
                 "give `ratio`, the second angle per first, with its sign".to_owned()

@@ -1,17 +1,19 @@
 //! Typed access to the keys of one table.
 
-use crate::keys::{self, KeyTable};
+use crate::keys::{self, KeyTable, KeyValue};
 use crate::read::expression::unit;
 use crate::read::names::Names;
+use crate::read::point;
+use crate::read::texts::Texts;
 use crate::read::tree::{Item, Member, Node, Span};
 use crate::read::values::Values;
-use crate::read::{ReadError, ReadFault, SceneFile};
+use crate::read::{ReadError, ReadFault};
 use mbs_core::scene::{BallAngle, BodyId, Dimension, Freedom, Joint, JointId, Number, SignalId};
 
 /// What the readers of all entries share.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Context<'a> {
-    pub(crate) document: &'a SceneFile,
+    pub(crate) texts: &'a Texts,
     pub(crate) dimension: Dimension,
     pub(crate) bodies: &'a Names,
     pub(crate) joints: &'a Names,
@@ -32,8 +34,14 @@ pub(crate) struct Fields<'a> {
 pub(crate) type Read<T> = Result<T, ReadError>;
 
 impl<'a> Context<'a> {
+    /// That of a file whose tables refer to nothing in it; `none` are no names.
+    pub(crate) fn of_file(texts: &'a Texts, values: &'a Values<'a>, none: &'a Names) -> Self {
+        let (bodies, joints, signals) = (none, none, none);
+        Self { texts, dimension: Dimension::Planar, bodies, joints, signals, values }
+    }
+
     pub(crate) fn fault<R>(&self, span: &Span, fault: ReadFault) -> Read<R> {
-        Err(self.document.error(span, fault))
+        Err(self.texts.error(span, fault))
     }
 
     pub(crate) fn is_planar(&self) -> bool {
@@ -132,10 +140,33 @@ impl<'a> Context<'a> {
         Ok(numbers)
     }
 
-    /// A vector of the scene's dimension; a third component in a planar scene is left to the check.
+    /// A vector of the scene's dimension that is no place, also from one place to another; a third component in a planar scene is left
+    /// to the check.
     pub(crate) fn vector(&self, item: &'a Item) -> Read<[Number; 3]> {
-        let items = self.list(item, "a list of numbers")?;
-        self.components(item, items)
+        if !matches!(item.node, Node::Table(_)) {
+            let items = self.list(item, "a list of numbers")?;
+            return self.components(item, items);
+        }
+        let form = "a list of numbers, or a table: { from = \"point\", to = \"point\" }";
+        let ends = self.table(item, form, keys::DIRECTION)?;
+        let [from, to] = [ends.vector("from")?, ends.vector("to")?];
+        point::between(self.texts, [&from, &to], &item.span)
+    }
+
+    /// A place of the scene's dimension: numbers, the name of a point, or a place from one.
+    pub(crate) fn place(&self, item: &'a Item) -> Read<[Number; 3]> {
+        if let Node::List(items) = &item.node {
+            return self.components(item, items);
+        }
+        if matches!(item.node, Node::Table(_)) {
+            self.table(item, "a place", keys::PLACE)?;
+        }
+        let place = self.values.place(item)?;
+        let needed = self.dimension.count();
+        if place.n == needed || place.n == 3 {
+            return Ok(place.at);
+        }
+        self.fault(&item.span, ReadFault::WrongCount { needed, found: place.n })
     }
 
     /// The components of a vector that stand in `items`, a part of `whole`.
@@ -348,8 +379,19 @@ impl<'a> Fields<'a> {
         }
     }
 
+    /// A vector, or a place where the tables of keys have one at that key.
     pub(crate) fn vector(&self, key: &'static str) -> Read<[Number; 3]> {
-        self.context.vector(self.need(key)?)
+        self.vector_or_place(key, self.need(key)?)
+    }
+
+    fn vector_or_place(&self, key: &str, item: &'a Item) -> Read<[Number; 3]> {
+        let value = self.tables.iter().find_map(|table| table.key(key)).map(|key| &key.value);
+        match value {
+            Some(KeyValue::Place | KeyValue::Places(_) | KeyValue::PlacesOrTables(_)) => {
+                self.context.place(item)
+            }
+            _ => self.context.vector(item),
+        }
     }
 
     pub(crate) fn word(&self, key: &'static str) -> Read<(&'a str, &'a Span)> {
@@ -372,10 +414,10 @@ impl<'a> Fields<'a> {
         Ok([self.context.body(first)?, self.context.body(second)?])
     }
 
-    /// Two vectors, one per body.
+    /// Two vectors or places, one per body.
     pub(crate) fn two_vectors(&self, key: &'static str) -> Read<[[Number; 3]; 2]> {
         let [first, second] = self.context.exactly(self.need(key)?, "a list of two vectors")?;
-        Ok([self.context.vector(first)?, self.context.vector(second)?])
+        Ok([self.vector_or_place(key, first)?, self.vector_or_place(key, second)?])
     }
 
     /// A coordinate of a joint, by its name or its number from 0.

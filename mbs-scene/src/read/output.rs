@@ -74,7 +74,7 @@ fn target(
     let frame = || fields.context.body(fields.need("relative_to")?);
     // the centre of mass where no place is written
     let place_on = |body: BodyId, key| match fields.get(key) {
-        Some(item) => fields.context.vector(item),
+        Some(item) => fields.context.place(item),
         None => Ok(body
             .index()
             .and_then(|i| centers.get(i).cloned())

@@ -41,13 +41,14 @@ impl SceneFile {
         let values = Values::new(self)?;
         let context = Context {
             values: &values,
-            document: self,
+            texts: &self.texts,
             dimension,
             bodies: &bodies,
             joints: &joints,
             signals: &signals,
         };
         self.check_tables(&context)?;
+        self.check_points(&context)?;
         self.refuse_duplicates(bodies.list(), Entry::Body)?;
         self.refuse_duplicates(joints.list(), Entry::Joint)?;
         self.refuse_duplicates(signals.list(), Entry::Signal)?;
@@ -110,10 +111,10 @@ impl SceneFile {
         Ok((joints, guides))
     }
 
-    /// The place of a key's value, of the entry's header when the key is not written, or of the file's start.
+    /// The file and the place of a key's value, of the entry's header when the key is not written, or of the file's start.
     #[must_use]
-    pub fn place(&self, entry: Entry, field: &str) -> Place {
-        Place::of(&self.text, self.item(entry, field).map_or(&(0..0), |item| &item.span))
+    pub fn place(&self, entry: Entry, field: &str) -> (&str, Place) {
+        self.texts.place(self.item(entry, field).map_or(&(0..0), |item| &item.span))
     }
 
     /// A key's value, or the entry when the key is not written.
@@ -189,8 +190,8 @@ impl SceneFile {
             (Some(Item { node: Node::List(rows), .. }), Some(i)) => rows.get(i),
             _ => None,
         };
-        let place = Place::of(&self.text, row.or(item).map_or(&(0..0), |item| &item.span));
-        ReadError::new(&self.file, place, self.fault(error))
+        let fault = self.fault(error);
+        self.error(row.or(item).map_or(&(0..0), |item| &item.span), fault)
     }
 
     /// The fault, with the names of the signals or of the body that it is about.
@@ -240,6 +241,23 @@ impl SceneFile {
             .collect()
     }
 
+    /// Points have a name of their own each, and a place, which is read with the values.
+    fn check_points(&self, context: &Context<'_>) -> Read<()> {
+        let names = self.entries(context, "point", |_, fields| {
+            fields.need("at")?;
+            let span = &fields.need("name")?.span;
+            Ok((fields.name()?, span))
+        })?;
+        let mut seen = BTreeMap::new();
+        for (i, (name, span)) in names.iter().enumerate() {
+            if let Some(first) = seen.insert(name, i) {
+                let name = name.clone();
+                return context.fault(span, ReadFault::SamePoint { name, first });
+            }
+        }
+        Ok(())
+    }
+
     fn check_tables(&self, context: &Context<'_>) -> Read<()> {
         let (members, tables) = (&self.root[..], keys::of(FILE));
         Fields { context: *context, header: &(0..0), members, tables }.checked().map(|_| ())
@@ -250,8 +268,9 @@ impl SceneFile {
         if header.get("name").is_some() {
             return header.name();
         }
-        let file = self.file.rsplit(['/', '\\']).next().unwrap_or_default();
-        Ok(file.strip_suffix(".toml").unwrap_or(file).to_owned())
+        let file = self.file().rsplit(['/', '\\']).next().unwrap_or_default();
+        let ending = [".toml", ".json"].iter().find_map(|ending| file.strip_suffix(ending));
+        Ok(ending.unwrap_or(file).to_owned())
     }
 }
 

@@ -9,12 +9,16 @@ mod couplings;
 mod effects;
 mod expressions;
 mod guides;
+mod includes;
 mod limits;
 mod outputs;
 mod points;
+mod points_by_name;
 mod random;
 mod road;
 mod rotors;
+mod same;
+mod set;
 mod signals;
 mod sums;
 
@@ -351,10 +355,10 @@ fn rendering_shows_the_line_with_carets_under_the_text() {
                     hint: did you mean `upper`?\n";
     assert_eq!(e.render(), expected);
     let document = SceneFile::parse(PLANAR, "x").unwrap();
-    let place = document.place(Entry::Solver, "formulation");
+    let (_, place) = document.place(Entry::Solver, "formulation");
     assert_eq!((place.line, place.column, place.width), (60, 15, 6));
-    assert_eq!(document.place(Entry::Body(1), "rod").line, 12);
-    assert_eq!(document.place(Entry::Body(9), "rod").line, 1);
+    assert_eq!(document.place(Entry::Body(1), "rod").1.line, 12);
+    assert_eq!(document.place(Entry::Body(9), "rod").1.line, 1);
     let error = SceneFile::from_bytes(b"[scene]\nname = \"\xff\"", "x").unwrap_err();
     assert_eq!((error.place().line, error.place().column), (2, 9));
 }

@@ -33,6 +33,40 @@ pub(crate) struct Member {
     pub(crate) item: Item,
 }
 
+impl Member {
+    /// Moves the spans of a whole branch.
+    pub(crate) fn shift(&mut self, by: usize) {
+        self.key_span = self.key_span.start + by..self.key_span.end + by;
+        self.item.shift(by);
+    }
+}
+
+impl Item {
+    /// The value of a key of a table.
+    pub(crate) fn get(&self, key: &str) -> Option<&Self> {
+        let Node::Table(members) = &self.node else { return None };
+        members.iter().find(|member| member.key == key).map(|member| &member.item)
+    }
+
+    /// The text at a key of a table.
+    pub(crate) fn text_at(&self, key: &str) -> Option<&str> {
+        match &self.get(key)?.node {
+            Node::Text(text) => Some(text),
+            _ => None,
+        }
+    }
+
+    /// Moves the spans of a whole branch.
+    pub(crate) fn shift(&mut self, by: usize) {
+        self.span = self.span.start + by..self.span.end + by;
+        match &mut self.node {
+            Node::List(items) => items.iter_mut().for_each(|item| item.shift(by)),
+            Node::Table(members) => members.iter_mut().for_each(|member| member.shift(by)),
+            Node::Text(_) | Node::Number(_) | Node::Bool(_) | Node::Date => {}
+        }
+    }
+}
+
 impl Node {
     /// What it is, for messages.
     pub(crate) fn description(&self) -> &'static str {

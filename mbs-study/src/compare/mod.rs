@@ -188,7 +188,8 @@ pub fn compare(
     let mut scenes = Scenes::new(document, &precisions).map_err(CompareError::Read)?;
     scenes.interrupt = request.interrupt.clone();
     let options = format!("{request:?}");
-    let head = Head::new(KIND, &[document.text(), &options, table.map_or("", |(_, text)| text)]);
+    let head =
+        Head::new(KIND, &[&document.whole_text(), &options, table.map_or("", |(_, text)| text)]);
     let mut store = Store::open(out, &head, earlier)?.ok_or(CompareError::Unfinished)?;
     store.interrupt = request.interrupt.clone();
     let study = Study::new(&scenes, request);
@@ -212,7 +213,7 @@ pub fn compare(
         notes: known.notes.clone(),
         ..Comparison::default()
     };
-    comparison.provenance.scene_hash = hash(document.text());
+    comparison.provenance.scene_hash = hash(&document.whole_text());
     if known.is_refuted {
         // nothing is ranked by a table that no method comes near
         comparison.digest(&[]);

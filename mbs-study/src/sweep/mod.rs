@@ -139,7 +139,7 @@ impl Study {
         }
         let columns = Columns::new(&Channel::of_scene(&data));
         let options = format!("{overrides:?}");
-        let head = Head::new(KIND, &[scene.text(), sweep.text(), &options]);
+        let head = Head::new(KIND, &[&scene.whole_text(), sweep.text(), &options]);
         let sweep = SweepFile::read(sweep, &scene, columns.taken()).map_err(StudyError::Read)?;
         let varied = |path: &str| sweep.varies(&scene, path);
         if let Some((path, _)) = GIVEN.into_iter().find(|(p, is)| is(overrides) && varied(p)) {

@@ -292,7 +292,7 @@ impl Mechanism {
         });
         scene.map_err(|error| {
             let file = self.file.as_ref().filter(|_| !self.is_changed);
-            let place = file.map(|file| file.place(error.entry, error.field));
+            let place = file.map(|file| file.place(error.entry, error.field).1);
             SceneError::new(error, &self.scene, self.columns(), place)
         })
     }

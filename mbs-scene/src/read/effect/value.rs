@@ -39,7 +39,7 @@ pub(super) fn read(
             Value::Coordinate(Some(fields.coordinate(item, joint)?))
         }
         Form::Terms => Value::Terms(read_terms(fields, item, joints)?),
-        Form::Point => Value::Point(context.vector(item)?),
+        Form::Point => Value::Point(context.place(item)?),
         Form::Points(_) => Value::Points(fields.two_vectors(key)?),
         Form::Line => Value::Line(line(fields, item)?),
         Form::Length => Value::Length(match &item.node {

@@ -213,6 +213,10 @@ impl<'a> Reader<'a> {
             return self.with_unit(number);
         }
         let Some(name) = self.name() else { return Err(self.unexpected()) };
+        if self.axis() {
+            let (name, span) = (&self.text[start..self.at], start..self.at);
+            return (self.named)(name).map_err(|[message, hint]| Fault { message, hint, span });
+        }
         let span = start..self.at;
         if name == "pi" {
             return Ok(DoubleDouble::PI);
@@ -273,6 +277,16 @@ impl<'a> Reader<'a> {
             "min" => Real::min(first, second),
             _ => Real::max(first, second),
         })
+    }
+
+    /// Takes the axis behind the name of a point: `.x`, `.y` or `.z`.
+    fn axis(&mut self) -> bool {
+        let rest = self.rest().as_bytes();
+        let is_name = |c: &u8| c.is_ascii_alphanumeric() || *c == b'_';
+        let has =
+            matches!(rest, [b'.', b'x' | b'y' | b'z', ..]) && !rest.get(2).is_some_and(is_name);
+        self.at += if has { 2 } else { 0 };
+        has
     }
 
     fn name(&mut self) -> Option<&'a str> {

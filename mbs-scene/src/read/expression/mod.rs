@@ -2,7 +2,7 @@
 //!
 //! ```text
 //! sum      = product { (+|-) product }          power = atom [ ^ whole number up to 64 ]
-//! product  = signed { (*|/) signed }            atom  = number [unit] | ( sum ) | pi | name | function ( sum [, sum] )
+//! product  = signed { (*|/) signed }            atom  = number [unit] | ( sum ) | pi | name | point.x | function ( sum [, sum] )
 //! signed   = - signed | power                   unit  = name [^ whole] { (*|/) name [^ whole] }, without blanks
 //! ```
 //!

@@ -132,7 +132,7 @@ impl SweepFile {
     /// Is a number of the scene varied, given the path that names it?
     #[must_use]
     pub fn varies(&self, scene: &SceneFile, path: &str) -> bool {
-        let address = path::address(scene.root(), path);
+        let address = path::address(scene, path);
         address.is_ok_and(|address| self.places.iter().any(|place| place.address == address))
     }
 
@@ -191,10 +191,8 @@ impl SweepFile {
     /// The places of the scene, each with the parameters that change it.
     fn lay_out(&self, scene: &SceneFile) -> Read<Vec<PlaceOfScene>> {
         let mut places: BTreeMap<&Address, PlaceOfScene> = BTreeMap::new();
-        let base = |address: &Address| {
-            let text = path::number(scene.root(), address).unwrap_or_default();
-            text.parse::<f64>().unwrap_or_default()
-        };
+        let base =
+            |address: &Address| scene.number_at(address).map_or(0.0, |number| number.to_f64());
         let blank = |address: &Address| PlaceOfScene {
             address: address.clone(),
             base: base(address),

@@ -7,9 +7,11 @@
 //! initial.pivot.rate                        [[initial]] and [[guide]] by the name of their joint or body
 //! effect[2].points[0][1]                    an entry by its place in the file, from 0
 //! joint.tie-rod.points.0.2                  indices with dots
+//! parameter.length, point.ball[2]           a parameter, and a coordinate of a point
 //! ```
 
 use super::SweepFault;
+use crate::read::SceneFile;
 use crate::read::tree::{Item, Member, Node, Span};
 
 /// Where a number stands in the tree: child by child.
@@ -17,7 +19,7 @@ pub(in crate::read) type Address = Vec<usize>;
 
 /// A part of a path.
 #[derive(Debug, Clone, PartialEq)]
-enum Part {
+pub(in crate::read) enum Part {
     Key(String),
     Index(usize),
 }
@@ -32,17 +34,36 @@ impl Part {
     }
 }
 
-/// The address of the number that a path names.
-pub(in crate::read) fn address(root: &[Member], path: &str) -> Result<Address, SweepFault> {
+/// The address of the number that a path names; an expression is a number.
+pub(in crate::read) fn address(scene: &SceneFile, path: &str) -> Result<Address, SweepFault> {
     let parts = parse(path).map_err(SweepFault::PathSyntax)?;
+    let (walk, item) = walked(scene.root(), &parts)?;
+    match &item.node {
+        Node::Number(_) if walk.at == "scene.dimension" => Err(SweepFault::Fixed),
+        Node::Number(_) => Ok(walk.address),
+        Node::Text(_) if scene.number_at(&walk.address).is_some() => Ok(walk.address),
+        _ => Err(walk.not_a_number(item)),
+    }
+}
+
+/// The address of whatever the parts of a path name.
+pub(in crate::read) fn found(root: &[Member], parts: &[Part]) -> Result<Address, SweepFault> {
+    Ok(walked(root, parts)?.0.address)
+}
+
+fn walked<'a>(root: &'a [Member], parts: &[Part]) -> Result<(Walk, &'a Item), SweepFault> {
     let mut walk = Walk { address: Vec::new(), at: String::new() };
     let mut parts = parts.iter();
     let Some(Part::Key(table)) = parts.next() else {
         return Err(SweepFault::PathSyntax("it begins with the name of a table"));
     };
+    let table = if table == "parameter" { "parameters" } else { table };
     let mut item = walk.key(root, table)?;
     let mut is_entry = matches!(item.node, Node::List(_));
     for part in parts {
+        if let (true, Node::Table(members), Part::Index(_)) = (table == "point", &item.node, part) {
+            item = walk.key(members, "at")?;
+        }
         item = match (&item.node, part) {
             (Node::List(items), Part::Key(name)) if is_entry => walk.entry(items, table, name)?,
             (Node::List(items), part) if part.index().is_some() => {
@@ -53,16 +74,7 @@ pub(in crate::read) fn address(root: &[Member], path: &str) -> Result<Address, S
         };
         is_entry = false;
     }
-    match &item.node {
-        Node::Number(_) if walk.at == "scene.dimension" => Err(SweepFault::Fixed),
-        Node::Number(_) => Ok(walk.address),
-        _ => Err(walk.not_a_number(item)),
-    }
-}
-
-/// The text of the number at an address.
-pub(in crate::read) fn number<'a>(root: &'a [Member], address: &[usize]) -> Option<&'a str> {
-    if let Node::Number(text) = &item(root, address)?.node { Some(text) } else { None }
+    Ok((walk, item))
 }
 
 /// The bytes of the value at an address.
@@ -70,7 +82,8 @@ pub(in crate::read) fn span(root: &[Member], address: &[usize]) -> Option<Span> 
     Some(item(root, address)?.span.clone())
 }
 
-fn item<'a>(root: &'a [Member], address: &[usize]) -> Option<&'a Item> {
+/// The value at an address.
+pub(in crate::read) fn item<'a>(root: &'a [Member], address: &[usize]) -> Option<&'a Item> {
     let (first, rest) = address.split_first()?;
     let mut item = &root.get(*first)?.item;
     for &i in rest {
@@ -85,22 +98,30 @@ fn item<'a>(root: &'a [Member], address: &[usize]) -> Option<&'a Item> {
 
 /// Replaces the text of the number at an address.
 pub(in crate::read) fn replace(root: &mut [Member], address: &[usize], number: String) {
-    let Some((first, rest)) = address.split_first() else { return };
-    let Some(mut item) = root.get_mut(*first).map(|member| &mut member.item) else { return };
-    for &i in rest {
-        let child = match &mut item.node {
-            Node::List(items) => items.get_mut(i),
-            Node::Table(members) => members.get_mut(i).map(|member| &mut member.item),
-            _ => None,
-        };
-        let Some(child) = child else { return };
-        item = child;
+    if let Some(item) = item_mut(root, address) {
+        item.node = Node::Number(number);
     }
-    item.node = Node::Number(number);
+}
+
+/// The value at an address.
+pub(in crate::read) fn item_mut<'a>(
+    root: &'a mut [Member],
+    address: &[usize],
+) -> Option<&'a mut Item> {
+    let (first, rest) = address.split_first()?;
+    let mut item = &mut root.get_mut(*first)?.item;
+    for &i in rest {
+        item = match &mut item.node {
+            Node::List(items) => items.get_mut(i)?,
+            Node::Table(members) => &mut members.get_mut(i)?.item,
+            _ => return None,
+        };
+    }
+    Some(item)
 }
 
 /// The parts of a path, or what is wrong with it.
-fn parse(path: &str) -> Result<Vec<Part>, &'static str> {
+pub(in crate::read) fn parse(path: &str) -> Result<Vec<Part>, &'static str> {
     let mut parts = Vec::new();
     let mut rest = path.trim();
     loop {

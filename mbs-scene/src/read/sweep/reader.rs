@@ -11,7 +11,6 @@ use crate::read::names::Names;
 use crate::read::tree::{Item, Node, Span};
 use crate::read::values::Values;
 use crate::read::{ReadFault, SceneFile};
-use mbs_core::scene::Dimension;
 
 const COMBINE: [&str; 3] = ["grid", "zip", "latin-hypercube"];
 const SCALES: [&str; 2] = ["linear", "log"];
@@ -20,14 +19,7 @@ const SCALES: [&str; 2] = ["linear", "log"];
 pub(super) fn read(sweep: &SceneFile, scene: &SceneFile) -> Read<(Combine, Vec<Parameter>)> {
     let none = Names::default();
     let values = Values::new(sweep)?;
-    let context = Context {
-        values: &values,
-        document: sweep,
-        dimension: Dimension::Planar,
-        bodies: &none,
-        joints: &none,
-        signals: &none,
-    };
+    let context = Context::of_file(&sweep.texts, &values, &none);
     let (members, tables) = (sweep.root(), keys::of(SWEEP_FILE));
     Fields { context, header: &(0..0), members, tables }.checked()?;
     let header = sweep.root().iter().find(|member| member.key == "sweep");
@@ -126,7 +118,7 @@ fn address(context: &Context<'_>, item: &Item, scene: &SceneFile) -> Read<Addres
         let expected = "a path in quotes, such as \"body.crank.mass\"";
         return context.fault(&item.span, ReadFault::WrongType { expected, found });
     };
-    path::address(scene.root(), path).or_else(|found| fault(context, &item.span, found))
+    path::address(scene, path).or_else(|found| fault(context, &item.span, found))
 }
 
 /// `values = [..]`; they keep their decimal text.

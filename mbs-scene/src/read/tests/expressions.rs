@@ -68,7 +68,7 @@ fn what_has_no_value_is_refused_with_its_place() {
             "a = \"b\"\nb = \"a + 1\"",
             "1.0",
             "6:5",
-            "parameters that need one another: a -> b -> a",
+            "parameters and points that need one another: a -> b -> a",
             "a number",
         ),
         ("a = \"2*\"", "1.0", "6:8", "the expression ends too early", "missing"),

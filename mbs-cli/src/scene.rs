@@ -1,0 +1,64 @@
+//! The scene of a command line: its file, or standard input, with values that are set.
+
+use crate::files;
+use crate::refusal::Refusal;
+use clap::Args;
+use mbs::core::scene::Scene;
+use mbs::scene_file::SceneFile;
+use std::ops::Deref;
+use std::path::{Path, PathBuf};
+
+/// A scene on a command line.
+#[derive(Debug, Clone, Args)]
+pub(crate) struct SceneArgument {
+    /// Scene file (TOML or JSON), or - for standard input.
+    #[arg(value_name = "SCENE")]
+    scene: PathBuf,
+    /// Another value at a path of the scene, as sweeps write it: body.rod.mass=2, 'parameter.k=36 kN/m'. May be repeated.
+    #[arg(long, value_name = "PATH=VALUE", display_order = 800)]
+    set: Vec<String>,
+}
+
+impl Deref for SceneArgument {
+    type Target = Path;
+
+    fn deref(&self) -> &Path {
+        &self.scene
+    }
+}
+
+impl SceneArgument {
+    /// A file, with those values.
+    pub(crate) fn new(path: &Path, set: &[String]) -> Self {
+        Self { scene: path.to_owned(), set: set.to_vec() }
+    }
+
+    /// Is there something to read?
+    pub(crate) fn is_there(&self) -> bool {
+        files::is_standard(&self.scene) || self.scene.is_file()
+    }
+
+    /// Its tree, and the scene; else the refusal.
+    pub(crate) fn read(&self) -> Result<(SceneFile, Scene<f64>), Refusal> {
+        let document = self.document()?;
+        let scene = document.scene::<f64>();
+        let scene = scene.map_err(|error| Refusal::read("scene-refused", &error))?;
+        Ok((document, scene))
+    }
+
+    /// Its tree with the values that are set; else the refusal.
+    pub(crate) fn document(&self) -> Result<SceneFile, Refusal> {
+        let mut document = files::document(&self.scene, "scene file")?;
+        for assignment in &self.set {
+            let set = document.with_set(assignment);
+            document = set.map_err(|error| Refusal::read("set-refused", &error))?;
+        }
+        Ok(document)
+    }
+
+    /// It as a command line has it.
+    pub(crate) fn line(&self) -> String {
+        let set = self.set.iter().map(|assignment| format!(" --set '{assignment}'"));
+        format!("{}{}", self.scene.display(), set.collect::<String>())
+    }
+}

@@ -1,0 +1,258 @@
+//! Values of parameters and points: each is found once, with those that it needs.
+
+use super::error::ExpressionFault;
+use super::expression::{Fault, evaluate, unit::Dimensions};
+use super::fields::Read;
+use super::nearest::nearest_name;
+use super::point::{self, Given, Point};
+use super::texts::Texts;
+use super::tree::{Item, Member, Node, Span};
+use super::{ReadError, ReadFault};
+use mbs_core::real::DoubleDouble;
+use mbs_core::scene::Number;
+use std::cell::RefCell;
+use std::collections::HashMap;
+
+/// Most parameters and points that need one another in a row [-]. Chosen, not tuned.
+const MAX_CHAIN: usize = 64;
+/// Digits of a value's text after the first: 32 in all, those of a pair of doubles.
+const DIGITS: usize = 31;
+
+/// Parameters and points by their full names, and their values as far as they are found.
+pub(super) struct Named<'a> {
+    pub(super) texts: &'a Texts,
+    /// Parameters as they are written.
+    parameters: HashMap<&'a str, &'a Member>,
+    /// Places of points as they are written.
+    places: HashMap<&'a str, &'a Item>,
+    numbers: RefCell<HashMap<String, DoubleDouble>>,
+    points: RefCell<HashMap<String, Point>>,
+    /// Those that need the one at hand.
+    chain: RefCell<Vec<String>>,
+}
+
+/// What gives the value of a name.
+pub(super) enum Missing {
+    /// There is none: message and hint.
+    Unknown([String; 2]),
+    /// It is refused at its own place.
+    Refused(ReadError),
+}
+
+impl<'a> Named<'a> {
+    pub(super) fn new(texts: &'a Texts, parameters: &'a [Member], points: &'a [Item]) -> Self {
+        let place = |item: &'a Item| match (item.text_at("name"), item.get("at")) {
+            (Some(name), Some(at)) => Some((name, at)),
+            // the reader of the entry says what is missing
+            _ => None,
+        };
+        Self {
+            texts,
+            parameters: parameters.iter().map(|member| (member.key.as_str(), member)).collect(),
+            places: points.iter().filter_map(place).collect(),
+            numbers: RefCell::default(),
+            points: RefCell::default(),
+            chain: RefCell::default(),
+        }
+    }
+
+    /// Finds all of them.
+    pub(super) fn all(self, parameters: &'a [Member], points: &'a [Item]) -> Read<Self> {
+        for member in parameters {
+            self.parameter(member)?;
+        }
+        for item in points {
+            if let (Some(name), Some(at)) = (item.text_at("name"), item.get("at")) {
+                self.place(name, at)?;
+            }
+        }
+        Ok(self)
+    }
+
+    /// The value of a parameter, and with it of those that it needs.
+    fn parameter(&self, member: &'a Member) -> Read<DoubleDouble> {
+        let (name, span) = (member.key.as_str(), &member.item.span);
+        if let Some(value) = self.numbers.borrow().get(name) {
+            return Ok(*value);
+        }
+        self.begin(name, span)?;
+        let value = match &member.item.node {
+            Node::Number(text) => decimal(self.texts, text, span)?.value(),
+            Node::Text(text) => self.expression(text, span)?.0,
+            other => {
+                let expected = "a number, or an expression in quotes";
+                let fault = ReadFault::WrongType { expected, found: other.description() };
+                return Err(self.texts.error(span, fault));
+            }
+        };
+        self.chain.borrow_mut().pop();
+        self.numbers.borrow_mut().insert(name.to_owned(), value);
+        Ok(value)
+    }
+
+    /// A point, and with it what it needs.
+    fn place(&self, name: &str, at: &'a Item) -> Read<Point> {
+        if let Some(point) = self.points.borrow().get(name) {
+            return Ok(point.clone());
+        }
+        self.begin(name, &at.span)?;
+        let point = point::read(self, at)?;
+        self.chain.borrow_mut().pop();
+        self.points.borrow_mut().insert(name.to_owned(), point.clone());
+        Ok(point)
+    }
+
+    /// Refuses rings, and rows that are too long.
+    fn begin(&self, name: &str, span: &Span) -> Read<()> {
+        let refused = |message: String| {
+            let hint = "give one of them a number".to_owned();
+            Err(self.texts.error(span, ReadFault::Expression(ExpressionFault { message, hint })))
+        };
+        let mut chain = self.chain.borrow_mut();
+        if let Some(i) = chain.iter().position(|other| *other == name) {
+            let ring: Vec<&str> = chain[i..].iter().map(String::as_str).chain([name]).collect();
+            let ring = ring.join(" -> ");
+            return refused(format!("parameters and points that need one another: {ring}"));
+        }
+        if chain.len() == MAX_CHAIN {
+            return refused(format!(
+                "more than {MAX_CHAIN} parameters and points that need one another in a row"
+            ));
+        }
+        chain.push(name.to_owned());
+        Ok(())
+    }
+
+    /// The value of an expression that stands there, and of a number with a unit alone its dimensions.
+    pub(super) fn expression(
+        &self,
+        text: &str,
+        span: &Span,
+    ) -> Read<(DoubleDouble, Option<Dimensions>)> {
+        // the fault of another parameter stands at its own place
+        let mut other = None;
+        let texts = self.texts;
+        let mut named = |name: &str| {
+            self.value(name, span).map_err(|missing| match missing {
+                Missing::Unknown(message) => message,
+                Missing::Refused(error) => {
+                    other = Some(error);
+                    [String::new(), String::new()]
+                }
+            })
+        };
+        match (evaluate(text, &mut named), other) {
+            (Ok(found), _) => Ok((found.value, found.dimensions)),
+            (Err(_), Some(error)) => Err(error),
+            (Err(fault), None) => Err(refused(texts, (text, span), fault)),
+        }
+    }
+
+    /// The value of a name, `PARAMETER` or `POINT.x`, in a text that stands there: of its own file first, then of that which includes it.
+    fn value(&self, name: &str, span: &Span) -> Result<DoubleDouble, Missing> {
+        let (base, axis) = match name.split_once('.') {
+            Some((base, axis)) => (base, "xyz".find(axis)),
+            None => (name, None),
+        };
+        let full: Vec<String> =
+            self.texts.outwards(span).map(|text| format!("{}{base}", text.prefix)).collect();
+        let Some(axis) = axis else {
+            let member = full.iter().find_map(|name| self.parameters.get(name.as_str()).copied());
+            return match member {
+                Some(member) => self.parameter(member).map_err(Missing::Refused),
+                None => Err(Missing::Unknown(self.unknown(base, &full, span))),
+            };
+        };
+        let found = full.iter().find_map(|full| Some((full, *self.places.get(full.as_str())?)));
+        let Some((full_name, at)) = found else {
+            return Err(Missing::Unknown(unknown_point(base, self.places.keys().copied())));
+        };
+        let point = self.place(full_name, at).map_err(Missing::Refused)?;
+        if axis >= point.n {
+            let message = format!("`{base}` has two coordinates");
+            return Err(Missing::Unknown([message, "write its `.x` or `.y`".to_owned()]));
+        }
+        Ok(point.at[axis].value())
+    }
+
+    /// What to say of a name without a value.
+    fn unknown(&self, name: &str, full: &[String], span: &Span) -> [String; 2] {
+        if full.iter().any(|full| self.places.contains_key(full.as_str())) {
+            return [format!("`{name}` is a point"), format!("write `{name}.x`, or another axis")];
+        }
+        let prefixes: Vec<&str> =
+            self.texts.outwards(span).map(|text| text.prefix.as_str()).collect();
+        let own = |name: &&'a str| prefixes.iter().find_map(|prefix| name.strip_prefix(prefix));
+        let mut names: Vec<&str> = self.parameters.keys().filter_map(own).collect();
+        names.sort_unstable();
+        let hint = match names.is_empty() {
+            true => "write a number, or give the name a value in [parameters]".to_owned(),
+            false => nearest_name(name, &names, "parameters"),
+        };
+        [format!("`{name}` is no parameter"), hint]
+    }
+}
+
+impl Given for Named<'_> {
+    fn texts(&self) -> &Texts {
+        self.texts
+    }
+
+    fn number(&self, text: &str, span: &Span) -> Read<Number> {
+        let value = self.expression(text, span)?.0;
+        rounded(self.texts, value, (text, span))
+    }
+
+    fn point(&self, name: &str, span: &Span) -> Read<Point> {
+        match self.places.get(name).copied() {
+            Some(at) => self.place(name, at),
+            None => Err(self.texts.error(span, point::unknown(name, self.places.keys().copied()))),
+        }
+    }
+}
+
+fn unknown_point<'a>(name: &str, known: impl Iterator<Item = &'a str>) -> [String; 2] {
+    let known: Vec<&str> = known.collect();
+    let hint = match known.is_empty() {
+        true => "add [[point]] with this name, and `at`".to_owned(),
+        false => nearest_name(name, &known, "points"),
+    };
+    [format!("`{name}` is no point"), hint]
+}
+
+/// The number of a decimal text.
+pub(super) fn decimal(texts: &Texts, text: &str, span: &Span) -> Read<Number> {
+    match Number::from_decimal(text) {
+        Some(number) if number.to_f64().is_finite() => Ok(number),
+        _ => Err(texts.error(span, ReadFault::NotFinite { text: text.to_owned() })),
+    }
+}
+
+/// A value with the digits of a number; its text, for the refusal of one that is not finite.
+pub(super) fn rounded(
+    texts: &Texts,
+    value: DoubleDouble,
+    (text, span): (&str, &Span),
+) -> Read<Number> {
+    let decimal = format!("{value:.DIGITS$e}");
+    let (digits, exponent) = decimal.split_once('e').unwrap_or((&decimal, "0"));
+    let decimal = format!("{}0e{exponent}", digits.trim_end_matches('0'));
+    let number = Number::from_decimal(&decimal).filter(|number| number.to_f64().is_finite());
+    number.ok_or_else(|| texts.error(span, ReadFault::NotFinite { text: text.to_owned() }))
+}
+
+/// A fault of an expression, at its place within the text where that stands in the file as it is.
+fn refused(texts: &Texts, (text, span): (&str, &Span), fault: Fault) -> ReadError {
+    let inside = texts.written(span).and_then(|written| {
+        // without quotes, where a command line gives it
+        if written == text {
+            return Some(span.start);
+        }
+        let inner = written.get(1..written.len().checked_sub(1)?)?;
+        (inner == text).then_some(span.start + 1)
+    });
+    let end = fault.span.end.max(fault.span.start + 1);
+    let place = inside.map_or_else(|| span.clone(), |start| start + fault.span.start..start + end);
+    let Fault { message, hint, .. } = fault;
+    texts.error(&place, ReadFault::Expression(ExpressionFault { message, hint }))
+}

@@ -1,0 +1,148 @@
+//! Names of an included file, and the references to them, with what stands before them in the scene.
+//!
+//! The tables of keys say where names and references stand.
+
+use super::tree::{Item, Member, Node};
+use crate::keys::{self, KeyTable, KeyValue, Referent};
+use std::collections::{HashMap, HashSet};
+
+/// A prefix, and the names of a file to which it belongs.
+pub(super) struct Prefix<'a> {
+    prefix: &'a str,
+    names: HashMap<&'static str, HashSet<String>>,
+}
+
+/// Kinds of parts that others refer to by name.
+const PARTS: [Referent; 7] = [
+    Referent::Body,
+    Referent::Joint,
+    Referent::Coupling,
+    Referent::Rolling,
+    Referent::Signal,
+    Referent::Effect,
+    Referent::Point,
+];
+
+impl<'a> Prefix<'a> {
+    /// The names of a tree.
+    pub(super) fn new(prefix: &'a str, root: &[Member]) -> Self {
+        let of_list = |header: &str, key: &str| {
+            let list = root.iter().find(|member| member.key == header);
+            let Some(Item { node: Node::List(items), .. }) = list.map(|member| &member.item) else {
+                return Vec::new();
+            };
+            items.iter().filter_map(|item| item.text_at(key).map(str::to_owned)).collect()
+        };
+        let names = PARTS.map(|part| {
+            let mut names: HashSet<String> = of_list(part.name(), "name").into_iter().collect();
+            if part == Referent::Joint {
+                // the joint of a guided body has its name
+                names.extend(of_list("guide", "body"));
+            }
+            (part.name(), names)
+        });
+        Self { prefix, names: names.into() }
+    }
+
+    /// Puts the prefix before the names of a tree and the references to them, and before the names of its parameters.
+    pub(super) fn put(&self, root: &mut [Member]) {
+        if self.prefix.is_empty() {
+            return;
+        }
+        for member in root {
+            match &mut member.item.node {
+                Node::List(items) => {
+                    let tables = keys::of(&member.key);
+                    items.iter_mut().for_each(|item| self.entry(item, tables));
+                }
+                Node::Table(parameters) => {
+                    parameters.iter_mut().for_each(|member| self.name(&mut member.key));
+                }
+                _ => {}
+            }
+        }
+    }
+
+    fn name(&self, name: &mut String) {
+        name.insert_str(0, self.prefix);
+    }
+
+    /// A table with one of these tables of keys.
+    fn entry(&self, item: &mut Item, tables: &'static [KeyTable]) {
+        let of_kind = item.text_at("kind").map_or(&[][..], |kind| keys::of_kind(tables, kind));
+        let tables = if of_kind.is_empty() { tables } else { of_kind };
+        let Node::Table(members) = &mut item.node else { return };
+        for Member { key, item, .. } in members {
+            // a key of planar and one of spatial scenes have the same names in them
+            if let Some(key) = tables.iter().find_map(|table| table.key(key)) {
+                self.value(item, &key.value);
+            }
+        }
+    }
+
+    fn value(&self, item: &mut Item, value: &KeyValue) {
+        match value {
+            KeyValue::Name => {
+                if let Node::Text(name) = &mut item.node {
+                    self.name(name);
+                }
+            }
+            KeyValue::Of(part)
+            | KeyValue::Several(part, _)
+            | KeyValue::Some(part)
+            | KeyValue::OneOrSome(part) => self.references(item, *part),
+            KeyValue::Place | KeyValue::Places(_) | KeyValue::Vector | KeyValue::Vectors(_) => {
+                self.places(item, value);
+            }
+            KeyValue::NumberOrVector => self.places(item, &KeyValue::Vector),
+            KeyValue::Table(header)
+            | KeyValue::Tables(header)
+            | KeyValue::TableOrTables(header) => {
+                self.tables(item, header);
+            }
+            KeyValue::PlacesOrTables(header) => {
+                let Node::List(items) = &mut item.node else { return };
+                for item in items {
+                    // a place from a point is a table too
+                    match (&item.node, item.get("of")) {
+                        (Node::Table(_), None) => self.tables(item, header),
+                        _ => self.places(item, &KeyValue::Place),
+                    }
+                }
+            }
+            _ => {}
+        }
+    }
+
+    /// A name of a part of the scene, or several.
+    fn references(&self, item: &mut Item, part: Referent) {
+        match &mut item.node {
+            Node::Text(name) if self.names[part.name()].contains(name) => self.name(name),
+            Node::List(items) => items.iter_mut().for_each(|item| self.references(item, part)),
+            _ => {}
+        }
+    }
+
+    fn tables(&self, item: &mut Item, header: &str) {
+        match &mut item.node {
+            Node::List(items) => items.iter_mut().for_each(|item| self.tables(item, header)),
+            _ => self.entry(item, keys::of(header)),
+        }
+    }
+
+    /// A place or a vector, or several; numbers in it are no names of points.
+    fn places(&self, item: &mut Item, value: &KeyValue) {
+        match (value, &mut item.node) {
+            (KeyValue::Places(_), Node::List(items)) => {
+                items.iter_mut().for_each(|item| self.places(item, &KeyValue::Place));
+            }
+            (KeyValue::Vectors(_), Node::List(items)) => {
+                items.iter_mut().for_each(|item| self.places(item, &KeyValue::Vector));
+            }
+            (KeyValue::Place, Node::Text(_)) => self.references(item, Referent::Point),
+            (KeyValue::Place, Node::Table(_)) => self.tables(item, keys::PLACE),
+            (KeyValue::Vector, Node::Table(_)) => self.tables(item, keys::DIRECTION),
+            _ => {}
+        }
+    }
+}

@@ -1,0 +1,110 @@
+//! The texts of which a scene is made: its file, the files that it includes, and values from a command line.
+
+use super::tree::Span;
+use super::{Place, ReadError, ReadFault};
+
+/// The texts of a scene, its file first. Their bytes are counted through all of them, so that a span says where in which text it is.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Texts(Vec<Text>);
+
+/// One of them.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Text {
+    /// As messages name it.
+    pub(crate) name: String,
+    pub(crate) text: String,
+    /// Where its bytes begin.
+    pub(crate) start: usize,
+    /// What stands before the names of its parts.
+    pub(crate) prefix: String,
+    /// The table that includes it.
+    pub(crate) by: Option<Span>,
+    /// Is it a file, not a value from a command line?
+    pub(crate) is_file: bool,
+}
+
+impl Texts {
+    /// A text alone.
+    pub(crate) fn new(name: &str, text: &str) -> Self {
+        let mut texts = Self::default();
+        texts.add(Text {
+            name: name.to_owned(),
+            text: text.to_owned(),
+            is_file: true,
+            ..Text::default()
+        });
+        texts
+    }
+
+    /// Adds a text; gives the byte at which it begins.
+    pub(crate) fn add(&mut self, text: Text) -> usize {
+        // one byte between two texts: the end of one is not the begin of the next
+        let start = self.0.last().map_or(0, |last| last.start + last.text.len() + 1);
+        self.0.push(Text { start, ..text });
+        start
+    }
+
+    pub(crate) fn list(&self) -> &[Text] {
+        &self.0
+    }
+
+    /// The bytes of all of them.
+    pub(crate) fn len(&self) -> usize {
+        self.0.last().map_or(0, |last| last.start + last.text.len())
+    }
+
+    /// The text of the file.
+    pub(crate) fn main(&self) -> &Text {
+        const NONE: &Text = &Text {
+            name: String::new(),
+            text: String::new(),
+            start: 0,
+            prefix: String::new(),
+            by: None,
+            is_file: true,
+        };
+        self.0.first().unwrap_or(NONE)
+    }
+
+    /// The text in which a span is.
+    pub(crate) fn of(&self, span: &Span) -> &Text {
+        let after = self.0.partition_point(|text| text.start <= span.start);
+        self.0.get(after.wrapping_sub(1)).unwrap_or_else(|| self.main())
+    }
+
+    /// The text in which a span is, that which includes it, and so on to the file.
+    pub(crate) fn outwards<'a>(&'a self, span: &Span) -> impl Iterator<Item = &'a Text> {
+        let outer = |text: &&'a Text| text.by.as_ref().map(|span| self.of(span));
+        core::iter::successors(Some(self.of(span)), outer)
+    }
+
+    /// What stands at a span, as it is written.
+    pub(crate) fn written(&self, span: &Span) -> Option<&str> {
+        let text = self.of(span);
+        text.text.get(span.start.checked_sub(text.start)?..span.end.checked_sub(text.start)?)
+    }
+
+    /// The file and the place of a span.
+    pub(crate) fn place(&self, span: &Span) -> (&str, Place) {
+        let text = self.of(span);
+        let [start, end] = [span.start, span.end].map(|byte| byte.saturating_sub(text.start));
+        (&text.name, Place::of(&text.text, &(start..end)))
+    }
+
+    pub(crate) fn error(&self, span: &Span, fault: ReadFault) -> ReadError {
+        let (file, place) = self.place(span);
+        ReadError::new(file, place, fault).included(self.includes(span))
+    }
+
+    /// A line for each file that includes the text of a span, the nearest first.
+    fn includes(&self, span: &Span) -> Vec<String> {
+        let line = |text: &Text| {
+            let (file, place) = self.place(text.by.as_ref()?);
+            // the prefix of the includes before it stands before its own
+            let outer = text.by.as_ref().map_or("", |by| &self.of(by).prefix);
+            let prefix = text.prefix.strip_prefix(outer).unwrap_or(&text.prefix);
+            Some(format!("included from {file}:{} as \"{prefix}\"", place.line))
+        };
+        self.outwards(span).map_while(line).collect()
+    }
+}
