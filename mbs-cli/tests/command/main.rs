@@ -14,6 +14,7 @@ mod diff;
 mod doctor;
 mod double_double;
 mod explain;
+mod forms;
 mod generate;
 mod help;
 #[cfg(target_os = "linux")]
