@@ -65,7 +65,8 @@ pub(crate) fn main(arguments: &Arguments) -> ExitCode {
     if arguments.still {
         effort.positions = 0;
     }
-    let checkup = examine(&begun.scene, &begun.settings, &effort);
+    let checkup = examine(&begun.scene, &begun.settings, &effort)
+        .with_unused_parameters(&begun.document.unused_parameters());
     if overrides.interrupt.is_set() {
         return Refusal::interrupted("interrupted by a signal", "start it again").report();
     }

@@ -11,7 +11,7 @@ use super::{ReadError, ReadFault};
 use mbs_core::real::DoubleDouble;
 use mbs_core::scene::Number;
 use std::cell::RefCell;
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 
 /// Most parameters and points that need one another in a row [-]. Chosen, not tuned.
 const MAX_CHAIN: usize = 64;
@@ -29,6 +29,8 @@ pub(super) struct Named<'a> {
     points: RefCell<HashMap<String, Point>>,
     /// Those that need the one at hand.
     chain: RefCell<Vec<String>>,
+    /// Parameters that an expression has needed.
+    used: RefCell<HashSet<String>>,
 }
 
 /// What gives the value of a name.
@@ -53,6 +55,7 @@ impl<'a> Named<'a> {
             numbers: RefCell::default(),
             points: RefCell::default(),
             chain: RefCell::default(),
+            used: RefCell::default(),
         }
     }
 
@@ -159,7 +162,10 @@ impl<'a> Named<'a> {
         let Some(axis) = axis else {
             let member = full.iter().find_map(|name| self.parameters.get(name.as_str()).copied());
             return match member {
-                Some(member) => self.parameter(member).map_err(Missing::Refused),
+                Some(member) => {
+                    self.used.borrow_mut().insert(member.key.clone());
+                    self.parameter(member).map_err(Missing::Refused)
+                }
                 None => Err(Missing::Unknown(self.unknown(base, &full, span))),
             };
         };
@@ -173,6 +179,21 @@ impl<'a> Named<'a> {
             return Err(Missing::Unknown([message, "write its `.x` or `.y`".to_owned()]));
         }
         Ok(point.at[axis].value())
+    }
+
+    /// The parameters of the file itself that nothing has needed so far; included files may have spare ones.
+    pub(super) fn unused(&self) -> Vec<String> {
+        let used = self.used.borrow();
+        let is_own = |member: &&&Member| self.texts.of(&member.key_span).by.is_none();
+        let mut spare: Vec<&Member> = self
+            .parameters
+            .values()
+            .filter(is_own)
+            .filter(|member| !used.contains(&member.key))
+            .copied()
+            .collect();
+        spare.sort_by_key(|member| member.key_span.start);
+        spare.into_iter().map(|member| member.key.clone()).collect()
     }
 
     /// What to say of a name without a value.

@@ -34,13 +34,26 @@ impl SceneFile {
     /// # Errors
     /// The first thing in the file that is unknown, missing, or of another form, with its place.
     pub fn numbers(&self) -> Result<Scene<Number>, ReadError> {
+        self.read_with(&Values::new(self)?)
+    }
+
+    /// The parameters of the file itself that nothing needs; none where it is refused.
+    #[must_use]
+    pub fn unused_parameters(&self) -> Vec<String> {
+        let Ok(values) = Values::new(self) else { return Vec::new() };
+        match self.read_with(&values) {
+            Ok(_) => values.unused(),
+            Err(_) => Vec::new(),
+        }
+    }
+
+    fn read_with<'a>(&'a self, values: &'a Values<'a>) -> Read<Scene<Number>> {
         let [bodies, joints, signals] = ["body", "joint", "signal"].map(|table| self.names(table));
         let joints = Names::new([joints.list(), &self.guided_bodies()?].concat());
         // the dimension is not known yet; nothing dimensional is read before it is
         let dimension = Dimension::Planar;
-        let values = Values::new(self)?;
         let context = Context {
-            values: &values,
+            values,
             texts: &self.texts,
             dimension,
             bodies: &bodies,

@@ -58,6 +58,11 @@ impl<'a> Values<'a> {
         Ok((rounded(self.0.texts, value, (text, span))?, dimensions))
     }
 
+    /// The parameters of the file itself that no expression has needed so far.
+    pub(crate) fn unused(&self) -> Vec<String> {
+        self.0.unused()
+    }
+
     /// A place as it is written.
     pub(super) fn place(&self, item: &Item) -> Read<Point> {
         point::read(&self.0, item)

@@ -31,6 +31,8 @@ mbs::named! {
         Places = "places",
         /// The start.
         Start = "start",
+        /// The text of the file.
+        File = "file",
     }
 }
 

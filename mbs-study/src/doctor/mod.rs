@@ -77,6 +77,18 @@ impl Checkup {
         self.findings.iter().map(|f| f.severity).max()
     }
 
+    /// Notes the parameters of the file that nothing needs.
+    #[must_use]
+    pub fn with_unused_parameters(mut self, names: &[String]) -> Self {
+        let notes = names.iter().map(|name| {
+            let message = format!("nothing needs the parameter `{name}`");
+            let remedy = "write it in an expression, or leave it out";
+            Finding::new(Severity::Note, (Topic::File, "unused-parameter"), message, remedy)
+        });
+        self.findings.extend(notes);
+        self
+    }
+
     /// Freedoms: of the natural model, which has none for the idle spin of a rod; without a start those of the joint level.
     #[must_use]
     pub fn dof(&self) -> usize {

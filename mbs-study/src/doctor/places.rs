@@ -135,7 +135,7 @@ fn near_miss(scene: &Scene<f64>, place: &Place, other: &Place) -> Finding {
         whose(scene, other)
     );
     let remedy = format!(
-        "write the same place for both, or leave it: it runs as it is written ({})",
+        "write it once, as [[point]], and its name for both, or leave it: it runs as it is written ({})",
         written(scene, other.point)
     );
     let code = (Topic::Places, "places-apart");

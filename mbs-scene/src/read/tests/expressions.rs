@@ -51,6 +51,13 @@ fn a_third_has_the_digits_of_the_run() {
 }
 
 #[test]
+fn parameters_that_nothing_needs_are_named() {
+    let parameters = "spare = 1.0\nhalf = 0.5\nm0 = \"2*half\"\nother = \"m0\"";
+    let file = scene(parameters, ["\"m0\"", "0.0"]).expect("TOML");
+    assert_eq!(file.unused_parameters(), ["spare", "other"]);
+}
+
+#[test]
 fn a_parameter_is_evaluated_once() {
     let mut parameters = "p0 = 1.0\n".to_owned();
     for i in 1..60 {
