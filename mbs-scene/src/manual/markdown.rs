@@ -18,7 +18,7 @@ pub fn markdown() -> String {
     ];
     text += "\n## The scenes of the examples\n\nExamples of joints are added to the bodies alone, all others to the bodies with joints.\n";
     for (name, _, whole) in bases {
-        let _ = write!(text, "\nThe {name} one:\n\n```toml\n{}```\n", whole.text());
+        let _ = write!(text, "\nThe {name} one:\n\n```toml\n{}\n```\n", whole.text().trim_end());
     }
     text
 }
@@ -50,7 +50,7 @@ fn of_table(text: &mut String, table: &KeyTable) {
         let _ = writeln!(text, "{}", row(key));
     }
     if let Some(example) = &table.example {
-        let _ = write!(text, "\n```toml\n{}```\n", example.text);
+        let _ = write!(text, "\n```toml\n{}\n```\n", example.text.trim_end());
     }
 }
 
