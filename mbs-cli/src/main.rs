@@ -9,6 +9,7 @@ mod bar;
 mod channels;
 mod check;
 mod compare;
+mod completions;
 mod diff;
 mod doctor;
 mod explain;
@@ -25,14 +26,16 @@ mod refusal;
 mod run;
 mod say;
 mod scene;
+mod show;
 mod signals;
 mod status;
 mod sweep;
 mod table;
 
 use clap::error::{ContextKind, ContextValue, ErrorKind};
-use clap::{Parser, Subcommand};
+use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 use mbs::Precision;
+use mbs::scene_file::nearest_name;
 use precision::{NO_PAIRS, named, unbuilt};
 use refusal::{Refusal, usage};
 use std::process::ExitCode;
@@ -51,12 +54,37 @@ struct Cli {
 const ABOUT: &str =
     "Dynamics of multibody systems: reads a scene file, writes motion, energies and plots.";
 const STATUS: &str = "\
-Example: mbs run scenes/double-pendulum.toml --out out
+Examples:
+  mbs new crank-rocker                      a small scene to begin from
+  mbs run crank-rocker.toml --open          its motion, peaks and plots as a page
+  mbs run crank-rocker.toml --error 1e-4    by the cheapest method that has this error
+  mbs doctor crank-rocker.toml              what is wrong with a scene, and what mends it
+  mbs kinds revolute                        what a scene file may say of a revolute joint
 Exit status:
   0  completed
   1  the scene or the usage was refused
   2  a run stopped early (its data are kept), there is no equilibrium, or the doctor found a fault
   3  this build lacks the precision";
+
+/// The commands as the help lists them, by what they are for.
+const GROUPS: [(&str, &[&str]); 5] = [
+    ("Write a scene", &["new", "kinds", "check", "schema", "generate"]),
+    ("Run it", &["run", "plot", "diff"]),
+    ("Analyse it", &["doctor", "explain", "equilibrium", "modes"]),
+    ("Many runs", &["sweep", "compare"]),
+    ("Elsewhere", &["export", "completions", "man", "help"]),
+];
+
+/// Words of other programs for commands of this one.
+const OTHER_WORDS: [(&str, &str); 7] = [
+    ("simulate", "run"),
+    ("init", "new"),
+    ("create", "new"),
+    ("validate", "check"),
+    ("show", "run --open"),
+    ("eigen", "modes"),
+    ("static", "equilibrium"),
+];
 
 #[derive(Debug, Subcommand)]
 enum Command {
@@ -90,11 +118,37 @@ enum Command {
     Kinds(manual::Kinds),
     /// Write a JSON Schema of scene files, for editors.
     Schema(manual::Schema),
+    /// Print the completions of a shell.
+    Completions(completions::Completions),
+    /// Write the manual pages of the command.
+    Man(completions::Man),
+}
+
+/// The command line, with its commands in groups.
+fn command_line() -> clap::Command {
+    let mut command = Cli::command();
+    // adds `help`, and what options are given to all
+    command.build();
+    let about = |name: &str| {
+        let about = command.find_subcommand(name).and_then(clap::Command::get_about);
+        about.map(ToString::to_string).unwrap_or_default()
+    };
+    let line = |name: &&str| format!("  {name:<12} {}\n", about(name).trim_end_matches('.'));
+    let group = |(title, names): &(&str, &[&str])| {
+        format!("{title}:\n{}\n", names.iter().map(line).collect::<String>())
+    };
+    let groups: String = GROUPS.iter().map(group).collect();
+    Cli::command().help_template(format!(
+        "{{about}}\n\n{{usage-heading}} {{usage}}\n\n{groups}Options:\n{{options}}{{after-help}}"
+    ))
 }
 
 fn main() -> ExitCode {
     signals::outlive_limits();
-    let cli = match Cli::try_parse() {
+    let cli = match command_line()
+        .try_get_matches()
+        .and_then(|matches| Cli::from_arg_matches(&matches))
+    {
         Ok(cli) => cli,
         Err(error) => {
             return unparsed(&error);
@@ -127,6 +181,8 @@ fn main() -> ExitCode {
         Command::Check(arguments) => check::main(&arguments),
         Command::Kinds(arguments) => manual::kinds(&arguments),
         Command::Schema(_) => manual::schema(),
+        Command::Completions(arguments) => completions::completions(&arguments, command_line()),
+        Command::Man(arguments) => completions::man(&arguments, command_line()),
     }
 }
 
@@ -168,11 +224,19 @@ fn unparsed(error: &clap::Error) -> ExitCode {
     usage(message.join(" ").trim_start_matches("error: "), &hint)
 }
 
-/// What to say about a command that is none.
+/// What to say about a command that is none: a scene, another program's word, or the nearest name where clap has none.
 fn hint(error: &clap::Error) -> Option<String> {
     let word = match (error.kind(), error.get(ContextKind::InvalidSubcommand)) {
         (ErrorKind::InvalidSubcommand, Some(ContextValue::String(word))) => word,
         _ => return None,
     };
-    std::path::Path::new(word).exists().then(|| format!("to run a scene, write `mbs run {word}`"))
+    if std::path::Path::new(word).exists() {
+        return Some(format!("to run a scene, write `mbs run {word}`"));
+    }
+    if let Some((_, ours)) = OTHER_WORDS.iter().find(|(theirs, _)| theirs == word) {
+        return Some(format!("write `mbs {ours}`"));
+    }
+    let names: Vec<&str> = GROUPS.iter().flat_map(|(_, names)| *names).copied().collect();
+    let is_met = error.get(ContextKind::SuggestedSubcommand).is_some();
+    (!is_met).then(|| nearest_name(word, &names, "commands"))
 }

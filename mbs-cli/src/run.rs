@@ -7,7 +7,7 @@ use crate::refusal::Refusal;
 use crate::say::{say, warn};
 use crate::scene::SceneArgument;
 use crate::status::STOPPED;
-use crate::{files, keep, realtime, signals, table};
+use crate::{files, keep, realtime, show, signals, table};
 use clap::Args;
 use indicatif::ProgressBar;
 use mbs::folder::{Folder, WriteError};
@@ -97,6 +97,8 @@ pub(crate) struct Arguments {
     /// Directory for run.csv, steps.csv, run.json and run.html, with --realtime also realtime.csv; created if missing. Default: no files.
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
+    #[command(flatten)]
+    show: show::Arguments,
     #[command(flatten)]
     keep: keep::Arguments,
     /// Print one JSON object on standard output and nothing else.
@@ -206,6 +208,10 @@ fn switch(text: &str) -> Result<bool, String> {
 
 /// Runs the command.
 pub(crate) fn main(arguments: &Arguments) -> ExitCode {
+    if arguments.show.watch {
+        let inputs: Vec<_> = arguments.inputs.as_deref().into_iter().collect();
+        return show::watch(&arguments.scene, &inputs, arguments.out.as_deref());
+    }
     let mut clock = Processor::new(arguments.threads.unwrap_or(1));
     match begin(arguments) {
         Ok(begun) => go(arguments, begun, &mut clock),
@@ -250,7 +256,7 @@ const FILES: [&str; 8] = [
 
 /// Reads what is run, and what it resumes from, and chooses where a target is given; else the refusal.
 fn begin(arguments: &Arguments) -> Result<Run, Stop> {
-    let out = arguments.out.as_deref();
+    let out = arguments.show.out(arguments.out.as_deref());
     let pacing = arguments.realtime.pacing()?;
     let mut kept = arguments.keep.begin(out)?;
     let mut overrides = kept.overrides(arguments.overrides())?;
@@ -359,6 +365,9 @@ fn report(
     }
     let text = if arguments.json { object } else { table::text(outcome, written, arguments.all) };
     let status = say(&text, status);
+    if let Some(folder) = written.filter(|_| arguments.show.open) {
+        show::open(&folder.join("run.html"));
+    }
     if let Some(error) = error.filter(|_| !arguments.json) {
         let report = outcome.summary.error.as_ref();
         let text = report.map(|report| stopped("stopped", report, error, &run.begun.document));

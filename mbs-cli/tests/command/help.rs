@@ -3,7 +3,7 @@
 use super::{json, run, scene, text};
 use std::path::Path;
 
-const COMMANDS: [&str; 15] = [
+pub(super) const COMMANDS: [&str; 17] = [
     "run",
     "compare",
     "diff",
@@ -19,6 +19,8 @@ const COMMANDS: [&str; 15] = [
     "check",
     "kinds",
     "schema",
+    "completions",
+    "man",
 ];
 
 /// Most words of a line: rule 1 of the language in docs/NOTATION.md.

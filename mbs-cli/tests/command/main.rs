@@ -27,6 +27,7 @@ mod new;
 mod plot;
 mod realtime;
 mod refusals;
+mod show;
 mod sweep;
 
 use serde_json::Value;
