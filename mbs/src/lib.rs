@@ -113,3 +113,8 @@ pub mod typed {
 
 #[doc = include_str!("../TASKS.md")]
 pub mod tasks {}
+
+/// The programs of docs/RUST.md, which packages leave out.
+#[cfg(doctest)]
+#[doc = include_str!("../../docs/RUST.md")]
+mod guide {}

@@ -12,6 +12,8 @@ mod compare;
 mod contract;
 mod diff;
 mod doctor;
+#[cfg(unix)]
+mod documents;
 mod double_double;
 mod explain;
 mod forms;

@@ -136,9 +136,9 @@ fn a_body_on_a_joint_of_any_kind_moves_by_its_coordinates_alone() {
 }
 
 #[test]
-fn the_readme_lists_the_kinds_of_joint() {
-    let readme = include_str!("../../../README.md");
-    let list = readme.split("with joints: ").nth(1).and_then(|rest| rest.split('.').next());
+fn the_list_of_features_has_the_kinds_of_joint() {
+    let features = include_str!("../../../docs/FEATURES.md");
+    let list = features.split("with joints: ").nth(1).and_then(|rest| rest.split('.').next());
     let last = |entry: &'static str| entry.split_whitespace().last().unwrap_or_default();
     let listed: BTreeSet<_> = list.expect("a list").split(',').map(last).collect();
     assert_eq!(listed, JOINTS.iter().map(|form| form.name).collect());

@@ -11,6 +11,9 @@ const DOCUMENTS: [&str; 4] = ["README.md", "ARCHITECTURE.md", "CHANGELOG.md", "C
 /// Longest ARCHITECTURE.md, in lines: it is read in one go.
 const MAX_ARCHITECTURE: usize = 150;
 
+/// Longest README.md, in lines: one screen.
+const MAX_README: usize = 45;
+
 /// The names in `scenes/`, without their ending.
 fn scenes() -> BTreeSet<String> {
     let files = entries(&root().join("scenes"));
@@ -19,16 +22,22 @@ fn scenes() -> BTreeSet<String> {
 }
 
 #[test]
-fn readme_lists_exactly_the_scenes_there_are() {
-    let readme = read("README.md");
-    let rows = between(&readme, "scenes").lines().filter_map(|line| line.strip_prefix("| `"));
+fn the_gallery_lists_exactly_the_scenes_there_are() {
+    let gallery = read("docs/GALLERY.md");
+    let rows = between(&gallery, "scenes").lines().filter_map(|line| line.strip_prefix("| `"));
     let listed: BTreeSet<_> =
         rows.filter_map(|row| Some(row.split_once('`')?.0.to_owned())).collect();
     let scenes = scenes();
     assert!(scenes.len() >= 10, "ten scenes at least, found {}", scenes.len());
     let odd = listed.symmetric_difference(&scenes);
     let findings: Vec<_> = odd.map(|name| format!("scenes/{name}.toml")).collect();
-    report("README.md lists exactly the scenes there are", &findings);
+    report("docs/GALLERY.md lists exactly the scenes there are", &findings);
+    let picture = |name: &String| format!("pictures/scene-{name}.png");
+    let is_drawn = |picture: &String| {
+        gallery.contains(picture.as_str()) && root().join("docs").join(picture).is_file()
+    };
+    let findings: Vec<_> = scenes.iter().map(picture).filter(|name| !is_drawn(name)).collect();
+    report("Each scene has a picture in docs/GALLERY.md: `cargo xtask pictures NAME`", &findings);
 }
 
 #[test]
@@ -55,6 +64,7 @@ fn documents_are_there() {
         .collect();
     report("These documents are expected", &findings);
     assert!(read("ARCHITECTURE.md").lines().count() <= MAX_ARCHITECTURE);
+    assert!(read("README.md").lines().count() <= MAX_README, "README.md is one screen");
 }
 
 #[test]
