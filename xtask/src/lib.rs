@@ -11,6 +11,7 @@ pub mod nostd;
 pub mod package;
 pub mod pages;
 pub mod pick;
+pub mod pictures;
 pub mod process;
 pub mod races;
 pub mod simulate;

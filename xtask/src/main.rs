@@ -4,7 +4,7 @@ use clap::error::ErrorKind::InvalidSubcommand;
 use clap::{CommandFactory, Parser, Subcommand};
 use std::ffi::OsString;
 use std::process::ExitCode;
-use xtask::{bundle, check, nostd, package, pick, process, races, simulate};
+use xtask::{bundle, check, nostd, package, pick, pictures, process, races, simulate};
 
 /// The jobs of `lab`.
 const LAB: &str = "Jobs that measure, each with its own --help; they are compiled when one is asked for: bench, choice, counts, estimate, fuzz, gauntlet, peers, profile, report, steps, tables";
@@ -59,6 +59,11 @@ enum Job {
     CheckNostd,
     /// Bundle the part of three.js that pages contain, with the versions of its lock file; needs node and npm
     Bundle,
+    /// Draw the pictures of README.md and docs/ with `mbs`; needs chromium
+    Pictures {
+        /// Words: pictures whose names have one of them. Default: all
+        words: Vec<String>,
+    },
     /// A job of `lab`, and its words
     #[command(external_subcommand)]
     Lab(Vec<OsString>),
@@ -75,6 +80,7 @@ fn main() -> ExitCode {
         Job::Package => package::package(),
         Job::Races => races::races(),
         Job::Bundle => bundle::bundle(),
+        Job::Pictures { words } => pictures::pictures(&words),
         Job::CheckNostd => nostd::check_nostd(),
         Job::Lab(words) if words[0].to_str().is_some_and(|job| LAB.contains(job)) => {
             process::hand_over(process::cargo().arg("lab").args(words))

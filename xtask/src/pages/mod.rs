@@ -93,7 +93,7 @@ fn with_probe(html: &str, before: &str) -> String {
 }
 
 /// What the probe reported, from the page as the browser leaves it.
-fn report_in(dom: &str) -> String {
+pub(crate) fn report_in(dom: &str) -> String {
     let text =
         dom.split_once("<pre id=\"report\">").and_then(|(_, rest)| rest.split_once("</pre>"));
     let text = text.map_or("the browser showed nothing", |(text, _)| text);
@@ -101,7 +101,7 @@ fn report_in(dom: &str) -> String {
 }
 
 /// The page as it is after its scripts.
-fn dom(browser: &str, page: &Path) -> Result<String, String> {
+pub(crate) fn dom(browser: &str, page: &Path) -> Result<String, String> {
     let profile = std::env::temp_dir().join(format!("xtask-pages-{}", std::process::id()));
     let mut command = Command::new(browser);
     command.args([
