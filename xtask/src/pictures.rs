@@ -14,11 +14,17 @@ const SMALL: [u32; 2] = [400, 240];
 const LARGE: [u32; 2] = [720, 300];
 
 /// Where a scene is looked at, where that is not a third of its run from the usual side: as the address of the page has it.
-const LOOKS: [(&str, &str); 2] = [("iltis-stairs", "t=6.4"), ("iltis-stairs-stiff", "t=6.4")];
+const LOOKS: [(&str, &str); 5] = [
+    ("iltis-stairs", "t=6.4"),
+    ("iltis-stairs-stiff", "t=6.4"),
+    ("iltis-suspension", "t=3.1"),
+    ("iltis-suspension-halved", "t=3.1"),
+    ("iltis-suspension-stiff", "t=3.1"),
+];
 
 /// Views beside those of the gallery: file, scene, look.
 const VIEWS: [(&str, &str, &str); 3] = [
-    ("iltis-stairs.png", "scenes/iltis-stairs.toml", "t=6.4&view=side"),
+    ("iltis-stairs.png", "scenes/iltis-stairs.toml", "t=6.4"),
     ("tutorial-view.png", "mbs-scene/src/templates/crank-rocker.toml", ""),
     ("vehicle-corner.png", "mbs-scene/src/templates/double-wishbone.toml", "t=0.66"),
 ];

@@ -7,7 +7,7 @@
     while (document.documentElement.dataset.ready !== "yes") await wait(20);
     const { view, clock } = window.mbsPage, stage = document.querySelector("#view .stage");
     Object.assign(stage.style, { width: "{{width}}px", height: "{{height}}px", maxWidth: "none", minHeight: "0", aspectRatio: "auto" });
-    await wait(100);
+    for (let k = 0; k < 200 && view.canvas.width !== Number("{{width}}"); k++) await wait(20);
     const asked = new URLSearchParams("{{look}}");
     if (asked.has("follow")) view.setFollowed(window.mbsPage.motion.bodies.findIndex((body) => body.name === asked.get("follow")));
     clock.seek(asked.has("t") ? Number(asked.get("t")) : clock.start + (clock.end - clock.start) / 3);
