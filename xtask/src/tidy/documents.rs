@@ -1,6 +1,6 @@
 //! Rules for scenes and documents.
 
-use super::{between, entries, read, report};
+use super::{between, entries, files, name, read, report};
 use crate::process::root;
 use std::collections::BTreeSet;
 use toml::Table;
@@ -65,6 +65,18 @@ fn documents_are_there() {
     report("These documents are expected", &findings);
     assert!(read("ARCHITECTURE.md").lines().count() <= MAX_ARCHITECTURE);
     assert!(read("README.md").lines().count() <= MAX_README, "README.md is one screen");
+}
+
+#[test]
+fn the_summary_lists_every_document() {
+    let summary = read("docs/SUMMARY.md");
+    let mut findings: Vec<_> =
+        files(&root().join("docs"), "md").iter().map(|path| name(path)).collect();
+    findings.retain(|path| {
+        let file = path.trim_start_matches("docs/");
+        file != "SUMMARY.md" && !summary.contains(&format!("]({file})"))
+    });
+    report("docs/SUMMARY.md, the table of contents of a book, lists every document", &findings);
 }
 
 #[test]
