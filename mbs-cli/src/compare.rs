@@ -1,6 +1,7 @@
 //! `mbs compare SCENE`.
 
 use crate::bar::{bar, ticks};
+use crate::plot::work_precision;
 use crate::refusal::Refusal;
 use crate::say::{say, warn};
 use crate::scene::SceneArgument;
@@ -60,6 +61,9 @@ pub(crate) struct Arguments {
     /// Directory for compare.csv, compare.json, compare.html and the journal of finished runs; created if missing. Default: no files.
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
+    /// Picture of the work-precision diagram (.svg). Default: none.
+    #[arg(long, value_name = "FILE")]
+    figure: Option<PathBuf>,
     /// Resume: keep the runs that an earlier start left in the directory.
     #[arg(long, requires = "out", conflicts_with = "restart")]
     resume: bool,
@@ -180,6 +184,12 @@ const FILES: [&str; 4] = ["compare.csv", "compare.json", "compare.html", "compar
 /// The comparison, and where its results go, with their id.
 fn run(arguments: &Arguments) -> Result<(Comparison, Option<(Folder, String)>), Refusal> {
     let request = Request { interrupt: signals::heeded(), ..arguments.request()? };
+    if let Some(path) =
+        arguments.figure.as_ref().filter(|path| path.extension() != Some("svg".as_ref()))
+    {
+        let message = format!("`{}` is no name of a picture", path.display());
+        return Err(Refusal::new("usage", message, "give a file that ends with .svg"));
+    }
     let document = arguments.scene.document()?;
     let table = arguments.table()?;
     let folder = arguments.out.as_ref().map(|out| files::folder(out, &FILES)).transpose()?;
@@ -250,11 +260,21 @@ fn write_results(
     let is_any = runs.any(|run| run.status == Status::Completed);
     let mut status = if is_any { ExitCode::SUCCESS } else { ExitCode::from(STOPPED) };
     let (object, mut wrote) = (comparison.to_json(), String::new());
+    if let Some(path) = &arguments.figure {
+        let drawn = work_precision(comparison);
+        match drawn.and_then(|text| files::write(path, text.as_bytes(), None)) {
+            Ok(()) => wrote += &format!("\nwrote {}\n", path.display()),
+            Err(refusal) => {
+                refusal.warn();
+                status = ExitCode::from(STOPPED);
+            }
+        }
+    }
     if let Some((folder, id)) = &written {
         let written = write_files((comparison, &object), folder, id);
         if Refusal::unless_lost(written, &mut status).is_some() {
             let out = folder.path().display();
-            wrote = format!("\nwrote compare.csv, compare.json and compare.html to {out}\n");
+            wrote += &format!("\nwrote compare.csv, compare.json and compare.html to {out}\n");
         }
     }
     let text = if arguments.json {

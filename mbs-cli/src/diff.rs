@@ -10,6 +10,7 @@ use crate::status::STOPPED;
 use clap::Args;
 use mbs::results::{ColumnDifference, Difference, ResultTable, difference};
 use mbs::{Method, run_document};
+use mbs_report::difference_page;
 use serde_json::json;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -30,6 +31,9 @@ pub(crate) struct Arguments {
     /// Name of a channel, or of one of its columns; may be repeated. Default: all.
     #[arg(long, value_name = "NAME")]
     channel: Vec<String>,
+    /// Page (.html) with both lines of each column, their difference, and a table of peaks. Default: none.
+    #[arg(long, value_name = "FILE")]
+    out: Option<PathBuf>,
     /// Print one JSON object on standard output and nothing else.
     #[arg(long)]
     json: bool,
@@ -49,6 +53,11 @@ pub(crate) fn main(arguments: &Arguments) -> ExitCode {
 }
 
 fn compared(arguments: &Arguments) -> Result<Difference, Refusal> {
+    let is_page = |path: &Path| path.extension().is_some_and(|ending| ending == "html");
+    if let Some(path) = arguments.out.as_deref().filter(|path| !is_page(path)) {
+        let message = format!("`{}` is no name of a page", path.display());
+        return Err(Refusal::new("usage", message, "give a file that ends with .html"));
+    }
     let (a, b) = (results(&arguments.a, &[])?, results(&arguments.b, &[])?);
     let found = difference(&a, &b, &arguments.channel);
     let missing = |name: &&String| {
@@ -65,7 +74,21 @@ fn compared(arguments: &Arguments) -> Result<Difference, Refusal> {
         let hint = "compare runs that have an output of the same name";
         return Err(Refusal::new("no-common-channel", "both runs have no channel in common", hint));
     }
+    if let Some(path) = &arguments.out {
+        let mut labels = [&arguments.a, &arguments.b].map(|path| label(path));
+        if labels[0] == labels[1] {
+            labels = [&arguments.a, &arguments.b].map(|path| path.display().to_string());
+        }
+        let [of_a, of_b] = labels;
+        let page = difference_page(&[(of_a, a), (of_b, b)], &found, arguments.within);
+        files::write(path, page.as_bytes(), None)?;
+    }
     Ok(found)
+}
+
+/// What a run is called in a legend: the last part of its path.
+pub(crate) fn label(run: &Path) -> String {
+    run.file_stem().unwrap_or(run.as_os_str()).to_string_lossy().into_owned()
 }
 
 /// The refusal of a channel that is not there.
@@ -114,7 +137,8 @@ fn report(arguments: &Arguments, found: &Difference) -> ExitCode {
         });
         format!("{object:#}\n")
     } else {
-        lines(found, arguments.within).join("\n") + "\n"
+        let wrote = arguments.out.as_ref().map(|path| format!("wrote {}\n", path.display()));
+        lines(found, arguments.within).join("\n") + "\n" + &wrote.unwrap_or_default()
     };
     say(&text, status)
 }

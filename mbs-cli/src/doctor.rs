@@ -7,7 +7,8 @@ use crate::status::STOPPED;
 use crate::{files, signals};
 use clap::Args;
 use mbs::core::scene::Entry;
-use mbs::{Method, Precision};
+use mbs::record::{Provenance, RecordedMotion};
+use mbs::{Method, Precision, ResolvedMethod, run_document};
 use mbs_report::diagnosis;
 use mbs_study::doctor::{Checkup, Effort, Severity, examine, to_json};
 use std::path::PathBuf;
@@ -73,6 +74,15 @@ pub(crate) fn main(arguments: &Arguments) -> ExitCode {
     write_results(&begun, &checkup, arguments)
 }
 
+/// The scene at its start, for a page: a run of one step.
+fn at_start(begun: &files::Begun) -> Option<RecordedMotion> {
+    let files::Begun { document, scene, settings, folder } = begun;
+    folder.as_ref()?;
+    let settings = ResolvedMethod { duration: settings.step, ..settings.clone() };
+    let outcome = run_document((document, scene), &settings, &mut |_| {});
+    outcome.ok()?.record(Provenance::default()).motion
+}
+
 /// Files, then JSON or text; the exit status says whether there is a fault.
 fn write_results(begun: &files::Begun, checkup: &Checkup, arguments: &Arguments) -> ExitCode {
     let files::Begun { document, scene, settings, .. } = begun;
@@ -84,7 +94,7 @@ fn write_results(begun: &files::Begun, checkup: &Checkup, arguments: &Arguments)
     let command = if arguments.still { "doctor --still" } else { "doctor" };
     let provenance = files::provenance((command, &arguments.scene), &options, settings);
     let line = |entry: Entry, key: &str| Some(document.place(entry, key).1.line);
-    let (report, text) = diagnosis(scene, checkup, &line, provenance);
+    let (report, text) = diagnosis(scene, checkup, &line, (at_start(begun), provenance));
     let mut status = match checkup.worst() {
         Some(Severity::Fault) => ExitCode::from(STOPPED),
         _ => ExitCode::SUCCESS,

@@ -1,16 +1,18 @@
-//! `mbs plot RUN... --out FILE`: channels of one or several runs over each other, as a picture or as a table.
+//! `mbs plot RUN... --out FILE`: channels of one or several runs over each other, as a page, as a picture or as a table.
 
+mod figure;
 mod picture;
 
-use crate::diff::{results, unknown};
+use crate::diff::{label, results, unknown};
 use crate::files;
 use crate::refusal::Refusal;
 use crate::say::say;
 use clap::Args;
+pub(crate) use figure::work_precision;
 use mbs::results::ResultTable;
 use mbs::scene_file::format::shortest;
 use picture::{Line, Panel, drawn};
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::process::ExitCode;
 
 /// Most panels of a picture: of more, names are to be given. Chosen, not tuned.
@@ -25,8 +27,8 @@ pub(crate) struct Arguments {
     /// Another value at a path of the scenes among them, as sweeps write it: body.rod.mass=2. May be repeated.
     #[arg(long, value_name = "PATH=VALUE", display_order = 800)]
     set: Vec<String>,
-    /// Picture (.svg) or table (.csv) that is written.
-    #[arg(long, value_name = "FILE")]
+    /// Page (.html), picture (.svg) or table (.csv) that is written.
+    #[arg(long, value_name = "FILE", default_value = "plot.html")]
     out: PathBuf,
     /// Name of a channel, or of one of its columns; may be repeated. Default: all.
     #[arg(long, value_name = "NAME", conflicts_with = "xy")]
@@ -50,17 +52,23 @@ pub(crate) fn main(arguments: &Arguments) -> ExitCode {
 fn plotted(arguments: &Arguments) -> Result<String, Refusal> {
     let path = arguments.out.as_path();
     let ending = path.extension().and_then(|ending| ending.to_str()).unwrap_or_default();
-    if !matches!(ending, "svg" | "csv") {
-        let message = format!("`{}` is neither a picture nor a table", path.display());
-        return Err(Refusal::new("usage", message, "give a file that ends with .svg or .csv"));
+    if !matches!(ending, "html" | "svg" | "csv") {
+        let message = format!("`{}` is no page, no picture and no table", path.display());
+        let hint = "give a file that ends with .html, .svg or .csv";
+        return Err(Refusal::new("usage", message, hint));
     }
     let runs: Result<Vec<_>, _> =
         arguments.runs.iter().map(|run| results(run, &arguments.set)).collect();
     let runs: Vec<(String, ResultTable)> =
         arguments.runs.iter().map(|run| label(run)).zip(runs?).collect();
-    let names = names(&runs, arguments.xy.as_ref().unwrap_or(&arguments.channel))?;
+    let mut names = names(&runs, arguments.xy.as_ref().unwrap_or(&arguments.channel))?;
+    if let Some(xy) = &arguments.xy {
+        columns(&runs, xy)?;
+        names.clone_from(xy);
+    }
     let text = match (ending, &arguments.xy) {
         ("csv", _) => table(&runs, &names),
+        ("html", xy) => mbs_report::plots_page(&runs, &names, xy.is_some(), arguments.log),
         (_, Some(xy)) => drawn(&[over(&runs, xy, arguments.log)])?,
         _ if names.len() > MAX_PANELS => {
             let message = format!("a picture of {} columns has no use", names.len());
@@ -70,11 +78,6 @@ fn plotted(arguments: &Arguments) -> Result<String, Refusal> {
     };
     files::write(path, text.as_bytes(), None)?;
     Ok(format!("wrote {}\n", path.display()))
-}
-
-/// What a run is called in a legend: the last part of its path.
-fn label(run: &Path) -> String {
-    run.file_stem().unwrap_or(run.as_os_str()).to_string_lossy().into_owned()
 }
 
 /// The columns that are asked for, in the order of the runs; of no names, all. Else the refusal of a name that no run has.
@@ -93,6 +96,20 @@ fn names(runs: &[(String, ResultTable)], asked: &[String]) -> Result<Vec<String>
         }
     }
     Ok(names)
+}
+
+/// Refuses names of which a run has no pair of columns: a vector is none.
+fn columns(runs: &[(String, ResultTable)], xy: &[String]) -> Result<(), Refusal> {
+    let has = |run: &ResultTable, name: &String| run.column(name).is_some();
+    if let Some(name) = xy.iter().find(|name| !runs.iter().any(|(_, run)| has(run, name))) {
+        let all = runs.iter().flat_map(|(_, run)| &run.columns);
+        return Err(unknown(name, all.map(|column| column.name.as_str()).collect()));
+    }
+    if !runs.iter().any(|(_, run)| xy.iter().all(|name| has(run, name))) {
+        let message = format!("no run has both `{}` and `{}`", xy[0], xy[1]);
+        return Err(Refusal::new("unknown-channel", message, "name two columns of one run"));
+    }
+    Ok(())
 }
 
 /// A panel for each column, with a line for each run that has it.

@@ -412,7 +412,12 @@ fn write_files(
     if let Some(choice) = chosen.and_then(|chosen| chosen.evidence.as_ref()) {
         files::write_choice(&mut part, choice)?;
     }
-    part.page("run.html", &mbs_report::page(&outcome.record(provenance)))?;
+    let record = outcome.record(provenance);
+    let page = match &outcome.summary.realtime {
+        Some(paced) => mbs_report::paced_page(&record, paced),
+        None => mbs_report::page(&record),
+    };
+    part.page("run.html", &page)?;
     part.finish("run.json", &outcome.summary.to_json())
 }
 

@@ -1,6 +1,7 @@
 //! `mbs sweep SCENE SWEEP`.
 
 use crate::bar::bar;
+use crate::diff::label;
 use crate::refusal::Refusal;
 use crate::say::{say, warn};
 use crate::scene::SceneArgument;
@@ -11,6 +12,7 @@ use indicatif::ProgressBar;
 use mbs::scene_file::SceneFile;
 use mbs::scene_file::format::counted;
 use mbs::{Method, words};
+use mbs_report::sweep_page;
 use mbs_study::sweep::{Report, Study, StudyError, SweepError, Watch};
 use serde_json::json;
 use std::num::NonZeroUsize;
@@ -30,6 +32,12 @@ pub(crate) struct Arguments {
     /// Directory for the table and the journal of finished runs. Default: the sweep file's name without its ending, in the current directory.
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
+    /// Write sweep.html too: each result over each parameter, and a table of the members.
+    #[arg(long)]
+    page: bool,
+    /// With --page: members whose outputs are drawn over time, spread over the sweep; they run once more. At most 24. Default: none.
+    #[arg(long, value_name = "N", requires = "page", value_parser = clap::value_parser!(u32).range(1..=24))]
+    traces: Option<u32>,
     /// Discard the runs that an earlier start left in the directory.
     #[arg(long)]
     restart: bool,
@@ -92,12 +100,37 @@ fn run(arguments: &Arguments) -> Result<(Report, PathBuf), Refusal> {
     let study = Study::new(document.clone(), &sweep, &overrides);
     let study = study.map_err(|error| refused(&error, &document))?;
     let out = arguments.out();
-    let files = ["table.csv", "table.parquet", "sweep.journal"];
+    let files = ["table.csv", "table.parquet", PAGE, "sweep.journal"];
     let _folder = files::folder(&out, &files)?;
     let mut bar = Bar::new(study.n_members(), arguments.json);
     let report = study.run(&out, arguments.threads, arguments.restart, &mut bar);
     bar.0.finish_and_clear();
-    Ok((report.map_err(|error| not_run(&error, &out))?, out))
+    let report = report.map_err(|error| not_run(&error, &out))?;
+    if arguments.page {
+        write_page(&study, &report, &out, arguments)?;
+    }
+    Ok((report, out))
+}
+
+/// The page of a sweep in its directory.
+const PAGE: &str = "sweep.html";
+
+fn write_page(
+    study: &Study,
+    report: &Report,
+    out: &Path,
+    arguments: &Arguments,
+) -> Result<(), Refusal> {
+    let n = study.n_members();
+    let wanted = usize::try_from(arguments.traces.unwrap_or(0)).unwrap_or(n).min(n);
+    let spread = (0..wanted).map(|i| i * (n - 1) / (wanted - 1).max(1));
+    let rows = spread.filter_map(|i| Some((format!("member {}", i + 1), study.member_rows(i)?)));
+    let (scene, sweep) = (arguments.scene.display(), arguments.sweep.display());
+    let command = format!("mbs sweep {scene} {sweep} --page");
+    let title = format!("{}: {} members", label(&arguments.sweep), n);
+    let traces: Vec<_> = rows.collect();
+    let page = sweep_page((&title, &command), study.columns(), report, &traces);
+    files::write(&out.join(PAGE), page.as_bytes(), None).map_err(Refusal::stopped)
 }
 
 fn refused(error: &StudyError, scene: &SceneFile) -> Refusal {
@@ -126,7 +159,10 @@ fn not_run(error: &SweepError, out: &Path) -> Refusal {
 
 /// JSON or text; the exit status says whether all members were completed.
 fn write_results(report: &Report, out: &Path, arguments: &Arguments) -> ExitCode {
-    let text = if arguments.json { json(report, arguments) } else { text(report, out) };
+    let text = match arguments.json {
+        true => json(report, arguments),
+        false => text(report, out, arguments.page),
+    };
     let is_run = report.resumed < report.members;
     let asked = arguments.threads.filter(|_| is_run).map_or(0, NonZeroUsize::get);
     if let Some(note) = words::few_threads(asked, report.threads) {
@@ -160,7 +196,7 @@ fn json(report: &Report, arguments: &Arguments) -> String {
     .to_string()
 }
 
-fn text(report: &Report, out: &Path) -> String {
+fn text(report: &Report, out: &Path, has_page: bool) -> String {
     let mut text =
         format!("{} of {} completed\n", report.completed, counted(report.members, "member"));
     if report.resumed > 0 {
@@ -180,8 +216,8 @@ fn text(report: &Report, out: &Path) -> String {
             counted(report.threads, "thread"),
         );
     }
-    let names: Vec<_> =
-        report.tables.iter().filter_map(|path| path.file_name()?.to_str()).collect();
+    let tables = report.tables.iter().filter_map(|path| path.file_name()?.to_str());
+    let names: Vec<_> = tables.chain(has_page.then_some(PAGE)).collect();
     if !names.is_empty() {
         text += &format!("wrote {} to {}\n", names.join(" and "), out.display());
     }

@@ -2,7 +2,7 @@
 
 use crate::report::{Report, Section, row, wrapped};
 use core::fmt::Write;
-use mbs::record::Provenance;
+use mbs::record::{Provenance, RecordedMotion};
 use mbs_core::scene::{Entry, Scene};
 use mbs_scene::format::{counted, few, significant, size};
 use mbs_study::doctor::{Checkup, Finding, labels};
@@ -17,24 +17,33 @@ const WIDTH: usize = 110;
 /// Where an entry's key stands in the scene file.
 type Line<'a> = &'a dyn Fn(Entry, &str) -> Option<usize>;
 
-/// The page of a checkup, and its text for a terminal.
+/// The page of a checkup, with the scene at its start where it has one, and its text for a terminal.
 #[must_use]
 pub fn report(
     scene: &Scene<f64>,
     checkup: &Checkup,
     line: Line<'_>,
-    provenance: Provenance,
+    (start_view, provenance): (Option<RecordedMotion>, Provenance),
 ) -> (Report, String) {
     let mut sections = vec![findings(checkup, line), what(checkup)];
     sections.extend(sets(checkup));
     sections.push(reactions(checkup));
-    sections.extend(loops(checkup));
-    sections.extend(motion(checkup));
-    sections.extend(start(scene, checkup));
+    sections.extend(loops(checkup).map(Section::folded));
+    sections.extend(motion(checkup).map(Section::folded));
+    sections.extend(start(scene, checkup).map(Section::folded));
     let title = format!("{}: {}", checkup.scene, verdict(checkup));
-    let report = Report { title, error: None, sections, provenance };
+    let motion = start_view.map(|motion| with_named(motion, checkup));
+    let report = Report { title, sections, motion, provenance, ..Report::default() };
     let text = report.text() + &sentences(checkup, line);
     (report, text)
+}
+
+/// The picture with the names of those joints alone that findings name.
+fn with_named(mut motion: RecordedMotion, c: &Checkup) -> RecordedMotion {
+    let found: Vec<&str> =
+        c.findings.iter().flat_map(|f| &f.joints).map(|&j| c.joints[j].as_str()).collect();
+    motion.joints.retain(|joint| found.contains(&joint.name.as_str()));
+    motion
 }
 
 /// The whole in a few words.

@@ -12,19 +12,20 @@ use mbs_study::explain::{
 #[must_use]
 pub fn report(explanation: &Explanation, provenance: Provenance) -> Report {
     let mut sections = vec![simulated(explanation)];
-    sections.extend(effects(explanation));
-    sections.push(absent(explanation));
-    sections.extend(explanation.choice.as_ref().map(candidates));
+    sections.extend(effects(explanation).map(Section::folded));
+    sections.push(absent(explanation).folded());
+    sections.extend(explanation.choice.as_ref().map(candidates).map(Section::folded));
     if let Some(prices) = &explanation.prices {
         sections.push(whole(prices));
         sections.extend(price_list("Cost of each effect", &prices.effects, prices));
         sections.extend(price_list("Cost of effects of a kind together", &prices.kinds, prices));
-        sections.extend(changes(prices));
+        sections.extend(changes(prices).map(Section::folded));
     }
     Report {
         title: format!("{}: what is simulated", explanation.scene),
         error: explanation.error.as_ref().map(|error| format!("stopped {}", stop_text(error))),
         sections,
+        motion: None,
         provenance,
     }
 }

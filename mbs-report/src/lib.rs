@@ -10,5 +10,5 @@ mod table;
 pub use compare::comparison_page;
 pub use diagnosis::report as diagnosis;
 pub use explanation::report as explanation;
-pub use page::page;
+pub use page::{difference_page, paced_page, page, plots_page, sweep_page};
 pub use report::{Report, Section};

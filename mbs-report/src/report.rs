@@ -1,10 +1,10 @@
 //! A report: titled tables, for the terminal as text and for a browser as one HTML file.
 
-use crate::page::{Page, PageSection};
+use crate::page::{Page, PageSection, still_view};
 pub use crate::table::Section;
 pub(crate) use crate::table::{row, wrapped};
 use core::fmt::Write;
-use mbs::record::Provenance;
+use mbs::record::{Provenance, RecordedMotion};
 
 /// What stands in a report.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -15,6 +15,8 @@ pub struct Report {
     pub error: Option<String>,
     /// The tables, in order.
     pub sections: Vec<Section>,
+    /// What is drawn below the first table, with the names of bodies and joints.
+    pub motion: Option<RecordedMotion>,
     /// How it was made.
     pub provenance: Provenance,
 }
@@ -41,14 +43,19 @@ impl Report {
         out
     }
 
-    /// As one HTML file without references to anything outside; it needs no script.
+    /// As one HTML file without references to anything outside. Tables need no script; those that are folded stand last.
     #[must_use]
     pub fn page(&self) -> String {
         let error = self.error.as_ref().map(|error| PageSection::Error(format!("The run {error}")));
-        let tables = self.sections.iter().cloned().map(PageSection::Table);
-        let made = PageSection::Table(Section::made(self.provenance.rows()));
-        let sections = error.into_iter().chain(tables).chain([made]).collect();
-        Page { title: self.title.clone(), sections, pack: None }.html()
+        let (folded, open): (Vec<_>, Vec<_>) =
+            self.sections.iter().filter(|s| !s.rows.is_empty()).cloned().partition(|s| s.is_folded);
+        let mut tables = open.into_iter().chain(folded).map(PageSection::of);
+        let mut sections: Vec<_> = error.into_iter().chain(tables.next()).collect();
+        let (view, pack) = self.motion.as_ref().and_then(still_view).unzip();
+        sections.extend(view);
+        sections.extend(tables);
+        sections.push(PageSection::of(Section::made(self.provenance.rows()).folded()));
+        Page { title: self.title.clone(), sections, pack }.html()
     }
 }
 
@@ -63,10 +70,10 @@ mod tests {
             head: vec!["effect".into(), "share".into()],
             rows: vec![vec!["a <b>".into(), "5 %".into()], vec!["c".into()]],
             bars: Some((1, vec![0.05])),
-            is_detail: false,
+            ..Section::default()
         };
         let provenance = Provenance { command: "mbs explain a.toml".into(), ..Default::default() };
-        Report { title: "x < y".into(), error: None, sections: vec![section], provenance }
+        Report { title: "x < y".into(), sections: vec![section], provenance, ..Report::default() }
     }
 
     #[test]
@@ -77,6 +84,18 @@ mod tests {
         }
         assert!(html.contains("<title>x &lt; y</title>") && html.contains("a &lt;b&gt;"));
         assert!(html.contains("width:5.0%") && html.contains("mbs explain a.toml"));
+    }
+
+    #[test]
+    fn what_is_folded_stands_last_under_its_title() {
+        let mut report = report();
+        report.sections[0].is_folded = true;
+        let rows = vec![vec!["open".into()]];
+        report.sections.push(Section { title: "second".into(), rows, ..Section::default() });
+        let html = report.page();
+        let place = |text: &str| html.find(text).unwrap_or_else(|| panic!("no `{text}`"));
+        let order = ["<h2>second</h2>", "<summary>price", "<summary>How"].map(place);
+        assert!(order.is_sorted(), "{order:?}");
     }
 
     #[test]

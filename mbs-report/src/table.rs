@@ -18,6 +18,8 @@ pub struct Section {
     pub bars: Option<(usize, Vec<f64>)>,
     /// Stands on the page only.
     pub is_detail: bool,
+    /// Is folded under its title on the page.
+    pub is_folded: bool,
 }
 
 /// A label and its value as a row.
@@ -36,6 +38,11 @@ impl Section {
     pub(crate) fn made<'a>(rows: impl Iterator<Item = [&'a str; 2]>) -> Self {
         let rows = rows.map(|[label, value]| row(label, value.to_owned()));
         Self::new("How this was made", &[], rows.collect())
+    }
+
+    /// The same, folded on a page.
+    pub(crate) fn folded(self) -> Self {
+        Self { is_folded: true, ..self }
     }
 
     pub(crate) fn write_text(&self, out: &mut String) {
@@ -58,7 +65,11 @@ impl Section {
         if self.rows.is_empty() {
             return;
         }
-        let _ = writeln!(out, "<section class=\"card\"><h2>{}</h2>", escape(&self.title));
+        let title = match self.title.as_str() {
+            "" => String::new(),
+            title => format!("<h2>{}</h2>", escape(title)),
+        };
+        let _ = writeln!(out, "<section class=\"card\">{title}");
         let class = if self.head.is_empty() { "" } else { " class=\"grid\"" };
         let _ = writeln!(out, "<div class=\"wide\"><table{class}>");
         if !self.head.is_empty() {

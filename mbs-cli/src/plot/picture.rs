@@ -17,7 +17,7 @@ const TEXT: [u32; 3] = [13, 70, 38];
 /// Digits of the numbers of an axis [-]. Chosen, not tuned.
 const AXIS_DIGITS: usize = 6;
 /// Colours of the runs, one after the other: apart for those who see few colours (Okabe and Ito).
-const COLOURS: [RGBColor; 6] = [
+pub(super) const COLOURS: [RGBColor; 6] = [
     RGBColor(0, 114, 178),
     RGBColor(213, 94, 0),
     RGBColor(0, 158, 115),
@@ -27,7 +27,7 @@ const COLOURS: [RGBColor; 6] = [
 ];
 
 /// A number of an axis, without zeros at its end.
-fn number(x: f64) -> String {
+pub(super) fn number(x: f64) -> String {
     significant(rounded(x, AXIS_DIGITS))
 }
 
@@ -135,7 +135,7 @@ fn shown(points: &[(f64, f64)], is_log: bool) -> Vec<(f64, f64)> {
 }
 
 /// The range of an axis over these values.
-fn range(values: impl Iterator<Item = f64>) -> core::ops::Range<f64> {
+pub(super) fn range(values: impl Iterator<Item = f64>) -> core::ops::Range<f64> {
     let ends = [f64::INFINITY, f64::NEG_INFINITY];
     let [low, high] = values.fold(ends, |[low, high], x| [low.min(x), high.max(x)]);
     if low > high {

@@ -84,7 +84,9 @@ fn a_method_that_fails_stays_with_its_reason() {
         ["--formulation", "classical,index-3", "--precision", "f64", "--duration", "0.5"];
     let more = ["--steps", "1e-2,5e-3", "--tolerances", "1e-4", "--no-maps"];
     let out = scratch("failure");
-    let place = ["--out", out.to_str().expect("UTF-8"), "--json"];
+    let figure = out.join("figure.svg");
+    let [out_text, figure] = [&out, &figure].map(|path| path.to_str().expect("UTF-8"));
+    let place = ["--out", out_text, "--json", "--figure", figure];
     let found = json(&compare("spatial-four-bar", &[&arguments[..], &more, &place].concat()));
     let classical = method(&found, "classical, f64");
     let run = &classical["runs"][0];
@@ -95,6 +97,8 @@ fn a_method_that_fails_stays_with_its_reason() {
     let read = |file| std::fs::read_to_string(out.join(file)).expect("it is written");
     assert!(read("compare.csv").contains(",failed,rank-lost,"));
     assert!(read("compare.html").contains("rank-lost"));
+    let svg = read("figure.svg");
+    assert!(svg.starts_with("<svg") && svg.contains("index-3, f64") && svg.contains("CPU time"));
 }
 
 #[test]

@@ -34,6 +34,20 @@ fn a_run_is_within_nothing_of_itself_and_a_coarser_one_is_not() {
 }
 
 #[test]
+fn the_page_of_a_difference_has_both_lines_their_difference_and_the_peaks() {
+    let [fine, coarse] = [folder("page-fine", "1e-3"), folder("page-coarse", "2e-3")];
+    let page = plain(Path::new(env!("CARGO_TARGET_TMPDIR")).join("diff.html"));
+    let output = run("diff", &[&fine, &coarse, "--within", "1e-9", "--out", &page]);
+    assert_eq!(status(&output), 2, "{}", text(&output.stderr));
+    let html = std::fs::read_to_string(page).expect("it was written");
+    assert!(html.contains("crank-angle: difference") && html.contains("<h2>Peaks</h2>"));
+    assert!(html.contains("differ by more than 1e-9"));
+    let output = run("diff", &[&fine, &coarse, "--out", "difference.pdf"]);
+    assert_eq!(status(&output), 1);
+    assert!(text(&output.stderr).contains(".html"), "{}", text(&output.stderr));
+}
+
+#[test]
 fn a_folder_and_its_scene_have_the_same_numbers() {
     let text = std::fs::read_to_string(scene("slider-crank")).expect("a scene");
     let file = written("diff-own.toml", &text);

@@ -41,6 +41,26 @@ fn one_column_is_drawn_over_another() {
 }
 
 #[test]
+fn a_page_has_a_panel_for_each_column_and_stands_alone() {
+    let html = plotted("plot-page.html", &[]);
+    let columns =
+        plotted("plot-columns.csv", &[]).lines().next().expect("a header").split(',').count() - 2;
+    assert_eq!(html.matches("data-panel=").count(), columns);
+    for word in ["http:", "https:", "src=", "@import"] {
+        assert!(!html.replace("http://www.w3.org/2000/svg", "").contains(word), "{word}");
+    }
+}
+
+#[test]
+fn a_vector_is_no_axis() {
+    let scene = scene("double-pendulum");
+    let arguments = [&scene, "--out", "none.html", "--xy", "tip.x", "tip"];
+    let output = run("plot", &arguments);
+    assert_eq!(status(&output), 1);
+    assert!(text(&output.stderr).contains("name one of"), "{}", text(&output.stderr));
+}
+
+#[test]
 fn other_endings_and_unknown_channels_are_refused() {
     let scene = scene("slider-crank");
     for (arguments, why) in [

@@ -55,6 +55,21 @@ fn any_number_of_threads_gives_the_same_table() {
 }
 
 #[test]
+fn the_page_of_a_sweep_has_a_diagram_for_each_result_and_parameter() {
+    let out = scratch("page");
+    let (_, rows) = table(&out, MASSES, &["--page", "--traces", "3"]);
+    let html = std::fs::read_to_string(out.join("sweep.html")).expect("the page is there");
+    // three columns for each output: the end, the least, the largest
+    let outputs = rows[0].split(',').filter(|name| name.ends_with(".min")).count();
+    assert!(outputs > 0);
+    assert_eq!(html.matches("data-diagram=").count(), 2 * outputs);
+    assert_eq!(html.matches("data-panel=").count(), outputs);
+    assert!(html.contains("Traces of 3 members") && html.contains("<summary>Members"));
+    let refused = sweep(&[&scene("double-pendulum"), "sweep.toml", "--traces", "3"]);
+    assert_eq!(status(&refused), 1, "traces are drawn on a page");
+}
+
+#[test]
 fn a_member_is_the_run_of_the_scene_with_its_numbers() {
     let out = scratch("member");
     let text = "[[vary]]\npath = 'body.lower.mass'\nvalues = [2.5]\n";

@@ -17,21 +17,30 @@ pub(super) fn work_precision(c: &Comparison) -> String {
         let first: Vec<String> =
             level.ranks.iter().filter(|r| r.rank == 1).map(|r| r.name.clone()).collect();
         let Some(best) = level.ranks.first() else { continue };
-        let equal = if first.len() > 1 { " (called equal)" } else { "" };
+        let take = if first.len() > 1 { "(called equal) take" } else { "takes" };
         text += &format!(
-            "At an error of {:.0e} {}{equal} takes least, {}. ",
+            "At an error of {:.0e} {} {take} least, {}. ",
             level.error,
-            first.join(" and "),
+            first.join(", "),
             seconds(level.ranks.iter().map(|r| r.seconds).fold(best.seconds, f64::min))
         );
     }
     let (failed, not_run) = (count(Status::Failed), count(Status::NotRun));
-    text += &format!(
-        "{} runs were completed; {failed} failed and stand on the rail at the right, at the CPU time they had spent; {not_run} were not \
-         made and are in the table of all runs. Further left is more accurate, further down is cheaper",
-        count(Status::Completed)
-    );
-    text + "; below the line of real time a method keeps up with the clock."
+    text += &format!("{} runs were completed", count(Status::Completed));
+    if failed > 0 {
+        text += &format!(
+            "; {failed} failed and stand on the rail at the right, at the CPU time they had spent"
+        );
+    }
+    if not_run > 0 {
+        text += &format!("; {not_run} were not made and are in the table of all runs");
+    }
+    text += ". Further left is more accurate, further down is cheaper";
+    let is_slow = |run: &&RunEntry| run.cpu_least.is_some_and(|cpu| cpu > c.compared);
+    text + match all().any(|run| is_slow(&run)) {
+        true => "; below the line of real time a method keeps up with the clock.",
+        false => "; all keep up with the clock.",
+    }
 }
 
 pub(super) fn orders(c: &Comparison) -> String {

@@ -1,75 +1,64 @@
-//! The page of a comparison: one self-contained HTML file.
+//! The page of a comparison: the work-precision diagram and the ranks, all else folded.
 
 use super::captions;
-use super::plots::{Look, Panel, looks, panels};
-use crate::page::{STYLE, escape, fill};
-use crate::report::Section;
-use mbs_study::compare::results::{Comparison, ConvergenceMap};
-use serde::Serialize;
+use super::plots::{looks, panels};
+use super::text::Tables;
+use crate::page::{DiagramFrame, Pack, Page, PageSection};
+use crate::table::Section;
+use mbs_study::compare::results::Comparison;
+use serde_json::json;
 
-const TEMPLATE: &str = include_str!("page.html");
-const PLOT: &str = include_str!("plot.js");
-const SCRIPT: &str = include_str!("page.js");
-const OWN_STYLE: &str = include_str!("page.css");
-
-#[derive(Serialize)]
-struct Data<'a> {
-    scene: &'a str,
-    methods: Vec<Look>,
-    panels: Vec<Panel>,
-    maps: Vec<Map<'a>>,
-}
-
-#[derive(Serialize)]
-struct Map<'a> {
-    #[serde(flatten)]
-    map: &'a ConvergenceMap,
-    caption: String,
-}
+/// Says how lines differ.
+const KEY: &str = "Mark and colour: integrator; dash: formulation; filled: fixed steps, hollow: controlled steps; thin: single precision. \
+                   Click a name to hide or show its lines in all diagrams.";
 
 /// Writes the page of a comparison that was digested: one HTML file without references to anything outside.
 #[must_use]
 pub fn comparison_page(comparison: &Comparison) -> String {
-    let data = Data {
-        scene: &comparison.scene,
-        methods: looks(comparison),
-        panels: panels(comparison),
-        maps: comparison.maps.iter().map(|map| Map { map, caption: captions::map(map) }).collect(),
+    let tables = Tables(comparison);
+    let panels = panels(comparison);
+    let mut frames: Vec<_> = panels.iter().enumerate().map(|(i, panel)| panel.frame(i)).collect();
+    let rest = frames.split_off(1);
+    for frame in &mut frames {
+        frame.caption = format!("{} {KEY}", frame.caption);
+    }
+    let maps = comparison.maps.iter().enumerate().map(|(number, map)| DiagramFrame {
+        place: ("map", number),
+        title: format!("Convergence: {}, {}", map.formulation, map.precision),
+        caption: captions::map(map),
+        has_keys: false,
+    });
+    let maps: Vec<_> = maps.collect();
+    let mut sections: Vec<_> = tables.unverified().map(PageSection::Error).into_iter().collect();
+    sections.push(PageSection::Diagrams(frames));
+    sections.push(PageSection::Tables(tables.levels()));
+    sections.extend(tables.choices().map(PageSection::Table));
+    let fold = |title: &str, frames| {
+        PageSection::Fold(title.to_owned(), vec![PageSection::Diagrams(frames)])
     };
-    // all keys are texts and the sink is memory: serialisation has nothing to fail on
-    let data = serde_json::to_string(&data).unwrap_or_default();
-    // `<` inside a text of the data must not end the script element it stands in
-    let data = data.replace('<', "\\u003c");
-    let report = super::text::report(comparison);
-    let cards = |is_wanted: fn(&Section) -> bool| {
-        let mut out = String::new();
-        for section in report.sections.iter().filter(|s| is_wanted(s)) {
-            section.write_card(&mut out);
-        }
-        out
-    };
-    let mut origin = String::new();
-    Section::made(comparison.provenance.rows()).write_card(&mut origin);
-    let is_rank: fn(&Section) -> bool = |s| s.title.starts_with("Fastest");
-    let is_rest: fn(&Section) -> bool = |s| !s.title.starts_with("Fastest");
-    fill(
-        TEMPLATE,
-        &[
-            ("{{title}}", &escape(&report.title)),
-            ("{{style}}", &[STYLE, OWN_STYLE].concat()),
-            ("{{heading}}", &escape(&report.title)),
-            ("{{ranking}}", &cards(is_rank)),
-            ("{{tables}}", &cards(is_rest)),
-            ("{{origin}}", &origin),
-            ("{{data}}", &data),
-            ("{{script}}", &[PLOT, SCRIPT].concat()),
-        ],
-    )
+    let folded = |section: Section| PageSection::of(section.folded());
+    sections.push(folded(tables.basis()));
+    sections.push(fold("Errors, times, energy and violation", rest));
+    if !maps.is_empty() {
+        sections.push(fold("Convergence over step and penalty", maps));
+    }
+    sections.push(folded(tables.by_method()));
+    sections.extend(tables.failures().map(folded));
+    sections.push(folded(tables.all_runs()));
+    sections.push(folded(Section::made(comparison.provenance.rows())));
+    let diagrams = json!({ "looks": looks(comparison), "panels": panels, "maps": comparison.maps });
+    Page {
+        title: tables.title(),
+        sections,
+        pack: Some(Pack::default().text(json!({ "diagrams": diagrams }))),
+    }
+    .html()
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::page::tests::data;
     use mbs::record::RunError;
     use mbs_study::compare::results::{MethodRuns, RunEntry, Status};
 
@@ -113,17 +102,44 @@ mod tests {
         for word in ["http:", "https:", "src=", "@import", "url(", "index-3 <x>"] {
             assert!(!links.contains(word), "{word}");
         }
-        assert_eq!(html.matches("</script>").count(), 2);
+        assert_eq!(html.matches("</script>").count(), 3);
     }
 
     #[test]
     fn a_failed_run_is_drawn_on_the_rail() {
-        let html = page();
-        let start = html.find("id=\"data\">").unwrap() + "id=\"data\">".len();
-        let end = start + html[start..].find("</script>").unwrap();
-        let data: serde_json::Value = serde_json::from_str(&html[start..end]).unwrap();
-        let line = &data["panels"][0]["lines"][0];
+        let (data, _) = data(&page());
+        let line = &data["diagrams"]["panels"][0]["lines"][0];
         assert_eq!(line["points"].as_array().unwrap().len(), 2);
         assert!(line["failed"][0][1].as_str().unwrap().contains("rank-lost"));
+    }
+
+    #[test]
+    fn the_diagram_is_first_then_the_ranks_and_runs_are_folded() {
+        let html = page();
+        let place = |text: &str| html.find(text).unwrap_or_else(|| panic!("no `{text}`"));
+        let order = ["data-diagram=\"0\"", "Fastest at", "<details", "All runs"].map(place);
+        assert!(order.is_sorted(), "{order:?}");
+        let before = &html[..place("<details")];
+        assert_eq!(before.matches("<figure").count(), 1);
+    }
+
+    #[test]
+    fn integrators_have_colours_and_marks_of_their_own() {
+        let method = |formulation: &str, integrator: &str| MethodRuns {
+            name: format!("{formulation} {integrator}"),
+            formulation: formulation.into(),
+            integrator: integrator.into(),
+            ..MethodRuns::default()
+        };
+        let rule = "trapezoidal";
+        let mut methods = vec![method("index-3", rule), method("recursive", rule)];
+        let own = ["rk4", "rk54", "rk853", "gbs", "radau5"];
+        methods.extend(own.map(|integrator| method("recursive", integrator)));
+        let comparison = Comparison { methods, ..Comparison::default() };
+        let (data, _) = data(&comparison_page(&comparison));
+        let looks = data["diagrams"]["looks"].as_array().unwrap();
+        let kinds: Vec<_> = looks.iter().map(|look| look["kind"].as_u64().unwrap()).collect();
+        assert_eq!(kinds, [0, 0, 1, 2, 3, 4, 5]);
+        assert_ne!(looks[0]["dash"], looks[1]["dash"]);
     }
 }

@@ -2,74 +2,44 @@
 
 use super::captions;
 use super::text::{per_step, reason, seconds, short};
+use crate::page::{Diagram, DiagramLine, Look};
 use mbs_scene::format::rounded;
 use mbs_study::compare::results::{Comparison, MethodRuns, RunEntry, Status};
-use serde::Serialize;
 
 /// Significant digits of what is drawn: a screen resolves four.
 const DIGITS: usize = 5;
-/// Colours and marks of the page: those of its style.
+/// Colours and marks of the page, and dashes: those of its style.
 const KINDS: usize = 6;
-
-/// How the lines of a method look: distinguished by mark and dash as well as by colour.
-#[derive(Debug, Serialize)]
-pub(super) struct Look {
-    name: String,
-    /// By formulation: colour and mark.
-    kind: usize,
-    /// By control and integrator.
-    dash: usize,
-    /// Marks are filled in double precision.
-    is_filled: bool,
-    is_shown: bool,
-}
-
-/// A diagram with logarithmic axes.
-#[derive(Debug, Default, Serialize)]
-pub(super) struct Panel {
-    title: &'static str,
-    /// Names of the axes with their units.
-    axes: [&'static str; 2],
-    caption: String,
-    lines: Vec<Line>,
-    /// Horizontal lines: value and name.
-    across: Vec<(f64, &'static str)>,
-    /// Vertical lines: value and name.
-    upright: Vec<(f64, &'static str)>,
-    /// What lies on the rail: at the top or at the right.
-    rail: &'static str,
-    /// A line through the points without marks: a histogram.
-    is_plain: bool,
-    is_wide: bool,
-}
-
-#[derive(Debug, Default, Serialize)]
-struct Line {
-    /// Index of the method.
-    method: usize,
-    /// Points: x, y, and what is said of them.
-    points: Vec<(f64, f64, String)>,
-    /// Runs that stopped: x or y along the rail, and why.
-    failed: Vec<(f64, String)>,
-    /// What the legend adds.
-    note: String,
-}
 
 /// Looks of all methods. Single precision is hidden at first where there is double.
 pub(super) fn looks(comparison: &Comparison) -> Vec<Look> {
     let has_f64 = comparison.methods.iter().any(|m| m.precision == "f64");
-    let look = |m: &MethodRuns| Look {
-        name: m.name.clone(),
-        kind: m.look % KINDS,
-        dash: match (m.integrator.as_str(), m.control.as_str()) {
-            ("rk4", _) => 3,
-            ("rk853" | "gbs" | "radau5", _) => 4,
-            ("rk54", _) | (_, "energy") => 2,
-            (_, "error") => 1,
-            _ => 0,
-        },
-        is_filled: m.precision != "f32",
-        is_shown: m.precision != "f32" || !has_f64,
+    let [mut integrators, mut formulations] = [const { Vec::<&str>::new() }; 2];
+    for m in &comparison.methods {
+        for (names, name) in
+            [(&mut integrators, &m.integrator), (&mut formulations, &m.formulation)]
+        {
+            if !names.contains(&name.as_str()) {
+                names.push(name);
+            }
+        }
+    }
+    let place = |names: &[&str], name: &str| names.iter().position(|n| *n == name).unwrap_or(0);
+    let look = |m: &MethodRuns| {
+        let (is_fixed, is_single) = (m.control == "fixed", m.precision == "f32");
+        Look {
+            name: m.name.clone(),
+            kind: place(&integrators, &m.integrator) % KINDS,
+            // the last one, recursive, has most lines: they are solid
+            dash: (formulations.len() - 1 - place(&formulations, &m.formulation)) % KINDS,
+            is_filled: is_fixed,
+            is_thin: is_single,
+            is_shown: !is_single || !has_f64,
+            groups: vec![
+                if is_single { "single precision" } else { "double precision" },
+                if is_fixed { "fixed steps" } else { "controlled steps" },
+            ],
+        }
     };
     comparison.methods.iter().map(look).collect()
 }
@@ -77,13 +47,13 @@ pub(super) fn looks(comparison: &Comparison) -> Vec<Look> {
 type Value = fn(&RunEntry) -> Option<f64>;
 
 /// All diagrams.
-pub(super) fn panels(comparison: &Comparison) -> Vec<Panel> {
+pub(super) fn panels(comparison: &Comparison) -> Vec<Diagram> {
     let error: Value = |run| run.error;
     let step = "mean step [s]";
     let mut panels = vec![work_precision(comparison)];
     let mut errors = against_step(comparison, error);
     for line in &mut errors.lines {
-        let fit = comparison.methods[line.method].fit.clone().unwrap_or_default();
+        let fit = comparison.methods[line.look].fit.clone().unwrap_or_default();
         if let Some(order) = fit.order {
             line.note = format!("order {order:.2}");
         }
@@ -91,16 +61,16 @@ pub(super) fn panels(comparison: &Comparison) -> Vec<Panel> {
             line.note += &format!(" rounding below {} s", short(below));
         }
     }
-    panels.push(Panel {
-        title: "Error against step",
-        axes: [step, "error [-]"],
+    panels.push(Diagram {
+        title: "Error against step".to_owned(),
+        axes: axes(step, "error [-]"),
         caption: captions::orders(comparison),
         across: floor(comparison),
         ..errors
     });
-    let of = |title, axis, caption, value: Value| Panel {
-        title,
-        axes: [step, axis],
+    let of = |title: &str, axis, caption, value: Value| Diagram {
+        title: title.to_owned(),
+        axes: axes(step, axis),
         caption,
         ..against_step(comparison, value)
     };
@@ -123,40 +93,45 @@ pub(super) fn panels(comparison: &Comparison) -> Vec<Panel> {
     panels
 }
 
+fn axes(across: &str, up: &str) -> [String; 2] {
+    [across.to_owned(), up.to_owned()]
+}
+
 fn floor(comparison: &Comparison) -> Vec<(f64, &'static str)> {
     let floor = comparison.floor();
     if floor > 0.0 { vec![(floor, "below: not resolved by the reference")] } else { vec![] }
 }
 
-fn work_precision(comparison: &Comparison) -> Panel {
-    let lines = comparison.methods.iter().enumerate().map(|(method, m)| Line {
-        method,
+fn work_precision(comparison: &Comparison) -> Diagram {
+    let lines = comparison.methods.iter().enumerate().map(|(look, m)| DiagramLine {
+        look,
         points: points(m, |run| run.error, |run| run.cpu_least),
         failed: failed(m, |run| run.clocked_seconds),
         note: String::new(),
     });
-    Panel {
-        title: "Work and precision",
-        axes: ["error [-]", "CPU time [s]"],
+    Diagram {
+        title: "Work and precision".to_owned(),
+        axes: axes("error [-]", "CPU time [s]"),
         caption: captions::work_precision(comparison),
         lines: lines.collect(),
         across: vec![(comparison.compared, "real time")],
         upright: floor(comparison),
         rail: "right",
-        is_wide: true,
-        ..Panel::default()
+        is_log: [true; 2],
+        has_keys: true,
+        ..Diagram::default()
     }
 }
 
-fn against_step(comparison: &Comparison, value: Value) -> Panel {
-    let lines = comparison.methods.iter().enumerate().map(|(method, m)| Line {
-        method,
+fn against_step(comparison: &Comparison, value: Value) -> Diagram {
+    let lines = comparison.methods.iter().enumerate().map(|(look, m)| DiagramLine {
+        look,
         points: points(m, |run| Some(run.mean_step), value),
         // a run that stopped at once has no mean step; a fixed one has the step it was asked for
         failed: failed(m, |run| if m.control == "fixed" { run.setting } else { run.mean_step }),
         note: String::new(),
     });
-    Panel { lines: lines.collect(), rail: "top", ..Panel::default() }
+    Diagram { lines: lines.collect(), rail: "top", is_log: [true; 2], ..Diagram::default() }
 }
 
 fn points(m: &MethodRuns, x: Value, y: Value) -> Vec<(f64, f64, String)> {
@@ -197,8 +172,8 @@ fn tooltip(m: &MethodRuns, run: &RunEntry) -> String {
 }
 
 /// Times of single steps, of the run of each method whose mean step is nearest to the middle one of its runs.
-fn histogram(comparison: &Comparison) -> Panel {
-    let line = |(method, m): (usize, &MethodRuns)| {
+fn histogram(comparison: &Comparison) -> Diagram {
+    let line = |(look, m): (usize, &MethodRuns)| {
         let run = captions::typical(m)?;
         let times = run.step_times.as_ref()?;
         let n: u64 = times.classes.iter().map(|(_, n)| n).sum();
@@ -216,14 +191,15 @@ fn histogram(comparison: &Comparison) -> Panel {
             (rounded(from, DIGITS), rounded(share(k), DIGITS), text(from, share(k)))
         };
         let points = times.classes.iter().map(point).collect();
-        Some(Line { method, points, ..Line::default() })
+        Some(DiagramLine { look, points, ..DiagramLine::default() })
     };
-    Panel {
-        title: "Times of single steps",
-        axes: ["CPU time of a step [s]", "fraction of the steps [%]"],
+    Diagram {
+        title: "Times of single steps".to_owned(),
+        axes: axes("CPU time of a step [s]", "fraction of the steps [%]"),
         caption: captions::histogram(comparison),
         lines: comparison.methods.iter().enumerate().filter_map(line).collect(),
         is_plain: true,
-        ..Panel::default()
+        is_log: [true; 2],
+        ..Diagram::default()
     }
 }

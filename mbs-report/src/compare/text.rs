@@ -15,12 +15,12 @@ pub fn report(comparison: &Comparison) -> Report {
 }
 
 /// What the tables are of.
-struct Tables<'a>(&'a Comparison);
+pub(super) struct Tables<'a>(pub(super) &'a Comparison);
 
 impl Tables<'_> {
     fn report(&self) -> Report {
         let mut sections = vec![self.basis()];
-        sections.extend(self.0.ranking.iter().map(|level| self.level(level)));
+        sections.extend(self.levels());
         sections.extend(self.choices());
         sections.push(self.by_method());
         sections.extend(self.failures());
@@ -32,16 +32,26 @@ impl Tables<'_> {
             cpu: origin.cpu.clone(),
             ..Provenance::default()
         };
-        Report {
-            title: format!("{}: methods compared", self.0.scene),
-            error: None,
-            sections,
-            provenance,
-        }
+        Report { title: self.title(), sections, provenance, ..Report::default() }
+    }
+
+    pub(super) fn title(&self) -> String {
+        format!("{}: methods compared", self.0.scene)
+    }
+
+    /// Why no rank should be trusted, if that is so.
+    pub(super) fn unverified(&self) -> Option<String> {
+        let notes = self.0.notes.join("; ");
+        (!self.0.reference.is_verified).then(|| format!("The reference is not verified. {notes}"))
+    }
+
+    /// The ranks at each error.
+    pub(super) fn levels(&self) -> Vec<Section> {
+        self.0.ranking.iter().map(|level| Self::level(level)).collect()
     }
 
     /// What is compared, against what.
-    fn basis(&self) -> Section {
+    pub(super) fn basis(&self) -> Section {
         let r = &self.0.reference;
         let [compared, whole] = [self.0.compared, self.0.duration].map(significant);
         let interval = significant(rounded(self.0.interval, 4));
@@ -86,7 +96,7 @@ impl Tables<'_> {
         Section::new("What is compared", &[], rows)
     }
 
-    fn level(&self, level: &RankLevel) -> Section {
+    fn level(level: &RankLevel) -> Section {
         let title = format!("Fastest at an error of {:.0e}", level.error);
         let row = |r: &mbs_study::compare::results::Rank| {
             vec![
@@ -97,7 +107,9 @@ impl Tables<'_> {
                 r.method.clone(),
             ]
         };
-        let mut rows: Vec<Vec<String>> = level.ranks.iter().map(row).collect();
+        let mut ranks: Vec<_> = level.ranks.iter().collect();
+        ranks.sort_by(|a, b| a.rank.cmp(&b.rank).then(a.seconds.total_cmp(&b.seconds)));
+        let mut rows: Vec<Vec<String>> = ranks.into_iter().map(row).collect();
         rows.extend(
             level
                 .not_reached
@@ -115,7 +127,7 @@ impl Tables<'_> {
         Section { caption, ..Section::new(&title, &head, rows) }
     }
 
-    fn by_method(&self) -> Section {
+    pub(super) fn by_method(&self) -> Section {
         let levels = self.0.ranking.iter().map(|level| format!("{:.0e}", level.error));
         let row = |m: &MethodRuns| {
             let count = |status| m.runs.iter().filter(|r| r.status == status).count().to_string();
@@ -139,7 +151,7 @@ impl Tables<'_> {
     }
 
     /// Failures with their reasons; those of a method that say the same share a row.
-    fn failures(&self) -> Option<Section> {
+    pub(super) fn failures(&self) -> Option<Section> {
         let mut rows: Vec<Vec<String>> = Vec::new();
         for method in &self.0.methods {
             let mut reasons: Vec<(String, Vec<String>)> = Vec::new();
@@ -164,7 +176,7 @@ impl Tables<'_> {
     }
 
     /// What `auto` chooses.
-    fn choices(&self) -> Option<Section> {
+    pub(super) fn choices(&self) -> Option<Section> {
         let time = |x: Option<f64>| x.map_or_else(|| "-".to_owned(), seconds);
         let number = |x: Option<f64>| x.map_or_else(|| "-".to_owned(), |x| format!("{x:.1e}"));
         let row = |c: &mbs_study::compare::results::JudgedChoice| {
@@ -195,7 +207,7 @@ impl Tables<'_> {
         (!rows.is_empty()).then(|| Section::new("Choice by measurement", &head, rows))
     }
 
-    fn all_runs(&self) -> Section {
+    pub(super) fn all_runs(&self) -> Section {
         let head = [
             "method",
             "step or tolerance",

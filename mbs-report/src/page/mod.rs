@@ -1,20 +1,29 @@
-//! Pages: one self-contained HTML file each, made of sections; and the page of a run.
+//! Pages: one self-contained HTML file each, made of sections; and the pages of runs.
 //!
 //! Style, scripts and data are inside the file; it opens from disk and asks the network for nothing. Texts and tables are HTML, so a page has
 //! its numbers without scripts.
 
 mod captions;
 mod decimate;
+mod diagram;
 mod motion;
+mod paced;
 mod pack;
 mod panels;
+mod results;
 mod run;
 mod section;
 mod statistics;
+mod sweep;
 #[cfg(test)]
-mod tests;
+pub(crate) mod tests;
 mod text;
 
-pub use run::page;
-pub(crate) use section::{Page, PageSection, STYLE};
-pub(crate) use text::{escape, fill};
+pub(crate) use diagram::{Diagram, DiagramLine, Look};
+pub(crate) use motion::still_view;
+pub(crate) use pack::Pack;
+pub use results::{difference_page, plots_page};
+pub use run::{paced_page, page};
+pub(crate) use section::{DiagramFrame, Page, PageSection};
+pub use sweep::sweep_page;
+pub(crate) use text::escape;

@@ -2,6 +2,7 @@
 
 use super::decimate::spread;
 use super::pack::{Column, Pack};
+use super::section::PageSection;
 use mbs::record::{N_POSE, RecordedMotion};
 use serde_json::{Value, json};
 
@@ -13,8 +14,23 @@ const TURN_STEP: f64 = 1.0 / 16_384.0;
 /// Step of times, relative to the time of the run [-].
 pub(super) const TIME_STEP: f64 = 1e-6;
 
-/// Packs a motion with at most so many pictures; `None`: there is nothing to draw.
-pub(super) fn packed(motion: &RecordedMotion, most: usize, pack: &mut Pack) -> Option<Value> {
+/// The view of a mechanism at its start with the names of bodies and joints, and its pack; `None`: there is nothing to draw.
+pub(crate) fn still_view(motion: &RecordedMotion) -> Option<(PageSection, String)> {
+    let mut first = motion.clone();
+    first.times.truncate(1);
+    let mut pack = Pack::default();
+    let motion = packed(&first, (1, true), &mut pack)?;
+    let caption = "The start, with the names of bodies, and in italics of the joints that findings name. Left button turns, right \
+                   button moves, wheel or pinch zooms.";
+    Some((PageSection::View(caption.to_owned()), pack.text(json!({ "motion": motion }))))
+}
+
+/// Packs a motion with at most so many pictures, with names of bodies and joints shown or not; `None`: there is nothing to draw.
+pub(super) fn packed(
+    motion: &RecordedMotion,
+    (most, is_named): (usize, bool),
+    pack: &mut Pack,
+) -> Option<Value> {
     let n = motion.bodies.len() * N_POSE;
     let is_whole = |k: &usize| {
         let picture = motion.poses.get(k * n..(k + 1) * n);
@@ -44,6 +60,7 @@ pub(super) fn packed(motion: &RecordedMotion, most: usize, pack: &mut Pack) -> O
         "lines": motion.lines,
         "traces": motion.traces,
         "joints": motion.joints,
+        "is_named": is_named,
         "road": motion.road.as_ref().map(|road| json!({
             "start": road.start,
             "spacing": road.spacing,

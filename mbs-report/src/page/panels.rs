@@ -39,6 +39,9 @@ struct Panel {
     range: f64,
     title: String,
     unit: String,
+    /// What is across where it is not time.
+    #[serde(skip_serializing_if = "String::is_empty")]
+    across: String,
     log: bool,
     steps: bool,
     lines: Vec<Line>,
@@ -48,7 +51,19 @@ struct Panel {
 struct Line {
     name: String,
     t: Column,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    x: Option<Column>,
     y: Column,
+}
+
+/// What is drawn over time, or over another column.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Curve<'a> {
+    pub(super) name: &'a str,
+    pub(super) times: &'a [f64],
+    /// What is across, where it is not time.
+    pub(super) across: Option<&'a [f64]>,
+    pub(super) values: &'a [f64],
 }
 
 /// Which points of a line are drawn.
@@ -92,7 +107,45 @@ impl Panels {
                 column
             }
         };
-        Line { name: name.to_owned(), t: column, y: pack.ranged(&[y])[0] }
+        Line { name: name.to_owned(), t: column, x: None, y: pack.ranged(&[y])[0] }
+    }
+
+    /// A panel of curves; of a logarithmic one, of their magnitudes.
+    pub(super) fn add_curves(
+        &mut self,
+        text: (&str, &str, String),
+        curves: &[Curve<'_>],
+        (is_log, across): (bool, &str),
+        pack: &mut Pack,
+    ) -> PlotFrame {
+        let lines = curves.iter().map(|curve| {
+            let sizes: Vec<f64>;
+            let mut values = curve.values;
+            if is_log {
+                sizes = logarithms(&values.iter().map(|y| y.abs()).collect::<Vec<_>>());
+                values = &sizes;
+            }
+            match curve.across {
+                Some(across) => self.over((curve, across), values, pack),
+                None => self.line((curve.name, Thinning::Peaks), (curve.times, values), pack),
+            }
+        });
+        let lines = lines.collect();
+        let panel = self.named(text, lines);
+        panel.log = is_log;
+        across.clone_into(&mut panel.across);
+        panel.frame.clone()
+    }
+
+    /// A line over another column: peaks of both stay.
+    fn over(&self, (curve, across): (&Curve<'_>, &[f64]), values: &[f64], pack: &mut Pack) -> Line {
+        let mut indices = [kept(across, self.most / 2), kept(values, self.most / 2)].concat();
+        indices.sort_unstable();
+        indices.dedup();
+        let of = |all: &[f64]| -> Vec<f64> { indices.iter().map(|i| all[*i]).collect() };
+        let columns = pack.ranged(&[of(across), of(values)]);
+        let t = times_of(&of(curve.times), pack);
+        Line { name: curve.name.to_owned(), t, x: Some(columns[0]), y: columns[1] }
     }
 
     /// Vectors have a panel for each unit; channels of one number share a panel with others of their unit. Lines whose ranges are far apart
@@ -151,6 +204,7 @@ impl Panels {
             range,
             title,
             unit,
+            across: String::new(),
             log: false,
             steps: false,
             lines,

@@ -2,12 +2,13 @@
 
 use super::decimate::MAX_POINTS;
 use super::motion;
+use super::paced;
 use super::pack::Pack;
 use super::panels::Panels;
 use super::section::{Page, PageSection};
 use super::statistics;
 use crate::table::{Section, row};
-use mbs::record::RunRecord;
+use mbs::record::{RealtimeSummary, RunRecord};
 use serde_json::json;
 
 /// Most bytes of the data of a page, as text: with scripts it is below four megabytes.
@@ -46,6 +47,16 @@ struct Drawn {
 /// ```
 #[must_use]
 pub fn page(record: &RunRecord) -> String {
+    html(record, Vec::new())
+}
+
+/// The same of a run at the pace of the clock: margins and ladder stand before the motion.
+#[must_use]
+pub fn paced_page(record: &RunRecord, paced: &RealtimeSummary) -> String {
+    html(record, paced::sections(paced))
+}
+
+fn html(record: &RunRecord, head: Vec<PageSection>) -> String {
     let (drawn, halvings) = fitting(record);
     let mut sections = Vec::new();
     let stop =
@@ -66,6 +77,7 @@ pub fn page(record: &RunRecord) -> String {
     if !figures.is_empty() {
         sections.push(PageSection::Cards(figures));
     }
+    sections.extend(head);
     sections.extend(drawn.view);
     sections.extend(drawn.plots);
     sections.extend(statistics::section(&record.channels));
@@ -102,7 +114,8 @@ fn fitting(record: &RunRecord) -> (Drawn, u32) {
 
 fn drawn(record: &RunRecord, pictures: usize, points: usize) -> Drawn {
     let mut pack = Pack::default();
-    let motion = record.motion.as_ref().and_then(|m| motion::packed(m, pictures, &mut pack));
+    let motion =
+        record.motion.as_ref().and_then(|m| motion::packed(m, (pictures, false), &mut pack));
     let mut panels = Panels::new(points);
     let (frames, still) = panels.add_channels(&record.channels, &mut pack);
     let health = panels.add_health(record, &mut pack);

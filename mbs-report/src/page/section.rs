@@ -7,13 +7,13 @@ use core::fmt::Write;
 /// The frame of all pages.
 const FRAME: &str = include_str!("web/frame.html");
 /// The style of all pages.
-pub(crate) const STYLE: &str = include_str!("web/style.css");
+const STYLE: &str = include_str!("web/style.css");
 /// The licence of three.js, which pages with a view contain.
 const LICENCE: &str = include_str!("web/three/LICENSE");
 /// The part of three.js that pages use, deflated and in base64.
 const THREE: &str = include_str!("web/three/three.txt");
 /// The scripts of pages with a view or plots, in the order of their use.
-const SCRIPTS: [&str; 8] = [
+const SCRIPTS: [&str; 9] = [
     include_str!("web/pack.js"),
     include_str!("web/clock.js"),
     include_str!("web/motion.js"),
@@ -21,8 +21,13 @@ const SCRIPTS: [&str; 8] = [
     include_str!("web/view.js"),
     include_str!("web/lines.js"),
     include_str!("web/plot.js"),
+    include_str!("web/diagram.js"),
     include_str!("web/main.js"),
 ];
+
+/// The keys of lines, and buttons that show some of them.
+const KEYS: &str =
+    "<div class=\"keys\" id=\"keys\"></div><div class=\"controls\" id=\"groups\"></div>";
 
 /// A page: its title, and its sections from top to bottom.
 #[derive(Debug, Default)]
@@ -46,8 +51,14 @@ pub(crate) enum PageSection {
     View(String),
     /// Plots over time.
     Plots(Vec<PlotFrame>),
+    /// The keys of the lines of all diagrams, where none of them has them.
+    Keys,
+    /// Diagrams of the page's pack.
+    Diagrams(Vec<DiagramFrame>),
     /// A titled table.
     Table(Section),
+    /// Tables beside each other, where there is room.
+    Tables(Vec<Section>),
     /// Sections that are folded under a title.
     Fold(String, Vec<Self>),
     /// A text of lines.
@@ -62,6 +73,17 @@ pub(crate) struct PlotFrame {
     pub(crate) title: String,
     pub(crate) unit: String,
     pub(crate) caption: String,
+}
+
+/// What a diagram has beside its points.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct DiagramFrame {
+    /// Its kind, and its number among those of the kind in the pack: `diagram` or `map`.
+    pub(crate) place: (&'static str, usize),
+    pub(crate) title: String,
+    pub(crate) caption: String,
+    /// Is it as wide as the page, with the keys of all lines?
+    pub(crate) has_keys: bool,
 }
 
 impl Page {
@@ -98,6 +120,15 @@ impl Page {
 }
 
 impl PageSection {
+    /// A table, under a fold with its title where it is to be folded.
+    pub(crate) fn of(section: Section) -> Self {
+        if !section.is_folded {
+            return Self::Table(section);
+        }
+        let title = section.title.clone();
+        Self::Fold(title, vec![Self::Table(Section { title: String::new(), ..section })])
+    }
+
     fn write(&self, out: &mut String) {
         // Writing into a String has nothing to fail on.
         let _ = match self {
@@ -127,9 +158,20 @@ impl PageSection {
                 frames.iter().for_each(|frame| frame.write(out));
                 writeln!(out, "</div>")
             }
+            Self::Keys => writeln!(out, "<section class=\"card\">{KEYS}</section>"),
+            Self::Diagrams(frames) => {
+                out.push_str("<div class=\"graphs\">\n");
+                frames.iter().for_each(|frame| frame.write(out));
+                writeln!(out, "</div>")
+            }
             Self::Table(section) => {
                 section.write_card(out);
                 Ok(())
+            }
+            Self::Tables(sections) => {
+                out.push_str("<div class=\"graphs\">\n");
+                sections.iter().for_each(|section| section.write_card(out));
+                writeln!(out, "</div>")
             }
             Self::Fold(title, sections) => {
                 let _ =
@@ -145,12 +187,34 @@ impl PageSection {
 impl PlotFrame {
     fn write(&self, out: &mut String) {
         let Self { panel, title, unit, caption } = self;
-        let (title, unit, caption) = (escape(title), escape(unit), escape(caption));
+        let (title, caption) = (escape(title), escape(caption));
+        let unit = match unit.as_str() {
+            "" | "-" => String::new(),
+            unit => format!(" <span class=\"unit\">[{}]</span>", escape(unit)),
+        };
         let _ = writeln!(
             out,
-            "<figure class=\"card graph\" data-panel=\"{panel}\"><h2>{title} <span class=\"unit\">[{unit}]</span></h2>\
+            "<figure class=\"card graph\" data-panel=\"{panel}\"><h2>{title}{unit}</h2>\
              <canvas tabindex=\"0\" role=\"img\" aria-label=\"{caption}\"></canvas><div class=\"legend\"></div>\
              <figcaption class=\"caption\">{caption}</figcaption></figure>"
+        );
+    }
+}
+
+impl DiagramFrame {
+    fn write(&self, out: &mut String) {
+        let Self { place: (kind, number), title, caption, has_keys } = self;
+        let (title, caption) = (escape(title), escape(caption));
+        let (class, keys) = match has_keys {
+            true => (" whole", KEYS),
+            false => ("", ""),
+        };
+        let _ = writeln!(
+            out,
+            "<figure class=\"card graph{class}\" data-{kind}=\"{number}\"><h2>{title}</h2>\
+             <svg class=\"plot\" role=\"img\" aria-label=\"{title}. {caption}\"></svg><p class=\"said\"></p>{keys}<ul class=\"marks\" hidden></ul>\
+             <figcaption class=\"caption\">{caption}</figcaption><div class=\"tools\"><button type=\"button\" class=\"save\" title=\"as a drawing\">SVG</button></div>\
+             </figure>"
         );
     }
 }

@@ -7,7 +7,6 @@ use super::reference::Known;
 use super::store::Store;
 use super::{CompareError, Study, Watch};
 use crate::compare::results::{MethodRuns, RunEntry, Status};
-use mbs::FormulationKind;
 use serde::{Deserialize, Serialize};
 
 /// Error below which a finer setting can be no better for rounding, relative to the outputs' ranges [-]. Chosen, not tuned.
@@ -60,7 +59,6 @@ impl Study<'_> {
             all.push(MethodRuns {
                 name: method.name(),
                 formulation: method.formulation.name().to_owned(),
-                look: FormulationKind::listed().position(|f| f == method.formulation).unwrap_or(0),
                 integrator: method.integrator.name().to_owned(),
                 control: method.control().to_owned(),
                 precision: method.precision.name().to_owned(),

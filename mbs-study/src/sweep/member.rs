@@ -3,6 +3,7 @@
 use core::time::Duration;
 use cpu_time::ThreadTime;
 use mbs::inside::{ReadScene, RecordRows, SceneWork, run_keeping};
+use mbs::results::ResultTable;
 use mbs::{Method, Outcome, ResolvedMethod};
 use mbs_core::Real;
 use mbs_core::scene::Scene;
@@ -56,24 +57,36 @@ pub(super) fn run(scene: &SceneFile, sweep: &SweepFile, overrides: &Method, memb
     Row { cpu_seconds: cpu.as_secs_f64(), ..row }
 }
 
+/// Runs a member anew for its rows; nothing where it does not start.
+pub(super) fn rows(
+    scene: &SceneFile,
+    sweep: &SweepFile,
+    overrides: &Method,
+    member: usize,
+) -> Option<ResultTable> {
+    let outcome = outcome(&sweep.member(scene, member), overrides, RecordRows::All).ok()?;
+    ResultTable::of_outcome(&outcome).ok()
+}
+
+/// The run of a member; else code and message.
+fn outcome(
+    document: &SceneFile,
+    overrides: &Method,
+    rows: RecordRows,
+) -> Result<Outcome, (&'static str, String)> {
+    let scene = document.scene().map_err(|error| ("scene-refused", error.to_string()))?;
+    let settings = ResolvedMethod::new(&scene, overrides)
+        .map_err(|error| ("settings-refused", error.to_string()))?;
+    let read = ReadScene::new((document, &scene), settings.precision)
+        .map_err(|error| ("scene-refused", error.to_string()))?;
+    let none = || ("settings-refused", "sweeps run in f64 or f32".to_owned());
+    read.work_in_hardware(Kept(&settings, rows)).ok_or_else(none)
+}
+
 fn run_in(document: &SceneFile, overrides: &Method, member: usize, values: Vec<String>) -> Row {
-    let refused = |values, code, error: &dyn core::fmt::Display| {
-        Row::failed(member, values, code, &error.to_string())
-    };
-    let scene = match document.scene() {
-        Ok(scene) => scene,
-        Err(error) => return refused(values, "scene-refused", &error),
-    };
-    let settings = match ResolvedMethod::new(&scene, overrides) {
-        Ok(settings) => settings,
-        Err(error) => return refused(values, "settings-refused", &error),
-    };
-    let outcome = match ReadScene::new((document, &scene), settings.precision) {
-        Ok(read) => match read.work_in_hardware(Last(&settings)) {
-            Some(outcome) => outcome,
-            None => return refused(values, "settings-refused", &"sweeps run in f64 or f32"),
-        },
-        Err(error) => return refused(values, "scene-refused", &error),
+    let outcome = match outcome(document, overrides, RecordRows::Last) {
+        Ok(outcome) => outcome,
+        Err((code, message)) => return Row::failed(member, values, code, &message),
     };
     let summary = &outcome.summary;
     let failure = summary.error.as_ref().map(|error| (error.code.clone(), error.message.clone()));
@@ -81,14 +94,14 @@ fn run_in(document: &SceneFile, overrides: &Method, member: usize, values: Vec<S
     Row { member, values, failure, measured, cpu_seconds: 0.0 }
 }
 
-/// A run of which the last row is kept.
-struct Last<'a>(&'a ResolvedMethod);
+/// A run of which these rows are kept.
+struct Kept<'a>(&'a ResolvedMethod, RecordRows);
 
-impl SceneWork for Last<'_> {
+impl SceneWork for Kept<'_> {
     type Done = Outcome;
 
     fn done<T: Real, const D: usize>(self, scene: &Scene<T>) -> Outcome {
-        run_keeping::<T, D>(scene, self.0, &mut (), RecordRows::Last)
+        run_keeping::<T, D>(scene, self.0, &mut (), self.1)
     }
 }
 

@@ -20,6 +20,7 @@ use core::num::NonZeroUsize;
 use core::ops::ControlFlow;
 use mbs::folder::{PART, WriteError, write_whole};
 use mbs::record::Channel;
+use mbs::results::ResultTable;
 use mbs::{Method, Precision, ResolvedMethod, SettingsError};
 use mbs_parallel::ensemble::{Ensemble, EnsembleError, Panicked, available};
 use mbs_parallel::most_threads;
@@ -92,6 +93,8 @@ pub struct Report {
     pub wall_seconds: f64,
     /// CPU time of the members that ran now [s].
     pub cpu_seconds: f64,
+    /// The rows of the table, as texts.
+    pub rows: Vec<Vec<String>>,
     /// The tables written.
     pub tables: Vec<PathBuf>,
     /// Why a table could not be written; the journal has all members.
@@ -178,6 +181,12 @@ impl Study {
     #[must_use]
     pub fn member(&self, index: usize) -> Row {
         member::run(&self.scene, &self.sweep, &self.overrides, index)
+    }
+
+    /// The rows of one member, from 0, which runs anew on this thread; nothing where it does not start.
+    #[must_use]
+    pub fn member_rows(&self, index: usize) -> Option<ResultTable> {
+        member::rows(&self.scene, &self.sweep, &self.overrides, index)
     }
 
     /// Runs the members that are not in the journal of `out` over threads (left out: all processors), and writes the table.
@@ -278,6 +287,7 @@ impl Study {
             threads: ensemble.threads().get(),
             wall_seconds: clock.elapsed().as_secs_f64(),
             cpu_seconds,
+            rows: rows.into_values().collect(),
             tables,
             lost,
         })

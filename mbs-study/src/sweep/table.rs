@@ -72,6 +72,24 @@ impl Columns {
         &self.header
     }
 
+    /// The channels' columns: number of the first of each three, which are the end, the least and the largest.
+    #[must_use]
+    pub fn channels(&self) -> impl Iterator<Item = usize> + '_ {
+        (1 + self.n_parameters + RUN.len()..self.header.len() - 1).step_by(3)
+    }
+
+    /// The columns of the varied numbers.
+    #[must_use]
+    pub fn parameters(&self) -> core::ops::Range<usize> {
+        1..1 + self.n_parameters
+    }
+
+    /// Number of the column with the code of a failure.
+    #[must_use]
+    pub fn code(&self) -> usize {
+        self.n_parameters + 2
+    }
+
     pub(super) fn len(&self) -> usize {
         self.header.len()
     }

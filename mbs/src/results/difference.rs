@@ -81,21 +81,39 @@ pub fn difference(a: &ResultTable, b: &ResultTable, names: &[String]) -> Differe
     Difference { columns, only_a: only(a, b), only_b: only(b, a), ends: [a.end(), b.end()] }
 }
 
+/// The first run less the second in a column that both have: times, and values at them.
+#[must_use]
+pub fn difference_over_time(a: &ResultTable, b: &ResultTable, name: &str) -> Option<[Vec<f64>; 2]> {
+    let rows = rows((a, a.column(name)?), (b, b.column(name)?));
+    let (times, values) = rows.into_iter().unzip();
+    Some([times, values])
+}
+
+/// Times of both runs that both have, and the first run less the second at them.
+fn rows(
+    (a, x): (&ResultTable, &ResultColumn),
+    (b, y): (&ResultTable, &ResultColumn),
+) -> Vec<(f64, f64)> {
+    let span = a.times[0].max(b.times[0])..=a.end().min(b.end());
+    let times = a.times.iter().chain(&b.times).filter(|t| span.contains(t));
+    let mut times: Vec<f64> = times.copied().collect();
+    times.sort_by(f64::total_cmp);
+    times.dedup();
+    let (mut i, mut j) = (0, 0);
+    let difference =
+        |t: f64| value(&a.times, &x.values, t, &mut i) - value(&b.times, &y.values, t, &mut j);
+    let differences: Vec<f64> = times.iter().copied().map(difference).collect();
+    times.into_iter().zip(differences).collect()
+}
+
 fn of_columns(
     (a, x): (&ResultTable, &ResultColumn),
     (b, y): (&ResultTable, &ResultColumn),
 ) -> ColumnDifference {
     let (mut difference, mut at) = (0.0, a.times[0].max(b.times[0]));
-    let span = at..=a.end().min(b.end());
-    let times = a.times.iter().chain(&b.times).filter(|t| span.contains(t));
-    let (mut i, mut j) = (0, 0);
-    let mut times: Vec<f64> = times.copied().collect();
-    times.sort_by(f64::total_cmp);
-    for t in times {
-        let here =
-            (value(&a.times, &x.values, t, &mut i) - value(&b.times, &y.values, t, &mut j)).abs();
-        if here > difference {
-            (difference, at) = (here, t);
+    for (t, here) in rows((a, x), (b, y)) {
+        if here.abs() > difference {
+            (difference, at) = (here.abs(), t);
         }
     }
     let [of_a, of_b] = [(a, x), (b, y)].map(|(table, column)| scale(table, column));

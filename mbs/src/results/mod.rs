@@ -5,5 +5,5 @@ mod read;
 #[cfg(test)]
 mod tests;
 
-pub use difference::{ColumnDifference, Difference, difference};
+pub use difference::{ColumnDifference, Difference, difference, difference_over_time};
 pub use read::{ResultColumn, ResultTable, UnreadableResults};

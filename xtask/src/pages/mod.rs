@@ -12,13 +12,15 @@ use std::process::{Command, Stdio};
 const BROWSERS: [&str; 4] = ["chromium", "chromium-browser", "google-chrome", "chrome"];
 /// Widths in pixels: a desk, a phone.
 const WIDTHS: [u32; 2] = [1280, 390];
+/// Colours that a reader may prefer, as the browser's own numbers.
+const THEMES: [(&str, &str); 2] = [("dark", "0"), ("light", "1")];
 /// Catches what a page throws, before anything of it runs.
 const CATCH: &str = "<script>window.probeFaults = []; addEventListener(\"error\", (e) => window.probeFaults.push(e.message));</script>";
 
 /// Takes WebGL away from a page.
 const WITHOUT_WEBGL: &str = "<script>window.probeWithoutWebGL = true; const whole = HTMLCanvasElement.prototype.getContext; HTMLCanvasElement.prototype.getContext = function (kind, ...rest) { return /webgl/.test(kind) ? null : whole.call(this, kind, ...rest); };</script>";
 
-/// Makes the pages of a run and of a comparison, and looks at them.
+/// Makes the pages of runs, a comparison, a difference, a diagnosis and a sweep, and looks at them.
 ///
 /// # Errors
 ///
@@ -31,18 +33,43 @@ pub(crate) fn check() -> Result<Outcome, String> {
         }));
     };
     let folder = process::target_dir().join("pages");
-    let out = folder.display().to_string();
-    let scene = process::root().join("scenes").join("simple-pendulum.toml").display().to_string();
-    mbs(&["run", &scene, "--duration", "1", "--out", &out])?;
-    let compare =
-        ["compare", &scene, "--restart", "--repeats", "2", "--budget", "0.5", "--time-limit", "2"];
-    mbs(&[&compare[..], &["--duration", "0.5", "--out", &out]].concat())?;
-    let pages = ["run.html", "compare.html"];
+    let pages = made(&folder)?;
     for page in pages {
         look(browser, &folder.join(page))?;
     }
     look_with(browser, &folder.join("run.html"), WITHOUT_WEBGL)?;
-    Ok(Outcome::Passed(format!("{} at {WIDTHS:?} px", pages.join(", "))))
+    Ok(Outcome::Passed(format!("{} at {WIDTHS:?} px, light and dark", pages.join(", "))))
+}
+
+/// Makes the pages in a folder.
+fn made(folder: &Path) -> Result<[&'static str; 6], String> {
+    let scene = |name: &str| process::root().join("scenes").join(name).display().to_string();
+    let place = |name: &str| folder.join(name).display().to_string();
+    let (pendulum, out) = (scene("simple-pendulum.toml"), place(""));
+    mbs(&["run", &pendulum, "--duration", "1", "--out", &out])?;
+    let compare = [
+        "compare",
+        &pendulum,
+        "--restart",
+        "--repeats",
+        "2",
+        "--budget",
+        "0.5",
+        "--time-limit",
+        "2",
+    ];
+    mbs(&[&compare[..], &["--duration", "0.5", "--out", &out]].concat())?;
+    let [double, coarse] = [scene("double-pendulum.toml"), place("coarse")];
+    mbs(&["run", &double, "--duration", "1", "--step", "0.02", "--out", &coarse])?;
+    mbs(&["diff", &double, &coarse, "--out", &place("diff.html")])?;
+    let curve = ["--xy", "tip.x", "tip.y", "--out", &place("plot.html")];
+    mbs(&[&["plot", coarse.as_str()][..], &curve].concat())?;
+    let loops = scene("spatial-four-bar.toml");
+    mbs(&["doctor", &loops, "--still", "--out", &out])?;
+    let lengths = scene("sweeps/double-pendulum-lengths.toml");
+    let sweep = ["--duration", "1", "--restart", "--page", "--traces", "4", "--out", &out];
+    mbs(&[&["sweep", double.as_str(), lengths.as_str()][..], &sweep].concat())?;
+    Ok(["run.html", "compare.html", "diff.html", "plot.html", "doctor.html", "sweep.html"])
 }
 
 /// The browser, installed where that is possible.
@@ -56,7 +83,7 @@ pub fn browser() -> Option<&'static str> {
     })
 }
 
-/// Looks at a page at every width.
+/// Looks at a page at every width, in light and dark colours.
 ///
 /// # Errors
 ///
@@ -70,16 +97,17 @@ fn look_with(browser: &str, page: &Path, before: &str) -> Result<(), String> {
     let place = |e: std::io::Error| format!("{}: {e}", page.display());
     let html = fs::read_to_string(page).map_err(place)?;
     let probed = page.with_extension("probed.html");
-    fs::write(&probed, with_probe(&html, before)).map_err(place)?;
     let mut faults = Vec::new();
-    for width in WIDTHS {
+    for (width, theme) in WIDTHS.iter().flat_map(|w| THEMES.map(|theme| (w, theme))) {
+        let before = format!("{before}<script>window.probeTheme = \"{}\";</script>", theme.0);
+        fs::write(&probed, with_probe(&html, &before)).map_err(place)?;
         let frame = page.with_extension("frame.html");
         let name = probed.file_name().unwrap_or_default().to_string_lossy();
         let text = include_str!("frame.html").replace("{{page}}", &name);
         fs::write(&frame, text.replace("{{width}}", &width.to_string())).map_err(place)?;
-        let report = report_in(&dom(browser, &frame)?);
+        let report = report_in(&dom(browser, &frame, theme.1)?);
         if report != "sound" {
-            faults.push(format!("{} at {width} px: {report}", page.display()));
+            faults.push(format!("{} at {width} px, {}: {report}", page.display(), theme.0));
         }
         fs::remove_file(&frame).map_err(place)?;
     }
@@ -101,7 +129,7 @@ pub(crate) fn report_in(dom: &str) -> String {
 }
 
 /// The page as it is after its scripts.
-pub(crate) fn dom(browser: &str, page: &Path) -> Result<String, String> {
+pub(crate) fn dom(browser: &str, page: &Path, theme: &str) -> Result<String, String> {
     let profile = std::env::temp_dir().join(format!("xtask-pages-{}", std::process::id()));
     let mut command = Command::new(browser);
     command.args([
@@ -119,6 +147,7 @@ pub(crate) fn dom(browser: &str, page: &Path) -> Result<String, String> {
         "--virtual-time-budget=8000",
         "--dump-dom",
     ]);
+    command.arg(format!("--blink-settings=preferredColorScheme={theme}"));
     command.arg(format!("--user-data-dir={}", profile.display()));
     command.arg(format!("file://{}", absolute(page).display()));
     let out = command.stdin(Stdio::null()).output().map_err(|e| format!("{browser}: {e}"))?;

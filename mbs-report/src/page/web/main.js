@@ -52,7 +52,10 @@ function connect(view, motion, clock) {
     if (side) turn(side);
     else if (event.key === "l") name(!by("names").checked);
   });
-  recordVideo(view, clock, by("video"));
+  if (motion.is_named) name(true);
+  // a single picture does not move
+  if (motion.times.length < 2) section.querySelector(".controls").hidden = true;
+  else recordVideo(view, clock, by("video"));
   const obey = () => {
     const asked = readAddress(), body = motion.bodies.findIndex((b) => b.name === asked.follow);
     if (asked.follow !== undefined) { view.setFollowed(body < 0 ? null : body); by("follow").value = body < 0 ? "" : body; }
@@ -110,16 +113,18 @@ function makePicker(parent, plots) {
 (async function main() {
   const section = document.getElementById("view");
   if (!window.DecompressionStream) {
-    document.querySelectorAll("#view, figure.graph").forEach((node) => { node.replaceChildren("This picture needs a newer browser."); });
+    document.querySelectorAll("#view .stage, figure.graph").forEach((node) => { node.replaceChildren("This picture needs a newer browser."); });
     return;
   }
   const { header, column } = await readPack("pack");
   const motion = header.motion && makeMotion(header.motion, column);
   if (motion?.road) motion.road.heights = motion.road.heights.map((c) => column(c));
-  const ends = header.panels.flatMap((panel) => panel.lines.map((line) => column(line.t))).concat(motion ? [motion.times] : []).filter((t) => t.length);
+  const panels = header.panels ?? [];
+  const ends = panels.flatMap((panel) => panel.lines.map((line) => column(line.t))).concat(motion ? [motion.times] : []).filter((t) => t.length);
   const start = Math.min(...ends.map((t) => t[0])), end = Math.max(...ends.map((t) => t[t.length - 1]));
   const clock = makeClock(ends.length ? [start, end > start ? end : start + 1] : [0, 1]), shared = makeWindow([clock.start, clock.end]);
-  const plots = [...document.querySelectorAll("figure.graph")].map((figure) => makePlot(figure, header.panels[figure.dataset.panel], column, clock, shared));
+  const plots = [...document.querySelectorAll("figure[data-panel]")].map((figure) => makePlot(figure, panels[figure.dataset.panel], column, clock, shared));
+  const redrawDiagrams = header.diagrams ? makeDiagrams(header.diagrams) : () => {};
   document.querySelectorAll("main > .graphs").forEach((parent) => makePicker(parent, plots.filter((plot) => parent.contains(plot.figure))));
   let view = null, controls = null;
   if (motion) {
@@ -127,7 +132,7 @@ function makePicker(parent, plots) {
     controls = makeControls(clock, (motion.end - motion.start) / Math.max(1, motion.times.length - 1));
     connect(view, motion, clock);
   }
-  const redraw = () => { view?.theme(); plots.forEach((plot) => plot.draw()); };
+  const redraw = () => { view?.theme(); plots.forEach((plot) => plot.draw()); redrawDiagrams(); };
   addEventListener("resize", redraw);
   matchMedia("(prefers-color-scheme: dark)").addEventListener("change", redraw);
   section?.setAttribute("data-drawn", view ? view.kind : "");

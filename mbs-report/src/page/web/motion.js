@@ -53,6 +53,12 @@ function before(times, t) {
   return low;
 }
 
+// Index of the time that is nearest to t.
+function nearest(times, t) {
+  const k = before(times, t), next = Math.min(k + 1, times.length - 1);
+  return times[next] - t < t - times[k] ? next : k;
+}
+
 const vec = {
   add: (a, b, s = 1) => [a[0] + s * b[0], a[1] + s * b[1], a[2] + s * b[2]],
   dot: (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2],

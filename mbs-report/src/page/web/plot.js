@@ -41,8 +41,10 @@ function makeWindow([start, end]) {
 function makePlot(figure, panel, column, clock, shared) {
   const canvas = figure.querySelector("canvas"), legend = figure.querySelector(".legend"), pencil = canvas.getContext("2d");
   // values of logarithmic panels are exponents of ten already
-  const lines = panel.lines.map((line) => ({ name: line.name, t: column(line.t), y: column(line.y, true), on: true }));
-  let log = panel.log, asked = false, area = null, drag = null;
+  const lines = panel.lines.map((line) => ({ name: line.name, t: column(line.t), x: line.x && column(line.x, true), y: column(line.y, true), on: true }));
+  // one column over another: the window in time says which part of the curve is drawn
+  const isCurve = Boolean(panel.across), abscissa = (line, k) => (line.x ? line.x[k] : line.t[k]);
+  let log = panel.log, asked = false, area = null, drag = null, scales = null;
   const entries = lines.map((line, i) => {
     const button = legend.appendChild(document.createElement("button"));
     button.type = "button";
@@ -82,27 +84,37 @@ function makePlot(figure, panel, column, clock, shared) {
 
   const value = (y) => (panel.log === log ? y : log ? (y > 0 ? Math.log10(y) : NaN) : 10 ** y);
   const plain = (y) => (panel.log ? 10 ** y : y);
-  // Range of the values in the window.
-  function range() {
+  // Least and largest of what the lines have in the window.
+  function extent(of) {
     let low = Infinity, high = -Infinity;
     const [t0, t1] = shared.span;
     for (const line of lines) {
       if (!line.on || !line.t.length) continue;
       const from = before(line.t, t0), to = Math.min(before(line.t, t1) + 1, line.t.length - 1);
-      for (let k = from; k <= to; k++) { const y = value(line.y[k]); if (y < low) low = y; if (y > high) high = y; }
+      for (let k = from; k <= to; k++) { const y = of(line, k); if (y < low) low = y; if (y > high) high = y; }
     }
+    return [low, high];
+  }
+  function roomy([low, high]) {
     if (!(low <= high)) return [0, 1];
-    if (log) { high = Math.ceil(high + 1e-9); return [Math.min(Math.max(Math.floor(low), high - 16), high - 1), high]; }
-    if (panel.steps && !panel.log) return [0, high + 0.5];
     const room = (high - low) * 0.06 || Math.abs(high) * 0.1 || 1;
     return [low - room, high + room];
+  }
+  // Range of the values in the window.
+  function range() {
+    const [low, high] = extent((line, k) => value(line.y[k]));
+    if (!(low <= high)) return [0, 1];
+    if (log) { const top = Math.ceil(high + 1e-9); return [Math.min(Math.max(Math.floor(low), top - 16), top - 1), top]; }
+    if (panel.steps && !panel.log) return [0, high + 0.5];
+    return roomy([low, high]);
   }
 
   // Draws with a pencil of a canvas, or of an SVG.
   function paint(p, width, height, colour) {
     const [t0, t1] = shared.span, [low, high] = range();
+    const [x0, x1] = isCurve ? roomy(extent(abscissa)) : [t0, t1];
     area = { left: 62, right: width - 10, top: 8, bottom: height - 36, t0, t1 };
-    const x = (t) => area.left + ((t - t0) / (t1 - t0)) * (area.right - area.left);
+    const x = (v) => area.left + ((v - x0) / (x1 - x0)) * (area.right - area.left);
     const y = (v) => area.bottom - ((Math.max(v, low) - low) / (high - low)) * (area.bottom - area.top);
     p.font = "12px system-ui, sans-serif";
     p.fillStyle = colour("soft"); p.strokeStyle = colour("grid"); p.lineWidth = 1;
@@ -115,11 +127,11 @@ function makePlot(figure, panel, column, clock, shared) {
       p.fillText(log ? `1e${v}` : Math.abs(v) < (high - low) * 1e-9 ? "0" : show(v), area.left - 6, y(v) + 4);
     }
     p.textAlign = "center";
-    for (const t of niceTicks(t0, t1, width < 420 ? 4 : 7)) {
-      p.beginPath(); p.moveTo(x(t), area.top); p.lineTo(x(t), area.bottom); p.stroke();
-      p.fillText(show(Math.abs(t) < (t1 - t0) * 1e-9 ? 0 : t), x(t), area.bottom + 16);
+    for (const v of niceTicks(x0, x1, width < 420 ? 4 : 7)) {
+      p.beginPath(); p.moveTo(x(v), area.top); p.lineTo(x(v), area.bottom); p.stroke();
+      p.fillText(show(Math.abs(v) < (x1 - x0) * 1e-9 ? 0 : v), x(v), area.bottom + 16);
     }
-    p.fillText("time [s]", (area.left + area.right) / 2, height - 4);
+    p.fillText(panel.across || "time [s]", (area.left + area.right) / 2, height - 4);
     p.strokeStyle = colour("rule");
     p.strokeRect(area.left, area.top, area.right - area.left, area.bottom - area.top);
     p.save();
@@ -127,7 +139,7 @@ function makePlot(figure, panel, column, clock, shared) {
     lines.forEach((line, i) => { if (line.on) trace(p, line, i, x, y, colour); });
     p.restore();
     if (lines.every((line) => line.y.every((v) => Number.isNaN(v)))) p.fillText(panel.log ? "zero throughout" : "no numbers to draw", (area.left + area.right) / 2, (area.top + area.bottom) / 2);
-    return x;
+    return [x, y];
   }
   function trace(p, line, i, x, y, colour) {
     p.strokeStyle = colour(`line-${i % 6}`); p.lineWidth = 1.7; p.setLineDash(DASHES[i % 6]);
@@ -137,7 +149,7 @@ function makePlot(figure, panel, column, clock, shared) {
     for (let k = from; k <= to; k++) {
       const v = value(line.y[k]);
       if (Number.isNaN(v)) { gap = true; continue; }
-      const px = x(line.t[k]), py = y(v);
+      const px = x(abscissa(line, k)), py = y(v);
       if (gap) p.moveTo(px, py);
       else { if (panel.steps) p.lineTo(x(line.t[last]), py); p.lineTo(px, py); }
       gap = false; last = k;
@@ -148,7 +160,7 @@ function makePlot(figure, panel, column, clock, shared) {
     // a marker at even distances, shifted per line so that equal curves stay visible
     for (let k = 0; k < 8 && line.t.length; k++) {
       const at = before(line.t, area.t0 + ((k + (i + 0.5) / lines.length) / 8) * (area.t1 - area.t0)), v = value(line.y[at]);
-      if (!Number.isNaN(v)) mark(p, i, x(line.t[at]), y(v));
+      if (!Number.isNaN(v)) mark(p, i, x(abscissa(line, at)), y(v));
     }
   }
   function mark(p, i, px, py) {
@@ -161,9 +173,14 @@ function makePlot(figure, panel, column, clock, shared) {
     canvas.width = width * ratio; canvas.height = height * ratio;
     pencil.setTransform(ratio, 0, 0, ratio, 0, 0);
     const style = getComputedStyle(document.documentElement), colour = (name) => style.getPropertyValue("--" + name).trim();
-    const x = paint(pencil, width, height, colour);
+    const [x, y] = scales = paint(pencil, width, height, colour);
     const upright = (t, name, dash) => {
       if (t < area.t0 || t > area.t1) return;
+      if (isCurve) {
+        pencil.fillStyle = colour(name);
+        for (const line of lines) if (line.on && line.t.length) { const k = nearest(line.t, t); pencil.beginPath(); pencil.arc(x(abscissa(line, k)), y(value(line.y[k])), 4.5, 0, 7); pencil.fill(); }
+        return;
+      }
       pencil.strokeStyle = colour(name); pencil.lineWidth = 1.3; pencil.setLineDash(dash);
       pencil.beginPath(); pencil.moveTo(x(t), area.top); pencil.lineTo(x(t), area.bottom); pencil.stroke();
       pencil.setLineDash([]);
@@ -186,15 +203,26 @@ function makePlot(figure, panel, column, clock, shared) {
     when.textContent = `t = ${show(t)} s`;
     lines.forEach((line, i) => {
       if (!line.t.length) return;
-      const k = before(line.t, t), next = Math.min(k + 1, line.t.length - 1);
-      entries[i].value.textContent = " = " + show(plain(line.y[line.t[next] - t < t - line.t[k] ? next : k]));
+      const k = nearest(line.t, t);
+      entries[i].value.textContent = " = " + show(plain(line.y[k]));
     });
   }
 
-  const timeAt = (event) => area.t0 + ((event.clientX - canvas.getBoundingClientRect().left - area.left) / (area.right - area.left)) * (area.t1 - area.t0);
+  // on a curve, the time of the point that is nearest to the pointer
+  function timeOnCurve(event) {
+    const box = canvas.getBoundingClientRect(), [x, y] = scales, at = [event.clientX - box.left, event.clientY - box.top];
+    let best = area.t0, least = Infinity;
+    for (const line of lines) if (line.on) line.t.forEach((t, k) => {
+      const d = Math.hypot(x(abscissa(line, k)) - at[0], y(value(line.y[k])) - at[1]);
+      if (t >= area.t0 && t <= area.t1 && d < least) { least = d; best = t; }
+    });
+    return best;
+  }
+  const timeAt = (event) => isCurve ? timeOnCurve(event) : area.t0 + ((event.clientX - canvas.getBoundingClientRect().left - area.left) / (area.right - area.left)) * (area.t1 - area.t0);
   const placeOf = (event) => event.clientX - canvas.getBoundingClientRect().left;
   canvas.addEventListener("pointerdown", (event) => {
     if (!area || event.button) return;
+    if (isCurve) { clock.seek(timeAt(event)); return; }
     drag = { x: placeOf(event), to: placeOf(event), t: timeAt(event), span: [...shared.span], zooms: false, pans: event.shiftKey || event.pointerType === "touch" };
     try { canvas.setPointerCapture(event.pointerId); } catch { /* it was let go already */ }
   });
@@ -218,7 +246,7 @@ function makePlot(figure, panel, column, clock, shared) {
   canvas.addEventListener("dblclick", () => shared.reset());
   // the wheel alone scrolls the page past a plot that was not clicked
   canvas.addEventListener("wheel", (event) => {
-    if (!area || !(event.ctrlKey || document.activeElement === canvas)) return;
+    if (!area || isCurve || !(event.ctrlKey || document.activeElement === canvas)) return;
     event.preventDefault();
     const t = timeAt(event), factor = Math.exp(0.0015 * event.deltaY), [a, b] = shared.span;
     shared.set(t - (t - a) * factor, t + (b - t) * factor);
@@ -229,8 +257,8 @@ function makePlot(figure, panel, column, clock, shared) {
   new IntersectionObserver((seen) => { const is = seen.some((s) => s.isIntersecting); if (is && !asked) { asked = true; draw(); } else asked = asked && is; if (is) draw(); }, { rootMargin: "300px" }).observe(canvas);
 
   function csv() {
-    const rows = ["line,t,value"];
-    for (const line of lines) line.t.forEach((t, k) => rows.push(`${JSON.stringify(line.name)},${+t.toPrecision(9)},${Number.isNaN(line.y[k]) ? "" : +plain(line.y[k]).toPrecision(6)}`));
+    const rows = [isCurve ? "line,t,x,y" : "line,t,value"];
+    for (const line of lines) line.t.forEach((t, k) => rows.push(`${JSON.stringify(line.name)},${+t.toPrecision(9)},${line.x ? `${+line.x[k].toPrecision(6)},` : ""}${Number.isNaN(line.y[k]) ? "" : +plain(line.y[k]).toPrecision(6)}`));
     return rows.join("\n") + "\n";
   }
   // The same drawing as SVG: a pencil that writes elements.

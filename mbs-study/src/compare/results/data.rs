@@ -132,9 +132,6 @@ pub struct MethodRuns {
     pub name: String,
     /// Formulation.
     pub formulation: String,
-    /// Place of the formulation among all: its colour and mark on a page.
-    #[serde(skip)]
-    pub look: usize,
     /// Integrator.
     pub integrator: String,
     /// What chooses the steps: `fixed`, `error`, `energy`; `own` with an integrator that controls its own.

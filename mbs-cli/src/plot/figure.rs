@@ -1,0 +1,154 @@
+//! The work-precision diagram of a comparison as a picture: CPU time over error, both logarithmic.
+
+use super::picture::{COLOURS, number, range};
+use crate::refusal::Refusal;
+use mbs_study::compare::results::{Comparison, MethodRuns};
+use plotters::coord::Shift;
+use plotters::element::DashedPathElement;
+use plotters::prelude::*;
+
+/// Size of the picture, and of the names of the lines at its right [px]. Chosen, not tuned.
+const SIZE: (u32, u32) = (1080, 620);
+/// Width of the names of the lines [px]: the longest name.
+const NAMES: u32 = 250;
+/// Height of a line of names [px]. Chosen, not tuned.
+const ROW: i32 = 18;
+/// Height of texts, and room for the numbers of the axes [px]. Chosen, not tuned.
+const TEXT: [u32; 2] = [13, 56];
+/// Marks of the integrators: corners about a point [px].
+const MARKS: [&[(i32, i32)]; 6] = [
+    &[(-4, 0), (-3, -3), (0, -4), (3, -3), (4, 0), (3, 3), (0, 4), (-3, 3)],
+    &[(-4, -4), (4, -4), (4, 4), (-4, 4)],
+    &[(0, -5), (5, 4), (-5, 4)],
+    &[(0, -6), (6, 0), (0, 6), (-6, 0)],
+    &[(0, 5), (5, -4), (-5, -4)],
+    &[(-5, -5), (5, -5), (-5, 5), (5, 5)],
+];
+/// Dashes of the formulations: strokes and gaps [px]; the first is solid.
+const DASHES: [(u32, u32); 6] = [(1, 0), (8, 4), (2, 3), (12, 3), (5, 5), (1, 4)];
+
+type Place<'a> = DrawingArea<SVGBackend<'a>, Shift>;
+type Fault<'a> = DrawingAreaErrorKind<<SVGBackend<'a> as DrawingBackend>::ErrorType>;
+
+/// How a line looks: numbers of its integrator and its formulation, and whether steps are fixed.
+#[derive(Debug, Clone, Copy)]
+struct Look {
+    integrator: usize,
+    formulation: usize,
+    is_fixed: bool,
+}
+
+/// A method, and error and CPU time of its runs.
+struct Line<'a> {
+    name: &'a str,
+    look: Look,
+    points: Vec<(f64, f64)>,
+}
+
+/// The diagram as SVG, of double precision where there is double; else the refusal of one that cannot be drawn.
+pub(crate) fn work_precision(comparison: &Comparison) -> Result<String, Refusal> {
+    let fault = |error: &dyn core::fmt::Display| {
+        Refusal::new("out-unwritable", format!("the picture cannot be drawn: {error}"), "")
+    };
+    let mut text = String::new();
+    {
+        let area = SVGBackend::with_string(&mut text, SIZE).into_drawing_area();
+        draw(&comparison.scene, &lines(comparison), &area).map_err(|error| fault(&error))?;
+        area.present().map_err(|error| fault(&error))?;
+    }
+    Ok(text)
+}
+
+fn lines(comparison: &Comparison) -> Vec<Line<'_>> {
+    let has_double = comparison.methods.iter().any(|m| m.precision == "f64");
+    let methods = || comparison.methods.iter().filter(|m| !has_double || m.precision != "f32");
+    let place = |of: fn(&MethodRuns) -> &str, m: &MethodRuns| -> [usize; 2] {
+        let mut names: Vec<&str> = Vec::new();
+        for name in methods().map(of) {
+            if !names.contains(&name) {
+                names.push(name);
+            }
+        }
+        let place = names.iter().position(|name| *name == of(m)).unwrap_or(0);
+        [place, names.len() - 1 - place]
+    };
+    let line = |m| {
+        let look = Look {
+            integrator: place(|m: &MethodRuns| &m.integrator, m)[0] % COLOURS.len(),
+            // the last one, recursive, has most lines: they are solid
+            formulation: place(|m: &MethodRuns| &m.formulation, m)[1] % DASHES.len(),
+            is_fixed: m.control == "fixed",
+        };
+        let runs = m.completed().filter_map(|run| Some((run.error?, run.cpu_least?)));
+        let points = runs.filter(|p| p.0 > 0.0 && p.1 > 0.0).collect();
+        Line { name: &m.name, look, points }
+    };
+    methods().map(line).filter(|line| !line.points.is_empty()).collect()
+}
+
+fn draw<'a>(scene: &str, lines: &[Line<'_>], area: &Place<'a>) -> Result<(), Fault<'a>> {
+    area.fill(&WHITE)?;
+    let (left, right) = area.split_horizontally(SIZE.0 - NAMES);
+    let points = || lines.iter().flat_map(|line| &line.points);
+    let powers = |range: core::ops::Range<f64>| {
+        (10_f64.powf(range.start)..10_f64.powf(range.end)).log_scale()
+    };
+    let x = powers(range(points().map(|p| p.0.log10())));
+    let y = powers(range(points().map(|p| p.1.log10())));
+    let font = ("sans-serif", TEXT[0]).into_font();
+    let mut chart = ChartBuilder::on(&left)
+        .margin(10)
+        .caption(format!("{scene}: work and precision"), ("sans-serif", TEXT[0] + 3))
+        .x_label_area_size(TEXT[1])
+        .y_label_area_size(TEXT[1] + 20)
+        .build_cartesian_2d(x, y)?;
+    chart
+        .configure_mesh()
+        .light_line_style(WHITE)
+        .label_style(font.clone())
+        .x_desc("error [-]")
+        .y_desc("CPU time [s]")
+        .x_label_formatter(&|x| number(*x))
+        .y_label_formatter(&|y| number(*y))
+        .draw()?;
+    for (row, line) in lines.iter().enumerate() {
+        let colour = COLOURS[line.look.integrator];
+        let (stroke, gap) = DASHES[line.look.formulation];
+        let path = line.points.iter().copied();
+        if gap == 0 {
+            chart.draw_series(LineSeries::new(path, colour.stroke_width(2)))?;
+        } else {
+            let dashed = DashedLineSeries::new(path, stroke, gap, colour.stroke_width(2));
+            chart.draw_series(dashed)?;
+        }
+        for point in &line.points {
+            let (fill, edge) = mark(line.look, (0, 0));
+            chart.draw_series([EmptyElement::at(*point) + fill + edge])?;
+        }
+        let y = ROW * (2 + i32::try_from(row).unwrap_or(0));
+        let key = [(12, y), (40, y)];
+        let style = colour.stroke_width(2);
+        if gap == 0 {
+            right.draw(&PathElement::new(key, style))?;
+        } else {
+            right.draw(&DashedPathElement::new(key, stroke, gap, style))?;
+        }
+        let (fill, edge) = mark(line.look, (26, y));
+        right.draw(&fill)?;
+        right.draw(&edge)?;
+        right.draw(&Text::new(line.name.to_owned(), (48, y - 6), font.clone()))?;
+    }
+    Ok(())
+}
+
+type Corner = (i32, i32);
+
+/// The mark of a line at a place: what fills it, and its edge.
+fn mark(look: Look, (x, y): Corner) -> (Polygon<Corner>, PathElement<Corner>) {
+    let colour = COLOURS[look.integrator];
+    let corners = MARKS[look.integrator].iter().map(|(dx, dy)| (x + dx, y + dy));
+    let corners: Vec<Corner> = corners.collect();
+    let edge = corners.iter().chain(corners.first()).copied().collect::<Vec<_>>();
+    let fill = if look.is_fixed { colour } else { WHITE };
+    (Polygon::new(corners, fill.filled()), PathElement::new(edge, colour.stroke_width(1)))
+}

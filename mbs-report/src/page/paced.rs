@@ -1,0 +1,80 @@
+//! What the page of a run at the pace of the clock has before the motion: margins and the ladder.
+
+use super::section::PageSection;
+use crate::table::Section;
+use mbs::record::{Degraded, RealtimeSummary};
+use mbs_scene::format::{duration, few};
+
+/// Whether the deadline was held, how large the margins were, and the levels that ran.
+pub(super) fn sections(paced: &RealtimeSummary) -> Vec<PageSection> {
+    let held = match paced.overruns {
+        0 => format!("held in all {} periods", paced.periods),
+        n => format!("missed in {n} of {} periods", paced.periods),
+    };
+    let cards = [
+        ("deadline", held),
+        ("period", duration(paced.period)),
+        ("least margin", signed(paced.margin.least)),
+        ("simulated over computed time", few(paced.real_time_factor)),
+    ];
+    let mut sections = vec![
+        PageSection::Cards(cards.map(|(k, v)| [k.to_owned(), v]).into()),
+        PageSection::Table(margins(paced)),
+    ];
+    if !paced.levels.is_empty() {
+        sections.push(PageSection::Table(ladder(&paced.levels)));
+    }
+    sections
+}
+
+fn margins(paced: &RealtimeSummary) -> Section {
+    let row = |name: &str, times: [f64; 3]| {
+        let mut row = vec![name.to_owned()];
+        row.extend(times.map(signed));
+        row
+    };
+    let (jitter, computed, margin) = (paced.jitter, paced.duration, paced.margin);
+    let rows = vec![
+        row("left until the deadline", [margin.p50, margin.p1, margin.least]),
+        row("computation of a period", [computed.p50, computed.p99, computed.max]),
+        row("late begin", [jitter.p50, jitter.p99, jitter.max]),
+    ];
+    let head = ["", "median", "99 of 100 are better", "worst"];
+    let mut table = Section::new("Margins", &head, rows);
+    table.caption = format!("Over {} periods of {}.", paced.periods, duration(paced.period));
+    table
+}
+
+fn ladder(levels: &[Degraded]) -> Section {
+    let share =
+        |x: Option<f64>| x.map_or_else(|| "-".to_owned(), |x| format!("{} %", few(100.0 * x)));
+    let row = |level: &Degraded| {
+        let without = match level.without.as_slice() {
+            [] => "nothing".to_owned(),
+            names => names.join(", "),
+        };
+        let changes = match &level.output {
+            Some(output) => format!("{} of {output}", share(level.changes)),
+            None => share(level.changes),
+        };
+        vec![
+            level.level.to_string(),
+            few(level.step_times),
+            without,
+            level.periods.to_string(),
+            share(level.saves),
+            changes,
+        ]
+    };
+    let head = ["level", "step, times", "left out", "periods", "saves", "changes at most"];
+    let mut table = Section::new("Ladder", &head, levels.iter().map(row).collect());
+    table.caption =
+        "Level 0 is the full scene; results of other levels are not those of the full scene."
+            .to_owned();
+    table
+}
+
+/// A time, which may be negative.
+fn signed(t: f64) -> String {
+    if t < 0.0 { format!("-{}", duration(-t)) } else { duration(t) }
+}
