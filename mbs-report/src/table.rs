@@ -3,6 +3,9 @@
 use crate::page::escape;
 use core::fmt::Write;
 
+/// Letters of a cell beyond which the cells of a row stand below each other on a narrow screen. Chosen, not tuned.
+const MAX_CELL: usize = 60;
+
 /// A titled table.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Section {
@@ -70,14 +73,21 @@ impl Section {
             title => format!("<h2>{}</h2>", escape(title)),
         };
         let _ = writeln!(out, "<section class=\"card\">{title}");
-        let class = if self.head.is_empty() { "" } else { " class=\"grid\"" };
+        let is_long = |cell: &String| cell.chars().count() > MAX_CELL;
+        let has_texts = !self.head.is_empty() && self.rows.iter().flatten().any(is_long);
+        let class = match (self.head.is_empty(), has_texts) {
+            (true, _) => "",
+            (_, true) => " class=\"grid texts\"",
+            (_, false) => " class=\"grid\"",
+        };
         let _ = writeln!(out, "<div class=\"wide\"><table{class}>");
         if !self.head.is_empty() {
             let cells = self.head.iter().map(|x| format!("<th scope=\"col\">{}</th>", escape(x)));
             let _ = writeln!(out, "<thead><tr>{}</tr></thead>", cells.collect::<String>());
         }
         for (i, row) in self.rows.iter().enumerate() {
-            let cells = row.iter().enumerate().map(|(c, x)| self.cell(i, c, x));
+            let label = |c: usize| self.head.get(c).filter(|x| has_texts && !x.is_empty());
+            let cells = row.iter().enumerate().map(|(c, x)| self.cell((i, c), x, label(c)));
             let _ = writeln!(out, "<tr>{}</tr>", cells.collect::<String>());
         }
         out.push_str("</table></div>\n");
@@ -87,15 +97,17 @@ impl Section {
         out.push_str("</section>\n");
     }
 
-    fn cell(&self, row: usize, column: usize, text: &str) -> String {
+    /// A cell, with the name of its column where that may stand beside it.
+    fn cell(&self, (row, column): (usize, usize), text: &str, label: Option<&String>) -> String {
         let text = escape(text);
+        let label = label.map_or_else(String::new, |x| format!(" data-label=\"{}: \"", escape(x)));
         match &self.bars {
             Some((of, lengths)) if *of == column => {
                 let length = lengths.get(row).copied().unwrap_or(0.0).clamp(0.0, 1.0);
                 let percent = 100.0 * length;
-                format!("<td>{text}<i class=\"bar\" style=\"width:{percent:.1}%\"></i></td>")
+                format!("<td{label}>{text}<i class=\"bar\" style=\"width:{percent:.1}%\"></i></td>")
             }
-            _ => format!("<td>{text}</td>"),
+            _ => format!("<td{label}>{text}</td>"),
         }
     }
 }

@@ -15,7 +15,7 @@ pub(super) fn sections(paced: &RealtimeSummary) -> Vec<PageSection> {
         ("deadline", held),
         ("period", duration(paced.period)),
         ("least margin", signed(paced.margin.least)),
-        ("simulated over computed time", few(paced.real_time_factor)),
+        ("times faster than the clock", few(paced.real_time_factor)),
     ];
     let mut sections = vec![
         PageSection::Cards(cards.map(|(k, v)| [k.to_owned(), v]).into()),

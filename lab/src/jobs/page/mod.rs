@@ -2,13 +2,18 @@
 
 use crate::chart::{Chart, Series};
 
-/// The frame of a page, with its style.
-const PAGE: &str = include_str!("page.html");
+/// The frame of all pages, and its style.
+const FRAME: &str = include_str!("../../../../mbs-report/src/page/web/frame.html");
+const STYLE: &str = include_str!("../../../../mbs-report/src/page/web/style.css");
+/// What pages of measurements have beside it.
+const OWN_STYLE: &str = include_str!("page.css");
 
 /// A page.
 pub(crate) fn page(title: &str, remark: &str, content: &str) -> String {
-    let page = PAGE.replace("{{title}}", &escape(title)).replace("{{remark}}", &escape(remark));
-    page.replace("{{content}}", content)
+    let frame = FRAME.replace("{{style}}", &[STYLE, OWN_STYLE].concat()).replace("{{scripts}}", "");
+    let frame = frame.replace("{{title}}", &escape(title)).replace("{{heading}}", &escape(title));
+    let remark = format!("<p class=\"soft\">{}</p>\n", escape(remark));
+    frame.replace("{{sections}}", &(remark + content))
 }
 
 /// A drawing with its legend and its caption.
@@ -70,7 +75,7 @@ mod tests {
     }
 
     #[test]
-    fn a_page_fills_its_frame() {
+    fn a_page_fills_the_frame_of_all_pages() {
         let page = page("Title & more", "remark", "<p>content</p>");
         assert!(!page.contains("{{") && page.contains("<p>content</p>"));
         assert_eq!(page.matches("Title &amp; more").count(), 2, "in the head and on the page");
