@@ -47,7 +47,7 @@ impl Tables<'_> {
 
     /// The ranks at each error.
     pub(super) fn levels(&self) -> Vec<Section> {
-        self.0.ranking.iter().map(|level| Self::level(level)).collect()
+        self.0.ranking.iter().map(Self::level).collect()
     }
 
     /// What is compared, against what.

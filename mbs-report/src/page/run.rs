@@ -114,8 +114,10 @@ fn fitting(record: &RunRecord) -> (Drawn, u32) {
 
 fn drawn(record: &RunRecord, pictures: usize, points: usize) -> Drawn {
     let mut pack = Pack::default();
-    let motion =
-        record.motion.as_ref().and_then(|m| motion::packed(m, (pictures, false), &mut pack));
+    let motion = record
+        .motion
+        .as_ref()
+        .and_then(|m| motion::packed(m, &record.channels, (pictures, false), &mut pack));
     let mut panels = Panels::new(points);
     let (frames, still) = panels.add_channels(&record.channels, &mut pack);
     let health = panels.add_health(record, &mut pack);
@@ -146,5 +148,13 @@ fn caption(record: &RunRecord) -> String {
         "Left or right button moves, wheel or pinch zooms."
     };
     let paths = if has_traces { " Lines are the paths of outputs." } else { "" };
-    format!("{first}{paths} Keys: space, arrows, Home, End, f (fit), l (labels), 1 to 4 (sides).")
+    let has_arrows = motion.is_some_and(|motion| !motion.forces.is_empty());
+    let arrows = match (has_arrows, is_spatial) {
+        (true, true) => " Arrows are forces, those with two heads moments.",
+        (true, false) => " Arrows are forces.",
+        (false, _) => "",
+    };
+    format!(
+        "{first}{paths}{arrows} Keys: space, arrows, Home, End, f (fit), l (labels), 1 to 4 (sides)."
+    )
 }

@@ -5,14 +5,17 @@ use crate::page;
 use mbs::record::*;
 use mbs_core::outputs::Component;
 
+fn component(label: &str, unit: &str) -> Component {
+    Component { label: label.into(), unit: unit.into() }
+}
+
 fn record() -> RunRecord {
     let times: Vec<f64> = (0..20_000).map(|i| f64::from(i) * 1.0e-3).collect();
     let mut wave: Vec<f64> = times.iter().map(|t| t.sin()).collect();
     wave[12_345] = 9.876_54;
-    let component = |label: &str| Component { label: label.into(), unit: "m".into() };
     let channel = Channel {
         name: "tip".into(),
-        components: vec![component("x"), component("y")],
+        components: vec![component("x", "m"), component("y", "m")],
         ..Channel::default()
     };
     let pose = |t: &f64| [t.cos(), t.sin(), 0.0, (t / 2.0).cos(), 0.0, 0.0, (t / 2.0).sin()];
@@ -160,6 +163,35 @@ fn numbers_of_one_unit_share_a_panel_unless_their_ranges_are_far_apart() {
         json["panels"].as_array().unwrap().iter().map(|p| p["title"].as_str().unwrap()).collect();
     assert_eq!(titles, ["a, c", "b", "d"]);
     assert!(html.contains("Outputs a, c over time [rad]."));
+}
+
+#[test]
+fn forces_are_those_of_their_channel_at_the_times_of_the_pictures() {
+    let mut record = record();
+    let times = record.channels[0].times.clone();
+    let wave = |phase: f64| times.iter().map(|t| 300.0 * (t + phase).sin()).collect();
+    record.channels.push(ChannelSeries {
+        channel: Channel {
+            name: "pin".into(),
+            components: ["Fx", "Fy", "Mz"].map(|label| component(label, "N")).into(),
+            ..Channel::default()
+        },
+        values: vec![wave(0.0), wave(1.0), wave(2.0)],
+        times: times.clone(),
+        ..ChannelSeries::default()
+    });
+    let of = |name: &str| DrawnPoint { name: name.into(), ..DrawnPoint::default() };
+    // `tip` is no force, and nothing is called `none`
+    record.motion.as_mut().unwrap().forces = vec![of("pin"), of("tip"), of("none")];
+    let (header, groups) = data(&page(&record));
+    let forces = header["motion"]["forces"].as_array().unwrap();
+    assert_eq!(forces.len(), 1);
+    let times = numbers(&header["motion"]["times"], &groups);
+    let found = numbers(&forces[0]["columns"][1], &groups);
+    for (t, force) in times.iter().zip(found) {
+        // a part in 65534 of the range of 600 N, rows 1 ms apart
+        assert!((force - 300.0 * (t + 1.0).sin()).abs() < 0.01, "{t}");
+    }
 }
 
 #[test]

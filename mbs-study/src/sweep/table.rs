@@ -73,7 +73,6 @@ impl Columns {
     }
 
     /// The channels' columns: number of the first of each three, which are the end, the least and the largest.
-    #[must_use]
     pub fn channels(&self) -> impl Iterator<Item = usize> + '_ {
         (1 + self.n_parameters + RUN.len()..self.header.len() - 1).step_by(3)
     }

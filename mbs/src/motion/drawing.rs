@@ -2,6 +2,7 @@
 
 use crate::record::{BodyPlace, DrawnPoint};
 use mbs_core::Real;
+use mbs_core::effects::ActsOn;
 use mbs_core::scene::{BodyId, Dimension, Quantity, Scene};
 
 /// What is drawn of a scene.
@@ -30,6 +31,29 @@ impl<T: Real> Drawing<'_, T> {
             _ => None,
         };
         outputs.filter_map(trace).collect()
+    }
+
+    /// Reactions act on the second body of their joint, effects on their last body; those along a length have no vector and are left out.
+    pub(super) fn forces(&self) -> Vec<DrawnPoint> {
+        let acts = |quantity: &Quantity<T>| match quantity {
+            Quantity::Reaction { joint } => {
+                let joint = &self.scene.joints[joint.index()];
+                Some((joint.bodies[1], joint.points[1]))
+            }
+            Quantity::EffectForce { effect } => {
+                let kind = &self.scene.effects[effect.index()].kind;
+                let is_vector = kind.acts_on() != ActsOn::Line;
+                let places = kind.places().into_iter().filter(|_| is_vector);
+                places.last().map(|(_, body, at)| (body, at))
+            }
+            _ => None,
+        };
+        let outputs = self.scene.outputs.iter();
+        let force = |output: &mbs_core::scene::Output<T>| {
+            let (body, at) = acts(&output.quantity)?;
+            Some(DrawnPoint { name: output.name.clone(), place: self.place(body, at) })
+        };
+        outputs.filter_map(force).collect()
     }
 }
 

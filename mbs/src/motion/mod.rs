@@ -44,6 +44,7 @@ impl<T: Real, const D: usize> MotionRecorder<T, D> {
             length: drawing.length,
             bodies: scene.bodies.iter().map(|b| body(&b.name, b.mass)).collect(),
             traces: drawing.traces(),
+            forces: drawing.forces(),
             ..RecordedMotion::default()
         };
         drawing.add_bodies(&mut motion);

@@ -30,6 +30,8 @@ pub struct RecordedMotion {
     pub traces: Vec<DrawnPoint>,
     /// Joints, for labels.
     pub joints: Vec<DrawnPoint>,
+    /// Where forces and moments act that outputs measure, by the names of the outputs.
+    pub forces: Vec<DrawnPoint>,
     /// The road under tires.
     pub road: Option<DrawnRoad>,
 }

@@ -4,6 +4,7 @@ function makeLines(motion, clock, section) {
   const spatial = motion.dimension === 3, up = !spatial ? [0, 1, 0] : Math.hypot(...motion.up) > 0 ? vec.unit(motion.up) : [0, 0, 1];
   const ahead = Math.abs(up[0]) > 0.9 ? [0, 1, 0] : vec.unit(vec.add([1, 0, 0], up, -up[0])), left = vec.cross(up, ahead);
   const angles = { space: [-0.9, 0.4], side: [0, 0], front: [-Math.PI / 2, 0], rear: [Math.PI / 2, 0], top: [0, 1.57] };
+  let forceScale = 1;
   let [yaw, pitch] = spatial ? angles.space : [0, 0], zoom = 1, followed = null;
   section.querySelector(".note").textContent = "This browser has no WebGL: the mechanism is drawn as lines.";
 
@@ -71,6 +72,10 @@ function makeLines(motion, clock, section) {
       const colour = body === null ? soft : `hsl(${360 * bodyHue(body)} 55% 50%)`;
       for (const line of lines) stroke(line.map((p) => motion.point(pose, body, p)), colour, body === null ? 1.5 : 2.5);
     }
+    for (const force of motion.forces) motion.load(force, clock.now()).forEach((value, i) => {
+      const from = motion.point(pose, force.place.body, force.place.at);
+      if (forceScale && Math.hypot(...value) > 0 && (spatial || i === 0)) stroke([from, vec.add(from, value, (forceScale * 0.25 * motion.length) / motion.largest[i])], i ? "#8e5bd0" : "#d6453d", 2.5);
+    });
     for (const line of motion.lines) stroke(line.places.map((p) => motion.point(pose, p.body, p.at)), soft, 1.5);
   }
   let held = null;
@@ -93,6 +98,7 @@ function makeLines(motion, clock, section) {
     followed: () => followed,
     setFollowed(body) { followed = body; extents(); draw(); },
     setNames() {},
+    setForces(scale) { forceScale = scale; draw(); },
     picture(take) { draw(); canvas.toBlob(take); },
   };
 }

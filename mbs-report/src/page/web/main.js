@@ -44,6 +44,8 @@ function connect(view, motion, clock) {
   const name = (on) => { by("names").checked = on; view.setNames(on); };
   by("names").addEventListener("change", () => name(by("names").checked));
   by("names").closest("label").hidden = view.kind === "lines";
+  by("forces").closest("label").hidden = !motion.forces.length;
+  by("forces").addEventListener("input", () => view.setForces(Number(by("forces").value)));
   by("full").addEventListener("click", () => (document.fullscreenElement ? document.exitFullscreen() : section.requestFullscreen?.()));
   by("picture").addEventListener("click", () => view.picture((blob) => saveBlob(blob, "motion.png")));
   addEventListener("keydown", (event) => {

@@ -34,13 +34,23 @@ function makeMotion(motion, column) {
     const a = y * p[2] - z * p[1] + w * p[0], b = z * p[0] - x * p[2] + w * p[1], c = x * p[1] - y * p[0] + w * p[2];
     return [pose[o] + p[0] + 2 * (y * c - z * b), pose[o + 1] + p[1] + 2 * (z * a - x * c), pose[o + 2] + p[2] + 2 * (x * b - y * a)];
   }
+  // Force and moment of an output at a time, in global axes.
+  const forces = (motion.forces ?? []).map((force) => ({ ...force, columns: force.columns.map((c) => column(c, true)) }));
+  function load({ columns }, t) {
+    const k = before(times, t), next = Math.min(k + 1, times.length - 1);
+    const part = next > k ? Math.min(1, Math.max(0, (t - times[k]) / (times[next] - times[k]))) : 0;
+    const v = columns.map((c) => c[k] + (c[next] - c[k]) * part || 0);
+    return motion.dimension === 2 ? [[v[0], v[1], 0], [0, 0, v[2]]] : [v.slice(0, 3), [v[3] || 0, v[4] || 0, v[5] || 0]];
+  }
+  // The largest force and the largest moment of the run: they have the longest arrows.
+  const largest = [0, 1].map((i) => Math.max(1e-300, ...forces.flatMap((force) => [...times].map((t) => Math.hypot(...load(force, t)[i])))));
   // The path of a point of a body, at most `most` places of it.
   function path(body, p, most) {
     const skip = Math.max(1, Math.ceil(times.length / most)), out = [];
     for (let k = 0; k < times.length; k += skip) out.push([...point(at(times[k]), body, p)]);
     return out;
   }
-  return { ...motion, times, n, at, point, path, start: times[0], end: times[times.length - 1] };
+  return { ...motion, forces, largest, load, times, n, at, point, path, start: times[0], end: times[times.length - 1] };
 }
 
 // Index of the last time not after t.

@@ -191,6 +191,29 @@ function makeShapes(T, motion) {
     root.add(new T.Line(geometry, new T.LineBasicMaterial({ color: new T.Color().setHSL(trace.body === null ? 0 : bodyHue(trace.body), 0.6, 0.5), transparent: true, opacity: 0.6 })));
   });
 
+  // Arrows of forces, and with two heads of moments, over everything else; those of the plane point at the reader and are left out.
+  const arrows = motion.forces.flatMap((force) => (planar ? [0] : [0, 1]).map((i) => {
+    const color = i ? 0x8e5bd0 : 0xd6453d, paint = new T.MeshLambertMaterial({ color, emissive: color, emissiveIntensity: 0.5, depthTest: false, transparent: true }), group = new T.Group();
+    const shaft = put(group, new T.CylinderGeometry(0.006 * L, 0.006 * L, 1, 10), paint), heads = i ? [0, 0.03 * L] : [0];
+    const cones = heads.map(() => put(group, new T.ConeGeometry(0.016 * L, 0.045 * L, 14), paint));
+    group.traverse((part) => { part.renderOrder = 2; });
+    root.add(group);
+    return { force, i, group, shaft, cones, heads };
+  }));
+  let forceScale = 1;
+  function drawArrows(pose, t) {
+    for (const { force, i, group, shaft, cones, heads } of arrows) {
+      const value = motion.load(force, t)[i], size = Math.hypot(...value), length = (forceScale * 0.25 * L * size) / motion.largest[i];
+      group.visible = length > 0.01 * L;
+      if (!group.visible) continue;
+      group.position.set(...motion.point(pose, force.place.body, force.place.at));
+      group.quaternion.setFromUnitVectors(up, V(value.map((x) => x / size)));
+      shaft.scale.set(1, length, 1);
+      shaft.position.set(0, length / 2, 0);
+      cones.forEach((cone, k) => cone.position.set(0, length - heads[k], 0));
+    }
+  }
+
   const from = new T.Vector3(), to = new T.Vector3(), way = new T.Vector3();
   function update(pose, t) {
     groups.forEach((group, b) => {
@@ -209,10 +232,11 @@ function makeShapes(T, motion) {
         if (length > 0) mesh.quaternion.setFromUnitVectors(up, way.divideScalar(length));
       }
     }
+    drawArrows(pose, t);
     if (road && motion.road.speed) road.position.x = -motion.road.speed * t;
   }
   function theme(colour) {
     themed.mark.color.set(colour("soft")); themed.road.color.set(colour("road")); themed.thin.color.set(colour("rule"));
   }
-  return { root, groups, update, theme };
+  return { root, groups, update, theme, setForces(scale) { forceScale = scale; } };
 }

@@ -151,6 +151,7 @@ function makeView(T, motion, clock, section) {
     followed: () => followed,
     setFollowed(body) { followed = body; fit(); },
     setNames: showNames,
+    setForces(scale) { shapes.setForces(scale); draw(); },
     // drawn in the same task, so that the canvas still has it
     picture(take) { draw(); canvas.toBlob(take); },
   };
