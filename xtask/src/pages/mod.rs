@@ -15,7 +15,7 @@ const WIDTHS: [u32; 2] = [1280, 390];
 /// Colours that a reader may prefer, as the browser's own numbers.
 const THEMES: [(&str, &str); 2] = [("dark", "0"), ("light", "1")];
 /// Catches what a page throws, before anything of it runs.
-const CATCH: &str = "<script>window.probeFaults = []; addEventListener(\"error\", (e) => window.probeFaults.push(e.message));</script>";
+const CATCH: &str = "<script>window.probeFaults = []; addEventListener(\"error\", (e) => window.probeFaults.push(e.message)); addEventListener(\"unhandledrejection\", (e) => window.probeFaults.push(String(e.reason)));</script>";
 
 /// Takes WebGL away from a page.
 const WITHOUT_WEBGL: &str = "<script>window.probeWithoutWebGL = true; const whole = HTMLCanvasElement.prototype.getContext; HTMLCanvasElement.prototype.getContext = function (kind, ...rest) { return /webgl/.test(kind) ? null : whole.call(this, kind, ...rest); };</script>";
@@ -46,7 +46,8 @@ fn made(folder: &Path) -> Result<[&'static str; 6], String> {
     let scene = |name: &str| process::root().join("scenes").join(name).display().to_string();
     let place = |name: &str| folder.join(name).display().to_string();
     let (pendulum, out) = (scene("simple-pendulum.toml"), place(""));
-    mbs(&["run", &pendulum, "--duration", "1", "--out", &out])?;
+    let suspension = scene("iltis-suspension.toml");
+    mbs(&["run", &suspension, "--duration", "1", "--no-estimate", "--out", &out])?;
     let compare = [
         "compare",
         &pendulum,

@@ -1,12 +1,13 @@
 // Looks at a page from within, as a reader would: is everything in its place, and does it answer to pointer and buttons?
-addEventListener("load", () => setTimeout(async () => {
+async function lookedAt() {
   const faults = window.probeFaults, must = (holds, what) => { if (!holds) faults.push(what); };
   const said = (text) => (text || "").trim().slice(0, 40);
   const boxes = (nodes) => [...nodes].map((node) => [node, node.getBoundingClientRect()]).filter(([, b]) => b.width > 0 && b.height > 0);
   const over = (a, b) => Math.min(a.right, b.right) - Math.max(a.left, b.left) > 1.5 && Math.min(a.bottom, b.bottom) - Math.max(a.top, b.top) > 1.5;
 
   // pages with data of their own are drawn when it is read
-  for (let i = 0; i < 200 && document.getElementById("pack") && !document.documentElement.dataset.ready; i++) await new Promise((go) => setTimeout(go, 50));
+  for (let i = 0; i < 100 && document.getElementById("pack") && !document.documentElement.dataset.ready; i++) await new Promise((go) => setTimeout(go, 50));
+  must(!document.getElementById("pack") || document.documentElement.dataset.ready, "the page is not drawn");
   if (window.probeTheme) must(matchMedia(`(prefers-color-scheme: ${window.probeTheme})`).matches, `the page is not ${window.probeTheme}`);
   must(performance.getEntriesByType("resource").length === 0, "something is fetched");
   must(document.documentElement.scrollWidth <= innerWidth + 1, `the page is ${document.documentElement.scrollWidth} wide on ${innerWidth}`);
@@ -52,6 +53,12 @@ addEventListener("load", () => setTimeout(async () => {
     const moves = page.motion.times.length > 1;
     page.clock.seek(0.3 * page.clock.start + 0.7 * page.clock.end);
     must(!moves || seen()[1] !== first, "the picture is the same at two times");
+    if (page.motion.forces.length) {
+      const [, short] = seen();
+      view.setForces(3);
+      must(seen()[1] !== short, "longer arrows do not change the picture");
+      view.setForces(1);
+    }
     const [, still] = seen(), scroll = scrollY;
     view.canvas.dispatchEvent(new WheelEvent("wheel", { deltaY: -300, bubbles: true, cancelable: true }));
     await new Promise((go) => setTimeout(go, 100));
@@ -110,4 +117,5 @@ addEventListener("load", () => setTimeout(async () => {
     });
     parent.postMessage({ probe: [...new Set(faults)].slice(0, 12) }, "*");
   });
-}, 200));
+}
+addEventListener("load", () => setTimeout(() => lookedAt().catch((error) => parent.postMessage({ probe: [...window.probeFaults, error.stack] }, "*")), 200));

@@ -88,12 +88,20 @@ pub(super) struct Entry {
     remark: String,
     seconds: f64,
     surprises: Vec<String>,
+    /// What the page shows, as a figure; empty without one.
+    picture: String,
 }
 
 impl Entry {
     /// A page that was begun at `clock` and is made now.
     pub(super) fn new(page: &Page, remark: String, clock: Instant, surprises: Vec<String>) -> Self {
-        Self { page: *page, remark, seconds: clock.elapsed().as_secs_f64(), surprises }
+        let (seconds, picture) = (clock.elapsed().as_secs_f64(), String::new());
+        Self { page: *page, remark, seconds, surprises, picture }
+    }
+
+    /// The same with a picture of the page.
+    pub(super) fn with_picture(self, picture: String) -> Self {
+        Self { picture, ..self }
     }
 
     fn card(&self) -> String {
@@ -111,7 +119,7 @@ impl Entry {
             let items: String = self.surprises.iter().map(item).collect();
             html.push_str(&format!("<ul class=\"claims\">{items}</ul>\n"));
         }
-        html + "</section>\n"
+        html + &self.picture + "</section>\n"
     }
 }
 
@@ -193,12 +201,14 @@ mod tests {
         let mut index = Index::new(true);
         let clock = Instant::now();
         index.entries.push(Entry::new(&TABLES, "3 entries".into(), clock, vec!["T1 <x>".into()]));
-        index.entries.push(Entry::new(&BENCH, "none".into(), clock, Vec::new()));
+        let bench = Entry::new(&BENCH, "none".into(), clock, Vec::new());
+        index.entries.push(bench.with_picture("<figure>speed-up</figure>".into()));
         let html = index.html();
         for page in [TABLES, BENCH] {
             assert!(html.contains(&format!("href=\"{}\"", page.file)));
             assert!(html.contains(&format!("<code>{}</code>", page.command)));
         }
+        assert!(html.contains("<figure>speed-up</figure>"));
         assert!(html.contains("class=\"fails\">T1 &lt;x&gt;") && html.contains("report --quick"));
         assert!(!html.contains("{{") && !html.contains("src="), "nothing is fetched");
         assert_eq!(index.surprises(), ["T1 <x>"]);

@@ -6,6 +6,7 @@ mod index;
 
 use crate::chart::picture::picture;
 use crate::mbs::{self, Mbs};
+use crate::page::figure;
 use crate::{bench, step_experiments, tables};
 use index::{Entry, Index};
 use std::path::Path;
@@ -70,12 +71,14 @@ fn compare(
     let out = out.parent().unwrap_or(folder);
     mbs.compare(&mbs::scene(page.scene), out, quick.then_some("20"))?;
     let comparison = compared::read(out)?;
-    let drawing = picture(&drawing::chart(&comparison))?;
+    let chart = drawing::chart(&comparison);
+    let drawing = picture(&chart)?;
     process::write(&out.join("work-precision.svg"), drawing.as_bytes())?;
     let judged = compared::judge(page.scene, &comparison);
     let [completed, stopped] = judged.counts;
     let remark = format!("{completed} runs were completed, {stopped} stopped; the page says why.");
     // With less work the ranges of steps are shorter: what is listed may not be reached.
     let surprises = if quick { Vec::new() } else { judged.surprises };
-    index.add(folder, Entry::new(page, remark, clock, surprises))
+    let figure = figure(&chart, "CPU time over error.")?;
+    index.add(folder, Entry::new(page, remark, clock, surprises).with_picture(figure))
 }
