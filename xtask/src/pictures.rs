@@ -134,7 +134,7 @@ impl Maker {
         let framed = page.with_extension("picture.html");
         let html = html.replacen("</body>", &format!("<script>{take}</script></body>"), 1);
         fs::write(&framed, html).map_err(|e| e.to_string())?;
-        let report = pages::report_in(&pages::dom(self.browser, &framed)?);
+        let report = pages::report_in(&pages::dom(self.browser, &framed, pages::LIGHT)?);
         let text = report.strip_prefix("data:image/png;base64,");
         let bytes = text.and_then(decoded).ok_or_else(|| format!("{name}: {report}"))?;
         Ok(bytes)

@@ -14,6 +14,8 @@ const BROWSERS: [&str; 4] = ["chromium", "chromium-browser", "google-chrome", "c
 const WIDTHS: [u32; 2] = [1280, 390];
 /// Colours that a reader may prefer, as the browser's own numbers.
 const THEMES: [(&str, &str); 2] = [("dark", "0"), ("light", "1")];
+/// What the browser takes light colours by.
+pub(crate) const LIGHT: &str = THEMES[1].1;
 /// Catches what a page throws, before anything of it runs.
 const CATCH: &str = "<script>window.probeFaults = []; addEventListener(\"error\", (e) => window.probeFaults.push(e.message)); addEventListener(\"unhandledrejection\", (e) => window.probeFaults.push(String(e.reason)));</script>";
 
