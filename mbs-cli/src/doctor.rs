@@ -93,7 +93,10 @@ fn write_results(begun: &files::Begun, checkup: &Checkup, arguments: &Arguments)
     ];
     let command = if arguments.still { "doctor --still" } else { "doctor" };
     let provenance = files::provenance((command, &arguments.scene), &options, settings);
-    let line = |entry: Entry, key: &str| Some(document.place(entry, key).1.line);
+    let line = |entry: Entry, key: &str| {
+        let (file, place) = document.place(entry, key);
+        Some(((file != document.file()).then(|| file.to_owned()), place.line))
+    };
     let (report, text) = diagnosis(scene, checkup, &line, (at_start(begun), provenance));
     let mut status = match checkup.worst() {
         Some(Severity::Fault) => ExitCode::from(STOPPED),

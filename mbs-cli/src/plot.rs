@@ -24,7 +24,7 @@ pub(crate) struct Arguments {
     /// Runs: directories that `mbs run --out` has written, or scene files, which are run.
     #[arg(required = true)]
     runs: Vec<PathBuf>,
-    /// Another value at a path of the scenes among them, as sweeps write it: body.rod.mass=2. May be repeated.
+    /// Another value at a path of the scenes among them, as sweeps write it: body.rod.mass=2. May be repeated. Default: none.
     #[arg(long, value_name = "PATH=VALUE", display_order = 800)]
     set: Vec<String>,
     /// Page (.html), picture (.svg) or table (.csv) that is written.

@@ -14,7 +14,7 @@ pub(crate) struct SceneArgument {
     /// Scene file (TOML or JSON), or - for standard input.
     #[arg(value_name = "SCENE")]
     scene: PathBuf,
-    /// Another value at a path of the scene, as sweeps write it: body.rod.mass=2, 'parameter.k=36 kN/m'. May be repeated.
+    /// Another value at a path of the scene, as sweeps write it: body.rod.mass=2, 'parameter.k=36 kN/m'. May be repeated. Default: none.
     #[arg(long, value_name = "PATH=VALUE", display_order = 800)]
     set: Vec<String>,
 }

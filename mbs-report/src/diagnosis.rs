@@ -3,9 +3,9 @@
 use crate::report::{Report, Section, row, wrapped};
 use core::fmt::Write;
 use mbs::record::{Provenance, RecordedMotion};
-use mbs_core::scene::{Entry, Scene};
+use mbs_core::scene::Scene;
 use mbs_scene::format::{counted, few, significant, size};
-use mbs_study::doctor::{Checkup, Finding, labels};
+use mbs_study::doctor::{Checkup, Finding, Written, labels};
 use mbs_study::redundancy::UNCERTAIN;
 
 /// Largest displacement or turn that is rounding [m or rad]. Chosen, not tuned.
@@ -14,15 +14,12 @@ const ROUNDING: f64 = 1e-12;
 /// Letters of a line of findings for a terminal.
 const WIDTH: usize = 110;
 
-/// Where an entry's key stands in the scene file.
-type Line<'a> = &'a dyn Fn(Entry, &str) -> Option<usize>;
-
 /// The page of a checkup, with the scene at its start where it has one, and its text for a terminal.
 #[must_use]
 pub fn report(
     scene: &Scene<f64>,
     checkup: &Checkup,
-    line: Line<'_>,
+    line: Written<'_>,
     (start_view, provenance): (Option<RecordedMotion>, Provenance),
 ) -> (Report, String) {
     let mut sections = vec![findings(checkup, line), what(checkup)];
@@ -64,10 +61,10 @@ fn verdict(c: &Checkup) -> String {
 }
 
 /// Findings as sentences, for a terminal.
-fn sentences(c: &Checkup, line: Line<'_>) -> String {
+fn sentences(c: &Checkup, line: Written<'_>) -> String {
     let mut out = String::new();
     for finding in &c.findings {
-        let place = place(finding, line).map_or_else(String::new, |l| format!(", line {l}"));
+        let place = place(finding, line).map_or_else(String::new, |place| format!(", {place}"));
         // Writing into a String has nothing to fail on.
         let _ = writeln!(out, "\n{}: {}{place}", finding.severity.name(), finding.code);
         let mut lines = wrapped(&finding.message, WIDTH);
@@ -79,21 +76,24 @@ fn sentences(c: &Checkup, line: Line<'_>) -> String {
     out
 }
 
-fn place(finding: &Finding, line: Line<'_>) -> Option<usize> {
-    finding.place.and_then(|(entry, key)| line(entry, key))
+/// `line 12`, or `FILE:12` of one that is included.
+fn place(finding: &Finding, line: Written<'_>) -> Option<String> {
+    let (entry, key) = finding.place?;
+    let (file, line) = line(entry, key)?;
+    Some(file.map_or_else(|| format!("line {line}"), |file| format!("{file}:{line}")))
 }
 
-fn findings(c: &Checkup, line: Line<'_>) -> Section {
+fn findings(c: &Checkup, line: Written<'_>) -> Section {
     let row = |f: &Finding| {
         vec![
             f.severity.name().to_owned(),
             f.code.to_owned(),
-            place(f, line).map_or_else(String::new, |l| l.to_string()),
+            place(f, line).unwrap_or_default(),
             f.message.clone(),
             f.remedy.clone(),
         ]
     };
-    let head = ["", "code", "line", "what was found", "what would mend it"];
+    let head = ["", "code", "where", "what was found", "what would mend it"];
     let rows = c.findings.iter().map(row).collect();
     Section { is_detail: true, ..Section::new("Findings", &head, rows) }
 }

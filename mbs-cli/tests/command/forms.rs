@@ -167,5 +167,5 @@ fn refusals_of_standard_input_and_of_included_files_say_where() {
     let output = run("run", &[&main]);
     let why = text(&output.stderr);
     assert_eq!(status(&output), 1);
-    assert!(why.contains("forms-bad.toml:10:9: ") && why.contains("included from "), "{why}");
+    assert!(why.contains("forms-bad.toml:10:11: ") && why.contains("included from "), "{why}");
 }

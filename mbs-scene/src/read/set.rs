@@ -121,7 +121,9 @@ fn is_once(table: &str) -> bool {
 fn tables_at(parts: &[Part]) -> &'static [KeyTable] {
     let [Part::Key(table), rest @ ..] = parts else { return &[] };
     let mut tables = keys::of(table);
-    for part in rest {
+    let is_list = tables.first().is_some_and(|table| table.standing == Standing::Listed);
+    // the first part behind a list is an entry, and may be called like a key
+    for part in rest.iter().skip(usize::from(is_list)) {
         let Part::Key(name) = part else { continue };
         let key = tables.iter().find_map(|table| table.key(name));
         if let Some(

@@ -17,7 +17,15 @@ macro_rules! templates {
     };
 }
 
-templates!["pendulum", "four-bar", "slider-crank", "crank-rocker", "quarter-car", "double-wishbone", "arm"];
+templates![
+    "pendulum",
+    "four-bar",
+    "slider-crank",
+    "crank-rocker",
+    "quarter-car",
+    "double-wishbone",
+    "arm"
+];
 
 impl Template {
     /// What it is: the first sentence of its first comment.

@@ -5,9 +5,12 @@ use crate::redundancy::{JointChange, Loop, Remedy, Set};
 use mbs_core::scene::Entry;
 use serde_json::{Value, json};
 
-/// The object; `line` says where an entry's key stands in the scene file.
+/// Where an entry's key stands: the file where the scene's own includes it, and the line.
+pub type Written<'a> = &'a dyn Fn(Entry, &str) -> Option<(Option<String>, usize)>;
+
+/// The object; `line` says where an entry's key stands.
 #[must_use]
-pub fn to_json(checkup: &Checkup, line: &dyn Fn(Entry, &str) -> Option<usize>) -> Value {
+pub fn to_json(checkup: &Checkup, line: Written<'_>) -> Value {
     let c = checkup;
     let names = Names { joints: &c.joints, bodies: &c.bodies };
     let level = &c.joint_level;
@@ -74,7 +77,8 @@ impl Names<'_> {
         all.iter().map(|&b| self.bodies[b].as_str()).collect()
     }
 
-    fn finding(&self, f: &Finding, line: &dyn Fn(Entry, &str) -> Option<usize>) -> Value {
+    fn finding(&self, f: &Finding, line: Written<'_>) -> Value {
+        let (file, line) = f.place.and_then(|(entry, key)| line(entry, key)).unzip();
         json!({
             "severity": f.severity.name(),
             "code": f.code,
@@ -83,7 +87,8 @@ impl Names<'_> {
             "remedy": f.remedy,
             "joints": self.joints(&f.joints),
             "bodies": self.bodies(&f.bodies),
-            "line": f.place.and_then(|(entry, key)| line(entry, key)),
+            "line": line,
+            "file": file.flatten(),
         })
     }
 

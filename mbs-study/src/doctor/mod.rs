@@ -18,7 +18,7 @@ mod units;
 
 pub use basis::Effort;
 pub use finding::{Finding, Severity, Topic};
-pub use json::{labels, to_json};
+pub use json::{Written, labels, to_json};
 pub use methods::Attempt;
 pub use motion::{LinearMotion, Motion, Nearest};
 pub use start::Moved;

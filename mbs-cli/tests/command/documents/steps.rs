@@ -5,7 +5,7 @@ use std::path::Path;
 /// A fence of a document, or a line of it.
 #[derive(Debug, PartialEq, Eq)]
 pub(super) enum Step {
-    /// A line of a fence `sh` that calls `mbs`, `cp` or `cut`; `cargo mbs` and `cargo xtask simulate` are `mbs`. Its status: 0, or `# status N`.
+    /// A line of a fence `sh` that calls `mbs`, `cp`, `cmp` or `cut`; `cargo mbs` and `cargo xtask simulate` are `mbs`. Its status: 0, or `# status N`.
     Command { text: String, status: i32 },
     /// A fence `toml NAME`: the file's text.
     File { name: String, text: String },
@@ -65,7 +65,7 @@ fn commands(lines: &[(usize, &str)], steps: &mut Vec<(usize, Step)>) {
         before.clear();
         let run = code.strip_prefix("cargo xtask simulate ").map(|rest| format!("mbs run {rest}"));
         let text = run.unwrap_or_else(|| code.trim_start_matches("cargo ").to_owned());
-        if ["mbs ", "cp ", "cut "].iter().any(|program| text.starts_with(program)) {
+        if ["mbs ", "cp ", "cmp ", "cut "].iter().any(|program| text.starts_with(program)) {
             let status = comment.split_once("status ").map(|(_, rest)| &rest[..1]);
             let status = status.map_or(0, |digit| digit.parse().expect("`# status N`"));
             steps.push((number + 1, Step::Command { text, status }));
