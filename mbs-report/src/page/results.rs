@@ -77,7 +77,8 @@ pub(super) fn plot_frames(
                     across: None,
                     values: &column.values,
                 });
-                let caption = format!("{name} over time.");
+                let size = if is_log { "Magnitude of " } else { "" };
+                let caption = format!("{size}{name} over time.");
                 let text = (name.as_str(), unit(runs, name), caption);
                 panels.add_curves(text, &curves.collect::<Vec<_>>(), (is_log, ""), pack)
             };
