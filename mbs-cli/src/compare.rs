@@ -6,7 +6,7 @@ use crate::refusal::Refusal;
 use crate::say::{say, warn};
 use crate::scene::SceneArgument;
 use crate::status::STOPPED;
-use crate::{files, signals};
+use crate::{files, input, signals};
 use clap::Args;
 use indicatif::ProgressBar;
 use mbs::folder::{Folder, WriteError, id};
@@ -114,7 +114,7 @@ impl Arguments {
             None if beside.is_file() => beside,
             None => return Ok(None),
         };
-        let text = String::from_utf8(files::read(&path, "CSV file")?).map_err(|_| {
+        let text = String::from_utf8(input::read(&path, "CSV file")?).map_err(|_| {
             let message = format!("cannot read `{}`: it is not UTF-8 text", path.display());
             Refusal::new("file-unreadable", message, "give a CSV file")
         })?;

@@ -1,8 +1,8 @@
 //! `mbs export SCENE`.
 
-use crate::files;
 use crate::refusal::Refusal;
 use crate::scene::SceneArgument;
+use crate::{files, input};
 use clap::Args;
 use mbs::export::{ExportError, export, ladder};
 use mbs::{Method, Precision, ResolvedMethod};
@@ -49,7 +49,7 @@ fn written(arguments: &Arguments) -> Result<(), Refusal> {
     let rungs = match &arguments.ladder {
         None => Vec::new(),
         Some(path) => {
-            let bytes = files::read(path, "JSON of `mbs explain`")?;
+            let bytes = input::read(path, "JSON of `mbs explain`")?;
             ladder(&String::from_utf8_lossy(&bytes), &scene).map_err(|error| refusal(&error))?
         }
     };

@@ -1,7 +1,8 @@
-//! Scene files in, result files out, and what to say when that fails.
+//! Scenes in, result files out, and what to say when that fails.
 
+use crate::input::read;
 use crate::refusal::Refusal;
-use crate::say::{plain, warn};
+use crate::say::warn;
 use crate::scene::SceneArgument;
 use mbs::core::scene::{Entry, Scene};
 use mbs::folder::{Folder, WriteError, id, write_file};
@@ -9,23 +10,8 @@ use mbs::record::{PilotReport, Provenance};
 use mbs::scene_file::SceneFile;
 use mbs::scene_file::format::significant;
 use mbs::{InputTableError, Method, ResolvedMethod, SettingsError};
-use std::fs::File;
-use std::io::{self, Read};
 use std::path::Path;
 use std::process::ExitCode;
-use std::sync::atomic::{AtomicBool, Ordering};
-
-/// Most bytes of a file that is read, unless larger ones are asked for. Chosen, not tuned.
-const MOST_BYTES: u64 = 64 << 20;
-/// Most values of a file that is read: each takes 150 bytes, however short its text is.
-const MOST_VALUES: usize = 8_000_000;
-/// Whether files of any size are read, as the command line says once.
-static IS_BIG: AtomicBool = AtomicBool::new(false);
-
-/// From here on files of any size are read.
-pub(crate) fn read_big() {
-    IS_BIG.store(true, Ordering::Relaxed);
-}
 
 /// What a command that runs a scene begins with.
 pub(crate) struct Begun {
@@ -81,62 +67,6 @@ pub(crate) fn folder(out: &Path, files: &[&str]) -> Result<Folder, Refusal> {
         ));
     }
     Ok(folder)
-}
-
-/// Does a path stand for standard input?
-pub(crate) fn is_standard(path: &Path) -> bool {
-    path == Path::new("-")
-}
-
-/// Reads a file of a kind that is called `what`; else the refusal.
-pub(crate) fn document(path: &Path, what: &str) -> Result<SceneFile, Refusal> {
-    let bytes = read(path, what)?;
-    // no value stands without one of these
-    let values = bytes.iter().filter(|byte| matches!(byte, b',' | b'=')).count();
-    if values > MOST_VALUES && !IS_BIG.load(Ordering::Relaxed) {
-        return Err(too_large(
-            path,
-            &format!("has more than {} million values", MOST_VALUES / 1_000_000),
-        ));
-    }
-    let (name, folder) = match is_standard(path) {
-        true => ("standard input".to_owned(), Path::new("")),
-        false => (path.display().to_string(), path.parent().unwrap_or(Path::new(""))),
-    };
-    let document = SceneFile::from_bytes_in(&bytes, &name, folder);
-    document.map_err(|error| Refusal::read("scene-refused", &error))
-}
-
-/// The bytes of a file of a kind that is called `what`; else the refusal.
-pub(crate) fn read(path: &Path, what: &str) -> Result<Vec<u8>, Refusal> {
-    let bytes = bytes(path).map_err(|error| unreadable(path, what, &error))?;
-    bytes.ok_or_else(|| too_large(path, &format!("is larger than {} MiB", MOST_BYTES >> 20)))
-}
-
-fn too_large(path: &Path, why: &str) -> Refusal {
-    let hint = "write --big to read it nevertheless: it may take eighty times its size in memory";
-    Refusal::new("too-large", format!("`{}` {why}", path.display()), hint)
-}
-
-/// The bytes of a file; nothing where it is too large.
-fn bytes(path: &Path) -> io::Result<Option<Vec<u8>>> {
-    let mut bytes = Vec::new();
-    let is_big = IS_BIG.load(Ordering::Relaxed);
-    let mut source: Box<dyn Read> = if is_standard(path) {
-        Box::new(io::stdin().lock())
-    } else {
-        let file = File::open(path)?;
-        if !is_big && file.metadata()?.len() > MOST_BYTES {
-            return Ok(None);
-        }
-        Box::new(file)
-    };
-    if is_big {
-        return source.read_to_end(&mut bytes).map(|_| Some(bytes));
-    }
-    // a device has no size and may have no end
-    source.take(MOST_BYTES + 1).read_to_end(&mut bytes)?;
-    Ok((bytes.len() as u64 <= MOST_BYTES).then_some(bytes))
 }
 
 /// Writes a file that is named alone, unless it is the one that was read; else the refusal.
@@ -220,22 +150,6 @@ pub(crate) fn processor() -> String {
     let info = std::fs::read_to_string("/proc/cpuinfo").unwrap_or_default();
     let line = info.lines().find(|l| l.starts_with("model name"));
     line.and_then(|l| l.split_once(':')).map(|(_, name)| name.trim().to_owned()).unwrap_or_default()
-}
-
-/// The refusal of a file that cannot be read.
-fn unreadable(path: &Path, what: &str, error: &io::Error) -> Refusal {
-    let with_ending = path.with_extension("toml");
-    let hint = if path.is_dir() {
-        format!("that is a directory; give a {what} in it")
-    } else if path.exists() {
-        format!("give a {what} that this user may read")
-    } else if with_ending.is_file() {
-        format!("did you mean `{}`?", with_ending.display())
-    } else {
-        format!("give the path of a {what}; it ends with .toml or .json")
-    };
-    let message = format!("cannot read `{}`: {}", path.display(), plain(error));
-    Refusal::new("file-unreadable", message, hint)
 }
 
 /// The evidence of a choice, as an object and as a table.

@@ -16,6 +16,7 @@ mod explain;
 mod export;
 mod files;
 mod generate;
+mod input;
 mod keep;
 mod manual;
 mod new;
@@ -155,7 +156,7 @@ fn main() -> ExitCode {
         }
     };
     if cli.big {
-        files::read_big();
+        input::read_big();
     }
     match cli.command.precisions() {
         Ok(needed) => {

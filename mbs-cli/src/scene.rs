@@ -1,6 +1,6 @@
 //! The scene of a command line: its file, or standard input, with values that are set.
 
-use crate::files;
+use crate::input;
 use crate::refusal::Refusal;
 use clap::Args;
 use mbs::core::scene::Scene;
@@ -35,7 +35,7 @@ impl SceneArgument {
 
     /// Is there something to read?
     pub(crate) fn is_there(&self) -> bool {
-        files::is_standard(&self.scene) || self.scene.is_file()
+        input::is_standard(&self.scene) || self.scene.is_file()
     }
 
     /// Its tree, and the scene; else the refusal.
@@ -48,7 +48,7 @@ impl SceneArgument {
 
     /// Its tree with the values that are set; else the refusal.
     pub(crate) fn document(&self) -> Result<SceneFile, Refusal> {
-        let mut document = files::document(&self.scene, "scene file")?;
+        let mut document = input::document(&self.scene, "scene file")?;
         for assignment in &self.set {
             let set = document.with_set(assignment);
             document = set.map_err(|error| Refusal::read("set-refused", &error))?;

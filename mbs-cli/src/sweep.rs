@@ -6,7 +6,7 @@ use crate::refusal::Refusal;
 use crate::say::{say, warn};
 use crate::scene::SceneArgument;
 use crate::status::STOPPED;
-use crate::{files, signals};
+use crate::{files, input, signals};
 use clap::Args;
 use indicatif::ProgressBar;
 use mbs::scene_file::SceneFile;
@@ -95,7 +95,7 @@ pub(crate) fn main(arguments: &Arguments) -> ExitCode {
 
 fn run(arguments: &Arguments) -> Result<(Report, PathBuf), Refusal> {
     let (document, _) = arguments.scene.read()?;
-    let sweep = files::document(&arguments.sweep, "sweep file")?;
+    let sweep = input::document(&arguments.sweep, "sweep file")?;
     let overrides = arguments.overrides();
     let study = Study::new(document.clone(), &sweep, &overrides);
     let study = study.map_err(|error| refused(&error, &document))?;

@@ -1,9 +1,9 @@
 //! A scene file as read, before the precision of the run is known.
 
 use super::include;
-use super::json;
+use super::syntax;
 use super::texts::Texts;
-use super::tree::{self, Item, Member, Node, Span};
+use super::tree::{Item, Member, Node, Span};
 use super::{Place, ReadError, ReadFault};
 use std::path::{Path, PathBuf};
 
@@ -40,11 +40,10 @@ impl SceneFile {
         file: &str,
         folder: Option<PathBuf>,
     ) -> Result<Self, ReadError> {
-        let texts = Texts::new(file, text);
-        let root = syntax(&texts, 0)?;
-        let mut document = Self { texts, root, folder };
-        include::resolve(&mut document)?;
-        Ok(document)
+        let mut texts = Texts::new(file, text);
+        let root = syntax::read(&texts, 0)?;
+        let root = include::resolve(&mut texts, root, folder.as_deref())?;
+        Ok(Self { texts, root, folder })
     }
 
     /// Reads the bytes of a scene file.
@@ -119,29 +118,4 @@ fn utf8<'a>(bytes: &'a [u8], file: &str) -> Result<&'a str, ReadError> {
         let text = String::from_utf8_lossy(bytes);
         ReadError::new(file, Place::of(&text, &(good..good)), ReadFault::NotUtf8)
     })
-}
-
-/// The tree of the text that begins at a byte.
-pub(super) fn syntax(texts: &Texts, start: usize) -> Result<Vec<Member>, ReadError> {
-    let text = texts.of(&(start..start));
-    let is_json = match Path::new(&text.name).extension().and_then(|ending| ending.to_str()) {
-        Some("json") => true,
-        Some("toml") => false,
-        _ => text.text.trim_start().starts_with('{'),
-    };
-    let (format, tree) = match is_json {
-        true => ("JSON", json::parse(&text.text)),
-        false => ("TOML", tree::parse(&text.text)),
-    };
-    match tree {
-        Ok(mut root) => {
-            root.iter_mut().for_each(|member| member.shift(start));
-            Ok(root)
-        }
-        Err((message, span)) => {
-            let span = start + span.start..start + span.end;
-            let line = texts.place(&span).1.text;
-            Err(texts.error(&span, ReadFault::Syntax { format, message, line }))
-        }
-    }
 }

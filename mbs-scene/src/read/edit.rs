@@ -37,7 +37,9 @@ impl SceneFile {
         let item = path::item(self.root(), address)?;
         match &item.node {
             Node::Number(text) => Number::from_decimal(text),
-            Node::Text(text) => Some(Values::new(self).ok()?.number(text, &item.span).ok()?.0),
+            Node::Text(text) => {
+                Some(Values::new(&self.texts, &self.root).ok()?.number(text, &item.span).ok()?.0)
+            }
             _ => None,
         }
     }

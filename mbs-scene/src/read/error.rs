@@ -5,6 +5,9 @@ use crate::read::{Place, SweepFault, units};
 use core::fmt::{self, Display, Formatter};
 use mbs_core::scene::{Entry, SceneError, SceneFault, SignalBreak};
 
+/// What is read, or why not.
+pub(crate) type Read<T> = Result<T, ReadError>;
+
 /// A refused scene file: the fault, its place, and what to do.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ReadError(Box<Parts>);

@@ -1,13 +1,14 @@
 //! Typed access to the keys of one table.
 
 use crate::keys::{self, KeyTable, KeyValue};
+use crate::read::ReadFault;
+pub(crate) use crate::read::error::Read;
 use crate::read::expression::unit;
 use crate::read::names::Names;
 use crate::read::point;
 use crate::read::texts::Texts;
 use crate::read::tree::{Item, Member, Node, Span};
 use crate::read::values::Values;
-use crate::read::{ReadError, ReadFault};
 use mbs_core::scene::{BallAngle, BodyId, Dimension, Freedom, Joint, JointId, Number, SignalId};
 
 /// What the readers of all entries share.
@@ -30,8 +31,6 @@ pub(crate) struct Fields<'a> {
     /// The tables of keys, of which one is meant.
     pub(crate) tables: &'static [KeyTable],
 }
-
-pub(crate) type Read<T> = Result<T, ReadError>;
 
 impl<'a> Context<'a> {
     /// That of a file whose tables refer to nothing in it; `none` are no names.

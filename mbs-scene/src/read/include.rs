@@ -3,15 +3,15 @@
 //! The names of an included file get a prefix, and so do the references to them; what a file does not have itself is looked up in the
 //! file that includes it. The parts of an included file stand where its `[[include]]` stands.
 
-use super::error::ExpressionFault;
-use super::fields::{Context, Read};
+use super::ReadFault;
+use super::error::{ExpressionFault, Read};
+use super::fields::Context;
 use super::names::Names;
 use super::nearest::nearest_name;
 use super::prefix::Prefix;
 use super::texts::{Text, Texts};
 use super::tree::{Item, Member, Node, Span};
 use super::values::Values;
-use super::{ReadFault, SceneFile};
 use crate::keys::{self, FILE, KeyValue};
 use std::collections::HashMap;
 use std::io::Read as _;
@@ -24,19 +24,23 @@ const MOST_BYTES: usize = 64 << 20;
 /// Most files of a scene, each counted as often as it is included. Chosen, not tuned.
 const MOST_FILES: usize = 10_000;
 
-/// Puts the included files into the tree of a scene.
-pub(super) fn resolve(document: &mut SceneFile) -> Read<()> {
-    let Some(item) = document.top("include") else { return Ok(()) };
-    let Some(folder) = document.folder.clone() else {
+/// The tree of a scene with the files that it includes, which lie beside it in a folder.
+pub(super) fn resolve(
+    texts: &mut Texts,
+    root: Vec<Member>,
+    folder: Option<&Path>,
+) -> Read<Vec<Member>> {
+    let Some(member) = root.iter().find(|member| member.key == "include") else {
+        return Ok(root);
+    };
+    let Some(folder) = folder else {
         let hint = "write the parts themselves, or read the scene from its file";
         let message = "a text that is no file lies in no folder, and includes nothing".to_owned();
         let fault = ReadFault::Include(ExpressionFault { message, hint: hint.to_owned() });
-        return Err(document.error(&item.span, fault));
+        return Err(texts.error(&member.item.span, fault));
     };
-    let chain = Path::new(document.file()).canonicalize().into_iter().collect();
-    let mut includes = Includes { texts: &mut document.texts, chain };
-    document.root = includes.expanded(core::mem::take(&mut document.root), &folder)?;
-    Ok(())
+    let chain = Path::new(&texts.main().name).canonicalize().into_iter().collect();
+    Includes { texts, chain }.expanded(root, folder)
 }
 
 /// Files that are read, one in another.
@@ -126,7 +130,7 @@ impl Includes<'_> {
         let name = path.display().to_string();
         let start =
             self.texts.add(Text { name, text, prefix, by, is_file: true, ..Text::default() });
-        let root = super::document::syntax(self.texts, start)?;
+        let root = super::syntax::read(self.texts, start)?;
         self.refuse_whole(&root)?;
         self.chain.push(place);
         let mut root = self.expanded(root, path.parent().unwrap_or(folder))?;

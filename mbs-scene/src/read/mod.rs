@@ -17,6 +17,7 @@ mod motion;
 mod named;
 mod names;
 mod nearest;
+mod number;
 mod output;
 mod place;
 mod point;
@@ -27,6 +28,7 @@ mod scene;
 mod set;
 mod signal;
 mod sweep;
+mod syntax;
 #[cfg(test)]
 mod tests;
 mod texts;

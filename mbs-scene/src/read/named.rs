@@ -1,9 +1,9 @@
 //! Values of parameters and points: each is found once, with those that it needs.
 
-use super::error::ExpressionFault;
+use super::error::{ExpressionFault, Read};
 use super::expression::{Fault, evaluate, unit::Dimensions};
-use super::fields::Read;
 use super::nearest::nearest_name;
+use super::number::{decimal, rounded};
 use super::point::{self, Given, Point};
 use super::texts::Texts;
 use super::tree::{Item, Member, Node, Span};
@@ -15,10 +15,8 @@ use std::collections::{HashMap, HashSet};
 
 /// Most parameters and points that need one another in a row [-]. Chosen, not tuned.
 const MAX_CHAIN: usize = 64;
-/// Digits of a value's text after the first: 32 in all, those of a pair of doubles.
-const DIGITS: usize = 31;
 
-/// Parameters and points by their full names, and their values as far as they are found.
+/// Parameters and points by their full names, and the values that are found so far.
 pub(super) struct Named<'a> {
     pub(super) texts: &'a Texts,
     /// Parameters as they are written.
@@ -239,27 +237,6 @@ fn unknown_point<'a>(name: &str, known: impl Iterator<Item = &'a str>) -> [Strin
         false => nearest_name(name, &known, "points"),
     };
     [format!("`{name}` is no point"), hint]
-}
-
-/// The number of a decimal text.
-pub(super) fn decimal(texts: &Texts, text: &str, span: &Span) -> Read<Number> {
-    match Number::from_decimal(text) {
-        Some(number) if number.to_f64().is_finite() => Ok(number),
-        _ => Err(texts.error(span, ReadFault::NotFinite { text: text.to_owned() })),
-    }
-}
-
-/// A value with the digits of a number; its text, for the refusal of one that is not finite.
-pub(super) fn rounded(
-    texts: &Texts,
-    value: DoubleDouble,
-    (text, span): (&str, &Span),
-) -> Read<Number> {
-    let decimal = format!("{value:.DIGITS$e}");
-    let (digits, exponent) = decimal.split_once('e').unwrap_or((&decimal, "0"));
-    let decimal = format!("{}0e{exponent}", digits.trim_end_matches('0'));
-    let number = Number::from_decimal(&decimal).filter(|number| number.to_f64().is_finite());
-    number.ok_or_else(|| texts.error(span, ReadFault::NotFinite { text: text.to_owned() }))
 }
 
 /// A fault of an expression, at its place within the text where that stands in the file as it is.

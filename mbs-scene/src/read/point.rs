@@ -1,8 +1,8 @@
 //! Places: numbers, the name of a point, or a place from another one.
 
 use super::ReadFault;
-use super::fields::Read;
-use super::named::{decimal, rounded};
+use super::error::Read;
+use super::number::{decimal, rounded};
 use super::texts::Texts;
 use super::tree::{Item, Node, Span};
 use mbs_core::real::DoubleDouble;

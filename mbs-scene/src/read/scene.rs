@@ -34,13 +34,13 @@ impl SceneFile {
     /// # Errors
     /// The first thing in the file that is unknown, missing, or of another form, with its place.
     pub fn numbers(&self) -> Result<Scene<Number>, ReadError> {
-        self.read_with(&Values::new(self)?)
+        self.read_with(&Values::new(&self.texts, &self.root)?)
     }
 
     /// The parameters of the file itself that nothing needs; none where it is refused.
     #[must_use]
     pub fn unused_parameters(&self) -> Vec<String> {
-        let Ok(values) = Values::new(self) else { return Vec::new() };
+        let Ok(values) = Values::new(&self.texts, &self.root) else { return Vec::new() };
         match self.read_with(&values) {
             Ok(_) => values.unused(),
             Err(_) => Vec::new(),

@@ -1,14 +1,14 @@
 //! The values that a file gives to names: parameters and points, for expressions and places.
 
-use super::error::ExpressionFault;
+use super::ReadFault;
+use super::error::{ExpressionFault, Read};
 use super::expression;
 use super::expression::unit::{self, Dimensions};
-use super::fields::Read;
-use super::named::{Named, rounded};
+use super::named::Named;
+use super::number::rounded;
 use super::point::{self, Point};
 use super::texts::Texts;
 use super::tree::{Item, Member, Node, Span};
-use super::{ReadFault, SceneFile};
 use mbs_core::scene::Number;
 
 /// Words that keys take in place of a number.
@@ -29,26 +29,28 @@ impl<'a> Values<'a> {
         Self(Named::new(texts, &[], &[]))
     }
 
-    /// Those of a file, each evaluated once.
-    pub(crate) fn new(document: &'a SceneFile) -> Read<Self> {
-        let parameters = match document.top("parameters") {
+    /// Those of a tree, each evaluated once.
+    pub(crate) fn new(texts: &'a Texts, root: &'a [Member]) -> Read<Self> {
+        let top =
+            |key: &str| root.iter().find(|member| member.key == key).map(|member| &member.item);
+        let parameters = match top("parameters") {
             None => &[],
             Some(Item { node: Node::Table(members), .. }) => &members[..],
             Some(item) => {
                 let found = item.node.description();
                 let expected =
                     "a table: [parameters], with a number or an expression for each name";
-                return Err(document.error(&item.span, ReadFault::WrongType { expected, found }));
+                return Err(texts.error(&item.span, ReadFault::WrongType { expected, found }));
             }
         };
         for member in parameters {
-            check_name(&document.texts, member)?;
+            check_name(texts, member)?;
         }
-        let points = match document.top("point") {
+        let points = match top("point") {
             Some(Item { node: Node::List(items), .. }) => &items[..],
             _ => &[],
         };
-        let named = Named::new(&document.texts, parameters, points);
+        let named = Named::new(texts, parameters, points);
         Ok(Self(named.all(parameters, points)?))
     }
 

@@ -18,7 +18,7 @@ const SCALES: [&str; 2] = ["linear", "log"];
 /// How values are combined, and the parameters in the order of the file.
 pub(super) fn read(sweep: &SceneFile, scene: &SceneFile) -> Read<(Combine, Vec<Parameter>)> {
     let none = Names::default();
-    let values = Values::new(sweep)?;
+    let values = Values::new(&sweep.texts, sweep.root())?;
     let context = Context::of_file(&sweep.texts, &values, &none);
     let (members, tables) = (sweep.root(), keys::of(SWEEP_FILE));
     Fields { context, header: &(0..0), members, tables }.checked()?;

@@ -1,0 +1,32 @@
+//! Numbers of decimal texts and of computed values.
+
+use super::ReadFault;
+use super::error::Read;
+use super::texts::Texts;
+use super::tree::Span;
+use mbs_core::real::DoubleDouble;
+use mbs_core::scene::Number;
+
+/// Digits of a value's text after the first: 32 in all, those of a pair of doubles.
+const DIGITS: usize = 31;
+
+/// The number of a decimal text.
+pub(super) fn decimal(texts: &Texts, text: &str, span: &Span) -> Read<Number> {
+    match Number::from_decimal(text) {
+        Some(number) if number.to_f64().is_finite() => Ok(number),
+        _ => Err(texts.error(span, ReadFault::NotFinite { text: text.to_owned() })),
+    }
+}
+
+/// A value with the digits of a number; its text, for the refusal of one that is not finite.
+pub(super) fn rounded(
+    texts: &Texts,
+    value: DoubleDouble,
+    (text, span): (&str, &Span),
+) -> Read<Number> {
+    let decimal = format!("{value:.DIGITS$e}");
+    let (digits, exponent) = decimal.split_once('e').unwrap_or((&decimal, "0"));
+    let decimal = format!("{}0e{exponent}", digits.trim_end_matches('0'));
+    let number = Number::from_decimal(&decimal).filter(|number| number.to_f64().is_finite());
+    number.ok_or_else(|| texts.error(span, ReadFault::NotFinite { text: text.to_owned() }))
+}
