@@ -201,14 +201,18 @@ impl<'a, T: Real, const D: usize> Run<'a, T, D> {
         };
         let steps = run.recorder.step_series(0, control);
         let change = simulation.start.change.to_f64();
-        let mut notes = notes(run.scene, settings, &summary, change);
+        let motion = run.motion.finish(run.scene);
+        let centers = run.scene.bodies.iter().map(|body| body.center.map(|x| x.to_f64()));
+        let centers: Vec<_> = centers.collect();
+        let moved = motion.most_moved(&centers);
+        let mut notes = notes(run.scene, settings, &summary, (change, moved));
         notes.extend(run.limits.notes(run.scene));
         notes.extend(run.one_way.notes(run.scene));
         notes.extend(few_threads(settings.threads, simulation.threads()));
         let record = RunRecord {
             scene: run.scene.name.clone(),
             channels: run.recorder.series(),
-            motion: Some(run.motion.finish(run.scene)),
+            motion: Some(motion),
             energy: Some(run.recorder.energy()),
             violation: Some(run.recorder.violation()),
             iterations: Some(run.recorder.iterations()),

@@ -175,7 +175,7 @@ pub(crate) fn notes<T: Real>(
     scene: &Scene<T>,
     settings: &ResolvedMethod,
     s: &RunSummary,
-    change: f64,
+    (change, moved): (f64, Option<&str>),
 ) -> Vec<String> {
     let mut notes = Vec::new();
     let redundant = s.constraints - s.constraint_rank;
@@ -206,8 +206,9 @@ pub(crate) fn notes<T: Real>(
     }
     notes.extend(crate::tilt::notes(scene).into_iter().map(|(_, note)| note));
     if change > REPORTED_CHANGE {
+        let most = moved.map(|body| format!(", most at body `{body}`")).unwrap_or_default();
         notes.push(format!(
-            "the start differs from the reference configuration by up to {} m (or rad)",
+            "the start differs from the reference configuration by up to {} m (or rad){most}",
             few(change)
         ));
     }

@@ -3,7 +3,7 @@
 use super::decimate::spread;
 use super::pack::{Column, Pack};
 use super::section::PageSection;
-use mbs::record::{ChannelSeries, DrawnPoint, N_POSE, RecordedMotion};
+use mbs::record::{N_POSE, RecordedMotion};
 use serde_json::{Value, json};
 
 /// Step of places, relative to the scene's length [-]: a hundredth of a millimetre on a metre. A fraction of the path would jitter where
@@ -19,16 +19,15 @@ pub(crate) fn still_view(motion: &RecordedMotion) -> Option<(PageSection, String
     let mut first = motion.clone();
     first.times.truncate(1);
     let mut pack = Pack::default();
-    let motion = packed(&first, &[], (1, true), &mut pack)?;
+    let motion = packed(&first, (1, true), &mut pack)?;
     let caption = "The start, with the names of bodies, and in italics of the joints that findings name. Left button turns, right \
                    button moves, wheel or pinch zooms.";
     Some((PageSection::View(caption.to_owned()), pack.text(json!({ "motion": motion }))))
 }
 
-/// Packs a motion with at most so many pictures and the forces of these channels, with names of bodies and joints shown or not; `None`: there is nothing to draw.
+/// Packs a motion with at most so many pictures, with names of bodies and joints shown or not; `None`: there is nothing to draw.
 pub(super) fn packed(
     motion: &RecordedMotion,
-    channels: &[ChannelSeries],
     (most, is_named): (usize, bool),
     pack: &mut Pack,
 ) -> Option<Value> {
@@ -62,7 +61,6 @@ pub(super) fn packed(
         "traces": motion.traces,
         "joints": motion.joints,
         "is_named": is_named,
-        "forces": forces(motion, channels, &times, pack),
         "road": motion.road.as_ref().map(|road| json!({
             "start": road.start,
             "spacing": road.spacing,
@@ -74,39 +72,6 @@ pub(super) fn packed(
             ),
         })),
     }))
-}
-
-/// Forces and moments at the times of the pictures, each with its place: the components of its channel, linear between rows.
-fn forces(
-    motion: &RecordedMotion,
-    channels: &[ChannelSeries],
-    times: &[f64],
-    pack: &mut Pack,
-) -> Vec<Value> {
-    let force = |at: &DrawnPoint| {
-        let series = channels.iter().find(|series| series.channel.name == at.name)?;
-        let is_vector = series.channel.components.len() >= 3 && series.values.len() >= 3;
-        let columns = series.values.iter().map(|values| sampled((&series.times, values), times));
-        let columns: Vec<_> = columns.collect();
-        is_vector.then(
-            || json!({ "name": at.name, "place": at.place, "columns": pack.ranged(&columns) }),
-        )
-    };
-    motion.forces.iter().filter_map(force).collect()
-}
-
-/// Values at other times, linear between rows; those of the ends beyond them.
-fn sampled((rows, values): (&[f64], &[f64]), times: &[f64]) -> Vec<f64> {
-    let n = rows.len().min(values.len());
-    let value = |t: &f64| match rows[..n].partition_point(|row| row <= t) {
-        0 => values.first().copied().unwrap_or(f64::NAN),
-        k if k == n => values[n - 1],
-        k => {
-            let share = (t - rows[k - 1]) / (rows[k] - rows[k - 1]);
-            values[k - 1] + share * (values[k] - values[k - 1])
-        }
-    };
-    times.iter().map(value).collect()
 }
 
 /// Packs times [s] to a part of the time of the run.

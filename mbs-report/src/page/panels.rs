@@ -5,9 +5,9 @@ use super::decimate::{envelope, kept};
 use super::motion::times_of;
 use super::pack::{Column, Pack};
 use super::section::PlotFrame;
-use mbs::record::{ChannelSeries, RunRecord};
+use mbs::record::{ChannelSeries, DrawnPoint, RunRecord};
 use serde::Serialize;
-use serde_json::Value;
+use serde_json::{Value, json};
 use std::collections::BTreeMap;
 
 /// Most lines of one panel [-]: more have no colours of their own.
@@ -25,6 +25,16 @@ pub(super) struct Panels {
     most: usize,
     /// Times that lines have in common, and where they are packed.
     shared: Vec<(Vec<f64>, Column)>,
+    /// Where the components of each channel are, by its name.
+    parts: BTreeMap<String, Vec<Part>>,
+}
+
+/// Where a component of a channel is drawn: panel and line; of one that stands still, its value.
+#[derive(Debug, Clone, Copy, Serialize)]
+#[serde(untagged)]
+enum Part {
+    Line(usize, usize),
+    Still(f64),
 }
 
 #[derive(Debug, Serialize)]
@@ -168,19 +178,25 @@ impl Panels {
                 if range <= STILL * size && values.len() > 1 && range.is_finite() {
                     let value = mbs_scene::format::significant(values[0]);
                     still.push(vec![column, format!("{value} {}", component.unit)]);
+                    self.part(&channel.name, Part::Still(values[0]));
                     continue;
                 }
                 let line = self.line((&column, Thinning::Peaks), (&series.times, values), pack);
-                let open = self.panels[first..].iter_mut().find(|panel| {
+                let open = self.panels[first..].iter().position(|panel| {
                     panel.owner == owner
                         && panel.unit == component.unit
                         && panel.lines.len() < MAX_LINES
                         && (range.max(panel.range) <= MAX_RATIO * range.min(panel.range))
                 });
-                match open {
-                    Some(panel) => panel.lines.push(line),
-                    None => self.push((&component.unit, owner.clone(), range), vec![line]),
-                }
+                let at = match open {
+                    Some(i) => first + i,
+                    None => {
+                        self.push((&component.unit, owner.clone(), range), Vec::new());
+                        self.panels.len() - 1
+                    }
+                };
+                self.panels[at].lines.push(line);
+                self.part(&channel.name, Part::Line(at, self.panels[at].lines.len() - 1));
             }
         }
         for panel in &mut self.panels[first..] {
@@ -192,6 +208,19 @@ impl Panels {
             panel.frame.title.clone_from(&panel.title);
         }
         (self.frames(first), still)
+    }
+
+    fn part(&mut self, channel: &str, part: Part) {
+        self.parts.entry(channel.to_owned()).or_default().push(part);
+    }
+
+    /// Forces and moments that are channels, each with its place, and where its components are drawn.
+    pub(super) fn forces(&self, places: &[DrawnPoint]) -> Vec<Value> {
+        let force = |at: &DrawnPoint| {
+            let parts = self.parts.get(&at.name).filter(|parts| parts.len() >= 3)?;
+            Some(json!({ "name": at.name, "place": at.place, "parts": parts }))
+        };
+        places.iter().filter_map(force).collect()
     }
 
     fn push(&mut self, (unit, owner, range): (&str, Option<String>, f64), lines: Vec<Line>) {

@@ -114,12 +114,13 @@ fn fitting(record: &RunRecord) -> (Drawn, u32) {
 
 fn drawn(record: &RunRecord, pictures: usize, points: usize) -> Drawn {
     let mut pack = Pack::default();
-    let motion = record
-        .motion
-        .as_ref()
-        .and_then(|m| motion::packed(m, &record.channels, (pictures, false), &mut pack));
+    let recorded = record.motion.as_ref();
+    let mut motion = recorded.and_then(|m| motion::packed(m, (pictures, false), &mut pack));
     let mut panels = Panels::new(points);
     let (frames, still) = panels.add_channels(&record.channels, &mut pack);
+    if let (Some(motion), Some(recorded)) = (&mut motion, recorded) {
+        motion["forces"] = panels.forces(&recorded.forces).into();
+    }
     let health = panels.add_health(record, &mut pack);
     let pack = pack.text(json!({ "motion": motion, "panels": panels.json() }));
     let view = motion.is_some().then(|| PageSection::View(caption(record)));

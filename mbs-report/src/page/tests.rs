@@ -166,7 +166,7 @@ fn numbers_of_one_unit_share_a_panel_unless_their_ranges_are_far_apart() {
 }
 
 #[test]
-fn forces_are_those_of_their_channel_at_the_times_of_the_pictures() {
+fn forces_are_drawn_from_the_lines_of_their_channel() {
     let mut record = record();
     let times = record.channels[0].times.clone();
     let wave = |phase: f64| times.iter().map(|t| 300.0 * (t + phase).sin()).collect();
@@ -186,9 +186,12 @@ fn forces_are_those_of_their_channel_at_the_times_of_the_pictures() {
     let (header, groups) = data(&page(&record));
     let forces = header["motion"]["forces"].as_array().unwrap();
     assert_eq!(forces.len(), 1);
-    let times = numbers(&header["motion"]["times"], &groups);
-    let found = numbers(&forces[0]["columns"][1], &groups);
-    for (t, force) in times.iter().zip(found) {
+    let place = |i: usize| usize::try_from(forces[0]["parts"][1][i].as_u64().unwrap()).unwrap();
+    let line = &header["panels"][place(0)]["lines"][place(1)];
+    assert_eq!(line["name"], "pin.Fy");
+    let times = numbers(&line["t"], &groups);
+    assert!(times.len() > 100);
+    for (t, force) in times.iter().zip(numbers(&line["y"], &groups)) {
         // a part in 65534 of the range of 600 N, rows 1 ms apart
         assert!((force - 300.0 * (t + 1.0).sin()).abs() < 0.01, "{t}");
     }

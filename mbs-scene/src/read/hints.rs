@@ -124,6 +124,11 @@ const HINTS: &[Hint] = &[
         ],
     ),
     // quantities
+    says(
+        "effort",
+        &["torque", "moment", "motor-torque", "motor-moment", "drive-torque"],
+        "the moment or force of a joint's motor is `effort`; `reaction` is all that the joint carries",
+    ),
     means("reaction", &["force", "torque", "moment", "load", "reactions", "forces"]),
     means("value", &["angle", "position", "displacement", "coordinate", "travel"]),
     means("rate", &["speed", "velocity", "angular-velocity", "omega"]),
@@ -155,6 +160,11 @@ const HINTS: &[Hint] = &[
     means("solver", &["simulation", "settings", "options", "integrator"]),
     means("initial", &["start", "state", "initial-condition", "initial-conditions"]),
     // keys
+    says(
+        "signals",
+        &["speed", "rate", "velocity", "angular-velocity", "omega", "rpm"],
+        "a constant speed is `ramp = { rate = 10.0 }`, in rad/s or m/s; `\"60 rpm\"` is a rate too",
+    ),
     means("stiffness", &["k", "spring-constant", "spring-rate", "rate"]),
     means("damping", &["c", "d", "damping-coefficient", "damper"]),
     means("free_length", &["l0", "length", "rest-length", "natural-length", "unstretched-length"]),

@@ -36,6 +36,20 @@ pub struct RecordedMotion {
     pub road: Option<DrawnRoad>,
 }
 
+impl RecordedMotion {
+    /// The name of the body that is farthest from these places of the centres of mass [m] and from no turn, in the first picture.
+    pub(crate) fn most_moved(&self, centers: &[[f64; 3]]) -> Option<&str> {
+        let moved = |(pose, center): (&[f64], &[f64; 3])| {
+            let way = pose[..3].iter().zip(center).map(|(x, c)| (x - c) * (x - c)).sum::<f64>();
+            let turn = 2.0 * pose[3].abs().min(1.0).acos();
+            way.sqrt().max(turn)
+        };
+        let poses = self.poses.chunks_exact(N_POSE).zip(centers).map(moved);
+        let (_, body) = poses.zip(&self.bodies).max_by(|a, b| a.0.total_cmp(&b.0))?;
+        Some(&body.name)
+    }
+}
+
 /// A body of a picture.
 #[derive(Debug, Clone, Default, PartialEq, Serialize)]
 pub struct DrawnBody {

@@ -119,9 +119,8 @@ function makePicker(parent, plots) {
     return;
   }
   const { header, column } = await readPack("pack");
-  const motion = header.motion && makeMotion(header.motion, column);
+  const panels = header.panels ?? [], motion = header.motion && makeMotion(header.motion, panels, column);
   if (motion?.road) motion.road.heights = motion.road.heights.map((c) => column(c));
-  const panels = header.panels ?? [];
   const ends = panels.flatMap((panel) => panel.lines.map((line) => column(line.t))).concat(motion ? [motion.times] : []).filter((t) => t.length);
   const start = Math.min(...ends.map((t) => t[0])), end = Math.max(...ends.map((t) => t[t.length - 1]));
   const clock = makeClock(ends.length ? [start, end > start ? end : start + 1] : [0, 1]), shared = makeWindow([clock.start, clock.end]);

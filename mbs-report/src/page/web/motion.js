@@ -1,5 +1,5 @@
 // The poses of all bodies at any time: places are interpolated linearly, turns along the shortest arc.
-function makeMotion(motion, column) {
+function makeMotion(motion, panels, column) {
   const times = column(motion.times), places = motion.places.map((c) => column(c)), turns = motion.turns.map((c) => column(c));
   const n = motion.bodies.length, pose = new Float64Array(7 * n);
 
@@ -35,11 +35,17 @@ function makeMotion(motion, column) {
     return [pose[o] + p[0] + 2 * (y * c - z * b), pose[o + 1] + p[1] + 2 * (z * a - x * c), pose[o + 2] + p[2] + 2 * (x * b - y * a)];
   }
   // Force and moment of an output at a time, in global axes.
-  const forces = (motion.forces ?? []).map((force) => ({ ...force, columns: force.columns.map((c) => column(c, true)) }));
-  function load({ columns }, t) {
-    const k = before(times, t), next = Math.min(k + 1, times.length - 1);
-    const part = next > k ? Math.min(1, Math.max(0, (t - times[k]) / (times[next] - times[k]))) : 0;
-    const v = columns.map((c) => c[k] + (c[next] - c[k]) * part || 0);
+  const forces = (motion.forces ?? []).map((force) => ({ ...force, parts: force.parts.map(partOf) }));
+  function partOf(part) {
+    if (!Array.isArray(part)) return () => part ?? 0;
+    const line = panels[part[0]].lines[part[1]], t = column(line.t), y = column(line.y, true);
+    return (now) => {
+      const k = before(t, now), next = Math.min(k + 1, t.length - 1);
+      return y[k] + (next > k ? (y[next] - y[k]) * Math.min(1, Math.max(0, (now - t[k]) / (t[next] - t[k]))) : 0) || 0;
+    };
+  }
+  function load({ parts }, t) {
+    const v = parts.map((part) => part(t));
     return motion.dimension === 2 ? [[v[0], v[1], 0], [0, 0, v[2]]] : [v.slice(0, 3), [v[3] || 0, v[4] || 0, v[5] || 0]];
   }
   // The largest force and the largest moment of the run: they have the longest arrows.
