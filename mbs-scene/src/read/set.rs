@@ -67,8 +67,15 @@ impl SceneFile {
         }
         let Ok(address) = path::found(&self.root, outer) else { return refused(self, fault) };
         let tables = tables_at(outer);
-        let known: Vec<_> =
-            tables.iter().flat_map(|table| &table.keys).map(|key| key.name).collect();
+        let kind = path::item(&self.root, &address).and_then(|item| item.text_at("kind"));
+        let of_kind = kind.map_or(&[][..], |kind| keys::of_kind(tables, kind));
+        let tables = if of_kind.is_empty() { tables } else { of_kind };
+        let mut known: Vec<&'static str> = Vec::new();
+        for key in tables.iter().flat_map(|table| &table.keys) {
+            if !known.contains(&key.name) {
+                known.push(key.name);
+            }
+        }
         match path::item_mut(&mut self.root, &address).map(|item| &mut item.node) {
             Some(Node::Table(members)) if known.contains(&key.as_str()) => {
                 members.push(Member { key: key.clone(), key_span: span.clone(), item });

@@ -60,7 +60,7 @@ fn what_cannot_be_set_is_refused_at_its_place_in_the_assignment() {
         ("body.b.mass", "`=` and a value are missing", "", 1),
         ("body.c.mass=1", "no [[body]] called `c`", "", 1),
         ("body.b.mas=1", "unknown key `mas`", "did you mean `mass`?", 1),
-        ("effect.spring.stif=1", "unknown key `stif`", "did you mean `stiffness`?", 1),
+        ("effect.spring.stifness=1", "unknown key `stifness`", "did you mean `stiffness`?", 1),
         ("bodies.b.mass=1", "no table `bodies`", "", 1),
         ("solver.stp=1", "unknown key `stp`", "did you mean `step`?", 1),
         ("parameter.c=1", "`parameters` has no key `c`", "", 1),
