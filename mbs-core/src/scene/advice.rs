@@ -39,6 +39,8 @@ impl SceneFault {
                 "give the body mass, set its inertia to zero, or weld it to a body with mass"
             }
             Self::NeedsSpatial => "set `dimension = 3` in [scene], or keep to what is planar",
+            Self::NeedsPlanar => "set `dimension = 2` in [scene], or write a form of space",
+            Self::NotAShare(_) => "write a number from 0 to 1",
             Self::OutOfPlane(_) => "keep planar scenes in the x-y plane",
             Self::WrongDimension => "planar bodies have one number, spatial bodies six",
             Self::WrongCount { .. } => "write as many numbers as the joint or table needs",

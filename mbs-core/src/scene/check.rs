@@ -14,6 +14,7 @@ mod point;
 mod reference;
 mod road;
 mod rolling;
+mod shape;
 mod signal;
 #[cfg(test)]
 mod tests;
@@ -67,6 +68,7 @@ impl<T: Real> Scene<T> {
         for (i, effect) in self.effects.iter().enumerate() {
             effect::check(self, &effect.kind, self.place(Entry::Effect(i)))?;
         }
+        shape::check(self)?;
         road::check(self)?;
         for (i, output) in self.outputs.iter().enumerate() {
             output::check(self, output, self.place(Entry::Output(i)))?;
@@ -103,6 +105,7 @@ impl<T: Real> Scene<T> {
         unique(self.couplings.iter().map(|c| c.name.as_str()), None, Entry::Coupling)?;
         unique(self.rollings.iter().map(|r| r.name.as_str()), None, Entry::Rolling)?;
         unique(self.signals.iter().map(|s| s.name.as_str()), None, Entry::Signal)?;
+        unique(self.shapes.iter().map(|s| s.name.as_str()), None, Entry::Shape)?;
         unique(self.effects.iter().map(|e| e.name.as_str()), None, Entry::Effect)?;
         unique(self.outputs.iter().map(|o| o.name.as_str()), Some("t"), Entry::Output)
     }

@@ -55,6 +55,10 @@ pub enum SceneFault {
     InertiaWithoutMass,
     /// The joint kind or key needs a spatial scene.
     NeedsSpatial,
+    /// The form needs a planar scene.
+    NeedsPlanar,
+    /// A number must be from 0 to 1; the number.
+    NotAShare(f64),
     /// A vector of a planar scene leaves the plane; the offending component.
     OutOfPlane(f64),
     /// The inertia's form does not fit the dimension.
@@ -249,6 +253,8 @@ impl SceneFault {
             Self::NegativeInertia(x) => write!(f, "has the negative principal moment {x:.3e}"),
             Self::InertiaWithoutMass => write!(f, "is not zero, but the body has no mass"),
             Self::NeedsSpatial => write!(f, "needs a spatial scene"),
+            Self::NeedsPlanar => write!(f, "needs a planar scene"),
+            Self::NotAShare(x) => write!(f, "must be from 0 to 1, but is {x}"),
             Self::OutOfPlane(x) => write!(f, "leaves the plane of a planar scene by {x}"),
             Self::WrongDimension => write!(f, "does not fit the dimension of the scene"),
             Self::WrongCount { needed, found } => {

@@ -3,7 +3,7 @@
 use crate::effects::EffectKind;
 use crate::outputs::Quantity;
 use crate::scene::{
-    Body, BodyId, Coupling, CouplingId, Dimension, EffectId, Guide, GuideId, InitialCondition,
+    Body, BodyId, BodyShape, Coupling, CouplingId, Dimension, EffectId, Guide, GuideId, InitialCondition,
     InitialId, Joint, JointId, NamedSignal, OutputId, Road, Rolling, RollingId, SignalId,
     SolverTable, Start, Surroundings,
 };
@@ -41,6 +41,8 @@ pub struct Scene<T> {
     pub road: Road<T>,
     /// What the run starts from.
     pub start: Start,
+    /// Forms that pictures draw; a body without one is drawn by its inertia.
+    pub shapes: Vec<BodyShape<T>>,
     /// Opt-in effects. Those with `enabled: false` are not built.
     pub effects: Vec<Effect<T>>,
     /// Channels; empty: every joint coordinate.
@@ -67,6 +69,7 @@ impl<T: Default> Scene<T> {
             signals: Vec::new(),
             road: Road::default(),
             start: Start::default(),
+            shapes: Vec::new(),
             effects: Vec::new(),
             outputs: Vec::new(),
             solver: SolverTable::default(),

@@ -51,6 +51,8 @@ mod resolve;
 #[cfg(feature = "alloc")]
 mod rolling;
 #[cfg(feature = "alloc")]
+mod shape;
+#[cfg(feature = "alloc")]
 mod signal;
 #[cfg(feature = "alloc")]
 mod solver;
@@ -99,6 +101,8 @@ pub use mechanism::{Effect, Output, Scene};
 pub use number::{Number, Vector3};
 #[cfg(feature = "alloc")]
 pub use rolling::{Rolling, RollingKind, RollingPlane};
+#[cfg(feature = "alloc")]
+pub use shape::{BodyShape, ShapeKind};
 #[cfg(feature = "alloc")]
 pub(crate) use signal::first_of;
 #[cfg(feature = "alloc")]

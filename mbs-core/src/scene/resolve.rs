@@ -2,10 +2,10 @@
 
 use crate::Real;
 use crate::scene::{
-    Body, CalspanCoefficients, Coupling, CouplingKind, CouplingMeasure, CouplingTerm, Curve,
+    Body, BodyShape, CalspanCoefficients, Coupling, CouplingKind, CouplingMeasure, CouplingTerm, Curve,
     Dimension, Effect, Entry, Guide, Inertia, InitialCondition, InitialTarget, Joint, JointLimits,
     Mesh, Motion, NamedSignal, Number, Output, Road, RoadFeature, Rolling, RollingKind,
-    RollingPlane, Scene, SceneError, SceneFault, SolverTable,
+    RollingPlane, Scene, SceneError, SceneFault, ShapeKind, SolverTable,
 };
 use alloc::vec::Vec;
 
@@ -91,6 +91,7 @@ impl<T: Clone> Scene<T> {
                 .collect(),
             road: self.road.map(f),
             start: self.start,
+            shapes: self.shapes.iter().map(|shape| shape.map(f)).collect(),
             effects: self
                 .effects
                 .iter()
@@ -100,6 +101,34 @@ impl<T: Clone> Scene<T> {
             outputs: self.outputs.iter().map(|output| output.map(f)).collect(),
             solver: self.solver.map(f),
         })
+    }
+}
+
+impl<T> BodyShape<T> {
+    fn map<U>(&self, f: &mut impl FnMut(&T) -> U) -> BodyShape<U> {
+        let form = match &self.form {
+            ShapeKind::Box { center, size, axes } => ShapeKind::Box {
+                center: all(center, f),
+                size: all(size, f),
+                axes: axes.as_ref().map(|axes| pair(axes, f)),
+            },
+            ShapeKind::Sphere { center, radius } => {
+                ShapeKind::Sphere { center: all(center, f), radius: f(radius) }
+            }
+            ShapeKind::Capsule { from, to, radius } => {
+                ShapeKind::Capsule { from: all(from, f), to: all(to, f), radius: f(radius) }
+            }
+            ShapeKind::Cylinder { from, to, radius } => {
+                ShapeKind::Cylinder { from: all(from, f), to: all(to, f), radius: f(radius) }
+            }
+            ShapeKind::Disc { center, radius } => {
+                ShapeKind::Disc { center: all(center, f), radius: f(radius) }
+            }
+            ShapeKind::Polygon { points } => ShapeKind::Polygon { points: rows(points, f) },
+        };
+        let (name, body, colour, is_visual) =
+            (self.name.clone(), self.body, self.colour, self.is_visual);
+        BodyShape { name, body, form, colour, opacity: f(&self.opacity), is_visual }
     }
 }
 

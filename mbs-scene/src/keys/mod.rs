@@ -13,6 +13,7 @@ mod point;
 mod road;
 mod rolling;
 mod scene;
+mod shape;
 mod signal;
 mod sweep;
 mod table;
@@ -25,6 +26,7 @@ pub(crate) use output::{FORMS, ORIENTATION};
 pub(crate) use point::{DIRECTION, PLACE};
 pub(crate) use road::FEATURE;
 pub(crate) use scene::FILE;
+pub(crate) use shape::{COLOURS, SHAPES};
 pub(crate) use sweep::FILE as SWEEP_FILE;
 pub use table::{Key, KeyTable, Standing};
 pub use value::{KeyValue, Referent};
@@ -43,6 +45,7 @@ static TABLES: LazyLock<Vec<KeyTable>> = LazyLock::new(|| {
         coupling::tables(),
         rolling::tables(),
         signal::tables(),
+        shape::tables(),
         effect::tables(),
         road::tables(),
         scene::solver(),

@@ -32,6 +32,8 @@ pub enum KeyValue {
     Place,
     /// So many of them.
     Places(usize),
+    /// Places, as many as there are.
+    SomePlaces,
     /// So many numbers.
     Numbers(usize),
     /// Numbers, one or more; one alone may stand without brackets.
@@ -127,6 +129,7 @@ impl KeyValue {
             Self::NumberOrVector => "number in the plane, vector in space".to_owned(),
             Self::Place => "place".to_owned(),
             Self::Places(n) => several(*n, "places"),
+            Self::SomePlaces => "list of places".to_owned(),
             Self::Numbers(n) => several(*n, "numbers"),
             Self::SomeNumbers => "number, or list of numbers".to_owned(),
             Self::Rows => "list of rows".to_owned(),

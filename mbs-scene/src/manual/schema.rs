@@ -115,6 +115,7 @@ fn of_value(value: &KeyValue) -> Json {
         KeyValue::Vectors(n) => list(vector(), Some(*n)),
         KeyValue::Places(n) => list(place(), Some(*n)),
         KeyValue::NumberOrVector => any_of(vec![number(), vector()]),
+        KeyValue::SomePlaces => list(place(), None),
         KeyValue::Numbers(n) => list(number(), Some(*n)),
         KeyValue::SomeNumbers => any_of(vec![number(), list(number(), None)]),
         KeyValue::Rows => {

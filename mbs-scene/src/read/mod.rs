@@ -26,6 +26,7 @@ mod road;
 mod rolling;
 mod scene;
 mod set;
+mod shape;
 mod signal;
 mod sweep;
 mod syntax;

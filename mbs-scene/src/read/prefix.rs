@@ -91,6 +91,7 @@ impl<'a> Prefix<'a> {
             | KeyValue::Several(part, _)
             | KeyValue::Some(part)
             | KeyValue::OneOrSome(part) => self.references(item, *part),
+            KeyValue::SomePlaces => self.places(item, &KeyValue::Places(0)),
             KeyValue::Place | KeyValue::Places(_) | KeyValue::Vector | KeyValue::Vectors(_) => {
                 self.places(item, value);
             }

@@ -8,7 +8,7 @@ use crate::read::tree::{Item, Member, Node};
 use crate::read::values::Values;
 use crate::read::{
     Place, ReadError, ReadFault, body, coupling, effect, joint, motion, output, road, rolling,
-    signal,
+    shape, signal,
 };
 use mbs_core::Real;
 use mbs_core::scene::{
@@ -98,6 +98,7 @@ impl SceneFile {
             joints,
             road: self.top("road").map(road).transpose()?.unwrap_or_default(),
             start: read_start(&header)?,
+            shapes: self.entries(&context, "shape", |i, fields| shape::read(i, fields))?,
             effects,
             outputs: self.entries(&context, "output", |_, fields| {
                 output::read(fields, &centers, [&of_couplings, &of_rollings, &of_effects])
@@ -150,6 +151,7 @@ impl SceneFile {
             Entry::Coupling(i) => entries("coupling", i),
             Entry::Rolling(i) => entries("rolling", i),
             Entry::Signal(i) => entries("signal", i),
+            Entry::Shape(i) => entries("shape", i),
             Entry::Effect(i) => entries("effect", i),
             Entry::Output(i) => entries("output", i),
         };

@@ -19,6 +19,7 @@ mod road;
 mod rotors;
 mod same;
 mod set;
+mod shapes;
 mod signals;
 mod sums;
 

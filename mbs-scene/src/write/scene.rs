@@ -4,6 +4,7 @@
 
 mod effect;
 mod road;
+mod shape;
 mod signal;
 mod solver;
 #[cfg(test)]
@@ -134,6 +135,7 @@ fn tables(
         .iter()
         .try_for_each(|x| w.rolling(x).map(|keys| visit("rolling", true, keys)))?;
     scene.signals.iter().try_for_each(|x| w.signal(x).map(|keys| visit("signal", true, keys)))?;
+    scene.shapes.iter().try_for_each(|x| w.shape(x).map(|keys| visit("shape", true, keys)))?;
     scene.effects.iter().try_for_each(|x| w.effect(x).map(|keys| visit("effect", true, keys)))?;
     if let Some(road) = w.road() {
         visit("road", false, road);

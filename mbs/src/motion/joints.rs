@@ -19,7 +19,7 @@ impl<T: Real> Drawing<'_, T> {
             if let EffectKind::Bushing(bushing) = &effect.kind {
                 let place = self.place(bushing.bodies[0], bushing.at);
                 let form = ShapeForm::Ring { at: place.at };
-                motion.shapes.push(DrawnShape { body: place.body, form });
+                motion.shapes.push(DrawnShape::new(place.body, form));
             }
         }
         for rolling in &self.scene.rollings {
@@ -30,12 +30,12 @@ impl<T: Real> Drawing<'_, T> {
             });
             let at = self.place(rolling.on, at).at;
             let form = ShapeForm::Plane { at, axis, slider };
-            motion.shapes.push(DrawnShape { body: rolling.on.index(), form });
+            motion.shapes.push(DrawnShape::new(rolling.on.index(), form));
         }
     }
 
     fn add_joint(&self, joint: &Joint<T>, shapes: &mut Vec<DrawnShape>) {
-        let mut add = |body: BodyId, form| shapes.push(DrawnShape { body: body.index(), form });
+        let mut add = |body: BodyId, form| shapes.push(DrawnShape::new(body.index(), form));
         let ends = [0, 1].map(|side| self.place(joint.bodies[side], joint.points[side]));
         for side in 0..2 {
             if joint.bodies[side] == BodyId::Ground {

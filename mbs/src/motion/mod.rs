@@ -7,6 +7,7 @@ mod pose;
 mod principal;
 mod road;
 mod shapes;
+mod written;
 
 use crate::checkpoint::tape::{Tape, Walked, holds};
 use crate::record::{DrawnBody, N_POSE, RecordedMotion};

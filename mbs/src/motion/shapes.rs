@@ -42,14 +42,18 @@ impl<T: Real> Drawing<'_, T> {
     /// Adds what is drawn on every body.
     pub(super) fn add_bodies(&self, motion: &mut RecordedMotion) {
         let wheels = self.add_wheels(motion);
-        for body in 0..self.scene.bodies.len() {
+        motion.shapes.extend(self.scene.shapes.iter().map(|shape| self.shape(shape)));
+        let has_shape = |body: usize| {
+            self.scene.shapes.iter().any(|shape| shape.body == BodyId::Body(body))
+        };
+        for body in (0..self.scene.bodies.len()).filter(|body| !has_shape(*body)) {
             let is_wheel = wheels.contains(&body);
             self.add_body(body, is_wheel, motion);
         }
     }
 
     fn add_body(&self, body: usize, is_wheel: bool, motion: &mut RecordedMotion) {
-        let mut add = |form| motion.shapes.push(DrawnShape { body: Some(body), form });
+        let mut add = |form| motion.shapes.push(DrawnShape::new(Some(body), form));
         let used = self.used(body);
         match self.scene.bodies[body].inertia {
             Inertia::Point => {
@@ -144,7 +148,7 @@ impl<T: Real> Drawing<'_, T> {
     fn add_wheels(&self, motion: &mut RecordedMotion) -> Vec<usize> {
         let mut bodies = Vec::new();
         let mut add = |body: BodyId, form| {
-            motion.shapes.push(DrawnShape { body: body.index(), form });
+            motion.shapes.push(DrawnShape::new(body.index(), form));
             bodies.extend(body.index());
         };
         for effect in self.scene.effects.iter().filter(|effect| effect.enabled) {
@@ -257,7 +261,7 @@ fn form_of(solid: &Solid, is_clear: bool) -> ShapeForm {
         let end = |sign: f64| axes[long].map(|x| sign * reach * x);
         return ShapeForm::Capsule { from: end(-1.0), to: end(1.0), radius: wide, is_clear };
     }
-    ShapeForm::Box { half: *half, axes: *axes, is_clear }
+    ShapeForm::Box { at: [0.0; 3], half: *half, axes: *axes, is_clear }
 }
 
 /// Distance of a place from a straight line through two others.

@@ -86,6 +86,18 @@ pub struct DrawnShape {
     /// The shape.
     #[serde(flatten)]
     pub form: ShapeForm,
+    /// Its colour, `#rrggbb`; none: that of its body.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub colour: Option<String>,
+    /// From 0, not seen, to 1 [-].
+    pub opacity: f64,
+}
+
+impl DrawnShape {
+    /// In the colour of its body.
+    pub(crate) fn new(body: Option<usize>, form: ShapeForm) -> Self {
+        Self { body, form, colour: None, opacity: 1.0 }
+    }
 }
 
 /// The forms that are drawn; lengths in m.
@@ -101,8 +113,10 @@ pub enum ShapeForm {
         /// Its radius.
         radius: f64,
     },
-    /// A box with the body's inertia, about its centre of mass.
+    /// A box.
     Box {
+        /// Its centre.
+        at: [f64; 3],
         /// Half lengths along its axes.
         half: [f64; 3],
         /// Its axes, as unit vectors.
@@ -110,7 +124,7 @@ pub enum ShapeForm {
         /// Is something of interest inside it?
         is_clear: bool,
     },
-    /// A cylinder with round ends between two places, with the body's inertia.
+    /// A cylinder with round ends between two places.
     Capsule {
         /// One end of the cylinder.
         from: [f64; 3],

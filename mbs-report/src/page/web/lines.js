@@ -21,7 +21,7 @@ function makeLines(motion, clock, section) {
     if (s.form === "ball") return [[1, 0, 0], [0, 1, 0], [0, 0, 1]].map((axis) => circle(s.at, axis, s.radius));
     if (s.form === "rail") { const [low, high] = railReach(motion, s); return [[vec.add(s.at, s.axis, low), vec.add(s.at, s.axis, high)]]; }
     if (s.form === "box") {
-      const corner = (i, j, k) => [i, j, k].reduce((p, sign, d) => vec.add(p, s.axes[d], sign * s.half[d]), [0, 0, 0]), out = [];
+      const corner = (i, j, k) => [i, j, k].reduce((p, sign, d) => vec.add(p, s.axes[d], sign * s.half[d]), s.at), out = [];
       for (const a of [-1, 1]) for (const b of [-1, 1]) out.push([corner(a, b, -1), corner(a, b, 1)], [corner(a, -1, b), corner(a, 1, b)], [corner(-1, a, b), corner(1, a, b)]);
       return out;
     }

@@ -46,6 +46,7 @@ function makeShapes(T, motion) {
       const [x, y, z] = s.axes, right = vec.dot(vec.cross(x, y), z) > 0 ? z : z.map((c) => -c);
       for (const mesh of [new T.Mesh(geometry, paint[s.is_clear ? 1 : 0]), new T.LineSegments(new T.EdgesGeometry(geometry), edge(g))]) {
         mesh.quaternion.setFromRotationMatrix(frame(x, y, right));
+        mesh.position.set(...s.at);
         g.add(mesh);
       }
     },
@@ -118,7 +119,15 @@ function makeShapes(T, motion) {
 
   for (const shape of motion.shapes) {
     const on = shape.body === null ? ground : groups[shape.body];
-    draw[shape.form]?.(on, shape, shape.body === null ? [themed.mark, themed.mark] : paints[shape.body], shape.body ?? 0);
+    draw[shape.form]?.(on, shape, paintOf(shape), shape.body ?? 0);
+  }
+
+  // Materials of a shape, opaque and clear: those of its body, or its own.
+  function paintOf({ body, colour, opacity }) {
+    const common = body === null ? [themed.mark, themed.mark] : paints[body];
+    if (!colour && opacity === 1) return common;
+    const own = new T.MeshLambertMaterial({ color: colour ? new T.Color(colour) : common[0].color, opacity, transparent: opacity < 1, depthWrite: opacity === 1, side: T.DoubleSide });
+    return [own, own];
   }
 
   // Lines between bodies: meshes of length one along y, which every picture places anew.

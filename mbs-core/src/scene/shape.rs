@@ -1,0 +1,98 @@
+//! Forms on bodies and on the ground, in the reference configuration: pictures draw them, and they carry no mass.
+
+use crate::scene::BodyId;
+use alloc::string::String;
+use alloc::vec::Vec;
+
+/// A form that moves with its body, or stands on the ground.
+#[derive(Debug, Clone, PartialEq)]
+pub struct BodyShape<T> {
+    /// Unique name among the shapes.
+    pub name: String,
+    /// Its body, or the ground.
+    pub body: BodyId,
+    /// The form.
+    pub form: ShapeKind<T>,
+    /// Red, green and blue, each up to 255; `None`: those of its body.
+    pub colour: Option<[u8; 3]>,
+    /// From 0, not seen, to 1 [-].
+    pub opacity: T,
+    /// Is it for pictures alone?
+    pub is_visual: bool,
+}
+
+/// Forms; places and lengths in the reference configuration [m].
+#[derive(Debug, Clone, PartialEq)]
+pub enum ShapeKind<T> {
+    /// A box of space.
+    Box {
+        /// Its centre.
+        center: [T; 3],
+        /// Its lengths along its axes.
+        size: [T; 3],
+        /// Its first and its second axis, any length; `None`: x and y.
+        axes: Option<[[T; 3]; 2]>,
+    },
+    /// A sphere of space.
+    Sphere {
+        /// Its centre.
+        center: [T; 3],
+        /// Its radius.
+        radius: T,
+    },
+    /// A cylinder with round ends; in the plane a bar with round ends.
+    Capsule {
+        /// The centre of one end.
+        from: [T; 3],
+        /// The centre of the other end.
+        to: [T; 3],
+        /// Its radius.
+        radius: T,
+    },
+    /// A cylinder of space with flat ends.
+    Cylinder {
+        /// The centre of one end.
+        from: [T; 3],
+        /// The centre of the other end.
+        to: [T; 3],
+        /// Its radius.
+        radius: T,
+    },
+    /// A disc of the plane.
+    Disc {
+        /// Its centre.
+        center: [T; 3],
+        /// Its radius.
+        radius: T,
+    },
+    /// A polygon of the plane.
+    Polygon {
+        /// Its corners, one after the other.
+        points: Vec<[T; 3]>,
+    },
+}
+
+impl<T> ShapeKind<T> {
+    /// Its key in scene files.
+    #[must_use]
+    pub const fn key(&self) -> &'static str {
+        match self {
+            Self::Box { .. } => "box",
+            Self::Sphere { .. } => "sphere",
+            Self::Capsule { .. } => "capsule",
+            Self::Cylinder { .. } => "cylinder",
+            Self::Disc { .. } => "disc",
+            Self::Polygon { .. } => "polygon",
+        }
+    }
+
+    /// Whether planar scenes have it, and whether spatial ones do.
+    #[must_use]
+    pub const fn dimensions(&self) -> [bool; 2] {
+        match self {
+            Self::Box { .. } | Self::Sphere { .. } | Self::Cylinder { .. } => [false, true],
+            Self::Capsule { .. } => [true, true],
+            Self::Disc { .. } | Self::Polygon { .. } => [true, false],
+        }
+    }
+}

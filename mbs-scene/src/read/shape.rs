@@ -1,0 +1,86 @@
+//! `[[shape]]`: forms on bodies and on the ground, for pictures.
+
+use super::ReadFault;
+use super::fields::{Fields, Read};
+use super::tree::{Item, Node};
+use crate::keys::{COLOURS, SHAPES};
+use mbs_core::scene::{Number, BodyShape, ShapeKind};
+
+/// Reads a shape; without a name it is called `shape-N`, counted from 1.
+pub(crate) fn read(index: usize, fields: &Fields<'_>) -> Read<BodyShape<Number>> {
+    let context = fields.context;
+    let forms: Vec<&str> = SHAPES.into_iter().filter(|form| fields.get(form).is_some()).collect();
+    let form = match forms[..] {
+        [] => {
+            let fault = ReadFault::Missing { key: "box, sphere, capsule, cylinder, disc or polygon" };
+            return context.fault(fields.header, fault);
+        }
+        [form] => kind(fields, form)?,
+        [one, other, ..] => {
+            let key = SHAPES.into_iter().find(|form| *form == other).unwrap_or_default();
+            let first = SHAPES.into_iter().find(|form| *form == one).unwrap_or_default();
+            return context.fault(&fields.need(key)?.span, ReadFault::Both { keys: [first, key] });
+        }
+    };
+    Ok(BodyShape {
+        name: fields.name_or("shape", index)?,
+        body: context.body(fields.need("body")?)?,
+        form,
+        colour: fields.get("colour").map(|item| colour(fields, item)).transpose()?,
+        opacity: fields.number_or("opacity", "1")?,
+        is_visual: fields.flag("visual", true)?,
+    })
+}
+
+fn kind(fields: &Fields<'_>, form: &str) -> Read<ShapeKind<Number>> {
+    let Some(item) = fields.get(form) else {
+        return fields.context.fault(fields.header, ReadFault::Missing { key: "a form" });
+    };
+    let table = fields.context.table(item, "a table with the sizes of the form", form)?;
+    Ok(match form {
+        "box" => {
+            let size = table.context.numbers_of(table.need("size")?, "three lengths: [x, y, z]")?;
+            let axes = table.get("axes").map(|_| table.two_vectors("axes")).transpose()?;
+            ShapeKind::Box { center: table.vector("center")?, size, axes }
+        }
+        "polygon" => {
+            let item = table.need("points")?;
+            let points = table.context.list(item, "a list of places, one after the other")?;
+            let points = points.iter().map(|point| table.context.place(point));
+            ShapeKind::Polygon { points: points.collect::<Read<_>>()? }
+        }
+        "capsule" | "cylinder" => {
+            let (from, to) = (table.vector("from")?, table.vector("to")?);
+            let radius = table.number("radius")?;
+            match form {
+                "capsule" => ShapeKind::Capsule { from, to, radius },
+                _ => ShapeKind::Cylinder { from, to, radius },
+            }
+        }
+        _ => {
+            let (center, radius) = (table.vector("center")?, table.number("radius")?);
+            match form {
+                "sphere" => ShapeKind::Sphere { center, radius },
+                _ => ShapeKind::Disc { center, radius },
+            }
+        }
+    })
+}
+
+/// A name of the list, or `#rrggbb`.
+fn colour(fields: &Fields<'_>, item: &Item) -> Read<[u8; 3]> {
+    let known = COLOURS.map(|(name, _)| name);
+    let Node::Text(text) = &item.node else {
+        return fields.context.text(item).map(|_| [0; 3]);
+    };
+    let byte = |i: usize| u8::from_str_radix(text.get(2 * i + 1..2 * i + 3)?, 16).ok();
+    let is_code = text.len() == 7 && text.starts_with('#');
+    let code = || Some([byte(0)?, byte(1)?, byte(2)?]).filter(|_| is_code);
+    match COLOURS.into_iter().find(|(name, _)| name == text) {
+        Some((_, rgb)) => Ok(rgb),
+        None => match code() {
+            Some(rgb) => Ok(rgb),
+            None => fields.unknown_word("colour", (text, &item.span), &known),
+        },
+    }
+}
