@@ -299,3 +299,47 @@ fn the_rear_wheels_stand_on_the_drawn_road_at_the_start_and_at_the_landing_behin
     let (landing, t) = rear_gaps(&header["motion"], &groups, 6.4);
     assert!(landing.iter().all(|gap| (-0.03..0.0).contains(gap)), "{landing:?} at t = {t} s");
 }
+
+#[test]
+fn a_shape_of_the_scene_stands_for_the_inertia_of_its_body() {
+    let text = "\
+[scene]
+dimension = 3
+duration = 0.01
+
+[[body]]
+name = \"plate\"
+mass = 1.0
+center = [1.0, 0.0, 0.0]
+inertia = [1.0, 1.0, 1.0, 0.0, 0.0, 0.0]
+
+[[shape]]
+body = \"plate\"
+box = { center = [1.0, 0.0, 2.0], size = [2.0, 4.0, 6.0], axes = [[0, 2, 0], [0, 1, 1]] }
+colour = \"#ff8000\"
+opacity = 0.5
+";
+    let file = mbs_scene::SceneFile::parse(text, "plate.toml").expect("TOML");
+    let scene = file.scene::<f64>().expect("a scene");
+    let method = mbs::Method::default();
+    let settings = mbs::ResolvedMethod::new(&scene, &method).expect("settings");
+    let outcome = mbs::run_document((&file, &scene), &settings, &mut |_| {}).expect("a run");
+    let html = page(&outcome.record(Provenance::default()));
+    let (header, _) = data(&html);
+    let boxes: Vec<_> = header["motion"]["shapes"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .filter(|shape| shape["body"] == 0 && shape["form"] != "stroke")
+        .collect();
+    let [shape] = boxes[..] else { panic!("{boxes:?}") };
+    // places count from the centre of mass; the second axis is the part of the given one across the first
+    assert_eq!(shape["form"], "box");
+    assert_eq!(shape["at"], serde_json::json!([0.0, 0.0, 2.0]));
+    assert_eq!(shape["half"], serde_json::json!([1.0, 2.0, 3.0]));
+    assert_eq!(
+        shape["axes"],
+        serde_json::json!([[0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [1.0, 0.0, 0.0]])
+    );
+    assert_eq!((&shape["colour"], &shape["opacity"]), (&"#ff8000".into(), &0.5.into()));
+}

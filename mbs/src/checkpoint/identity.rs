@@ -153,6 +153,8 @@ fn fingerprints<T: Real>(scene: &Scene<T>) -> [u64; PARTS.len()] {
         signals,
         road,
         start,
+        // for pictures alone
+        shapes: _,
         effects,
         outputs,
         solver,
