@@ -200,14 +200,10 @@ impl<'a, T: Real, const D: usize> Run<'a, T, D> {
             ..plain_summary(run.scene, settings)
         };
         let steps = run.recorder.step_series(0, control);
-        let change = simulation.start.change.to_f64();
         let motion = run.motion.finish(run.scene);
-        let centers = run.scene.bodies.iter().map(|body| body.center.map(|x| x.to_f64()));
-        let centers: Vec<_> = centers.collect();
-        let moved = motion.most_moved(&centers);
-        let mut notes = notes(run.scene, settings, &summary, (change, moved));
-        notes.extend(run.limits.notes(run.scene));
-        notes.extend(run.one_way.notes(run.scene));
+        let start = (simulation.start.change.to_f64(), motion.most_moved(run.scene));
+        let mut notes = notes(run.scene, settings, &summary, start);
+        notes.extend([run.limits.notes(run.scene), run.one_way.notes(run.scene)].concat());
         notes.extend(few_threads(settings.threads, simulation.threads()));
         let record = RunRecord {
             scene: run.scene.name.clone(),

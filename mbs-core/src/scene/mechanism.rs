@@ -3,9 +3,9 @@
 use crate::effects::EffectKind;
 use crate::outputs::Quantity;
 use crate::scene::{
-    Body, BodyId, BodyShape, Coupling, CouplingId, Dimension, EffectId, Guide, GuideId, InitialCondition,
-    InitialId, Joint, JointId, NamedSignal, OutputId, Road, Rolling, RollingId, SignalId,
-    SolverTable, Start, Surroundings,
+    Body, BodyId, BodyShape, Coupling, CouplingId, Dimension, EffectId, Guide, GuideId,
+    InitialCondition, InitialId, Joint, JointId, NamedSignal, OutputId, Road, Rolling, RollingId,
+    SignalId, SolverTable, Start, Surroundings,
 };
 use alloc::format;
 use alloc::string::String;

@@ -2,10 +2,10 @@
 
 use crate::Real;
 use crate::scene::{
-    Body, BodyShape, CalspanCoefficients, Coupling, CouplingKind, CouplingMeasure, CouplingTerm, Curve,
-    Dimension, Effect, Entry, Guide, Inertia, InitialCondition, InitialTarget, Joint, JointLimits,
-    Mesh, Motion, NamedSignal, Number, Output, Road, RoadFeature, Rolling, RollingKind,
-    RollingPlane, Scene, SceneError, SceneFault, ShapeKind, SolverTable,
+    Body, BodyShape, CalspanCoefficients, Coupling, CouplingKind, CouplingMeasure, CouplingTerm,
+    Curve, Dimension, Effect, Entry, Guide, Inertia, InitialCondition, InitialTarget, Joint,
+    JointLimits, Mesh, Motion, NamedSignal, Number, Output, Road, RoadFeature, Rolling,
+    RollingKind, RollingPlane, Scene, SceneError, SceneFault, ShapeKind, SolverTable,
 };
 use alloc::vec::Vec;
 

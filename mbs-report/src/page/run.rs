@@ -144,7 +144,7 @@ fn caption(record: &RunRecord) -> String {
     let has_traces = motion.is_some_and(|motion| !motion.traces.is_empty());
     let is_spatial = motion.is_some_and(|motion| motion.dimension == 3);
     let first = if is_spatial {
-        "Boxes without a `[[shape]]` have the inertia of their bodies. Left button turns, right button or two fingers move, wheel or pinch zooms."
+        "Boxes that the scene does not write have the inertia of their bodies. Left button turns, right button or two fingers move, wheel or pinch zooms."
     } else {
         "Left or right button moves, wheel or pinch zooms."
     };

@@ -32,7 +32,13 @@ pub(super) fn tables() -> Vec<KeyTable> {
         "shape",
         "A form on a body or on the ground, where it is drawn. It has one of the forms. Pictures show it in place of the body's inertia; it carries no mass.",
         vec![
-            may("name", Name, "", "`shape-N`, N counted from 1", "Name, by which others refer to it."),
+            may(
+                "name",
+                Name,
+                "",
+                "`shape-N`, N counted from 1",
+                "Name, by which others refer to it.",
+            ),
             need("body", Of(Referent::Body), "", "Its body."),
             form("box", "A box.").in_space(),
             form("sphere", "A sphere.").in_space(),
@@ -42,14 +48,31 @@ pub(super) fn tables() -> Vec<KeyTable> {
             form("polygon", "A polygon.").in_the_plane(),
             may("colour", Text, "", "that of its body", &colour),
             may("opacity", Number, "", "1", "From 0, not seen, to 1."),
-            may("visual", Flag, "", "true", "Whether it is for pictures alone. Nothing else uses shapes yet."),
+            may(
+                "visual",
+                Flag,
+                "",
+                "true",
+                "Whether it is for pictures alone. Nothing else uses shapes yet.",
+            ),
         ],
     );
+    let mut tables = vec![shape];
+    tables.extend(forms());
+    tables
+}
+
+/// A table for each form.
+fn forms() -> Vec<KeyTable> {
     let radius = || need("radius", Number, "m", "Its radius.");
     let center = || need("center", Place, "m", "Its centre.");
     let ends = || -> Vec<Key> {
         let end = |name, meaning| need(name, Place, "m", meaning);
-        vec![end("from", "The centre of one end."), end("to", "The centre of the other end."), radius()]
+        vec![
+            end("from", "The centre of one end."),
+            end("to", "The centre of the other end."),
+            radius(),
+        ]
     };
     let block = vec![
         center(),
@@ -58,7 +81,6 @@ pub(super) fn tables() -> Vec<KeyTable> {
     ];
     let corners = "Its corners, one after the other.";
     vec![
-        shape,
         inside("box", "The sizes of a box.", block),
         inside("sphere", "The sizes of a sphere.", vec![center(), radius()]),
         inside("capsule", "The sizes of a capsule.", ends()),

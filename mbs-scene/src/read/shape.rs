@@ -4,7 +4,7 @@ use super::ReadFault;
 use super::fields::{Fields, Read};
 use super::tree::{Item, Node};
 use crate::keys::{COLOURS, SHAPES};
-use mbs_core::scene::{Number, BodyShape, ShapeKind};
+use mbs_core::scene::{BodyShape, Number, ShapeKind};
 
 /// Reads a shape; without a name it is called `shape-N`, counted from 1.
 pub(crate) fn read(index: usize, fields: &Fields<'_>) -> Read<BodyShape<Number>> {
@@ -12,7 +12,8 @@ pub(crate) fn read(index: usize, fields: &Fields<'_>) -> Read<BodyShape<Number>>
     let forms: Vec<&str> = SHAPES.into_iter().filter(|form| fields.get(form).is_some()).collect();
     let form = match forms[..] {
         [] => {
-            let fault = ReadFault::Missing { key: "box, sphere, capsule, cylinder, disc or polygon" };
+            let fault =
+                ReadFault::Missing { key: "box, sphere, capsule, cylinder, disc or polygon" };
             return context.fault(fields.header, fault);
         }
         [form] => kind(fields, form)?,

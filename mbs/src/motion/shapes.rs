@@ -43,9 +43,8 @@ impl<T: Real> Drawing<'_, T> {
     pub(super) fn add_bodies(&self, motion: &mut RecordedMotion) {
         let wheels = self.add_wheels(motion);
         motion.shapes.extend(self.scene.shapes.iter().map(|shape| self.shape(shape)));
-        let has_shape = |body: usize| {
-            self.scene.shapes.iter().any(|shape| shape.body == BodyId::Body(body))
-        };
+        let has_shape =
+            |body: usize| self.scene.shapes.iter().any(|shape| shape.body == BodyId::Body(body));
         for body in (0..self.scene.bodies.len()).filter(|body| !has_shape(*body)) {
             let is_wheel = wheels.contains(&body);
             self.add_body(body, is_wheel, motion);

@@ -50,6 +50,7 @@ impl<T: Real> Drawing<'_, T> {
     }
 }
 
+/// Axes of a box that writes none: x, y and z [-].
 const GLOBAL: [[f64; 3]; 3] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
 
 /// Unit axes, of which the first is the first and the second lies in the plane of both.

@@ -1,5 +1,7 @@
 //! The motion of the bodies of a run, and what is drawn of them: plain data.
 
+use mbs_core::Real;
+use mbs_core::scene::{Body, Scene};
 use serde::Serialize;
 
 /// Numbers of a pose: the place of the centre of mass [m], then a unit quaternion w, x, y, z of the turn since the reference configuration.
@@ -37,14 +39,15 @@ pub struct RecordedMotion {
 }
 
 impl RecordedMotion {
-    /// The name of the body that is farthest from these places of the centres of mass [m] and from no turn, in the first picture.
-    pub(crate) fn most_moved(&self, centers: &[[f64; 3]]) -> Option<&str> {
-        let moved = |(pose, center): (&[f64], &[f64; 3])| {
-            let way = pose[..3].iter().zip(center).map(|(x, c)| (x - c) * (x - c)).sum::<f64>();
+    /// The name of the body that is farthest from its reference configuration in the first picture, by its way [m] or turn [rad].
+    pub(crate) fn most_moved<T: Real>(&self, scene: &Scene<T>) -> Option<&str> {
+        let moved = |(pose, body): (&[f64], &Body<T>)| {
+            let ways = pose[..3].iter().zip(body.center).map(|(x, c)| x - c.to_f64());
+            let way = ways.map(|way| way * way).sum::<f64>();
             let turn = 2.0 * pose[3].abs().min(1.0).acos();
             way.sqrt().max(turn)
         };
-        let poses = self.poses.chunks_exact(N_POSE).zip(centers).map(moved);
+        let poses = self.poses.chunks_exact(N_POSE).zip(&scene.bodies).map(moved);
         let (_, body) = poses.zip(&self.bodies).max_by(|a, b| a.0.total_cmp(&b.0))?;
         Some(&body.name)
     }

@@ -2,7 +2,7 @@
 
 use super::vector::{Place, is_parallel, is_planar};
 use crate::Real;
-use crate::scene::{Entry, Scene, SceneError, SceneFault, BodyShape, ShapeKind};
+use crate::scene::{BodyShape, Entry, Scene, SceneError, SceneFault, ShapeKind};
 
 pub(super) fn check<T: Real>(scene: &Scene<T>) -> Result<(), SceneError> {
     for (i, shape) in scene.shapes.iter().enumerate() {

@@ -27,12 +27,16 @@ fn scene(shape: &str) -> Result<Scene<f64>, ReadError> {
 
 #[test]
 fn forms_are_read_with_points_units_and_colours() {
-    let of = |shape: &str| scene(shape).unwrap_or_else(|e| panic!("{}", e.render())).shapes.remove(0);
-    let shape = of("sphere = { center = \"p\", radius = \"20 mm\" }\ncolour = \"#10ff02\"\nopacity = 0.5");
+    let of =
+        |shape: &str| scene(shape).unwrap_or_else(|e| panic!("{}", e.render())).shapes.remove(0);
+    let shape =
+        of("sphere = { center = \"p\", radius = \"20 mm\" }\ncolour = \"#10ff02\"\nopacity = 0.5");
     assert_eq!(shape.form, ShapeKind::Sphere { center: [1.0, 2.0, 3.0], radius: 0.02 });
     assert_eq!((shape.name.as_str(), shape.body), ("shape-1", BodyId::Body(0)));
     assert_eq!((shape.colour, shape.opacity, shape.is_visual), (Some([16, 255, 2]), 0.5, true));
-    let shape = of("box = { center = [0, 0, 0], size = [1, 2, 3], axes = [[0, 1, 0], [0, 0, 2]] }\nvisual = false");
+    let shape = of(
+        "box = { center = [0, 0, 0], size = [1, 2, 3], axes = [[0, 1, 0], [0, 0, 2]] }\nvisual = false",
+    );
     let axes = Some([[0.0, 1.0, 0.0], [0.0, 0.0, 2.0]]);
     assert_eq!(shape.form, ShapeKind::Box { center: [0.0; 3], size: [1.0, 2.0, 3.0], axes });
     assert!(!shape.is_visual);
@@ -43,7 +47,9 @@ fn forms_are_read_with_points_units_and_colours() {
 #[test]
 fn shapes_are_written_as_they_are_read() {
     let file = SceneFile::parse(
-        &format!("{SPACE}name = \"s\"\ncylinder = {{ from = \"p\", to = [0, 0, 0], radius = 1 }}\ncolour = \"red\"\n"),
+        &format!(
+            "{SPACE}name = \"s\"\ncylinder = {{ from = \"p\", to = [0, 0, 0], radius = 1 }}\ncolour = \"red\"\n"
+        ),
         "test.toml",
     );
     let scene = file.and_then(|file| file.numbers()).unwrap_or_else(|e| panic!("{}", e.render()));
@@ -57,14 +63,26 @@ fn shapes_are_written_as_they_are_read() {
 fn what_is_no_shape_is_refused_at_its_place() {
     let cases = [
         ("", "`box, sphere, capsule, cylinder, disc or polygon` is missing", 15),
-        ("sphere = { center = \"p\", radius = 1 }\nbox = { center = \"p\", size = [1, 1, 1] }", "both `box` and `sphere` are given", 17),
+        (
+            "sphere = { center = \"p\", radius = 1 }\nbox = { center = \"p\", size = [1, 1, 1] }",
+            "both `box` and `sphere` are given",
+            17,
+        ),
         ("sphere = { center = \"p\", radius = 0 }", "`sphere` must be larger than zero", 17),
         ("sphere = { center = \"p\" }", "`radius` is missing", 17),
         ("disc = { center = [0, 0], radius = 1 }", "`disc` has no meaning here", 17),
         ("box = { center = \"p\", size = [1, 1] }", "expected 3 entries, found 2", 17),
-        ("box = { center = \"p\", size = [1, 1, 1], axes = [[1, 0, 0], [2, 0, 0]] }", "parallel", 17),
+        (
+            "box = { center = \"p\", size = [1, 1, 1], axes = [[1, 0, 0], [2, 0, 0]] }",
+            "parallel",
+            17,
+        ),
         ("capsule = { from = \"p\", to = \"p\", radius = 1 }", "same place", 17),
-        ("sphere = { center = \"p\", radius = 1 }\nopacity = 2", "`opacity` must be from 0 to 1, but is 2", 18),
+        (
+            "sphere = { center = \"p\", radius = 1 }\nopacity = 2",
+            "`opacity` must be from 0 to 1, but is 2",
+            18,
+        ),
         ("sphere = { center = \"p\", radius = 1 }\ncolour = \"stel\"", "unknown colour `stel`", 18),
         ("sphere = { center = \"p\", radius = 1 }\ncolour = \"#12é45\"", "unknown colour", 18),
         ("sphere = { center = \"p\", radius = 1 }\ncolor = \"red\"", "unknown key `color`", 18),

@@ -3,7 +3,7 @@
 use super::{Keys, Writer, list};
 use crate::read::tree::Node;
 use crate::write::WriteError;
-use mbs_core::scene::{Number, BodyShape, ShapeKind};
+use mbs_core::scene::{BodyShape, Number, ShapeKind};
 
 impl Writer<'_> {
     pub(super) fn shape(self, shape: &BodyShape<Number>) -> Result<Keys, WriteError> {
