@@ -1,6 +1,7 @@
 //! Forms on bodies and on the ground, in the reference configuration: pictures draw them, and they carry no mass.
 
 use crate::scene::BodyId;
+use alloc::format;
 use alloc::string::String;
 use alloc::vec::Vec;
 
@@ -19,6 +20,14 @@ pub struct BodyShape<T> {
     pub opacity: T,
     /// Is it for pictures alone?
     pub is_visual: bool,
+}
+
+impl<T> BodyShape<T> {
+    /// Its colour as `#rrggbb`.
+    #[must_use]
+    pub fn colour_code(&self) -> Option<String> {
+        self.colour.map(|[red, green, blue]| format!("#{red:02x}{green:02x}{blue:02x}"))
+    }
 }
 
 /// Forms; places and lengths in the reference configuration [m].

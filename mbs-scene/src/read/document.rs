@@ -3,7 +3,7 @@
 use super::include;
 use super::syntax;
 use super::texts::Texts;
-use super::tree::{Item, Member, Node, Span};
+use super::tree::{self, Item, Member, Node, Span};
 use super::{Place, ReadError, ReadFault};
 use std::path::{Path, PathBuf};
 
@@ -108,7 +108,7 @@ impl SceneFile {
     }
 
     pub(crate) fn top(&self, key: &str) -> Option<&Item> {
-        self.root.iter().find(|member| member.key == key).map(|member| &member.item)
+        tree::find(&self.root, key)
     }
 }
 

@@ -1,7 +1,7 @@
 //! Numbers of a scene file by their paths: read one, replace one and keep the rest of the text.
 
 use super::sweep::path;
-use super::tree::{Item, Member, Node, Span};
+use super::tree::{self, Item, Member, Node, Span};
 use super::values::Values;
 use super::{Place, ReadError, ReadFault, SceneFile, SweepFault};
 use mbs_core::scene::Number;
@@ -72,11 +72,11 @@ impl SceneFile {
             return None;
         }
         let mut changes = Changes { text: self.text(), edits: Vec::new(), tail: String::new() };
-        if old.iter().any(|m| member(new, &m.key).is_none()) {
+        if old.iter().any(|m| tree::find(new, &m.key).is_none()) {
             return None;
         }
         for Member { key, item, .. } in new {
-            let pair = (member(old, key), self.top(key));
+            let pair = (tree::find(old, key), self.top(key));
             match (&item.node, pair) {
                 (Node::Table(_), (Some(old), Some(file))) => changes.entry(old, item, file)?,
                 (Node::Table(members), _) => changes.append(&format!("[{key}]"), members),
@@ -127,15 +127,15 @@ impl Changes<'_> {
         else {
             return None;
         };
-        if old.iter().any(|m| member(new, &m.key).is_none()) {
+        if old.iter().any(|m| tree::find(new, &m.key).is_none()) {
             return None;
         }
         for Member { key, item, .. } in new {
             let value = crate::write::toml::value(item);
-            if member(old, key).is_some_and(|old| crate::write::toml::value(old) == value) {
+            if tree::find(old, key).is_some_and(|old| crate::write::toml::value(old) == value) {
                 continue;
             }
-            if let Some(item) = member(file_keys, key) {
+            if let Some(item) = tree::find(file_keys, key) {
                 self.edits.push((item.span.clone(), value));
                 continue;
             }
@@ -147,10 +147,6 @@ impl Changes<'_> {
         }
         Some(())
     }
-}
-
-fn member<'a>(members: &'a [Member], key: &str) -> Option<&'a Item> {
-    members.iter().find(|member| member.key == key).map(|member| &member.item)
 }
 
 /// The entries of a list of tables.

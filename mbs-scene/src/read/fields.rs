@@ -7,7 +7,7 @@ use crate::read::expression::unit;
 use crate::read::names::Names;
 use crate::read::point;
 use crate::read::texts::Texts;
-use crate::read::tree::{Item, Member, Node, Span};
+use crate::read::tree::{self, Item, Member, Node, Span};
 use crate::read::values::Values;
 use mbs_core::scene::{BallAngle, BodyId, Dimension, Freedom, Joint, JointId, Number, SignalId};
 
@@ -229,7 +229,7 @@ impl<'a> Context<'a> {
 impl<'a> Fields<'a> {
     pub(crate) fn get(&self, key: &str) -> Option<&'a Item> {
         debug_assert!(self.is_of_header(key), "`{key}` is in no table of `{}`", self.header_name());
-        self.members.iter().find(|member| member.key == key).map(|member| &member.item)
+        tree::find(self.members, key)
     }
 
     pub(crate) fn need(&self, key: &'static str) -> Read<&'a Item> {

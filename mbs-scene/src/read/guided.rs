@@ -33,10 +33,10 @@ impl SceneFile {
     pub(crate) fn item_of_guide(&self, guide: usize, field: &str) -> Option<&Item> {
         let (entry, number) = self.entry_of_guide(guide)?;
         let entry = self.listed("guide").get(entry)?;
-        let found = match (field, key(entry, "signals")) {
+        let found = match (field, entry.get("signals")) {
             ("signal", Some(Item { node: Node::List(signals), .. })) => signals.get(number),
-            ("joint", _) => key(entry, "joint").or_else(|| key(entry, "body")),
-            _ => key(entry, field),
+            ("joint", _) => entry.get("joint").or_else(|| entry.get("body")),
+            _ => entry.get(field),
         };
         found.or(Some(entry))
     }
@@ -46,11 +46,11 @@ impl SceneFile {
         let joints = self.listed("joint");
         let Some(entry) = joints.get(joint) else {
             let mut bodies =
-                self.listed("guide").iter().filter(|entry| key(entry, "body").is_some());
+                self.listed("guide").iter().filter(|entry| entry.get("body").is_some());
             let entry = bodies.nth(joint - joints.len())?;
-            return key(entry, field).or_else(|| key(entry, "body"));
+            return entry.get(field).or_else(|| entry.get("body"));
         };
-        key(entry, field).or(Some(entry))
+        entry.get(field).or(Some(entry))
     }
 
     /// The names of guided bodies: those of their joints.
@@ -62,7 +62,7 @@ impl SceneFile {
         for entry in self.listed("guide") {
             let first = guide;
             guide += n_guides(entry);
-            let Some(body) = key(entry, "body") else { continue };
+            let Some(body) = entry.get("body") else { continue };
             // what is no text is refused when the entry is read
             let name = if let Node::Text(name) = &body.node { name.as_str() } else { "" };
             let twice = names.iter().find(|(other, _)| !name.is_empty() && other == name);
@@ -78,16 +78,8 @@ impl SceneFile {
 
 /// How many guides an entry makes.
 fn n_guides(entry: &Item) -> usize {
-    match key(entry, "signals") {
+    match entry.get("signals") {
         Some(Item { node: Node::List(signals), .. }) => signals.len(),
         _ => 1,
-    }
-}
-
-/// A key of an entry.
-fn key<'a>(entry: &'a Item, key: &str) -> Option<&'a Item> {
-    match &entry.node {
-        Node::Table(members) => members.iter().find(|m| m.key == key).map(|m| &m.item),
-        _ => None,
     }
 }

@@ -105,9 +105,10 @@ fn points(fields: &Fields<'_>) -> Read<Vec<[Number; 2]>> {
 
 /// The table of the file that gave feature `index` of a track of the scene.
 pub(crate) fn item_of<'a>(road: &'a Item, track: &str, index: usize) -> Option<&'a Item> {
-    let Node::Table(members) = &road.node else { return None };
-    let find = |key: &str| members.iter().find(|m| m.key == key).map(|m| &m.item);
-    let item = find(track).or_else(|| find("features"));
+    if !matches!(road.node, Node::Table(_)) {
+        return None;
+    }
+    let item = road.get(track).or_else(|| road.get("features"));
     let items = match item {
         None => core::slice::from_ref(road),
         Some(Item { node: Node::List(items), .. }) => items,

@@ -174,13 +174,8 @@ impl SceneFile {
         let Some(Item { node: Node::List(items), .. }) = self.top(key) else {
             return Names::default();
         };
-        let name = |item: &Item| match &item.node {
-            Node::Table(members) => members.iter().find(|m| m.key == "name").and_then(|m| {
-                if let Node::Text(text) = &m.item.node { Some(text.clone()) } else { None }
-            }),
-            _ => None,
-        };
-        Names::new(items.iter().map(|item| name(item).unwrap_or_default()).collect())
+        let name = |item: &Item| item.text_at("name").unwrap_or_default().to_owned();
+        Names::new(items.iter().map(name).collect())
     }
 
     /// Names are checked before they are referred to: else a repeated name reads as an unknown one.

@@ -9,18 +9,16 @@ use mbs_core::scene::{BodyShape, Number, ShapeKind};
 /// Reads a shape; without a name it is called `shape-N`, counted from 1.
 pub(crate) fn read(index: usize, fields: &Fields<'_>) -> Read<BodyShape<Number>> {
     let context = fields.context;
-    let forms: Vec<&str> = SHAPES.into_iter().filter(|form| fields.get(form).is_some()).collect();
-    let form = match forms[..] {
+    let written = SHAPES.into_iter().filter_map(|form| Some((form, fields.get(form)?)));
+    let form = match written.collect::<Vec<_>>()[..] {
         [] => {
             let fault =
                 ReadFault::Missing { key: "box, sphere, capsule, cylinder, disc or polygon" };
             return context.fault(fields.header, fault);
         }
-        [form] => kind(fields, form)?,
-        [one, other, ..] => {
-            let key = SHAPES.into_iter().find(|form| *form == other).unwrap_or_default();
-            let first = SHAPES.into_iter().find(|form| *form == one).unwrap_or_default();
-            return context.fault(&fields.need(key)?.span, ReadFault::Both { keys: [first, key] });
+        [(form, item)] => kind(fields, form, item)?,
+        [(one, _), (other, item), ..] => {
+            return context.fault(&item.span, ReadFault::Both { keys: [one, other] });
         }
     };
     Ok(BodyShape {
@@ -33,10 +31,7 @@ pub(crate) fn read(index: usize, fields: &Fields<'_>) -> Read<BodyShape<Number>>
     })
 }
 
-fn kind(fields: &Fields<'_>, form: &str) -> Read<ShapeKind<Number>> {
-    let Some(item) = fields.get(form) else {
-        return fields.context.fault(fields.header, ReadFault::Missing { key: "a form" });
-    };
+fn kind<'a>(fields: &Fields<'a>, form: &str, item: &'a Item) -> Read<ShapeKind<Number>> {
     let table = fields.context.table(item, "a table with the sizes of the form", form)?;
     Ok(match form {
         "box" => {

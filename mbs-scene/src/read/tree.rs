@@ -33,6 +33,11 @@ pub(crate) struct Member {
     pub(crate) item: Item,
 }
 
+/// The value of a key among the keys of a table.
+pub(crate) fn find<'a>(members: &'a [Member], key: &str) -> Option<&'a Item> {
+    members.iter().find(|member| member.key == key).map(|member| &member.item)
+}
+
 impl Member {
     /// Moves the spans of a whole branch.
     pub(crate) fn shift(&mut self, by: usize) {
@@ -45,7 +50,7 @@ impl Item {
     /// The value of a key of a table.
     pub(crate) fn get(&self, key: &str) -> Option<&Self> {
         let Node::Table(members) = &self.node else { return None };
-        members.iter().find(|member| member.key == key).map(|member| &member.item)
+        find(members, key)
     }
 
     /// The text at a key of a table.

@@ -8,7 +8,7 @@ use super::named::Named;
 use super::number::rounded;
 use super::point::{self, Point};
 use super::texts::Texts;
-use super::tree::{Item, Member, Node, Span};
+use super::tree::{self, Item, Member, Node, Span};
 use mbs_core::scene::Number;
 
 /// Words that keys take in place of a number.
@@ -31,9 +31,7 @@ impl<'a> Values<'a> {
 
     /// Those of a tree, each evaluated once.
     pub(crate) fn new(texts: &'a Texts, root: &'a [Member]) -> Read<Self> {
-        let top =
-            |key: &str| root.iter().find(|member| member.key == key).map(|member| &member.item);
-        let parameters = match top("parameters") {
+        let parameters = match tree::find(root, "parameters") {
             None => &[],
             Some(Item { node: Node::Table(members), .. }) => &members[..],
             Some(item) => {
@@ -46,7 +44,7 @@ impl<'a> Values<'a> {
         for member in parameters {
             check_name(texts, member)?;
         }
-        let points = match top("point") {
+        let points = match tree::find(root, "point") {
             Some(Item { node: Node::List(items), .. }) => &items[..],
             _ => &[],
         };

@@ -77,10 +77,9 @@ impl<T: Real> Drawing<'_, T> {
             }
             Inertia::Planar(_) => self.add_strokes(used, None, &mut add),
             Inertia::Spatial(inertia) => {
-                let inside = self.inside(body);
                 let solid = if is_wheel { None } else { self.solid(body, inertia) };
                 if let Some(solid) = &solid {
-                    let is_clear = inside.iter().any(|at| solid.contains(*at));
+                    let is_clear = used.iter().any(|at| solid.contains(*at));
                     add(form_of(solid, is_clear));
                 }
                 self.add_strokes(used, solid.as_ref(), &mut add);
@@ -117,7 +116,7 @@ impl<T: Real> Drawing<'_, T> {
         is_drawn.then_some(Solid { half, axes })
     }
 
-    /// Places of joints, then of outputs, on a body, each once.
+    /// Places of joints, then of outputs, on a body, each once: a box must not hide them.
     fn used(&self, body: usize) -> Vec<[f64; 3]> {
         let scene = self.scene;
         let of_joints = scene.joints.iter().filter(|j| !j.kind.is_free());
@@ -136,11 +135,6 @@ impl<T: Real> Drawing<'_, T> {
             }
         }
         places
-    }
-
-    /// Places of springs, dampers and joints on a body: a box must not hide them.
-    fn inside(&self, body: usize) -> Vec<[f64; 3]> {
-        self.used(body)
     }
 
     /// Adds the wheels of tires, of what rolls and of teeth; the bodies that carry or are one.

@@ -41,9 +41,8 @@ impl<T: Real> Drawing<'_, T> {
                 ShapeForm::Polygon { points: points.iter().map(|point| place(*point)).collect() }
             }
         };
-        let code = |[red, green, blue]: [u8; 3]| format!("#{red:02x}{green:02x}{blue:02x}");
         DrawnShape {
-            colour: shape.colour.map(code),
+            colour: shape.colour_code(),
             opacity: shape.opacity.to_f64(),
             ..DrawnShape::new(shape.body.index(), form)
         }

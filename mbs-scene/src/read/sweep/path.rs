@@ -227,16 +227,10 @@ impl Walk {
 
 /// What an entry goes by: its name, else its joint or body; an effect without name as in the scene's outputs.
 fn called(item: &Item, table: &str, index: usize) -> String {
-    let text = |key: &str| match &item.node {
-        Node::Table(members) => members.iter().find(|m| m.key == key).and_then(|m| {
-            if let Node::Text(text) = &m.item.node { Some(text.clone()) } else { None }
-        }),
-        _ => None,
-    };
     let keys: &[&str] =
         if matches!(table, "initial" | "guide") { &["joint", "body"] } else { &["name"] };
-    let name = keys.iter().find_map(|key| text(key));
-    name.unwrap_or_else(|| format!("{table}-{}", index + 1))
+    let name = keys.iter().find_map(|key| item.text_at(key));
+    name.map_or_else(|| format!("{table}-{}", index + 1), str::to_owned)
 }
 
 #[cfg(test)]

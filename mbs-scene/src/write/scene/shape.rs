@@ -31,9 +31,7 @@ impl Writer<'_> {
             }
         }
         keys.push(shape.form.key(), form);
-        if let Some([red, green, blue]) = shape.colour {
-            keys.push("colour", format!("#{red:02x}{green:02x}{blue:02x}").as_str());
-        }
+        keys.push_some("colour", shape.colour_code().as_deref());
         keys.push("opacity", &shape.opacity);
         if !shape.is_visual {
             keys.push("visual", Node::Bool(false));
