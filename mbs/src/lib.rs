@@ -43,6 +43,7 @@ pub mod words;
 pub use mbs_augmented as augmented;
 pub use mbs_classical as classical;
 pub use mbs_core as core;
+pub use mbs_import as models;
 pub use mbs_linear as linear;
 pub use mbs_parallel as parallel;
 pub use mbs_recursive as recursive;

@@ -137,6 +137,8 @@ pub enum ReadFault {
     Expression(ExpressionFault),
     /// A file that cannot be included; what is wrong, and what to do.
     Include(ExpressionFault),
+    /// A model of another format that cannot be a scene; what is wrong, and what to do.
+    Model(ExpressionFault),
     /// A number with a unit of other dimensions than the key's.
     OtherUnit {
         /// The key.
@@ -217,6 +219,20 @@ impl ReadError {
         self
     }
 
+    /// A refused model of another format, whose reader is another crate's: file and place, what is wrong and what to do, and a line for each
+    /// file that includes this one.
+    #[must_use]
+    pub fn of_model(
+        file: &str,
+        place: Place,
+        message: String,
+        hint: String,
+        included: Vec<String>,
+    ) -> Self {
+        let fault = ReadFault::Model(ExpressionFault { message, hint });
+        Self::new(file, place, fault).included(included)
+    }
+
     /// The file as it was named to the reader.
     #[must_use]
     pub fn file(&self) -> &str {
@@ -287,7 +303,9 @@ impl Display for ReadFault {
             Self::OfPoint { name, .. } => write!(f, "`{name}` is a point: it has no orientation"),
             Self::GroundDoesNotMove => write!(f, "the ground does not move"),
             Self::WrongType { expected, found } => write!(f, "expected {expected}, found {found}"),
-            Self::Expression(fault) | Self::Include(fault) => f.write_str(&fault.message),
+            Self::Expression(fault) | Self::Include(fault) | Self::Model(fault) => {
+                f.write_str(&fault.message)
+            }
             Self::OtherUnit { key, unit, text, found } => {
                 write!(f, "`{text}` is {found}, `{key}` is in {unit}")
             }
@@ -342,7 +360,7 @@ impl ReadFault {
             Self::Syntax { format: "JSON", .. } => "see https://www.json.org for the syntax of the file".to_owned(),
             Self::Syntax { line, .. } => units::of_line(line)
                 .unwrap_or_else(|| "see https://toml.io for the syntax of the file".to_owned()),
-            Self::Expression(fault) | Self::Include(fault) => fault.hint.clone(),
+            Self::Expression(fault) | Self::Include(fault) | Self::Model(fault) => fault.hint.clone(),
             Self::OtherUnit { unit, .. } => format!("write a number in {unit}, or with such a unit"),
             Self::UnknownKey { key, known } => nearest_name(key, known, "keys"),
             Self::UnusedKey { known, .. } => format!("remove it; {}", listing(known, "keys")),

@@ -1,6 +1,7 @@
 //! Places in a file: line, column, and the line itself.
 
 use crate::read::tree::Span;
+use core::ops::Range;
 
 /// A place in a scene file.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -17,6 +18,11 @@ pub struct Place {
 
 impl Place {
     /// The place of some bytes of a text.
+    #[must_use]
+    pub fn at(text: &str, bytes: Range<usize>) -> Self {
+        Self::of(text, &bytes)
+    }
+
     pub(crate) fn of(text: &str, span: &Span) -> Self {
         let start = boundary(text, span.start);
         let end = boundary(text, span.end.max(start));

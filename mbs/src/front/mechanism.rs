@@ -64,12 +64,12 @@ impl Mechanism {
         Self { scene, file: None, is_changed: true, functions: Vec::new() }
     }
 
-    /// Reads a scene file.
+    /// Reads a scene file, or a model of another program (URDF).
     ///
     /// # Errors
     /// [`ReadError`] with file, line, column and a hint.
     pub fn read(path: impl AsRef<Path>) -> Result<Self, ReadError> {
-        Self::of_file(SceneFile::read(path)?)
+        Self::of_file(mbs_import::read(path)?)
     }
 
     /// Reads the text of a scene file.

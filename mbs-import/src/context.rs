@@ -1,0 +1,60 @@
+//! What a reader of a format has at hand.
+
+use crate::findings::Findings;
+use crate::options::ImportOptions;
+use crate::source::{Fault, Origin, Read, Sources};
+use mbs_scene::nearest_name;
+use std::collections::HashMap;
+
+/// What a reader of a format has at hand.
+#[derive(Debug)]
+pub(crate) struct Context<'a> {
+    pub(crate) sources: Sources,
+    pub(crate) findings: Findings,
+    pub(crate) options: &'a ImportOptions,
+}
+
+/// Things of one kind by their names.
+#[derive(Debug)]
+pub(crate) struct Named {
+    /// What they are: `link`.
+    what: &'static str,
+    first: usize,
+    by_name: HashMap<String, (usize, Origin)>,
+    names: Vec<String>,
+}
+
+impl Named {
+    /// None yet; the first one gets the number `first`.
+    pub(crate) fn new(what: &'static str, first: usize) -> Self {
+        Self { what, first, by_name: HashMap::new(), names: Vec::new() }
+    }
+
+    /// Adds the next one.
+    pub(crate) fn add(&mut self, name: &str, at: Origin, sources: &Sources) -> Read<usize> {
+        let number = self.first + self.names.len();
+        if let Some((_, first)) = self.by_name.insert(name.to_owned(), (number, at)) {
+            let line = sources.place(first).line;
+            let message = format!("a second {} `{name}`", self.what);
+            let hint = format!(
+                "the first one is at {}:{line}: give one of them another name",
+                sources.name(first)
+            );
+            return Err(Fault::new(at, message, hint));
+        }
+        self.names.push(name.to_owned());
+        Ok(number)
+    }
+
+    /// The number of a name that stands at a place.
+    pub(crate) fn find(&self, name: &str, at: Origin) -> Read<usize> {
+        self.get(name).ok_or_else(|| {
+            let hint = nearest_name(name, &self.names, &format!("{}s", self.what));
+            Fault::new(at, format!("unknown {} `{name}`", self.what), hint)
+        })
+    }
+
+    pub(crate) fn get(&self, name: &str) -> Option<usize> {
+        self.by_name.get(name).map(|(number, _)| *number)
+    }
+}

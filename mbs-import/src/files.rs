@@ -1,0 +1,44 @@
+//! Files that are a scene or a model.
+
+use crate::import::{Imported, import, is_model};
+use crate::options::ImportOptions;
+use mbs_scene::{ReadError, SceneFile};
+use std::path::Path;
+
+/// Reads the bytes of a file that lies in a folder: a scene, or a model, which becomes one. `file` is the name that messages show.
+///
+/// # Errors
+/// Those of [`SceneFile::from_bytes_in`] and of [`import`].
+pub fn scene_file(
+    bytes: &[u8],
+    file: &str,
+    folder: &Path,
+) -> Result<(SceneFile, Option<Imported>), ReadError> {
+    if !is_model(bytes) {
+        return SceneFile::from_bytes_in(bytes, file, folder).map(|scene| (scene, None));
+    }
+    let model = import(bytes, file, &ImportOptions::default())?;
+    let scene = SceneFile::parse(&model.text, &scene_name(file))?;
+    Ok((scene, Some(model)))
+}
+
+/// How messages call the scene of a model: its lines are not those of the file.
+fn scene_name(file: &str) -> String {
+    format!("scene of {file}")
+}
+
+/// Reads a file: a scene, or a model, which becomes one.
+///
+/// # Errors
+/// Those of [`SceneFile::read`] and of [`import`].
+pub fn read(path: impl AsRef<Path>) -> Result<SceneFile, ReadError> {
+    let path = path.as_ref();
+    match std::fs::read(path) {
+        Ok(bytes) if is_model(&bytes) => {
+            let folder = path.parent().unwrap_or(Path::new(""));
+            scene_file(&bytes, &path.display().to_string(), folder).map(|(scene, _)| scene)
+        }
+        // it says why a file cannot be read
+        _ => SceneFile::read(path),
+    }
+}

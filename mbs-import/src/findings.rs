@@ -1,0 +1,70 @@
+//! What became of a model's elements.
+
+use crate::source::{Origin, Sources};
+
+/// How an element came into the scene.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum FindingKind {
+    /// By something that acts nearly the same.
+    Approximated,
+    /// Not at all, and it could act.
+    Ignored,
+    /// Not at all: it is for the eye alone.
+    Appearance,
+}
+
+/// What became of an element that is not in the scene as the file has it.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Finding {
+    /// How it came in.
+    pub kind: FindingKind,
+    /// Its file.
+    pub file: String,
+    /// Line, from 1.
+    pub line: usize,
+    /// Column, from 1.
+    pub column: usize,
+    /// The element: `robot/joint[elbow]/limit`.
+    pub element: String,
+    /// What was done.
+    pub says: String,
+}
+
+/// Findings while a model is read.
+#[derive(Debug, Default)]
+pub(crate) struct Findings(Vec<(FindingKind, Origin, String, String)>);
+
+impl Findings {
+    pub(crate) fn approximated(
+        &mut self,
+        at: Origin,
+        element: impl Into<String>,
+        says: impl Into<String>,
+    ) {
+        self.0.push((FindingKind::Approximated, at, element.into(), says.into()));
+    }
+
+    pub(crate) fn ignored(
+        &mut self,
+        at: Origin,
+        element: impl Into<String>,
+        says: impl Into<String>,
+    ) {
+        self.0.push((FindingKind::Ignored, at, element.into(), says.into()));
+    }
+
+    pub(crate) fn appearance(&mut self, at: Origin, element: impl Into<String>) {
+        self.0.push((FindingKind::Appearance, at, element.into(), "for the eye".into()));
+    }
+
+    /// All of them with their places, in the order of the files.
+    pub(crate) fn told(mut self, sources: &Sources) -> Vec<Finding> {
+        self.0.sort_by_key(|(kind, at, ..)| (*kind, at.source, at.start));
+        let told = self.0.into_iter().map(|(kind, at, element, says)| {
+            let place = sources.place(at);
+            let file = sources.name(at).to_owned();
+            Finding { kind, file, line: place.line, column: place.column, element, says }
+        });
+        told.collect()
+    }
+}

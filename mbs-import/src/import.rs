@@ -1,0 +1,148 @@
+//! A file of a model in, the text of a scene out.
+
+use crate::context::Context;
+use crate::element::Element;
+use crate::findings::{Finding, Findings};
+use crate::format::ModelFormat;
+use crate::lump::{self, Lumps};
+use crate::options::ImportOptions;
+use crate::robot::{Kind, Robot, What};
+use crate::source::{Fault, Origin, Read, Sources};
+use crate::unread::unread;
+use crate::{urdf, write, xml};
+use mbs_scene::ReadError;
+
+/// A model as a scene.
+#[derive(Debug, Clone)]
+pub struct Imported {
+    /// The format of the file.
+    pub format: ModelFormat,
+    /// The text of the scene, TOML.
+    pub text: String,
+    /// What is not in it as the file has it, in the order of the file.
+    pub findings: Vec<Finding>,
+    /// How much it has.
+    pub sizes: ModelSizes,
+}
+
+/// How much a model has.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub struct ModelSizes {
+    /// Links of the file.
+    pub links: usize,
+    /// Bodies of the scene: what is welded together is one.
+    pub bodies: usize,
+    /// Joints of the scene.
+    pub joints: usize,
+    /// Couplings of the scene.
+    pub couplings: usize,
+    /// Inputs of the scene.
+    pub inputs: usize,
+}
+
+/// Does a text look like a model, and not like a scene? Its first character is `<`, or `<` with a zero beside it.
+#[must_use]
+pub fn is_model(bytes: &[u8]) -> bool {
+    let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
+    match bytes {
+        // UTF-16, which the reader refuses by name
+        [0xff, 0xfe, b'<', 0, ..] | [0xfe, 0xff, 0, b'<', ..] => true,
+        _ => bytes.iter().find(|byte| !byte.is_ascii_whitespace()) == Some(&b'<'),
+    }
+}
+
+/// Reads a model; `file` is the name that messages show.
+///
+/// # Errors
+/// [`ReadError`] with file, line, column and a hint: where the text is no XML or no model, or a model that no scene can have.
+///
+/// ```
+/// use mbs_import::{ImportOptions, import};
+/// let urdf = r#"<robot name="stick">
+///   <link name="base"/>
+///   <link name="rod">
+///     <inertial><origin xyz="0 0 -0.5"/><mass value="1"/><inertia ixx="0.1" iyy="0.1" izz="0.01"/></inertial>
+///   </link>
+///   <joint name="hinge" type="continuous"><parent link="base"/><child link="rod"/><axis xyz="0 1 0"/></joint>
+/// </robot>"#;
+/// let model = import(urdf.as_bytes(), "stick.urdf", &ImportOptions::default())?;
+/// assert!(model.text.contains("kind = \"revolute\""));
+/// assert!(model.findings.is_empty());
+/// # Ok::<(), mbs_scene::ReadError>(())
+/// ```
+pub fn import(bytes: &[u8], file: &str, options: &ImportOptions) -> Result<Imported, ReadError> {
+    let mut sources = Sources::default();
+    let text = match core::str::from_utf8(bytes) {
+        Ok(text) => text,
+        Err(error) => {
+            let lossy = String::from_utf8_lossy(bytes);
+            let source = sources.add(file, &lossy, None);
+            let start = u32::try_from(error.valid_up_to()).unwrap_or(u32::MAX);
+            let at = Origin { source, start, end: start + 1 };
+            return Err(sources.error(Fault::new(at, "not UTF-8 text", "save the file as UTF-8")));
+        }
+    };
+    let source = sources.add(file, text, None);
+    let mut context = Context { sources, findings: Findings::default(), options };
+    match whole(text, source, file, &mut context) {
+        Ok((format, text, sizes)) => {
+            let Context { sources, findings, .. } = context;
+            Ok(Imported { format, text, findings: findings.told(&sources), sizes })
+        }
+        Err(fault) => Err(context.sources.error(fault)),
+    }
+}
+
+fn whole(
+    text: &str,
+    source: u16,
+    file: &str,
+    context: &mut Context<'_>,
+) -> Read<(ModelFormat, String, ModelSizes)> {
+    let root = xml::read(text, source)?;
+    let format = format(&root)?;
+    let mut robot = match format {
+        ModelFormat::Urdf => urdf::read(root.read(), context)?,
+        ModelFormat::Mjcf | ModelFormat::Sdf => {
+            return Err(root.fault("this format is not read yet", "convert it to URDF"));
+        }
+    };
+    unread(&root, urdf::TABLE, &mut context.findings);
+    let lumps = lump::lumps(&robot, context.options.balance, &mut context.findings)?;
+    let sizes = sizes(&robot, &lumps);
+    let notes = std::mem::take(&mut robot.notes);
+    robot.notes = vec![format!("{} model, from {file}.", format.name())];
+    robot.notes.extend(notes);
+    robot.notes.push("Duration: 1 s, a choice.".into());
+    Ok((format, write::scene(&robot, &lumps), sizes))
+}
+
+/// The format by the root element.
+fn format(root: &Element) -> Read<ModelFormat> {
+    if let Some(prefix) = root.prefixes.iter().find(|prefix| *prefix == "xacro") {
+        if root.children.iter().any(|child| child.name.starts_with("xacro:")) {
+            let message = format!("a file of macros: it has elements `{prefix}:...`");
+            return Err(root.fault(message, "run xacro first, and give the file that it writes"));
+        }
+    }
+    match root.name.as_str() {
+        "robot" => Ok(ModelFormat::Urdf),
+        "mujoco" => Ok(ModelFormat::Mjcf),
+        "sdf" => Ok(ModelFormat::Sdf),
+        other => Err(root.fault(
+            format!("the root element is `{other}`"),
+            "a model begins with `robot` (URDF), `mujoco` (MJCF) or `sdf` (SDF)",
+        )),
+    }
+}
+
+fn sizes(robot: &Robot, lumps: &Lumps) -> ModelSizes {
+    let is_input = |what: &What| matches!(what, What::Input { .. } | What::Set { .. });
+    ModelSizes {
+        links: robot.links.len() - 1,
+        bodies: lumps.lumps.len() - 1,
+        joints: robot.joints.iter().filter(|joint| joint.kind != Kind::Fixed).count(),
+        couplings: robot.couplings.len(),
+        inputs: robot.laws.iter().filter(|law| is_input(&law.what)).count(),
+    }
+}

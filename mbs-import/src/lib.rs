@@ -1,0 +1,25 @@
+#![doc = include_str!("../README.md")]
+
+mod context;
+mod element;
+mod files;
+mod findings;
+mod format;
+mod import;
+mod inertia;
+mod lump;
+mod options;
+mod pose;
+mod robot;
+mod source;
+mod table;
+mod unread;
+mod urdf;
+mod write;
+mod xml;
+
+pub use files::{read, scene_file};
+pub use findings::{Finding, FindingKind};
+pub use format::ModelFormat;
+pub use import::{Imported, ModelSizes, import, is_model};
+pub use options::{Base, ImportOptions, Stops};

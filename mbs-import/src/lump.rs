@@ -1,0 +1,115 @@
+//! Links that are welded together are one body.
+
+use crate::findings::Findings;
+use crate::inertia::Mass;
+use crate::pose::M3;
+use crate::robot::{GROUND, Kind, Robot};
+use crate::source::{Fault, Read};
+
+/// How far a tensor may miss the triangle inequality, relative to its largest moment: what rounding and turning of printed numbers leave.
+const SLACK: f64 = 1.0e-9;
+
+/// Links that move together.
+#[derive(Debug, Clone)]
+pub(crate) struct Lump {
+    /// The link that carries the others and gives the body its name.
+    pub(crate) carrier: usize,
+    pub(crate) mass: Mass,
+}
+
+/// The bodies of a model.
+#[derive(Debug, Clone)]
+pub(crate) struct Lumps {
+    /// The lump of each link.
+    pub(crate) of: Vec<usize>,
+    /// The ground first; the others in the order of their carriers in the file.
+    pub(crate) lumps: Vec<Lump>,
+}
+
+/// Joins what `Fixed` joints weld, and checks the inertia of what moves. `balance` mends an impossible one.
+pub(crate) fn lumps(robot: &Robot, balance: bool, findings: &mut Findings) -> Read<Lumps> {
+    let carriers = carriers(robot);
+    let mut found = Lumps { of: vec![0; robot.links.len()], lumps: Vec::new() };
+    let mut number = vec![usize::MAX; robot.links.len()];
+    for link in 0..robot.links.len() {
+        if carriers[link] == link {
+            number[link] = found.lumps.len();
+            found.lumps.push(Lump { carrier: link, mass: Mass::none() });
+        }
+    }
+    for (link, carrier) in carriers.iter().enumerate() {
+        found.of[link] = number[*carrier];
+        if let Some(mass) = &robot.links[link].mass {
+            let lump = &mut found.lumps[number[*carrier]];
+            lump.mass = lump.mass.with(mass);
+        }
+    }
+    for lump in &mut found.lumps[1..] {
+        check(robot, lump, balance, findings)?;
+    }
+    Ok(found)
+}
+
+/// The link that carries each: over fixed joints, from child to parent.
+fn carriers(robot: &Robot) -> Vec<usize> {
+    let mut parent: Vec<usize> = (0..robot.links.len()).collect();
+    let root = |parent: &[usize], mut link: usize| {
+        while parent[link] != link {
+            link = parent[link];
+        }
+        link
+    };
+    for joint in robot.joints.iter().filter(|joint| joint.kind == Kind::Fixed) {
+        let (a, b) = (root(&parent, joint.parent), root(&parent, joint.child));
+        // the ground carries all that is welded to it
+        if b == GROUND { parent[a] = b } else { parent[b] = a }
+    }
+    (0..robot.links.len()).map(|link| root(&parent, link)).collect()
+}
+
+/// Is the inertia one that a body can have?
+fn check(robot: &Robot, lump: &mut Lump, balance: bool, findings: &mut Findings) -> Read<()> {
+    let link = &robot.links[lump.carrier];
+    let size = lump.mass.tensor.abs().max();
+    if size == 0.0 {
+        return Ok(());
+    }
+    if lump.mass.mass == 0.0 {
+        return Err(Fault::new(
+            link.at,
+            format!("link `{}` has inertia and no mass, and it moves", link.name),
+            "write its mass, or delete its inertia; a massless link must be moved by others",
+        ));
+    }
+    let eigen = (lump.mass.tensor / size).symmetric_eigen();
+    let mut order = [0, 1, 2];
+    order.sort_by(|a, b| eigen.eigenvalues[*a].total_cmp(&eigen.eigenvalues[*b]));
+    let [least, middle, largest] = order.map(|i| eigen.eigenvalues[i]);
+    if least >= -SLACK && largest <= least + middle + SLACK {
+        return Ok(());
+    }
+    let moments = [least, middle, largest].map(|x| x * size);
+    let raise = (largest - least - middle) / 2.0;
+    let axis = eigen.eigenvectors.column(order[2]);
+    let is_mended = raise > 0.0 && least + raise >= -SLACK;
+    if balance && is_mended {
+        lump.mass.tensor += (M3::identity() - axis * axis.transpose()) * (raise * size);
+        let raise = raise * size;
+        findings.approximated(
+            link.at,
+            format!("link[{}]", link.name),
+            format!("principal moments {moments:?} are of no body: the two smaller ones raised by {raise:e} kg m^2 (--balance)"),
+        );
+        return Ok(());
+    }
+    let hint = if is_mended {
+        "write the inertia of the part, or let --balance raise the two smaller moments until the inequality holds"
+    } else {
+        "write the inertia of the part: principal moments are not negative, and none is larger than the sum of the others"
+    };
+    let message = format!(
+        "link `{}`, with all that is fixed to it, has principal moments {moments:?}, which no body has",
+        link.name
+    );
+    Err(Fault::new(link.at, message, hint))
+}

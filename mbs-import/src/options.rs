@@ -1,0 +1,39 @@
+//! What a user may ask of a reader.
+
+/// Whether the root of a model stands on the ground or moves.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Base {
+    /// It is fixed to the ground.
+    Fixed,
+    /// It moves freely.
+    Free,
+}
+
+/// How ends of joints act.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Stops {
+    /// Stiffness and damping by the mass that they move.
+    ByMass,
+    /// Given stiffness and damping [N m/rad and N m s/rad, or N/m and N s/m].
+    Given {
+        /// Stiffness.
+        stiffness: f64,
+        /// Damping.
+        damping: f64,
+    },
+}
+
+/// What a user may ask of a reader.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct ImportOptions {
+    /// The base; `None`: as the file says, and fixed where a URDF says nothing.
+    pub base: Option<Base>,
+    /// Stops at the ends of ranges that have no stiffness in the file; `None`: the ranges are data.
+    pub limits: Option<Stops>,
+    /// Whether impossible inertias are mended by the least raise of the two smaller moments.
+    pub balance: bool,
+    /// Fixed joints that stay joints, so that they have a reaction.
+    pub keep_fixed: Vec<String>,
+    /// The keyframe of an MJCF from which it starts.
+    pub key: Option<String>,
+}

@@ -1,0 +1,278 @@
+//! What the readers of all formats fill in: links and joints in global axes of the reference configuration.
+
+use crate::inertia::Mass;
+use crate::pose::{Pose, V3};
+use crate::source::Origin;
+
+/// The link that is the ground.
+pub(crate) const GROUND: usize = 0;
+
+/// A model.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Robot {
+    pub(crate) name: String,
+    /// The ground first.
+    pub(crate) links: Vec<Link>,
+    pub(crate) joints: Vec<Joint>,
+    pub(crate) couplings: Vec<Coupling>,
+    /// Laws and signals, in the order in which they are written.
+    pub(crate) laws: Vec<Law>,
+    pub(crate) shapes: Vec<Form>,
+    pub(crate) frames: Vec<Frame>,
+    pub(crate) gravity: [f64; 3],
+    /// Values and rates at the start.
+    pub(crate) start: Vec<Start>,
+    /// Sentences for the head of the scene.
+    pub(crate) notes: Vec<String>,
+}
+
+/// A rigid part.
+#[derive(Debug, Clone)]
+pub(crate) struct Link {
+    pub(crate) name: String,
+    pub(crate) at: Origin,
+    /// In the reference configuration.
+    pub(crate) pose: Pose,
+    /// In global axes; `None` where the file writes no inertia.
+    pub(crate) mass: Option<Mass>,
+}
+
+/// The kinds of joints that formats have.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum Kind {
+    /// Welded: both links are one body.
+    Fixed,
+    /// Welded, and written as a joint of the scene: its reaction is wanted, or it closes a loop.
+    Weld,
+    Revolute,
+    Prismatic,
+    Cylindrical,
+    Universal,
+    Spherical,
+    Planar,
+    Free,
+    /// Two points keep their distance; `place` and this point.
+    Distance(V3),
+}
+
+/// A joint.
+#[derive(Debug, Clone)]
+pub(crate) struct Joint {
+    pub(crate) name: String,
+    pub(crate) at: Origin,
+    pub(crate) kind: Kind,
+    pub(crate) parent: usize,
+    pub(crate) child: usize,
+    /// Global place.
+    pub(crate) place: V3,
+    /// Global axes of unit length: one, two of a cross, normal and first slide of a plane.
+    pub(crate) axes: Vec<V3>,
+    /// What the file's coordinate is where the scene's is zero.
+    pub(crate) zero: f64,
+    /// Ends of the scene's coordinate.
+    pub(crate) range: Option<[f64; 2]>,
+    /// Largest effort and rate of its drive.
+    pub(crate) effort: Option<f64>,
+    pub(crate) rate: Option<f64>,
+}
+
+/// A coordinate of a joint.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Coordinate {
+    /// The number of the joint.
+    pub(crate) joint: usize,
+    /// Which of its coordinates, where it has several.
+    pub(crate) number: Option<usize>,
+}
+
+/// A term of a sum.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Term {
+    pub(crate) of: Coordinate,
+    pub(crate) factor: f64,
+    /// A polynomial of the coordinate in its place, where there are any.
+    pub(crate) coefficients: Vec<f64>,
+}
+
+/// A sum of coordinates that holds.
+#[derive(Debug, Clone)]
+pub(crate) struct Coupling {
+    pub(crate) name: String,
+    pub(crate) terms: Vec<Term>,
+    pub(crate) value: f64,
+}
+
+/// What a law acts on.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) enum Target {
+    Coordinate(Coordinate),
+    Sum(Vec<Term>),
+    /// A point of a link, in global axes of the reference configuration, and the direction along which it acts.
+    Point {
+        link: usize,
+        place: V3,
+        direction: V3,
+    },
+    /// A link, and the axis about which it acts.
+    Turn {
+        link: usize,
+        direction: V3,
+    },
+}
+
+/// An effect or a signal of the scene.
+#[derive(Debug, Clone)]
+pub(crate) struct Law {
+    pub(crate) name: String,
+    pub(crate) what: What,
+}
+
+/// Effects and signals that formats have.
+#[derive(Debug, Clone)]
+pub(crate) enum What {
+    Spring {
+        on: Target,
+        stiffness: f64,
+        damping: f64,
+        free: f64,
+    },
+    Friction {
+        on: Target,
+        coulomb: f64,
+    },
+    Rotor {
+        on: Target,
+        inertia: f64,
+    },
+    Limit {
+        on: Target,
+        lower: f64,
+        upper: f64,
+        stiffness: f64,
+        damping: f64,
+    },
+    /// At the ends of the joint's own range.
+    RangeLimit {
+        on: Target,
+        stiffness: Option<[f64; 2]>,
+    },
+    /// A moment or force that is set from outside.
+    Input {
+        on: Target,
+        value: f64,
+    },
+    /// A moment or force that follows a signal, by its name.
+    Driven {
+        on: Target,
+        signal: String,
+    },
+    Bushing {
+        links: [usize; 2],
+        place: V3,
+        stiffness: [f64; 6],
+        damping: [f64; 6],
+    },
+    /// Signals.
+    Set {
+        value: f64,
+    },
+    Measure {
+        of: Coordinate,
+        is_rate: bool,
+    },
+    Constant {
+        value: f64,
+    },
+    /// Signals with factors.
+    Sum {
+        of: Vec<(String, f64)>,
+    },
+    Clamp {
+        of: String,
+        lower: f64,
+        upper: f64,
+    },
+    Lag {
+        of: String,
+        time: f64,
+    },
+}
+
+/// What is drawn, in the frame of `pose` in global axes.
+#[derive(Debug, Clone)]
+pub(crate) struct Form {
+    pub(crate) link: usize,
+    pub(crate) pose: Pose,
+    pub(crate) kind: FormKind,
+    /// Red, green, blue and opacity, each to 1.
+    pub(crate) colour: Option<[f64; 4]>,
+}
+
+/// Forms along the z axis of their frame.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum FormKind {
+    /// Three lengths.
+    Box([f64; 3]),
+    Sphere {
+        radius: f64,
+    },
+    /// Radius, and length without the round ends.
+    Capsule {
+        radius: f64,
+        length: f64,
+    },
+    Cylinder {
+        radius: f64,
+        length: f64,
+    },
+}
+
+/// A named place on a link.
+#[derive(Debug, Clone)]
+pub(crate) struct Frame {
+    pub(crate) name: String,
+    pub(crate) link: usize,
+    pub(crate) pose: Pose,
+}
+
+/// Coordinates of a joint at the start.
+#[derive(Debug, Clone)]
+pub(crate) struct Start {
+    pub(crate) joint: usize,
+    pub(crate) value: Vec<f64>,
+    pub(crate) rate: Vec<f64>,
+}
+
+impl Joint {
+    /// A joint of a kind between two links, with nothing else.
+    pub(crate) fn new(
+        name: &str,
+        at: Origin,
+        kind: Kind,
+        [parent, child]: [usize; 2],
+        place: V3,
+    ) -> Self {
+        Self {
+            name: name.to_owned(),
+            at,
+            kind,
+            parent,
+            child,
+            place,
+            axes: Vec::new(),
+            zero: 0.0,
+            range: None,
+            effort: None,
+            rate: None,
+        }
+    }
+}
+
+impl Robot {
+    /// A model with the ground alone.
+    pub(crate) fn new(name: &str, source: u16) -> Self {
+        let at = Origin::start_of(source);
+        let ground = Link { name: "ground".into(), at, pose: Pose::identity(), mass: None };
+        Self { name: name.to_owned(), links: vec![ground], ..Self::default() }
+    }
+}

@@ -1,0 +1,85 @@
+//! Texts of a model, and places in them.
+
+use mbs_scene::{Place, ReadError};
+
+/// Some bytes of one of the texts.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct Origin {
+    /// The number of the text.
+    pub(crate) source: u16,
+    /// The first byte.
+    pub(crate) start: u32,
+    /// The byte behind the last.
+    pub(crate) end: u32,
+}
+
+impl Origin {
+    /// The beginning of a text.
+    pub(crate) const fn start_of(source: u16) -> Self {
+        Self { source, start: 0, end: 0 }
+    }
+}
+
+/// Why a model is refused: a place, what is wrong, and what to do.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) struct Fault {
+    pub(crate) at: Origin,
+    pub(crate) message: String,
+    pub(crate) hint: String,
+}
+
+/// What is read of a model, or why it is refused.
+pub(crate) type Read<T> = Result<T, Fault>;
+
+impl Fault {
+    pub(crate) fn new(at: Origin, message: impl Into<String>, hint: impl Into<String>) -> Self {
+        Self { at, message: message.into(), hint: hint.into() }
+    }
+}
+
+/// A text as it is in its file.
+#[derive(Debug, Clone)]
+struct Source {
+    name: String,
+    text: String,
+    /// The text that includes it, and where.
+    by: Option<Origin>,
+}
+
+/// The texts that a model is made of: the file, then those that it includes.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Sources(Vec<Source>);
+
+impl Sources {
+    /// Adds a text; its number.
+    pub(crate) fn add(&mut self, name: &str, text: &str, by: Option<Origin>) -> u16 {
+        self.0.push(Source { name: name.to_owned(), text: text.to_owned(), by });
+        u16::try_from(self.0.len() - 1).unwrap_or(u16::MAX)
+    }
+
+    /// The name of the file of a place.
+    pub(crate) fn name(&self, at: Origin) -> &str {
+        &self.source(at).name
+    }
+
+    /// Line and column, with the line.
+    pub(crate) fn place(&self, at: Origin) -> Place {
+        Place::at(&self.source(at).text, at.start as usize..at.end as usize)
+    }
+
+    /// A refusal as the reader of scenes gives it.
+    pub(crate) fn error(&self, fault: Fault) -> ReadError {
+        let mut by = Vec::new();
+        let mut outer = self.source(fault.at).by;
+        while let Some(at) = outer {
+            by.push(format!("included from {}:{}", self.name(at), self.place(at).line));
+            outer = self.source(at).by;
+        }
+        let place = self.place(fault.at);
+        ReadError::of_model(self.name(fault.at), place, fault.message, fault.hint, by)
+    }
+
+    fn source(&self, at: Origin) -> &Source {
+        &self.0[usize::from(at.source)]
+    }
+}

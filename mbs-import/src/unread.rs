@@ -1,0 +1,56 @@
+//! What no reader asked for.
+
+use crate::element::Element;
+use crate::findings::Findings;
+use crate::source::Origin;
+use crate::table::{Row, Treatment, treatment};
+
+/// Adds a finding for every element and attribute that was not read.
+pub(crate) fn unread(root: &Element, table: &[Row], findings: &mut Findings) {
+    let mut walk = Walk { table, findings };
+    if root.is_read() {
+        walk.inside("", &root.label(), root);
+    } else {
+        walk.lost("", &root.label(), root);
+    }
+}
+
+struct Walk<'a> {
+    table: &'a [Row],
+    findings: &'a mut Findings,
+}
+
+impl Walk<'_> {
+    /// The attributes and children of an element that is read.
+    fn inside(&mut self, parent: &str, path: &str, element: &Element) {
+        for attribute in element.attributes.iter().filter(|attribute| !attribute.is_read()) {
+            let told = treatment(self.table, parent, &element.name, &attribute.name);
+            self.tell(told, attribute.at, format!("{path}@{}", attribute.name), "attribute");
+        }
+        for child in &element.children {
+            let path = format!("{path}/{}", child.label());
+            if child.is_read() {
+                self.inside(&element.name, &path, child);
+            } else {
+                self.lost(&element.name, &path, child);
+            }
+        }
+    }
+
+    /// An element with all that is in it.
+    fn lost(&mut self, parent: &str, path: &str, element: &Element) {
+        let told = treatment(self.table, parent, &element.name, "");
+        self.tell(told, element.at, path.to_owned(), "element");
+    }
+
+    fn tell(&mut self, told: Option<Treatment>, at: Origin, path: String, what: &str) {
+        match told {
+            Some(Treatment::Appearance) => self.findings.appearance(at, path),
+            Some(Treatment::Ignored(why)) => self.findings.ignored(at, path, why),
+            Some(_) => {
+                self.findings.ignored(at, path, format!("this {what} is not read at this place"))
+            }
+            None => self.findings.ignored(at, path, format!("unknown {what}")),
+        }
+    }
+}

@@ -1,0 +1,195 @@
+//! Joints: kinds, axes, ends, damping, followers.
+
+use super::pose::origin;
+use crate::context::{Context, Named};
+use crate::element::Element;
+use crate::options::Stops;
+use crate::pose::{Pose, V3, direction, v3};
+use crate::robot::{Coordinate, Coupling, Joint, Kind, Law, Robot, Target, Term, What};
+use crate::source::{Fault, Read};
+
+/// The types of the format.
+const TYPES: [(&str, Kind); 7] = [
+    ("revolute", Kind::Revolute),
+    ("continuous", Kind::Revolute),
+    ("prismatic", Kind::Prismatic),
+    ("fixed", Kind::Fixed),
+    ("floating", Kind::Free),
+    ("planar", Kind::Planar),
+    // of later versions of the format
+    ("spherical", Kind::Spherical),
+];
+
+/// A joint in the frame of its parent, and the pose of its own frame there.
+pub(super) fn read(element: &Element, links: &Named, context: &Context<'_>) -> Read<(Joint, Pose)> {
+    let name = &element.need("name")?.value;
+    let word = element.need("type")?;
+    let kind = TYPES.iter().find(|(name, _)| *name == word.value.trim()).map(|(_, kind)| *kind);
+    let kind = kind.ok_or_else(|| {
+        let known = TYPES.map(|(name, _)| name).join(", ");
+        word.fault(format!("unknown type of joint `{}`", word.value), format!("types are {known}"))
+    })?;
+    let is_kept = kind == Kind::Fixed && context.options.keep_fixed.iter().any(|kept| kept == name);
+    let kind = if is_kept { Kind::Weld } else { kind };
+    let mut ends = [0; 2];
+    for (end, word) in ends.iter_mut().zip(["parent", "child"]) {
+        let child = element.child(word).ok_or_else(|| {
+            element.fault(
+                format!("joint `{name}` has no <{word}>"),
+                format!("write <{word} link=\"...\"/>"),
+            )
+        })?;
+        let link = child.need("link")?;
+        *end = links.find(&link.value, link.at)?;
+    }
+    if ends[0] == ends[1] {
+        return Err(element
+            .fault(format!("joint `{name}` joins a link to itself"), "give it another child"));
+    }
+    let mut joint = Joint::new(name, element.at, kind, ends, V3::zeros());
+    match kind {
+        Kind::Revolute | Kind::Prismatic => joint.axes = vec![axis(element)?],
+        Kind::Planar => {
+            let normal = axis(element)?;
+            joint.axes = vec![normal, across(&normal)];
+        }
+        // published files write anything there, as 0 0 0 at a fixed joint
+        _ => element.child("axis").map_or((), Element::read_whole),
+    }
+    if let (Kind::Revolute | Kind::Prismatic, Some(limit)) = (kind, element.child("limit")) {
+        let number = |name| limit.number_or(name, 0.0);
+        let [effort, rate] = [number("effort")?, number("velocity")?];
+        joint.effort = (effort > 0.0).then_some(effort);
+        joint.rate = (rate > 0.0).then_some(rate);
+        if word.value.trim() != "continuous" {
+            let range = [number("lower")?, number("upper")?];
+            joint.range = (range[0] < range[1]).then_some(range);
+        }
+    }
+    Ok((joint, origin(element)?))
+}
+
+/// The axis in the joint's frame; the format's default is x.
+fn axis(element: &Element) -> Read<V3> {
+    let Some(xyz) = element.child("axis").and_then(|axis| axis.attribute("xyz")) else {
+        return Ok(v3([1.0, 0.0, 0.0]));
+    };
+    let numbers = v3(xyz.numbers()?);
+    direction(&numbers)
+        .ok_or_else(|| xyz.fault("the axis has no direction", "write a direction, as 0 0 1"))
+}
+
+/// A direction across a normal: x of the frame where that is across, else the frame's axis that is most so, made right-angled.
+fn across(normal: &V3) -> V3 {
+    let least = (0..3).min_by(|a, b| normal[*a].abs().total_cmp(&normal[*b].abs())).unwrap_or(0);
+    let first = crate::pose::unit(if normal[0].abs() < 0.9 { 0 } else { least });
+    let slide = first - normal * normal.dot(&first);
+    direction(&slide).unwrap_or(first)
+}
+
+/// Damping, friction, stops and mimicry of a joint whose number is known.
+pub(super) fn laws(
+    element: &Element,
+    number: usize,
+    joints: &Named,
+    robot: &mut Robot,
+    context: &mut Context<'_>,
+) -> Read<()> {
+    let joint = &robot.joints[number];
+    let (name, path) = (joint.name.clone(), format!("robot/{}", element.label()));
+    if joint.kind == Kind::Planar {
+        let says = "the format leaves the slides of a plane open: the first is x of the joint's frame, made right-angled to the normal";
+        context.findings.approximated(element.at, path.as_str(), says);
+    }
+    if !matches!(joint.kind, Kind::Revolute | Kind::Prismatic) {
+        return Ok(());
+    }
+    let on = || Target::Coordinate(Coordinate { joint: number, number: None });
+    if let Some(limit) = element.child("limit").filter(|_| joint.range.is_some()) {
+        let stiffness = match context.options.limits {
+            None => None,
+            Some(Stops::ByMass) => Some(None),
+            Some(Stops::Given { stiffness, damping }) => Some(Some([stiffness, damping])),
+        };
+        let says = match stiffness {
+            None => {
+                "ends without stiffness: kept as the joint's range, which does not act (--limits)"
+            }
+            Some(_) => "ends without stiffness in the file: stops as --limits says",
+        };
+        context.findings.approximated(limit.at, format!("{path}/limit"), says);
+        if let Some(stiffness) = stiffness {
+            robot.laws.push(Law {
+                name: format!("{name} stops"),
+                what: What::RangeLimit { on: on(), stiffness },
+            });
+        }
+    }
+    if let Some(dynamics) = element.child("dynamics") {
+        let [damping, friction] =
+            [dynamics.number_or("damping", 0.0)?, dynamics.number_or("friction", 0.0)?];
+        if damping < 0.0 || friction < 0.0 {
+            return Err(dynamics.fault("damping or friction is below zero", "write zero or more"));
+        }
+        if damping > 0.0 {
+            let what = What::Spring { on: on(), stiffness: 0.0, damping, free: 0.0 };
+            robot.laws.push(Law { name: format!("{name} damping"), what });
+        }
+        if friction > 0.0 {
+            let says = "dry friction falls to zero below a rate of 1e-3";
+            context.findings.approximated(dynamics.at, format!("{path}/dynamics"), says);
+            let what = What::Friction { on: on(), coulomb: friction };
+            robot.laws.push(Law { name: format!("{name} friction"), what });
+        }
+    }
+    if let Some(mimic) = element.child("mimic") {
+        let leader = mimic.need("joint")?;
+        let leader = joints.find(&leader.value, leader.at)?;
+        let factor = mimic.number_or("multiplier", 1.0)?;
+        let term = |joint, factor| Term {
+            of: Coordinate { joint, number: None },
+            factor,
+            coefficients: Vec::new(),
+        };
+        robot.couplings.push(Coupling {
+            name: format!("{name} mimic"),
+            terms: vec![term(number, 1.0), term(leader, -factor)],
+            value: mimic.number_or("offset", 0.0)?,
+        });
+    }
+    Ok(())
+}
+
+/// Followers follow joints with one coordinate, and not each other in a circle.
+pub(super) fn check_mimics(robot: &Robot) -> Read<()> {
+    let leader = |joint: usize| {
+        let of = |coupling: &&Coupling| coupling.terms[0].of.joint == joint;
+        robot.couplings.iter().find(of).map(|coupling| coupling.terms[1].of.joint)
+    };
+    for coupling in &robot.couplings {
+        let [follower, first] = [0, 1].map(|i| coupling.terms[i].of.joint);
+        let at = robot.joints[follower].at;
+        if !matches!(robot.joints[first].kind, Kind::Revolute | Kind::Prismatic) {
+            return Err(Fault::new(
+                at,
+                format!(
+                    "`{}` mimics `{}`, which has no single coordinate",
+                    robot.joints[follower].name, robot.joints[first].name
+                ),
+                "a joint mimics one that is revolute, continuous or prismatic",
+            ));
+        }
+        let (mut next, mut names) = (Some(first), vec![follower]);
+        while let Some(joint) = next {
+            if names.contains(&joint) {
+                let names: Vec<_> =
+                    names.iter().map(|joint| format!("`{}`", robot.joints[*joint].name)).collect();
+                let message = format!("joints mimic each other in a circle: {}", names.join(", "));
+                return Err(Fault::new(at, message, "let one of them move by itself"));
+            }
+            names.push(joint);
+            next = leader(joint);
+        }
+    }
+    Ok(())
+}
