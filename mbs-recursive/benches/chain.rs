@@ -24,6 +24,7 @@ fn scene<T: Real>(dimension: Dimension) -> Scene<T> {
         couplings: Vec::new(),
         rollings: Vec::new(),
         signals: Vec::new(),
+        frames: Vec::new(),
         shapes: Vec::new(),
         effects: Vec::new(),
         road: Default::default(),

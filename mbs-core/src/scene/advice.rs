@@ -19,7 +19,7 @@ impl SceneFault {
             Self::ParallelAxes => "turn one of the two axes; a right angle is usual",
             Self::CoincidentPoints => "move one of the two points",
             Self::PointsDiffer => "give the same place twice; only distance joints have two",
-            Self::DuplicateName(_) => "give each its own name",
+            Self::DuplicateName(_) | Self::NameOfBody(_) => "give each its own name",
             Self::ReservedName => {
                 "choose another name: `ground` is the fixed frame, `t` the time column"
             }

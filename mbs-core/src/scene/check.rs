@@ -7,6 +7,7 @@ mod body;
 mod coupling;
 mod course;
 mod effect;
+mod frame;
 mod joint;
 mod motion;
 mod output;
@@ -68,6 +69,7 @@ impl<T: Real> Scene<T> {
         for (i, effect) in self.effects.iter().enumerate() {
             effect::check(self, &effect.kind, self.place(Entry::Effect(i)))?;
         }
+        frame::check(self)?;
         shape::check(self)?;
         road::check(self)?;
         for (i, output) in self.outputs.iter().enumerate() {
@@ -105,6 +107,7 @@ impl<T: Real> Scene<T> {
         unique(self.couplings.iter().map(|c| c.name.as_str()), None, Entry::Coupling)?;
         unique(self.rollings.iter().map(|r| r.name.as_str()), None, Entry::Rolling)?;
         unique(self.signals.iter().map(|s| s.name.as_str()), None, Entry::Signal)?;
+        unique(self.frames.iter().map(|f| f.name.as_str()), Some("ground"), Entry::Frame)?;
         unique(self.shapes.iter().map(|s| s.name.as_str()), None, Entry::Shape)?;
         unique(self.effects.iter().map(|e| e.name.as_str()), None, Entry::Effect)?;
         unique(self.outputs.iter().map(|o| o.name.as_str()), Some("t"), Entry::Output)

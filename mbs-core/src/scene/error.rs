@@ -22,6 +22,8 @@ pub enum Entry {
     Rolling(usize),
     /// `[[signal]]` number i.
     Signal(usize),
+    /// `[[frame]]` number i.
+    Frame(usize),
     /// `[[shape]]` number i.
     Shape(usize),
     /// `[[effect]]` number i.
@@ -60,6 +62,7 @@ impl Display for Entry {
             Self::Coupling(i) => write!(f, "coupling {}", i + 1),
             Self::Rolling(i) => write!(f, "rolling {}", i + 1),
             Self::Signal(i) => write!(f, "signal {}", i + 1),
+            Self::Frame(i) => write!(f, "frame {}", i + 1),
             Self::Shape(i) => write!(f, "shape {}", i + 1),
             Self::Effect(i) => write!(f, "effect {}", i + 1),
             Self::Output(i) => write!(f, "output {}", i + 1),

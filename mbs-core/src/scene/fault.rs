@@ -28,6 +28,8 @@ pub enum SceneFault {
     PointsDiffer,
     /// A name is used twice; the index of the first use.
     DuplicateName(usize),
+    /// The name is that of a body; its index.
+    NameOfBody(usize),
     /// A name is empty, or is `ground` (a body) or `t` (an output).
     ReservedName,
     /// An index points to nothing (scenes built in code).
@@ -230,10 +232,11 @@ impl SceneFault {
             Self::NotPositive(x) => write!(f, "must be larger than zero, but is {x}"),
             Self::Negative(x) => write!(f, "must not be negative, but is {x}"),
             Self::ZeroAxis => write!(f, "has no direction: all components are zero"),
-            Self::ParallelAxes => write!(f, "is parallel to the joint's other axis"),
+            Self::ParallelAxes => write!(f, "is parallel to the other axis"),
             Self::CoincidentPoints => write!(f, "has both points in the same place"),
             Self::PointsDiffer => write!(f, "has two different places"),
             Self::DuplicateName(i) => write!(f, "repeats the name of number {}", i + 1),
+            Self::NameOfBody(i) => write!(f, "is the name of body {}", i + 1),
             Self::ReservedName => write!(f, "is empty or reserved"),
             Self::UnknownReference => write!(f, "points to something that is not in the scene"),
             Self::NeedsMovingBody => write!(f, "is the ground, which does not move"),

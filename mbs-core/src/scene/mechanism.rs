@@ -3,7 +3,7 @@
 use crate::effects::EffectKind;
 use crate::outputs::Quantity;
 use crate::scene::{
-    Body, BodyId, BodyShape, Coupling, CouplingId, Dimension, EffectId, Guide, GuideId,
+    Body, BodyFrame, BodyId, BodyShape, Coupling, CouplingId, Dimension, EffectId, Guide, GuideId,
     InitialCondition, InitialId, Joint, JointId, NamedSignal, OutputId, Road, Rolling, RollingId,
     SignalId, SolverTable, Start, Surroundings,
 };
@@ -41,6 +41,8 @@ pub struct Scene<T> {
     pub road: Road<T>,
     /// What the run starts from.
     pub start: Start,
+    /// Named places on bodies.
+    pub frames: Vec<BodyFrame<T>>,
     /// Forms that pictures draw; a body without one is drawn by its inertia.
     pub shapes: Vec<BodyShape<T>>,
     /// Opt-in effects. Those with `enabled: false` are not built.
@@ -69,6 +71,7 @@ impl<T: Default> Scene<T> {
             signals: Vec::new(),
             road: Road::default(),
             start: Start::default(),
+            frames: Vec::new(),
             shapes: Vec::new(),
             effects: Vec::new(),
             outputs: Vec::new(),

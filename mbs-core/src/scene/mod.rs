@@ -32,6 +32,8 @@ mod error;
 #[cfg(feature = "alloc")]
 mod fault;
 #[cfg(feature = "alloc")]
+mod frame;
+#[cfg(feature = "alloc")]
 mod id;
 #[cfg(feature = "alloc")]
 mod inertia;
@@ -87,6 +89,8 @@ pub use effect::{
 pub use error::{Entry, SceneError};
 #[cfg(feature = "alloc")]
 pub use fault::SceneFault;
+#[cfg(feature = "alloc")]
+pub use frame::BodyFrame;
 #[cfg(feature = "alloc")]
 pub use id::{
     BodyId, CouplingId, EffectId, GROUND, GuideId, InitialId, JointId, OutputId, RollingId,

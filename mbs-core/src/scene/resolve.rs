@@ -2,9 +2,9 @@
 
 use crate::Real;
 use crate::scene::{
-    Body, BodyShape, CalspanCoefficients, Coupling, CouplingKind, CouplingMeasure, CouplingTerm,
-    Curve, Dimension, Effect, Entry, Guide, Inertia, InitialCondition, InitialTarget, Joint,
-    JointLimits, Mesh, Motion, NamedSignal, Number, Output, Road, RoadFeature, Rolling,
+    Body, BodyFrame, BodyShape, CalspanCoefficients, Coupling, CouplingKind, CouplingMeasure,
+    CouplingTerm, Curve, Dimension, Effect, Entry, Guide, Inertia, InitialCondition, InitialTarget,
+    Joint, JointLimits, Mesh, Motion, NamedSignal, Number, Output, Road, RoadFeature, Rolling,
     RollingKind, RollingPlane, Scene, SceneError, SceneFault, ShapeKind, SolverTable,
 };
 use alloc::vec::Vec;
@@ -91,6 +91,7 @@ impl<T: Clone> Scene<T> {
                 .collect(),
             road: self.road.map(f),
             start: self.start,
+            frames: self.frames.iter().map(|frame| frame.map(f)).collect(),
             shapes: self.shapes.iter().map(|shape| shape.map(f)).collect(),
             effects: self
                 .effects
@@ -101,6 +102,13 @@ impl<T: Clone> Scene<T> {
             outputs: self.outputs.iter().map(|output| output.map(f)).collect(),
             solver: self.solver.map(f),
         })
+    }
+}
+
+impl<T> BodyFrame<T> {
+    fn map<U>(&self, f: &mut impl FnMut(&T) -> U) -> BodyFrame<U> {
+        let axes = self.axes.as_ref().map(|[first, second]| [all(first, f), all(second, f)]);
+        BodyFrame { name: self.name.clone(), body: self.body, at: all(&self.at, f), axes }
     }
 }
 

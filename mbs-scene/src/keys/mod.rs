@@ -6,6 +6,7 @@ mod body;
 mod coupling;
 mod effect;
 mod example;
+mod frame;
 mod guide;
 mod joint;
 mod output;
@@ -45,6 +46,7 @@ static TABLES: LazyLock<Vec<KeyTable>> = LazyLock::new(|| {
         coupling::tables(),
         rolling::tables(),
         signal::tables(),
+        frame::tables(),
         shape::tables(),
         effect::tables(),
         road::tables(),

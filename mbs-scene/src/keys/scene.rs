@@ -23,6 +23,7 @@ pub(super) fn tables() -> Vec<KeyTable> {
             listed("coupling", "Gears, racks, screws, belts, cams and ropes."),
             listed("rolling", "What rolls without slipping, and blades."),
             listed("signal", "Numbers over time, by name."),
+            listed("frame", "Named places on bodies."),
             listed("shape", "Forms for pictures."),
             listed("effect", "Springs, dampers, forces, tires, friction and stops."),
             may("road", KeyValue::Table("road"), "", "level, at height 0", "The road under tires."),

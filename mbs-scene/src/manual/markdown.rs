@@ -27,7 +27,7 @@ fn of_group(text: &mut String, group: &'static [KeyTable]) {
     let first = &group[0];
     let title = first.title();
     let _ = match first.standing {
-        Standing::Inside => write!(text, "\n## KeyTable: {title}\n"),
+        Standing::Inside => write!(text, "\n## Table `{title}`\n"),
         _ => write!(text, "\n## `{title}`\n"),
     };
     for entry in entries(group) {

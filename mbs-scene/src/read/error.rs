@@ -423,6 +423,7 @@ fn numbered(entry: Entry, index: usize) -> Entry {
         Entry::Coupling(_) => Entry::Coupling(index),
         Entry::Rolling(_) => Entry::Rolling(index),
         Entry::Signal(_) => Entry::Signal(index),
+        Entry::Frame(_) => Entry::Frame(index),
         Entry::Shape(_) => Entry::Shape(index),
         Entry::Effect(_) => Entry::Effect(index),
         Entry::Output(_) => Entry::Output(index),

@@ -19,7 +19,22 @@ pub(crate) struct Context<'a> {
     pub(crate) bodies: &'a Names,
     pub(crate) joints: &'a Names,
     pub(crate) signals: &'a Names,
+    pub(crate) frames: Frames<'a>,
     pub(crate) values: &'a Values<'a>,
+}
+
+/// The frames of a file.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Frames<'a> {
+    pub(crate) names: &'a Names,
+    pub(crate) items: &'a [Item],
+}
+
+impl<'a> Frames<'a> {
+    /// What stands at a key of the frame of that name.
+    fn value(&self, name: &str, key: &str) -> Option<&'a Item> {
+        self.items.get(self.names.place(name)?)?.get(key)
+    }
 }
 
 /// One table of the file.
@@ -36,7 +51,8 @@ impl<'a> Context<'a> {
     /// That of a file whose tables refer to nothing in it; `none` are no names.
     pub(crate) fn of_file(texts: &'a Texts, values: &'a Values<'a>, none: &'a Names) -> Self {
         let (bodies, joints, signals) = (none, none, none);
-        Self { texts, dimension: Dimension::Planar, bodies, joints, signals, values }
+        let frames = Frames { names: none, items: &[] };
+        Self { texts, dimension: Dimension::Planar, bodies, joints, signals, frames, values }
     }
 
     pub(crate) fn fault<R>(&self, span: &Span, fault: ReadFault) -> Read<R> {
@@ -181,6 +197,13 @@ impl<'a> Context<'a> {
         Ok(vector)
     }
 
+    /// A body, and no frame.
+    pub(crate) fn body_alone(&self, item: &'a Item) -> Read<BodyId> {
+        let frames = Frames { items: &[], ..self.frames };
+        Self { frames, ..*self }.body(item)
+    }
+
+    /// A body, or that of a frame.
     pub(crate) fn body(&self, item: &'a Item) -> Read<BodyId> {
         let name = self.text(item)?;
         if name == "ground" {
@@ -189,8 +212,13 @@ impl<'a> Context<'a> {
         match self.bodies.place(name) {
             Some(i) => Ok(BodyId::Body(i)),
             None => {
+                if let Some(body) = self.frames.value(name, "body") {
+                    return self.body_alone(body);
+                }
                 let mut known = vec!["ground".to_owned()];
                 known.extend_from_slice(self.bodies.list());
+                let has_frames = !self.frames.items.is_empty();
+                known.extend(self.frames.names.list().iter().filter(|_| has_frames).cloned());
                 self.fault(&item.span, ReadFault::UnknownBody { name: name.to_owned(), known })
             }
         }
@@ -233,10 +261,17 @@ impl<'a> Fields<'a> {
     }
 
     pub(crate) fn need(&self, key: &'static str) -> Read<&'a Item> {
-        match self.get(key) {
+        match self.get(key).or_else(|| self.of_frame(key)) {
             Some(item) => Ok(item),
             None => self.context.fault(self.header, ReadFault::Missing { key }),
         }
+    }
+
+    /// The place `at`, which is not written, of the frame that stands in place of a body.
+    pub(crate) fn of_frame(&self, key: &str) -> Option<&'a Item> {
+        let body = tree::find(self.members, "body").filter(|_| key == "at")?;
+        let Node::Text(name) = &body.node else { return None };
+        self.context.frames.value(name, key)
     }
 
     /// The word at `kind`, and the fields with the tables of that kind, by which the keys are checked.

@@ -8,6 +8,7 @@ mod effect;
 mod error;
 mod expression;
 mod fields;
+mod frame;
 mod guided;
 mod hints;
 mod include;

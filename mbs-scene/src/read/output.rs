@@ -73,7 +73,7 @@ fn target(
     let body = || fields.context.moving_body(owner()?);
     let frame = || fields.context.body(fields.need("relative_to")?);
     // the centre of mass where no place is written
-    let place_on = |body: BodyId, key| match fields.get(key) {
+    let place_on = |body: BodyId, key| match fields.get(key).or_else(|| fields.of_frame(key)) {
         Some(item) => fields.context.place(item),
         None => Ok(body
             .index()

@@ -39,6 +39,10 @@ impl<'a> Prefix<'a> {
                 // the joint of a guided body has its name
                 names.extend(of_list("guide", "body"));
             }
+            if part == Referent::Body {
+                // a frame stands wherever a body does
+                names.extend(of_list("frame", "name"));
+            }
             (part.name(), names)
         });
         Self { prefix, names: names.into() }

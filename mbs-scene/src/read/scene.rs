@@ -2,13 +2,13 @@
 
 use crate::keys::{self, FILE};
 use crate::read::document::SceneFile;
-use crate::read::fields::{Context, Fields, Read};
+use crate::read::fields::{Context, Fields, Frames, Read};
 use crate::read::names::Names;
 use crate::read::tree::{Item, Member, Node};
 use crate::read::values::Values;
 use crate::read::{
-    Place, ReadError, ReadFault, body, coupling, effect, joint, motion, output, road, rolling,
-    shape, signal,
+    Place, ReadError, ReadFault, body, coupling, effect, frame, joint, motion, output, road,
+    rolling, shape, signal,
 };
 use mbs_core::Real;
 use mbs_core::scene::{
@@ -48,7 +48,8 @@ impl SceneFile {
     }
 
     fn read_with<'a>(&'a self, values: &'a Values<'a>) -> Read<Scene<Number>> {
-        let [bodies, joints, signals] = ["body", "joint", "signal"].map(|table| self.names(table));
+        let [bodies, joints, signals, frames] =
+            ["body", "joint", "signal", "frame"].map(|table| self.names(table));
         let joints = Names::new([joints.list(), &self.guided_bodies()?].concat());
         // the dimension is not known yet; nothing dimensional is read before it is
         let dimension = Dimension::Planar;
@@ -59,12 +60,14 @@ impl SceneFile {
             bodies: &bodies,
             joints: &joints,
             signals: &signals,
+            frames: Frames { names: &frames, items: self.list("frame") },
         };
         self.check_tables(&context)?;
         self.check_points(&context)?;
         self.refuse_duplicates(bodies.list(), Entry::Body)?;
         self.refuse_duplicates(joints.list(), Entry::Joint)?;
         self.refuse_duplicates(signals.list(), Entry::Signal)?;
+        self.refuse_duplicates(frames.list(), Entry::Frame)?;
         let Some(item) = self.top("scene") else {
             return context.fault(&(0..0), ReadFault::Missing { key: "[scene]" });
         };
@@ -98,6 +101,7 @@ impl SceneFile {
             joints,
             road: self.top("road").map(road).transpose()?.unwrap_or_default(),
             start: read_start(&header)?,
+            frames: self.entries(&context, "frame", |_, fields| frame::read(fields))?,
             shapes: self.entries(&context, "shape", |i, fields| shape::read(i, fields))?,
             effects,
             outputs: self.entries(&context, "output", |_, fields| {
@@ -151,6 +155,7 @@ impl SceneFile {
             Entry::Coupling(i) => entries("coupling", i),
             Entry::Rolling(i) => entries("rolling", i),
             Entry::Signal(i) => entries("signal", i),
+            Entry::Frame(i) => entries("frame", i),
             Entry::Shape(i) => entries("shape", i),
             Entry::Effect(i) => entries("effect", i),
             Entry::Output(i) => entries("output", i),
@@ -170,10 +175,16 @@ impl SceneFile {
     }
 
     /// Names of entries that are texts; the rest is refused when the entry is read.
+    /// The entries of a list of tables; none where there is something else.
+    fn list(&self, key: &str) -> &[Item] {
+        match self.top(key) {
+            Some(Item { node: Node::List(items), .. }) => items,
+            _ => &[],
+        }
+    }
+
     fn names(&self, key: &str) -> Names {
-        let Some(Item { node: Node::List(items), .. }) = self.top(key) else {
-            return Names::default();
-        };
+        let items = self.list(key);
         let name = |item: &Item| item.text_at("name").unwrap_or_default().to_owned();
         Names::new(items.iter().map(name).collect())
     }

@@ -8,6 +8,7 @@ mod balls;
 mod couplings;
 mod effects;
 mod expressions;
+mod frames;
 mod guides;
 mod includes;
 mod limits;

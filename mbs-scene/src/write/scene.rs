@@ -3,6 +3,7 @@
 //! Every number is written, zeros too, so that each has a path; a default that the reader computes from other keys is left out.
 
 mod effect;
+mod frame;
 mod road;
 mod rolling;
 mod shape;
@@ -136,6 +137,7 @@ fn tables(
         .iter()
         .try_for_each(|x| w.rolling(x).map(|keys| visit("rolling", true, keys)))?;
     scene.signals.iter().try_for_each(|x| w.signal(x).map(|keys| visit("signal", true, keys)))?;
+    scene.frames.iter().try_for_each(|x| w.frame(x).map(|keys| visit("frame", true, keys)))?;
     scene.shapes.iter().try_for_each(|x| w.shape(x).map(|keys| visit("shape", true, keys)))?;
     scene.effects.iter().try_for_each(|x| w.effect(x).map(|keys| visit("effect", true, keys)))?;
     if let Some(road) = w.road() {

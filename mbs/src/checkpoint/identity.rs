@@ -153,7 +153,8 @@ fn fingerprints<T: Real>(scene: &Scene<T>) -> [u64; PARTS.len()] {
         signals,
         road,
         start,
-        // for pictures alone
+        // names of places, and pictures: nothing moves by them
+        frames: _,
         shapes: _,
         effects,
         outputs,

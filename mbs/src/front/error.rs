@@ -149,6 +149,7 @@ impl SceneError {
             Entry::Body(i) => name(scene.bodies.get(i).map(|body| &body.name)),
             Entry::Joint(i) => name(scene.joints.get(i).map(|joint| &joint.name)),
             Entry::Signal(i) => name(scene.signals.get(i).map(|signal| &signal.name)),
+            Entry::Frame(i) => name(scene.frames.get(i).map(|frame| &frame.name)),
             Entry::Shape(i) => name(scene.shapes.get(i).map(|shape| &shape.name)),
             Entry::Effect(i) => name(scene.effects.get(i).map(|effect| &effect.name)),
             Entry::Output(i) => name(columns.nth(i)),

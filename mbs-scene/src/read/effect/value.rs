@@ -29,7 +29,7 @@ pub(super) fn read(
         let term = ball_term(fields, joints, Number::from(1.0))?;
         return Ok(term.map(|term| Value::Terms(vec![term])));
     }
-    let Some(item) = fields.get(key) else { return Ok(None) };
+    let Some(item) = fields.get(key).or_else(|| fields.of_frame(key)) else { return Ok(None) };
     Ok(Some(match field.form {
         Form::Bodies => Value::Bodies(fields.pair()?),
         Form::Body => Value::Body(context.moving_body(item)?),

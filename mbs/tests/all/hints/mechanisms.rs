@@ -49,7 +49,7 @@ fn places() -> Vec<Row> {
                 "kind = \"weld\"\nbodies = [\"arm\", \"tip\"]\nat = [1.0, 0.0, 0.0]",
                 "kind = \"universal\"\nbodies = [\"arm\", \"tip\"]\nat = [1.0, 0.0, 0.0]\naxes = [[1.0, 0.0, 0.0], [1.0, 0.0, 0.0]]",
             )],
-            ["parallel to the joint's other axis", "a right angle is usual"],
+            ["parallel to the other axis", "a right angle is usual"],
             &[("[[1.0, 0.0, 0.0], [1.0, 0.0, 0.0]]", "[[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]]")],
         ),
         row(

@@ -1,0 +1,33 @@
+//! Frames: names apart from those of bodies, and axes.
+
+use super::vector::{Place, is_parallel, is_planar};
+use crate::Real;
+use crate::scene::{BodyFrame, Entry, Scene, SceneError, SceneFault};
+
+pub(super) fn check<T: Real>(scene: &Scene<T>) -> Result<(), SceneError> {
+    for (i, frame) in scene.frames.iter().enumerate() {
+        let place = scene.place(Entry::Frame(i));
+        if let Some(body) = scene.bodies.iter().position(|body| body.name == frame.name) {
+            return place.fault("name", SceneFault::NameOfBody(body));
+        }
+        if frame.body.index().is_some_and(|body| body >= scene.bodies.len()) {
+            return place.fault("body", SceneFault::UnknownReference);
+        }
+        place.vector("at", frame.at)?;
+        check_axes(frame, place)?;
+    }
+    Ok(())
+}
+
+fn check_axes<T: Real>(frame: &BodyFrame<T>, place: Place) -> Result<(), SceneError> {
+    let Some([first, second]) = frame.axes else { return Ok(()) };
+    if is_planar(place.dimension) {
+        return place.fault("axes", SceneFault::NeedsSpatial);
+    }
+    place.axis("axes", first)?;
+    place.axis("axes", second)?;
+    if is_parallel(first, second) {
+        return place.fault("axes", SceneFault::ParallelAxes);
+    }
+    Ok(())
+}

@@ -1,0 +1,17 @@
+//! Named places on bodies and on the ground, in the reference configuration: they carry no mass and cost nothing.
+
+use crate::scene::BodyId;
+use alloc::string::String;
+
+/// A named place with axes, which moves with its body or stands on the ground.
+#[derive(Debug, Clone, PartialEq)]
+pub struct BodyFrame<T> {
+    /// Unique name among the frames and bodies: it stands wherever a body's name does.
+    pub name: String,
+    /// Its body, or the ground.
+    pub body: BodyId,
+    /// Its place in the reference configuration [m].
+    pub at: [T; 3],
+    /// Its first and its second axis, any length; the second is made right-angled to the first. `None`: x and y.
+    pub axes: Option<[[T; 3]; 2]>,
+}
