@@ -1,7 +1,9 @@
 //! Files in, and what to say when they cannot be read.
 
+use crate::import;
 use crate::refusal::Refusal;
-use crate::say::plain;
+use crate::say::{plain, warn};
+use mbs::models::{is_model, scene_file};
 use mbs::scene_file::SceneFile;
 use std::fs::File;
 use std::io::{self, Read};
@@ -36,12 +38,22 @@ pub(crate) fn document(path: &Path, what: &str) -> Result<SceneFile, Refusal> {
             &format!("has more than {} million values", MOST_VALUES / 1_000_000),
         ));
     }
-    let (name, folder) = match is_standard(path) {
-        true => ("standard input".to_owned(), Path::new("")),
-        false => (path.display().to_string(), path.parent().unwrap_or(Path::new(""))),
-    };
-    let document = SceneFile::from_bytes_in(&bytes, &name, folder);
-    document.map_err(|error| Refusal::read("scene-refused", &error))
+    let folder = if is_standard(path) { None } else { path.parent() };
+    let name = name(path);
+    let document = scene_file(&bytes, &name, folder.unwrap_or(Path::new("")));
+    let (document, model) = document.map_err(|error| {
+        let code = if is_model(&bytes) { "model-refused" } else { "scene-refused" };
+        Refusal::read(code, &error)
+    })?;
+    if let Some(model) = model {
+        warn(&import::note(&name, &model));
+    }
+    Ok(document)
+}
+
+/// How messages call a file.
+pub(crate) fn name(path: &Path) -> String {
+    if is_standard(path) { "standard input".to_owned() } else { path.display().to_string() }
 }
 
 /// The bytes of a file of a kind that is called `what`; else the refusal.
@@ -86,7 +98,7 @@ fn unreadable(path: &Path, what: &str, error: &io::Error) -> Refusal {
     } else if with_ending.is_file() {
         format!("did you mean `{}`?", with_ending.display())
     } else {
-        format!("give the path of a {what}; it ends with .toml or .json")
+        format!("give the path of a {what}; it ends with .toml or .json, or is a model")
     };
     let message = format!("cannot read `{}`: {}", path.display(), plain(error));
     Refusal::new("file-unreadable", message, hint)

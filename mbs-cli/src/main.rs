@@ -16,6 +16,7 @@ mod explain;
 mod export;
 mod files;
 mod generate;
+mod import;
 mod input;
 mod keep;
 mod manual;
@@ -69,7 +70,7 @@ Exit status:
 
 /// The commands as the help lists them, by what they are for.
 const GROUPS: [(&str, &[&str]); 5] = [
-    ("Write a scene", &["new", "kinds", "check", "schema", "generate"]),
+    ("Write a scene", &["new", "import", "kinds", "check", "schema", "generate"]),
     ("Run it", &["run", "plot", "diff"]),
     ("Analyse it", &["doctor", "explain", "equilibrium", "modes"]),
     ("Many runs", &["sweep", "compare"]),
@@ -113,6 +114,8 @@ enum Command {
     Sweep(sweep::Arguments),
     /// Write a small scene to begin from; without a name, list them.
     New(new::Arguments),
+    /// Write a model of another program as a scene (URDF), and tell what is not in it.
+    Import(import::Arguments),
     /// Read scenes and assemble them, without a run.
     Check(check::Arguments),
     /// List the tables and kinds of scene files; with a name, its keys, units, defaults and an example.
@@ -179,6 +182,7 @@ fn main() -> ExitCode {
         Command::Plot(arguments) => plot::main(&arguments),
         Command::Sweep(arguments) => sweep::main(&arguments),
         Command::New(arguments) => new::main(&arguments),
+        Command::Import(arguments) => import::main(&arguments),
         Command::Check(arguments) => check::main(&arguments),
         Command::Kinds(arguments) => manual::kinds(&arguments),
         Command::Schema(_) => manual::schema(),

@@ -176,6 +176,11 @@ impl Element {
         Fault::new(self.at, message, hint)
     }
 
+    /// The text in it, as if it were an attribute.
+    pub(crate) fn content(&self) -> Attribute {
+        Attribute::new(self.name.clone(), self.text.trim().to_owned(), self.at)
+    }
+
     /// How findings call it: `joint[elbow]`.
     pub(crate) fn label(&self) -> String {
         let name = self.attributes.iter().find(|attribute| attribute.name == "name");

@@ -9,7 +9,7 @@ use crate::options::ImportOptions;
 use crate::robot::{Kind, Robot, What};
 use crate::source::{Fault, Origin, Read, Sources};
 use crate::unread::unread;
-use crate::{urdf, write, xml};
+use crate::{sdf, urdf, write, xml};
 use mbs_scene::ReadError;
 
 /// A model as a scene.
@@ -103,11 +103,16 @@ fn whole(
     let format = format(&root)?;
     let mut robot = match format {
         ModelFormat::Urdf => urdf::read(root.read(), context)?,
-        ModelFormat::Mjcf | ModelFormat::Sdf => {
+        ModelFormat::Sdf => sdf::read(root.read(), context)?,
+        ModelFormat::Mjcf => {
             return Err(root.fault("this format is not read yet", "convert it to URDF"));
         }
     };
-    unread(&root, urdf::TABLE, &mut context.findings);
+    let table = match format {
+        ModelFormat::Urdf | ModelFormat::Mjcf => urdf::TABLE,
+        ModelFormat::Sdf => sdf::TABLE,
+    };
+    unread(&root, table, &mut context.findings);
     let lumps = lump::lumps(&robot, context.options.balance, &mut context.findings)?;
     let sizes = sizes(&robot, &lumps);
     let notes = std::mem::take(&mut robot.notes);

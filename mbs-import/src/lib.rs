@@ -11,6 +11,7 @@ mod lump;
 mod options;
 mod pose;
 mod robot;
+mod sdf;
 mod source;
 mod table;
 mod unread;

@@ -1,0 +1,103 @@
+//! Loops and springs in elements of another program: `drake:...`.
+
+use super::frames::Frames;
+use super::{Scope, missing, vector};
+use crate::element::Element;
+use crate::pose::V3;
+use crate::robot::{GROUND, Joint, Kind, Law, Robot, What};
+use crate::source::{Fault, Read};
+
+/// Adds what a model has of them.
+pub(super) fn read(model: &Element, scope: &Scope, frames: &Frames, robot: &mut Robot) -> Read<()> {
+    for (i, element) in model.each("drake:ball_constraint").enumerate() {
+        let [a, b] = points(element, "drake:ball_constraint", scope, frames)?;
+        let name = format!("{}ball constraint {}", scope.prefix, i + 1);
+        let gap = (a.1 - b.1).norm();
+        if gap > CLOSED {
+            return Err(element.fault(
+                format!("the two points are {gap:e} m apart where all joints are at zero"),
+                "give poses in which the loop is closed",
+            ));
+        }
+        robot.joints.push(Joint::new(&name, element.at, Kind::Spherical, [a.0, b.0], a.1));
+    }
+    for (i, element) in model.each("drake:distance_constraint").enumerate() {
+        let word = "drake:distance_constraint";
+        let [a, b] = points(element, word, scope, frames)?;
+        let name = format!("{}distance constraint {}", scope.prefix, i + 1);
+        let wanted = element
+            .child(&format!("{word}_distance"))
+            .map(|child| child.content().number())
+            .transpose()?;
+        let found = (a.1 - b.1).norm();
+        if wanted.is_some_and(|wanted| (wanted - found).abs() > CLOSED) {
+            return Err(element.fault(
+                format!("the two points are {found} m apart where all joints are at zero"),
+                "give poses in which they have the distance that is written",
+            ));
+        }
+        robot.joints.push(Joint::new(&name, element.at, Kind::Distance(b.1), [a.0, b.0], a.1));
+    }
+    for (i, element) in model.each("drake:linear_bushing_rpy").enumerate() {
+        bushing(element, (i, scope), frames, robot)?;
+    }
+    Ok(())
+}
+
+/// How far the ends of a loop may be apart [m]: published poses have six digits.
+const CLOSED: f64 = 1.0e-5;
+
+/// The link and the global place of the points of a constraint.
+fn points(element: &Element, word: &str, scope: &Scope, frames: &Frames) -> Read<[(usize, V3); 2]> {
+    let point = |body: &str, at: &str| -> Read<(usize, V3)> {
+        let name = format!("{word}_{body}");
+        let child = element.child(&name).ok_or_else(|| missing(element, &name))?;
+        let full = frames.full(&scope.prefix, child.text.trim(), child.at)?;
+        let local = vector(element, &format!("{word}_{at}"))?;
+        Ok((frames.link(&full)?.unwrap_or(GROUND), frames.place(&full)?.point(&local)))
+    };
+    Ok([point("body_A", "p_AP")?, point("body_B", "p_BQ")?])
+}
+
+/// A spring in six directions between two frames that coincide.
+fn bushing(
+    element: &Element,
+    (i, scope): (usize, &Scope),
+    frames: &Frames,
+    robot: &mut Robot,
+) -> Read<()> {
+    let mut found = Vec::new();
+    for word in ["drake:bushing_frameA", "drake:bushing_frameC"] {
+        let child = element.child(word).ok_or_else(|| missing(element, word))?;
+        let full = frames.full(&scope.prefix, child.text.trim(), child.at)?;
+        found.push((frames.link(&full)?.unwrap_or(GROUND), frames.place(&full)?));
+    }
+    let [(a, first), (c, second)] = found[..] else { unreachable!("two were pushed") };
+    if (first.at - second.at).norm() > CLOSED
+        || (first.turn - second.turn).norm() > CLOSED
+        || !is_global(&first.turn)
+    {
+        return Err(Fault::new(
+            element.at,
+            "a bushing whose frames do not coincide, or are turned against the model, is not read",
+            "place both frames at one place with the axes of the model",
+        ));
+    }
+    let six = |word: &str| -> Read<[f64; 6]> {
+        let force = vector(element, &format!("drake:bushing_force_{word}"))?;
+        let moment = vector(element, &format!("drake:bushing_torque_{word}"))?;
+        Ok([force[0], force[1], force[2], moment[0], moment[1], moment[2]])
+    };
+    let what = What::Bushing {
+        links: [a, c],
+        place: first.at,
+        stiffness: six("stiffness")?,
+        damping: six("damping")?,
+    };
+    robot.laws.push(Law { name: format!("{}bushing {}", scope.prefix, i + 1), what });
+    Ok(())
+}
+
+fn is_global(turn: &crate::pose::M3) -> bool {
+    (turn - crate::pose::M3::identity()).norm() < CLOSED
+}

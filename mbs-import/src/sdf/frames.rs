@@ -1,0 +1,143 @@
+//! The graph of frames: links, joints, frames and models, each placed in another.
+
+use crate::pose::Pose;
+use crate::source::{Fault, Origin, Read};
+use mbs_scene::nearest_name;
+use std::cell::RefCell;
+use std::collections::HashMap;
+
+/// The frame of the world.
+pub(super) const WORLD: &str = "world";
+/// The frame of a model, in its scope.
+pub(super) const MODEL: &str = "__model__";
+
+/// A frame.
+#[derive(Debug, Clone)]
+pub(super) struct Node {
+    pub(super) at: Origin,
+    /// Where it is placed: a full name.
+    pub(super) relative_to: String,
+    pub(super) pose: Pose,
+    /// What it moves with: a full name; `None` for links and joints, which say it otherwise.
+    pub(super) attached_to: Option<String>,
+    /// The link that it is.
+    pub(super) link: Option<usize>,
+}
+
+/// Frames by their full names, `outer::inner`.
+#[derive(Debug, Default)]
+pub(super) struct Frames {
+    nodes: HashMap<String, Node>,
+    places: RefCell<HashMap<String, Pose>>,
+}
+
+impl Frames {
+    pub(super) fn add(&mut self, name: String, node: Node) {
+        self.nodes.insert(name, node);
+    }
+
+    /// The full name of a name that stands in a scope; its prefix ends with `::` or is empty.
+    pub(super) fn full(&self, prefix: &str, name: &str, at: Origin) -> Read<String> {
+        if name == WORLD {
+            return Ok(name.to_owned());
+        }
+        let full = format!("{prefix}{name}");
+        let nested = format!("{full}::{MODEL}");
+        if self.nodes.contains_key(&full) {
+            return Ok(full);
+        }
+        // a nested model stands for its frame
+        if self.nodes.contains_key(&nested) {
+            return Ok(nested);
+        }
+        let mut known: Vec<&str> =
+            self.nodes.keys().filter_map(|known| known.strip_prefix(prefix)).collect();
+        known.sort_unstable();
+        let hint = nearest_name(name, &known, "frames");
+        Err(Fault::new(at, format!("unknown link, joint, frame or model `{name}`"), hint))
+    }
+
+    /// Where a frame is in that of its model, which stands in the world for the time being.
+    pub(super) fn alone(&self, name: &str, model: &str, at: Origin) -> Read<Pose> {
+        if !self.nodes.contains_key(name) {
+            return Err(Fault::new(
+                at,
+                format!("unknown frame `{name}`"),
+                "name a frame of this model",
+            ));
+        }
+        let places = [self.place(model)?, self.place(name)?];
+        // they change when the model gets its place
+        self.places.borrow_mut().clear();
+        Ok(places[0].inverse().then(&places[1]))
+    }
+
+    /// Where a frame is in the world.
+    pub(super) fn place(&self, name: &str) -> Read<Pose> {
+        let mut chain: Vec<&str> = Vec::new();
+        let mut at = name;
+        let mut pose = loop {
+            if at == WORLD {
+                break Pose::identity();
+            }
+            if let Some(known) = self.places.borrow().get(at) {
+                break *known;
+            }
+            let node = self.node(at, &chain)?;
+            if chain.contains(&at) {
+                return Err(self.circle(&chain, at));
+            }
+            chain.push(at);
+            at = &node.relative_to;
+        };
+        for name in chain.into_iter().rev() {
+            pose = pose.then(&self.node(name, &[])?.pose);
+            self.places.borrow_mut().insert(name.to_owned(), pose);
+        }
+        Ok(pose)
+    }
+
+    /// The link with which a frame moves; `None` for the world.
+    pub(super) fn link(&self, name: &str) -> Read<Option<usize>> {
+        let mut chain: Vec<&str> = Vec::new();
+        let mut at = name;
+        loop {
+            if at == WORLD {
+                return Ok(None);
+            }
+            let node = self.node(at, &chain)?;
+            if let Some(link) = node.link {
+                return Ok(Some(link));
+            }
+            if chain.contains(&at) {
+                return Err(self.circle(&chain, at));
+            }
+            chain.push(at);
+            at = node.attached_to.as_deref().unwrap_or(&node.relative_to);
+        }
+    }
+
+    /// A frame, or that of a model; the last of the chain refers to it.
+    fn node(&self, name: &str, chain: &[&str]) -> Read<&Node> {
+        let found = self.nodes.get(name).or_else(|| self.nodes.get(&format!("{name}::{MODEL}")));
+        found.ok_or_else(|| {
+            let by = chain.last().and_then(|by| self.nodes.get(*by));
+            let at = by.map_or(Origin::start_of(0), |node| node.at);
+            let known: Vec<&str> = self.nodes.keys().map(String::as_str).collect();
+            let hint = nearest_name(name, &known, "frames");
+            Fault::new(at, format!("unknown link, joint, frame or model `{name}`"), hint)
+        })
+    }
+
+    fn circle(&self, chain: &[&str], at: &str) -> Fault {
+        let start = chain.iter().position(|name| *name == at).unwrap_or(0);
+        let ring: Vec<_> =
+            chain[start..].iter().chain([&at]).map(|name| format!("`{name}`")).collect();
+        let place = self.nodes.get(at).map_or(Origin::start_of(0), |node| node.at);
+        Fault::new(
+            place,
+            format!("frames are placed in each other in a circle: {}", ring.join(" -> ")),
+            "place one of them in the model, or in the world",
+        )
+    }
+}

@@ -1,0 +1,266 @@
+//! Joints: kinds, axes, springs, ends, followers, screws.
+
+use super::Scope;
+use super::frames::Frames;
+use super::link::number;
+use crate::context::Context;
+use crate::element::Element;
+use crate::options::Stops;
+use crate::pose::{V3, direction, v3};
+use crate::robot::{Coordinate, Coupling, GROUND, Joint, Kind, Law, Robot, Target, Term, What};
+use crate::source::{Fault, Read};
+
+/// The types of the format; a gearbox is no joint but a relation of two others.
+const TYPES: [(&str, Kind); 8] = [
+    ("revolute", Kind::Revolute),
+    ("continuous", Kind::Revolute),
+    ("prismatic", Kind::Prismatic),
+    ("ball", Kind::Spherical),
+    ("universal", Kind::Universal),
+    ("revolute2", Kind::Universal),
+    ("screw", Kind::Cylindrical),
+    ("fixed", Kind::Fixed),
+];
+
+/// Reads a joint; a gearbox is read when all joints are there.
+pub(super) fn read(
+    element: &Element,
+    scope: &Scope,
+    frames: &Frames,
+    robot: &mut Robot,
+    context: &mut Context<'_>,
+) -> Read<()> {
+    let name = &element.need("name")?.value;
+    let word = element.need("type")?;
+    let kind = TYPES.iter().find(|(known, _)| *known == word.value.trim()).map(|(_, kind)| *kind);
+    let kind = kind.ok_or_else(|| {
+        let known = TYPES.map(|(known, _)| known).join(", ");
+        word.fault(
+            format!("unknown type of joint `{}`", word.value),
+            format!("types are {known}, gearbox"),
+        )
+    })?;
+    let name = format!("{}{name}", scope.prefix);
+    let is_kept =
+        kind == Kind::Fixed && context.options.keep_fixed.iter().any(|kept| *kept == name);
+    let kind = if is_kept { Kind::Weld } else { kind };
+    let ends = [end(element, "parent", scope, frames)?, end(element, "child", scope, frames)?];
+    if ends[0] == ends[1] {
+        return Err(element
+            .fault(format!("joint `{name}` joins a link to itself"), "give it another child"));
+    }
+    let own = frames.full(&scope.prefix, &element.need("name")?.value, element.at)?;
+    let place = frames.place(&own)?;
+    let mut joint = Joint::new(&name, element.at, kind, ends, place.at);
+    let axes: Vec<&Element> =
+        ["axis", "axis2"].into_iter().filter_map(|word| element.child(word)).collect();
+    let needed = match kind {
+        Kind::Revolute | Kind::Prismatic | Kind::Cylindrical => 1,
+        Kind::Universal => 2,
+        _ => 0,
+    };
+    if axes.len() < needed {
+        let missing = if axes.is_empty() { "axis" } else { "axis2" };
+        let hint = format!("write <{missing}><xyz>0 0 1</xyz></{missing}>");
+        return Err(element.fault(format!("joint `{name}` has no <{missing}>"), hint));
+    }
+    if needed == 0 {
+        axes.iter().for_each(|axis| axis.read_whole());
+    }
+    let number = robot.joints.len();
+    for axis in &axes[..needed] {
+        joint.axes.push(direction_of(axis, &own, scope, frames)?);
+    }
+    if let ([axis], Kind::Revolute | Kind::Prismatic) = (&axes[..needed], kind) {
+        limits(axis, word.value.trim() != "continuous", &mut joint)?;
+    }
+    robot.joints.push(joint);
+    for (i, axis) in axes[..needed].iter().enumerate() {
+        // of a cylinder the axis means the turn, which is its second coordinate
+        let coordinate = match kind {
+            Kind::Universal => Some(i),
+            Kind::Cylindrical => Some(1),
+            _ => None,
+        };
+        laws(axis, Coordinate { joint: number, number: coordinate }, robot, context)?;
+    }
+    if kind == Kind::Cylindrical {
+        robot.couplings.push(screw(element, number, &name)?);
+    }
+    Ok(())
+}
+
+/// The link of an end, which is the ground where it is the world.
+fn end(element: &Element, word: &str, scope: &Scope, frames: &Frames) -> Read<usize> {
+    let child = element.child(word).ok_or_else(|| {
+        element.fault(
+            format!("{} has no <{word}>", element.label()),
+            format!("write <{word}>LINK</{word}>"),
+        )
+    })?;
+    let name = frames.full(&scope.prefix, child.text.trim(), child.at)?;
+    Ok(frames.link(&name)?.unwrap_or(GROUND))
+}
+
+/// The direction of an axis, global.
+pub(super) fn direction_of(
+    axis: &Element,
+    joint: &str,
+    scope: &Scope,
+    frames: &Frames,
+) -> Read<V3> {
+    let xyz = axis
+        .child("xyz")
+        .ok_or_else(|| axis.fault("the axis has no <xyz>", "write <xyz>0 0 1</xyz>"))?;
+    let content = xyz.content();
+    let numbers = v3(content.numbers()?);
+    let unit = direction(&numbers)
+        .ok_or_else(|| content.fault("the axis has no direction", "write a direction, as 0 0 1"))?;
+    let is_of_model = match axis.child("use_parent_model_frame") {
+        Some(flag) => flag.content().flag()?,
+        // before 1.5 all axes were in the frame of the model
+        None => scope.version < [1, 5],
+    };
+    let frame = match xyz.value("expressed_in").filter(|name| !name.is_empty()) {
+        Some(name) => frames.full(&scope.prefix, name, xyz.at)?,
+        None if is_of_model && scope.version < [1, 7] => scope.model(),
+        None => joint.to_owned(),
+    };
+    Ok(frames.place(&frame)?.turn * unit)
+}
+
+fn limits(axis: &Element, has_range: bool, joint: &mut Joint) -> Read<()> {
+    /// From here on the format means that there is no end.
+    const NONE: f64 = 1.0e16;
+    let Some(limit) = axis.child("limit") else { return Ok(()) };
+    let value = |name: &str| -> Read<Option<f64>> {
+        let Some(child) = limit.child(name) else { return Ok(None) };
+        // published files write inf where they mean none
+        let text = child.text.trim().trim_start_matches(['+', '-']).to_ascii_lowercase();
+        if text.starts_with("inf") {
+            return Ok(None);
+        }
+        let x = child.content().number()?;
+        Ok(Some(x).filter(|x| x.abs() < NONE))
+    };
+    let (lower, upper) = (value("lower")?, value("upper")?);
+    if let (Some(lower), Some(upper), true) = (lower, upper, has_range) {
+        joint.range = (lower < upper).then_some([lower, upper]);
+    }
+    joint.effort = value("effort")?.filter(|x| *x > 0.0);
+    joint.rate = value("velocity")?.filter(|x| *x > 0.0);
+    Ok(())
+}
+
+/// Springs, damping, friction, stops and mimicry about an axis.
+fn laws(axis: &Element, of: Coordinate, robot: &mut Robot, context: &mut Context<'_>) -> Read<()> {
+    let joint = &robot.joints[of.joint];
+    let name = match of.number.filter(|_| joint.kind == Kind::Universal) {
+        Some(number) => format!("{} axis {}", joint.name, number + 1),
+        None => joint.name.clone(),
+    };
+    let path = format!("joint[{}]/{}", joint.name, axis.name);
+    let on = || Target::Coordinate(of.clone());
+    if let Some(dynamics) = axis.child("dynamics") {
+        let [damping, friction, stiffness, reference] =
+            ["damping", "friction", "spring_stiffness", "spring_reference"]
+                .map(|word| number(dynamics, word, 0.0));
+        let (damping, friction, stiffness, free) = (damping?, friction?, stiffness?, reference?);
+        if damping < 0.0 || friction < 0.0 || stiffness < 0.0 {
+            return Err(dynamics
+                .fault("damping, friction or stiffness is below zero", "write zero or more"));
+        }
+        if damping > 0.0 || stiffness > 0.0 {
+            let free = if stiffness > 0.0 { free } else { 0.0 };
+            let what = What::Spring { on: on(), stiffness, damping, free };
+            robot.laws.push(Law { name: format!("{name} spring"), what });
+        }
+        if friction > 0.0 {
+            let says = "dry friction falls to zero below a rate of 1e-3";
+            context.findings.approximated(dynamics.at, format!("{path}/dynamics"), says);
+            let what = What::Friction { on: on(), coulomb: friction };
+            robot.laws.push(Law { name: format!("{name} friction"), what });
+        }
+    }
+    let range = robot.joints[of.joint].range;
+    if let (Some(limit), true) = (axis.child("limit"), range.is_some()) {
+        stops(limit, &path, (name, of), robot, context)?;
+    }
+    Ok(())
+}
+
+fn stops(
+    limit: &Element,
+    path: &str,
+    (name, of): (String, Coordinate),
+    robot: &mut Robot,
+    context: &mut Context<'_>,
+) -> Read<()> {
+    /// What the format writes where it means a rigid stop.
+    const RIGID: f64 = 1.0e8;
+    let stiffness = number(limit, "stiffness", RIGID)?;
+    let damping = number(limit, "dissipation", 1.0)?;
+    let has_own = limit.child("stiffness").is_some() && stiffness > 0.0 && stiffness < RIGID;
+    let given = match context.options.limits {
+        _ if has_own => Some(Some([stiffness, damping.max(0.0)])),
+        None => None,
+        Some(Stops::ByMass) => Some(None),
+        Some(Stops::Given { stiffness, damping }) => Some(Some([stiffness, damping])),
+    };
+    let says = match given {
+        _ if has_own => "stops with the stiffness and dissipation that are written",
+        None => "ends without stiffness: kept as the joint's range, which does not act (--limits)",
+        Some(_) => "ends without stiffness in the file: stops as --limits says",
+    };
+    context.findings.approximated(limit.at, format!("{path}/limit"), says);
+    if let Some(stiffness) = given {
+        let what = What::RangeLimit { on: Target::Coordinate(of), stiffness };
+        robot.laws.push(Law { name: format!("{name} stops"), what });
+    }
+    Ok(())
+}
+
+/// The slide of a screw follows its turn.
+fn screw(element: &Element, joint: usize, name: &str) -> Read<Coupling> {
+    let turn = core::f64::consts::TAU;
+    let of_length = ["screw_thread_pitch", "drake:screw_thread_pitch"]
+        .into_iter()
+        .find_map(|word| element.child(word));
+    let slide_of_turn = match (of_length, element.child("thread_pitch")) {
+        // metres for a whole turn
+        (Some(pitch), _) => pitch.content().number()? / turn,
+        // the older key: radians for a metre, and of the other sense
+        (None, Some(pitch)) => {
+            let pitch = pitch.content();
+            let x = pitch.number()?;
+            if x == 0.0 {
+                return Err(pitch.fault(
+                    "the thread has no pitch",
+                    "write <screw_thread_pitch>, metres for a turn",
+                ));
+            }
+            -1.0 / x
+        }
+        (None, None) => 1.0 / turn,
+    };
+    let term = |number, factor| Term {
+        of: Coordinate { joint, number: Some(number) },
+        factor,
+        coefficients: Vec::new(),
+    };
+    Ok(Coupling {
+        name: format!("{name} thread"),
+        terms: vec![term(0, 1.0), term(1, -slide_of_turn)],
+        value: 0.0,
+    })
+}
+
+/// The number of a joint by its full name.
+pub(super) fn find(robot: &Robot, scope: &Scope, element: &Element, name: &str) -> Read<usize> {
+    let full = format!("{}{name}", scope.prefix);
+    robot.joints.iter().position(|joint| joint.name == full).ok_or_else(|| {
+        let names: Vec<_> = robot.joints.iter().map(|joint| joint.name.as_str()).collect();
+        let hint = mbs_scene::nearest_name(&full, &names, "joints");
+        Fault::new(element.at, format!("unknown joint `{name}`"), hint)
+    })
+}

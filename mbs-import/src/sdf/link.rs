@@ -1,0 +1,93 @@
+//! Links: inertia, and what is drawn.
+
+use super::pose::pose;
+use crate::context::Context;
+use crate::element::Element;
+use crate::inertia::{Mass, tensor};
+use crate::pose::{Pose, V3};
+use crate::robot::{Form, FormKind, Robot};
+use crate::source::Read;
+
+/// The inertia of a link, in its own axes.
+pub(super) fn mass(element: &Element, path: &str, context: &mut Context<'_>) -> Read<Option<Mass>> {
+    let Some(inertial) = element.child("inertial") else {
+        let says = "no <inertial>: the format's 1 kg with moments of 1 kg m^2";
+        context.findings.approximated(element.at, path, says);
+        return Ok(Some(Mass {
+            mass: 1.0,
+            center: V3::zeros(),
+            tensor: tensor([1.0, 1.0, 1.0, 0.0, 0.0, 0.0]),
+        }));
+    };
+    if inertial.value("auto") == Some("true") {
+        let hint = "write <mass> and <inertia> with numbers";
+        return Err(
+            inertial.fault("masses that another program computes from forms are not read", hint)
+        );
+    }
+    let (at, _) = pose(inertial)?;
+    let mass = number(inertial, "mass", 1.0)?;
+    if mass < 0.0 {
+        return Err(inertial.fault("the mass is below zero", "write a mass of zero or more, in kg"));
+    }
+    let mut six = [1.0, 1.0, 1.0, 0.0, 0.0, 0.0];
+    if let Some(inertia) = inertial.child("inertia") {
+        for (x, name) in six.iter_mut().zip(["ixx", "iyy", "izz", "ixy", "iyz", "ixz"]) {
+            *x = number(inertia, name, *x)?;
+        }
+    }
+    let local = Mass { mass, center: V3::zeros(), tensor: tensor(six) };
+    Ok(Some(local.seen_from(&at)))
+}
+
+/// The number in a child, or what stands for it.
+pub(super) fn number(element: &Element, name: &str, default: f64) -> Read<f64> {
+    element.child(name).map_or(Ok(default), |child| child.content().number())
+}
+
+/// The forms of `visual` that are drawn; meshes are not. `prefix` is that of the link's model.
+pub(super) fn shapes(element: &Element, link: usize, robot: &mut Robot) -> Read<()> {
+    for visual in element.each("visual") {
+        let Some(kind) = visual.child("geometry").map(form).transpose()?.flatten() else {
+            continue;
+        };
+        visual.attribute("name");
+        let (local, _) = pose(visual)?;
+        let pose: Pose = robot.links[link].pose.then(&local);
+        let colour = visual.child("material").and_then(colour);
+        robot.shapes.push(Form { link, pose, kind, colour });
+    }
+    Ok(())
+}
+
+fn colour(material: &Element) -> Option<[f64; 4]> {
+    let words = ["diffuse", "ambient"].into_iter().find_map(|word| material.child(word))?;
+    match words.content().list().ok()?[..] {
+        [r, g, b] => Some([r, g, b, 1.0]),
+        [r, g, b, a] => Some([r, g, b, a]),
+        _ => None,
+    }
+}
+
+fn form(geometry: &Element) -> Read<Option<FormKind>> {
+    let positive = |sizes: &[f64]| sizes.iter().all(|x| *x > 0.0);
+    if let Some(size) = geometry.child("box").and_then(|form| form.child("size")) {
+        let size = size.content().numbers::<3>()?;
+        return Ok(positive(&size).then_some(FormKind::Box(size)));
+    }
+    if let Some(form) = geometry.child("sphere") {
+        let radius = number(form, "radius", 1.0)?;
+        return Ok(positive(&[radius]).then_some(FormKind::Sphere { radius }));
+    }
+    for name in ["cylinder", "capsule"] {
+        if let Some(form) = geometry.child(name) {
+            let (radius, length) = (number(form, "radius", 1.0)?, number(form, "length", 1.0)?);
+            let kind = match name {
+                "cylinder" => FormKind::Cylinder { radius, length },
+                _ => FormKind::Capsule { radius, length },
+            };
+            return Ok(positive(&[radius, length]).then_some(kind));
+        }
+    }
+    Ok(None)
+}
