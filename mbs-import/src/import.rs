@@ -6,7 +6,7 @@ use crate::findings::{Finding, Findings};
 use crate::format::ModelFormat;
 use crate::lump::{self, Lumps};
 use crate::options::ImportOptions;
-use crate::robot::{Kind, Robot, What};
+use crate::robot::{Frame, GROUND, Kind, Link, Robot, What};
 use crate::source::{Fault, Origin, Read, Sources};
 use crate::unread::unread;
 use crate::{sdf, urdf, write, xml};
@@ -114,6 +114,7 @@ fn whole(
     };
     unread(&root, table, &mut context.findings);
     let lumps = lump::lumps(&robot, context.options.balance, &mut context.findings)?;
+    frames_of_parts(&mut robot, &lumps);
     let sizes = sizes(&robot, &lumps);
     let notes = std::mem::take(&mut robot.notes);
     robot.notes = vec![format!("{} model, from {file}.", format.name())];
@@ -138,6 +139,17 @@ fn format(root: &Element) -> Read<ModelFormat> {
             format!("the root element is `{other}`"),
             "a model begins with `robot` (URDF), `mujoco` (MJCF) or `sdf` (SDF)",
         )),
+    }
+}
+
+/// A link that another one carries keeps its name as a frame.
+fn frames_of_parts(robot: &mut Robot, lumps: &Lumps) {
+    for (link, lump) in lumps.of.iter().enumerate().filter(|(link, _)| *link != GROUND) {
+        let Link { name, pose, .. } = &robot.links[link];
+        let is_carried = lumps.lumps[*lump].carrier != link;
+        if is_carried && robot.frames.iter().all(|frame| frame.name != *name) {
+            robot.frames.push(Frame { name: name.clone(), link, pose: *pose });
+        }
     }
 }
 

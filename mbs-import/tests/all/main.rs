@@ -1,0 +1,4 @@
+//! The reader beside other programs, on files of ten lines each, and on damaged ones.
+
+mod conventions;
+mod hostile;
