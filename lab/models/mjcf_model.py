@@ -79,6 +79,25 @@ class Mjcf:
         mujoco.mj_forward(model, data)
         return t
 
+    def state_of(self, qpos, qvel):
+        """Our values and rates of MuJoCo's: the way back of `place`."""
+        model, data = self.model, self.data
+        data.qpos[:] = qpos
+        mujoco.mj_kinematics(model, data)
+        y, rates = [], qvel.copy()
+        for j, kind in enumerate(self.kinds):
+            a, k, body = model.jnt_qposadr[j], model.jnt_dofadr[j], model.jnt_bodyid[j]
+            if kind in ("turn", "slide"):
+                y.append(qpos[a:a + 1] - model.qpos0[a:a + 1])
+                continue
+            if kind == "free":
+                y.append(qpos[a:a + 3] - model.qpos0[a:a + 3])
+                a, k = a + 3, k + 3
+            turn, rest = rotation.matrix(qpos[a:a + 4]), self.reference[body]
+            y.append(rotation.quaternion(turn @ rest.T if kind == "free" else rest @ turn @ rest.T))
+            rates[k:k + 3] = data.xmat[body].reshape(3, 3) @ qvel[k:k + 3]
+        return np.concatenate(y), rates
+
     def swing(self, t):
         """What a ball's axes add: its global rate is crossed with the body's whole rate."""
         out = np.zeros(self.model.nv)

@@ -2,8 +2,8 @@
 
 import numpy as np
 
-SIZE = {"turn": 1, "slide": 1, "ball": 4, "free": 7}
-ROWS = {"turn": 1, "slide": 1, "ball": 3, "free": 6}
+SIZE = {"turn": 1, "slide": 1, "planar": 3, "ball": 4, "free": 7}
+ROWS = {"turn": 1, "slide": 1, "planar": 3, "ball": 3, "free": 6}
 
 
 def product(a, b):
@@ -50,7 +50,7 @@ def drift(kinds, y, rates):
             start = i + SIZE[kind] - 4
             out.append(product(np.concatenate([[0.0], turn]), y[start:start + 4]) / 2)
         else:
-            out.append(rates[k:k + 1])
+            out.append(rates[k:k + ROWS[kind]])
         i, k = i + SIZE[kind], k + ROWS[kind]
     return np.concatenate(out) if out else np.zeros(0)
 
@@ -61,6 +61,7 @@ def random_state(kinds, seed):
     values = {
         "turn": lambda: draw.uniform(-1, 1, 1),
         "slide": lambda: draw.uniform(-0.1, 0.1, 1),
+        "planar": lambda: draw.uniform(-0.5, 0.5, 3),
         "ball": lambda: of_vector(draw.uniform(-0.7, 0.7, 3)),
         "free": lambda: np.concatenate([draw.uniform(-0.5, 0.5, 3), of_vector(draw.uniform(-0.7, 0.7, 3))]),
     }

@@ -17,7 +17,9 @@ def kind_of(joint):
     name = joint.shortname()
     if name == FREE:
         return "free"
-    if name.startswith(("JointModelP", "JointModelPrismatic")) and joint.nv == 1:
+    if name == "JointModelPlanar":
+        return "planar"
+    if name.startswith("JointModelP") and joint.nv == 1:
         return "slide"
     if name.startswith("JointModelR") and joint.nv == 1:
         return "turn"
@@ -77,13 +79,12 @@ class Urdf:
     def place(self, y, rates):
         """Pinocchio's q and v, and T with our rates of all joints = T v."""
         q, v, t = pin.neutral(self.model), self.g @ rates, np.eye(self.model.nv)
-        value, i = np.zeros(self.model.nv), 0
         at = dict(zip(self.names, np.cumsum([0] + [rotation.SIZE[k] for k in self.kinds])))
         own = np.zeros(self.g.shape[1])
         row = 0
         for name, kind in zip(self.names, self.kinds):
             if kind != "free":
-                own[row] = y[at[name]]
+                own[row:row + rotation.ROWS[kind]] = y[at[name]:at[name] + rotation.ROWS[kind]]
             row += rotation.ROWS[kind]
         value = self.g @ own + self.c
         for name, kind, joint in zip(self.all_names, self.all_kinds, self.joints):
@@ -96,6 +97,11 @@ class Urdf:
                 q[i + 3:i + 7] = inner[[1, 2, 3, 0]]
                 t[k:k + 3, k:k + 3] = t[k + 3:k + 6, k + 3:k + 6] = turn
                 v[k:k + 3], v[k + 3:k + 6] = turn.T @ v[k:k + 3], turn.T @ v[k + 3:k + 6]
+            elif kind == "planar":
+                c, s = np.cos(value[k + 2]), np.sin(value[k + 2])
+                q[i:i + 4] = value[k], value[k + 1], c, s
+                t[k:k + 2, k:k + 2] = [[c, -s], [s, c]]
+                v[k:k + 2] = t[k:k + 2, k:k + 2].T @ v[k:k + 2]
             elif joint.nq == 2:
                 q[i:i + 2] = np.cos(value[k]), np.sin(value[k])
             else:
@@ -106,8 +112,10 @@ class Urdf:
         """What the axes' own turning adds to our accelerations: T' v."""
         out = np.zeros(len(v))
         for kind, joint in zip(self.all_kinds, self.joints):
+            k = joint.idx_v
+            if kind == "planar":
+                out[k:k + 2] = t[k:k + 2, k:k + 2] @ (v[k + 2] * np.array([-v[k + 1], v[k]]))
             if kind == "free":
-                k = joint.idx_v
                 out[k:k + 3] = t[k:k + 3, k:k + 3] @ np.cross(v[k + 3:k + 6], v[k:k + 3])
         return out
 
@@ -123,7 +131,7 @@ class Urdf:
     def terms(self, q, v, t):
         """Mass matrix and bias in our rates, followers tied: M a + bias = effort."""
         inverse = np.linalg.inv(t)
-        mass = pin.crba(self.model, self.data, q)
+        mass = pin.crba(self.model, self.data, q).reshape(self.model.nv, self.model.nv)
         mass = inverse.T @ (np.triu(mass) + np.triu(mass, 1).T) @ inverse
         bias = inverse.T @ pin.nle(self.model, self.data, q, v) - mass @ self.swing(t, v)
         return self.g.T @ mass @ self.g, self.g.T @ bias
@@ -147,6 +155,7 @@ class Urdf:
         index = {f.name: model.getFrameId(f.name, pin.FrameType.BODY) for f in links}
         last = index[links[-1].name]
         jacobian = pin.computeFrameJacobian(model, data, q, last, pin.ReferenceFrame.LOCAL_WORLD_ALIGNED)
+        jacobian = jacobian.reshape(6, model.nv)
         momentum = pin.computeCentroidalMomentum(model, data, q, v)
         return {
             "mass": pin.computeTotalMass(model),
