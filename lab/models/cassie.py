@@ -11,14 +11,17 @@ from pathlib import Path
 import numpy as np
 
 import common
+import motion
 import rotation
-from motion import motion
 from references import COMMITTED, by_joint, by_name, plain
 from sdf_model import REDUNDANT, Sdf
 
 PACKAGE = "example_robot_data"
 FILE = "cmeel.prefix/share/example-robot-data/robots/cassie_description/robots/cassie_v2.sdf"
 FOLLOWING = ("shin-tarsus-joint", "tarsus-spring-joint", "achilles-spring-joint", "crank-rod-joint", "foot-op")
+
+# Seconds of computing for one part of a motion: saddle points in Python are slow.
+PATIENCE = 400.0
 
 # Parts of the way from the drawn configuration to a state: the loops stay on the branch that is drawn.
 WAY = 24
@@ -69,7 +72,8 @@ def state(model, seed, times, follow):
     out |= {"state": by_joint(model, y, rates), "acceleration": by_name(model, model.acceleration(y, rates))}
     report = model.report(y, rates)
     out |= {key: report[key] for key in ("mass", "center", "kinetic", "potential")}
-    ends, fault = motion(model.kinds, model.acceleration, y, rates, times)
+    motion.PATIENCE = PATIENCE
+    ends, fault = motion.motion(model.kinds, model.acceleration, y, rates, times)
     out["ends"] = []
     for time, a, b, spread in ends:
         drift = np.max(np.abs(model.rows(a, b)[0]))

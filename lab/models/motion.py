@@ -7,7 +7,7 @@ from scipy.integrate import solve_ivp
 
 import rotation
 
-# Seconds that one motion may take: what is stiff is left without a reference.
+# Seconds of computing that a part of one motion may take: what is stiff is left without a reference.
 PATIENCE = 40.0
 
 
@@ -17,10 +17,10 @@ class TooStiff(Exception):
 
 def end_state(kinds, acceleration, y, rates, duration, tolerance):
     """State after `duration`; values of turns are not wrapped, quaternions have length one."""
-    values, start = len(y), time.monotonic()
+    values, start = len(y), time.process_time()
 
     def slope(_, x):
-        if time.monotonic() - start > PATIENCE:
+        if time.process_time() - start > PATIENCE:
             raise TooStiff
         r = x[values:]
         return np.concatenate([rotation.drift(kinds, x[:values], r), acceleration(x[:values], r)])

@@ -119,11 +119,13 @@ def main():
     parser.add_argument("--free", action="store_true", help="URDF alone, with a free base")
     parser.add_argument("--committed", action="store_true")
     parser.add_argument("--no-motion", action="store_true")
+    parser.add_argument("--new", action="store_true", help="leave models out that have a file")
     options = parser.parse_args()
     folder = options.out or (COMMITTED if options.committed else common.folder() / "references")
     folder.mkdir(parents=True, exist_ok=True)
     for package, path, kind in chosen(options):
-        if options.free and kind != "urdf":
+        there = folder / f"{common.short_name(package, path)}{'-free' * options.free}.json"
+        if (options.free and kind != "urdf") or (options.new and there.exists()):
             continue
         try:
             says = write(folder, package, path, kind, options.free, not options.no_motion)
