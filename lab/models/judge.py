@@ -126,9 +126,9 @@ def read_rows(folder):
 
 
 def difference(found, wanted):
-    """Largest difference by the largest of all numbers."""
+    """Largest difference by the largest of all numbers, or by 1 where all are smaller: rates of the states are up to 1."""
     a, b = np.concatenate(found), np.concatenate(wanted)
-    return float(np.max(np.abs(a - b)) / max(1e-300, np.max(np.abs(b))))
+    return float(np.max(np.abs(a - b)) / max(1.0, np.max(np.abs(b))))
 
 
 def turned_alike(kind, found, wanted):
@@ -154,8 +154,10 @@ def compare(reference, first, last, end):
 
 
 def first_line(text):
+    """The line that says why, without notes."""
     lines = [line for line in text.strip().splitlines() if line.strip()]
-    return lines[0][:150] if lines else "nothing said"
+    errors = [line for line in lines if line.startswith("error")] or lines
+    return errors[0][:200].replace(str(common.folder()) + "/", "") if errors else "nothing said"
 
 
 def one(path, options, work):
