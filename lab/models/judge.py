@@ -7,6 +7,7 @@ and of the free motion. Dry friction, contacts and limits are taken out of the s
 import argparse
 import csv
 import json
+import re
 import subprocess
 import sys
 import time
@@ -98,12 +99,14 @@ def prepared(text, reference):
     if missing:
         raise ValueError("no joint " + ", ".join(missing[:3]))
     lines = [without(text)]
+    held = reference.get("independent", names)
     for name, kind in reference["joints"].items():
         ours, state = json.dumps(names[name], ensure_ascii=False), reference["state"][name]
         value = [float(number) for number in own_value(kind, state["value"])]
         rate = [float(number) for number in state["rate"]]
         one = len(rate) == 1
-        lines.append(f"\n[[initial]]\njoint = {ours}\nvalue = {value[0] if one else value}\nrate = {rate[0] if one else rate}\n")
+        if name in held:
+            lines.append(f"\n[[initial]]\njoint = {ours}\nvalue = {value[0] if one else value}\nrate = {rate[0] if one else rate}\n")
         for i, quantity in enumerate(("value", "rate", "acceleration")):
             lines.append(f'\n[[output]]\nname = "{list(names).index(name)}:{i}"\njoint = {ours}\nquantity = "{quantity}"\n')
     return "".join(lines), names
@@ -154,18 +157,34 @@ def compare(reference, first, last, end):
 
 
 def first_line(text):
-    """The line that says why, without notes."""
+    """The line that says why: one with a place, else the first."""
     lines = [line for line in text.strip().splitlines() if line.strip()]
-    errors = [line for line in lines if line.startswith("error")] or lines
+    errors = [line for line in lines if re.search(r":\d+:\d+: ", line)] or lines
     return errors[0][:200].replace(str(common.folder()) + "/", "") if errors else "nothing said"
 
 
-def one(path, options, work):
+def cases(options):
+    """(name, model, reference) of the references, of the files on conventions, and of the states of the biped."""
+    if options.conventions:
+        found = json.loads((common.HERE / "conventions/conventions.json").read_text())["files"]
+        for name, reference in found.items():
+            yield name, common.HERE / "conventions" / name, reference | reference.get("hard", {})
+        return
+    for path in sorted(options.references.glob("*.json")):
+        reference = json.loads(path.read_text())
+        model = common.data() / reference["package"] / reference["path"]
+        if "states" not in reference:
+            yield path.stem, model, reference
+        for state in reference.get("states", []):
+            kinds = {1: "turn", 6: "free"}
+            joints = {name: kinds[len(rows["rate"])] for name, rows in state["state"].items()}
+            yield f"{path.stem}-{state['seed']}", model, reference | state | {"joints": joints}
+
+
+def one(name, model, reference, options, work):
     """A row of the table."""
-    reference = json.loads(path.read_text())
-    model = common.data() / reference["package"] / reference["path"]
-    row = {"model": path.stem, "imported": "no", "ran": "", "says": ""}
-    scene = work / f"{path.stem}.toml"
+    row = {"model": name, "imported": "no", "ran": "", "says": ""}
+    scene = work / f"{name}.toml"
     extra = ["--base", "free"] if reference.get("base") == "free" else []
     started = time.monotonic()
     code, said = run([*options.importer, "import", str(model), "-o", str(scene), *extra, *options.options], 60)
@@ -197,6 +216,7 @@ def main():
     parser.add_argument("--mbs", default="mbs")
     parser.add_argument("--importer", help="a command with `import`, if it is another one")
     parser.add_argument("--references", type=Path, default=COMMITTED)
+    parser.add_argument("--conventions", action="store_true", help="the files on conventions in place of robots")
     parser.add_argument("--options", nargs="*", default=[], help="further options of `mbs import`")
     parser.add_argument("--patience", type=float, default=120)
     parser.add_argument("--table", type=Path)
@@ -206,10 +226,10 @@ def main():
     work = common.folder() / "judged"
     work.mkdir(parents=True, exist_ok=True)
     rows = []
-    for path in sorted(options.references.glob("*.json")):
-        if path.stem.startswith("cassie") or (options.words and not any(word in path.stem for word in options.words)):
+    for name, model, reference in cases(options):
+        if options.words and not any(word in name for word in options.words):
             continue
-        rows.append(one(path, options, work))
+        rows.append(one(name, model, reference, options, work))
         show = {key: f"{value:.1e}" if isinstance(value, float) else value for key, value in rows[-1].items()}
         print(*(f"{key}={value}" for key, value in show.items() if value not in ("", None)), flush=True)
     yes = lambda key: sum(row.get(key) == "yes" for row in rows)
