@@ -15,9 +15,9 @@ import numpy as np
 import pinocchio as pin
 
 import common
+import motion
 import rotation
 from mjcf_model import Mjcf
-from motion import motion
 from urdf_model import Urdf
 
 COMMITTED = common.HERE / "references"
@@ -82,7 +82,7 @@ def judge(model, seed, with_motion):
         out["ends_actuated"] = model.model.na == 0
         moved = actuated if model.model.na == 0 else moved
     if with_motion:
-        ends, fault = motion(model.kinds, moved, y, rates, TIMES)
+        ends, fault = motion.motion(model.kinds, moved, y, rates, TIMES)
         out["ends"] = [{"time": t, "spread": s, "state": by_joint(model, a, b)} for t, a, b, s in ends]
         out["ends_fault"] = fault
     return out
@@ -120,7 +120,9 @@ def main():
     parser.add_argument("--committed", action="store_true")
     parser.add_argument("--no-motion", action="store_true")
     parser.add_argument("--new", action="store_true", help="leave models out that have a file")
+    parser.add_argument("--patience", type=float, help="seconds of computing for a part of a motion")
     options = parser.parse_args()
+    motion.PATIENCE = options.patience or motion.PATIENCE
     folder = options.out or (COMMITTED if options.committed else common.folder() / "references")
     folder.mkdir(parents=True, exist_ok=True)
     for package, path, kind in chosen(options):
