@@ -28,6 +28,9 @@ TIMES = (0.1, 0.3, 1.0)
 # Larger matrices are written for no committed model, and are of no use to find a fault.
 MAX_ROWS = 60
 
+# Derivatives are three full matrices: for small robots.
+MAX_DERIVED = 12
+
 
 def plain(thing):
     """Lists and floats from arrays, whatever is nested; the shortest text that gives the same number."""
@@ -75,6 +78,8 @@ def judge(model, seed, with_motion):
         return out | {"singular": True}
     out["acceleration"] = by_name(model, model.acceleration(y, rates))
     moved = model.acceleration
+    if isinstance(model, Urdf) and set(model.all_kinds) <= {"turn", "slide"} and not model.followers and len(mass) <= MAX_DERIVED:
+        out["derivatives"] = model.derivatives(y, rates)
     if isinstance(model, Mjcf) and model.model.nu:
         actuated = lambda y, rates: model.acceleration(y, rates, actuators=True)
         out["acceleration_actuated"] = by_name(model, actuated(y, rates))

@@ -165,8 +165,25 @@ class Urdf:
             "momentum": momentum.linear.copy(),
             "angular_momentum": momentum.angular.copy(),
             "frames": {name: self.pose(data.oMf[i]) for name, i in index.items()},
-            "jacobian": {"frame": links[-1].name, "rows": jacobian @ np.linalg.inv(t) @ self.g},
+            "jacobian": {"frame": links[-1].name, "rows": jacobian @ np.linalg.inv(t) @ self.g,
+                         "bias": self.frame_bias(q, v, t, last)},
         }
+
+    def frame_bias(self, q, v, t, frame):
+        """Acceleration of a frame's origin and its angular acceleration where our accelerations are zero: J' r."""
+        still = np.linalg.solve(t, -self.swing(t, v))
+        pin.forwardKinematics(self.model, self.data, q, v, still)
+        pin.updateFramePlacements(self.model, self.data)
+        world = pin.ReferenceFrame.LOCAL_WORLD_ALIGNED
+        moved = pin.getFrameClassicalAcceleration(self.model, self.data, frame, world)
+        return np.concatenate([moved.linear, moved.angular])
+
+    def derivatives(self, y, rates):
+        """Of the accelerations by values and rates, dampers included; where each joint has one coordinate and none follows."""
+        q, v, _ = self.place(y, rates)
+        by_value, by_rate, inverse = pin.computeABADerivatives(self.model, self.data, q, v, -self.damping * v)
+        inverse = np.triu(inverse) + np.triu(inverse, 1).T
+        return {"by_value": by_value.copy(), "by_rate": by_rate - inverse * self.damping, "by_effort": inverse}
 
     def pose(self, place):
         return {"position": place.translation.copy(), "quaternion": rotation.quaternion(place.rotation)}
