@@ -17,7 +17,7 @@ from pathlib import Path
 import numpy as np
 
 import common
-import rotation
+import match
 from references import COMMITTED
 
 # Effects that no reference has.
@@ -37,22 +37,6 @@ def run(command, timeout):
     return done.returncode, done.stderr + done.stdout
 
 
-def vector(quaternion):
-    """Rotation vector of w x y z."""
-    w, v = quaternion[0], np.array(quaternion[1:])
-    if w < 0:
-        w, v = -w, -v
-    s = np.linalg.norm(v)
-    return v * (2 * np.arctan2(s, w) / s if s > 1e-300 else 2.0)
-
-
-def own_value(kind, value):
-    """A value of the references as a scene has it: rotations as vectors."""
-    if kind in ("ball", "free"):
-        return list(value[:-4]) + list(vector(value[-4:]))
-    return list(value)
-
-
 def blocks(text):
     """The tables of a scene's text, each with its lines."""
     parts = [[]]
@@ -63,53 +47,38 @@ def blocks(text):
     return ["".join(part) for part in parts]
 
 
-def without(text):
-    """The scene without the effects and starts that no reference has."""
-    kept = []
+def without(text, reference):
+    """The scene without the effects and starts that no reference has, and without couplings where equalities are off."""
+    kept, loose = [], "equality" in reference.get("off", []) and "hard" not in reference
     for block in blocks(text):
         head = block.lstrip()
         if head.startswith("[[effect]]"):
             if tomllib.loads(block)["effect"][0].get("kind") in LEFT_OUT:
                 continue
+        if loose and head.startswith("[[coupling]]"):
+            continue
         if head.startswith(("[[initial]]", "[[output]]", "[[contact]]")):
             continue
         kept.append(block)
     return "".join(kept)
 
 
-def base_name(scene, reference):
-    """The free joint of the scene that stands for the reference's `base`."""
-    free = [joint["name"] for joint in scene.get("joint", []) if joint["kind"] == "free"]
-    return {"base": free[0]} if len(free) == 1 and "base" in reference["joints"] else {}
-
-
-def names_of(scene, reference):
-    """{joint of the reference: joint of the scene}, None where one has no partner."""
-    there = {joint["name"] for joint in scene.get("joint", [])}
-    own = base_name(scene, reference)
-    found = {name: own.get(name, name) for name in reference["joints"]}
-    missing = [name for name, ours in found.items() if ours not in there]
-    return found, missing
-
-
 def prepared(text, reference):
-    """Scene text with the reference's state, and with channels of all joints."""
-    scene = tomllib.loads(text)
-    names, missing = names_of(scene, reference)
-    if missing:
-        raise ValueError("no joint " + ", ".join(missing[:3]))
-    lines = [without(text)]
-    held = reference.get("independent", names)
-    for name, kind in reference["joints"].items():
-        ours, state = json.dumps(names[name], ensure_ascii=False), reference["state"][name]
-        value = [float(number) for number in own_value(kind, state["value"])]
-        rate = [float(number) for number in state["rate"]]
-        one = len(rate) == 1
-        if name in held:
-            lines.append(f"\n[[initial]]\njoint = {ours}\nvalue = {value[0] if one else value}\nrate = {rate[0] if one else rate}\n")
-        for i, quantity in enumerate(("value", "rate", "acceleration")):
-            lines.append(f'\n[[output]]\nname = "{list(names).index(name)}:{i}"\njoint = {ours}\nquantity = "{quantity}"\n')
-    return "".join(lines), names
+    """Scene text with the reference's state, and with channels of all joints; and the pairs of joints."""
+    found = match.pairs(tomllib.loads(text), reference)
+    lines, held = [without(text, reference)], reference.get("independent", reference["joints"])
+    values = {name: rows["value"] for name, rows in reference["state"].items()}
+    rates = {name: rows["rate"] for name, rows in reference["state"].items()}
+    for i, pair in enumerate(found):
+        joint = f"joint = {json.dumps(pair.name, ensure_ascii=False)}"
+        value, rate = ([float(n) for n in numbers] for numbers in (pair.value(values), pair.rows(rates)))
+        if len(rate) == 1:
+            value, rate = value[0], rate[0]
+        if pair.parts[0] in held:
+            lines.append(f"\n[[initial]]\n{joint}\nvalue = {value}\nrate = {rate}\n")
+        for k, quantity in enumerate(("value", "rate", "acceleration")):
+            lines.append(f'\n[[output]]\nname = "{i}:{k}"\n{joint}\nquantity = "{quantity}"\n')
+    return "".join(lines), found
 
 
 def read_rows(folder):
@@ -134,25 +103,17 @@ def difference(found, wanted):
     return float(np.max(np.abs(a - b)) / max(1.0, np.max(np.abs(b))))
 
 
-def turned_alike(kind, found, wanted):
-    """Values, with rotations as matrices: vectors jump at pi."""
-    if kind not in ("ball", "free"):
-        return np.array(found), np.array(wanted)
-    mine = rotation.matrix(rotation.of_vector(np.array(found[-3:]))).ravel()
-    theirs = rotation.matrix(np.array(wanted[-4:])).ravel()
-    return np.concatenate([found[:-3], mine]), np.concatenate([wanted[:-4], theirs])
-
-
-def compare(reference, first, last, end):
-    kinds = list(reference["joints"].items())
+def compare(reference, found, first, last, end):
     out = {"acceleration": None, "motion": None}
     wanted = reference.get("acceleration_actuated") or reference.get("acceleration")
     if wanted:
-        out["acceleration"] = difference([first[i, 2] for i in range(len(kinds))], [wanted[name] for name, _ in kinds])
+        out["acceleration"] = difference([first[i, 2] for i in range(len(found))], [pair.rows(wanted) for pair in found])
     if end:
-        pairs = [turned_alike(kind, last[i, 0], end["state"][name]["value"]) for i, (name, kind) in enumerate(kinds)]
-        pairs += [(last[i, 1], end["state"][name]["rate"]) for i, (name, _) in enumerate(kinds)]
-        out["motion"] = difference(*[[pair[k] for pair in pairs] for k in (0, 1)])
+        values = {name: rows["value"] for name, rows in end["state"].items()}
+        rates = {name: rows["rate"] for name, rows in end["state"].items()}
+        ours = [pair.comparable(last[i, 0]) for i, pair in enumerate(found)] + [last[i, 1] for i in range(len(found))]
+        theirs = [pair.comparable(pair.value(values)) for pair in found] + [pair.rows(rates) for pair in found]
+        out["motion"] = difference(ours, theirs)
     return out
 
 
@@ -197,7 +158,7 @@ def one(name, model, reference, options, work):
     row["ran"] = "no" if code else "yes"
     row["says"] = first_line(said) if code else ""
     try:
-        changed, _ = prepared(text, reference)
+        changed, found = prepared(text, reference)
     except ValueError as fault:
         return row | {"says": row["says"] or str(fault)}
     ends = [end for end in reference.get("ends", []) if end["spread"] < WORTH]
@@ -207,7 +168,7 @@ def one(name, model, reference, options, work):
     code, said = run([options.mbs, "run", str(scene), "--out", str(folder), "--duration", length, *RUN], options.patience)
     if code:
         return row | {"says": row["says"] or first_line(said)}
-    return row | compare(reference, *read_rows(folder), ends[-1] if ends else None) | {"time": length}
+    return row | compare(reference, found, *read_rows(folder), ends[-1] if ends else None) | {"time": length}
 
 
 def main():

@@ -37,6 +37,7 @@ class Mjcf:
         mujoco.mj_resetData(model, self.data)
         mujoco.mj_forward(model, self.data)
         self.reference = np.array(self.data.xmat).reshape(-1, 3, 3)
+        self.axes = np.array(self.data.xaxis).reshape(-1, 3)
         weightless = model.opt.disableflags & mujoco.mjtDisableBit.mjDSBL_GRAVITY
         self.gravity = np.zeros(3) if weightless else np.array(model.opt.gravity)
         self.moving = np.array(model.body_weldid) > 0
@@ -145,6 +146,8 @@ class Mjcf:
         jacobian = np.zeros((6, model.nv))
         mujoco.mj_jacBody(model, data, jacobian[:3], jacobian[3:], model.nbody - 1)
         return {
+            "on": {name: self.body_name(model.jnt_bodyid[j]) for j, name in enumerate(self.names)},
+            "axes": {name: self.axes[j] for j, name in enumerate(self.names)},
             "mass": float(mass.sum()),
             "center": weighted / mass.sum() if mass.sum() else np.zeros(3),
             "kinetic": float(data.qvel @ self.matrix() @ data.qvel / 2),
