@@ -6,6 +6,8 @@ is the saddle-point acceleration of sdf_model.py and its motion.
 
 import argparse
 import json
+from concurrent.futures import ProcessPoolExecutor
+from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -22,6 +24,9 @@ FOLLOWING = ("shin-tarsus-joint", "tarsus-spring-joint", "achilles-spring-joint"
 
 # Seconds of computing for one part of a motion: saddle points in Python are slow.
 PATIENCE = 400.0
+
+# Axes are off by less, since they are written with six digits; left so, the tilts would lock the legs [rad].
+MEANT = 1e-6
 
 # Parts of the way from the drawn configuration to a state: the loops stay on the branch that is drawn.
 WAY = 24
@@ -59,11 +64,19 @@ def start(model, seed, follow):
     held = np.setdiff1d(np.arange(6, rows), follow)
     for part in range(1, WAY + 1):
         y[held + 1] = target[held] * part / WAY
+        for i, name in enumerate(model.names):
+            # The foot's parallelogram is drawn flat, where it may fold over; this guess keeps it open.
+            if name.endswith("crank-joint"):
+                crank = y[i + 6]
+                y[model.names.index(name.replace("tarsus-crank-joint", "foot-op")) + 6] = crank
+                y[model.names.index(name.replace("tarsus-crank-joint", "crank-rod-joint")) + 6] = -crank
         y, found, gap, slip = close(model, y, rates, follow)
     return y, found, gap, slip
 
 
-def state(model, seed, times, follow):
+def state(seed, times, follow):
+    """All numbers of one state."""
+    model = Sdf(common.data() / PACKAGE / FILE, MEANT)
     y, rates, gap, slip = start(model, seed, follow)
     jacobian = model.rows(y, rates)[1]
     sizes = np.linalg.svd(jacobian, compute_uv=False)
@@ -86,22 +99,24 @@ def main():
     parser.add_argument("--out", type=Path, default=COMMITTED / "cassie_v2.sdf.json")
     parser.add_argument("--states", type=int, default=10)
     parser.add_argument("--duration", type=float, default=1.0)
+    parser.add_argument("--jobs", type=int, default=2)
     options = parser.parse_args()
     path = common.data() / PACKAGE / FILE
-    model = Sdf(path)
+    model = Sdf(path, MEANT)
     named = [name.endswith(FOLLOWING) for name in model.names]
     follow = np.array([i + 5 for i, yes in enumerate(named) if yes])
     out = {"package": PACKAGE, "path": FILE, "sha256": common.digest(path), "by": "saddle point on pinocchio's terms"}
     out |= {"gravity": model.gravity, "base": "pelvis is free", "cut": [joint["name"] for joint in model.cuts]}
-    out["independent"] = [name for name, yes in zip(model.names, named) if not yes]
+    # With crank and foot both given, the parallelogram cannot fold over.
+    out["independent"] = [name for name, yes in zip(model.names, named) if not yes or name.endswith("foot-op")]
     times = (0.1 * options.duration, 0.3 * options.duration, options.duration)
     out["states"] = []
-    for seed in range(options.states):
-        out["states"].append(state(model, seed, times, follow))
-        last = out["states"][-1]
-        knees = [last["state"][f"{side}-knee-op"]["value"][0] for side in ("left", "right")]
-        ends = [(end["time"], f"{end['spread']:.1e}", f"{end['gap']:.1e}") for end in last["ends"]]
-        print(seed, "knees", np.round(knees, 3), "gap", f"{last['gap']:.1e}", "rank", last["rank"], ends, last["ends_fault"], flush=True)
+    with ProcessPoolExecutor(options.jobs) as pool:
+        for found in pool.map(partial(state, times=times, follow=follow), range(options.states)):
+            out["states"].append(found)
+            knees = [found["state"][f"{side}-knee-op"]["value"][0] for side in ("left", "right")]
+            ends = [(end["time"], f"{end['spread']:.1e}", f"{end['gap']:.1e}") for end in found["ends"]]
+            print(found["seed"], np.round(knees, 3), f"{found['gap']:.1e}", found["rank"], ends, found["ends_fault"], flush=True)
     options.out.write_text(json.dumps(plain(out), separators=(",", ":")) + "\n")
 
 

@@ -27,8 +27,36 @@ def place(text):
     return pin.SE3(pin.rpy.rpyToMatrix(*p[3:]), p[:3])
 
 
+def straightened(axes, most, rounding=2e-13):
+    """Axes within `most` [rad] of each other made parallel, and those within it of a right angle to what more axes have put across it.
+
+    A direction is that which most of its axes have exactly, the first of the file where as many have another.
+    """
+    groups = []
+    for i, axis in enumerate(axes):
+        near = [g for g in groups if np.linalg.norm(np.cross(axes[g[0]], axis)) <= most]
+        near[0].append(i) if near else groups.append([i])
+    values = []
+    for group in groups:
+        same = [sum(np.linalg.norm(np.cross(axes[i], axes[k])) <= rounding for k in group) for i in group]
+        values.append(axes[group[int(np.argmax(same))]])
+    for i, one in enumerate(groups):
+        for j, common in enumerate(groups):
+            across = values[i] @ values[j]
+            if len(common) > 1 and (len(common), j) > (len(one), i) and rounding < abs(across) <= most:
+                turned = values[i] - values[j] * across
+                values[i] = turned / np.linalg.norm(turned)
+    out = list(axes)
+    for group, value in zip(groups, values):
+        for i in group:
+            out[i] = value if axes[i] @ value > 0 else -value
+    return out
+
+
 class Sdf(urdf_model.Urdf):
-    def __init__(self, path):
+    """`most` [rad]: axes that are off by less are taken as they are meant; 0 leaves them as they are written."""
+
+    def __init__(self, path, most=0.0):
         root = common.tree(path)
         self.version = tuple(int(part) for part in root.get("version").split("."))
         model = root.find("model") if root.find("model") is not None else root.find("world/model")
@@ -38,6 +66,10 @@ class Sdf(urdf_model.Urdf):
         self.links = {link.get("name"): link for link in model.findall("link")}
         self.poses = {name: self.frame * place(link.findtext("pose")) for name, link in self.links.items()}
         self.file_joints = [self.read_joint(joint) for joint in model.findall("joint")]
+        turned = [joint for joint in self.file_joints if "axis" in joint]
+        if most:
+            for joint, axis in zip(turned, straightened([joint["axis"] for joint in turned], most)):
+                joint["axis"] = axis
         weight = root.find("world/gravity")
         self.gravity = numbers(weight.text if weight is not None else "", GRAVITY)
         self.build()
@@ -142,12 +174,14 @@ class Sdf(urdf_model.Urdf):
         return [(self.host[joint[end]][0], joint["at"] - self.host[joint[end]][1]) for end in ("parent", "child")]
 
     def rows(self, y, rates):
-        """Of the cut balls: violation, Jacobian in our rates, its bias J' v; and the free terms."""
-        q, v, t = self.place(y, rates)
+        """Of the cut balls: violation, Jacobian in our rates, and its bias J' v."""
+        return self.rows_at(*self.place(y, rates))
+
+    def rows_at(self, q, v, t):
         model, data = self.model, self.data
         pin.forwardKinematics(model, data, q, v, np.zeros(model.nv))
         pin.computeJointJacobians(model, data, q)
-        world, inverse = pin.ReferenceFrame.LOCAL_WORLD_ALIGNED, np.linalg.inv(t)
+        world, inverse = pin.ReferenceFrame.LOCAL_WORLD_ALIGNED, t.T  # T is orthogonal
         gap, jacobian, bias = [], [], []
         for joint in self.cuts:
             parts = []
@@ -179,7 +213,7 @@ class Sdf(urdf_model.Urdf):
         q, v, t = self.place(y, rates)
         mass, bias = self.terms(q, v, t)
         force = self.own_effort(y, rates) - bias
-        _, jacobian, turned = self.rows(y, rates)
+        _, jacobian, turned = self.rows_at(q, v, t)
         lower = np.linalg.cholesky(mass)
         free = np.linalg.solve(lower, force)
         half = np.linalg.solve(lower, jacobian.T).T

@@ -130,7 +130,7 @@ class Urdf:
 
     def terms(self, q, v, t):
         """Mass matrix and bias in our rates, followers tied: M a + bias = effort."""
-        inverse = np.linalg.inv(t)
+        inverse = t.T  # T is orthogonal
         mass = pin.crba(self.model, self.data, q).reshape(self.model.nv, self.model.nv)
         mass = inverse.T @ (np.triu(mass) + np.triu(mass, 1).T) @ inverse
         bias = inverse.T @ pin.nle(self.model, self.data, q, v) - mass @ self.swing(t, v)
