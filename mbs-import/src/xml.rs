@@ -89,7 +89,11 @@ impl Edited {
     }
 
     fn refusal(&self, error: &roxmltree::Error) -> Fault {
-        let byte = self.byte(error.pos());
+        let byte = match error {
+            // it is missed at the end, whatever the parser says
+            roxmltree::Error::UnclosedRootNode => self.text.trim_end().len(),
+            _ => self.byte(error.pos()),
+        };
         let at = self.origin(byte..byte + 1);
         match error {
             roxmltree::Error::DtdDetected => Fault::new(

@@ -184,7 +184,7 @@ fn changes_of_index_resume_to_the_same_bits() {
 #[test]
 fn what_is_thinned_resumes_to_the_same_bits() {
     // 30,000 steps of which every third is a row; and some 30,000 steps of lengths that are not known before
-    let fixed = Method { step: Some(1e-4), ..with("index-3", 3.0) };
+    let fixed = Method { step: Some(1e-4), ..with("recursive", 3.0) };
     assert_eq!(split("double-pendulum", &fixed, 0.7501).summary.steps, 30_000);
     let controlled = Method {
         step_control: Some("error".to_owned()),
