@@ -15,7 +15,8 @@ pub(crate) enum Treatment {
     Refused,
 }
 
-/// An element, or its name behind its parent's: `mimic/joint`. With attributes that are treated alike; none stands for the element itself.
+/// An element, or its name behind its parent's: `mimic/joint`; a name may end with `*`, for all that begin so. With attributes that are
+/// treated alike; none stands for the element itself. The first row that fits holds, those with a parent before those without.
 pub(crate) struct Row {
     pub(crate) element: &'static str,
     /// Names with blanks between them; `*` for all others.
@@ -39,9 +40,13 @@ pub(crate) fn treatment(
     element: &str,
     attribute: &str,
 ) -> Option<Treatment> {
+    let is_like = |pattern: &str, name: &str| match pattern.strip_suffix('*') {
+        Some(begin) => name.starts_with(begin),
+        None => pattern == name,
+    };
     let is_named = |row: &&Row| match row.element.split_once('/') {
-        Some((outer, inner)) => outer == parent && inner == element,
-        None => row.element == element,
+        Some((outer, inner)) => outer == parent && is_like(inner, element),
+        None => is_like(row.element, element),
     };
     let is_meant = |row: &&Row| {
         let mut words = row.attributes.split(' ');
@@ -52,4 +57,36 @@ pub(crate) fn treatment(
         rows.find(|row| is_named(row) && is_meant(row)).map(|row| row.treatment)
     };
     find(true).or_else(|| find(false))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{sdf, urdf};
+
+    /// Lines `parent/element attribute` of a committed list that a table does not know.
+    fn unknown(list: &str, table: &[Row]) -> Vec<String> {
+        let is_unknown = |line: &&str| {
+            let (path, attribute) = line.split_once(' ').expect("two words");
+            let (parent, element) = path.rsplit_once('/').expect("an element in another");
+            let attribute = if attribute == "-" { "" } else { attribute };
+            treatment(table, parent, element, attribute).is_none()
+        };
+        list.lines()
+            .filter(|line| !line.starts_with('#'))
+            .filter(is_unknown)
+            .map(str::to_owned)
+            .collect()
+    }
+
+    #[test]
+    fn every_element_and_attribute_of_the_formats_stands_in_a_table() {
+        for (list, table) in [
+            (include_str!("../elements/urdf.txt"), urdf::TABLE),
+            (include_str!("../elements/sdf.txt"), sdf::TABLE),
+        ] {
+            let unknown = unknown(list, table);
+            assert!(unknown.is_empty(), "{} lines:\n{}", unknown.len(), unknown.join("\n"));
+        }
+    }
 }

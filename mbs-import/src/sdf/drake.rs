@@ -9,6 +9,10 @@ use crate::source::{Fault, Read};
 
 /// Adds what a model has of them.
 pub(super) fn read(model: &Element, scope: &Scope, frames: &Frames, robot: &mut Robot) -> Read<()> {
+    if let Some(joint) = model.child("drake:joint") {
+        let hint = "write it as a <joint> of the format, and a planar one as two prismatic joints and a revolute one";
+        return Err(joint.fault("a joint of another program is not read", hint));
+    }
     for (i, element) in model.each("drake:ball_constraint").enumerate() {
         let [a, b] = points(element, "drake:ball_constraint", scope, frames)?;
         let name = format!("{}ball constraint {}", scope.prefix, i + 1);
