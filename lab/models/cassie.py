@@ -1,4 +1,4 @@
-"""Writes the references of a biped with four loops (Cassie, SDF): cassie.py [--out FILE] [--states N] [--duration T]
+"""Writes the references of a biped with four loops (Cassie, SDF): cassie.py [--out FILE] [--states N] [--duration T]; T = 0: no motion
 
 Ten states by seed: knees at -1.2 to 0 rad, hips within 0.2 rad, rates within 0.5; the rest closes the loops. What follows
 is the saddle-point acceleration of sdf_model.py and its motion.
@@ -109,7 +109,7 @@ def main():
     out |= {"gravity": model.gravity, "base": "pelvis is free", "cut": [joint["name"] for joint in model.cuts]}
     # With crank and foot both given, the parallelogram cannot fold over.
     out["independent"] = [name for name, yes in zip(model.names, named) if not yes or name.endswith("foot-op")]
-    times = (0.1 * options.duration, 0.3 * options.duration, options.duration)
+    times = [part * options.duration for part in (0.1, 0.3, 1.0) if options.duration > 0]
     out["states"] = []
     with ProcessPoolExecutor(options.jobs) as pool:
         for found in pool.map(partial(state, times=times, follow=follow), range(options.states)):
