@@ -124,12 +124,40 @@ def first_line(text):
     return errors[0][:200].replace(str(common.folder()) + "/", "") if errors else "nothing said"
 
 
+def by_drake(found, gravity):
+    """A reference from what Drake says; its free bodies stand as they are drawn."""
+    kinds = {"revolute": "turn", "prismatic": "slide", "universal": "universal", "quaternion_floating": "free"}
+    out = {"joints": {}, "state": {}, "acceleration": {}, "gravity": gravity}
+    for name, joint in found["joints"].items():
+        kind = kinds.get(joint["type"])
+        if kind is None:
+            return None
+        value, rate, acceleration = joint["value"], joint["rate"], joint["acceleration"]
+        if kind == "free":
+            name, value = "base", [0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0]
+            rate, acceleration = rate[3:] + rate[:3], acceleration[3:] + acceleration[:3]
+        out["joints"][name] = kind
+        out["state"][name] = {"value": value, "rate": rate}
+        out["acceleration"][name] = acceleration
+    return out
+
+
+def conventions():
+    """(name, model, reference) of the files on conventions; without those whose coordinates Drake counts in its own way."""
+    folder = common.HERE / "conventions"
+    for name, found in json.loads((folder / "conventions.json").read_text())["files"].items():
+        yield name, folder / name, found | found.get("hard", {})
+    drake = json.loads((folder / "sdf.json").read_text())
+    for name, found in drake["files"].items():
+        reference = by_drake(found, drake["gravity"])
+        if reference:
+            yield name, folder / name, reference
+
+
 def cases(options):
     """(name, model, reference) of the references, of the files on conventions, and of the states of the biped."""
     if options.conventions:
-        found = json.loads((common.HERE / "conventions/conventions.json").read_text())["files"]
-        for name, reference in found.items():
-            yield name, common.HERE / "conventions" / name, reference | reference.get("hard", {})
+        yield from conventions()
         return
     for path in sorted(options.references.glob("*.json")):
         reference = json.loads(path.read_text())

@@ -77,6 +77,8 @@ def pairs(scene, reference):
             found.append(Pair(part, [part], [kind]))
         elif part == "base" and len(free) == 1:
             found.append(Pair(free[0], [part], [kind]))
+        elif any(name.endswith(f"::{part}") for name in names):
+            found.append(Pair(next(name for name in names if name.endswith(f"::{part}")), [part], [kind]))
         elif "on" not in reference:
             raise ValueError(f"no joint {part}")
         elif reference["on"][part] not in bodies:
