@@ -17,7 +17,8 @@ pub fn scene_file(
     if !is_model(bytes) {
         return SceneFile::from_bytes_in(bytes, file, folder).map(|scene| (scene, None));
     }
-    let model = import(bytes, file, &ImportOptions::default())?;
+    let options = ImportOptions { folder: Some(folder.to_owned()), ..ImportOptions::default() };
+    let model = import(bytes, file, &options)?;
     let scene = SceneFile::parse(&model.text, &scene_name(file))?;
     Ok((scene, Some(model)))
 }

@@ -9,7 +9,7 @@ use crate::options::ImportOptions;
 use crate::robot::{Frame, GROUND, Kind, Link, Robot, What};
 use crate::source::{Fault, Origin, Read, Sources};
 use crate::unread::unread;
-use crate::{sdf, urdf, write, xml};
+use crate::{mjcf, sdf, urdf, write, xml};
 use mbs_scene::ReadError;
 
 /// A model as a scene.
@@ -99,18 +99,15 @@ fn whole(
     file: &str,
     context: &mut Context<'_>,
 ) -> Read<(ModelFormat, String, ModelSizes)> {
-    let root = xml::read(text, source)?;
+    let mut root = xml::read(text, source)?;
     let format = format(&root)?;
-    let mut robot = match format {
-        ModelFormat::Urdf => urdf::read(root.read(), context)?,
-        ModelFormat::Sdf => sdf::read(root.read(), context)?,
+    let (mut robot, table) = match format {
+        ModelFormat::Urdf => (urdf::read(root.read(), context)?, urdf::TABLE),
         ModelFormat::Mjcf => {
-            return Err(root.fault("this format is not read yet", "convert it to URDF"));
+            mjcf::include(&mut root, context)?;
+            (mjcf::read(root.read(), context)?, mjcf::TABLE)
         }
-    };
-    let table = match format {
-        ModelFormat::Urdf | ModelFormat::Mjcf => urdf::TABLE,
-        ModelFormat::Sdf => sdf::TABLE,
+        ModelFormat::Sdf => (sdf::read(root.read(), context)?, sdf::TABLE),
     };
     unread(&root, table, &mut context.findings);
     let lumps = lump::lumps(&robot, context.options.balance, &mut context.findings)?;

@@ -1,5 +1,7 @@
 //! What a user may ask of a reader.
 
+use std::path::PathBuf;
+
 /// Whether the root of a model stands on the ground or moves.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Base {
@@ -36,4 +38,10 @@ pub struct ImportOptions {
     pub keep_fixed: Vec<String>,
     /// The keyframe of an MJCF from which it starts.
     pub key: Option<String>,
+    /// The folder of the file, from which it includes others; `None` refuses includes.
+    pub folder: Option<PathBuf>,
+    /// Whether a file outside of that folder is refused.
+    pub no_outside: bool,
+    /// Whether meshes whose mass is needed count as massless, and are told.
+    pub massless_meshes: bool,
 }

@@ -156,6 +156,11 @@ pub(crate) enum What {
         on: Target,
         stiffness: Option<[f64; 2]>,
     },
+    /// A moment or force that stays.
+    Held {
+        on: Target,
+        value: f64,
+    },
     /// A moment or force that is set from outside.
     Input {
         on: Target,

@@ -11,6 +11,8 @@ pub(crate) enum Treatment {
     Ignored(&'static str),
     /// It is for the eye alone.
     Appearance,
+    /// It has no effect on the motion, or another finding tells it.
+    Silent,
     /// The model is refused.
     Refused,
 }

@@ -46,6 +46,7 @@ impl Walk<'_> {
     fn tell(&mut self, told: Option<Treatment>, at: Origin, path: String, what: &str) {
         match told {
             Some(Treatment::Appearance) => self.findings.appearance(at, path),
+            Some(Treatment::Silent) => {}
             Some(Treatment::Ignored(why)) => self.findings.ignored(at, path, why),
             Some(_) => {
                 self.findings.ignored(at, path, format!("this {what} is not read at this place"))

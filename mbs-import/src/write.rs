@@ -285,6 +285,10 @@ impl Writer<'_> {
                     self.key("damping", number(*damping));
                 }
             }
+            What::Held { on, value } => {
+                self.effect(name, word_of_drive(on), on);
+                self.value(on, *value);
+            }
             What::Input { on, value } => {
                 self.effect(name, word_of_drive(on), on);
                 self.value(on, *value);

@@ -1,0 +1,380 @@
+//! Actuators: an input in units of their control, and the force that follows from it.
+
+use super::defaults::is_actuator;
+use super::model::{Model, Motion, Tendon};
+use crate::element::{Attribute, Element};
+use crate::robot::{Coordinate, Target, Term, What};
+use crate::source::Read;
+
+/// An actuator: force = gain u + b₀ + b₁ l + b₂ l̇ of its length l.
+#[derive(Debug, Clone)]
+struct Actuator {
+    /// The word that wrote its gain and bias.
+    by: String,
+    gain: Vec<f64>,
+    bias: Vec<f64>,
+    gain_kind: String,
+    bias_kind: String,
+    dynamics: String,
+    time: f64,
+    gear: f64,
+    other_gears: bool,
+    control: Option<[f64; 2]>,
+    control_limited: Option<bool>,
+    force: Option<[f64; 2]>,
+    force_limited: Option<bool>,
+    armature: f64,
+    damping: f64,
+    inherit: f64,
+    /// What acts and has no counterpart.
+    lost: Vec<String>,
+}
+
+impl Actuator {
+    fn new() -> Self {
+        Self {
+            by: "general".into(),
+            gain: vec![1.0],
+            bias: vec![0.0; 3],
+            gain_kind: "fixed".into(),
+            bias_kind: "none".into(),
+            dynamics: "none".into(),
+            time: 1.0,
+            gear: 1.0,
+            other_gears: false,
+            control: None,
+            control_limited: None,
+            force: None,
+            force_limited: None,
+            armature: 0.0,
+            damping: 0.0,
+            inherit: 0.0,
+            lost: Vec::new(),
+        }
+    }
+
+    /// Takes over what an element of one of the words writes.
+    fn apply(&mut self, element: &Element) -> Read<()> {
+        let word = element.name.as_str();
+        if self.by != word && self.by != "general" && word != "general" {
+            // the words of two kinds do not add up
+            (self.gain, self.bias) = (vec![1.0], vec![0.0; 3]);
+            (self.gain_kind, self.bias_kind) = ("fixed".into(), "none".into());
+            (self.dynamics, self.time) = ("none".into(), 1.0);
+        }
+        word.clone_into(&mut self.by);
+        self.common(element)?;
+        let text = |name: &str, value: &mut String| {
+            if let Some(word) = element.value(name) {
+                word.clone_into(value);
+            }
+        };
+        let first_gain = self.gain.first().copied().unwrap_or(1.0);
+        match word {
+            "general" => {
+                text("gaintype", &mut self.gain_kind);
+                text("biastype", &mut self.bias_kind);
+                text("dyntype", &mut self.dynamics);
+                if let Some(list) = element.attribute("gainprm") {
+                    self.gain = list.list()?;
+                }
+                if let Some(list) = element.attribute("biasprm") {
+                    self.bias = list.list()?;
+                }
+                if let Some(list) = element.attribute("dynprm") {
+                    self.time = list.list()?.first().copied().unwrap_or(1.0);
+                }
+            }
+            "motor" => {
+                (self.gain, self.bias) = (vec![1.0], vec![0.0; 3]);
+                (self.gain_kind, self.bias_kind) = ("fixed".into(), "none".into());
+                self.dynamics = "none".into();
+            }
+            "position" => {
+                let stiffness = element.number_or("kp", first_gain)?;
+                let damping = -self.bias.get(2).copied().unwrap_or(0.0);
+                let damping = element.number_or("kv", damping)?;
+                self.gain = vec![stiffness];
+                self.bias = vec![0.0, -stiffness, -damping];
+                (self.gain_kind, self.bias_kind) = ("fixed".into(), "affine".into());
+                self.inherit = element.number_or("inheritrange", self.inherit)?;
+                let time = element.number_or("timeconst", 0.0)?;
+                if time > 0.0 {
+                    (self.dynamics, self.time) = ("filterexact".into(), time);
+                }
+            }
+            "velocity" => {
+                let damping = element.number_or("kv", first_gain)?;
+                self.gain = vec![damping];
+                self.bias = vec![0.0, 0.0, -damping];
+                (self.gain_kind, self.bias_kind) = ("fixed".into(), "affine".into());
+            }
+            "damper" => {
+                // force = −kv u l̇: a product of control and rate
+                self.gain_kind = "affine".into();
+                self.gain = vec![0.0, 0.0, -element.number_or("kv", 1.0)?];
+            }
+            // their own laws
+            _ => {
+                self.gain_kind = word.to_owned();
+            }
+        }
+        Ok(())
+    }
+
+    /// What all words have.
+    fn common(&mut self, element: &Element) -> Read<()> {
+        for name in ["name", "class", "group", "user"] {
+            element.attribute(name);
+        }
+        if let Some(gear) = element.attribute("gear") {
+            let gear = gear.list()?;
+            self.gear = gear.first().copied().unwrap_or(1.0);
+            self.other_gears = gear.iter().skip(1).any(|x| *x != 0.0);
+        }
+        let limited = |name: &str, value: &mut Option<bool>| -> Read<()> {
+            if let Some(word) = element.attribute(name) {
+                let word = super::compiler::word(word, &["false", "true", "auto"])?;
+                *value = [Some(false), Some(true), None][word];
+            }
+            Ok(())
+        };
+        limited("ctrllimited", &mut self.control_limited)?;
+        limited("forcelimited", &mut self.force_limited)?;
+        if let Some(range) = element.attribute("ctrlrange") {
+            self.control = Some(range.numbers()?);
+        }
+        if let Some(range) = element.attribute("forcerange") {
+            self.force = Some(range.numbers()?);
+        }
+        self.armature = element.number_or("armature", self.armature)?;
+        if let Some(damping) = element.attribute("damping") {
+            let damping = damping.list()?;
+            self.damping = damping.first().copied().unwrap_or(0.0);
+            if damping.iter().skip(1).any(|x| *x != 0.0) {
+                self.lost.push("damping that grows with the rate".into());
+            }
+        }
+        if element.number_or("delay", 0.0)? > 0.0 {
+            self.lost.push("delay".into());
+        }
+        if element.value("actlimited") == Some("true") || element.attribute("actrange").is_some() {
+            self.lost.push("limits of the activation".into());
+        }
+        Ok(())
+    }
+
+    /// Why the scene cannot have its force.
+    fn refusal(&self) -> Option<String> {
+        let is_constant = self.gain.iter().skip(1).take(2).all(|x| *x == 0.0);
+        if self.gain_kind != "fixed" && !(self.gain_kind == "affine" && is_constant) {
+            let other = if self.by == "general" { &self.gain_kind } else { &self.by };
+            return Some(format!("`{other}`: its force is no sum of control, length and rate"));
+        }
+        if !matches!(self.bias_kind.as_str(), "none" | "affine") {
+            return Some(format!("the bias `{}` is not read", self.bias_kind));
+        }
+        if !matches!(self.dynamics.as_str(), "none" | "filter" | "filterexact") {
+            return Some(format!("the dynamics `{}` of its activation are not read", self.dynamics));
+        }
+        None
+    }
+}
+
+/// What an actuator pulls: terms of its length without gear, and the length in the reference configuration.
+struct Transmission {
+    terms: Vec<Term>,
+    drawn: f64,
+    /// Ends of the effort of its joint.
+    effort: Option<[f64; 2]>,
+    range: Option<[f64; 2]>,
+    label: String,
+}
+
+/// Reads the elements `actuator`.
+pub(super) fn read<'a>(root: &'a Element, model: &mut Model<'a, '_, '_>) -> Read<()> {
+    for element in root.each("actuator").flat_map(|actuators| &actuators.children) {
+        if !is_actuator(&element.name) {
+            continue;
+        }
+        let mut actuator = Actuator::new();
+        let classes = model.classes;
+        for default in classes.actuators(element.read())? {
+            actuator.apply(default)?;
+        }
+        actuator.apply(element)?;
+        for ending in model.endings(element) {
+            add(element, &actuator, &ending, model)?;
+        }
+    }
+    Ok(())
+}
+
+/// An actuator that pulls something; one that the scene cannot have is told, never silent.
+fn add(element: &Element, actuator: &Actuator, ending: &str, model: &mut Model<'_, '_, '_>) -> Read<()> {
+    let mut lost = |says: String| {
+        element.read_whole();
+        model.context.findings.ignored(element.at, format!("actuator/{}", element.label()), says);
+        model.inputs.push(None);
+    };
+    if !model.compiler.acts.actuation {
+        lost("actuation is disabled in the file".into());
+        return Ok(());
+    }
+    if let Some(says) = actuator.refusal() {
+        lost(format!("{says}: the actuator does not act here"));
+        return Ok(());
+    }
+    let Some(pulled) = transmission(element, ending, model)? else {
+        element.read_whole();
+        let says = "what it pulls has no coordinate of the scene: the actuator does not act here";
+        model.context.findings.ignored(element.at, format!("actuator/{}", element.label()), says);
+        model.inputs.push(None);
+        return Ok(());
+    };
+    for says in &actuator.lost {
+        model.context.findings.ignored(element.at, format!("actuator/{}", element.label()), format!("{says}: does not act here"));
+    }
+    let name = match element.value("name") {
+        Some(name) => format!("{name}{ending}"),
+        None => format!("{} {}", pulled.label, element.name),
+    };
+    laws(&name, actuator, &pulled, model);
+    Ok(())
+}
+
+/// What an actuator pulls; `None` where that is no sum of coordinates.
+fn transmission(element: &Element, ending: &str, model: &mut Model<'_, '_, '_>) -> Read<Option<Transmission>> {
+    let of_joint = |motion: &Motion| {
+        let (term, drawn) = motion.term(1.0);
+        let name = motion.name.clone();
+        Transmission { terms: vec![term], drawn, effort: motion.effort, range: motion.range, label: name }
+    };
+    let joint = element.attribute("joint").or_else(|| element.attribute("jointinparent"));
+    if let Some(joint) = joint {
+        let motion = model.motion(joint, ending)?;
+        return Ok(motion.is_single().then(|| of_joint(motion)));
+    }
+    if let Some(tendon) = element.attribute("tendon") {
+        let number = tendon_number(tendon, ending, model)?;
+        return Ok(match &model.tendons[number] {
+            Tendon::Sum(terms, drawn) if !terms.is_empty() => Some(Transmission {
+                terms: terms.clone(),
+                drawn: *drawn,
+                effort: None,
+                range: None,
+                label: tendon.value.clone(),
+            }),
+            _ => None,
+        });
+    }
+    Ok(None)
+}
+
+fn tendon_number(tendon: &Attribute, ending: &str, model: &Model<'_, '_, '_>) -> Read<usize> {
+    let word = tendon.value.trim();
+    let number = model.tendon_names.get(&format!("{word}{ending}"));
+    number.map_or_else(|| model.tendon_names.find(word, tendon.at), Ok)
+}
+
+/// The input, the signals that follow from it, and the effort that follows from those.
+fn laws(name: &str, actuator: &Actuator, pulled: &Transmission, model: &mut Model<'_, '_, '_>) {
+    let gear = actuator.gear;
+    let on = match &pulled.terms[..] {
+        [only] if only.factor == 1.0 => Target::Coordinate(only.of.clone()),
+        terms => Target::Sum(terms.to_vec()),
+    };
+    // inertia and damping of the actuator are on its length, which is gear times what it pulls
+    if actuator.damping > 0.0 {
+        let damping = actuator.damping * gear * gear;
+        let what = What::Spring { on: on.clone(), stiffness: 0.0, damping, free: 0.0 };
+        model.law(&format!("{name} damping"), what);
+    }
+    if let ([only], true) = (&pulled.terms[..], actuator.armature > 0.0) {
+        let inertia = actuator.armature * (gear * only.factor).powi(2);
+        let on = Target::Coordinate(only.of.clone());
+        model.law(&format!("{name} armature"), What::Rotor { on, inertia });
+    }
+    let control = control_range(actuator, pulled, model);
+    let force = actuator.force.filter(|_| actuator.force_limited.unwrap_or(model.compiler.auto_limits));
+    let gain = actuator.gain.first().copied().unwrap_or(1.0);
+    let bias = |i: usize| actuator.bias.get(i).copied().unwrap_or(0.0);
+    let has_bias = actuator.bias_kind == "affine" && (0..3).any(|i| bias(i) != 0.0);
+    let is_plain = control.is_none() && force.is_none() && pulled.effort.is_none() && !has_bias;
+    if is_plain && gain * gear == 1.0 && actuator.dynamics == "none" {
+        model.inputs.push(Some((model.robot.laws.len(), 1.0)));
+        model.law(name, What::Input { on, value: 0.0 });
+        return;
+    }
+    model.inputs.push(Some((model.robot.laws.len(), 1.0)));
+    let mut signal = model.law(name, What::Set { value: 0.0 });
+    if let Some([lower, upper]) = control {
+        signal = model.law(&format!("{name} control"), What::Clamp { of: signal, lower, upper });
+    }
+    if actuator.dynamics != "none" {
+        signal = model.law(&format!("{name} activation"), What::Lag { of: signal, time: actuator.time });
+    }
+    let mut sum = vec![(signal, gain)];
+    if has_bias {
+        add_bias(name, actuator, pulled, &mut sum, model);
+    }
+    // without a limit of its force, the gear goes into the same sum
+    let clamp = force.is_some();
+    let share = if clamp { 1.0 } else { gear };
+    let of: Vec<_> = sum.into_iter().map(|(signal, factor)| (signal, factor * share)).collect();
+    signal = model.law(&format!("{name} force"), What::Sum { of });
+    if let Some([lower, upper]) = force {
+        signal = model.law(&format!("{name} limited"), What::Clamp { of: signal, lower, upper });
+        if gear != 1.0 {
+            signal = model.law(&format!("{name} geared"), What::Sum { of: vec![(signal, gear)] });
+        }
+    }
+    if let Some([lower, upper]) = pulled.effort {
+        signal = model.law(&format!("{name} effort"), What::Clamp { of: signal, lower, upper });
+    }
+    model.law(&format!("{name} drive"), What::Driven { on, signal });
+}
+
+/// b₀ + b₁ l + b₂ l̇ as signals, with l = gear times the length that is pulled.
+fn add_bias(
+    name: &str,
+    actuator: &Actuator,
+    pulled: &Transmission,
+    sum: &mut Vec<(String, f64)>,
+    model: &mut Model<'_, '_, '_>,
+) {
+    let gear = actuator.gear;
+    let bias = |i: usize| actuator.bias.get(i).copied().unwrap_or(0.0);
+    let constant = bias(0) + bias(1) * gear * pulled.drawn;
+    if constant != 0.0 {
+        let signal = model.law(&format!("{name} constant"), What::Constant { value: constant });
+        sum.push((signal, 1.0));
+    }
+    for (factor, is_rate, word) in [(bias(1), false, "value"), (bias(2), true, "rate")] {
+        if factor == 0.0 {
+            continue;
+        }
+        for (number, term) in pulled.terms.iter().enumerate() {
+            let ending = if pulled.terms.len() > 1 { format!(" {}", number + 1) } else { String::new() };
+            let of: Coordinate = term.of.clone();
+            let signal = model.law(&format!("{name} {word}{ending}"), What::Measure { of, is_rate });
+            sum.push((signal, factor * gear * term.factor));
+        }
+    }
+}
+
+/// Limits of the control.
+fn control_range(
+    actuator: &Actuator,
+    pulled: &Transmission,
+    model: &Model<'_, '_, '_>,
+) -> Option<[f64; 2]> {
+    if !model.compiler.acts.clamp {
+        return None;
+    }
+    if let (Some([lower, upper]), true) = (pulled.range, actuator.inherit > 0.0) {
+        let (middle, half) = ((lower + upper) / 2.0, (upper - lower) / 2.0 * actuator.inherit);
+        return Some([middle - half, middle + half]);
+    }
+    actuator.control.filter(|_| actuator.control_limited.unwrap_or(model.compiler.auto_limits))
+}

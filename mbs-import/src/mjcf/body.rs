@@ -1,0 +1,284 @@
+//! The tree of bodies, with `frame` and `replicate`.
+
+use super::defaults::{MAIN, View};
+use super::geom::{self, Geom};
+use super::joint::{self, Written};
+use super::model::{Model, Site, Sort};
+use super::orientation::{euler, pose};
+use crate::element::Element;
+use crate::inertia::{Mass, tensor};
+use crate::pose::{Pose, V3, v3};
+use crate::robot::{Frame, GROUND, Link};
+use crate::source::{Fault, Read};
+
+/// Copies that one `replicate` makes.
+const MAX_COPIES: f64 = 10_000.0;
+/// Bodies, joints, geoms and sites of a model: copies of copies grow fast.
+const MAX_PARTS: usize = 200_000;
+
+/// Where the elements of a body, a frame or a copy stand.
+#[derive(Debug, Clone)]
+struct Scope {
+    link: usize,
+    /// Global.
+    frame: Pose,
+    class: usize,
+    /// The ending of all names, which copies have.
+    ending: String,
+    /// Whether the body does not move.
+    is_still: bool,
+}
+
+/// What a body has besides other bodies.
+#[derive(Debug, Default)]
+struct Own {
+    joints: Vec<Written>,
+    inertial: Option<Mass>,
+    geoms: Vec<Mass>,
+    meshes: Vec<Fault>,
+    gravity_share: f64,
+}
+
+/// Reads the elements `worldbody`.
+pub(super) fn read<'a>(root: &'a Element, model: &mut Model<'a, '_, '_>) -> Read<()> {
+    let mut walk = Walk { model, parts: 0, numbers: 0 };
+    for world in root.each("worldbody") {
+        let frame = Pose::identity();
+        let scope = Scope { link: GROUND, frame, class: MAIN, ending: String::new(), is_still: true };
+        let scope = Scope { class: walk.class(world, &scope)?, ..scope };
+        let mut own = Own::default();
+        walk.own(world, &scope, &mut own)?;
+        if let Some(joint) = own.joints.first() {
+            return Err(Fault::new(joint.at(), "a joint of the world", "put it into a body"));
+        }
+        walk.bodies(world, &scope)?;
+    }
+    Ok(())
+}
+
+struct Walk<'m, 'a, 'b, 'c> {
+    model: &'m mut Model<'a, 'b, 'c>,
+    parts: usize,
+    /// Bodies so far, which those without a name are called by.
+    numbers: usize,
+}
+
+impl<'a> Walk<'_, 'a, '_, '_> {
+    fn part(&mut self, element: &Element) -> Read<()> {
+        self.parts += 1;
+        if self.parts > MAX_PARTS {
+            let message = format!("more than {MAX_PARTS} bodies, joints, geoms and sites");
+            return Err(element.fault(message, "replicate fewer of them"));
+        }
+        Ok(())
+    }
+
+    /// The class of what is in an element.
+    fn class(&self, element: &Element, scope: &Scope) -> Read<usize> {
+        let class = element.attribute("childclass");
+        class.map_or(Ok(scope.class), |name| self.model.classes.find(name))
+    }
+
+    fn name(&mut self, element: &Element, scope: &Scope) -> Option<String> {
+        let name = element.value("name").filter(|name| !name.is_empty())?;
+        Some(self.model.copied(name, &scope.ending))
+    }
+
+    /// What belongs to the body itself.
+    fn own(&mut self, element: &'a Element, scope: &Scope, own: &mut Own) -> Read<()> {
+        let classes = self.model.classes;
+        for child in &element.children {
+            match child.name.as_str() {
+                "frame" | "replicate" => {
+                    for scope in self.scopes(child.read(), scope)? {
+                        self.part(child)?;
+                        self.own(child, &scope, own)?;
+                    }
+                }
+                "inertial" => own.inertial = Some(self.inertial(child.read(), scope)?),
+                "joint" | "freejoint" => {
+                    self.part(child)?;
+                    let body = &self.model.robot.links[scope.link].name;
+                    let unnamed = match own.joints.len() {
+                        0 => format!("{body} joint"),
+                        n => format!("{body} joint {}", n + 1),
+                    };
+                    let name = match self.name(child, scope) {
+                        Some(name) => name,
+                        None => self.model.free_name(Sort::Joint, &unnamed),
+                    };
+                    let view = match child.name.as_str() {
+                        "joint" => classes.view(child.read(), scope.class)?,
+                        _ => View::plain(child.read()),
+                    };
+                    own.joints.push(joint::read(&view, name, &scope.frame, self.model)?);
+                }
+                "geom" => {
+                    self.part(child)?;
+                    let view = classes.view(child.read(), scope.class)?;
+                    match geom::read(&view, scope.link, &scope.frame, self.model)? {
+                        Geom::Solid(mass) => own.geoms.push(mass),
+                        Geom::Mesh(fault) => own.meshes.push(fault),
+                        Geom::Nothing => {}
+                    }
+                }
+                "site" => self.site(child.read(), scope)?,
+                "composite" | "flexcomp" | "attach" => {
+                    let message = format!("`{}` makes bodies, which this reader does not make", child.name);
+                    return Err(child.fault(message, "save the compiled model with the format's own program, and give that file"));
+                }
+                _ => {}
+            }
+        }
+        Ok(())
+    }
+
+    /// The bodies in a body.
+    fn bodies(&mut self, element: &'a Element, scope: &Scope) -> Read<()> {
+        for child in &element.children {
+            match child.name.as_str() {
+                "frame" | "replicate" => {
+                    for scope in self.scopes(child, scope)? {
+                        self.bodies(child, &scope)?;
+                    }
+                }
+                "body" => self.body(child.read(), scope)?,
+                _ => {}
+            }
+        }
+        Ok(())
+    }
+
+    fn body(&mut self, element: &'a Element, scope: &Scope) -> Read<()> {
+        self.part(element)?;
+        self.numbers += 1;
+        let name = match self.name(element, scope) {
+            Some(name) => name,
+            None => self.model.free_name(Sort::Link, &format!("body{}", self.numbers)),
+        };
+        let link = self.model.robot.links.len();
+        // a body of the file has the number of its link here, which massless links between joints would move
+        self.model.bodies.add(&name, element.at, &self.model.context.sources)?;
+        self.model.body_links.push(link);
+        // the scene's own name for what does not move
+        let name = if name == "ground" { "ground-link".to_owned() } else { name };
+        let name = if element.value("name").is_some() { self.model.free_name(Sort::Link, &name) } else { name };
+        let frame = scope.frame.then(&pose(&View::plain(element), &self.model.compiler)?);
+        self.model.robot.links.push(Link { name, at: element.at, pose: frame, mass: None });
+        let mut inner = Scope {
+            link,
+            frame,
+            class: self.class(element, scope)?,
+            ending: scope.ending.clone(),
+            is_still: false,
+        };
+        let mut own = Own { gravity_share: element.number_or("gravcomp", 0.0)?, ..Own::default() };
+        self.own(element, &inner, &mut own)?;
+        let mocap = element.attribute("mocap").filter(|mocap| mocap.value.trim() == "true");
+        if mocap.is_some() {
+            let says = "a body that is set from outside: it stands where it is drawn";
+            self.model.context.findings.approximated(element.at, element.label(), says);
+        }
+        inner.is_still = own.joints.is_empty() && scope.is_still;
+        let mass = self.mass(element, &own, inner.is_still)?;
+        self.model.masses.push((link, mass, own.gravity_share));
+        joint::join(std::mem::take(&mut own.joints), scope.link, link, self.model)?;
+        self.bodies(element, &inner)
+    }
+
+    /// The mass of a body: as written, or that of its geoms.
+    fn mass(&mut self, element: &Element, own: &Own, is_still: bool) -> Read<Mass> {
+        use super::compiler::FromGeoms::{Always, Auto, Never};
+        let sum = own.geoms.iter().fold(Mass::none(), |sum, geom| sum.with(geom));
+        let counts_geoms = match (self.model.compiler.from_geoms, &own.inertial) {
+            (Never, _) | (Auto, Some(_)) => false,
+            (Always, Some(_)) => !own.geoms.is_empty() || !own.meshes.is_empty(),
+            (Always | Auto, None) => true,
+        };
+        if !counts_geoms {
+            return Ok(own.inertial.unwrap_or_else(Mass::none));
+        }
+        if let Some(fault) = own.meshes.first().filter(|_| !is_still) {
+            if !self.model.context.options.massless_meshes {
+                return Err(fault.clone());
+            }
+            for mesh in &own.meshes {
+                let says = "a mesh counts as massless (--massless-meshes)";
+                let label = format!("{}/geom", element.label());
+                self.model.context.findings.ignored(mesh.at, label, says);
+            }
+        }
+        Ok(sum)
+    }
+
+    fn inertial(&mut self, element: &'a Element, scope: &Scope) -> Read<Mass> {
+        let frame = scope.frame.then(&pose(&View::plain(element), &self.model.compiler)?);
+        let mass = element.need("mass")?;
+        let value = mass.number()?;
+        if value < 0.0 {
+            return Err(mass.fault("the mass is below zero", "write a mass of zero or more, in kg"));
+        }
+        let [xx, yy, zz] = element.numbers_or("diaginertia", [0.0; 3])?;
+        let six = match element.attribute("fullinertia") {
+            // the file has xx yy zz xy xz yz
+            Some(full) => full.numbers::<6>().map(|[xx, yy, zz, xy, xz, yz]| [xx, yy, zz, xy, yz, xz])?,
+            None => [xx, yy, zz, 0.0, 0.0, 0.0],
+        };
+        let own = Mass { mass: value, center: V3::zeros(), tensor: tensor(six) };
+        Ok(own.seen_from(&frame))
+    }
+
+    fn site(&mut self, element: &'a Element, scope: &Scope) -> Read<()> {
+        self.part(element)?;
+        let view = self.model.classes.view(element, scope.class)?;
+        let frame = match view.attribute("fromto") {
+            Some(ends) => super::orientation::from_to(ends)?.0,
+            None => pose(&view, &self.model.compiler)?,
+        };
+        let Some(name) = self.name(element, scope) else { return Ok(()) };
+        let frame = scope.frame.then(&frame);
+        self.model.site_names.add(&name, element.at, &self.model.context.sources)?;
+        self.model.sites.push(Site { link: scope.link, pose: frame });
+        Ok(())
+    }
+
+    /// Where the elements of a `frame` stand, or of each copy of a `replicate`.
+    fn scopes(&mut self, element: &'a Element, scope: &Scope) -> Read<Vec<Scope>> {
+        let view = View::plain(element);
+        let class = self.class(element, scope)?;
+        if element.name == "frame" {
+            element.attribute("name");
+            let frame = scope.frame.then(&pose(&view, &self.model.compiler)?);
+            return Ok(vec![Scope { frame, class, ..scope.clone() }]);
+        }
+        let count = element.need("count")?;
+        let number = count.number()?;
+        if !(1.0..=MAX_COPIES).contains(&number) || number.fract() != 0.0 {
+            let hint = format!("write a whole number from 1 to {MAX_COPIES}");
+            return Err(count.fault("no number of copies", hint));
+        }
+        let offset = v3(element.numbers_or("offset", [0.0; 3])?);
+        let angles = element.numbers_or::<3>("euler", [0.0; 3])?;
+        let separator = element.value("sep").unwrap_or("");
+        let mut scopes = Vec::new();
+        let mut at = V3::zeros();
+        let width = format!("{}", number - 1.0).len();
+        for copy in 0..number as usize {
+            let turned = euler(angles.map(|angle| angle * copy as f64), &self.model.compiler);
+            let frame = scope.frame.then(&Pose::new(turned, at));
+            at += turned * offset;
+            // the endings of inner copies come first
+            let ending = format!("{separator}{copy:0width$}{}", scope.ending);
+            scopes.push(Scope { frame, class, ending, ..scope.clone() });
+        }
+        Ok(scopes)
+    }
+}
+
+/// Welds of a body to its parent have no joint of their own; sites are frames of the scene.
+pub(super) fn frames(model: &mut Model<'_, '_, '_>, names: &[String]) {
+    for (site, name) in model.sites.clone().into_iter().zip(names) {
+        let name = model.free_name(Sort::Frame, name);
+        model.robot.frames.push(Frame { name, link: site.link, pose: site.pose });
+    }
+}

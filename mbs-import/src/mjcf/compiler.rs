@@ -1,0 +1,176 @@
+//! Settings of the whole model: `compiler` and `option`.
+
+use crate::element::{Attribute, Element};
+use crate::source::Read;
+
+/// Where the inertia of a body comes from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum FromGeoms {
+    Never,
+    Always,
+    /// Where no `inertial` is written.
+    Auto,
+}
+
+/// How a file is to be read, and what of it acts.
+#[derive(Debug, Clone)]
+pub(super) struct Compiler {
+    pub(super) is_degree: bool,
+    /// Axes of three Euler angles; capitals are axes that stay.
+    pub(super) sequence: [u8; 3],
+    pub(super) auto_limits: bool,
+    pub(super) from_geoms: FromGeoms,
+    /// The first and the last group of geoms that have mass.
+    pub(super) groups: [f64; 2],
+    pub(super) bound_mass: f64,
+    pub(super) bound_inertia: f64,
+    pub(super) balance: bool,
+    pub(super) total_mass: Option<f64>,
+    pub(super) gravity: [f64; 3],
+    pub(super) acts: Acts,
+}
+
+/// What `option/flag` leaves on.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Acts {
+    pub(super) spring: bool,
+    pub(super) damper: bool,
+    pub(super) friction: bool,
+    pub(super) limit: bool,
+    pub(super) equality: bool,
+    pub(super) actuation: bool,
+    pub(super) clamp: bool,
+}
+
+impl Compiler {
+    /// The settings of all `compiler` and `option` elements: a later one holds.
+    pub(super) fn read(root: &Element) -> Read<Self> {
+        let mut settings = Self {
+            is_degree: true,
+            sequence: *b"xyz",
+            auto_limits: true,
+            from_geoms: FromGeoms::Auto,
+            groups: [0.0, 5.0],
+            bound_mass: 0.0,
+            bound_inertia: 0.0,
+            balance: false,
+            total_mass: None,
+            gravity: [0.0, 0.0, -9.81],
+            acts: Acts {
+                spring: true,
+                damper: true,
+                friction: true,
+                limit: true,
+                equality: true,
+                actuation: true,
+                clamp: true,
+            },
+        };
+        for element in root.each("compiler") {
+            settings.compiler(element)?;
+        }
+        for element in root.each("option") {
+            settings.option(element)?;
+        }
+        Ok(settings)
+    }
+
+    /// An angle in radians.
+    pub(super) fn angle(&self, x: f64) -> f64 {
+        if self.is_degree { x / 180.0 * core::f64::consts::PI } else { x }
+    }
+
+    fn compiler(&mut self, element: &Element) -> Read<()> {
+        if let Some(angle) = element.attribute("angle") {
+            self.is_degree = word(angle, &["radian", "degree"])? == 1;
+        }
+        if let Some(coordinate) = element.attribute("coordinate") {
+            if coordinate.value.trim() != "local" {
+                return Err(coordinate.fault(
+                    "places in global coordinates were taken out of the format",
+                    "save the model with a program that still reads them, or write coordinate=\"local\"",
+                ));
+            }
+        }
+        if let Some(sequence) = element.attribute("eulerseq") {
+            let letters = sequence.value.trim().as_bytes();
+            let known = |letter: &u8| b"xyzXYZ".contains(letter);
+            let letters = letters.try_into().ok().filter(|word: &[u8; 3]| word.iter().all(known));
+            self.sequence = letters.ok_or_else(|| {
+                sequence.fault("no three axes", "write three of x, y, z, X, Y, Z: `xyz`")
+            })?;
+        }
+        if let Some(from) = element.attribute("inertiafromgeom") {
+            let is = word(from, &["false", "true", "auto"])?;
+            self.from_geoms = [FromGeoms::Never, FromGeoms::Always, FromGeoms::Auto][is];
+        }
+        flag(element, "autolimits", &mut self.auto_limits)?;
+        flag(element, "balanceinertia", &mut self.balance)?;
+        self.groups = element.numbers_or("inertiagrouprange", self.groups)?;
+        self.bound_mass = element.number_or("boundmass", self.bound_mass)?;
+        self.bound_inertia = element.number_or("boundinertia", self.bound_inertia)?;
+        if let Some(total) = element.attribute("settotalmass") {
+            // a number below zero says that nothing is asked for
+            self.total_mass = Some(total.number()?).filter(|total| *total > 0.0);
+        }
+        Ok(())
+    }
+
+    fn option(&mut self, element: &Element) -> Read<()> {
+        self.gravity = element.numbers_or("gravity", self.gravity)?;
+        for flags in element.each("flag") {
+            let acts = &mut self.acts;
+            for (name, is_on) in [
+                ("spring", &mut acts.spring),
+                ("damper", &mut acts.damper),
+                ("frictionloss", &mut acts.friction),
+                ("limit", &mut acts.limit),
+                ("equality", &mut acts.equality),
+                ("actuation", &mut acts.actuation),
+                ("clampctrl", &mut acts.clamp),
+            ] {
+                switch(flags, name, is_on)?;
+            }
+            let mut passive = true;
+            switch(flags, "passive", &mut passive)?;
+            let mut constraint = true;
+            switch(flags, "constraint", &mut constraint)?;
+            let mut gravity = true;
+            switch(flags, "gravity", &mut gravity)?;
+            if !passive {
+                (acts.spring, acts.damper) = (false, false);
+            }
+            if !constraint {
+                (acts.equality, acts.limit, acts.friction) = (false, false, false);
+            }
+            if !gravity {
+                self.gravity = [0.0; 3];
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Which of some words a value is.
+pub(super) fn word(attribute: &Attribute, known: &[&str]) -> Read<usize> {
+    known.iter().position(|word| *word == attribute.value.trim()).ok_or_else(|| {
+        attribute.fault(
+            format!("`{}` is `{}`", attribute.name, attribute.value),
+            format!("it is one of {}", known.join(", ")),
+        )
+    })
+}
+
+fn flag(element: &Element, name: &str, value: &mut bool) -> Read<()> {
+    if let Some(attribute) = element.attribute(name) {
+        *value = word(attribute, &["false", "true"])? == 1;
+    }
+    Ok(())
+}
+
+fn switch(element: &Element, name: &str, value: &mut bool) -> Read<()> {
+    if let Some(attribute) = element.attribute(name) {
+        *value = word(attribute, &["disable", "enable"])? == 1;
+    }
+    Ok(())
+}

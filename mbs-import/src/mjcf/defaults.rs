@@ -1,0 +1,190 @@
+//! Defaults by classes: what an element does not write, its class does.
+
+use super::table::TABLE;
+use crate::element::{Attribute, Element};
+use crate::source::{Fault, Origin, Read};
+use crate::table::{Treatment, treatment};
+use mbs_scene::nearest_name;
+use std::collections::HashMap;
+
+/// The class of what names none.
+pub(super) const MAIN: usize = 0;
+
+/// What a class says of the elements of each name, what its parents say included.
+#[derive(Debug, Clone, Default)]
+struct Class<'a> {
+    values: HashMap<(&'a str, &'a str), &'a Attribute>,
+    /// Elements of actuators: one kind changes what another starts from, so they count in their order.
+    actuators: Vec<&'a Element>,
+}
+
+/// The classes of a model.
+#[derive(Debug, Clone)]
+pub(super) struct Classes<'a> {
+    classes: Vec<Class<'a>>,
+    names: HashMap<&'a str, (usize, Origin)>,
+}
+
+impl<'a> Classes<'a> {
+    /// The classes of all `default` elements below the root.
+    pub(super) fn read(root: &'a Element) -> Read<Self> {
+        let at = root.at;
+        let mut classes =
+            Self { classes: vec![Class::default()], names: HashMap::from([("main", (MAIN, at))]) };
+        for element in root.each("default") {
+            if let Some(name) = element.attribute("class").filter(|name| name.value != "main") {
+                return Err(name.fault(
+                    "the outermost default has the name `main`, and no other",
+                    "leave its `class` out, or put it into a <default>",
+                ));
+            }
+            classes.add(element, MAIN)?;
+        }
+        Ok(classes)
+    }
+
+    /// Its own elements first, then the classes in it, which start as copies.
+    fn add(&mut self, element: &'a Element, number: usize) -> Read<()> {
+        for child in element.children.iter().filter(|child| child.name != "default") {
+            if treatment(TABLE, "default", &child.name, "") != Some(Treatment::Mapped) {
+                continue;
+            }
+            child.read();
+            if is_actuator(&child.name) {
+                self.classes[number].actuators.push(child);
+            }
+            for attribute in &child.attributes {
+                let is_used = treatment(TABLE, "default", &child.name, &attribute.name);
+                if matches!(is_used, Some(Treatment::Mapped | Treatment::Approximated)) {
+                    // it is for those that come: whether one of them asks is of no account
+                    child.attribute(&attribute.name);
+                    self.classes[number].values.insert((&child.name, &attribute.name), attribute);
+                }
+            }
+        }
+        for inner in element.each("default") {
+            let name = inner.need("class")?;
+            let copy = self.classes[number].clone();
+            self.classes.push(copy);
+            let own = self.classes.len() - 1;
+            if self.names.insert(&name.value, (own, name.at)).is_some() {
+                return Err(name.fault(
+                    format!("a second class `{}`", name.value),
+                    "give one of them another name",
+                ));
+            }
+            self.add(inner, own)?;
+        }
+        Ok(())
+    }
+
+    /// The class of a name that stands in an attribute.
+    pub(super) fn find(&self, name: &Attribute) -> Read<usize> {
+        self.names.get(name.value.trim()).map(|(number, _)| *number).ok_or_else(|| {
+            let names: Vec<_> = self.names.keys().map(|name| (*name).to_owned()).collect();
+            let hint = nearest_name(&name.value, &names, "classes");
+            Fault::new(name.at, format!("unknown class `{}`", name.value), hint)
+        })
+    }
+
+    /// An element with what its class says; `scope` is the class of those that name none.
+    pub(super) fn view(&'a self, element: &'a Element, scope: usize) -> Read<View<'a>> {
+        self.view_as(element, &element.name, scope)
+    }
+
+    /// The same for an element whose defaults have another name: `tendon` for `fixed`.
+    pub(super) fn view_as(
+        &'a self,
+        element: &'a Element,
+        kind: &'a str,
+        scope: usize,
+    ) -> Read<View<'a>> {
+        let class = element.attribute("class").map_or(Ok(scope), |name| self.find(name))?;
+        Ok(View { element, kind, class: Some(&self.classes[class]) })
+    }
+
+    /// The actuators that a class writes, in their order.
+    pub(super) fn actuators(&self, element: &Element) -> Read<&[&'a Element]> {
+        let class = element.attribute("class").map_or(Ok(MAIN), |name| self.find(name))?;
+        Ok(&self.classes[class].actuators)
+    }
+}
+
+/// Is an element of this name an actuator?
+pub(super) fn is_actuator(name: &str) -> bool {
+    [
+        "general", "motor", "position", "velocity", "intvelocity", "orientation", "pid", "damper",
+        "cylinder", "muscle", "adhesion", "dcmotor", "plugin",
+    ]
+    .contains(&name)
+}
+
+/// An element with what its class says.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct View<'a> {
+    pub(super) element: &'a Element,
+    kind: &'a str,
+    class: Option<&'a Class<'a>>,
+}
+
+impl<'a> View<'a> {
+    /// An element that has no defaults.
+    pub(super) fn plain(element: &'a Element) -> Self {
+        Self { element, kind: &element.name, class: None }
+    }
+
+    /// What the element itself writes.
+    pub(super) fn own(&self, name: &str) -> Option<&'a Attribute> {
+        self.element.attribute(name)
+    }
+
+    /// What its class writes.
+    pub(super) fn inherited(&self, name: &str) -> Option<&'a Attribute> {
+        self.class.and_then(|class| class.values.get(&(self.kind, name)).copied())
+    }
+
+    pub(super) fn attribute(&self, name: &str) -> Option<&'a Attribute> {
+        self.own(name).or_else(|| self.inherited(name))
+    }
+
+    pub(super) fn value(&self, name: &str) -> Option<&'a str> {
+        self.attribute(name).map(|attribute| attribute.value.trim())
+    }
+
+    pub(super) fn number(&self, name: &str) -> Read<Option<f64>> {
+        self.attribute(name).map(Attribute::number).transpose()
+    }
+
+    pub(super) fn number_or(&self, name: &str, default: f64) -> Read<f64> {
+        self.attribute(name).map_or(Ok(default), Attribute::number)
+    }
+
+    pub(super) fn numbers<const N: usize>(&self, name: &str) -> Read<Option<[f64; N]>> {
+        self.attribute(name).map(Attribute::numbers).transpose()
+    }
+
+    pub(super) fn numbers_or<const N: usize>(
+        &self,
+        name: &str,
+        default: [f64; N],
+    ) -> Read<[f64; N]> {
+        self.attribute(name).map_or(Ok(default), Attribute::numbers)
+    }
+
+    /// Do ends act, which `limited` says or, where it says `auto`, their being there?
+    pub(super) fn is_limited(&self, limited: &str, range: &str, auto: bool) -> Read<bool> {
+        let word = self.attribute(limited).map(|word| super::compiler::word(word, &["false", "true", "auto"]));
+        match word.transpose()? {
+            Some(0) => Ok(false),
+            Some(1) => Ok(true),
+            _ => match self.attribute(range) {
+                None => Ok(false),
+                Some(_) if auto => Ok(true),
+                Some(range) => Err(range.fault(
+                    format!("`{}` without `{limited}`, where `autolimits` is false", range.name),
+                    format!("write {limited}=\"true\" or \"false\""),
+                )),
+            },
+        }
+    }
+}

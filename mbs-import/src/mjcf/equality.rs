@@ -1,0 +1,141 @@
+//! Equalities: loops and couplings, hard here.
+
+use super::model::{Model, Site};
+use crate::element::Element;
+use crate::pose::{Pose, V3, quaternion, v3};
+use crate::robot::{Coupling, GROUND, Joint, Kind, Term};
+use crate::source::Read;
+
+/// How far two places of one loop may be from each other as the file draws them [m]: six printed digits.
+const SLACK: f64 = 1.0e-6;
+
+/// Reads the elements `equality`.
+pub(super) fn read<'a>(root: &'a Element, model: &mut Model<'a, '_, '_>) -> Read<()> {
+    for element in root.each("equality").flat_map(|equality| &equality.children) {
+        let is_known = matches!(element.name.as_str(), "connect" | "weld" | "joint");
+        if !is_known {
+            continue;
+        }
+        let view = model.classes.view_as(element.read(), "equality", super::defaults::MAIN)?;
+        let is_active = view.value("active") != Some("false") && model.compiler.acts.equality;
+        for name in ["name", "solref", "solimp", "torquescale"] {
+            view.attribute(name);
+        }
+        if !is_active {
+            element.read_whole();
+            let says = "not active: left out";
+            model.context.findings.ignored(element.at, element.label(), says);
+            continue;
+        }
+        for ending in model.endings(element) {
+            match element.name.as_str() {
+                "joint" => coupling(element, &ending, model)?,
+                _ => closing(element, &ending, model)?,
+            }
+        }
+        let says = "a soft constraint there, hard here";
+        model.context.findings.approximated(element.at, element.label(), says);
+    }
+    Ok(())
+}
+
+fn name(element: &Element, ending: &str, wanted: &str) -> String {
+    element.value("name").map_or_else(|| wanted.to_owned(), |name| format!("{name}{ending}"))
+}
+
+/// `connect` and `weld`: a joint that closes a loop.
+fn closing(element: &Element, ending: &str, model: &mut Model<'_, '_, '_>) -> Read<()> {
+    let is_weld = element.name == "weld";
+    let (ends, place) = if let Some(first) = element.attribute("site1") {
+        let first = model.site(first, ending)?.clone();
+        let second = model.site(element.need("site2")?, ending)?.clone();
+        meet(element, is_weld, &first, &second)?;
+        ([first.link, second.link], first.pose.at)
+    } else {
+        let first = model.body(element.need("body1")?, ending)?;
+        let second = element.attribute("body2").map_or(Ok(GROUND), |name| model.body(name, ending))?;
+        let place = closing_place(element, is_weld, [first, second], model)?;
+        ([first, second], place)
+    };
+    let kind = if is_weld { Kind::Weld } else { Kind::Spherical };
+    let number = model.robot.joints.len();
+    let wanted = name(element, ending, &format!("{} {number}", element.name));
+    let wanted = model.free_name(super::model::Sort::Joint, &wanted);
+    model.robot.joints.push(Joint::new(&wanted, element.at, kind, ends, place));
+    Ok(())
+}
+
+/// The place of a closing joint by the frames of two bodies.
+fn closing_place(
+    element: &Element,
+    is_weld: bool,
+    [first, second]: [usize; 2],
+    model: &Model<'_, '_, '_>,
+) -> Read<V3> {
+    let links = &model.robot.links;
+    if !is_weld {
+        return Ok(links[first].pose.point(&v3(element.need("anchor")?.numbers()?)));
+    }
+    // the anchor of a weld is in the second body
+    let place = links[second].pose.point(&v3(element.numbers_or("anchor", [0.0; 3])?));
+    if let Some(relative) = element.attribute("relpose") {
+        let [x, y, z, a, b, c, d] = relative.numbers()?;
+        // a quaternion of zeros stands for the pose as drawn
+        if let Some(turn) = quaternion([a, b, c, d]) {
+            let wanted = links[first].pose.then(&Pose::new(turn, v3([x, y, z])));
+            let is = &links[second].pose;
+            if (wanted.at - is.at).abs().max() > SLACK || (wanted.turn - is.turn).abs().max() > SLACK {
+                return Err(relative.fault(
+                    "the bodies are not drawn as this weld holds them",
+                    "draw them so, or leave `relpose` out",
+                ));
+            }
+        }
+    }
+    Ok(place)
+}
+
+/// Do two places meet as drawn?
+fn meet(element: &Element, is_weld: bool, first: &Site, second: &Site) -> Read<()> {
+    let apart = (first.pose.at - second.pose.at).abs().max();
+    let turned = (first.pose.turn - second.pose.turn).abs().max();
+    if apart <= SLACK && !(is_weld && turned > SLACK) {
+        return Ok(());
+    }
+    Err(apart_fault(element, apart))
+}
+
+fn apart_fault(element: &Element, apart: f64) -> crate::source::Fault {
+    let message = format!("the two sites are not drawn at one place: {apart:e} m apart, or turned");
+    element.fault(message, "draw the bodies so that the sites meet")
+}
+
+/// y − y₀ = a₀ + a₁ (x − x₀) + ..., or y − y₀ = a₀ without a second joint.
+fn coupling(element: &Element, ending: &str, model: &mut Model<'_, '_, '_>) -> Read<()> {
+    let first = model.single(element.need("joint1")?, ending)?.clone();
+    let mut all = [0.0, 1.0, 0.0, 0.0, 0.0];
+    if let Some(written) = element.attribute("polycoef") {
+        for (a, b) in all.iter_mut().zip(written.list()?) {
+            *a = b;
+        }
+    }
+    let [constant, slope, rest @ ..] = all;
+    let mut terms = vec![Term { of: first.coordinate(), factor: first.sign, coefficients: Vec::new() }];
+    if let Some(second) = element.attribute("joint2") {
+        let second = model.single(second, ending)?;
+        let of = second.coordinate();
+        // of the scene's coordinate, which may grow against the file's
+        let signed = |power: i32, a: f64| a * second.sign.powi(power);
+        if rest == [0.0; 3] {
+            terms.push(Term { of, factor: -signed(1, slope), coefficients: Vec::new() });
+        } else {
+            let powers = all.iter().zip(0..).skip(1).map(|(a, power)| signed(power, *a));
+            let coefficients = core::iter::once(0.0).chain(powers).collect();
+            terms.push(Term { of, factor: -1.0, coefficients });
+        }
+    }
+    let wanted = name(element, ending, &format!("{} equality", first.name));
+    let wanted = model.free_name(super::model::Sort::Law, &wanted);
+    model.robot.couplings.push(Coupling { name: wanted, terms, value: constant });
+    Ok(())
+}

@@ -1,0 +1,293 @@
+//! Joints of a body, which act one after the other.
+
+use super::compiler::word;
+use super::defaults::View;
+use super::model::{Model, Motion, Moves, Sort};
+use crate::pose::{Pose, V3, direction, v3};
+use crate::robot::{GROUND, Joint, Kind, Link, What};
+use crate::source::{Fault, Origin, Read};
+use mbs_core::algebra::cross;
+
+/// Axes are at right angles where their product is at most this; six printed digits leave 1e-6.
+const RIGHT_ANGLE: f64 = 1.0e-9;
+
+/// A joint as it is read, in global axes.
+#[derive(Debug, Clone)]
+pub(super) struct Written {
+    motion: Motion,
+    place: V3,
+    stiffness: f64,
+    damping: f64,
+    friction: f64,
+    limited_ball: bool,
+}
+
+impl Written {
+    pub(super) const fn at(&self) -> Origin {
+        self.motion.at
+    }
+}
+
+/// Reads `joint` or `freejoint`, in a frame that stands as `scope` says.
+pub(super) fn read(
+    view: &View<'_>,
+    name: String,
+    scope: &Pose,
+    model: &mut Model<'_, '_, '_>,
+) -> Read<Written> {
+    let at = view.element.at;
+    view.own("class");
+    let moves = match view.attribute("type") {
+        _ if view.element.name == "freejoint" => Moves::Free,
+        None => Moves::Hinge,
+        Some(kind) => {
+            [Moves::Hinge, Moves::Slide, Moves::Ball, Moves::Free]
+                [word(kind, &["hinge", "slide", "ball", "free"])?]
+        }
+    };
+    let settings = &model.compiler;
+    let is_hinge = moves == Moves::Hinge;
+    let angle = |x: f64| if is_hinge { settings.angle(x) } else { x };
+    let place = scope.point(&v3(view.numbers_or("pos", [0.0; 3])?));
+    let axis = v3(view.numbers_or("axis", [0.0, 0.0, 1.0])?);
+    let is_single = matches!(moves, Moves::Hinge | Moves::Slide);
+    let axis = match direction(&axis) {
+        Some(axis) => scope.turn * axis,
+        None if is_single => {
+            return Err(Fault::new(at, format!("the axis of joint `{name}` has no direction"), "write a direction, as 0 0 1"));
+        }
+        None => V3::zeros(),
+    };
+    let zero = if is_single { angle(view.number_or("ref", 0.0)?) } else { 0.0 };
+    let spring = if is_single { angle(view.number_or("springref", 0.0)?) } else { 0.0 };
+    let number = |name| view.number_or(name, 0.0);
+    let is_limited = view.is_limited("limited", "range", settings.auto_limits)?;
+    let range = view.numbers::<2>("range")?.filter(|range| is_limited && *range != [0.0; 2]);
+    let stops = view.numbers_or("solreflimit", [0.02, 1.0])?;
+    view.attribute("solimplimit");
+    let is_clamped = view.is_limited("actuatorfrclimited", "actuatorfrcrange", settings.auto_limits)?;
+    let effort = view.numbers("actuatorfrcrange")?.filter(|_| is_clamped);
+    let [stiffness, damping, friction, armature] =
+        [number("stiffness")?, number("damping")?, number("frictionloss")?, number("armature")?];
+    if stiffness < 0.0 || damping < 0.0 || friction < 0.0 || armature < 0.0 {
+        return Err(Fault::new(
+            at,
+            format!("stiffness, damping, frictionloss or armature of joint `{name}` is below zero"),
+            "write zero or more",
+        ));
+    }
+    let acts = settings.acts;
+    let of = |acts: bool, x: f64| if acts { x } else { 0.0 };
+    let timed = view.numbers::<2>("springdamper")?.filter(|pair| pair[0] > 0.0 && pair[1] > 0.0);
+    Ok(Written {
+        limited_ball: range.is_some() && !is_single,
+        motion: Motion {
+            name,
+            at,
+            moves,
+            joint: 0,
+            number: None,
+            sign: 1.0,
+            zero,
+            spring,
+            range: range.filter(|_| is_single).map(|range| range.map(angle)),
+            effort,
+            armature,
+            axis,
+            stops: (range.is_some() && is_single && acts.limit).then_some(stops),
+            timed,
+        },
+        place,
+        stiffness: of(acts.spring, stiffness),
+        damping: of(acts.damper, damping),
+        friction: of(acts.friction, friction),
+    })
+}
+
+/// Joins a body to its parent by its joints, the first one outermost: those that are one joint of the scene become one, others get massless
+/// links between.
+pub(super) fn join(
+    joints: Vec<Written>,
+    parent: usize,
+    body: usize,
+    model: &mut Model<'_, '_, '_>,
+) -> Read<()> {
+    let body_link = &model.robot.links[body];
+    let (at, pose, body_name) = (body_link.at, body_link.pose, body_link.name.clone());
+    if joints.is_empty() {
+        let joint = Joint::new(&body_name, at, Kind::Fixed, [parent, body], pose.at);
+        model.robot.joints.push(joint);
+        return Ok(());
+    }
+    if let Some(free) = joints.iter().find(|joint| joint.motion.moves == Moves::Free) {
+        if joints.len() > 1 || parent != GROUND {
+            return Err(Fault::new(
+                free.motion.at,
+                format!("body `{body_name}` has a free joint, and {}", if parent == GROUND { "another joint" } else { "a parent that is not the world" }),
+                "a free joint is the only joint of a child of the world",
+            ));
+        }
+    }
+    let mut rest = &joints[..];
+    let (mut from, mut number) = (parent, 0);
+    while let Some(first) = rest.first() {
+        let group = group(rest);
+        let (own, others) = rest.split_at(group.len);
+        rest = others;
+        number += 1;
+        let to = if rest.is_empty() {
+            body
+        } else {
+            let name = model.free_name(Sort::Link, &format!("{body_name}~{number}"));
+            model.robot.links.push(Link { name, at: first.motion.at, pose, mass: None });
+            model.robot.links.len() - 1
+        };
+        add(own, &group, [from, to], model)?;
+        from = to;
+    }
+    Ok(())
+}
+
+/// Joints of the file that are one of the scene.
+struct Group {
+    len: usize,
+    kind: Kind,
+    axes: Vec<V3>,
+    /// The number of the scene's coordinate of each, and its sign; none of one that has but one.
+    places: Vec<(usize, f64)>,
+}
+
+fn group(joints: &[Written]) -> Group {
+    let moves: Vec<_> = joints.iter().take(4).map(|joint| joint.motion.moves).collect();
+    let axis = |i: usize| joints[i].motion.axis;
+    let is_across = |a: &V3, b: &V3| a.dot(b).abs() <= RIGHT_ANGLE;
+    if moves.starts_with(&[Moves::Slide, Moves::Slide, Moves::Hinge]) {
+        let [a, b, turn] = [axis(0), axis(1), axis(2)];
+        if is_across(&a, &b) && is_across(&a, &turn) && is_across(&b, &turn) {
+            // the second slide of the scene is the normal times the first
+            let sign = cross(&turn, &a).dot(&b).signum();
+            return Group {
+                len: 3,
+                kind: Kind::Planar,
+                axes: vec![turn, a],
+                places: vec![(0, 1.0), (1, sign), (2, 1.0)],
+            };
+        }
+    }
+    if moves == [Moves::Slide, Moves::Slide, Moves::Slide, Moves::Ball] {
+        // the scene's slides are along the global axes
+        let along = |axis: V3| {
+            (0..3).find(|i| 1.0 - axis[*i].abs() <= RIGHT_ANGLE).map(|i| (i, axis[i].signum()))
+        };
+        let places: Vec<_> = (0..3).filter_map(|i| along(axis(i))).collect();
+        let mut numbers: Vec<_> = places.iter().map(|(number, _)| *number).collect();
+        numbers.sort_unstable();
+        if numbers == [0, 1, 2] {
+            return Group { len: 4, kind: Kind::Free, axes: Vec::new(), places };
+        }
+    }
+    let first = &joints[0];
+    let kind = match first.motion.moves {
+        Moves::Hinge => Kind::Revolute,
+        Moves::Slide => Kind::Prismatic,
+        Moves::Ball => Kind::Spherical,
+        Moves::Free => Kind::Free,
+    };
+    let axes = if first.motion.is_single() { vec![first.motion.axis] } else { Vec::new() };
+    Group { len: 1, kind, axes, places: Vec::new() }
+}
+
+/// Adds a joint of the scene for those of the file.
+fn add(
+    joints: &[Written],
+    group: &Group,
+    ends: [usize; 2],
+    model: &mut Model<'_, '_, '_>,
+) -> Read<()> {
+    let number = model.robot.joints.len();
+    let names: Vec<_> = joints.iter().map(|joint| joint.motion.name.as_str()).collect();
+    let name = names.join("+");
+    let last = &joints[joints.len() - 1];
+    let place = if group.kind == Kind::Free && joints.len() == 1 {
+        model.robot.links[ends[1]].pose.at
+    } else {
+        last.place
+    };
+    let mut joint = Joint::new(&name, joints[0].motion.at, group.kind, ends, place);
+    joint.axes.clone_from(&group.axes);
+    if let [only] = joints {
+        joint.zero = only.motion.zero;
+        joint.range = only.motion.range.map(|range| only.motion.ends(range));
+    } else {
+        model.robot.notes.push(format!("Joint {name}: the coordinates {} of the file.", names.join(", ")));
+    }
+    model.robot.joints.push(joint);
+    for (i, read) in joints.iter().enumerate() {
+        let mut motion = read.motion.clone();
+        motion.joint = number;
+        if let Some((place, sign)) = group.places.get(i) {
+            (motion.number, motion.sign) = (Some(*place), *sign);
+        }
+        model.joints.add(&motion.name, motion.at, &model.context.sources)?;
+        if motion.zero != 0.0 {
+            let note = format!("Joint {}: {} in the file is 0 here.", motion.name, motion.zero);
+            model.robot.notes.push(note);
+        }
+        if motion.is_single() { single(read, &motion, model) } else { several(read, &motion, place, ends, model) }
+        model.motions.push(motion);
+    }
+    Ok(())
+}
+
+/// Spring, damping, friction and armature of a hinge or a slide.
+fn single(read: &Written, motion: &Motion, model: &mut Model<'_, '_, '_>) {
+    let (name, on) = (&motion.name, motion.target());
+    let (stiffness, damping) = (read.stiffness, read.damping);
+    if motion.timed.is_none() && (stiffness > 0.0 || damping > 0.0) {
+        let free = if stiffness > 0.0 { motion.from_file(motion.spring) } else { 0.0 };
+        model.law(&format!("{name} spring"), What::Spring { on: on.clone(), stiffness, damping, free });
+    }
+    if read.friction > 0.0 {
+        let says = "frictionloss is a soft constraint there; here it is friction that falls to zero below a rate of 1e-3";
+        model.context.findings.approximated(motion.at, format!("joint[{name}]"), says);
+        model.law(&format!("{name} friction"), What::Friction { on: on.clone(), coulomb: read.friction });
+    }
+    if motion.armature > 0.0 {
+        model.law(&format!("{name} armature"), What::Rotor { on, inertia: motion.armature });
+    }
+}
+
+/// Spring, damping and armature of a ball or a free joint.
+fn several(read: &Written, motion: &Motion, place: V3, ends: [usize; 2], model: &mut Model<'_, '_, '_>) {
+    let label = format!("joint[{}]", motion.name);
+    let is_free = motion.moves == Moves::Free;
+    if read.stiffness > 0.0 || read.damping > 0.0 {
+        let along = |x: f64| [if is_free { x } else { 0.0 }; 3].into_iter().chain([x; 3]);
+        let six = |x: f64| {
+            let mut all = [0.0; 6];
+            all.iter_mut().zip(along(x)).for_each(|(a, b)| *a = b);
+            all
+        };
+        let says = "spring and damping of a ball act as those of a bushing";
+        model.context.findings.approximated(motion.at, label.as_str(), says);
+        let what = What::Bushing {
+            links: ends,
+            place,
+            stiffness: six(read.stiffness),
+            damping: six(read.damping),
+        };
+        model.law(&format!("{} spring", motion.name), what);
+    }
+    if read.friction > 0.0 {
+        let says = "frictionloss of a joint with several coordinates does not act here";
+        model.context.findings.ignored(motion.at, label.as_str(), says);
+    }
+    if motion.armature > 0.0 {
+        let says = "armature of a joint with several coordinates does not act here";
+        model.context.findings.ignored(motion.at, label.as_str(), says);
+    }
+    if read.limited_ball {
+        let says = "ends of a joint with several coordinates do not act here";
+        model.context.findings.ignored(motion.at, label, says);
+    }
+}

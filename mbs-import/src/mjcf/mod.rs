@@ -1,0 +1,54 @@
+//! MJCF: bodies in bodies, with defaults, loops, tendons and actuators.
+
+mod actuator;
+mod body;
+mod compiler;
+mod defaults;
+mod equality;
+mod geom;
+mod include;
+mod joint;
+mod keyframe;
+mod model;
+mod orientation;
+mod stops;
+mod table;
+mod tendon;
+#[cfg(test)]
+mod tests;
+mod weights;
+
+pub(crate) use include::include;
+pub(crate) use table::TABLE;
+
+use crate::context::Context;
+use crate::element::Element;
+use crate::robot::Robot;
+use crate::source::Read;
+use compiler::Compiler;
+use defaults::Classes;
+use model::Model;
+
+/// Reads the root element `mujoco`.
+pub(crate) fn read(root: &Element, context: &mut Context<'_>) -> Read<Robot> {
+    let name = root.value("model").unwrap_or("mujoco");
+    let mut robot = Robot::new(name, root.at.source);
+    let compiler = Compiler::read(root)?;
+    robot.gravity = compiler.gravity;
+    let classes = Classes::read(root)?;
+    let mut model = Model::new(compiler, &classes, robot, context);
+    body::read(root, &mut model)?;
+    if model.robot.links.len() == 1 {
+        return Err(root.fault("the model has no body", "put a <body> into the <worldbody>"));
+    }
+    weights::settle(&mut model)?;
+    stops::add(&mut model);
+    equality::read(root, &mut model)?;
+    tendon::read(root, &mut model)?;
+    actuator::read(root, &mut model)?;
+    keyframe::read(root, &mut model)?;
+    if let Some(step) = root.each("option").find_map(|option| option.value("timestep")) {
+        model.robot.notes.push(format!("Step of the file: {step} s; methods here choose their own."));
+    }
+    Ok(model.robot)
+}

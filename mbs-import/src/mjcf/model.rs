@@ -1,0 +1,234 @@
+//! What the parts of the reader fill in together.
+
+use super::compiler::Compiler;
+use super::defaults::Classes;
+use crate::context::{Context, Named};
+use crate::element::{Attribute, Element};
+use crate::inertia::Mass;
+use crate::pose::{Pose, V3};
+use crate::robot::{Coordinate, GROUND, Law, Robot, Target, Term, What};
+use crate::source::{Origin, Read};
+use std::collections::{HashMap, HashSet};
+
+/// What a joint of the file lets move.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Moves {
+    Hinge,
+    Slide,
+    Ball,
+    Free,
+}
+
+/// What names are of: those of one sort differ.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub(super) enum Sort {
+    Link,
+    Joint,
+    Law,
+    Frame,
+}
+
+/// A joint of the file, and where its coordinates are in the scene.
+#[derive(Debug, Clone)]
+pub(super) struct Motion {
+    pub(super) name: String,
+    pub(super) at: Origin,
+    pub(super) moves: Moves,
+    /// The joint of the scene.
+    pub(super) joint: usize,
+    /// Which of its coordinates, where it has several.
+    pub(super) number: Option<usize>,
+    /// The scene's coordinate grows against the file's where this is −1.
+    pub(super) sign: f64,
+    /// The file's coordinate in the reference configuration.
+    pub(super) zero: f64,
+    /// Without tension in its spring.
+    pub(super) spring: f64,
+    /// Ends of the file's coordinate.
+    pub(super) range: Option<[f64; 2]>,
+    /// Ends of the effort of all actuators.
+    pub(super) effort: Option<[f64; 2]>,
+    pub(super) armature: f64,
+    /// Its directions in the reference configuration, global: of a turn about the place of its joint.
+    pub(super) axis: V3,
+    /// Time and damping ratio of its stops, where it has any.
+    pub(super) stops: Option<[f64; 2]>,
+    /// Time and damping ratio from which its spring follows.
+    pub(super) timed: Option<[f64; 2]>,
+}
+
+impl Motion {
+    /// Is it one coordinate?
+    pub(super) const fn is_single(&self) -> bool {
+        matches!(self.moves, Moves::Hinge | Moves::Slide)
+    }
+
+    /// The coordinate of the scene.
+    pub(super) const fn coordinate(&self) -> Coordinate {
+        Coordinate { joint: self.joint, number: self.number }
+    }
+
+    pub(super) const fn target(&self) -> Target {
+        Target::Coordinate(self.coordinate())
+    }
+
+    /// A term of a sum of the file's coordinates, and what it adds to the sum in the reference configuration.
+    pub(super) fn term(&self, factor: f64) -> (Term, f64) {
+        let term = Term { of: self.coordinate(), factor: factor * self.sign, coefficients: Vec::new() };
+        (term, factor * self.zero)
+    }
+
+    /// A value of the file as one of the scene.
+    pub(super) fn from_file(&self, value: f64) -> f64 {
+        self.sign * (value - self.zero)
+    }
+
+    /// Ends of the file's coordinate as ends of the scene's.
+    pub(super) fn ends(&self, [lower, upper]: [f64; 2]) -> [f64; 2] {
+        let [a, b] = [self.from_file(lower), self.from_file(upper)];
+        [a.min(b), a.max(b)]
+    }
+}
+
+/// A named place of the file.
+#[derive(Debug, Clone)]
+pub(super) struct Site {
+    pub(super) link: usize,
+    pub(super) pose: Pose,
+}
+
+/// A tendon that is a sum of coordinates, or nothing that the scene can pull.
+#[derive(Debug, Clone)]
+pub(super) enum Tendon {
+    /// Terms, and the length in the reference configuration.
+    Sum(Vec<Term>, f64),
+    Other,
+}
+
+/// The model while it is read.
+pub(super) struct Model<'a, 'b, 'c> {
+    pub(super) compiler: Compiler,
+    pub(super) classes: &'a Classes<'a>,
+    pub(super) context: &'b mut Context<'c>,
+    pub(super) robot: Robot,
+    pub(super) bodies: Named,
+    /// The links of the bodies: massless ones between joints have numbers too.
+    pub(super) body_links: Vec<usize>,
+    pub(super) joints: Named,
+    pub(super) motions: Vec<Motion>,
+    pub(super) site_names: Named,
+    pub(super) sites: Vec<Site>,
+    pub(super) tendon_names: Named,
+    pub(super) tendons: Vec<Tendon>,
+    /// Link, inertia and share of its weight that is lifted, of each body of the file: settings of the whole model bound and scale them.
+    pub(super) masses: Vec<(usize, Mass, f64)>,
+    /// Endings of names that `replicate` gives, by the name without one.
+    pub(super) copies: HashMap<String, Vec<String>>,
+    /// Laws of inputs with their factor to the control of the file, by the number of the actuator.
+    pub(super) inputs: Vec<Option<(usize, f64)>>,
+    names: HashSet<(Sort, String)>,
+}
+
+impl<'a, 'b, 'c> Model<'a, 'b, 'c> {
+    pub(super) fn new(
+        compiler: Compiler,
+        classes: &'a Classes<'a>,
+        robot: Robot,
+        context: &'b mut Context<'c>,
+    ) -> Self {
+        Self {
+            compiler,
+            classes,
+            context,
+            robot,
+            bodies: Named::new("body", 0),
+            body_links: Vec::new(),
+            joints: Named::new("joint", 0),
+            motions: Vec::new(),
+            site_names: Named::new("site", 0),
+            sites: Vec::new(),
+            tendon_names: Named::new("tendon", 0),
+            tendons: Vec::new(),
+            masses: Vec::new(),
+            copies: HashMap::new(),
+            inputs: Vec::new(),
+            names: HashSet::new(),
+        }
+    }
+
+    /// A name that nothing of its sort has yet: this one, or with an ending.
+    pub(super) fn free_name(&mut self, sort: Sort, wanted: &str) -> String {
+        let mut name = wanted.to_owned();
+        let mut number = 1;
+        while !self.names.insert((sort, name.clone())) {
+            number += 1;
+            name = format!("{wanted}~{number}");
+        }
+        name
+    }
+
+    /// Adds a law or a signal; its name.
+    pub(super) fn law(&mut self, wanted: &str, what: What) -> String {
+        let name = self.free_name(Sort::Law, wanted);
+        self.robot.laws.push(Law { name: name.clone(), what });
+        name
+    }
+
+    /// Keeps a name with the ending that `replicate` gives it.
+    pub(super) fn copied(&mut self, name: &str, ending: &str) -> String {
+        if !ending.is_empty() {
+            let endings = self.copies.entry(name.to_owned()).or_default();
+            if !endings.iter().any(|known| known == ending) {
+                endings.push(ending.to_owned());
+            }
+        }
+        format!("{name}{ending}")
+    }
+
+    /// The link of a body by its name.
+    pub(super) fn body(&self, name: &Attribute, ending: &str) -> Read<usize> {
+        let word = name.value.trim();
+        if word == "world" {
+            return Ok(GROUND);
+        }
+        let number = self.bodies.get(&format!("{word}{ending}"));
+        let number = number.map_or_else(|| self.bodies.find(word, name.at), Ok)?;
+        Ok(self.body_links[number])
+    }
+
+    /// A place by its name.
+    pub(super) fn site(&self, name: &Attribute, ending: &str) -> Read<&Site> {
+        let word = name.value.trim();
+        let number = self.site_names.get(&format!("{word}{ending}"));
+        let number = number.map_or_else(|| self.site_names.find(word, name.at), Ok)?;
+        Ok(&self.sites[number])
+    }
+
+    /// A joint by its name.
+    pub(super) fn motion(&self, name: &Attribute, ending: &str) -> Read<&Motion> {
+        let word = name.value.trim();
+        let number = self.joints.get(&format!("{word}{ending}"));
+        let number = number.map_or_else(|| self.joints.find(word, name.at), Ok)?;
+        Ok(&self.motions[number])
+    }
+
+    /// The endings of the copies that an element names, or none: what names a copied thing by its plain name is copied with it.
+    pub(super) fn endings(&self, element: &Element) -> Vec<String> {
+        let mut names = element.attributes.iter().chain(element.children.iter().flat_map(|child| &child.attributes));
+        let found = names.find_map(|word| {
+            let is_name = word.name != "name" && word.name != "class";
+            self.copies.get(word.value.trim()).filter(|_| is_name)
+        });
+        found.cloned().unwrap_or_else(|| vec![String::new()])
+    }
+
+    /// A joint of one coordinate by its name.
+    pub(super) fn single(&self, name: &Attribute, ending: &str) -> Read<&Motion> {
+        let motion = self.motion(name, ending)?;
+        if motion.is_single() {
+            return Ok(motion);
+        }
+        let message = format!("joint `{}` has several coordinates", motion.name);
+        Err(name.fault(message, "name a hinge or a slide"))
+    }
+}

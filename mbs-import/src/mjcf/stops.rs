@@ -1,0 +1,215 @@
+//! What follows from the inertia that a coordinate moves in the reference configuration: stops, and springs of a given time.
+//!
+//! Mass matrix of a tree by composite bodies, factored as M = Lᵀ L along the branches, without fill.
+
+use super::model::{Model, Moves};
+use crate::inertia::Mass;
+use crate::options::Stops;
+use crate::pose::{M3, V3, unit};
+use crate::robot::{GROUND, Kind, What};
+use mbs_core::algebra::cross;
+
+/// Entries of the mass matrix, above which stops follow from the scene's own estimate.
+const MAX_ENTRIES: usize = 4_000_000;
+
+/// A coordinate of the tree: its link, angular velocity and velocity of the origin for a rate of one.
+struct Column {
+    link: usize,
+    turn: V3,
+    slide: V3,
+    armature: f64,
+    /// The joint of the file.
+    motion: usize,
+}
+
+/// Mass, first and second moment about the origin of a link with all that hangs on it.
+#[derive(Clone, Copy)]
+struct Composite {
+    mass: f64,
+    first: V3,
+    second: M3,
+}
+
+/// What each joint of the file moves: the diagonal of the mass matrix, and one over that of its inverse.
+struct Moved {
+    diagonal: Vec<f64>,
+    effective: Vec<f64>,
+}
+
+/// Adds stops, and the springs that a time and a damping ratio say.
+pub(super) fn add(model: &mut Model<'_, '_, '_>) {
+    let is_needed = model.motions.iter().any(|motion| motion.stops.is_some() || motion.timed.is_some());
+    if !is_needed {
+        return;
+    }
+    let moved = moved(model);
+    for number in 0..model.motions.len() {
+        let motion = model.motions[number].clone();
+        if let (Some([time, ratio]), true) = (motion.timed, motion.is_single()) {
+            let inertia = moved.as_ref().map_or(0.0, |moved| moved.diagonal[number]);
+            let stiffness = inertia / (time * ratio).powi(2);
+            let damping = 2.0 * inertia / time;
+            let free = motion.from_file(motion.spring);
+            let says = format!("springdamper: stiffness {stiffness:e} and damping {damping:e} by the inertia as drawn");
+            model.context.findings.approximated(motion.at, format!("joint[{}]", motion.name), says);
+            let name = format!("{} spring", motion.name);
+            model.law(&name, What::Spring { on: motion.target(), stiffness, damping, free });
+        }
+        let (Some(solref), Some(range)) = (motion.stops, motion.range) else { continue };
+        let by_file = moved.as_ref().map(|moved| stop(solref, moved.effective[number]));
+        let stiffness = match model.context.options.limits {
+            Some(Stops::Given { stiffness, damping }) => Some([stiffness, damping]),
+            Some(Stops::ByMass) => None,
+            None => by_file.filter(|[stiffness, _]| *stiffness > 0.0 && stiffness.is_finite()),
+        };
+        let says = "a soft constraint there; here a stop with stiffness and damping by solreflimit and the moved inertia";
+        model.context.findings.approximated(motion.at, format!("joint[{}]@range", motion.name), says);
+        let on = motion.target();
+        let what = match (stiffness, motion.number) {
+            (Some([stiffness, damping]), Some(_)) => {
+                let [lower, upper] = motion.ends(range);
+                What::Limit { on, lower, upper, stiffness, damping }
+            }
+            (None, Some(_)) => continue,
+            (stiffness, None) => What::RangeLimit { on, stiffness },
+        };
+        model.law(&format!("{} stops", motion.name), what);
+    }
+}
+
+/// Stiffness and damping of a stop: of time and damping ratio, or where below zero for each kilogram.
+fn stop([first, second]: [f64; 2], inertia: f64) -> [f64; 2] {
+    if first > 0.0 {
+        [inertia / (first * second).powi(2), 2.0 * inertia / first]
+    } else {
+        [-first * inertia, -second * inertia]
+    }
+}
+
+/// The coordinates of a joint of the file, in its own terms.
+fn columns(model: &Model<'_, '_, '_>) -> Vec<Column> {
+    let mut columns = Vec::new();
+    for (number, motion) in model.motions.iter().enumerate() {
+        let joint = &model.robot.joints[motion.joint];
+        let turn = |axis: V3| (axis, cross(&joint.place, &axis));
+        let slide = |axis: V3| (V3::zeros(), axis);
+        let all = match motion.moves {
+            Moves::Hinge => vec![turn(motion.axis)],
+            Moves::Slide => vec![slide(motion.axis)],
+            Moves::Ball => (0..3).map(|i| turn(unit(i))).collect(),
+            Moves::Free => (0..3).map(|i| slide(unit(i))).chain((0..3).map(|i| turn(unit(i)))).collect(),
+        };
+        columns.extend(all.into_iter().map(|(turn, slide)| Column {
+            link: joint.child,
+            turn,
+            slide,
+            armature: motion.armature,
+            motion: number,
+        }));
+    }
+    columns
+}
+
+/// `None` where a coordinate moves no mass, or the model is too large.
+fn moved(model: &Model<'_, '_, '_>) -> Option<Moved> {
+    let robot = &model.robot;
+    let mut parent = vec![GROUND; robot.links.len()];
+    // a link stands behind its parent: joints were added on the way down
+    for joint in robot.joints.iter().filter(|joint| !matches!(joint.kind, Kind::Weld)) {
+        parent[joint.child] = joint.parent;
+    }
+    let mut composites: Vec<_> = robot.links.iter().map(|link| own(link.mass.as_ref())).collect();
+    let order: Vec<_> = robot.joints.iter().map(|joint| joint.child).collect();
+    for link in order.iter().rev() {
+        let own = composites[*link];
+        let sum = &mut composites[parent[*link]];
+        sum.mass += own.mass;
+        sum.first += own.first;
+        sum.second += own.second;
+    }
+    let columns = columns(model);
+    let mut of_link = vec![Vec::new(); robot.links.len()];
+    for (number, column) in columns.iter().enumerate() {
+        of_link[column.link].push(number);
+    }
+    // the coordinates from the ground to each link, its own included
+    let mut rows: Vec<Vec<f64>> = Vec::with_capacity(columns.len());
+    let mut chains: Vec<Vec<usize>> = Vec::with_capacity(columns.len());
+    let mut entries = 0;
+    for (number, column) in columns.iter().enumerate() {
+        let mut chain: Vec<usize> = Vec::new();
+        let mut link = column.link;
+        while link != GROUND {
+            chain.extend(of_link[link].iter().rev().filter(|of| **of <= number));
+            link = parent[link];
+        }
+        chain.reverse();
+        entries += chain.len();
+        if entries > MAX_ENTRIES {
+            return None;
+        }
+        let body = composites[column.link];
+        // momentum of all that the coordinate moves
+        let p = column.slide * body.mass + cross(&column.turn, &body.first);
+        let l = body.second * column.turn + cross(&body.first, &column.slide);
+        let mut row: Vec<f64> = chain.iter().map(|of: &usize| columns[*of].turn.dot(&l) + columns[*of].slide.dot(&p)).collect();
+        *row.last_mut()? += column.armature;
+        rows.push(row);
+        chains.push(chain);
+    }
+    let diagonal: Vec<_> = rows.iter().filter_map(|row| row.last().copied()).collect();
+    let inverse = inverse_diagonal(rows, &chains)?;
+    let mut found = Moved {
+        diagonal: vec![0.0; model.motions.len()],
+        effective: vec![0.0; model.motions.len()],
+    };
+    for (number, column) in columns.iter().enumerate() {
+        found.diagonal[column.motion] = diagonal[number];
+        found.effective[column.motion] = 1.0 / inverse[number];
+    }
+    Some(found)
+}
+
+fn own(mass: Option<&Mass>) -> Composite {
+    let none = Mass::none();
+    let mass = mass.unwrap_or(&none);
+    let second = mass.about(&V3::zeros());
+    Composite { mass: mass.mass, first: mass.center * mass.mass, second }
+}
+
+/// The diagonal of the inverse of M; row i of it has the entries of the coordinates `chains[i]`.
+fn inverse_diagonal(mut rows: Vec<Vec<f64>>, chains: &[Vec<usize>]) -> Option<Vec<f64>> {
+    for k in (0..rows.len()).rev() {
+        let row = std::mem::take(&mut rows[k]);
+        let last = row.len() - 1;
+        let pivot = row[last].sqrt();
+        if !(pivot > 0.0 && pivot.is_finite()) {
+            return None;
+        }
+        let mut scaled: Vec<_> = row[..last].iter().map(|x| x / pivot).collect();
+        for (place, i) in chains[k][..last].iter().enumerate() {
+            for (entry, x) in rows[*i].iter_mut().zip(&scaled) {
+                *entry -= scaled[place] * x;
+            }
+        }
+        scaled.push(pivot);
+        rows[k] = scaled;
+    }
+    // (M⁻¹)ᵢᵢ = ‖L⁻ᵀ eᵢ‖²
+    let inverse = chains.iter().map(|chain| {
+        let mut y = vec![0.0; chain.len()];
+        if let Some(last) = y.last_mut() {
+            *last = 1.0;
+        }
+        for (place, i) in chain.iter().enumerate().rev() {
+            let row = &rows[*i];
+            y[place] /= row[place];
+            let own = y[place];
+            for (entry, x) in y[..place].iter_mut().zip(row) {
+                *entry -= x * own;
+            }
+        }
+        y.iter().map(|x| x * x).sum()
+    });
+    Some(inverse.collect())
+}
