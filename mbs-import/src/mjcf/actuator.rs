@@ -2,7 +2,7 @@
 
 use super::defaults::is_actuator;
 use super::model::{Model, Motion, Tendon};
-use crate::element::{Attribute, Element};
+use crate::element::Element;
 use crate::robot::{Coordinate, Target, Term, What};
 use crate::source::Read;
 
@@ -175,7 +175,10 @@ impl Actuator {
             return Some(format!("the bias `{}` is not read", self.bias_kind));
         }
         if !matches!(self.dynamics.as_str(), "none" | "filter" | "filterexact") {
-            return Some(format!("the dynamics `{}` of its activation are not read", self.dynamics));
+            return Some(format!(
+                "the dynamics `{}` of its activation are not read",
+                self.dynamics
+            ));
         }
         None
     }
@@ -211,7 +214,12 @@ pub(super) fn read<'a>(root: &'a Element, model: &mut Model<'a, '_, '_>) -> Read
 }
 
 /// An actuator that pulls something; one that the scene cannot have is told, never silent.
-fn add(element: &Element, actuator: &Actuator, ending: &str, model: &mut Model<'_, '_, '_>) -> Read<()> {
+fn add(
+    element: &Element,
+    actuator: &Actuator,
+    ending: &str,
+    model: &mut Model<'_, '_, '_>,
+) -> Read<()> {
     let mut lost = |says: String| {
         element.read_whole();
         model.context.findings.ignored(element.at, format!("actuator/{}", element.label()), says);
@@ -233,7 +241,11 @@ fn add(element: &Element, actuator: &Actuator, ending: &str, model: &mut Model<'
         return Ok(());
     };
     for says in &actuator.lost {
-        model.context.findings.ignored(element.at, format!("actuator/{}", element.label()), format!("{says}: does not act here"));
+        model.context.findings.ignored(
+            element.at,
+            format!("actuator/{}", element.label()),
+            format!("{says}: does not act here"),
+        );
     }
     let name = match element.value("name") {
         Some(name) => format!("{name}{ending}"),
@@ -244,11 +256,21 @@ fn add(element: &Element, actuator: &Actuator, ending: &str, model: &mut Model<'
 }
 
 /// What an actuator pulls; `None` where that is no sum of coordinates.
-fn transmission(element: &Element, ending: &str, model: &mut Model<'_, '_, '_>) -> Read<Option<Transmission>> {
+fn transmission(
+    element: &Element,
+    ending: &str,
+    model: &mut Model<'_, '_, '_>,
+) -> Read<Option<Transmission>> {
     let of_joint = |motion: &Motion| {
         let (term, drawn) = motion.term(1.0);
         let name = motion.name.clone();
-        Transmission { terms: vec![term], drawn, effort: motion.effort, range: motion.range, label: name }
+        Transmission {
+            terms: vec![term],
+            drawn,
+            effort: motion.effort,
+            range: motion.range,
+            label: name,
+        }
     };
     let joint = element.attribute("joint").or_else(|| element.attribute("jointinparent"));
     if let Some(joint) = joint {
@@ -256,8 +278,7 @@ fn transmission(element: &Element, ending: &str, model: &mut Model<'_, '_, '_>) 
         return Ok(motion.is_single().then(|| of_joint(motion)));
     }
     if let Some(tendon) = element.attribute("tendon") {
-        let number = tendon_number(tendon, ending, model)?;
-        return Ok(match &model.tendons[number] {
+        return Ok(match model.tendon(tendon, ending)? {
             Tendon::Sum(terms, drawn) if !terms.is_empty() => Some(Transmission {
                 terms: terms.clone(),
                 drawn: *drawn,
@@ -269,12 +290,6 @@ fn transmission(element: &Element, ending: &str, model: &mut Model<'_, '_, '_>) 
         });
     }
     Ok(None)
-}
-
-fn tendon_number(tendon: &Attribute, ending: &str, model: &Model<'_, '_, '_>) -> Read<usize> {
-    let word = tendon.value.trim();
-    let number = model.tendon_names.get(&format!("{word}{ending}"));
-    number.map_or_else(|| model.tendon_names.find(word, tendon.at), Ok)
 }
 
 /// The input, the signals that follow from it, and the effort that follows from those.
@@ -296,7 +311,8 @@ fn laws(name: &str, actuator: &Actuator, pulled: &Transmission, model: &mut Mode
         model.law(&format!("{name} armature"), What::Rotor { on, inertia });
     }
     let control = control_range(actuator, pulled, model);
-    let force = actuator.force.filter(|_| actuator.force_limited.unwrap_or(model.compiler.auto_limits));
+    let force =
+        actuator.force.filter(|_| actuator.force_limited.unwrap_or(model.compiler.auto_limits));
     let gain = actuator.gain.first().copied().unwrap_or(1.0);
     let bias = |i: usize| actuator.bias.get(i).copied().unwrap_or(0.0);
     let has_bias = actuator.bias_kind == "affine" && (0..3).any(|i| bias(i) != 0.0);
@@ -312,7 +328,8 @@ fn laws(name: &str, actuator: &Actuator, pulled: &Transmission, model: &mut Mode
         signal = model.law(&format!("{name} control"), What::Clamp { of: signal, lower, upper });
     }
     if actuator.dynamics != "none" {
-        signal = model.law(&format!("{name} activation"), What::Lag { of: signal, time: actuator.time });
+        signal =
+            model.law(&format!("{name} activation"), What::Lag { of: signal, time: actuator.time });
     }
     let mut sum = vec![(signal, gain)];
     if has_bias {
@@ -355,9 +372,11 @@ fn add_bias(
             continue;
         }
         for (number, term) in pulled.terms.iter().enumerate() {
-            let ending = if pulled.terms.len() > 1 { format!(" {}", number + 1) } else { String::new() };
+            let ending =
+                if pulled.terms.len() > 1 { format!(" {}", number + 1) } else { String::new() };
             let of: Coordinate = term.of.clone();
-            let signal = model.law(&format!("{name} {word}{ending}"), What::Measure { of, is_rate });
+            let signal =
+                model.law(&format!("{name} {word}{ending}"), What::Measure { of, is_rate });
             sum.push((signal, factor * gear * term.factor));
         }
     }

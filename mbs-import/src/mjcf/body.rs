@@ -44,7 +44,8 @@ pub(super) fn read<'a>(root: &'a Element, model: &mut Model<'a, '_, '_>) -> Read
     let mut walk = Walk { model, parts: 0, numbers: 0 };
     for world in root.each("worldbody") {
         let frame = Pose::identity();
-        let scope = Scope { link: GROUND, frame, class: MAIN, ending: String::new(), is_still: true };
+        let scope =
+            Scope { link: GROUND, frame, class: MAIN, ending: String::new(), is_still: true };
         let scope = Scope { class: walk.class(world, &scope)?, ..scope };
         let mut own = Own::default();
         walk.own(world, &scope, &mut own)?;
@@ -124,8 +125,12 @@ impl<'a> Walk<'_, 'a, '_, '_> {
                 }
                 "site" => self.site(child.read(), scope)?,
                 "composite" | "flexcomp" | "attach" => {
-                    let message = format!("`{}` makes bodies, which this reader does not make", child.name);
-                    return Err(child.fault(message, "save the compiled model with the format's own program, and give that file"));
+                    let message =
+                        format!("`{}` makes bodies, which this reader does not make", child.name);
+                    return Err(child.fault(
+                        message,
+                        "save the compiled model with the format's own program, and give that file",
+                    ));
                 }
                 _ => {}
             }
@@ -162,7 +167,11 @@ impl<'a> Walk<'_, 'a, '_, '_> {
         self.model.body_links.push(link);
         // the scene's own name for what does not move
         let name = if name == "ground" { "ground-link".to_owned() } else { name };
-        let name = if element.value("name").is_some() { self.model.free_name(Sort::Link, &name) } else { name };
+        let name = if element.value("name").is_some() {
+            self.model.free_name(Sort::Link, &name)
+        } else {
+            name
+        };
         let frame = scope.frame.then(&pose(&View::plain(element), &self.model.compiler)?);
         self.model.robot.links.push(Link { name, at: element.at, pose: frame, mass: None });
         let mut inner = Scope {
@@ -221,7 +230,9 @@ impl<'a> Walk<'_, 'a, '_, '_> {
         let [xx, yy, zz] = element.numbers_or("diaginertia", [0.0; 3])?;
         let six = match element.attribute("fullinertia") {
             // the file has xx yy zz xy xz yz
-            Some(full) => full.numbers::<6>().map(|[xx, yy, zz, xy, xz, yz]| [xx, yy, zz, xy, yz, xz])?,
+            Some(full) => {
+                full.numbers::<6>().map(|[xx, yy, zz, xy, xz, yz]| [xx, yy, zz, xy, yz, xz])?
+            }
             None => [xx, yy, zz, 0.0, 0.0, 0.0],
         };
         let own = Mass { mass: value, center: V3::zeros(), tensor: tensor(six) };

@@ -40,6 +40,7 @@ pub(super) struct Acts {
     pub(super) equality: bool,
     pub(super) actuation: bool,
     pub(super) clamp: bool,
+    pub(super) contact: bool,
 }
 
 impl Compiler {
@@ -64,6 +65,7 @@ impl Compiler {
                 equality: true,
                 actuation: true,
                 clamp: true,
+                contact: true,
             },
         };
         for element in root.each("compiler") {
@@ -128,6 +130,7 @@ impl Compiler {
                 ("equality", &mut acts.equality),
                 ("actuation", &mut acts.actuation),
                 ("clampctrl", &mut acts.clamp),
+                ("contact", &mut acts.contact),
             ] {
                 switch(flags, name, is_on)?;
             }

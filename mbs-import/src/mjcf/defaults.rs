@@ -113,8 +113,19 @@ impl<'a> Classes<'a> {
 /// Is an element of this name an actuator?
 pub(super) fn is_actuator(name: &str) -> bool {
     [
-        "general", "motor", "position", "velocity", "intvelocity", "orientation", "pid", "damper",
-        "cylinder", "muscle", "adhesion", "dcmotor", "plugin",
+        "general",
+        "motor",
+        "position",
+        "velocity",
+        "intvelocity",
+        "orientation",
+        "pid",
+        "damper",
+        "cylinder",
+        "muscle",
+        "adhesion",
+        "dcmotor",
+        "plugin",
     ]
     .contains(&name)
 }
@@ -173,7 +184,9 @@ impl<'a> View<'a> {
 
     /// Do ends act, which `limited` says or, where it says `auto`, their being there?
     pub(super) fn is_limited(&self, limited: &str, range: &str, auto: bool) -> Read<bool> {
-        let word = self.attribute(limited).map(|word| super::compiler::word(word, &["false", "true", "auto"]));
+        let word = self
+            .attribute(limited)
+            .map(|word| super::compiler::word(word, &["false", "true", "auto"]));
         match word.transpose()? {
             Some(0) => Ok(false),
             Some(1) => Ok(true),

@@ -1,6 +1,6 @@
 //! Equalities: loops and couplings, hard here.
 
-use super::model::{Model, Site};
+use super::model::{Model, Site, Tendon};
 use crate::element::Element;
 use crate::pose::{Pose, V3, quaternion, v3};
 use crate::robot::{Coupling, GROUND, Joint, Kind, Term};
@@ -12,7 +12,7 @@ const SLACK: f64 = 1.0e-6;
 /// Reads the elements `equality`.
 pub(super) fn read<'a>(root: &'a Element, model: &mut Model<'a, '_, '_>) -> Read<()> {
     for element in root.each("equality").flat_map(|equality| &equality.children) {
-        let is_known = matches!(element.name.as_str(), "connect" | "weld" | "joint");
+        let is_known = matches!(element.name.as_str(), "connect" | "weld" | "joint" | "tendon");
         if !is_known {
             continue;
         }
@@ -27,14 +27,21 @@ pub(super) fn read<'a>(root: &'a Element, model: &mut Model<'a, '_, '_>) -> Read
             model.context.findings.ignored(element.at, element.label(), says);
             continue;
         }
+        let mut is_kept = true;
         for ending in model.endings(element) {
             match element.name.as_str() {
                 "joint" => coupling(element, &ending, model)?,
+                "tendon" => is_kept = tendons(element, &ending, model)?,
                 _ => closing(element, &ending, model)?,
             }
         }
-        let says = "a soft constraint there, hard here";
-        model.context.findings.approximated(element.at, element.label(), says);
+        if is_kept {
+            let says = "a soft constraint there, hard here";
+            model.context.findings.approximated(element.at, element.label(), says);
+        } else {
+            let says = "an equality of tendons that is no sum of coordinates does not act here";
+            model.context.findings.ignored(element.at, element.label(), says);
+        }
     }
     Ok(())
 }
@@ -53,7 +60,8 @@ fn closing(element: &Element, ending: &str, model: &mut Model<'_, '_, '_>) -> Re
         ([first.link, second.link], first.pose.at)
     } else {
         let first = model.body(element.need("body1")?, ending)?;
-        let second = element.attribute("body2").map_or(Ok(GROUND), |name| model.body(name, ending))?;
+        let second =
+            element.attribute("body2").map_or(Ok(GROUND), |name| model.body(name, ending))?;
         let place = closing_place(element, is_weld, [first, second], model)?;
         ([first, second], place)
     };
@@ -84,7 +92,9 @@ fn closing_place(
         if let Some(turn) = quaternion([a, b, c, d]) {
             let wanted = links[first].pose.then(&Pose::new(turn, v3([x, y, z])));
             let is = &links[second].pose;
-            if (wanted.at - is.at).abs().max() > SLACK || (wanted.turn - is.turn).abs().max() > SLACK {
+            if (wanted.at - is.at).abs().max() > SLACK
+                || (wanted.turn - is.turn).abs().max() > SLACK
+            {
                 return Err(relative.fault(
                     "the bodies are not drawn as this weld holds them",
                     "draw them so, or leave `relpose` out",
@@ -110,17 +120,44 @@ fn apart_fault(element: &Element, apart: f64) -> crate::source::Fault {
     element.fault(message, "draw the bodies so that the sites meet")
 }
 
-/// y − y₀ = a₀ + a₁ (x − x₀) + ..., or y − y₀ = a₀ without a second joint.
-fn coupling(element: &Element, ending: &str, model: &mut Model<'_, '_, '_>) -> Read<()> {
-    let first = model.single(element.need("joint1")?, ending)?.clone();
+/// The same for two tendons, or for one, each a sum of coordinates; `false` where no sum is equal.
+fn tendons(element: &Element, ending: &str, model: &mut Model<'_, '_, '_>) -> Read<bool> {
+    let [constant, slope, rest @ ..] = polynomial(element)?;
+    let first = model.tendon(element.need("tendon1")?, ending)?.clone();
+    let second = element.attribute("tendon2").map(|name| model.tendon(name, ending).cloned());
+    let Tendon::Sum(mut terms, _) = first else { return Ok(false) };
+    match second.transpose()? {
+        None => {}
+        Some(Tendon::Sum(others, _)) if rest == [0.0; 3] => {
+            let others = others.into_iter();
+            terms.extend(others.map(|term| Term { factor: -slope * term.factor, ..term }));
+        }
+        Some(_) => return Ok(false),
+    }
+    let wanted = name(element, ending, "tendon equality");
+    let wanted = model.free_name(super::model::Sort::Law, &wanted);
+    model.robot.couplings.push(Coupling { name: wanted, terms, value: constant });
+    Ok(true)
+}
+
+/// The five coefficients of an equality.
+fn polynomial(element: &Element) -> Read<[f64; 5]> {
     let mut all = [0.0, 1.0, 0.0, 0.0, 0.0];
     if let Some(written) = element.attribute("polycoef") {
         for (a, b) in all.iter_mut().zip(written.list()?) {
             *a = b;
         }
     }
+    Ok(all)
+}
+
+/// y − y₀ = a₀ + a₁ (x − x₀) + ..., or y − y₀ = a₀ without a second joint.
+fn coupling(element: &Element, ending: &str, model: &mut Model<'_, '_, '_>) -> Read<()> {
+    let first = model.single(element.need("joint1")?, ending)?.clone();
+    let all = polynomial(element)?;
     let [constant, slope, rest @ ..] = all;
-    let mut terms = vec![Term { of: first.coordinate(), factor: first.sign, coefficients: Vec::new() }];
+    let mut terms =
+        vec![Term { of: first.coordinate(), factor: first.sign, coefficients: Vec::new() }];
     if let Some(second) = element.attribute("joint2") {
         let second = model.single(second, ending)?;
         let of = second.coordinate();

@@ -93,6 +93,9 @@ pub(super) fn read(
         view.own(name);
     }
     let group = view.number_or("group", 0.0)?;
+    if view.number_or("contype", 1.0)? != 0.0 || view.number_or("conaffinity", 1.0)? != 0.0 {
+        model.touching += 1;
+    }
     let [first, last] = model.compiler.groups;
     let written = view.number("mass")?;
     let density = view.number_or("density", 1000.0)?;

@@ -57,7 +57,8 @@ impl Includer<'_, '_> {
         }
         self.files += 1;
         if self.chain.len() == MAX_DEPTH || self.files > MAX_FILES {
-            let message = format!("more than {MAX_DEPTH} files in each other, or {MAX_FILES} files in all");
+            let message =
+                format!("more than {MAX_DEPTH} files in each other, or {MAX_FILES} files in all");
             return Err(file.fault(message, "put the elements into fewer files"));
         }
         let text = self.text(&path, file)?;
@@ -75,7 +76,9 @@ impl Includer<'_, '_> {
     fn path(&self, file: &Attribute) -> Read<PathBuf> {
         let Some(folder) = &self.folder else {
             let hint = "give the model as a file, or put the elements of the other file here";
-            return Err(file.fault("this text has no folder, from which it could include files", hint));
+            return Err(
+                file.fault("this text has no folder, from which it could include files", hint)
+            );
         };
         let name = Path::new(file.value.trim());
         let candidates = [Some(folder), self.folders.last()].into_iter().flatten();

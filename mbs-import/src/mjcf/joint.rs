@@ -40,10 +40,8 @@ pub(super) fn read(
     let moves = match view.attribute("type") {
         _ if view.element.name == "freejoint" => Moves::Free,
         None => Moves::Hinge,
-        Some(kind) => {
-            [Moves::Hinge, Moves::Slide, Moves::Ball, Moves::Free]
-                [word(kind, &["hinge", "slide", "ball", "free"])?]
-        }
+        Some(kind) => [Moves::Hinge, Moves::Slide, Moves::Ball, Moves::Free]
+            [word(kind, &["hinge", "slide", "ball", "free"])?],
     };
     let settings = &model.compiler;
     let is_hinge = moves == Moves::Hinge;
@@ -54,7 +52,11 @@ pub(super) fn read(
     let axis = match direction(&axis) {
         Some(axis) => scope.turn * axis,
         None if is_single => {
-            return Err(Fault::new(at, format!("the axis of joint `{name}` has no direction"), "write a direction, as 0 0 1"));
+            return Err(Fault::new(
+                at,
+                format!("the axis of joint `{name}` has no direction"),
+                "write a direction, as 0 0 1",
+            ));
         }
         None => V3::zeros(),
     };
@@ -65,7 +67,8 @@ pub(super) fn read(
     let range = view.numbers::<2>("range")?.filter(|range| is_limited && *range != [0.0; 2]);
     let stops = view.numbers_or("solreflimit", [0.02, 1.0])?;
     view.attribute("solimplimit");
-    let is_clamped = view.is_limited("actuatorfrclimited", "actuatorfrcrange", settings.auto_limits)?;
+    let is_clamped =
+        view.is_limited("actuatorfrclimited", "actuatorfrcrange", settings.auto_limits)?;
     let effort = view.numbers("actuatorfrcrange")?.filter(|_| is_clamped);
     let [stiffness, damping, friction, armature] =
         [number("stiffness")?, number("damping")?, number("frictionloss")?, number("armature")?];
@@ -123,7 +126,14 @@ pub(super) fn join(
         if joints.len() > 1 || parent != GROUND {
             return Err(Fault::new(
                 free.motion.at,
-                format!("body `{body_name}` has a free joint, and {}", if parent == GROUND { "another joint" } else { "a parent that is not the world" }),
+                format!(
+                    "body `{body_name}` has a free joint, and {}",
+                    if parent == GROUND {
+                        "another joint"
+                    } else {
+                        "a parent that is not the world"
+                    }
+                ),
                 "a free joint is the only joint of a child of the world",
             ));
         }
@@ -219,7 +229,10 @@ fn add(
         joint.zero = only.motion.zero;
         joint.range = only.motion.range.map(|range| only.motion.ends(range));
     } else {
-        model.robot.notes.push(format!("Joint {name}: the coordinates {} of the file.", names.join(", ")));
+        model
+            .robot
+            .notes
+            .push(format!("Joint {name}: the coordinates {} of the file.", names.join(", ")));
     }
     model.robot.joints.push(joint);
     for (i, read) in joints.iter().enumerate() {
@@ -233,7 +246,11 @@ fn add(
             let note = format!("Joint {}: {} in the file is 0 here.", motion.name, motion.zero);
             model.robot.notes.push(note);
         }
-        if motion.is_single() { single(read, &motion, model) } else { several(read, &motion, place, ends, model) }
+        if motion.is_single() {
+            single(read, &motion, model)
+        } else {
+            several(read, &motion, place, ends, model)
+        }
         model.motions.push(motion);
     }
     Ok(())
@@ -245,12 +262,18 @@ fn single(read: &Written, motion: &Motion, model: &mut Model<'_, '_, '_>) {
     let (stiffness, damping) = (read.stiffness, read.damping);
     if motion.timed.is_none() && (stiffness > 0.0 || damping > 0.0) {
         let free = if stiffness > 0.0 { motion.from_file(motion.spring) } else { 0.0 };
-        model.law(&format!("{name} spring"), What::Spring { on: on.clone(), stiffness, damping, free });
+        model.law(
+            &format!("{name} spring"),
+            What::Spring { on: on.clone(), stiffness, damping, free },
+        );
     }
     if read.friction > 0.0 {
         let says = "frictionloss is a soft constraint there; here it is friction that falls to zero below a rate of 1e-3";
         model.context.findings.approximated(motion.at, format!("joint[{name}]"), says);
-        model.law(&format!("{name} friction"), What::Friction { on: on.clone(), coulomb: read.friction });
+        model.law(
+            &format!("{name} friction"),
+            What::Friction { on: on.clone(), coulomb: read.friction },
+        );
     }
     if motion.armature > 0.0 {
         model.law(&format!("{name} armature"), What::Rotor { on, inertia: motion.armature });
@@ -258,7 +281,13 @@ fn single(read: &Written, motion: &Motion, model: &mut Model<'_, '_, '_>) {
 }
 
 /// Spring, damping and armature of a ball or a free joint.
-fn several(read: &Written, motion: &Motion, place: V3, ends: [usize; 2], model: &mut Model<'_, '_, '_>) {
+fn several(
+    read: &Written,
+    motion: &Motion,
+    place: V3,
+    ends: [usize; 2],
+    model: &mut Model<'_, '_, '_>,
+) {
     let label = format!("joint[{}]", motion.name);
     let is_free = motion.moves == Moves::Free;
     if read.stiffness > 0.0 || read.damping > 0.0 {

@@ -10,7 +10,11 @@ use mbs_scene::nearest_name;
 /// Takes the keyframe that is asked for; others are told in the head of the scene.
 pub(super) fn read(root: &Element, model: &mut Model<'_, '_, '_>) -> Read<()> {
     let keys: Vec<_> = root.each("keyframe").flat_map(|keys| keys.each("key")).collect();
-    let names: Vec<_> = keys.iter().zip(0..).map(|(key, number)| key.value("name").map_or_else(|| format!("{number}"), str::to_owned)).collect();
+    let names: Vec<_> = keys
+        .iter()
+        .zip(0..)
+        .map(|(key, number)| key.value("name").map_or_else(|| format!("{number}"), str::to_owned))
+        .collect();
     for key in &keys {
         key.read_whole();
     }
@@ -28,20 +32,30 @@ pub(super) fn read(root: &Element, model: &mut Model<'_, '_, '_>) -> Read<()> {
     match (asked, taken) {
         (Some(asked), None) => {
             let hint = nearest_name(&asked, &names, "keyframes");
-            Err(Fault::new(Origin::start_of(root.at.source), format!("unknown keyframe `{asked}`"), hint))
+            Err(Fault::new(
+                Origin::start_of(root.at.source),
+                format!("unknown keyframe `{asked}`"),
+                hint,
+            ))
         }
         _ => Ok(()),
     }
 }
 
 /// The numbers of each joint in a list of all.
-fn numbers(word: Option<&Attribute>, count: impl Fn(Moves) -> usize, motions: &[Motion]) -> Read<Option<Vec<Vec<f64>>>> {
+fn numbers(
+    word: Option<&Attribute>,
+    count: impl Fn(Moves) -> usize,
+    motions: &[Motion],
+) -> Read<Option<Vec<Vec<f64>>>> {
     let Some(word) = word else { return Ok(None) };
     let list = word.list()?;
     let needed: usize = motions.iter().map(|motion| count(motion.moves)).sum();
     if list.len() != needed {
         let message = format!("`{}` has {} numbers, and the model {needed}", word.name, list.len());
-        return Err(word.fault(message, "write a number for each coordinate, in the order of the joints"));
+        return Err(
+            word.fault(message, "write a number for each coordinate, in the order of the joints")
+        );
     }
     let mut rest = &list[..];
     let each = motions.iter().map(|motion| {
@@ -69,7 +83,9 @@ fn start(key: &Element, model: &mut Model<'_, '_, '_>) -> Read<()> {
         let list = controls.list()?;
         for (input, control) in model.inputs.iter().zip(list) {
             let Some((law, _)) = input else { continue };
-            if let What::Set { value } | What::Input { value, .. } = &mut model.robot.laws[*law].what {
+            if let What::Set { value } | What::Input { value, .. } =
+                &mut model.robot.laws[*law].what
+            {
                 *value = control;
             }
         }
@@ -78,7 +94,8 @@ fn start(key: &Element, model: &mut Model<'_, '_, '_>) -> Read<()> {
     for joint in 0..model.robot.joints.len() {
         let of = &model.robot.joints[joint];
         // joints that close loops follow
-        let own: Vec<_> = (0..model.motions.len()).filter(|i| model.motions[*i].joint == joint).collect();
+        let own: Vec<_> =
+            (0..model.motions.len()).filter(|i| model.motions[*i].joint == joint).collect();
         let (parent, child) = (of.parent, of.child);
         if own.is_empty() {
             if of.kind == Kind::Fixed {
@@ -86,7 +103,8 @@ fn start(key: &Element, model: &mut Model<'_, '_, '_>) -> Read<()> {
             }
             continue;
         }
-        let (start, turn) = joint_start(joint, &own, values.as_deref(), speeds.as_deref(), &turned[parent], model)?;
+        let (start, turn) =
+            joint_start(joint, &own, values.as_deref(), speeds.as_deref(), &turned[parent], model)?;
         turned[child] = turned[parent] * turn;
         model.robot.start.push(start);
     }
@@ -111,7 +129,15 @@ fn joint_start(
     let (mut value, mut rate) = (vec![0.0; count], vec![0.0; count]);
     let mut turn = M3::identity();
     let at = model.motions[own[0]].at;
-    let of_turn = |q: [f64; 4]| quaternion(q).ok_or_else(|| Fault::new(at, "a quaternion of length zero in the keyframe", "write w x y z of unit length"));
+    let of_turn = |q: [f64; 4]| {
+        quaternion(q).ok_or_else(|| {
+            Fault::new(
+                at,
+                "a quaternion of length zero in the keyframe",
+                "write w x y z of unit length",
+            )
+        })
+    };
     for i in own {
         let motion = &model.motions[*i];
         let (q, v) = (values.map(|all| &all[*i]), speeds.map(|all| &all[*i]));
@@ -132,7 +158,11 @@ fn joint_start(
                     let quat = &q[q.len() - 4..];
                     let is = of_turn([quat[0], quat[1], quat[2], quat[3]])?;
                     // a free joint has the body's own frame, a ball what turns it
-                    turn = if is_free { is * link.pose.turn.transpose() } else { link.pose.turn * is * link.pose.turn.transpose() };
+                    turn = if is_free {
+                        is * link.pose.turn.transpose()
+                    } else {
+                        link.pose.turn * is * link.pose.turn.transpose()
+                    };
                     value[first..first + 3].copy_from_slice(&vector_of(&turn));
                     if is_free {
                         let moved = v3([q[0], q[1], q[2]]) - link.pose.at;
@@ -157,7 +187,9 @@ fn joint_start(
 
 /// The rotation vector of a rotation.
 fn vector_of(turn: &M3) -> [f64; 3] {
-    let skew = v3([turn[(2, 1)] - turn[(1, 2)], turn[(0, 2)] - turn[(2, 0)], turn[(1, 0)] - turn[(0, 1)]]) * 0.5;
+    let skew =
+        v3([turn[(2, 1)] - turn[(1, 2)], turn[(0, 2)] - turn[(2, 0)], turn[(1, 0)] - turn[(0, 1)]])
+            * 0.5;
     let (sine, cosine) = (skew.dot(&skew).sqrt(), (turn.trace() - 1.0) / 2.0);
     let angle = sine.atan2(cosine);
     /// Sine of an angle near zero or half a turn, where the axis follows from the symmetric part.

@@ -43,12 +43,22 @@ pub(crate) fn read(root: &Element, context: &mut Context<'_>) -> Read<Robot> {
     }
     weights::settle(&mut model)?;
     stops::add(&mut model);
-    equality::read(root, &mut model)?;
     tendon::read(root, &mut model)?;
+    equality::read(root, &mut model)?;
     actuator::read(root, &mut model)?;
     keyframe::read(root, &mut model)?;
+    if model.touching > 1 && model.compiler.acts.contact {
+        let says = format!(
+            "{} of them could touch: there is no contact between bodies yet",
+            model.touching
+        );
+        model.context.findings.ignored(root.at, "geom", says);
+    }
     if let Some(step) = root.each("option").find_map(|option| option.value("timestep")) {
-        model.robot.notes.push(format!("Step of the file: {step} s; methods here choose their own."));
+        model
+            .robot
+            .notes
+            .push(format!("Step of the file: {step} s; methods here choose their own."));
     }
     Ok(model.robot)
 }

@@ -74,7 +74,8 @@ impl Motion {
 
     /// A term of a sum of the file's coordinates, and what it adds to the sum in the reference configuration.
     pub(super) fn term(&self, factor: f64) -> (Term, f64) {
-        let term = Term { of: self.coordinate(), factor: factor * self.sign, coefficients: Vec::new() };
+        let term =
+            Term { of: self.coordinate(), factor: factor * self.sign, coefficients: Vec::new() };
         (term, factor * self.zero)
     }
 
@@ -126,6 +127,8 @@ pub(super) struct Model<'a, 'b, 'c> {
     pub(super) copies: HashMap<String, Vec<String>>,
     /// Laws of inputs with their factor to the control of the file, by the number of the actuator.
     pub(super) inputs: Vec<Option<(usize, f64)>>,
+    /// Geoms that could touch others.
+    pub(super) touching: usize,
     names: HashSet<(Sort, String)>,
 }
 
@@ -152,6 +155,7 @@ impl<'a, 'b, 'c> Model<'a, 'b, 'c> {
             masses: Vec::new(),
             copies: HashMap::new(),
             inputs: Vec::new(),
+            touching: 0,
             names: HashSet::new(),
         }
     }
@@ -212,9 +216,20 @@ impl<'a, 'b, 'c> Model<'a, 'b, 'c> {
         Ok(&self.motions[number])
     }
 
+    /// A tendon by its name.
+    pub(super) fn tendon(&self, name: &Attribute, ending: &str) -> Read<&Tendon> {
+        let word = name.value.trim();
+        let number = self.tendon_names.get(&format!("{word}{ending}"));
+        let number = number.map_or_else(|| self.tendon_names.find(word, name.at), Ok)?;
+        Ok(&self.tendons[number])
+    }
+
     /// The endings of the copies that an element names, or none: what names a copied thing by its plain name is copied with it.
     pub(super) fn endings(&self, element: &Element) -> Vec<String> {
-        let mut names = element.attributes.iter().chain(element.children.iter().flat_map(|child| &child.attributes));
+        let mut names = element
+            .attributes
+            .iter()
+            .chain(element.children.iter().flat_map(|child| &child.attributes));
         let found = names.find_map(|word| {
             let is_name = word.name != "name" && word.name != "class";
             self.copies.get(word.value.trim()).filter(|_| is_name)

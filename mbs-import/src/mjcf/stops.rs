@@ -38,7 +38,8 @@ struct Moved {
 
 /// Adds stops, and the springs that a time and a damping ratio say.
 pub(super) fn add(model: &mut Model<'_, '_, '_>) {
-    let is_needed = model.motions.iter().any(|motion| motion.stops.is_some() || motion.timed.is_some());
+    let is_needed =
+        model.motions.iter().any(|motion| motion.stops.is_some() || motion.timed.is_some());
     if !is_needed {
         return;
     }
@@ -50,7 +51,9 @@ pub(super) fn add(model: &mut Model<'_, '_, '_>) {
             let stiffness = inertia / (time * ratio).powi(2);
             let damping = 2.0 * inertia / time;
             let free = motion.from_file(motion.spring);
-            let says = format!("springdamper: stiffness {stiffness:e} and damping {damping:e} by the inertia as drawn");
+            let says = format!(
+                "springdamper: stiffness {stiffness:e} and damping {damping:e} by the inertia as drawn"
+            );
             model.context.findings.approximated(motion.at, format!("joint[{}]", motion.name), says);
             let name = format!("{} spring", motion.name);
             model.law(&name, What::Spring { on: motion.target(), stiffness, damping, free });
@@ -63,7 +66,11 @@ pub(super) fn add(model: &mut Model<'_, '_, '_>) {
             None => by_file.filter(|[stiffness, _]| *stiffness > 0.0 && stiffness.is_finite()),
         };
         let says = "a soft constraint there; here a stop with stiffness and damping by solreflimit and the moved inertia";
-        model.context.findings.approximated(motion.at, format!("joint[{}]@range", motion.name), says);
+        model.context.findings.approximated(
+            motion.at,
+            format!("joint[{}]@range", motion.name),
+            says,
+        );
         let on = motion.target();
         let what = match (stiffness, motion.number) {
             (Some([stiffness, damping]), Some(_)) => {
@@ -97,7 +104,9 @@ fn columns(model: &Model<'_, '_, '_>) -> Vec<Column> {
             Moves::Hinge => vec![turn(motion.axis)],
             Moves::Slide => vec![slide(motion.axis)],
             Moves::Ball => (0..3).map(|i| turn(unit(i))).collect(),
-            Moves::Free => (0..3).map(|i| slide(unit(i))).chain((0..3).map(|i| turn(unit(i)))).collect(),
+            Moves::Free => {
+                (0..3).map(|i| slide(unit(i))).chain((0..3).map(|i| turn(unit(i)))).collect()
+            }
         };
         columns.extend(all.into_iter().map(|(turn, slide)| Column {
             link: joint.child,
@@ -152,7 +161,10 @@ fn moved(model: &Model<'_, '_, '_>) -> Option<Moved> {
         // momentum of all that the coordinate moves
         let p = column.slide * body.mass + cross(&column.turn, &body.first);
         let l = body.second * column.turn + cross(&body.first, &column.slide);
-        let mut row: Vec<f64> = chain.iter().map(|of: &usize| columns[*of].turn.dot(&l) + columns[*of].slide.dot(&p)).collect();
+        let mut row: Vec<f64> = chain
+            .iter()
+            .map(|of: &usize| columns[*of].turn.dot(&l) + columns[*of].slide.dot(&p))
+            .collect();
         *row.last_mut()? += column.armature;
         rows.push(row);
         chains.push(chain);

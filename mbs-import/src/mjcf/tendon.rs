@@ -22,9 +22,16 @@ pub(super) fn read<'a>(root: &'a Element, model: &mut Model<'a, '_, '_>) -> Read
 }
 
 /// Keeps a tendon by its name.
-fn keep(element: &Element, ending: &str, tendon: Tendon, model: &mut Model<'_, '_, '_>) -> Read<String> {
+fn keep(
+    element: &Element,
+    ending: &str,
+    tendon: Tendon,
+    model: &mut Model<'_, '_, '_>,
+) -> Read<String> {
     let number = model.tendons.len() + 1;
-    let name = element.value("name").map_or_else(|| format!("tendon {number}"), |name| model.copied(name, ending));
+    let name = element
+        .value("name")
+        .map_or_else(|| format!("tendon {number}"), |name| model.copied(name, ending));
     model.tendon_names.add(&name, element.at, &model.context.sources)?;
     model.tendons.push(tendon);
     Ok(name)
@@ -49,10 +56,12 @@ fn fixed<'a>(element: &'a Element, ending: &str, model: &mut Model<'a, '_, '_>) 
     let number = |name| view.number_or(name, 0.0);
     let acts = model.compiler.acts;
     let of = |acts: bool, x: f64| if acts { x } else { 0.0 };
-    let [stiffness, damping] = [of(acts.spring, number("stiffness")?), of(acts.damper, number("damping")?)];
+    let [stiffness, damping] =
+        [of(acts.spring, number("stiffness")?), of(acts.damper, number("damping")?)];
     let [friction, armature] = [of(acts.friction, number("frictionloss")?), number("armature")?];
     let lengths = view.attribute("springlength").map(|length| length.list()).transpose()?;
     let limits = view.attribute("range");
+    view.attribute("limited");
     let is_limited = limits.is_some()
         && acts.limit
         && view.is_limited("limited", "range", model.compiler.auto_limits)?;
@@ -68,7 +77,9 @@ fn fixed<'a>(element: &'a Element, ending: &str, model: &mut Model<'a, '_, '_>) 
             Some([x, y, ..]) if x == y && *x >= 0.0 => *x,
             Some([x, ..]) if *x < 0.0 => slack,
             Some(lengths) => {
-                let says = format!("the dead range {lengths:?} of its spring does not act: free at its middle");
+                let says = format!(
+                    "the dead range {lengths:?} of its spring does not act: free at its middle"
+                );
                 model.context.findings.ignored(element.at, label.as_str(), says);
                 lengths.iter().sum::<f64>() / lengths.len().max(1) as f64
             }
@@ -101,7 +112,8 @@ fn fixed<'a>(element: &'a Element, ending: &str, model: &mut Model<'a, '_, '_>) 
 fn spatial<'a>(element: &'a Element, model: &mut Model<'a, '_, '_>) -> Read<()> {
     let view = model.classes.view_as(element, "tendon", super::defaults::MAIN)?;
     let acting = ["stiffness", "damping", "frictionloss", "armature"].into_iter();
-    let mut acts = model.compiler.acts.limit && view.is_limited("limited", "range", model.compiler.auto_limits)?;
+    let mut acts = model.compiler.acts.limit
+        && view.is_limited("limited", "range", model.compiler.auto_limits)?;
     for name in acting {
         let values = view.attribute(name).map(|word| word.list()).transpose()?.unwrap_or_default();
         acts |= values.iter().any(|x| *x != 0.0);
@@ -109,7 +121,11 @@ fn spatial<'a>(element: &'a Element, model: &mut Model<'a, '_, '_>) -> Read<()> 
     element.read_whole();
     let name = keep(element, "", Tendon::Other, model)?;
     let label = format!("tendon/spatial[{name}]");
-    let says = if acts { "a tendon in space does not act here" } else { "a tendon in space, which has no law of its own" };
+    let says = if acts {
+        "a tendon in space does not act here"
+    } else {
+        "a tendon in space, which has no law of its own"
+    };
     model.context.findings.ignored(element.at, label, says);
     Ok(())
 }

@@ -16,7 +16,8 @@ pub(super) fn settle(model: &mut Model<'_, '_, '_>) -> Read<()> {
         bound(mass, model.compiler.bound_mass, model.compiler.bound_inertia);
         if model.compiler.balance && balance(mass) {
             let link = &model.robot.links[*link];
-            let says = "moments that no body has: all three are their mean, as `balanceinertia` asks";
+            let says =
+                "moments that no body has: all three are their mean, as `balanceinertia` asks";
             model.context.findings.approximated(link.at, format!("body[{}]", link.name), says);
         }
     }
