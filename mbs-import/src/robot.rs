@@ -92,6 +92,15 @@ pub(crate) struct Term {
     pub(crate) factor: f64,
     /// A polynomial of the coordinate in its place, where there are any.
     pub(crate) coefficients: Vec<f64>,
+    /// The length of a line over places of links in place of the coordinate, where there are any.
+    pub(crate) line: Vec<(usize, V3)>,
+}
+
+impl Term {
+    /// A coordinate with its factor.
+    pub(crate) const fn new(of: Coordinate, factor: f64) -> Self {
+        Self { of, factor, coefficients: Vec::new(), line: Vec::new() }
+    }
 }
 
 /// A sum of coordinates that holds.
@@ -183,6 +192,10 @@ pub(crate) enum What {
     },
     Measure {
         of: Coordinate,
+        is_rate: bool,
+    },
+    MeasureLine {
+        line: Vec<(usize, V3)>,
         is_rate: bool,
     },
     Constant {

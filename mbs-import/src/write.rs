@@ -160,7 +160,11 @@ impl Writer<'_> {
 
     fn terms(&self, terms: &[Term]) -> String {
         let terms = terms.iter().map(|term| {
-            let mut text = format!("{{ joint = {}", self.joint_name(term.of.joint));
+            let mut text = if term.line.is_empty() {
+                format!("{{ joint = {}", self.joint_name(term.of.joint))
+            } else {
+                format!("{{ points = {}", self.line_points(&term.line))
+            };
             if let Some(number) = term.of.number {
                 let _ = write!(text, ", coordinate = {number}");
             }
@@ -174,6 +178,13 @@ impl Writer<'_> {
             text + " }"
         });
         format!("[{}]", terms.collect::<Vec<_>>().join(", "))
+    }
+
+    fn line_points(&self, line: &[(usize, V3)]) -> String {
+        let points = line.iter().map(|(link, place)| {
+            format!("{{ body = {}, at = {} }}", self.body(*link), vector(place))
+        });
+        format!("[{}]", points.collect::<Vec<_>>().join(", "))
     }
 
     fn couplings(&mut self) {
@@ -237,6 +248,7 @@ impl Writer<'_> {
                 What::Set { .. }
                 | What::Constant { .. }
                 | What::Measure { .. }
+                | What::MeasureLine { .. }
                 | What::Sum { .. }
                 | What::Clamp { .. }
                 | What::Lag { .. } => {
@@ -330,6 +342,14 @@ impl Writer<'_> {
             What::Measure { of, is_rate } => {
                 self.signal(name, "measure");
                 self.target(&Target::Coordinate(of.clone()));
+                if *is_rate {
+                    self.key("quantity", quoted("rate"));
+                }
+            }
+            What::MeasureLine { line, is_rate } => {
+                let points = self.line_points(line);
+                self.signal(name, "measure");
+                self.key("points", points);
                 if *is_rate {
                     self.key("quantity", quoted("rate"));
                 }

@@ -3,7 +3,7 @@
 use super::defaults::is_actuator;
 use super::model::{Model, Motion, Tendon};
 use crate::element::Element;
-use crate::robot::{Coordinate, Target, Term, What};
+use crate::robot::{Target, Term, What};
 use crate::source::Read;
 
 /// An actuator: force = gain u + b₀ + b₁ l + b₂ l̇ of its length l.
@@ -164,6 +164,11 @@ impl Actuator {
         Ok(())
     }
 
+    /// Does its force follow the control with a delay of first order?
+    fn lags(&self) -> bool {
+        self.dynamics != "none" && self.time > 0.0
+    }
+
     /// Why the scene cannot have its force.
     fn refusal(&self) -> Option<String> {
         let is_constant = self.gain.iter().skip(1).take(2).all(|x| *x == 0.0);
@@ -296,7 +301,7 @@ fn transmission(
 fn laws(name: &str, actuator: &Actuator, pulled: &Transmission, model: &mut Model<'_, '_, '_>) {
     let gear = actuator.gear;
     let on = match &pulled.terms[..] {
-        [only] if only.factor == 1.0 => Target::Coordinate(only.of.clone()),
+        [only] if only.factor == 1.0 && only.line.is_empty() => Target::Coordinate(only.of.clone()),
         terms => Target::Sum(terms.to_vec()),
     };
     // inertia and damping of the actuator are on its length, which is gear times what it pulls
@@ -305,7 +310,9 @@ fn laws(name: &str, actuator: &Actuator, pulled: &Transmission, model: &mut Mode
         let what = What::Spring { on: on.clone(), stiffness: 0.0, damping, free: 0.0 };
         model.law(&format!("{name} damping"), what);
     }
-    if let ([only], true) = (&pulled.terms[..], actuator.armature > 0.0) {
+    if let ([only], true) =
+        (&pulled.terms[..], actuator.armature > 0.0 && pulled.terms[0].line.is_empty())
+    {
         let inertia = actuator.armature * (gear * only.factor).powi(2);
         let on = Target::Coordinate(only.of.clone());
         model.law(&format!("{name} armature"), What::Rotor { on, inertia });
@@ -317,7 +324,7 @@ fn laws(name: &str, actuator: &Actuator, pulled: &Transmission, model: &mut Mode
     let bias = |i: usize| actuator.bias.get(i).copied().unwrap_or(0.0);
     let has_bias = actuator.bias_kind == "affine" && (0..3).any(|i| bias(i) != 0.0);
     let is_plain = control.is_none() && force.is_none() && pulled.effort.is_none() && !has_bias;
-    if is_plain && gain * gear == 1.0 && actuator.dynamics == "none" {
+    if is_plain && gain * gear == 1.0 && !actuator.lags() {
         model.inputs.push(Some((model.robot.laws.len(), 1.0)));
         model.law(name, What::Input { on, value: 0.0 });
         return;
@@ -327,7 +334,7 @@ fn laws(name: &str, actuator: &Actuator, pulled: &Transmission, model: &mut Mode
     if let Some([lower, upper]) = control {
         signal = model.law(&format!("{name} control"), What::Clamp { of: signal, lower, upper });
     }
-    if actuator.dynamics != "none" {
+    if actuator.lags() {
         signal =
             model.law(&format!("{name} activation"), What::Lag { of: signal, time: actuator.time });
     }
@@ -362,7 +369,10 @@ fn add_bias(
 ) {
     let gear = actuator.gear;
     let bias = |i: usize| actuator.bias.get(i).copied().unwrap_or(0.0);
-    let constant = bias(0) + bias(1) * gear * pulled.drawn;
+    // a measured length is whole, a measured coordinate counts from the reference configuration
+    let is_line = pulled.terms.iter().any(|term| !term.line.is_empty());
+    let drawn = if is_line { 0.0 } else { pulled.drawn };
+    let constant = bias(0) + bias(1) * gear * drawn;
     if constant != 0.0 {
         let signal = model.law(&format!("{name} constant"), What::Constant { value: constant });
         sum.push((signal, 1.0));
@@ -374,9 +384,12 @@ fn add_bias(
         for (number, term) in pulled.terms.iter().enumerate() {
             let ending =
                 if pulled.terms.len() > 1 { format!(" {}", number + 1) } else { String::new() };
-            let of: Coordinate = term.of.clone();
-            let signal =
-                model.law(&format!("{name} {word}{ending}"), What::Measure { of, is_rate });
+            let what = if term.line.is_empty() {
+                What::Measure { of: term.of.clone(), is_rate }
+            } else {
+                What::MeasureLine { line: term.line.clone(), is_rate }
+            };
+            let signal = model.law(&format!("{name} {word}{ending}"), what);
             sum.push((signal, factor * gear * term.factor));
         }
     }

@@ -65,6 +65,11 @@ fn closing(element: &Element, ending: &str, model: &mut Model<'_, '_, '_>) -> Re
         let place = closing_place(element, is_weld, [first, second], model)?;
         ([first, second], place)
     };
+    if model.carrier(ends[0]) == model.carrier(ends[1]) {
+        let says = "both ends are on one body: there is nothing to hold";
+        model.context.findings.ignored(element.at, element.label(), says);
+        return Ok(());
+    }
     let kind = if is_weld { Kind::Weld } else { Kind::Spherical };
     let number = model.robot.joints.len();
     let wanted = name(element, ending, &format!("{} {number}", element.name));
@@ -156,19 +161,18 @@ fn coupling(element: &Element, ending: &str, model: &mut Model<'_, '_, '_>) -> R
     let first = model.single(element.need("joint1")?, ending)?.clone();
     let all = polynomial(element)?;
     let [constant, slope, rest @ ..] = all;
-    let mut terms =
-        vec![Term { of: first.coordinate(), factor: first.sign, coefficients: Vec::new() }];
+    let mut terms = vec![Term::new(first.coordinate(), first.sign)];
     if let Some(second) = element.attribute("joint2") {
         let second = model.single(second, ending)?;
         let of = second.coordinate();
         // of the scene's coordinate, which may grow against the file's
         let signed = |power: i32, a: f64| a * second.sign.powi(power);
         if rest == [0.0; 3] {
-            terms.push(Term { of, factor: -signed(1, slope), coefficients: Vec::new() });
+            terms.push(Term::new(of, -signed(1, slope)));
         } else {
             let powers = all.iter().zip(0..).skip(1).map(|(a, power)| signed(power, *a));
             let coefficients = core::iter::once(0.0).chain(powers).collect();
-            terms.push(Term { of, factor: -1.0, coefficients });
+            terms.push(Term { coefficients, ..Term::new(of, -1.0) });
         }
     }
     let wanted = name(element, ending, &format!("{} equality", first.name));

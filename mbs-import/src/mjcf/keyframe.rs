@@ -106,7 +106,9 @@ fn start(key: &Element, model: &mut Model<'_, '_, '_>) -> Read<()> {
         let (start, turn) =
             joint_start(joint, &own, values.as_deref(), speeds.as_deref(), &turned[parent], model)?;
         turned[child] = turned[parent] * turn;
-        model.robot.start.push(start);
+        if !(start.value.is_empty() && start.rate.is_empty()) {
+            model.robot.start.push(start);
+        }
     }
     Ok(())
 }

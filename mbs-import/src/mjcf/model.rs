@@ -6,7 +6,7 @@ use crate::context::{Context, Named};
 use crate::element::{Attribute, Element};
 use crate::inertia::Mass;
 use crate::pose::{Pose, V3};
-use crate::robot::{Coordinate, GROUND, Law, Robot, Target, Term, What};
+use crate::robot::{Coordinate, GROUND, Kind, Law, Robot, Target, Term, What};
 use crate::source::{Origin, Read};
 use std::collections::{HashMap, HashSet};
 
@@ -74,8 +74,7 @@ impl Motion {
 
     /// A term of a sum of the file's coordinates, and what it adds to the sum in the reference configuration.
     pub(super) fn term(&self, factor: f64) -> (Term, f64) {
-        let term =
-            Term { of: self.coordinate(), factor: factor * self.sign, coefficients: Vec::new() };
+        let term = Term::new(self.coordinate(), factor * self.sign);
         (term, factor * self.zero)
     }
 
@@ -198,6 +197,17 @@ impl<'a, 'b, 'c> Model<'a, 'b, 'c> {
         let number = self.bodies.get(&format!("{word}{ending}"));
         let number = number.map_or_else(|| self.bodies.find(word, name.at), Ok)?;
         Ok(self.body_links[number])
+    }
+
+    /// The link that carries a link, over welds.
+    pub(super) fn carrier(&self, mut link: usize) -> usize {
+        // a weld stands before those of the links that hang on it
+        for joint in self.robot.joints.iter().rev() {
+            if joint.kind == Kind::Fixed && joint.child == link {
+                link = joint.parent;
+            }
+        }
+        link
     }
 
     /// A place by its name.

@@ -1,131 +1,190 @@
-//! Tendons: springs and dampers on sums of coordinates.
+//! Tendons: springs and dampers on sums of coordinates, or on the length of a line.
 
+use super::defaults::{MAIN, View};
 use super::model::{Model, Tendon};
 use crate::element::Element;
-use crate::robot::{Target, Term, What};
-use crate::source::Read;
+use crate::robot::{Coordinate, Target, Term, What};
+use crate::source::{Fault, Read};
+use mbs_core::algebra::norm;
+
+/// What a tendon pulls: terms, their length as drawn, and that without tension in the springs of the joints.
+struct Pulled {
+    terms: Vec<Term>,
+    drawn: f64,
+    slack: f64,
+}
 
 /// Reads the elements `tendon`.
 pub(super) fn read<'a>(root: &'a Element, model: &mut Model<'a, '_, '_>) -> Read<()> {
     for element in root.each("tendon").flat_map(|tendons| &tendons.children) {
-        match element.name.as_str() {
-            "fixed" => {
-                for ending in model.endings(element) {
-                    fixed(element.read(), &ending, model)?;
-                }
-            }
-            "spatial" => spatial(element, model)?,
-            _ => {}
+        if !matches!(element.name.as_str(), "fixed" | "spatial") {
+            continue;
+        }
+        let view = model.classes.view_as(element.read(), "tendon", MAIN)?;
+        for ending in model.endings(element) {
+            let pulled = match element.name.as_str() {
+                "fixed" => Some(fixed(element, &ending, model)?),
+                _ => spatial(&view, &ending, model)?,
+            };
+            laws(&view, &ending, pulled, model)?;
         }
     }
     Ok(())
 }
 
-/// Keeps a tendon by its name.
-fn keep(
-    element: &Element,
-    ending: &str,
-    tendon: Tendon,
-    model: &mut Model<'_, '_, '_>,
-) -> Read<String> {
-    let number = model.tendons.len() + 1;
-    let name = element
-        .value("name")
-        .map_or_else(|| format!("tendon {number}"), |name| model.copied(name, ending));
-    model.tendon_names.add(&name, element.at, &model.context.sources)?;
-    model.tendons.push(tendon);
-    Ok(name)
-}
-
-fn fixed<'a>(element: &'a Element, ending: &str, model: &mut Model<'a, '_, '_>) -> Read<()> {
-    let view = model.classes.view_as(element, "tendon", super::defaults::MAIN)?;
-    let mut terms: Vec<Term> = Vec::new();
-    // lengths in the reference configuration, and without tension in the springs of the joints
-    let (mut drawn, mut slack) = (0.0, 0.0);
+/// A sum of coordinates.
+fn fixed(element: &Element, ending: &str, model: &Model<'_, '_, '_>) -> Read<Pulled> {
+    let mut pulled = Pulled { terms: Vec::new(), drawn: 0.0, slack: 0.0 };
     for child in element.each("joint") {
         let motion = model.single(child.need("joint")?, ending)?;
         let factor = child.need("coef")?.number()?;
         let (term, length) = motion.term(factor);
-        drawn += length;
-        slack += factor * motion.spring;
+        pulled.drawn += length;
+        pulled.slack += factor * motion.spring;
         if factor != 0.0 {
-            terms.push(term);
+            pulled.terms.push(term);
         }
     }
-    let name = keep(element, ending, Tendon::Sum(terms.clone(), drawn), model)?;
-    let number = |name| view.number_or(name, 0.0);
-    let acts = model.compiler.acts;
-    let of = |acts: bool, x: f64| if acts { x } else { 0.0 };
-    let [stiffness, damping] =
-        [of(acts.spring, number("stiffness")?), of(acts.damper, number("damping")?)];
-    let [friction, armature] = [of(acts.friction, number("frictionloss")?), number("armature")?];
-    let lengths = view.attribute("springlength").map(|length| length.list()).transpose()?;
-    let limits = view.attribute("range");
-    view.attribute("limited");
-    let is_limited = limits.is_some()
-        && acts.limit
-        && view.is_limited("limited", "range", model.compiler.auto_limits)?;
-    let label = format!("tendon/fixed[{name}]");
-    if terms.is_empty() {
+    Ok(pulled)
+}
+
+/// A line over sites; `None` where it winds around a geom or has pulleys, and pulls nothing by itself.
+fn spatial(view: &View<'_>, ending: &str, model: &Model<'_, '_, '_>) -> Read<Option<Pulled>> {
+    let element = view.element;
+    if let Some(winding) = element.children.iter().find(|child| child.name != "site") {
+        if acts(view)? {
+            return Err(winding_fault(winding));
+        }
+        element.read_whole();
+        return Ok(None);
+    }
+    let mut line = Vec::new();
+    let mut drawn = 0.0;
+    for child in element.each("site") {
+        let site = model.site(child.need("site")?, ending)?;
+        let point = (site.link, site.pose.at);
+        if let Some((_, last)) = line.last() {
+            drawn += norm(&(point.1 - last));
+        }
+        line.push(point);
+    }
+    if line.len() < 2 {
+        return Err(element.fault("a tendon of fewer than two sites", "name two sites or more"));
+    }
+    let none = Coordinate { joint: 0, number: None };
+    let terms = vec![Term { line, ..Term::new(none, 1.0) }];
+    Ok(Some(Pulled { terms, drawn, slack: drawn }))
+}
+
+fn winding_fault(winding: &Element) -> Fault {
+    winding.fault(
+        format!(
+            "a tendon that pulls and has a `{}`: lines here run straight over points",
+            winding.name
+        ),
+        "lead it over sites, or leave its stiffness, damping, frictionloss and armature out",
+    )
+}
+
+/// Has it a law of its own?
+fn acts(view: &View<'_>) -> Read<bool> {
+    for name in ["stiffness", "damping", "frictionloss", "armature"] {
+        let values = view.attribute(name).map(|word| word.list()).transpose()?.unwrap_or_default();
+        if values.iter().any(|x| *x != 0.0) {
+            return Ok(true);
+        }
+    }
+    Ok(false)
+}
+
+/// Keeps a tendon by its name, and adds what it does by itself.
+fn laws(
+    view: &View<'_>,
+    ending: &str,
+    pulled: Option<Pulled>,
+    model: &mut Model<'_, '_, '_>,
+) -> Read<()> {
+    let element = view.element;
+    let number = model.tendons.len() + 1;
+    let name = match element.value("name") {
+        Some(name) => model.copied(name, ending),
+        None => format!("tendon {number}"),
+    };
+    model.tendon_names.add(&name, element.at, &model.context.sources)?;
+    let label = format!("tendon/{}[{name}]", element.name);
+    let Some(pulled) = pulled.filter(|pulled| !pulled.terms.is_empty()) else {
+        model.tendons.push(Tendon::Other);
+        let says = "a tendon that has no law of its own, and no length here";
+        model.context.findings.ignored(element.at, label, says);
         return Ok(());
-    }
-    let on = Target::Sum(terms.clone());
-    if stiffness > 0.0 || damping > 0.0 {
-        let free = match lengths.as_deref() {
-            None => slack,
-            Some([x]) if *x >= 0.0 => *x,
-            Some([x, y, ..]) if x == y && *x >= 0.0 => *x,
-            Some([x, ..]) if *x < 0.0 => slack,
-            Some(lengths) => {
-                let says = format!(
-                    "the dead range {lengths:?} of its spring does not act: free at its middle"
-                );
-                model.context.findings.ignored(element.at, label.as_str(), says);
-                lengths.iter().sum::<f64>() / lengths.len().max(1) as f64
-            }
-        };
-        let what = What::Spring { on: on.clone(), stiffness, damping, free: free - drawn };
-        model.law(&format!("{name} spring"), what);
-    }
-    if friction > 0.0 {
+    };
+    model.tendons.push(Tendon::Sum(pulled.terms.clone(), pulled.drawn));
+    let on = Target::Sum(pulled.terms.clone());
+    spring(view, &name, &pulled, on.clone(), model)?;
+    let friction = view.number_or("frictionloss", 0.0)?;
+    if friction > 0.0 && model.compiler.acts.friction {
         let says = "frictionloss is a soft constraint there; here it is friction that falls to zero below a rate of 1e-3";
         model.context.findings.approximated(element.at, label.as_str(), says);
         model.law(&format!("{name} friction"), What::Friction { on, coulomb: friction });
     }
-    if armature > 0.0 {
-        if let [only] = &terms[..] {
+    let armature = view.number_or("armature", 0.0)?;
+    match &pulled.terms[..] {
+        _ if armature == 0.0 => {}
+        [only] if only.line.is_empty() => {
             let on = Target::Coordinate(only.of.clone());
             let inertia = armature * only.factor * only.factor;
             model.law(&format!("{name} armature"), What::Rotor { on, inertia });
-        } else {
+        }
+        _ => {
             let says = "armature of a tendon over several joints does not act here";
             model.context.findings.ignored(element.at, label.as_str(), says);
         }
     }
-    if is_limited {
+    let auto = model.compiler.auto_limits;
+    if view.is_limited("limited", "range", auto)? && model.compiler.acts.limit {
+        view.attribute("range");
         model.context.findings.ignored(element.at, label, "the ends of a tendon do not act here");
     }
     Ok(())
 }
 
-/// A tendon in space: what acts is told, what only marks a line is not.
-fn spatial<'a>(element: &'a Element, model: &mut Model<'a, '_, '_>) -> Read<()> {
-    let view = model.classes.view_as(element, "tendon", super::defaults::MAIN)?;
-    let acting = ["stiffness", "damping", "frictionloss", "armature"].into_iter();
-    let mut acts = model.compiler.acts.limit
-        && view.is_limited("limited", "range", model.compiler.auto_limits)?;
-    for name in acting {
-        let values = view.attribute(name).map(|word| word.list()).transpose()?.unwrap_or_default();
-        acts |= values.iter().any(|x| *x != 0.0);
+/// The spring and the damper of a tendon.
+fn spring(
+    view: &View<'_>,
+    name: &str,
+    pulled: &Pulled,
+    on: Target,
+    model: &mut Model<'_, '_, '_>,
+) -> Read<()> {
+    let acts = model.compiler.acts;
+    let [stiffness, damping] = [view.number_or("stiffness", 0.0)?, view.number_or("damping", 0.0)?];
+    let stiffness = if acts.spring { stiffness } else { 0.0 };
+    let damping = if acts.damper { damping } else { 0.0 };
+    let lengths = view.attribute("springlength").map(|length| length.list()).transpose()?;
+    if stiffness <= 0.0 && damping <= 0.0 {
+        return Ok(());
     }
-    element.read_whole();
-    let name = keep(element, "", Tendon::Other, model)?;
-    let label = format!("tendon/spatial[{name}]");
-    let says = if acts {
-        "a tendon in space does not act here"
-    } else {
-        "a tendon in space, which has no law of its own"
+    let (element, label) = (view.element, format!("tendon/{}[{name}]", view.element.name));
+    let free = match lengths.as_deref() {
+        Some([x]) if *x >= 0.0 => *x,
+        Some([x, y, ..]) if x == y && *x >= 0.0 => *x,
+        Some([x, y, ..]) if *x >= 0.0 => {
+            let says =
+                format!("its spring is slack from {x} to {y}; here it is free in the middle");
+            model.context.findings.ignored(element.at, label, says);
+            (x + y) / 2.0
+        }
+        _ => {
+            let is_line = pulled.terms.iter().any(|term| !term.line.is_empty());
+            let is_bent = model.motions.iter().any(|motion| motion.spring != motion.zero);
+            if stiffness > 0.0 && is_line && is_bent {
+                let says = "its spring is free as the model is drawn; there where the springs of the joints are";
+                model.context.findings.approximated(element.at, label, says);
+            }
+            pulled.slack
+        }
     };
-    model.context.findings.ignored(element.at, label, says);
+    let what = What::Spring { on, stiffness, damping, free: free - pulled.drawn };
+    model.law(&format!("{name} spring"), what);
     Ok(())
 }

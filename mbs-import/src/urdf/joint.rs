@@ -146,11 +146,7 @@ pub(super) fn laws(
         let leader = mimic.need("joint")?;
         let leader = joints.find(&leader.value, leader.at)?;
         let factor = mimic.number_or("multiplier", 1.0)?;
-        let term = |joint, factor| Term {
-            of: Coordinate { joint, number: None },
-            factor,
-            coefficients: Vec::new(),
-        };
+        let term = |joint, factor| Term::new(Coordinate { joint, number: None }, factor);
         robot.couplings.push(Coupling {
             name: format!("{name} mimic"),
             terms: vec![term(number, 1.0), term(leader, -factor)],
