@@ -12,7 +12,7 @@ use mbs::models::{
 use mbs::scene_file::SceneFile;
 use mbs::scene_file::format::counted;
 use serde_json::{Value, json};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 const STATUS: &str = "\
@@ -27,7 +27,7 @@ Exit status:
 #[derive(Debug, Args)]
 #[command(after_help = STATUS)]
 pub(crate) struct Arguments {
-    /// Model: URDF. - for standard input.
+    /// Model: URDF, MJCF or SDF. - for standard input.
     file: PathBuf,
     /// Scene file that is written. Default: standard output, and the report on standard error.
     #[arg(short, long, value_name = "FILE")]
@@ -44,6 +44,15 @@ pub(crate) struct Arguments {
     /// A fixed joint that stays a joint, so that it has a reaction; may be repeated. Default: none.
     #[arg(long, value_name = "NAME")]
     keep_fixed: Vec<String>,
+    /// A keyframe of an MJCF from which it starts. Default: as the model is drawn.
+    #[arg(long, value_name = "NAME")]
+    key: Option<String>,
+    /// Meshes whose mass is needed count as massless, and are told.
+    #[arg(long)]
+    massless_meshes: bool,
+    /// Refuse included files outside of the folder of the model.
+    #[arg(long)]
+    no_outside: bool,
     /// Refuse a model of which something that can act is approximated or ignored.
     #[arg(long)]
     strict: bool,
@@ -125,8 +134,16 @@ fn options(arguments: &Arguments) -> Result<ImportOptions, Refusal> {
         BaseWord::Fixed => Base::Fixed,
         BaseWord::Free => Base::Free,
     });
-    let keep_fixed = arguments.keep_fixed.clone();
-    Ok(ImportOptions { base, limits, balance: arguments.balance, keep_fixed, ..ImportOptions::default() })
+    Ok(ImportOptions {
+        base,
+        limits,
+        balance: arguments.balance,
+        keep_fixed: arguments.keep_fixed.clone(),
+        key: arguments.key.clone(),
+        folder: arguments.file.parent().map(Path::to_owned),
+        no_outside: arguments.no_outside,
+        massless_meshes: arguments.massless_meshes,
+    })
 }
 
 /// Could it act?

@@ -8,7 +8,7 @@ use super::orientation::{euler, pose};
 use crate::element::Element;
 use crate::inertia::{Mass, tensor};
 use crate::pose::{Pose, V3, v3};
-use crate::robot::{Frame, GROUND, Link};
+use crate::robot::{Frame, GROUND, Kind, Link};
 use crate::source::{Fault, Read};
 
 /// Copies that one `replicate` makes.
@@ -249,7 +249,7 @@ impl<'a> Walk<'_, 'a, '_, '_> {
         let Some(name) = self.name(element, scope) else { return Ok(()) };
         let frame = scope.frame.then(&frame);
         self.model.site_names.add(&name, element.at, &self.model.context.sources)?;
-        self.model.sites.push(Site { link: scope.link, pose: frame });
+        self.model.sites.push(Site { name, link: scope.link, pose: frame });
         Ok(())
     }
 
@@ -286,10 +286,16 @@ impl<'a> Walk<'_, 'a, '_, '_> {
     }
 }
 
-/// Welds of a body to its parent have no joint of their own; sites are frames of the scene.
-pub(super) fn frames(model: &mut Model<'_, '_, '_>, names: &[String]) {
-    for (site, name) in model.sites.clone().into_iter().zip(names) {
-        let name = model.free_name(Sort::Frame, name);
+/// Sites, and bodies that are welded to others, are named places of the scene.
+pub(super) fn frames(model: &mut Model<'_, '_, '_>) {
+    for site in std::mem::take(&mut model.sites) {
+        // bodies have the same names at times
+        let name = model.free_name(Sort::Link, &site.name);
         model.robot.frames.push(Frame { name, link: site.link, pose: site.pose });
+    }
+    for joint in model.robot.joints.iter().filter(|joint| joint.kind == Kind::Fixed) {
+        let link = &model.robot.links[joint.child];
+        let (name, pose) = (link.name.clone(), link.pose);
+        model.robot.frames.push(Frame { name, link: joint.child, pose });
     }
 }

@@ -47,6 +47,7 @@ pub(crate) fn read(root: &Element, context: &mut Context<'_>) -> Read<Robot> {
     equality::read(root, &mut model)?;
     actuator::read(root, &mut model)?;
     keyframe::read(root, &mut model)?;
+    body::frames(&mut model);
     if model.touching > 1 && model.compiler.acts.contact {
         let says = format!(
             "{} of them could touch: there is no contact between bodies yet",

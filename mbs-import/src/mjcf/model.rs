@@ -25,7 +25,6 @@ pub(super) enum Sort {
     Link,
     Joint,
     Law,
-    Frame,
 }
 
 /// A joint of the file, and where its coordinates are in the scene.
@@ -93,6 +92,7 @@ impl Motion {
 /// A named place of the file.
 #[derive(Debug, Clone)]
 pub(super) struct Site {
+    pub(super) name: String,
     pub(super) link: usize,
     pub(super) pose: Pose,
 }

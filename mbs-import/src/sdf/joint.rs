@@ -243,11 +243,7 @@ fn screw(element: &Element, joint: usize, name: &str) -> Read<Coupling> {
         }
         (None, None) => 1.0 / turn,
     };
-    let term = |number, factor| Term {
-        of: Coordinate { joint, number: Some(number) },
-        factor,
-        coefficients: Vec::new(),
-    };
+    let term = |number, factor| Term::new(Coordinate { joint, number: Some(number) }, factor);
     Ok(Coupling {
         name: format!("{name} thread"),
         terms: vec![term(0, 1.0), term(1, -slide_of_turn)],

@@ -41,9 +41,7 @@ pub(super) fn read(
             let terms = [(coordinate(robot, follower, i == 1), 1.0), (of_leader, -factor)];
             robot.couplings.push(Coupling {
                 name: format!("{}{name} mimic", scope.prefix),
-                terms: terms
-                    .map(|(of, factor)| Term { of, factor, coefficients: Vec::new() })
-                    .into(),
+                terms: terms.map(|(of, factor)| Term::new(of, factor)).into(),
                 value: offset - factor * reference,
             });
         }
@@ -51,11 +49,7 @@ pub(super) fn read(
             let leader = mimic.need("joint")?;
             let leader = find(robot, scope, mimic, &leader.value)?;
             let factor = mimic.number_or("multiplier", 1.0)?;
-            let term = |joint, factor| Term {
-                of: coordinate(robot, joint, false),
-                factor,
-                coefficients: Vec::new(),
-            };
+            let term = |joint, factor| Term::new(coordinate(robot, joint, false), factor);
             robot.couplings.push(Coupling {
                 name: format!("{}{name} mimic", scope.prefix),
                 terms: vec![term(follower, 1.0), term(leader, -factor)],
@@ -116,10 +110,8 @@ fn gearbox(element: &Element, scope: &Scope, frames: &Frames, robot: &Robot) -> 
     };
     let first = turn(element, robot, [reference, parent], &axis("axis")?)?;
     let second = turn(element, robot, [reference, child], &axis("axis2")?)?;
-    let term = |(joint, sign): (usize, f64), factor: f64| Term {
-        of: coordinate(robot, joint, false),
-        factor: sign * factor,
-        coefficients: Vec::new(),
+    let term = |(joint, sign): (usize, f64), factor: f64| {
+        Term::new(coordinate(robot, joint, false), sign * factor)
     };
     Ok(Coupling {
         name: format!("{}{name}", scope.prefix),
