@@ -54,6 +54,9 @@ pub(crate) fn needs<T: Real>(
     }
     for (i, output) in scene.outputs.iter().enumerate() {
         of_output(scene, &output.quantity, |need| take(Entry::Output(i), need));
+        if let Some(frame) = output.frame {
+            take(Entry::Output(i), Need::Orientation(frame));
+        }
     }
 }
 

@@ -1,5 +1,6 @@
 //! The numbers of all channels of a scene at a state.
 
+use super::axes::OutputAxes;
 use super::coordinate::Coordinate;
 use super::forces::Forces;
 use super::quantity::{Channel, Instant, Maker, magnitudes};
@@ -7,7 +8,7 @@ use crate::Real;
 use crate::measure::given_values;
 use crate::model::State;
 use crate::natural::{ModelError, NaturalModel};
-use crate::scene::Scene;
+use crate::scene::{Output, Scene};
 use crate::step::StepError;
 use alloc::vec::Vec;
 use core::ops::Range;
@@ -22,13 +23,52 @@ const MISFIT: f64 = 2e-2;
 /// followed by the rates. Counting starts from the scene's initial value (an `[[initial]]` entry or a guide at time zero), else from zero.
 #[derive(Debug, Clone)]
 pub struct Measures<T: Real, const D: usize> {
-    /// What each channel reads, its number of components, and the vectors among them whose magnitudes follow.
-    channels: Vec<(Channel<T, D>, usize, Vec<Range<usize>>)>,
+    channels: Vec<Recorded<T, D>>,
     /// Last values of all tracked joint coordinates, then their rates, then their turns since the start by the rates, then what the
     /// positions have less, then the time.
     memory: Vec<T>,
     n_values: usize,
     n_components: usize,
+}
+
+/// What one output writes.
+#[derive(Debug, Clone)]
+struct Recorded<T: Real, const D: usize> {
+    channel: Channel<T, D>,
+    n_components: usize,
+    /// Where its axes are not those of its quantity.
+    axes: Option<OutputAxes<T, D>>,
+    /// The vectors among its components whose magnitudes follow.
+    vectors: Vec<Range<usize>>,
+}
+
+impl<T: Real, const D: usize> Recorded<T, D> {
+    fn new(output: &Output<T>, from: &mut Maker<'_, T, D>) -> Self {
+        let components = output.quantity.components(from.scene);
+        let vectors = if output.magnitude { magnitudes(&components) } else { Vec::new() };
+        Self {
+            channel: Channel::new(&output.quantity, from),
+            n_components: components.len(),
+            axes: OutputAxes::new(output, from.scene, from.model),
+            vectors: vectors.into_iter().map(|vector| vector.places).collect(),
+        }
+    }
+
+    fn len(&self) -> usize {
+        self.n_components + self.vectors.len()
+    }
+
+    fn write(&self, now: &Instant<'_, T, D>, out: &mut [T]) {
+        let (components, sizes) = out.split_at_mut(self.n_components);
+        self.channel.write(now, components);
+        if let Some(axes) = &self.axes {
+            axes.turn(now.state, components);
+        }
+        for (size, places) in sizes.iter_mut().zip(&self.vectors) {
+            let square = components[places.clone()].iter().fold(T::ZERO, |sum, x| sum + *x * *x);
+            *size = square.sqrt();
+        }
+    }
 }
 
 impl<T: Real, const D: usize> Measures<T, D> {
@@ -43,14 +83,9 @@ impl<T: Real, const D: usize> Measures<T, D> {
         let starts = start_values(scene);
         let mut maker = Maker { scene, model, starts: &starts, values: Vec::new() };
         let outputs = scene.channels();
-        let channels = outputs.iter().map(|output| {
-            let components = output.quantity.components(scene);
-            let vectors = if output.magnitude { magnitudes(&components) } else { Vec::new() };
-            let vectors = vectors.into_iter().map(|vector| vector.places).collect();
-            (Channel::new(&output.quantity, &mut maker), components.len(), vectors)
-        });
-        let channels: Vec<(_, _, Vec<_>)> = channels.collect();
-        let n_components = channels.iter().map(|(_, n, vectors)| n + vectors.len()).sum();
+        let channels = outputs.iter().map(|output| Recorded::new(output, &mut maker));
+        let channels: Vec<_> = channels.collect();
+        let n_components = channels.iter().map(Recorded::len).sum();
         let mut memory = maker.values;
         let n_values = memory.len();
         memory.resize(4 * n_values, T::ZERO);
@@ -67,7 +102,7 @@ impl<T: Real, const D: usize> Measures<T, D> {
 
     /// Number of components of each channel, in order.
     pub fn lengths(&self) -> impl Iterator<Item = usize> + '_ {
-        self.channels.iter().map(|(_, n, vectors)| n + vectors.len())
+        self.channels.iter().map(Recorded::len)
     }
 
     /// The last values of the joint coordinates that are followed, with their turns; then the state from which following them continues.
@@ -114,8 +149,8 @@ impl<T: Real, const D: usize> Measures<T, D> {
         let has_passed = dt > T::ZERO && time[0] >= T::ZERO;
         time[0] = state.t;
         let mut lost = Ok(());
-        for (channel, ..) in channels {
-            let Some(value) = channel.followed() else { continue };
+        for recorded in channels {
+            let Some(value) = recorded.channel.followed() else { continue };
             let mut at = value.start;
             for (number, coordinate) in value.coordinates.iter().enumerate() {
                 let end = at + coordinate.len();
@@ -175,14 +210,9 @@ impl<T: Real, const D: usize> Measures<T, D> {
             (forces.and_then(Forces::reactions), forces.and_then(Forces::effects));
         let now = Instant { state, values, reactions, effects };
         let mut rest = out;
-        for (channel, length, vectors) in &self.channels {
-            let (here, tail) = rest.split_at_mut(*length);
-            channel.write(&now, here);
-            let (sizes, tail) = tail.split_at_mut(vectors.len());
-            for (size, places) in sizes.iter_mut().zip(vectors) {
-                let square = here[places.clone()].iter().fold(T::ZERO, |sum, x| sum + *x * *x);
-                *size = square.sqrt();
-            }
+        for recorded in &self.channels {
+            let (here, tail) = rest.split_at_mut(recorded.len());
+            recorded.write(&now, here);
             rest = tail;
         }
         tracked

@@ -6,6 +6,7 @@
 //! the instants at which one-sided effects touch. [`Turns`] checks whether positions determine how far joints have turned in a step.
 //! [`Events`] finds where within a step a law's kink is passed, for steps that are to end there.
 
+mod axes;
 mod contact;
 mod coordinate;
 mod coupled_sum;

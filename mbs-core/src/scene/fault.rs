@@ -82,7 +82,7 @@ pub enum SceneFault {
     NoDeflection,
     /// An output of a tire is of another effect.
     NotATire,
-    /// An output without a vector has no magnitude.
+    /// An output without a vector has no magnitude and no axes.
     NoVector,
     /// The coordinate is not there; the number of coordinates that the joint has.
     UnknownCoordinate(usize),
@@ -271,7 +271,9 @@ impl SceneFault {
             ),
             Self::NoContact => write!(f, "is not known of this effect, which acts on both sides"),
             Self::NotATire => write!(f, "is of tires alone"),
-            Self::NoVector => write!(f, "the quantity has no vector, and so no magnitude"),
+            Self::NoVector => {
+                write!(f, "the quantity has no vector, and so no magnitude and no axes")
+            }
             Self::NoDeflection => {
                 write!(f, "is not known of this effect, which has neither a free value nor a gap")
             }

@@ -98,6 +98,9 @@ pub struct Output<T> {
     pub name: String,
     /// What is measured.
     pub quantity: Quantity<T>,
+    /// The body in whose axes its vectors have their components, the ground for global ones; `None`: the axes of its quantity. A thin rod
+    /// on balls turns by the smallest rotation that carries its line.
+    pub frame: Option<BodyId>,
     /// Has it a column with the magnitude of each of its vectors?
     pub magnitude: bool,
 }
@@ -106,7 +109,7 @@ impl<T> Output<T> {
     /// An output without a name.
     #[must_use]
     pub const fn new(quantity: Quantity<T>) -> Self {
-        Self { name: String::new(), quantity, magnitude: false }
+        Self { name: String::new(), quantity, frame: None, magnitude: false }
     }
 }
 

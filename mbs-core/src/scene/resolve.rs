@@ -322,7 +322,7 @@ impl<T> RoadFeature<T> {
 impl<T> Output<T> {
     fn map<U>(&self, f: &mut impl FnMut(&T) -> U) -> Output<U> {
         let (name, quantity) = (self.name.clone(), self.quantity.map(f));
-        Output { name, quantity, magnitude: self.magnitude }
+        Output { name, quantity, frame: self.frame, magnitude: self.magnitude }
     }
 }
 

@@ -3,6 +3,7 @@
 mod gradient;
 mod small;
 
+mod axes;
 mod balls;
 mod codes;
 mod coupling_kinds;

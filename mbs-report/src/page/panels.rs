@@ -5,7 +5,7 @@ use super::decimate::{envelope, kept};
 use super::motion::times_of;
 use super::pack::{Column, Pack};
 use super::section::PlotFrame;
-use mbs::record::{ChannelSeries, DrawnPoint, RunRecord};
+use mbs::record::{ChannelSeries, DrawnForce, RunRecord};
 use serde::Serialize;
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
@@ -215,10 +215,11 @@ impl Panels {
     }
 
     /// Forces and moments that are channels, each with its place, and where its components are drawn.
-    pub(super) fn forces(&self, places: &[DrawnPoint]) -> Vec<Value> {
-        let force = |at: &DrawnPoint| {
-            let parts = self.parts.get(&at.name).filter(|parts| parts.len() >= 3)?;
-            Some(json!({ "name": at.name, "place": at.place, "parts": parts }))
+    pub(super) fn forces(&self, places: &[DrawnForce]) -> Vec<Value> {
+        let force = |at: &DrawnForce| {
+            let DrawnForce { point, axes } = at;
+            let parts = self.parts.get(&point.name).filter(|parts| parts.len() >= 3)?;
+            Some(json!({ "name": point.name, "place": point.place, "parts": parts, "axes": axes }))
         };
         places.iter().filter_map(force).collect()
     }

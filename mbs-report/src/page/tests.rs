@@ -180,7 +180,10 @@ fn forces_are_drawn_from_the_lines_of_their_channel() {
         times: times.clone(),
         ..ChannelSeries::default()
     });
-    let of = |name: &str| DrawnPoint { name: name.into(), ..DrawnPoint::default() };
+    let of = |name: &str| {
+        let point = DrawnPoint { name: name.into(), ..DrawnPoint::default() };
+        DrawnForce { point, axes: None }
+    };
     // `tip` is no force, and nothing is called `none`
     record.motion.as_mut().unwrap().forces = vec![of("pin"), of("tip"), of("none")];
     let (header, groups) = data(&page(&record));

@@ -23,7 +23,7 @@ mod tests;
 mod value;
 
 pub use example::{Base, Example};
-pub(crate) use output::{FORMS, ORIENTATION};
+pub(crate) use output::{FORMS, GLOBAL, ORIENTATION, OWN_BODY};
 pub(crate) use point::{DIRECTION, PLACE};
 pub(crate) use road::FEATURE;
 pub(crate) use scene::FILE;

@@ -1,7 +1,7 @@
 //! `[[output]]`, by the quantities of mbs-core.
 
 use super::table::{Key, KeyTable, listed, may, need};
-use super::value::KeyValue::{Flag, Name, Of, Place, Word};
+use super::value::KeyValue::{Flag, Name, Of, OfOr, Place, Word};
 use super::value::Referent;
 use mbs_core::outputs::{QUANTITIES, TargetKind};
 
@@ -14,6 +14,10 @@ pub(crate) const FORMS: [(&str, &str); 3] = [
 
 /// The quantity to which `as` belongs.
 pub(crate) const ORIENTATION: &str = "orientation";
+
+/// The word for global axes, and for those of an output's own body.
+pub(crate) const GLOBAL: &str = "global";
+pub(crate) const OWN_BODY: &str = "body";
 
 /// What outputs are of.
 pub(super) const TARGETS: [TargetKind; 10] = [
@@ -50,6 +54,7 @@ fn table(target: TargetKind) -> KeyTable {
     } else {
         key
     });
+    keys.push(frame(target));
     let magnitude = "Whether a vector has its magnitude as a column too, `NAME.abs`; a reaction `NAME.F` and `NAME.M`.";
     keys.push(may("magnitude", Flag, "", "false", magnitude));
     if words.contains(&ORIENTATION) {
@@ -57,6 +62,22 @@ fn table(target: TargetKind) -> KeyTable {
         keys.push(may("as", Word(forms), "", "quaternion", "Form of an `orientation`."));
     }
     listed("output", meaning(target), keys)
+}
+
+/// The axes of an output.
+fn frame(target: TargetKind) -> Key {
+    let words = match target.keys().first() {
+        Some(&"body") => vec![GLOBAL, OWN_BODY],
+        _ => vec![GLOBAL],
+    };
+    let default = if target.is_relative() { "those of `relative_to`" } else { GLOBAL };
+    let meaning = match words.len() {
+        1 => "Axes of the components of a vector: global, or those of a body.",
+        _ => {
+            "Axes of the components of a vector: global, or those of the body itself or of another one. What is measured stays the same."
+        }
+    };
+    may("frame", OfOr(Referent::Body, words), "", default, meaning)
 }
 
 /// A key that says what an output is of.
@@ -85,12 +106,12 @@ fn owner(key: &'static str) -> Key {
 /// What a target is.
 const fn meaning(target: TargetKind) -> &'static str {
     match target {
-        TargetKind::Point => "A channel of a point of a body, global axes.",
+        TargetKind::Point => "A channel of a point of a body.",
         TargetKind::RelativePoint => "A channel of a point of a body, seen from another body.",
         TargetKind::Body => "A channel of a body.",
         TargetKind::RelativeBody => "A channel of a body, seen from another body.",
         TargetKind::Joint => {
-            "A channel of a joint. Its reaction is what the first body does to the second, global axes."
+            "A channel of a joint. Its reaction is what the first body does to the second."
         }
         TargetKind::Coupling => "A channel of a coupling.",
         TargetKind::Rolling => "A channel of what rolls.",

@@ -42,6 +42,8 @@ pub enum KeyValue {
     Rows,
     /// The name of a part of the scene.
     Of(Referent),
+    /// The same, or one of these words.
+    OfOr(Referent, Vec<&'static str>),
     /// The names of so many of them.
     Several(Referent, usize),
     /// The names of one or more of them.
@@ -135,6 +137,7 @@ impl KeyValue {
             Self::Rows => "list of rows".to_owned(),
             Self::Of(Referent::Body) => "body, or `\"ground\"`".to_owned(),
             Self::Of(part) => part.name().to_owned(),
+            Self::OfOr(part, of) => format!("{}, or {}", part.name(), words(of)),
             Self::Several(Referent::Body, n) => several(*n, "bodies, or `\"ground\"`"),
             Self::Several(part, n) => several(*n, &format!("{}s", part.name())),
             Self::Some(part) => format!("list of {}s", part.name()),

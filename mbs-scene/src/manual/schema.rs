@@ -121,7 +121,7 @@ fn of_value(value: &KeyValue) -> Json {
         KeyValue::Rows => {
             list(json!({ "type": "array", "items": any_of(vec![number(), vector()]) }), None)
         }
-        KeyValue::Of(part) => name(part),
+        KeyValue::Of(part) | KeyValue::OfOr(part, _) => name(part),
         KeyValue::Several(part, n) => list(name(part), Some(*n)),
         KeyValue::Some(part) => list(name(part), None),
         KeyValue::OneOrSome(part) => any_of(vec![name(part), list(name(part), None)]),

@@ -126,6 +126,8 @@ pub enum ReadFault {
     },
     /// The ground where a moving body is needed.
     GroundDoesNotMove,
+    /// `frame = "body"` in an output that is of no body.
+    NoOwnBody,
     /// A value of another type.
     WrongType {
         /// What is needed.
@@ -302,6 +304,7 @@ impl Display for ReadFault {
             }
             Self::OfPoint { name, .. } => write!(f, "`{name}` is a point: it has no orientation"),
             Self::GroundDoesNotMove => write!(f, "the ground does not move"),
+            Self::NoOwnBody => write!(f, "this output is of no body, whose axes `body` would be"),
             Self::WrongType { expected, found } => write!(f, "expected {expected}, found {found}"),
             Self::Expression(fault) | Self::Include(fault) | Self::Model(fault) => {
                 f.write_str(&fault.message)
@@ -373,6 +376,7 @@ impl ReadFault {
             Self::SignalNotSmooth { remedy, .. } => (*remedy).to_owned(),
             Self::OfPoint { fault, .. } => fault.advice().to_owned(),
             Self::GroundDoesNotMove => "name a body".to_owned(),
+            Self::NoOwnBody => "write the name of the body whose axes are meant, or `global`".to_owned(),
             Self::WrongType { expected, .. } => format!("write {expected}"),
             Self::WrongCount { needed, .. } => {
                 format!("write {needed}, in the order of the format")

@@ -1,10 +1,11 @@
 //! `[[output]]` and `[solver]`.
 
-use crate::keys::{FORMS, ORIENTATION, of_target};
+use crate::keys::{FORMS, GLOBAL, ORIENTATION, OWN_BODY, of_target};
 use crate::read::ReadFault;
 use crate::read::error::OWNER;
 use crate::read::fields::{Fields, Read};
 use crate::read::names::Names;
+use crate::read::tree::Item;
 use mbs_core::outputs::{QUANTITIES, Quantity, QuantityRow, RelativePoint, Target, TargetKind};
 use mbs_core::scene::{BodyId, CouplingId, EffectId, Number, Output, RollingId, SolverTable};
 
@@ -60,7 +61,21 @@ pub(crate) fn read(
     let target = target(fields, kind, (centers, names))?;
     let Some(quantity) = Quantity::of(word.0, target) else { return unknown() };
     let magnitude = fields.flag("magnitude", false)?;
-    Ok(Output { name: fields.name()?, quantity, magnitude })
+    let frame = fields.get("frame").map(|item| frame(fields, item, &quantity)).transpose()?;
+    Ok(Output { name: fields.name()?, quantity, frame, magnitude })
+}
+
+/// The body in whose axes an output has its components.
+fn frame(fields: &Fields<'_>, item: &Item, quantity: &Quantity<Number>) -> Read<BodyId> {
+    let context = fields.context;
+    match (context.text(item)?, quantity.target().own_body()) {
+        (GLOBAL, _) => Ok(BodyId::Ground),
+        (OWN_BODY, Some(own)) => Ok(own),
+        (OWN_BODY, None) if context.bodies.place(OWN_BODY).is_none() => {
+            context.fault(&item.span, ReadFault::NoOwnBody)
+        }
+        _ => context.body(item),
+    }
 }
 
 /// What an output is of.

@@ -95,6 +95,13 @@ impl<'a> Prefix<'a> {
             | KeyValue::Several(part, _)
             | KeyValue::Some(part)
             | KeyValue::OneOrSome(part) => self.references(item, *part),
+            KeyValue::OfOr(part, words) => {
+                let is_word =
+                    matches!(&item.node, Node::Text(text) if words.contains(&text.as_str()));
+                if !is_word {
+                    self.references(item, *part);
+                }
+            }
             KeyValue::SomePlaces => self.places(item, &KeyValue::Places(0)),
             KeyValue::Place | KeyValue::Places(_) | KeyValue::Vector | KeyValue::Vectors(_) => {
                 self.places(item, value);

@@ -4,6 +4,7 @@
 
 mod effect;
 mod frame;
+mod output;
 mod road;
 mod rolling;
 mod shape;
@@ -16,11 +17,9 @@ use super::toml;
 use crate::read::SceneFile;
 use crate::read::tree::{Item, Member, Node};
 use core::fmt::{self, Display, Formatter};
-use mbs_core::outputs::{RelativePoint, Target};
 use mbs_core::scene::{
     Body, BodyId, Coupling, CouplingKind, CouplingMeasure, CouplingTerm, Curve, Dimension, Guide,
-    Inertia, InitialCondition, InitialTarget, Joint, JointId, JointLimits, Number, Output, Scene,
-    Start,
+    Inertia, InitialCondition, InitialTarget, Joint, JointId, JointLimits, Number, Scene, Start,
 };
 
 /// A scene that has no text.
@@ -430,47 +429,5 @@ impl Writer<'_> {
         };
         let points: Result<Vec<_>, WriteError> = points.iter().map(point).collect();
         Ok(list(points?))
-    }
-
-    fn output(self, output: &Output<Number>) -> Result<Keys, WriteError> {
-        let mut keys = Keys::default();
-        keys.push("name", output.name.as_str());
-        match output.quantity.target() {
-            Target::Point(body, at) => {
-                keys.push("body", self.body_name(body)?);
-                keys.push("at", self.vector(&at));
-            }
-            Target::RelativePoint(RelativePoint { body, at, relative_to, origin }) => {
-                keys.push("body", self.body_name(body)?);
-                keys.push("at", self.vector(&at));
-                keys.push("relative_to", self.body_name(relative_to)?);
-                keys.push("origin", self.vector(&origin));
-            }
-            Target::Body(body) => keys.push("body", self.body_name(body)?),
-            Target::RelativeBody(body, relative_to) => {
-                keys.push("body", self.body_name(body)?);
-                keys.push("relative_to", self.body_name(relative_to)?);
-            }
-            Target::Joint(joint) => keys.push("joint", self.joint_name(joint)?),
-            Target::Coupling(coupling) => {
-                let coupling = self.scene.couplings.get(coupling.index());
-                let coupling = coupling.ok_or(WriteError::UnknownReference("coupling"))?;
-                keys.push("coupling", coupling.name.as_str());
-            }
-            Target::Rolling(rolling) => {
-                let rolling = self.scene.rollings.get(rolling.index());
-                let rolling = rolling.ok_or(WriteError::UnknownReference("rolling"))?;
-                keys.push("rolling", rolling.name.as_str());
-            }
-            Target::Effect(effect) => {
-                let effect = self.scene.effects.get(effect.index()).map(|e| e.name.as_str());
-                keys.push("effect", effect.ok_or(WriteError::UnknownReference("effect"))?);
-            }
-            Target::Signal(signal) => keys.push("signal", self.signal_name(signal)?),
-            Target::Scene => {}
-        }
-        keys.push("quantity", output.quantity.row().name);
-        output.magnitude.then(|| keys.push("magnitude", Node::Bool(true)));
-        Ok(keys)
     }
 }

@@ -39,10 +39,9 @@ impl<T: Real, const D: usize> Group<T, D> {
     /// Of these outputs alone.
     fn new(
         scene: &Scene<T>,
-        outputs: Vec<Quantity<T>>,
+        outputs: Vec<Output<T>>,
         simulation: &Simulation<T, D>,
     ) -> Result<Self, StopError> {
-        let outputs = outputs.into_iter().map(Output::new).collect();
         let scene = Scene { outputs, ..scene.clone() };
         let mut channels = Channels::new(&scene, simulation.model())?;
         channels.track(simulation)?;
@@ -78,11 +77,12 @@ impl<T: Real, const D: usize> Readings<T, D> {
         let of_joints = |quantity: fn(JointId) -> Quantity<T>| {
             Group::new(
                 scene,
-                (0..scene.joints.len()).map(JointId::new).map(quantity).collect(),
+                (0..scene.joints.len()).map(JointId::new).map(quantity).map(Output::new).collect(),
                 simulation,
             )
         };
-        let outputs: Vec<_> = scene.outputs.iter().map(|o| o.quantity.clone()).collect();
+        let outputs = scene.outputs.iter().map(|o| Output { magnitude: false, ..o.clone() });
+        let outputs: Vec<_> = outputs.collect();
         let outputs = (!outputs.is_empty()).then(|| Group::new(scene, outputs, simulation));
         Ok(Self {
             joints: of_joints(|joint| Quantity::JointValue { joint })?,

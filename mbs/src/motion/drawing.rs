@@ -1,6 +1,6 @@
 //! Places of a scene as the picture has them.
 
-use crate::record::{BodyPlace, DrawnPoint};
+use crate::record::{BodyPlace, DrawnForce, DrawnPoint};
 use mbs_core::Real;
 use mbs_core::effects::ActsOn;
 use mbs_core::scene::{BodyId, Dimension, Quantity, Scene};
@@ -34,7 +34,7 @@ impl<T: Real> Drawing<'_, T> {
     }
 
     /// Reactions act on the second body of their joint, effects on their last body; those along a length have no vector and are left out.
-    pub(super) fn forces(&self) -> Vec<DrawnPoint> {
+    pub(super) fn forces(&self) -> Vec<DrawnForce> {
         let acts = |quantity: &Quantity<T>| match quantity {
             Quantity::Reaction { joint } => {
                 let joint = &self.scene.joints[joint.index()];
@@ -51,7 +51,8 @@ impl<T: Real> Drawing<'_, T> {
         let outputs = self.scene.outputs.iter();
         let force = |output: &mbs_core::scene::Output<T>| {
             let (body, at) = acts(&output.quantity)?;
-            Some(DrawnPoint { name: output.name.clone(), place: self.place(body, at) })
+            let point = DrawnPoint { name: output.name.clone(), place: self.place(body, at) };
+            Some(DrawnForce { point, axes: output.frame.and_then(BodyId::index) })
         };
         outputs.filter_map(force).collect()
     }

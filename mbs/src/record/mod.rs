@@ -27,8 +27,8 @@ pub use json::{
     Contact, EnergySummary, MethodChoice, MethodUsed, RunError, RunSummary, ViolationSummary,
 };
 pub use motion::{
-    BodyPlace, DrawnBody, DrawnLine, DrawnPoint, DrawnRoad, DrawnShape, LineStyle, N_POSE,
-    RecordedMotion, RoadStrip, ShapeForm,
+    BodyPlace, DrawnBody, DrawnForce, DrawnLine, DrawnPoint, DrawnRoad, DrawnShape, LineStyle,
+    N_POSE, RecordedMotion, RoadStrip, ShapeForm,
 };
 pub use outputs::Outputs;
 pub use realtime::{Degraded, MarginSummary, Overrun, RealtimeSummary, Times, write_overruns};

@@ -33,7 +33,7 @@ pub struct RecordedMotion {
     /// Joints, for labels.
     pub joints: Vec<DrawnPoint>,
     /// Where forces and moments act that outputs measure, by the names of the outputs.
-    pub forces: Vec<DrawnPoint>,
+    pub forces: Vec<DrawnForce>,
     /// The road under tires.
     pub road: Option<DrawnRoad>,
 }
@@ -79,6 +79,16 @@ pub struct DrawnPoint {
     /// Where it is.
     #[serde(flatten)]
     pub place: BodyPlace,
+}
+
+/// A place where a force acts that an output measures, by its name.
+#[derive(Debug, Clone, Default, PartialEq, Serialize)]
+pub struct DrawnForce {
+    /// The output, and where the force acts.
+    #[serde(flatten)]
+    pub point: DrawnPoint,
+    /// Number of the body in whose axes its components are; none: global axes.
+    pub axes: Option<usize>,
 }
 
 /// A shape that moves with a body, or stands on the ground.

@@ -30,6 +30,16 @@ impl<T: Clone> Output<T> {
 }
 
 impl<T: Clone> Quantity<T> {
+    /// The body in whose axes its vectors are by themselves: seen from another body that one, else the ground, for global axes.
+    #[must_use]
+    pub fn axes(&self) -> BodyId {
+        match self.target() {
+            Target::RelativePoint(RelativePoint { relative_to, .. })
+            | Target::RelativeBody(_, relative_to) => relative_to,
+            _ => BodyId::Ground,
+        }
+    }
+
     /// Its components in a scene.
     ///
     /// # Panics

@@ -28,6 +28,25 @@ pub enum Target<T> {
     Scene,
 }
 
+impl<T> Target<T> {
+    /// The body of what is of a body or its point.
+    #[must_use]
+    pub const fn own_body(&self) -> Option<BodyId> {
+        match self {
+            Self::Point(body, _)
+            | Self::RelativePoint(RelativePoint { body, .. })
+            | Self::Body(body)
+            | Self::RelativeBody(body, _) => Some(*body),
+            Self::Joint(_)
+            | Self::Coupling(_)
+            | Self::Rolling(_)
+            | Self::Effect(_)
+            | Self::Signal(_)
+            | Self::Scene => None,
+        }
+    }
+}
+
 /// A material point of a body, seen from another body.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RelativePoint<T> {

@@ -16,6 +16,11 @@ pub(super) fn check<T: Real>(
     if output.magnitude && magnitudes(&quantity.components(scene)).is_empty() {
         return place.fault("magnitude", SceneFault::NoVector);
     }
+    let Some(frame) = output.frame else { return Ok(()) };
+    known_frame(scene, frame, ("frame", place))?;
+    if magnitudes(&quantity.components(scene)).is_empty() {
+        return place.fault("frame", SceneFault::NoVector);
+    }
     Ok(())
 }
 
@@ -32,12 +37,12 @@ fn of_target<T: Real>(
         Target::RelativePoint(RelativePoint { body, at, relative_to, origin }) => {
             known_body(scene.surroundings(), body, place)?;
             place.vector("at", at)?;
-            known_frame(scene, relative_to, place)?;
+            known_frame(scene, relative_to, ("relative_to", place))?;
             place.vector("origin", origin)
         }
         Target::RelativeBody(body, relative_to) => {
             known_body(scene.surroundings(), body, place)?;
-            known_frame(scene, relative_to, place)
+            known_frame(scene, relative_to, ("relative_to", place))
         }
         Target::Body(body) => known_body(scene.surroundings(), body, place).map(drop),
         Target::Joint(joint) => match scene.joints.get(joint.index()) {
@@ -74,10 +79,14 @@ fn of_target<T: Real>(
 }
 
 /// A body that is there, or the ground.
-fn known_frame<T>(scene: &Scene<T>, body: BodyId, place: Place) -> Result<(), SceneError> {
+fn known_frame<T>(
+    scene: &Scene<T>,
+    body: BodyId,
+    (key, place): (&'static str, Place),
+) -> Result<(), SceneError> {
     match body {
         BodyId::Body(i) if i >= scene.bodies.len() => {
-            place.fault("relative_to", SceneFault::UnknownReference)
+            place.fault(key, SceneFault::UnknownReference)
         }
         _ => Ok(()),
     }

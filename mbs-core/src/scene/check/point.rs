@@ -154,6 +154,9 @@ impl<T: Real> Points<'_, T> {
             Entry::Initial(_) => "angular_velocity",
             Entry::Rolling(i) if self.scene.rollings[i].body != body => "on",
             Entry::Output(i) => {
+                if self.scene.outputs[i].frame == Some(body) {
+                    return "frame";
+                }
                 let keys = self.scene.outputs[i].quantity.row().target.keys();
                 let is_other = keys.contains(&"relative_to") && !self.is_owner(i, body);
                 if is_other { "relative_to" } else { keys.first().copied().unwrap_or("body") }

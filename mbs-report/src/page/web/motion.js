@@ -44,9 +44,12 @@ function makeMotion(motion, panels, column) {
       return y[k] + (next > k ? (y[next] - y[k]) * Math.min(1, Math.max(0, (now - t[k]) / (t[next] - t[k]))) : 0) || 0;
     };
   }
-  function load({ parts }, t) {
+  function load({ parts, axes }, t) {
     const v = parts.map((part) => part(t));
-    return motion.dimension === 2 ? [[v[0], v[1], 0], [0, 0, v[2]]] : [v.slice(0, 3), [v[3] || 0, v[4] || 0, v[5] || 0]];
+    const both = motion.dimension === 2 ? [[v[0], v[1], 0], [0, 0, v[2]]] : [v.slice(0, 3), [v[3] || 0, v[4] || 0, v[5] || 0]];
+    if (axes === null) return both;
+    const pose = at(t), origin = point(pose, axes, [0, 0, 0]);
+    return both.map((x) => vec.add(point(pose, axes, x), origin, -1));
   }
   // The largest force and the largest moment of the run: they have the longest arrows.
   const largest = [0, 1].map((i) => Math.max(1e-300, ...forces.flatMap((force) => [...times].map((t) => Math.hypot(...load(force, t)[i])))));

@@ -1,6 +1,7 @@
 //! Outputs of couplings, effects and the whole scene.
 
 use super::{PLANAR, read, refused};
+use crate::read::SceneFile;
 use mbs_core::outputs::RelativePoint;
 use mbs_core::scene::*;
 
@@ -101,6 +102,51 @@ fn outputs_may_be_seen_from_another_body() {
     );
     let e = refusal("body = \"lower\"\nat = [2, 0]\norigin = [1, 0]");
     refused(&e, &format!("{}:1", line + 2), "`origin` has no meaning here", "keys");
+}
+
+#[test]
+fn the_axes_of_an_output_are_global_or_those_of_a_body() {
+    let [upper, lower] = [0, 1].map(BodyId::Body);
+    let point = "body = \"lower\"\nat = [2, 0]\nquantity = \"proper-acceleration\"\n";
+    let cases = [
+        (point.to_owned(), None),
+        (format!("{point}frame = \"global\""), Some(BodyId::Ground)),
+        (format!("{point}frame = \"ground\""), Some(BodyId::Ground)),
+        (format!("{point}frame = \"body\""), Some(lower)),
+        (format!("{point}frame = \"upper\""), Some(upper)),
+        ("joint = \"elbow\"\nquantity = \"reaction\"\nframe = \"lower\"".to_owned(), Some(lower)),
+        ("effect = \"mount\"\nframe = \"upper\"".to_owned(), Some(upper)),
+        ("quantity = \"momentum\"\nframe = \"upper\"".to_owned(), Some(upper)),
+    ];
+    for (output, expected) in cases {
+        let numbers = |text: &str| SceneFile::parse(text, "x").and_then(|file| file.numbers());
+        let scene = numbers(&with(&output)).unwrap_or_else(|e| panic!("{output}: {e}"));
+        assert_eq!(scene.outputs.last().expect("an output").frame, expected, "{output}");
+        let again = numbers(&crate::to_toml(&scene).expect("no code in it"));
+        assert_eq!(again.expect("it reads").outputs, scene.outputs, "{output}");
+    }
+    let refusal = |output: &str| read(&with(output)).expect_err("it is refused");
+    let line = with("").lines().count();
+    let e = refusal("joint = \"elbow\"\nquantity = \"reaction\"\nframe = \"body\"");
+    let of_no_body = "this output is of no body, whose axes `body` would be";
+    refused(&e, &format!("{}:9", line + 2), of_no_body, "name of the body");
+    let e = refusal("body = \"lower\"\nat = [2, 0]\nframe = \"uper\"");
+    refused(&e, &format!("{}:9", line + 2), "unknown body `uper`", "`upper`");
+    for scalar in [
+        "joint = \"elbow\"",
+        "effect = \"strut\"",
+        "quantity = \"energy\"",
+        "body = \"lower\"\nquantity = \"orientation\"",
+        "body = \"lower\"\nquantity = \"angular-velocity\"",
+    ] {
+        let e = refusal(&format!("{scalar}\nframe = \"upper\""));
+        let line = line + scalar.lines().count();
+        assert_eq!((e.place().line, e.place().column), (line, 9), "{e}");
+        assert!(
+            e.to_string().ends_with("no axes") && e.hint().contains("leave the key out"),
+            "{e}"
+        );
+    }
 }
 
 #[test]

@@ -1,0 +1,54 @@
+//! The axes in which an output has its components.
+//!
+//! ```text
+//! x_f = R_f^T R_o x_o   (o: the body whose axes the quantity has by itself, f: the required one)
+//! ```
+
+use super::frame::Frame;
+use super::quantity::magnitudes;
+use crate::Real;
+use crate::algebra::Vector;
+use crate::model::State;
+use crate::natural::NaturalModel;
+use crate::scene::{Output, Scene};
+use alloc::vec::Vec;
+use core::ops::Range;
+
+/// The vectors of an output, turned into the axes of a body.
+#[derive(Debug, Clone)]
+pub(super) struct OutputAxes<T: Real, const D: usize> {
+    /// The axes that its quantity has by itself.
+    own: Frame<T, D>,
+    required: Frame<T, D>,
+    /// Where its vectors are among its components; what is no vector stays.
+    vectors: Vec<Range<usize>>,
+}
+
+impl<T: Real, const D: usize> OutputAxes<T, D> {
+    /// Those of an output; `None` where it keeps the axes of its quantity.
+    pub(super) fn new(
+        output: &Output<T>,
+        scene: &Scene<T>,
+        model: &NaturalModel<T, D>,
+    ) -> Option<Self> {
+        let (own, required) = (output.quantity.axes(), output.frame?);
+        let vectors = magnitudes(&output.quantity.components(scene)).into_iter();
+        (own != required).then(|| Self {
+            own: Frame::new(model, own),
+            required: Frame::new(model, required),
+            vectors: vectors.map(|vector| vector.places).collect(),
+        })
+    }
+
+    /// Turns the components at an instant. Cost: two rotation matrices, their product with each vector.
+    pub(super) fn turn(&self, state: &State<T>, components: &mut [T]) {
+        let [own, required] = [&self.own, &self.required].map(|frame| frame.rotation(&state.q));
+        let turn = required.transpose() * own;
+        for places in &self.vectors {
+            let vector = &mut components[places.clone()];
+            let in_space = |i: usize| vector.get(i).copied().unwrap_or(T::ZERO);
+            let turned = turn * Vector::<T, 3>::from_fn(|i, _| in_space(i));
+            vector.copy_from_slice(&turned.as_slice()[..vector.len()]);
+        }
+    }
+}
