@@ -5,7 +5,7 @@ use mbs_core::scene::{
     BodyId, CouplingId, EffectId, Inertia, JointId, Output, RollingId, Scene, SignalId,
 };
 
-/// All quantities of centres of mass, bodies, joints, couplings, effects and the scene, in the order of the table.
+/// All quantities of centres of mass, bodies, joints, couplings, effects and the scene, in the order of the table, but those of a run itself.
 #[must_use]
 pub fn every(scene: &Scene<f64>) -> Vec<Quantity<f64>> {
     let center = |body: usize| match scene.bodies[body].inertia {
@@ -14,7 +14,7 @@ pub fn every(scene: &Scene<f64>) -> Vec<Quantity<f64>> {
     };
     let bodies = || (0..scene.bodies.len()).map(|body| (BodyId::Body(body), center(body)));
     let ground = [(BodyId::Ground, [0.0, 0.0, 0.0])];
-    let all = QUANTITIES.iter().flat_map(|row| {
+    let all = QUANTITIES.iter().filter(|row| !row.is_of_run).flat_map(|row| {
         let targets: Vec<_> = match row.target {
             TargetKind::Point => bodies().map(|(body, at)| Target::Point(body, at)).collect(),
             TargetKind::RelativePoint => {

@@ -81,11 +81,20 @@ impl<T: Real, const D: usize> Channels<T, D> {
         self.measures.track(state).map_err(|error| simulation.explain(error))
     }
 
-    /// All components at a state.
+    /// All components at the state of a simulation.
+    ///
+    /// # Errors
+    /// As [`write_at`](Self::write_at).
+    pub fn write(&mut self, now: &Simulation<T, D>, out: &mut [T]) -> Result<(), StopError> {
+        self.measures.set_invariant_error(T::from_f64(now.invariant().error()));
+        self.write_at(now.state(), out)
+    }
+
+    /// All components at a state of no simulation.
     ///
     /// # Errors
     /// [`StopError::Output`] for one that is not finite, as the acceleration of a point beyond all measure.
-    pub fn write(&mut self, state: &State<T>, out: &mut [T]) -> Result<(), StopError> {
+    pub(crate) fn write_at(&mut self, state: &State<T>, out: &mut [T]) -> Result<(), StopError> {
         self.forces.iter_mut().for_each(|forces| forces.update(state));
         if let Some(reactions) = self.forces.as_ref().and_then(Forces::reactions) {
             for &asked in &self.asked {

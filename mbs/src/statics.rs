@@ -201,7 +201,7 @@ fn measured<const D: usize>(
     let mut measures = Channels::new(scene, model)?;
     let channels = Channel::of_scene(scene);
     let mut values = vec![0.0; channels.iter().map(|c| c.components.len()).sum()];
-    measures.write(state, &mut values)?;
+    measures.write_at(state, &mut values)?;
     let mut rest = values.into_iter();
     let pairs = channels.into_iter().map(|channel| {
         let n = channel.components.len();

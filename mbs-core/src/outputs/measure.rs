@@ -29,6 +29,7 @@ pub struct Measures<T: Real, const D: usize> {
     memory: Vec<T>,
     n_values: usize,
     n_components: usize,
+    invariant_error: T,
 }
 
 /// What one output writes.
@@ -91,7 +92,12 @@ impl<T: Real, const D: usize> Measures<T, D> {
         memory.resize(4 * n_values, T::ZERO);
         // No state was seen yet: the first one is followed from the start values.
         memory.push(-T::ONE);
-        Ok(Self { channels, memory, n_values, n_components })
+        Ok(Self { channels, memory, n_values, n_components, invariant_error: T::ZERO })
+    }
+
+    /// Sets the error of the run's energy invariant that the next [`write`](Self::write) shows [J]. At first it is zero.
+    pub fn set_invariant_error(&mut self, error: T) {
+        self.invariant_error = error;
     }
 
     /// Number of components of all channels: the places that [`write`](Self::write) fills.
@@ -208,7 +214,8 @@ impl<T: Real, const D: usize> Measures<T, D> {
         let values = &self.memory[..self.n_values];
         let (reactions, effects) =
             (forces.and_then(Forces::reactions), forces.and_then(Forces::effects));
-        let now = Instant { state, values, reactions, effects };
+        let invariant_error = self.invariant_error;
+        let now = Instant { state, values, reactions, effects, invariant_error };
         let mut rest = out;
         for recorded in &self.channels {
             let (here, tail) = rest.split_at_mut(recorded.len());

@@ -250,7 +250,7 @@ impl<T: Real, const D: usize> StepObserver<T, D> for Recorder<'_, T, D> {
 
     fn instant(&mut self, simulation: &Simulation<T, D>) -> Result<ControlFlow<()>, StopError> {
         if let Some(channels) = &mut self.channels {
-            channels.write(simulation.state(), &mut self.row)?;
+            channels.write(simulation, &mut self.row)?;
             self.rows.push(self.row.iter().copied().map(Real::to_f64).collect());
             if self.is_fine {
                 self.last = self.clock.seconds();

@@ -238,7 +238,7 @@ impl<T: Real, const D: usize> StepObserver<T, D> for Recorder<T, D> {
     }
 
     fn instant(&mut self, simulation: &Simulation<T, D>) -> Result<ControlFlow<()>, StopError> {
-        self.channels.write(simulation.state(), &mut self.row)?;
+        self.channels.write(simulation, &mut self.row)?;
         self.rows.push(self.row.iter().copied().map(Real::to_f64).collect());
         self.last = self.start.elapsed();
         self.is_given_up = self.last > self.most;

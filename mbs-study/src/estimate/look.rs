@@ -161,7 +161,7 @@ impl<const D: usize> Eye<'_, D> {
             let (t, values) = &self.look.rows[i];
             self.reach((*t, rate), *t >= span, is_late)?;
             rate = self.turning(*t, &mut seen.pace);
-            let written = self.channels.write(self.simulation.state(), &mut row);
+            let written = self.channels.write(&self.simulation, &mut row);
             written.map_err(|error| stopped(self.look.scene, &self.simulation, &error))?;
             for ((most, a), b) in seen.differences.iter_mut().zip(&row).zip(values) {
                 *most = most.max((a - b).abs());

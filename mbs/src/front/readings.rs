@@ -8,7 +8,6 @@ use crate::stop::StopError;
 use core::ops::Range;
 use mbs_core::Real;
 use mbs_core::algebra::Vector;
-use mbs_core::model::State;
 use mbs_core::outputs::{EffectWrenches, Reactions};
 use mbs_core::scene::{JointId, Output, Quantity, Scene};
 
@@ -55,17 +54,21 @@ impl<T: Real, const D: usize> Group<T, D> {
     }
 
     /// Makes the row that of the present state.
-    fn update(&mut self, state: &State<T>) -> Result<(), StopError> {
+    fn update(&mut self, now: &Simulation<T, D>) -> Result<(), StopError> {
         if !self.is_present {
-            self.channels.write(state, &mut self.row)?;
+            self.channels.write(now, &mut self.row)?;
             self.is_present = true;
         }
         Ok(())
     }
 
     /// The components of a channel, and whether all of the row are finite.
-    fn of(&mut self, channel: usize, state: &State<T>) -> (Coordinates, Result<(), StopError>) {
-        let written = self.update(state);
+    fn of(
+        &mut self,
+        channel: usize,
+        now: &Simulation<T, D>,
+    ) -> (Coordinates, Result<(), StopError>) {
+        let written = self.update(now);
         let place = self.places.get(channel).cloned().unwrap_or_default();
         (Coordinates::new(self.row[place].iter().map(|x| x.to_f64())), written)
     }
@@ -115,20 +118,20 @@ impl<T: Real, const D: usize> Readings<T, D> {
     }
 
     /// Coordinates of a joint; what is not finite is seen as that.
-    pub(super) fn values(&mut self, joint: usize, state: &State<T>) -> Coordinates {
-        self.joints.of(joint, state).0
+    pub(super) fn values(&mut self, joint: usize, now: &Simulation<T, D>) -> Coordinates {
+        self.joints.of(joint, now).0
     }
 
-    pub(super) fn rates(&mut self, joint: usize, state: &State<T>) -> Coordinates {
-        self.rates.of(joint, state).0
+    pub(super) fn rates(&mut self, joint: usize, now: &Simulation<T, D>) -> Coordinates {
+        self.rates.of(joint, now).0
     }
 
     pub(super) fn output(
         &mut self,
         output: usize,
-        state: &State<T>,
+        now: &Simulation<T, D>,
     ) -> Result<Coordinates, StopError> {
-        let (output, written) = self.outputs().of(output, state);
+        let (output, written) = self.outputs().of(output, now);
         written.map(|()| output)
     }
 
@@ -138,9 +141,13 @@ impl<T: Real, const D: usize> Readings<T, D> {
     }
 
     /// Writes the components of all outputs, in their order.
-    pub(super) fn write(&mut self, state: &State<T>, out: &mut [f64]) -> Result<(), StopError> {
+    pub(super) fn write(
+        &mut self,
+        now: &Simulation<T, D>,
+        out: &mut [f64],
+    ) -> Result<(), StopError> {
         let outputs = self.outputs();
-        let written = outputs.update(state);
+        let written = outputs.update(now);
         out.iter_mut().zip(&outputs.row).for_each(|(to, x)| *to = x.to_f64());
         written
     }

@@ -68,19 +68,19 @@ where
     }
 
     fn values(&self, joint: usize) -> Coordinates {
-        self.read().values(joint, self.simulation.borrow().state())
+        self.read().values(joint, self.simulation.borrow())
     }
 
     fn rates(&self, joint: usize) -> Coordinates {
-        self.read().rates(joint, self.simulation.borrow().state())
+        self.read().rates(joint, self.simulation.borrow())
     }
 
     fn output(&self, output: usize) -> Result<Coordinates, StopError> {
-        self.read().output(output, self.simulation.borrow().state())
+        self.read().output(output, self.simulation.borrow())
     }
 
     fn write_outputs(&self, out: &mut [f64]) -> Result<(), StopError> {
-        self.read().write(self.simulation.borrow().state(), out)
+        self.read().write(self.simulation.borrow(), out)
     }
 
     fn n_outputs(&self) -> usize {

@@ -165,7 +165,7 @@ impl<'a, T: Real, const D: usize> Record<'a, T, D> {
         let (values, others) = self.values.split_at_mut(self.n_measured);
         let n_others = others.len() - usize::from(self.level.is_some());
         let (others, level) = others.split_at_mut(n_others);
-        self.measures.write(simulation.state(), values)?;
+        self.measures.write(simulation, values)?;
         if let Some(columns) = &mut self.others {
             columns.write(simulation, others)?;
         }

@@ -170,3 +170,33 @@ fn wheel(scene: &Scene<f64>, effect: EffectId) -> (BodyId, Vector) {
     }
     body.zip(center).expect("a tire has a body and a centre")
 }
+
+#[test]
+fn the_invariant_error_is_that_of_the_summary_to_the_bit() {
+    // fixed steps without losses, dampers and inputs on a road, controlled steps
+    let controlled = Method { step_control: Some("error".to_owned()), ..Method::default() };
+    for (name, method) in [
+        ("double-pendulum", Method::default()),
+        ("quarter-car", Method::default()),
+        ("double-pendulum", controlled),
+    ] {
+        let mut scene = scene(name);
+        show(&mut scene, vec![Quantity::InvariantError, Quantity::Energy]);
+        let outcome = run(&scene, &Method { duration: Some(0.5), ..method });
+        assert!(outcome.summary.completed, "{name}: {:?}", outcome.error);
+        let energy = outcome.summary.energy;
+        let stats = &outcome.record(Provenance::default()).channels[0].stats[0].of;
+        assert_eq!(stats.max.max(-stats.min).to_bits(), energy.max_error.to_bits(), "{name}");
+        assert_eq!(stats.end.abs().to_bits(), energy.final_error.to_bits(), "{name}");
+        assert!(energy.max_error > 0.0, "{name}");
+        if name == "double-pendulum" {
+            // nothing takes or gives energy there: it is what the energy has changed by
+            let rows = outcome.rows();
+            let size = rows.iter().map(|(_, row)| row[1].abs()).fold(1.0, f64::max);
+            for (t, row) in &rows {
+                let change = row[1] - rows[0].1[1];
+                assert!((row[0] - change).abs() < ROUNDING * size, "{t}: {row:?}");
+            }
+        }
+    }
+}

@@ -99,4 +99,6 @@ pub(in crate::outputs) struct Instant<'a, T: Real, const D: usize> {
     /// Those of the state; zero where there are none.
     pub reactions: Option<&'a Reactions<T, D>>,
     pub effects: Option<&'a EffectWrenches<T, D>>,
+    /// Error of the energy invariant of the run [J].
+    pub invariant_error: T,
 }

@@ -125,6 +125,9 @@ macro_rules! list {
                 Momentum in momentum;
                 /// Angular momentum of all bodies about their centre of mass [kg m^2/s], global axes; in the plane one number. Rotors are left out.
                 AngularMomentum in angular_momentum;
+                /// Kinetic and potential energy less what dampers, motors, guides and inputs gave since the start, minus the energy at the start [J]:
+                /// the error of the energy invariant that the run watches. Zero without a run.
+                InvariantError in invariant_error;
             }
         }
     };

@@ -128,6 +128,8 @@ pub struct QuantityRow {
     pub needs_reactions: bool,
     /// Is it read of effects?
     pub needs_effects: bool,
+    /// Is it of the run rather than of the motion? Such numbers do not converge with those of other runs.
+    pub is_of_run: bool,
 }
 
 impl QuantityRow {
@@ -137,8 +139,15 @@ impl QuantityRow {
         target: TargetKind,
         components: ComponentForm,
     ) -> Self {
-        let (needs_reactions, needs_effects) = (false, false);
-        Self { name, alias: None, target, components, needs_reactions, needs_effects }
+        Self {
+            name,
+            alias: None,
+            target,
+            components,
+            needs_reactions: false,
+            needs_effects: false,
+            is_of_run: false,
+        }
     }
 
     /// The same, read of reactions too.
@@ -149,6 +158,11 @@ impl QuantityRow {
     /// The same, read of effects too.
     pub(super) const fn of_effects(self) -> Self {
         Self { needs_effects: true, ..self }
+    }
+
+    /// The same, of the run itself.
+    pub(super) const fn of_the_run(self) -> Self {
+        Self { is_of_run: true, ..self }
     }
 
     /// The same with another name that is read.

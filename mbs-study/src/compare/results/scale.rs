@@ -2,13 +2,14 @@
 
 use super::data::OutputScale;
 use mbs::record::Channel;
+use mbs_core::outputs::QUANTITIES;
 
 /// Least scale of an output, relative to the largest range of its unit [-]. Chosen, not tuned.
 const FLOOR: f64 = 1e-3;
 
 /// The scales of all channels. The components of one unit of a channel share the largest of their ranges over the reference. It is
 /// at least a thousandth of the largest range of an output of that unit. In lengths it is at least a thousandth of the scene's
-/// length [m], in angles of a radian.
+/// length [m], in angles of a radian. What is of the run itself, as its energy error, has none and judges nothing.
 #[must_use]
 pub fn output_scales(channels: &[Channel], rows: &[Vec<f64>], length: f64) -> Vec<OutputScale> {
     let mut scales: Vec<OutputScale> = Vec::new();
@@ -33,8 +34,14 @@ pub fn output_scales(channels: &[Channel], rows: &[Vec<f64>], length: f64) -> Ve
             column += 1;
         }
     }
-    let ranges: Vec<(String, f64)> = scales.iter().map(|s| (s.unit.clone(), s.range)).collect();
-    for scale in &mut scales {
+    let is_of_run = |scale: &OutputScale| {
+        let of = channels.iter().find(|channel| channel.name == scale.output);
+        let row = of.and_then(|of| QUANTITIES.iter().find(|row| row.name == of.quantity));
+        row.is_some_and(|row| row.is_of_run)
+    };
+    let judged = scales.iter().filter(|scale| !is_of_run(scale));
+    let ranges: Vec<(String, f64)> = judged.map(|s| (s.unit.clone(), s.range)).collect();
+    for scale in scales.iter_mut().filter(|scale| !is_of_run(scale)) {
         let least = match scale.unit.as_str() {
             "m" => length,
             "rad" => 1.0,
@@ -88,14 +95,18 @@ mod tests {
 
     #[test]
     fn components_of_a_unit_share_the_largest_range_and_what_stands_still_has_a_floor() {
-        let channels = [channel("tip", &["m", "m"]), channel("post", &["m"]), channel("f", &["N"])];
-        let rows = vec![vec![0.0, 1.0, 7.0, 0.0], vec![4.0, 2.0, 7.0, 0.0]];
+        // an energy error is no output of the motion
+        let error = Channel { quantity: "invariant-error", ..channel("error", &["m"]) };
+        let [tip, post, f] =
+            [("tip", &["m", "m"][..]), ("post", &["m"]), ("f", &["N"])].map(|(a, b)| channel(a, b));
+        let channels = [tip, post, f, error];
+        let rows = vec![vec![0.0, 1.0, 7.0, 0.0, 0.0], vec![4.0, 2.0, 7.0, 0.0, 9e9]];
         let scales = output_scales(&channels, &rows, 0.5);
         let sizes: Vec<_> = scales.iter().map(|s| s.scale).collect();
-        assert_eq!(sizes, [Some(4.0), Some(FLOOR * 4.0), None]);
+        assert_eq!(sizes, [Some(4.0), Some(FLOOR * 4.0), None, None]);
         assert_eq!(scales[0].columns, [0, 1]);
-        let [largest, rms] = row_distance(&scales, &rows[0], &[0.4, 1.0, 7.0, 9.0]);
+        let [largest, rms] = row_distance(&scales, &rows[0], &[0.4, 1.0, 7.0, 9.0, 1.0]);
         assert!((largest - 0.1).abs() < 1e-12 && (rms - 0.1 / f64::sqrt(3.0)).abs() < 1e-12);
-        assert!(row_distance(&scales, &rows[0], &[0.4, f64::NAN, 7.0, 9.0])[0].is_nan());
+        assert!(row_distance(&scales, &rows[0], &[0.4, f64::NAN, 7.0, 9.0, 1.0])[0].is_nan());
     }
 }

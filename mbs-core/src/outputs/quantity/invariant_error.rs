@@ -1,0 +1,25 @@
+//! Error of the energy invariant, which the run watches from step to step.
+
+use super::kind::{Instant, Maker, Measured};
+use super::{ComponentForm, QuantityRow, TargetKind};
+use crate::Real;
+use core::marker::PhantomData;
+
+pub(super) const ROW: QuantityRow =
+    QuantityRow::new("invariant-error", TargetKind::Scene, ComponentForm::Number("J")).of_the_run();
+
+/// What is handed to the measures.
+#[derive(Debug, Clone)]
+pub(in crate::outputs) struct InvariantError<T: Real, const D: usize>(PhantomData<T>);
+
+impl<T: Real, const D: usize> Measured<T, D> for InvariantError<T, D> {
+    type Of = ();
+
+    fn new((): (), _: &mut Maker<'_, T, D>) -> Self {
+        Self(PhantomData)
+    }
+
+    fn write(&self, now: &Instant<'_, T, D>, out: &mut [T]) {
+        out[0] = now.invariant_error;
+    }
+}
