@@ -1,7 +1,7 @@
 //! `mbs compare SCENE`.
 
 use crate::bar::{bar, ticks};
-use crate::plot::work_precision;
+use crate::plot::{is_picture, work_precision};
 use crate::refusal::Refusal;
 use crate::say::{say, warn};
 use crate::scene::SceneArgument;
@@ -61,7 +61,7 @@ pub(crate) struct Arguments {
     /// Directory for compare.csv, compare.json, compare.html and the journal of finished runs; created if missing. Default: no files.
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
-    /// Picture of the work-precision diagram (.svg). Default: none.
+    /// Picture of the work-precision diagram (.svg, .pdf). Default: none.
     #[arg(long, value_name = "FILE")]
     figure: Option<PathBuf>,
     /// Resume: keep the runs that an earlier start left in the directory.
@@ -184,11 +184,9 @@ const FILES: [&str; 4] = ["compare.csv", "compare.json", "compare.html", "compar
 /// The comparison, and where its results go, with their id.
 fn run(arguments: &Arguments) -> Result<(Comparison, Option<(Folder, String)>), Refusal> {
     let request = Request { interrupt: signals::heeded(), ..arguments.request()? };
-    if let Some(path) =
-        arguments.figure.as_ref().filter(|path| path.extension() != Some("svg".as_ref()))
-    {
+    if let Some(path) = arguments.figure.as_ref().filter(|path| !is_picture(ending(path))) {
         let message = format!("`{}` is no name of a picture", path.display());
-        return Err(Refusal::new("usage", message, "give a file that ends with .svg"));
+        return Err(Refusal::new("usage", message, "give a file that ends with .svg or .pdf"));
     }
     let document = arguments.scene.document()?;
     let table = arguments.table()?;
@@ -233,6 +231,11 @@ fn refusal(error: &CompareError, has_journal: bool) -> Refusal {
     }
 }
 
+/// The ending of a file's name.
+fn ending(path: &Path) -> &str {
+    path.extension().and_then(|ending| ending.to_str()).unwrap_or_default()
+}
+
 /// The commit, as the build or the environment of the command has it.
 fn commit() -> String {
     let built = option_env!("MBS_COMMIT").map(str::to_owned);
@@ -261,8 +264,8 @@ fn write_results(
     let mut status = if is_any { ExitCode::SUCCESS } else { ExitCode::from(STOPPED) };
     let (object, mut wrote) = (comparison.to_json(), String::new());
     if let Some(path) = &arguments.figure {
-        let drawn = work_precision(comparison);
-        match drawn.and_then(|text| files::write(path, text.as_bytes(), None)) {
+        let drawn = work_precision(comparison, ending(path));
+        match drawn.and_then(|bytes| files::write(path, &bytes, None)) {
             Ok(()) => wrote += &format!("\nwrote {}\n", path.display()),
             Err(refusal) => {
                 refusal.warn();

@@ -108,7 +108,7 @@ enum Command {
     Modes(analysis::Modes),
     /// Write a large scene: chain, tree, n-four-bar, net, or a convoy of a vehicle.
     Generate(generate::Arguments),
-    /// Draw channels of one or several runs over each other (SVG), or write them as one table (CSV).
+    /// Draw channels of one or several runs over each other, as a page, SVG or PDF, or write them as one table (CSV).
     Plot(plot::Arguments),
     /// Run a scene with many varied numbers, into one table; the same command continues a killed sweep.
     Sweep(sweep::Arguments),

@@ -1,6 +1,7 @@
 //! `mbs plot RUN... --out FILE`: channels of one or several runs over each other, as a page, as a picture or as a table.
 
 mod figure;
+mod pdf;
 mod picture;
 
 use crate::diff::{label, results, unknown};
@@ -11,6 +12,7 @@ use clap::Args;
 pub(crate) use figure::work_precision;
 use mbs::results::ResultTable;
 use mbs::scene_file::format::shortest;
+pub(crate) use picture::is_picture;
 use picture::{Line, Panel, drawn};
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -27,7 +29,7 @@ pub(crate) struct Arguments {
     /// Another value at a path of the scenes among them, as sweeps write it: body.rod.mass=2. May be repeated. Default: none.
     #[arg(long, value_name = "PATH=VALUE", display_order = 800)]
     set: Vec<String>,
-    /// Page (.html), picture (.svg) or table (.csv) that is written.
+    /// Page (.html), picture (.svg, .pdf) or table (.csv) that is written.
     #[arg(long, value_name = "FILE", default_value = "plot.html")]
     out: PathBuf,
     /// Name of a channel, or of one of its columns; may be repeated. Default: all.
@@ -52,9 +54,9 @@ pub(crate) fn main(arguments: &Arguments) -> ExitCode {
 fn plotted(arguments: &Arguments) -> Result<String, Refusal> {
     let path = arguments.out.as_path();
     let ending = path.extension().and_then(|ending| ending.to_str()).unwrap_or_default();
-    if !matches!(ending, "html" | "svg" | "csv") {
+    if !matches!(ending, "html" | "csv") && !is_picture(ending) {
         let message = format!("`{}` is no page, no picture and no table", path.display());
-        let hint = "give a file that ends with .html, .svg or .csv";
+        let hint = "give a file that ends with .html, .svg, .pdf or .csv";
         return Err(Refusal::new("usage", message, hint));
     }
     let runs: Result<Vec<_>, _> =
@@ -66,17 +68,19 @@ fn plotted(arguments: &Arguments) -> Result<String, Refusal> {
         columns(&runs, xy)?;
         names.clone_from(xy);
     }
-    let text = match (ending, &arguments.xy) {
-        ("csv", _) => table(&runs, &names),
-        ("html", xy) => mbs_report::plots_page(&runs, &names, xy.is_some(), arguments.log),
-        (_, Some(xy)) => drawn(&[over(&runs, xy, arguments.log)])?,
+    let bytes = match (ending, &arguments.xy) {
+        ("csv", _) => table(&runs, &names).into_bytes(),
+        ("html", xy) => {
+            mbs_report::plots_page(&runs, &names, xy.is_some(), arguments.log).into_bytes()
+        }
+        (_, Some(xy)) => drawn(&[over(&runs, xy, arguments.log)][..], ending)?,
         _ if names.len() > MAX_PANELS => {
             let message = format!("a picture of {} columns has no use", names.len());
             return Err(Refusal::new("too-many-columns", message, "name some with --channel"));
         }
-        _ => drawn(&panels(&runs, &names, arguments.log))?,
+        _ => drawn(&panels(&runs, &names, arguments.log)[..], ending)?,
     };
-    files::write(path, text.as_bytes(), None)?;
+    files::write(path, &bytes, None)?;
     Ok(format!("wrote {}\n", path.display()))
 }
 

@@ -1,6 +1,6 @@
 //! The work-precision diagram of a comparison as a picture: CPU time over error, both logarithmic.
 
-use super::picture::{COLOURS, number, range};
+use super::picture::{COLOURS, Fault, Picture, drawn, number, range};
 use crate::refusal::Refusal;
 use mbs_study::compare::results::{Comparison, MethodRuns};
 use plotters::coord::Shift;
@@ -27,9 +27,6 @@ const MARKS: [&[(i32, i32)]; 6] = [
 /// Dashes of the formulations: strokes and gaps [px]; the first is solid.
 const DASHES: [(u32, u32); 6] = [(1, 0), (8, 4), (2, 3), (12, 3), (5, 5), (1, 4)];
 
-type Place<'a> = DrawingArea<SVGBackend<'a>, Shift>;
-type Fault<'a> = DrawingAreaErrorKind<<SVGBackend<'a> as DrawingBackend>::ErrorType>;
-
 /// How a line looks: numbers of its integrator and its formulation, and whether steps are fixed.
 #[derive(Debug, Clone, Copy)]
 struct Look {
@@ -45,18 +42,25 @@ struct Line<'a> {
     points: Vec<(f64, f64)>,
 }
 
-/// The diagram as SVG, of double precision where there is double; else the refusal of one that cannot be drawn.
-pub(crate) fn work_precision(comparison: &Comparison) -> Result<String, Refusal> {
-    let fault = |error: &dyn core::fmt::Display| {
-        Refusal::new("out-unwritable", format!("the picture cannot be drawn: {error}"), "")
-    };
-    let mut text = String::new();
-    {
-        let area = SVGBackend::with_string(&mut text, SIZE).into_drawing_area();
-        draw(&comparison.scene, &lines(comparison), &area).map_err(|error| fault(&error))?;
-        area.present().map_err(|error| fault(&error))?;
+/// The diagram.
+struct Diagram<'a> {
+    scene: &'a str,
+    lines: Vec<Line<'a>>,
+}
+
+impl Picture for Diagram<'_> {
+    fn size(&self) -> (u32, u32) {
+        SIZE
     }
-    Ok(text)
+
+    fn draw<B: DrawingBackend>(&self, area: &DrawingArea<B, Shift>) -> Result<(), Fault<B>> {
+        draw(self.scene, &self.lines, area)
+    }
+}
+
+/// The diagram as a file, of double precision where there is double; else the refusal of one that cannot be drawn.
+pub(crate) fn work_precision(comparison: &Comparison, ending: &str) -> Result<Vec<u8>, Refusal> {
+    drawn(&Diagram { scene: &comparison.scene, lines: lines(comparison) }, ending)
 }
 
 fn lines(comparison: &Comparison) -> Vec<Line<'_>> {
@@ -86,8 +90,11 @@ fn lines(comparison: &Comparison) -> Vec<Line<'_>> {
     methods().map(line).filter(|line| !line.points.is_empty()).collect()
 }
 
-fn draw<'a>(scene: &str, lines: &[Line<'_>], area: &Place<'a>) -> Result<(), Fault<'a>> {
-    area.fill(&WHITE)?;
+fn draw<B: DrawingBackend>(
+    scene: &str,
+    lines: &[Line<'_>],
+    area: &DrawingArea<B, Shift>,
+) -> Result<(), Fault<B>> {
     let (left, right) = area.split_horizontally(SIZE.0 - NAMES);
     let points = || lines.iter().flat_map(|line| &line.points);
     let powers = |range: core::ops::Range<f64>| {

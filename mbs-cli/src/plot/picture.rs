@@ -1,7 +1,9 @@
-//! The picture: panels below each other, with a line for each run.
+//! The picture: panels below each other, with a line for each run; and how pictures become files.
 
+use super::pdf::PdfBackend;
 use crate::refusal::Refusal;
 use mbs::scene_file::format::{rounded, significant};
+use plotters::coord::Shift;
 use plotters::prelude::*;
 
 /// Width of a picture, and height of each panel in it [px]. Chosen, not tuned.
@@ -50,29 +52,57 @@ pub(super) struct Panel {
     pub(super) is_log: bool,
 }
 
-/// The picture as SVG; else the refusal of one that cannot be drawn.
-pub(super) fn drawn(panels: &[Panel]) -> Result<String, Refusal> {
-    let mut text = String::new();
-    let rows = u32::try_from(panels.len()).unwrap_or(1).max(1);
-    {
-        let area =
-            SVGBackend::with_string(&mut text, (PANEL.0, PANEL.1 * rows)).into_drawing_area();
-        let fault = |error: &dyn core::fmt::Display| {
-            Refusal::new("out-unwritable", format!("the picture cannot be drawn: {error}"), "")
-        };
-        area.fill(&WHITE).map_err(|error| fault(&error))?;
-        for (panel, place) in panels.iter().zip(area.split_evenly((rows as usize, 1))) {
-            draw(panel, &place).map_err(|error| fault(&error))?;
-        }
-        area.present().map_err(|error| fault(&error))?;
-    }
-    Ok(text)
+/// What stops a drawing.
+pub(super) type Fault<B> = DrawingAreaErrorKind<<B as DrawingBackend>::ErrorType>;
+
+/// What can be drawn as a file of each kind.
+pub(super) trait Picture {
+    /// Its size [px].
+    fn size(&self) -> (u32, u32);
+
+    /// Draws it.
+    fn draw<B: DrawingBackend>(&self, area: &DrawingArea<B, Shift>) -> Result<(), Fault<B>>;
 }
 
-type Place<'a> = DrawingArea<SVGBackend<'a>, plotters::coord::Shift>;
-type Fault<'a> = DrawingAreaErrorKind<<SVGBackend<'a> as DrawingBackend>::ErrorType>;
+/// Is this an ending of files with pictures?
+pub(crate) fn is_picture(ending: &str) -> bool {
+    matches!(ending, "svg" | "pdf")
+}
 
-fn draw<'a>(panel: &Panel, place: &Place<'a>) -> Result<(), Fault<'a>> {
+/// A picture as PDF where its file ends so, else as SVG; else the refusal of one that cannot be drawn.
+pub(super) fn drawn(picture: &(impl Picture + ?Sized), ending: &str) -> Result<Vec<u8>, Refusal> {
+    let (mut bytes, mut text) = (Vec::new(), String::new());
+    if ending == "pdf" {
+        present(picture, PdfBackend::new(&mut bytes, picture.size()))?;
+        return Ok(bytes);
+    }
+    present(picture, SVGBackend::with_string(&mut text, picture.size()))?;
+    Ok(text.into_bytes())
+}
+
+fn present<B: DrawingBackend>(
+    picture: &(impl Picture + ?Sized),
+    backend: B,
+) -> Result<(), Refusal> {
+    let area = backend.into_drawing_area();
+    let done = area.fill(&WHITE).and_then(|()| picture.draw(&area)).and_then(|()| area.present());
+    done.map_err(|error| {
+        Refusal::new("out-unwritable", format!("the picture cannot be drawn: {error}"), "")
+    })
+}
+
+impl Picture for [Panel] {
+    fn size(&self) -> (u32, u32) {
+        (PANEL.0, PANEL.1 * u32::try_from(self.len()).unwrap_or(1).max(1))
+    }
+
+    fn draw<B: DrawingBackend>(&self, area: &DrawingArea<B, Shift>) -> Result<(), Fault<B>> {
+        let places = area.split_evenly((self.len().max(1), 1));
+        self.iter().zip(&places).try_for_each(|(panel, place)| draw(panel, place))
+    }
+}
+
+fn draw<B: DrawingBackend>(panel: &Panel, place: &DrawingArea<B, Shift>) -> Result<(), Fault<B>> {
     let lines: Vec<(&Line, Vec<(f64, f64)>)> =
         panel.lines.iter().map(|line| (line, shown(&line.points, panel.is_log))).collect();
     let all = || lines.iter().flat_map(|(_, points)| points);

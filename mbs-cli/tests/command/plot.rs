@@ -5,11 +5,16 @@ use std::path::Path;
 
 /// Draws the slider-crank into a file of that name; gives its text.
 fn plotted(name: &str, arguments: &[&str]) -> String {
+    String::from_utf8(drawn(name, arguments)).expect("text")
+}
+
+/// The same; gives its bytes.
+fn drawn(name: &str, arguments: &[&str]) -> Vec<u8> {
     let out = plain(Path::new(env!("CARGO_TARGET_TMPDIR")).join(name));
     let scene = scene("slider-crank");
     let output = run("plot", &[&[scene.as_str(), "--out", &out], arguments].concat());
     assert_eq!(status(&output), 0, "{}", text(&output.stderr));
-    std::fs::read_to_string(out).expect("it was written")
+    std::fs::read(out).expect("it was written")
 }
 
 #[test]
@@ -19,6 +24,26 @@ fn a_picture_has_a_panel_for_each_column_with_its_unit() {
     let one = plotted("plot-one.svg", &["--channel", "crank-angle"]);
     assert_eq!(one.matches("t [s]").count(), 1);
     assert!(one.contains("crank-angle [rad]"));
+}
+
+#[test]
+fn a_pdf_has_its_texts_as_text_and_a_table_of_its_objects() {
+    let bytes = drawn("plot-one.pdf", &["--channel", "crank-angle"]);
+    let pdf = String::from_utf8_lossy(&bytes);
+    assert!(pdf.starts_with("%PDF-1.7") && pdf.ends_with("%%EOF"));
+    for text in ["(t [s]) Tj", "(crank-angle [rad]) Tj", "/Helvetica"] {
+        assert!(pdf.contains(text), "{text}");
+    }
+    // each object is where the table says
+    let at = |from: usize| core::str::from_utf8(&bytes[from..]).unwrap_or_default();
+    let line = |text: &str| text.lines().next().unwrap_or_default().to_owned();
+    let start = pdf.rsplit("startxref\n").next().and_then(|x| line(x).parse::<usize>().ok());
+    let table = at(start.expect("the place of the table"));
+    assert!(table.starts_with("xref\n0 6\n"), "{table}");
+    for (i, entry) in table.lines().skip(2).take(6).enumerate().skip(1) {
+        let offset: usize = entry[..10].parse().expect("ten digits");
+        assert!(at(offset).starts_with(&format!("{i} 0 obj")), "{entry}");
+    }
 }
 
 #[test]
@@ -64,7 +89,7 @@ fn a_vector_is_no_axis() {
 fn other_endings_and_unknown_channels_are_refused() {
     let scene = scene("slider-crank");
     for (arguments, why) in [
-        (&["--out", "picture.bmp"][..], ".svg or .csv"),
+        (&["--out", "picture.bmp"][..], ".svg, .pdf or .csv"),
         (&["--out", "none.svg", "--channel", "crank-angel"], "name one of: crank-angle"),
     ] {
         let output = run("plot", &[&[scene.as_str()], arguments].concat());
