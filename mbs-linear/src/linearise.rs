@@ -364,8 +364,9 @@ impl<'a, T: Real, M: Model<T>, S: SymmetricSolver<T>> Field<'a, T, M, S> {
         let mut a = vec![T::ZERO; self.model.n_extended()];
         let (mut lambda, mut residual) = (vec![T::ZERO; m], vec![T::ZERO; n]);
         let (mut last, mut open, mut left) = (None, T::ZERO, T::ZERO);
-        // Corrections: each removes what rounding and the regularisation of the rows left.
-        for _ in 0..SWEEPS {
+        // Corrections: each removes what rounding and the regularisation of the rows left. The first is the answer. Near an equilibrium it
+        // is small, and what the second removes of coordinates without mass, which carry forces through their rows alone, may be as large.
+        for sweep in 0..SWEEPS {
             self.w.residual(self.model, Some(&a), &lambda, &mut residual);
             self.model.multiply_jacobian(&self.w.terms, &a, &mut rates);
             for (f, &r) in self.w.f.iter_mut().zip(&residual) {
@@ -389,7 +390,7 @@ impl<'a, T: Real, M: Model<T>, S: SymmetricSolver<T>> Field<'a, T, M, S> {
             if last.is_some_and(|last| correction > last * T::HALF) || correction == T::ZERO {
                 break;
             }
-            last = Some(correction);
+            last = (sweep > 0).then_some(correction);
         }
         if self.lively == T::ZERO {
             self.w.residual(self.model, Some(&a), &lambda, &mut residual);

@@ -111,6 +111,42 @@ fn spring_mass_and_damper_below_and_above_critical_damping() {
 }
 
 #[test]
+fn a_thin_rod_on_a_spring_beside_its_line_swings_as_its_energy_says() {
+    // The spring holds the rod level at 0.1 m above its line, where a direction without mass carries its force.
+    // V'' = k l'^2 + F l'',   l' = -1/2,   l l'' = 0.1^2 + 0.5^2 + 0.9 0.1 - l'^2,   I = m/3
+    let (m, k, g) = (6.0, 1000.0, 9.81);
+    let force = m * g;
+    let rod = format!(
+        r#"
+[[body]]
+name = "rod"
+mass = {m}
+rod = {{ from = [0.0, 0.0, 0.0], to = [0.0, 1.0, 0.0] }}
+[[joint]]
+name = "hinge"
+kind = "revolute"
+bodies = ["ground", "rod"]
+at = [0.0, 0.0, 0.0]
+axis = [1.0, 0.0, 0.0]
+[[effect]]
+kind = "spring-damper"
+bodies = ["rod", "ground"]
+points = [[0.0, 0.5, 0.1], [0.0, 0.5, 1.0]]
+stiffness = {k}
+damping = 0.0
+free_length = {}
+"#,
+        0.9 - force / k
+    );
+    let mut case = Case::<3>::new(&scene(3, &format!("[0.0, 0.0, -{g}]"), &rod));
+    let found = case.settle().unwrap_or_else(|e| panic!("{e}"));
+    assert_eq!((found.unstable, found.neutral), (0, 0));
+    let values = case.eigenvalues(Instant::Rest);
+    let w = ((k * 0.25 + force * (0.35 - 0.25) / 0.9) / (m / 3.0)).sqrt();
+    assert!(values.len() == 1 && near(values[0].1, w), "{values:?} for {w}");
+}
+
+#[test]
 fn a_hanging_parallelogram_is_one_pendulum() {
     // Cranks and coupler of 1 m and 1 kg hanging down: I phi'' = -g (1/2 + 1/2 + 1) phi, I = 1/3 + 1/3 + 1.
     let text = include_str!("../../../scenes/four-bar.toml").replace("[0.0, -9.81]", "[0.0, 9.81]");
