@@ -65,6 +65,11 @@ fn the_page_of_a_sweep_has_a_diagram_for_each_result_and_parameter() {
     assert_eq!(html.matches("data-diagram=").count(), 2 * outputs);
     assert_eq!(html.matches("data-panel=").count(), outputs);
     assert!(html.contains("Traces of 3 members") && html.contains("<summary>Members"));
+    // in its caption, and as the words for its picture
+    assert_eq!(html.matches("The band is the least").count(), 2 * outputs);
+    // the numbers of a member without scripts: each output in its table
+    assert_eq!(html.matches("<details><summary class=\"row\">").count(), 12);
+    assert_eq!(html.matches("<td>energy_max_error</td>").count(), 12);
     let refused = sweep(&[&scene("double-pendulum"), "sweep.toml", "--traces", "3"]);
     assert_eq!(status(&refused), 1, "traces are drawn on a page");
 }

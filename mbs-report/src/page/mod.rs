@@ -7,6 +7,7 @@ mod captions;
 mod decimate;
 mod diagram;
 mod motion;
+mod open_rows;
 mod paced;
 mod pack;
 mod panels;

@@ -55,6 +55,16 @@ struct Panel {
     log: bool,
     steps: bool,
     lines: Vec<Line>,
+    /// The least and the largest of all runs at each time.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    band: Option<Band>,
+}
+
+#[derive(Debug, Serialize)]
+struct Band {
+    t: Column,
+    low: Column,
+    high: Column,
 }
 
 #[derive(Debug, Serialize)]
@@ -147,11 +157,31 @@ impl Panels {
         panel.frame.clone()
     }
 
-    /// A line over another column: peaks of both stay.
-    fn over(&self, (curve, across): (&Curve<'_>, &[f64]), values: &[f64], pack: &mut Pack) -> Line {
-        let mut indices = [kept(across, self.most / 2), kept(values, self.most / 2)].concat();
+    /// Adds a band to a panel: times, and the least and the largest value at them. Peaks of both edges stay.
+    pub(super) fn add_band(
+        &mut self,
+        frame: &PlotFrame,
+        [times, low, high]: &[Vec<f64>; 3],
+        pack: &mut Pack,
+    ) {
+        let indices = self.kept_of_both([low, high]);
+        let of = |all: &[f64]| -> Vec<f64> { indices.iter().map(|i| all[*i]).collect() };
+        let columns = pack.ranged(&[of(low), of(high)]);
+        let t = times_of(&of(times), pack);
+        self.panels[frame.panel].band = Some(Band { t, low: columns[0], high: columns[1] });
+    }
+
+    /// Places of the points of two columns that stay: the peaks of both.
+    fn kept_of_both(&self, columns: [&[f64]; 2]) -> Vec<usize> {
+        let mut indices = columns.map(|column| kept(column, self.most / 2)).concat();
         indices.sort_unstable();
         indices.dedup();
+        indices
+    }
+
+    /// A line over another column: peaks of both stay.
+    fn over(&self, (curve, across): (&Curve<'_>, &[f64]), values: &[f64], pack: &mut Pack) -> Line {
+        let indices = self.kept_of_both([across, values]);
         let of = |all: &[f64]| -> Vec<f64> { indices.iter().map(|i| all[*i]).collect() };
         let columns = pack.ranged(&[of(across), of(values)]);
         let t = times_of(&of(curve.times), pack);
@@ -238,6 +268,7 @@ impl Panels {
             log: false,
             steps: false,
             lines,
+            band: None,
         });
     }
 

@@ -5,7 +5,7 @@ use super::pack::Pack;
 use super::panels::{Curve, Panels};
 use super::section::{Page, PageSection, PlotFrame};
 use crate::table::Section;
-use mbs::results::{Difference, ResultTable, difference_over_time};
+use mbs::results::{Difference, ResultTable, difference_over_time, envelope};
 use mbs_scene::format::{few, rounded, significant};
 use serde_json::{Value, json};
 
@@ -38,8 +38,49 @@ pub fn plots_page(
     .html()
 }
 
+/// Plots of columns of several runs over time, each with the band of what all of them have, and their panels in the pack.
+pub(super) fn banded_frames(
+    runs: &[(String, ResultTable)],
+    names: &[String],
+    pack: &mut Pack,
+) -> (Vec<PlotFrame>, Value) {
+    let mut panels = Panels::new(points(names.len()));
+    let tables: Vec<&ResultTable> = runs.iter().map(|(_, run)| run).collect();
+    let frame = |name: &String| {
+        let mut frame = over_time(runs, name, false, (&mut panels, pack));
+        if let Some(band) = envelope(&tables, name).filter(|_| tables.len() > 1) {
+            let n = tables.len();
+            frame.caption += &format!(" The band is the least and the largest of these {n}.");
+            panels.add_band(&frame, &band, pack);
+        }
+        frame
+    };
+    let frames = names.iter().map(frame).collect();
+    (frames, panels.json())
+}
+
+/// A plot of a column of runs over time.
+fn over_time(
+    runs: &[(String, ResultTable)],
+    name: &str,
+    is_log: bool,
+    (panels, pack): (&mut Panels, &mut Pack),
+) -> PlotFrame {
+    let with_column = runs.iter().filter_map(|run| Some((run, run.1.column(name)?)));
+    let curves = with_column.map(|((label, run), column)| Curve {
+        name: label,
+        times: &run.times,
+        across: None,
+        values: &column.values,
+    });
+    let size = if is_log { "Magnitude of " } else { "" };
+    let caption = format!("{size}{name} over time.");
+    let text = (name, unit(runs, name), caption);
+    panels.add_curves(text, &curves.collect::<Vec<_>>(), (is_log, ""), pack)
+}
+
 /// Plots of columns of runs, and their panels in the pack.
-pub(super) fn plot_frames(
+fn plot_frames(
     runs: &[(String, ResultTable)],
     names: &[String],
     (is_over, is_log): (bool, bool),
@@ -69,19 +110,7 @@ pub(super) fn plot_frames(
             vec![panels.add_curves(text, &curves.collect::<Vec<_>>(), (is_log, &axis), pack)]
         }
         _ => {
-            let of_name = |name: &String| {
-                let with_column = runs.iter().filter_map(|run| Some((run, run.1.column(name)?)));
-                let curves = with_column.map(|((label, run), column)| Curve {
-                    name: label,
-                    times: &run.times,
-                    across: None,
-                    values: &column.values,
-                });
-                let size = if is_log { "Magnitude of " } else { "" };
-                let caption = format!("{size}{name} over time.");
-                let text = (name.as_str(), unit(runs, name), caption);
-                panels.add_curves(text, &curves.collect::<Vec<_>>(), (is_log, ""), pack)
-            };
+            let of_name = |name: &String| over_time(runs, name, is_log, (&mut panels, pack));
             names.iter().map(of_name).collect()
         }
     };

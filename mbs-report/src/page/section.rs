@@ -1,5 +1,6 @@
 //! A page as sections of data, and the one HTML file that they make.
 
+use super::open_rows::OpenRows;
 use super::text::{escape, fill};
 use crate::table::Section;
 use core::fmt::Write;
@@ -57,6 +58,8 @@ pub(crate) enum PageSection {
     Diagrams(Vec<DiagramFrame>),
     /// A titled table.
     Table(Section),
+    /// A table whose rows open.
+    Rows(OpenRows),
     /// Tables beside each other, where there is room.
     Tables(Vec<Section>),
     /// Sections that are folded under a title.
@@ -166,6 +169,10 @@ impl PageSection {
             }
             Self::Table(section) => {
                 section.write_card(out);
+                Ok(())
+            }
+            Self::Rows(rows) => {
+                rows.write(out);
                 Ok(())
             }
             Self::Tables(sections) => {

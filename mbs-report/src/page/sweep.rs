@@ -1,8 +1,9 @@
 //! The page of a sweep: each result over each parameter, traces of some members, and the table of members.
 
 use super::diagram::{Diagram, DiagramLine, Look};
+use super::open_rows::OpenRows;
 use super::pack::Pack;
-use super::results::plot_frames;
+use super::results::banded_frames;
 use super::section::{DiagramFrame, Page, PageSection};
 use crate::table::{Section, row};
 use mbs::results::ResultTable;
@@ -14,8 +15,8 @@ use serde_json::json;
 const MAX_OPEN: usize = 12;
 /// Points of all diagrams [-]: the page then stays below four megabytes. Chosen, not tuned.
 const MAX_POINTS: usize = 24_000;
-/// Rows of the table of members [-]: of more, the page says where the others are.
-const MAX_ROWS: usize = 500;
+/// Rows of the table of members, and cells of the tables that they open [-]: of more, the page says where the others are.
+const MAX_ROWS: [usize; 2] = [500, 24_000];
 /// Ratio of the largest to the least value beyond which a positive parameter has a logarithmic axis [-].
 const MANY_TIMES: f64 = 50.0;
 /// The three numbers of each column of the outputs.
@@ -49,12 +50,15 @@ pub fn sweep_page(
     let mut panels = None;
     if let [(_, first), ..] = traces {
         let names: Vec<String> = first.columns.iter().map(|column| column.name.clone()).collect();
-        let (frames, drawn) = plot_frames(traces, &names, (false, false), &mut pack);
+        let (frames, drawn) = banded_frames(traces, &names, &mut pack);
         panels = Some(drawn);
         let title = format!("Traces of {} members", traces.len());
         sections.push(PageSection::Fold(title, vec![PageSection::Plots(frames)]));
     }
-    sections.push(PageSection::of(members(columns, report).folded()));
+    sections.push(PageSection::Fold(
+        "Members".to_owned(),
+        vec![PageSection::Rows(members(columns, report))],
+    ));
     let made = Section::new("How this was made", &[], vec![row("command", command.to_owned())]);
     sections.push(PageSection::of(made.folded()));
     let diagrams = json!({ "looks": looks(), "panels": diagrams, "maps": [] });
@@ -127,27 +131,39 @@ fn diagrams(columns: &Columns, report: &Report) -> Vec<Diagram> {
     diagrams
 }
 
-/// A row for each member: its numbers, what became of it, and the outputs at the end.
-fn members(columns: &Columns, report: &Report) -> Section {
+/// A row for each member: its numbers, what became of it, and the outputs at the end. It opens the rest of what is known of it.
+fn members(columns: &Columns, report: &Report) -> OpenRows {
+    let header = columns.header();
     let mut shown = vec![0];
     shown.extend(columns.parameters());
     shown.push(columns.code());
     shown.extend(columns.channels());
     let short = |cell: &String| cell.parse::<f64>().map_or_else(|_| cell.clone(), few);
-    let row = |row: &Vec<String>| {
-        let cells = shown.iter().map(|i| match (*i, row.get(*i)) {
-            (0, Some(cell)) => cell.clone(),
-            (_, cell) => cell.map(short).unwrap_or_default(),
+    let cell = |row: &[String], i: usize| match (i, row.get(i)) {
+        (0, Some(cell)) => cell.clone(),
+        (_, cell) => cell.map(short).unwrap_or_default(),
+    };
+    let values = |row: &[String]| {
+        let channels = columns.channels().map(|start| {
+            let numbers = (start..start + NUMBERS.len()).map(|i| cell(row, i));
+            core::iter::once(header[start].clone()).chain(numbers).collect()
         });
-        cells.collect()
+        let first = columns.channels().next().unwrap_or(header.len());
+        let of_run = (columns.parameters().end..first)
+            .filter(|i| row.get(*i).is_some_and(|x| !x.is_empty()));
+        let of_run = of_run.map(|i| vec![header[i].clone(), cell(row, i)]);
+        let head = ["", NUMBERS[0], NUMBERS[1], NUMBERS[2]];
+        Section::new("", &head, channels.chain(of_run).collect())
     };
-    let head: Vec<&str> = shown.iter().map(|i| columns.header()[*i].as_str()).collect();
-    let rows = report.rows.iter().take(MAX_ROWS).map(row).collect();
-    let mut table = Section::new("Members", &head, rows);
-    table.caption = "Outputs at the end of the run; table.csv has all columns".to_owned();
-    table.caption += &match report.rows.len() {
-        n if n > MAX_ROWS => format!(" and the other {} members.", n - MAX_ROWS),
-        _ => ".".to_owned(),
-    };
-    table
+    let row = |row: &Vec<String>| (shown.iter().map(|i| cell(row, *i)).collect(), values(row));
+    let [rows, cells] = MAX_ROWS;
+    let most = rows.min(cells / header.len().max(1)).max(1);
+    let rows = report.rows.iter().take(most).map(row).collect();
+    let caption = "Outputs at the end of the run; a row opens all values. table.csv has all digits";
+    let caption = caption.to_owned()
+        + &match report.rows.len() {
+            n if n > most => format!(" and the other {} members.", n - most),
+            _ => ".".to_owned(),
+        };
+    OpenRows { head: shown.iter().map(|i| header[*i].clone()).collect(), rows, caption }
 }

@@ -146,7 +146,7 @@ fn scale(table: &ResultTable, of: &ResultColumn) -> [f64; 2] {
 }
 
 /// The value at a time within the rows, linear between them; `from` is where the last search ended, as times grow.
-fn value(times: &[f64], values: &[f64], t: f64, from: &mut usize) -> f64 {
+pub(super) fn value(times: &[f64], values: &[f64], t: f64, from: &mut usize) -> f64 {
     while *from + 1 < times.len() && times[*from + 1] <= t {
         *from += 1;
     }

@@ -42,6 +42,8 @@ function makePlot(figure, panel, column, clock, shared) {
   const canvas = figure.querySelector("canvas"), legend = figure.querySelector(".legend"), pencil = canvas.getContext("2d");
   // values of logarithmic panels are exponents of ten already
   const lines = panel.lines.map((line) => ({ name: line.name, t: column(line.t), x: line.x && column(line.x, true), y: column(line.y, true), on: true }));
+  const band = panel.band && { t: column(panel.band.t), low: column(panel.band.low, true), high: column(panel.band.high, true) };
+  const edges = band ? [band.low, band.high].map((y) => ({ t: band.t, y, on: true })) : [];
   // one column over another: the window in time says which part of the curve is drawn
   const isCurve = Boolean(panel.across), abscissa = (line, k) => (line.x ? line.x[k] : line.t[k]);
   let log = panel.log, asked = false, area = null, drag = null, scales = null;
@@ -85,10 +87,10 @@ function makePlot(figure, panel, column, clock, shared) {
   const value = (y) => (panel.log === log ? y : log ? (y > 0 ? Math.log10(y) : NaN) : 10 ** y);
   const plain = (y) => (panel.log ? 10 ** y : y);
   // Least and largest of what the lines have in the window.
-  function extent(of) {
+  function extent(of, all = lines) {
     let low = Infinity, high = -Infinity;
     const [t0, t1] = shared.span;
-    for (const line of lines) {
+    for (const line of all) {
       if (!line.on || !line.t.length) continue;
       const from = before(line.t, t0), to = Math.min(before(line.t, t1) + 1, line.t.length - 1);
       for (let k = from; k <= to; k++) { const y = of(line, k); if (y < low) low = y; if (y > high) high = y; }
@@ -102,7 +104,7 @@ function makePlot(figure, panel, column, clock, shared) {
   }
   // Range of the values in the window.
   function range() {
-    const [low, high] = extent((line, k) => value(line.y[k]));
+    const [low, high] = extent((line, k) => value(line.y[k]), [...lines, ...edges]);
     if (!(low <= high)) return [0, 1];
     if (log) { const top = Math.ceil(high + 1e-9); return [Math.min(Math.max(Math.floor(low), top - 16), top - 1), top]; }
     if (panel.steps && !panel.log) return [0, high + 0.5];
@@ -136,10 +138,20 @@ function makePlot(figure, panel, column, clock, shared) {
     p.strokeRect(area.left, area.top, area.right - area.left, area.bottom - area.top);
     p.save();
     p.beginPath(); p.rect(area.left, area.top, area.right - area.left, area.bottom - area.top); p.clip();
+    if (band) fillBand(p, x, y, colour);
     lines.forEach((line, i) => { if (line.on) trace(p, line, i, x, y, colour); });
     p.restore();
     if (lines.every((line) => line.y.every((v) => Number.isNaN(v)))) p.fillText(panel.log ? "zero throughout" : "no numbers to draw", (area.left + area.right) / 2, (area.top + area.bottom) / 2);
     return [x, y];
+  }
+  // Between the edges of the band; gaps are left out.
+  function fillBand(p, x, y, colour) {
+    const at = [...band.t.keys()].filter((k) => Number.isFinite(value(band.low[k])) && Number.isFinite(value(band.high[k])));
+    p.beginPath();
+    at.forEach((k, i) => (i ? p.lineTo(x(band.t[k]), y(value(band.high[k]))) : p.moveTo(x(band.t[k]), y(value(band.high[k])))));
+    at.reverse().forEach((k) => p.lineTo(x(band.t[k]), y(value(band.low[k]))));
+    p.closePath();
+    p.fillStyle = colour("soft"); p.globalAlpha = 0.2; p.fill(); p.globalAlpha = 1;
   }
   function trace(p, line, i, x, y, colour) {
     p.strokeStyle = colour(`line-${i % 6}`); p.lineWidth = 1.7; p.setLineDash(DASHES[i % 6]);
@@ -272,6 +284,7 @@ function makePlot(figure, panel, column, clock, shared) {
       arc(x, y, r) { d += `M${n(x + dx - r)},${n(y + dy)}a${r},${r} 0 1,0 ${2 * r},0a${r},${r} 0 1,0 ${-2 * r},0`; },
       rect(x, y, w, h) { d += `M${n(x + dx)},${n(y + dy)}h${n(w)}v${n(h)}h${n(-w)}Z`; },
       stroke() { out.push(`<path d="${d}" fill="none" stroke="${pen.strokeStyle}" stroke-width="${pen.lineWidth}"${dash.length ? ` stroke-dasharray="${dash.join(" ")}"` : ""}/>`); },
+      fill() { out.push(`<path d="${d}" fill="${pen.fillStyle}" fill-opacity="${pen.globalAlpha}"/>`); },
       strokeRect(x, y, w, h) { d = ""; pen.rect(x, y, w, h); pen.stroke(); },
       fillText(s, x, y) { out.push(`<text x="${n(x)}" y="${n(y)}" font-size="12" font-family="sans-serif" fill="${pen.fillStyle}" text-anchor="${{ right: "end", center: "middle" }[pen.textAlign]}">${text(s)}</text>`); },
       setLineDash(x) { dash = x; }, translate(x, y) { dx = x; dy = y; }, save() {}, restore() { dx = dy = 0; }, clip() { d = ""; },

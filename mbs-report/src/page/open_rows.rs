@@ -1,0 +1,36 @@
+//! A table whose rows open: each has a table of its own below it, without scripts.
+
+use super::text::escape;
+use crate::table::Section;
+use core::fmt::Write;
+
+/// A table whose rows open.
+#[derive(Debug, Default)]
+pub(crate) struct OpenRows {
+    /// Names of the columns.
+    pub(crate) head: Vec<String>,
+    /// The cells of each row, and what it opens.
+    pub(crate) rows: Vec<(Vec<String>, Section)>,
+    pub(crate) caption: String,
+}
+
+impl OpenRows {
+    pub(super) fn write(&self, out: &mut String) {
+        let cells = |cells: &[String]| {
+            cells.iter().map(|cell| format!("<span>{}</span>", escape(cell))).collect::<String>()
+        };
+        // Writing into a String has nothing to fail on.
+        let _ = writeln!(
+            out,
+            "<div class=\"wide\"><div class=\"rows\" style=\"--n: {}\"><div class=\"row head\">{}</div>",
+            self.head.len(),
+            cells(&self.head)
+        );
+        for (row, inner) in &self.rows {
+            let _ = write!(out, "<details><summary class=\"row\">{}</summary>", cells(row));
+            inner.write_card(out);
+            out.push_str("</details>\n");
+        }
+        let _ = writeln!(out, "</div></div><p class=\"caption\">{}</p>", escape(&self.caption));
+    }
+}
