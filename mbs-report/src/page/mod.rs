@@ -6,6 +6,7 @@
 mod captions;
 mod decimate;
 mod diagram;
+mod glossary;
 mod motion;
 mod open_rows;
 mod paced;

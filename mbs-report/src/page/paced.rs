@@ -5,6 +5,9 @@ use crate::table::Section;
 use mbs::record::{Degraded, RealtimeSummary};
 use mbs_scene::format::{duration, few};
 
+/// The column of the ladder that has bars: the share of the periods of each level.
+const PERIODS: usize = 3;
+
 /// Whether the deadline was held, how large the margins were, and the levels that ran.
 pub(super) fn sections(paced: &RealtimeSummary) -> Vec<PageSection> {
     let held = match paced.overruns {
@@ -41,13 +44,15 @@ fn margins(paced: &RealtimeSummary) -> Section {
     ];
     let head = ["", "median", "99 of 100 are better", "worst"];
     let mut table = Section::new("Margins", &head, rows);
-    table.caption = format!("Over {} periods of {}.", paced.periods, duration(paced.period));
+    let (n, period) = (paced.periods, duration(paced.period));
+    table.caption =
+        format!("Over {n} periods of {period}. A negative time is behind the deadline.");
     table
 }
 
 fn ladder(levels: &[Degraded]) -> Section {
     let share =
-        |x: Option<f64>| x.map_or_else(|| "-".to_owned(), |x| format!("{} %", few(100.0 * x)));
+        |x: Option<f64>| x.map_or_else(|| "-".to_owned(), |x| format!("{}\u{a0}%", few(100.0 * x)));
     let row = |level: &Degraded| {
         let without = match level.without.as_slice() {
             [] => "nothing".to_owned(),
@@ -66,15 +71,21 @@ fn ladder(levels: &[Degraded]) -> Section {
             changes,
         ]
     };
-    let head = ["level", "step, times", "left out", "periods", "saves", "changes at most"];
+    let head =
+        ["level", "times the step", "left out", "periods", "saves CPU time", "changes at most"];
     let mut table = Section::new("Ladder", &head, levels.iter().map(row).collect());
+    let all = levels.iter().map(|level| level.periods).sum::<u64>().max(1);
+    let length = |level: &Degraded| level.periods as f64 / all as f64;
+    table.bars = Some((PERIODS, levels.iter().map(length).collect()));
     table.caption =
-        "Level 0 is the full scene; results of other levels are not those of the full scene."
+        "Level 0 is the full scene; results of other levels are not those of the full scene. Savings, and the largest change of an output relative \
+         to its range, are those measured before the run."
             .to_owned();
     table
 }
 
-/// A time, which may be negative.
+/// A time, which may be negative, in one piece.
 fn signed(t: f64) -> String {
-    if t < 0.0 { format!("-{}", duration(-t)) } else { duration(t) }
+    let time = if t < 0.0 { format!("-{}", duration(-t)) } else { duration(t) };
+    time.replace(' ', "\u{a0}")
 }

@@ -1,5 +1,6 @@
 //! A page as sections of data, and the one HTML file that they make.
 
+use super::glossary;
 use super::open_rows::OpenRows;
 use super::text::{escape, fill};
 use crate::table::Section;
@@ -95,6 +96,9 @@ impl Page {
         let title = escape(&self.title);
         let mut body = String::new();
         self.sections.iter().for_each(|section| section.write(&mut body));
+        let mut terms = String::new();
+        glossary::write_used(&body, &mut terms);
+        body += &terms;
         let mut scripts = String::new();
         if let Some(pack) = &self.pack {
             let has_view = self.sections.iter().any(|s| matches!(s, PageSection::View(_)));
