@@ -106,7 +106,8 @@ fn imported(arguments: &Arguments) -> Result<ExitCode, Refusal> {
     }
     if is_lost {
         let hint = "leave out --strict, or mend the file at the places told";
-        let refusal = Refusal::new("model-refused", format!("--strict: `{name}` is not whole"), hint);
+        let refusal =
+            Refusal::new("model-refused", format!("--strict: `{name}` is not whole"), hint);
         warn(&refusal.text());
         return Ok(say(&said, ExitCode::from(REFUSED)));
     }
@@ -120,12 +121,18 @@ fn options(arguments: &Arguments) -> Result<ImportOptions, Refusal> {
         Some(text) => {
             let numbers: Vec<f64> = text.split(',').filter_map(|x| x.trim().parse().ok()).collect();
             match numbers[..] {
-                [stiffness, damping] if stiffness > 0.0 && damping >= 0.0 && stiffness.is_finite() => {
+                [stiffness, damping]
+                    if stiffness > 0.0 && damping >= 0.0 && stiffness.is_finite() =>
+                {
                     Some(Stops::Given { stiffness, damping })
                 }
                 _ => {
                     let message = format!("`--limits {text}`: no stiffness and damping");
-                    return Err(Refusal::new("usage", message, "write --limits 1e4,10, or --limits alone"));
+                    return Err(Refusal::new(
+                        "usage",
+                        message,
+                        "write --limits 1e4,10, or --limits alone",
+                    ));
                 }
             }
         }
@@ -153,7 +160,8 @@ fn acts(finding: &Finding) -> bool {
 
 /// A line of a model that stands where a scene is wanted.
 pub(crate) fn note(name: &str, model: &Imported) -> String {
-    let [approximated, ignored] = [FindingKind::Approximated, FindingKind::Ignored].map(|kind| count(model, kind));
+    let [approximated, ignored] =
+        [FindingKind::Approximated, FindingKind::Ignored].map(|kind| count(model, kind));
     format!(
         "{}; {approximated} approximated, {ignored} ignored: mbs import {name} tells them",
         first_line(name, model)

@@ -49,8 +49,9 @@ fn json_keys_are_those_of_the_contract() {
         ("doctor", "spatial-four-bar", &["--duration", "0.05"]),
         ("equilibrium", "rssr", &[]),
         ("modes", "double-pendulum", &[]),
+        ("import", "", &[]),
     ] {
-        let path = scene(name);
+        let path = if command == "import" { super::models::arm() } else { scene(name) };
         let output = run(command, &[&[path.as_str(), "--json"], options].concat());
         let (object, mut found) = (json(&output), BTreeSet::new());
         keys(&object, &mut found);

@@ -25,6 +25,7 @@ mod inputs;
 #[cfg(not(any(feature = "f32", feature = "dd")))]
 mod lean;
 mod manual;
+mod models;
 mod new;
 mod plot;
 mod realtime;
