@@ -61,7 +61,7 @@ impl<'a> PdfBackend<'a> {
         self.content.save_state();
         if color.alpha < 1.0 {
             let opacity = color.alpha as f32;
-            let known = self.opacities.iter().position(|x| *x == opacity);
+            let known = self.opacities.iter().position(|x| x.to_bits() == opacity.to_bits());
             let place = known.unwrap_or_else(|| {
                 self.opacities.push(opacity);
                 self.opacities.len() - 1

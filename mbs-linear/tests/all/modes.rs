@@ -114,7 +114,7 @@ fn spring_mass_and_damper_below_and_above_critical_damping() {
 fn a_thin_rod_on_a_spring_beside_its_line_swings_as_its_energy_says() {
     // The spring holds the rod level at 0.1 m above its line, where a direction without mass carries its force.
     // V'' = k l'^2 + F l'',   l' = -1/2,   l l'' = 0.1^2 + 0.5^2 + 0.9 0.1 - l'^2,   I = m/3
-    let (m, k, g) = (6.0, 1000.0, 9.81);
+    let (m, k, g) = (6.0_f64, 1000.0, 9.81);
     let force = m * g;
     let rod = format!(
         r#"

@@ -193,7 +193,7 @@ fn the_invariant_error_is_that_of_the_summary_to_the_bit() {
             // nothing takes or gives energy there: it is what the energy has changed by
             let rows = outcome.rows();
             let size = rows.iter().map(|(_, row)| row[1].abs()).fold(1.0, f64::max);
-            for (t, row) in &rows {
+            for (t, row) in rows {
                 let change = row[1] - rows[0].1[1];
                 assert!((row[0] - change).abs() < ROUNDING * size, "{t}: {row:?}");
             }
