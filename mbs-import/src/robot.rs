@@ -145,6 +145,12 @@ pub(crate) enum What {
         damping: f64,
         free: f64,
     },
+    /// A spring that is slack below its free value.
+    Pull {
+        on: Target,
+        stiffness: f64,
+        free: f64,
+    },
     Friction {
         on: Target,
         coulomb: f64,

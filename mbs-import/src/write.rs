@@ -269,6 +269,12 @@ impl Writer<'_> {
                     self.key("free_value", number(*free));
                 }
             }
+            What::Pull { on, stiffness, free } => {
+                self.effect(name, "torsion-spring", on);
+                self.key("stiffness", number(*stiffness));
+                self.key("free_value", number(*free));
+                self.key("pulls_only", "true");
+            }
             What::Friction { on, coulomb } => {
                 self.effect(name, "friction", on);
                 self.key("coulomb", number(*coulomb));

@@ -8,7 +8,7 @@ use super::orientation::{euler, pose};
 use crate::element::Element;
 use crate::inertia::{Mass, tensor};
 use crate::pose::{Pose, V3, v3};
-use crate::robot::{Frame, GROUND, Kind, Link};
+use crate::robot::{Frame, GROUND, Link};
 use crate::source::{Fault, Read};
 
 /// Copies that one `replicate` makes.
@@ -286,16 +286,11 @@ impl<'a> Walk<'_, 'a, '_, '_> {
     }
 }
 
-/// Sites, and bodies that are welded to others, are named places of the scene.
+/// Sites are named places of the scene.
 pub(super) fn frames(model: &mut Model<'_, '_, '_>) {
     for site in std::mem::take(&mut model.sites) {
         // bodies have the same names at times
         let name = model.free_name(Sort::Link, &site.name);
         model.robot.frames.push(Frame { name, link: site.link, pose: site.pose });
-    }
-    for joint in model.robot.joints.iter().filter(|joint| joint.kind == Kind::Fixed) {
-        let link = &model.robot.links[joint.child];
-        let (name, pose) = (link.name.clone(), link.pose);
-        model.robot.frames.push(Frame { name, link: joint.child, pose });
     }
 }

@@ -70,6 +70,41 @@ impl Solid {
         }
     }
 
+    /// The area of its surface, and the moments of a shell for each kilogram; `None` of an ellipsoid, which has no closed form.
+    fn shell(&self) -> Option<(f64, [f64; 3])> {
+        // a tube with what closes it: area, moment across and along of the latter
+        let closed = |[r, h]: [f64; 2], [area, across, along]: [f64; 3]| {
+            let tube = 4.0 * PI * r * h;
+            let all = tube + area;
+            let [tube, ends] = [tube / all, area / all];
+            let across = tube * (r * r / 2.0 + h * h / 3.0) + ends * across;
+            (all, [across, across, tube * r * r + ends * along])
+        };
+        Some(match *self {
+            Self::Sphere(r) => (4.0 * PI * r * r, [2.0 / 3.0 * r * r; 3]),
+            Self::Capsule(r, h) => {
+                let ball = 2.0 / 3.0 * r * r;
+                closed([r, h], [4.0 * PI * r * r, ball + h * h + r * h, ball])
+            }
+            Self::Cylinder(r, h) => {
+                closed([r, h], [2.0 * PI * r * r, r * r / 4.0 + h * h, r * r / 2.0])
+            }
+            Self::Box(half) => {
+                let [a, b, c] = half;
+                let faces = [b * c, a * c, a * b];
+                let all: f64 = faces.iter().sum();
+                // the mean square along an axis: one on the faces across it, a third on the others
+                let square = |axis: usize| {
+                    let share = faces[axis] / all;
+                    half[axis] * half[axis] * (share + (1.0 - share) / 3.0)
+                };
+                let [x, y, z] = [0, 1, 2].map(square);
+                (8.0 * all, [y + z, x + z, x + y])
+            }
+            Self::Ellipsoid(_) => return None,
+        })
+    }
+
     const fn form(&self) -> Option<FormKind> {
         Some(match *self {
             Self::Sphere(radius) => FormKind::Sphere { radius },
@@ -129,12 +164,17 @@ pub(super) fn read(
     if !counts {
         return Ok(Geom::Nothing);
     }
-    if view.value("shellinertia") == Some("true") {
-        let says = "mass of a shell: it counts as a solid of the same mass or density";
+    let is_shell = view.value("shellinertia") == Some("true");
+    let (size, moments) = match solid.shell().filter(|_| is_shell) {
+        Some(shell) => shell,
+        None => (solid.volume(), solid.moments()),
+    };
+    if is_shell && solid.shell().is_none() {
+        let says = "the shell of an ellipsoid: it counts as a solid of the same mass or density";
         model.context.findings.ignored(view.element.at, view.element.label(), says);
     }
-    let mass = written.unwrap_or_else(|| density * solid.volume());
-    let tensor = M3::from_diagonal(&v3(solid.moments().map(|x| x * mass)));
+    let mass = written.unwrap_or(density * size);
+    let tensor = M3::from_diagonal(&v3(moments.map(|x| x * mass)));
     Ok(Geom::Solid(Mass { mass, center: V3::zeros(), tensor }.seen_from(&frame)))
 }
 

@@ -106,6 +106,11 @@ fn start(key: &Element, model: &mut Model<'_, '_, '_>) -> Read<()> {
         let (start, turn) =
             joint_start(joint, &own, values.as_deref(), speeds.as_deref(), &turned[parent], model)?;
         turned[child] = turned[parent] * turn;
+        // a joint that a coupling leads follows from the others
+        let couplings = &model.robot.couplings;
+        if couplings.iter().any(|coupling| coupling.terms[0].of.joint == joint) {
+            continue;
+        }
         if !(start.value.is_empty() && start.rate.is_empty()) {
             model.robot.start.push(start);
         }

@@ -30,12 +30,6 @@ struct Composite {
     second: M3,
 }
 
-/// What each joint of the file moves: the diagonal of the mass matrix, and one over that of its inverse.
-struct Moved {
-    diagonal: Vec<f64>,
-    effective: Vec<f64>,
-}
-
 /// Adds stops, and the springs that a time and a damping ratio say.
 pub(super) fn add(model: &mut Model<'_, '_, '_>) {
     let is_needed =
@@ -47,7 +41,7 @@ pub(super) fn add(model: &mut Model<'_, '_, '_>) {
     for number in 0..model.motions.len() {
         let motion = model.motions[number].clone();
         if let (Some([time, ratio]), true) = (motion.timed, motion.is_single()) {
-            let inertia = moved.as_ref().map_or(0.0, |moved| moved.diagonal[number]);
+            let inertia = moved.as_ref().map_or(0.0, |moved| moved[number]);
             let stiffness = inertia / (time * ratio).powi(2);
             let damping = 2.0 * inertia / time;
             let free = motion.from_file(motion.spring);
@@ -59,7 +53,7 @@ pub(super) fn add(model: &mut Model<'_, '_, '_>) {
             model.law(&name, What::Spring { on: motion.target(), stiffness, damping, free });
         }
         let (Some(solref), Some(range)) = (motion.stops, motion.range) else { continue };
-        let by_file = moved.as_ref().map(|moved| stop(solref, moved.effective[number]));
+        let by_file = moved.as_ref().map(|moved| stop(solref, moved[number]));
         let stiffness = match model.context.options.limits {
             Some(Stops::Given { stiffness, damping }) => Some([stiffness, damping]),
             Some(Stops::ByMass) => None,
@@ -119,8 +113,9 @@ fn columns(model: &Model<'_, '_, '_>) -> Vec<Column> {
     columns
 }
 
-/// `None` where a coordinate moves no mass, or the model is too large.
-fn moved(model: &Model<'_, '_, '_>) -> Option<Moved> {
+/// What each joint of the file moves while others give way, one over the diagonal of the inverse of M; `None` where a coordinate moves no mass,
+/// or the model is too large.
+fn moved(model: &Model<'_, '_, '_>) -> Option<Vec<f64>> {
     let robot = &model.robot;
     let mut parent = vec![GROUND; robot.links.len()];
     // a link stands behind its parent: joints were added on the way down
@@ -169,15 +164,10 @@ fn moved(model: &Model<'_, '_, '_>) -> Option<Moved> {
         rows.push(row);
         chains.push(chain);
     }
-    let diagonal: Vec<_> = rows.iter().filter_map(|row| row.last().copied()).collect();
     let inverse = inverse_diagonal(rows, &chains)?;
-    let mut found = Moved {
-        diagonal: vec![0.0; model.motions.len()],
-        effective: vec![0.0; model.motions.len()],
-    };
+    let mut found = vec![0.0; model.motions.len()];
     for (number, column) in columns.iter().enumerate() {
-        found.diagonal[column.motion] = diagonal[number];
-        found.effective[column.motion] = 1.0 / inverse[number];
+        found[column.motion] = 1.0 / inverse[number];
     }
     Some(found)
 }

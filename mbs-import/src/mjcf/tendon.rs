@@ -166,13 +166,16 @@ fn spring(
     }
     let (element, label) = (view.element, format!("tendon/{}[{name}]", view.element.name));
     let free = match lengths.as_deref() {
-        Some([x]) if *x >= 0.0 => *x,
-        Some([x, y, ..]) if x == y && *x >= 0.0 => *x,
-        Some([x, y, ..]) if *x >= 0.0 => {
-            let says =
-                format!("its spring is slack from {x} to {y}; here it is free in the middle");
-            model.context.findings.ignored(element.at, label, says);
-            (x + y) / 2.0
+        Some([x]) if *x != -1.0 => *x,
+        Some([x, y, ..]) if x == y && *x != -1.0 => *x,
+        Some([lower, upper, ..]) if lower < upper && stiffness > 0.0 => {
+            let ends = [lower - pulled.drawn, upper - pulled.drawn];
+            slack_between(name, ends, stiffness, &pulled.terms, model);
+            if damping > 0.0 {
+                let what = What::Spring { on, stiffness: 0.0, damping, free: 0.0 };
+                model.law(&format!("{name} damper"), what);
+            }
+            return Ok(());
         }
         _ => {
             let is_line = pulled.terms.iter().any(|term| !term.line.is_empty());
@@ -187,4 +190,19 @@ fn spring(
     let what = What::Spring { on, stiffness, damping, free: free - pulled.drawn };
     model.law(&format!("{name} spring"), what);
     Ok(())
+}
+
+/// A spring that is slack between two lengths: one that pulls above them, and one that pulls at the sum with the other sign below.
+fn slack_between(
+    name: &str,
+    [lower, upper]: [f64; 2],
+    stiffness: f64,
+    terms: &[Term],
+    model: &mut Model<'_, '_, '_>,
+) {
+    let others = terms.iter().map(|term| Term { factor: -term.factor, ..term.clone() });
+    let others = Target::Sum(others.collect());
+    let on = Target::Sum(terms.to_vec());
+    model.law(&format!("{name} above"), What::Pull { on, stiffness, free: upper });
+    model.law(&format!("{name} below"), What::Pull { on: others, stiffness, free: -lower });
 }
