@@ -64,27 +64,9 @@ impl Actuator {
         }
         word.clone_into(&mut self.by);
         self.common(element)?;
-        let text = |name: &str, value: &mut String| {
-            if let Some(word) = element.value(name) {
-                word.clone_into(value);
-            }
-        };
         let first_gain = self.gain.first().copied().unwrap_or(1.0);
         match word {
-            "general" => {
-                text("gaintype", &mut self.gain_kind);
-                text("biastype", &mut self.bias_kind);
-                text("dyntype", &mut self.dynamics);
-                if let Some(list) = element.attribute("gainprm") {
-                    self.gain = list.list()?;
-                }
-                if let Some(list) = element.attribute("biasprm") {
-                    self.bias = list.list()?;
-                }
-                if let Some(list) = element.attribute("dynprm") {
-                    self.time = list.list()?.first().copied().unwrap_or(1.0);
-                }
-            }
+            "general" => self.general(element)?,
             "motor" => {
                 (self.gain, self.bias) = (vec![1.0], vec![0.0; 3]);
                 (self.gain_kind, self.bias_kind) = ("fixed".into(), "none".into());
@@ -119,6 +101,29 @@ impl Actuator {
                 self.gain_kind = word.to_owned();
             }
         }
+        Ok(())
+    }
+
+    /// Gain, bias and dynamics as they are.
+    fn general(&mut self, element: &Element) -> Read<()> {
+        let text = |name: &str, value: &mut String| {
+            if let Some(word) = element.value(name) {
+                word.clone_into(value);
+            }
+        };
+        text("gaintype", &mut self.gain_kind);
+        text("biastype", &mut self.bias_kind);
+        text("dyntype", &mut self.dynamics);
+        if let Some(list) = element.attribute("gainprm") {
+            self.gain = list.list()?;
+        }
+        if let Some(list) = element.attribute("biasprm") {
+            self.bias = list.list()?;
+        }
+        if let Some(list) = element.attribute("dynprm") {
+            self.time = list.list()?.first().copied().unwrap_or(1.0);
+        }
+
         Ok(())
     }
 

@@ -135,16 +135,6 @@ fn joint_start(
     };
     let (mut value, mut rate) = (vec![0.0; count], vec![0.0; count]);
     let mut turn = M3::identity();
-    let at = model.motions[own[0]].at;
-    let of_turn = |q: [f64; 4]| {
-        quaternion(q).ok_or_else(|| {
-            Fault::new(
-                at,
-                "a quaternion of length zero in the keyframe",
-                "write w x y z of unit length",
-            )
-        })
-    };
     for i in own {
         let motion = &model.motions[*i];
         let (q, v) = (values.map(|all| &all[*i]), speeds.map(|all| &all[*i]));
@@ -162,8 +152,7 @@ fn joint_start(
                 let is_free = motion.moves == Moves::Free;
                 let first = if count == 6 { 3 } else { 0 };
                 if let Some(q) = q {
-                    let quat = &q[q.len() - 4..];
-                    let is = of_turn([quat[0], quat[1], quat[2], quat[3]])?;
+                    let is = of_quaternion(&q[q.len() - 4..], motion)?;
                     // a free joint has the body's own frame, a ball what turns it
                     turn = if is_free {
                         is * link.pose.turn.transpose()
@@ -190,6 +179,13 @@ fn joint_start(
     let (value, rate) = (values.map_or(Vec::new(), |_| value), speeds.map_or(Vec::new(), |_| rate));
     debug_assert!(model.robot.joints[joint].parent == GROUND || count != 6 || own.len() > 1);
     Ok((Start { joint, value, rate }, turn))
+}
+
+fn of_quaternion(q: &[f64], motion: &Motion) -> Read<M3> {
+    quaternion([q[0], q[1], q[2], q[3]]).ok_or_else(|| {
+        let message = "a quaternion of length zero in the keyframe";
+        Fault::new(motion.at, message, "write w x y z of unit length")
+    })
 }
 
 /// The rotation vector of a rotation.

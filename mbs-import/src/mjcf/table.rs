@@ -13,6 +13,7 @@ const OWN_LAW: &str = "an actuator with a law of its own";
 /// The elements and attributes of MJCF.
 pub(crate) const TABLE: &[Row] = &[
     row("mujoco", " model", Mapped),
+    row("mujocoinclude", "", Mapped),
     row("include", " file", Mapped),
     row(
         "compiler",
@@ -42,6 +43,8 @@ pub(crate) const TABLE: &[Row] = &[
     row("visual", " *", Appearance),
     row("default", " class", Mapped),
     row("default/mesh", " *", Silent),
+    row("default/material", " *", Appearance),
+    row("default/texture", " *", Appearance),
     row("default/pair", " *", Ignored(CONTACT)),
     row("custom", " *", Ignored("data without effect on the motion")),
     row("extension", " *", Ignored("plugins of another program")),
@@ -52,6 +55,7 @@ pub(crate) const TABLE: &[Row] = &[
     row("body", "sleep simple fuse user", Silent),
     row("frame", " name childclass pos quat euler axisangle xyaxes zaxis", Mapped),
     row("replicate", " count offset euler sep childclass", Mapped),
+    row("replicate", "prefix", Ignored("copies have endings, and no prefix")),
     row("attach", " *", Refused),
     row("composite", " *", Refused),
     row("flexcomp", " *", Refused),
