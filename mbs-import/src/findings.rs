@@ -61,9 +61,9 @@ impl Findings {
     pub(crate) fn told(mut self, sources: &Sources) -> Vec<Finding> {
         self.0.sort_by_key(|(kind, at, ..)| (*kind, at.source, at.start));
         let told = self.0.into_iter().map(|(kind, at, element, says)| {
-            let place = sources.place(at);
+            let [line, column] = sources.line_and_column(at);
             let file = sources.name(at).to_owned();
-            Finding { kind, file, line: place.line, column: place.column, element, says }
+            Finding { kind, file, line, column, element, says }
         });
         told.collect()
     }

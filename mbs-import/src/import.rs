@@ -93,12 +93,23 @@ pub fn import(bytes: &[u8], file: &str, options: &ImportOptions) -> Result<Impor
     }
 }
 
+/// Most bytes of a text: an element takes a few hundred bytes of memory.
+const MOST_BYTES: usize = 64 << 20;
+
 fn whole(
     text: &str,
     source: u16,
     file: &str,
     context: &mut Context<'_>,
 ) -> Read<(ModelFormat, String, ModelSizes)> {
+    if text.len() > MOST_BYTES {
+        let message = format!("the file is larger than {} MiB", MOST_BYTES >> 20);
+        return Err(Fault::new(
+            Origin::start_of(source),
+            message,
+            "give a model, or a part of it, in a smaller file",
+        ));
+    }
     let mut root = xml::read(text, source)?;
     let format = format(&root)?;
     let (mut robot, table) = match format {
@@ -128,6 +139,12 @@ fn format(root: &Element) -> Read<ModelFormat> {
             return Err(root.fault(message, "run xacro first, and give the file that it writes"));
         }
     }
+    let in_attribute = root.attributes.iter().find(|attribute| attribute.value.contains("${"));
+    let first = in_attribute.or_else(|| macro_in(root));
+    if let Some(attribute) = first.filter(|_| root.name == "robot") {
+        let message = format!("`{}` is a macro", attribute.value);
+        return Err(attribute.fault(message, "run xacro first, and give the file that it writes"));
+    }
     match root.name.as_str() {
         "robot" => Ok(ModelFormat::Urdf),
         "mujoco" => Ok(ModelFormat::Mjcf),
@@ -137,6 +154,19 @@ fn format(root: &Element) -> Read<ModelFormat> {
             "a model begins with `robot` (URDF), `mujoco` (MJCF) or `sdf` (SDF)",
         )),
     }
+}
+
+/// The first attribute below an element that is written as a macro.
+fn macro_in(root: &Element) -> Option<&crate::element::Attribute> {
+    let mut rest: Vec<&Element> = root.children.iter().rev().collect();
+    while let Some(element) = rest.pop() {
+        let found = element.attributes.iter().find(|attribute| attribute.value.contains("${"));
+        if found.is_some() {
+            return found;
+        }
+        rest.extend(element.children.iter().rev());
+    }
+    None
 }
 
 /// A link that another one carries keeps its name as a frame.

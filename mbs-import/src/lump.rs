@@ -9,6 +9,9 @@ use crate::source::{Fault, Read};
 /// How far a tensor may miss the triangle inequality, relative to its largest moment: what rounding and turning of printed numbers leave.
 const SLACK: f64 = 1.0e-9;
 
+/// Radius of gyration below which a mass is a point [m]: far below that of any part, far above what rounding leaves of zero.
+const NEGLIGIBLE: f64 = 1.0e-9;
+
 /// Links that move together.
 #[derive(Debug, Clone)]
 pub(crate) struct Lump {
@@ -72,6 +75,15 @@ fn check(robot: &Robot, lump: &mut Lump, balance: bool, findings: &mut Findings)
     let link = &robot.links[lump.carrier];
     let size = lump.mass.tensor.abs().max();
     if size == 0.0 {
+        return Ok(());
+    }
+    if size < lump.mass.mass * NEGLIGIBLE * NEGLIGIBLE {
+        let says = format!(
+            "moments of {size:e} kg m^2 are nothing beside {} kg: taken as zero",
+            lump.mass.mass
+        );
+        findings.approximated(link.at, format!("link[{}]", link.name), says);
+        lump.mass.tensor = M3::zeros();
         return Ok(());
     }
     if lump.mass.mass == 0.0 {

@@ -44,6 +44,8 @@ struct Source {
     text: String,
     /// The text that includes it, and where.
     by: Option<Origin>,
+    /// The first byte of each line.
+    lines: Vec<usize>,
 }
 
 /// The texts that a model is made of: the file, then those that it includes.
@@ -53,13 +55,24 @@ pub(crate) struct Sources(Vec<Source>);
 impl Sources {
     /// Adds a text; its number.
     pub(crate) fn add(&mut self, name: &str, text: &str, by: Option<Origin>) -> u16 {
-        self.0.push(Source { name: name.to_owned(), text: text.to_owned(), by });
+        let lines =
+            core::iter::once(0).chain(text.match_indices('\n').map(|(i, _)| i + 1)).collect();
+        self.0.push(Source { name: name.to_owned(), text: text.to_owned(), by, lines });
         u16::try_from(self.0.len() - 1).unwrap_or(u16::MAX)
     }
 
     /// The name of the file of a place.
     pub(crate) fn name(&self, at: Origin) -> &str {
         &self.source(at).name
+    }
+
+    /// Line and column, both from 1.
+    pub(crate) fn line_and_column(&self, at: Origin) -> [usize; 2] {
+        let Source { text, lines, .. } = self.source(at);
+        let byte = (at.start as usize).min(text.len());
+        let line = lines.partition_point(|start| *start <= byte);
+        let start = lines[line - 1];
+        [line, text.get(start..byte).map_or(1, |before| before.chars().count() + 1)]
     }
 
     /// Line and column, with the line.

@@ -245,6 +245,12 @@ fn base(models: &[Model<'_>], robot: &mut Robot, context: &Context<'_>) {
             }
         }
     }
+    for link in 1..robot.links.len() {
+        // older files call a link so, and mean what does not move
+        if robot.links[link].name.rsplit("::").next() == Some(WORLD) {
+            hold(robot, link, Kind::Fixed, "ground");
+        }
+    }
     let kind = if context.options.base == Some(Base::Fixed) { Kind::Fixed } else { Kind::Free };
     let mut is_held = vec![false; robot.links.len()];
     is_held[GROUND] = true;

@@ -90,16 +90,18 @@ fn root_link(robot: &Robot, root: &Element) -> Read<usize> {
 }
 
 fn reached(robot: &Robot, trunk: usize, parent: &[Option<usize>]) -> Read<()> {
+    // the walk that reached each link; the root is reached before all
+    let mut by = vec![0; robot.links.len()];
+    by[trunk] = usize::MAX;
     for link in 1..robot.links.len() {
-        let (mut at, mut steps) = (link, 0);
-        while let Some(joint) = parent[at] {
-            at = robot.joints[joint].parent;
-            steps += 1;
-            if steps > robot.links.len() {
-                return Err(circle(robot, link, parent));
-            }
+        let mut at = link;
+        while by[at] == 0 {
+            by[at] = link;
+            at = parent[at].map_or(at, |joint| robot.joints[joint].parent);
         }
-        debug_assert_eq!(at, trunk);
+        if by[at] == link {
+            return Err(circle(robot, link, parent));
+        }
     }
     Ok(())
 }

@@ -134,4 +134,7 @@ pub(crate) const TABLE: &[Row] = &[
     row("transmission/actuator", "role", Ignored(CONTROL)),
     row("transmission/joint", "role", Ignored(CONTROL)),
     row("transmission/*", " *", Ignored(CONTROL)),
+    row("visual/origin", " *", Appearance),
+    row("joint_properties", " *", Ignored("not of the format: a program once read it")),
+    row("joint", "dont_collapse", Ignored("not of the format: settings of another simulator")),
 ];
