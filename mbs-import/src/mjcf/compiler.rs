@@ -86,13 +86,12 @@ impl Compiler {
         if let Some(angle) = element.attribute("angle") {
             self.is_degree = word(angle, &["radian", "degree"])? == 1;
         }
-        if let Some(coordinate) = element.attribute("coordinate") {
-            if coordinate.value.trim() != "local" {
-                return Err(coordinate.fault(
-                    "places in global coordinates were taken out of the format",
-                    "save the model with a program that still reads them, or write coordinate=\"local\"",
-                ));
-            }
+        let coordinate = element.attribute("coordinate");
+        if let Some(other) = coordinate.filter(|word| word.value.trim() != "local") {
+            return Err(other.fault(
+                "places in global coordinates were taken out of the format",
+                "save the model with a program that still reads them, or write coordinate=\"local\"",
+            ));
         }
         if let Some(sequence) = element.attribute("eulerseq") {
             let letters = sequence.value.trim().as_bytes();

@@ -28,6 +28,29 @@ impl Written {
     }
 }
 
+fn moves(view: &View<'_>) -> Read<Moves> {
+    Ok(match view.attribute("type") {
+        _ if view.element.name == "freejoint" => Moves::Free,
+        None => Moves::Hinge,
+        Some(kind) => [Moves::Hinge, Moves::Slide, Moves::Ball, Moves::Free]
+            [word(kind, &["hinge", "slide", "ball", "free"])?],
+    })
+}
+
+/// Stiffness, damping, friction and armature.
+fn strengths(view: &View<'_>, name: &str) -> Read<[f64; 4]> {
+    let number = |name| view.number_or(name, 0.0);
+    let all =
+        [number("stiffness")?, number("damping")?, number("frictionloss")?, number("armature")?];
+    if all.iter().any(|x| *x < 0.0) {
+        return Err(view.element.fault(
+            format!("stiffness, damping, frictionloss or armature of joint `{name}` is below zero"),
+            "write zero or more",
+        ));
+    }
+    Ok(all)
+}
+
 /// Reads `joint` or `freejoint`, in a frame that stands as `scope` says.
 pub(super) fn read(
     view: &View<'_>,
@@ -37,12 +60,7 @@ pub(super) fn read(
 ) -> Read<Written> {
     let at = view.element.at;
     view.own("class");
-    let moves = match view.attribute("type") {
-        _ if view.element.name == "freejoint" => Moves::Free,
-        None => Moves::Hinge,
-        Some(kind) => [Moves::Hinge, Moves::Slide, Moves::Ball, Moves::Free]
-            [word(kind, &["hinge", "slide", "ball", "free"])?],
-    };
+    let moves = moves(view)?;
     let settings = &model.compiler;
     let is_hinge = moves == Moves::Hinge;
     let angle = |x: f64| if is_hinge { settings.angle(x) } else { x };
@@ -62,7 +80,6 @@ pub(super) fn read(
     };
     let zero = if is_single { angle(view.number_or("ref", 0.0)?) } else { 0.0 };
     let spring = if is_single { angle(view.number_or("springref", 0.0)?) } else { 0.0 };
-    let number = |name| view.number_or(name, 0.0);
     let is_limited = view.is_limited("limited", "range", settings.auto_limits)?;
     let range = view.numbers::<2>("range")?.filter(|range| is_limited && *range != [0.0; 2]);
     let stops = view.numbers_or("solreflimit", [0.02, 1.0])?;
@@ -70,15 +87,7 @@ pub(super) fn read(
     let is_clamped =
         view.is_limited("actuatorfrclimited", "actuatorfrcrange", settings.auto_limits)?;
     let effort = view.numbers("actuatorfrcrange")?.filter(|_| is_clamped);
-    let [stiffness, damping, friction, armature] =
-        [number("stiffness")?, number("damping")?, number("frictionloss")?, number("armature")?];
-    if stiffness < 0.0 || damping < 0.0 || friction < 0.0 || armature < 0.0 {
-        return Err(Fault::new(
-            at,
-            format!("stiffness, damping, frictionloss or armature of joint `{name}` is below zero"),
-            "write zero or more",
-        ));
-    }
+    let [stiffness, damping, friction, armature] = strengths(view, &name)?;
     let acts = settings.acts;
     let of = |acts: bool, x: f64| if acts { x } else { 0.0 };
     let timed = view.numbers::<2>("springdamper")?.filter(|pair| pair[0] > 0.0 && pair[1] > 0.0);
@@ -122,21 +131,15 @@ pub(super) fn join(
         model.robot.joints.push(joint);
         return Ok(());
     }
-    if let Some(free) = joints.iter().find(|joint| joint.motion.moves == Moves::Free) {
-        if joints.len() > 1 || parent != GROUND {
-            return Err(Fault::new(
-                free.motion.at,
-                format!(
-                    "body `{body_name}` has a free joint, and {}",
-                    if parent == GROUND {
-                        "another joint"
-                    } else {
-                        "a parent that is not the world"
-                    }
-                ),
-                "a free joint is the only joint of a child of the world",
-            ));
-        }
+    let free = joints.iter().find(|joint| joint.motion.moves == Moves::Free);
+    if let Some(free) = free.filter(|_| joints.len() > 1 || parent != GROUND) {
+        let other =
+            if parent == GROUND { "another joint" } else { "a parent that is not the world" };
+        return Err(Fault::new(
+            free.motion.at,
+            format!("body `{body_name}` has a free joint, and {other}"),
+            "a free joint is the only joint of a child of the world",
+        ));
     }
     let mut rest = &joints[..];
     let (mut from, mut number) = (parent, 0);
@@ -261,7 +264,7 @@ fn single(read: &Written, motion: &Motion, model: &mut Model<'_, '_, '_>) {
     let (name, on) = (&motion.name, motion.target());
     let (stiffness, damping) = (read.stiffness, read.damping);
     if motion.timed.is_none() && (stiffness > 0.0 || damping > 0.0) {
-        let free = if stiffness > 0.0 { motion.from_file(motion.spring) } else { 0.0 };
+        let free = if stiffness > 0.0 { motion.in_scene(motion.spring) } else { 0.0 };
         model.law(
             &format!("{name} spring"),
             What::Spring { on: on.clone(), stiffness, damping, free },

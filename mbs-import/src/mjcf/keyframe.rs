@@ -141,7 +141,7 @@ fn joint_start(
         let place = motion.number.unwrap_or(0);
         match motion.moves {
             Moves::Hinge | Moves::Slide => {
-                let x = q.map_or(0.0, |q| motion.from_file(q[0]));
+                let x = q.map_or(0.0, |q| motion.in_scene(q[0]));
                 value[place] = x;
                 rate[place] = v.map_or(0.0, |v| v[0] * motion.sign);
                 if motion.moves == Moves::Hinge {

@@ -78,13 +78,13 @@ impl Motion {
     }
 
     /// A value of the file as one of the scene.
-    pub(super) fn from_file(&self, value: f64) -> f64 {
+    pub(super) fn in_scene(&self, value: f64) -> f64 {
         self.sign * (value - self.zero)
     }
 
     /// Ends of the file's coordinate as ends of the scene's.
     pub(super) fn ends(&self, [lower, upper]: [f64; 2]) -> [f64; 2] {
-        let [a, b] = [self.from_file(lower), self.from_file(upper)];
+        let [a, b] = [self.in_scene(lower), self.in_scene(upper)];
         [a.min(b), a.max(b)]
     }
 }

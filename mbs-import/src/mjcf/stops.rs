@@ -44,7 +44,7 @@ pub(super) fn add(model: &mut Model<'_, '_, '_>) {
             let inertia = moved.as_ref().map_or(0.0, |moved| moved[number]);
             let stiffness = inertia / (time * ratio).powi(2);
             let damping = 2.0 * inertia / time;
-            let free = motion.from_file(motion.spring);
+            let free = motion.in_scene(motion.spring);
             let says = format!(
                 "springdamper: stiffness {stiffness:e} and damping {damping:e} by the inertia as drawn"
             );
