@@ -1,6 +1,6 @@
 //! Places and rotations of frames.
 
-use mbs_core::algebra::{Matrix, Vector, along, cross, norm, rotation, vector};
+use mbs_core::algebra::{Matrix, Vector, along, cross, norm, vector};
 
 /// A vector in space.
 pub(crate) type V3 = Vector<f64, 3>;
@@ -23,11 +23,6 @@ impl Pose {
 
     pub(crate) const fn new(turn: M3, at: V3) -> Self {
         Self { turn, at }
-    }
-
-    /// A frame moved alone.
-    pub(crate) fn moved(at: V3) -> Self {
-        Self { turn: M3::identity(), at }
     }
 
     /// The pose, in the frame in which this one is, of a frame that is `inner` in this one.
@@ -121,9 +116,4 @@ pub(crate) fn from_z_to(z: &V3) -> M3 {
         None if z[2] < 0.0 => about(&unit(0), core::f64::consts::PI),
         None => M3::identity(),
     }
-}
-
-/// The rotation of a rotation vector.
-pub(crate) fn of_vector(x: &V3) -> M3 {
-    rotation(x)
 }

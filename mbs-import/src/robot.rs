@@ -122,11 +122,6 @@ pub(crate) enum Target {
         place: V3,
         direction: V3,
     },
-    /// A link, and the axis about which it acts.
-    Turn {
-        link: usize,
-        direction: V3,
-    },
 }
 
 /// An effect or a signal of the scene.

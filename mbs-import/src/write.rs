@@ -221,10 +221,6 @@ impl Writer<'_> {
                 self.key("body", body);
                 self.key("at", vector(place));
             }
-            Target::Turn { link, .. } => {
-                let body = self.body(*link);
-                self.key("body", body);
-            }
         }
     }
 
@@ -333,7 +329,7 @@ impl Writer<'_> {
     fn value(&mut self, on: &Target, value: f64) {
         match on {
             Target::Coordinate(_) | Target::Sum(_) => self.key("value", number(value)),
-            Target::Point { direction, .. } | Target::Turn { direction, .. } => {
+            Target::Point { direction, .. } => {
                 self.key("value", vector(&(direction * value)));
             }
         }
@@ -421,7 +417,7 @@ impl Writer<'_> {
 const fn word_of_drive(on: &Target) -> &'static str {
     match on {
         Target::Point { .. } => "force",
-        Target::Coordinate(_) | Target::Sum(_) | Target::Turn { .. } => "torque",
+        Target::Coordinate(_) | Target::Sum(_) => "torque",
     }
 }
 
