@@ -47,7 +47,7 @@ pub(crate) struct Arguments {
     /// A keyframe of an MJCF from which it starts. Default: as the model is drawn.
     #[arg(long, value_name = "NAME")]
     key: Option<String>,
-    /// Meshes whose mass is needed count as massless, and are told.
+    /// Meshes whose mass is needed count as massless, and are reported.
     #[arg(long)]
     massless_meshes: bool,
     /// Refuse included files outside of the folder of the model.

@@ -42,6 +42,6 @@ pub struct ImportOptions {
     pub folder: Option<PathBuf>,
     /// Whether a file outside of that folder is refused.
     pub no_outside: bool,
-    /// Whether meshes whose mass is needed count as massless, and are told.
+    /// Whether meshes whose mass is needed count as massless, and are reported.
     pub massless_meshes: bool,
 }

@@ -7,11 +7,11 @@ pub(crate) enum Treatment {
     Mapped,
     /// Something in the scene acts nearly so; the reader says what.
     Approximated,
-    /// It is not in the scene, and this is told, with the reason.
+    /// It is not in the scene, and this is reported, with the reason.
     Ignored(&'static str),
     /// It is for the eye alone.
     Appearance,
-    /// It has no effect on the motion, or another finding tells it.
+    /// It has no effect on the motion, or another finding has it.
     Silent,
     /// The model is refused.
     Refused,
@@ -67,7 +67,7 @@ mod tests {
     use super::*;
     use crate::{mjcf, sdf, urdf};
 
-    /// Lines `parent/element attribute` of a committed list that a table does not know; what is in an element that is told whole is told with it.
+    /// Lines `parent/element attribute` of a committed list that a table does not know; what is in an element without effect goes with it.
     fn unknown(list: &str, table: &[Row]) -> Vec<String> {
         let lines = list.lines().filter(|line| !line.starts_with('#')).map(|line| {
             let (path, attribute) = line.split_once(' ').expect("two words");
@@ -77,13 +77,13 @@ mod tests {
         });
         let lines: Vec<_> = lines.collect();
         let is_whole = |outer: &str| {
-            lines.iter().any(|(_, _, element, attribute, told)| {
+            lines.iter().any(|(_, _, element, attribute, treated)| {
                 let is_it = *element == outer && attribute.is_empty();
-                is_it && matches!(told, Some(Ignored(_) | Appearance | Silent | Refused))
+                is_it && matches!(treated, Some(Ignored(_) | Appearance | Silent | Refused))
             })
         };
         let unknown =
-            lines.iter().filter(|(_, parent, .., told)| told.is_none() && !is_whole(parent));
+            lines.iter().filter(|(_, parent, .., treated)| treated.is_none() && !is_whole(parent));
         unknown.map(|(line, ..)| (*line).to_owned()).collect()
     }
 

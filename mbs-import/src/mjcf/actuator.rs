@@ -223,7 +223,7 @@ pub(super) fn read<'a>(root: &'a Element, model: &mut Model<'a, '_, '_>) -> Read
     Ok(())
 }
 
-/// An actuator that pulls something; one that the scene cannot have is told, never silent.
+/// An actuator that pulls something; one that the scene cannot have is reported, never silent.
 fn add(
     element: &Element,
     actuator: &Actuator,

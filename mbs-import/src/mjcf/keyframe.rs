@@ -7,7 +7,7 @@ use crate::robot::{GROUND, Kind, Start, What};
 use crate::source::{Fault, Origin, Read};
 use mbs_scene::nearest_name;
 
-/// Takes the keyframe that is asked for; others are told in the head of the scene.
+/// Takes the keyframe that is asked for; others are named in the head of the scene.
 pub(super) fn read(root: &Element, model: &mut Model<'_, '_, '_>) -> Read<()> {
     let keys: Vec<_> = root.each("keyframe").flat_map(|keys| keys.each("key")).collect();
     let names: Vec<_> = keys
