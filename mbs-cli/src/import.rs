@@ -2,12 +2,14 @@
 
 use crate::files;
 use crate::input;
+use crate::model::{count, first_line};
 use crate::refusal::Refusal;
 use crate::say::{say, warn};
 use crate::status::REFUSED;
 use clap::{Args, ValueEnum};
 use mbs::models::{
-    Base, Finding, FindingKind, ImportOptions, Imported, ModelSizes, Stops, import, is_model,
+    BaseKind, FindingKind, ImportOptions, Imported, ModelFinding, ModelSizes, Stops, import,
+    is_model,
 };
 use mbs::scene_file::SceneFile;
 use mbs::scene_file::format::counted;
@@ -93,7 +95,7 @@ fn imported(arguments: &Arguments) -> Result<ExitCode, Refusal> {
     scene.map_err(|error| Refusal::read("scene-refused", &error))?;
     let is_lost = arguments.strict && model.findings.iter().any(acts);
     let report = report(&name, &model);
-    let (said, told) = match (&arguments.out, arguments.json) {
+    let (said, report) = match (&arguments.out, arguments.json) {
         (_, true) => (object(&name, &model).to_string(), String::new()),
         (Some(_), false) => (report, String::new()),
         (None, false) => (model.text.clone(), report),
@@ -101,11 +103,11 @@ fn imported(arguments: &Arguments) -> Result<ExitCode, Refusal> {
     if let Some(out) = arguments.out.as_deref().filter(|_| !is_lost) {
         files::write(out, model.text.as_bytes(), Some(&arguments.file))?;
     }
-    if !told.is_empty() {
-        warn(&told);
+    if !report.is_empty() {
+        warn(&report);
     }
     if is_lost {
-        let hint = "leave out --strict, or mend the file at the places told";
+        let hint = "leave out --strict, or mend the file at the places above";
         let refusal =
             Refusal::new("model-refused", format!("--strict: `{name}` is not whole"), hint);
         warn(&refusal.text());
@@ -138,8 +140,8 @@ fn options(arguments: &Arguments) -> Result<ImportOptions, Refusal> {
         }
     };
     let base = arguments.base.map(|base| match base {
-        BaseWord::Fixed => Base::Fixed,
-        BaseWord::Free => Base::Free,
+        BaseWord::Fixed => BaseKind::Fixed,
+        BaseWord::Free => BaseKind::Free,
     });
     Ok(ImportOptions {
         base,
@@ -154,42 +156,15 @@ fn options(arguments: &Arguments) -> Result<ImportOptions, Refusal> {
 }
 
 /// Could it act?
-fn acts(finding: &Finding) -> bool {
+fn acts(finding: &ModelFinding) -> bool {
     finding.kind != FindingKind::Appearance
-}
-
-/// A line of a model that stands where a scene is wanted.
-pub(crate) fn note(name: &str, model: &Imported) -> String {
-    let [approximated, ignored] =
-        [FindingKind::Approximated, FindingKind::Ignored].map(|kind| count(model, kind));
-    format!(
-        "{}; {approximated} approximated, {ignored} ignored: mbs import {name} tells them",
-        first_line(name, model)
-    )
-}
-
-fn count(model: &Imported, kind: FindingKind) -> usize {
-    model.findings.iter().filter(|finding| finding.kind == kind).count()
-}
-
-fn first_line(name: &str, model: &Imported) -> String {
-    let ModelSizes { links, bodies, joints, couplings, inputs } = model.sizes;
-    let bodies = if bodies == 1 { "1 body".to_owned() } else { format!("{bodies} bodies") };
-    format!(
-        "{name}: {}, {bodies} of {}, {}, {}, {}",
-        model.format.name(),
-        counted(links, "link"),
-        counted(joints, "joint"),
-        counted(couplings, "coupling"),
-        counted(inputs, "input"),
-    )
 }
 
 /// The report for people.
 fn report(name: &str, model: &Imported) -> String {
     let mut text = first_line(name, model) + "\n";
     for finding in model.findings.iter().filter(|finding| acts(finding)) {
-        let Finding { kind, file, line, column, element, says } = finding;
+        let ModelFinding { kind, file, line, column, element, says } = finding;
         text += &format!("{:<13} {file}:{line}:{column}  {element}: {says}\n", word(*kind));
     }
     let shown = count(model, FindingKind::Appearance);
@@ -211,7 +186,7 @@ const fn word(kind: FindingKind) -> &'static str {
 fn object(name: &str, model: &Imported) -> Value {
     let list = |kind| {
         let found = model.findings.iter().filter(|finding| finding.kind == kind);
-        let found = found.map(|Finding { file, line, column, element, says, .. }| {
+        let found = found.map(|ModelFinding { file, line, column, element, says, .. }| {
             json!({ "file": file, "line": line, "column": column, "element": element, "says": says })
         });
         found.collect::<Vec<_>>()

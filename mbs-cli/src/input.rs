@@ -1,6 +1,6 @@
 //! Files in, and what to say when they cannot be read.
 
-use crate::import;
+use crate::model;
 use crate::refusal::Refusal;
 use crate::say::{plain, warn};
 use mbs::models::{is_model, scene_file};
@@ -41,12 +41,12 @@ pub(crate) fn document(path: &Path, what: &str) -> Result<SceneFile, Refusal> {
     let folder = if is_standard(path) { None } else { path.parent() };
     let name = name(path);
     let document = scene_file(&bytes, &name, folder.unwrap_or(Path::new("")));
-    let (document, model) = document.map_err(|error| {
+    let (document, imported) = document.map_err(|error| {
         let code = if is_model(&bytes) { "model-refused" } else { "scene-refused" };
         Refusal::read(code, &error)
     })?;
-    if let Some(model) = model {
-        warn(&import::note(&name, &model));
+    if let Some(model) = imported {
+        warn(&model::note(&name, &model));
     }
     Ok(document)
 }

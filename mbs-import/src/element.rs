@@ -13,11 +13,9 @@ pub(crate) struct Element {
     pub(crate) name: String,
     pub(crate) at: Origin,
     pub(crate) attributes: Vec<Attribute>,
-    pub(crate) children: Vec<Element>,
+    pub(crate) children: Vec<Self>,
     /// The text between its children.
     pub(crate) text: String,
-    /// What prefixes the root element declares.
-    pub(crate) prefixes: Vec<String>,
     is_read: Cell<bool>,
 }
 
@@ -91,19 +89,13 @@ impl Attribute {
 }
 
 impl Element {
-    pub(crate) const fn new(
-        name: String,
-        at: Origin,
-        attributes: Vec<Attribute>,
-        prefixes: Vec<String>,
-    ) -> Self {
+    pub(crate) const fn new(name: String, at: Origin, attributes: Vec<Attribute>) -> Self {
         Self {
             name,
             at,
             attributes,
             children: Vec::new(),
             text: String::new(),
-            prefixes,
             is_read: Cell::new(false),
         }
     }

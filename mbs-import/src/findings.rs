@@ -15,7 +15,7 @@ pub enum FindingKind {
 
 /// What became of an element that is not in the scene as the file has it.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Finding {
+pub struct ModelFinding {
     /// How it came in.
     pub kind: FindingKind,
     /// Its file.
@@ -58,13 +58,13 @@ impl Findings {
     }
 
     /// All of them with their places, in the order of the files.
-    pub(crate) fn told(mut self, sources: &Sources) -> Vec<Finding> {
+    pub(crate) fn list(mut self, sources: &Sources) -> Vec<ModelFinding> {
         self.0.sort_by_key(|(kind, at, ..)| (*kind, at.source, at.start));
-        let told = self.0.into_iter().map(|(kind, at, element, says)| {
+        let list = self.0.into_iter().map(|(kind, at, element, says)| {
             let [line, column] = sources.line_and_column(at);
             let file = sources.name(at).to_owned();
-            Finding { kind, file, line, column, element, says }
+            ModelFinding { kind, file, line, column, element, says }
         });
-        told.collect()
+        list.collect()
     }
 }

@@ -2,7 +2,7 @@
 
 use crate::context::Context;
 use crate::element::Element;
-use crate::findings::{Finding, Findings};
+use crate::findings::{Findings, ModelFinding};
 use crate::format::ModelFormat;
 use crate::lump::{self, Lumps};
 use crate::options::ImportOptions;
@@ -20,7 +20,7 @@ pub struct Imported {
     /// The text of the scene, TOML.
     pub text: String,
     /// What is not in it as the file has it, in the order of the file.
-    pub findings: Vec<Finding>,
+    pub findings: Vec<ModelFinding>,
     /// How much it has.
     pub sizes: ModelSizes,
 }
@@ -87,7 +87,7 @@ pub fn import(bytes: &[u8], file: &str, options: &ImportOptions) -> Result<Impor
     match whole(text, source, file, &mut context) {
         Ok((format, text, sizes)) => {
             let Context { sources, findings, .. } = context;
-            Ok(Imported { format, text, findings: findings.told(&sources), sizes })
+            Ok(Imported { format, text, findings: findings.list(&sources), sizes })
         }
         Err(fault) => Err(context.sources.error(fault)),
     }
@@ -133,11 +133,9 @@ fn whole(
 
 /// The format by the root element.
 fn format(root: &Element) -> Read<ModelFormat> {
-    if let Some(prefix) = root.prefixes.iter().find(|prefix| *prefix == "xacro") {
-        if root.children.iter().any(|child| child.name.starts_with("xacro:")) {
-            let message = format!("a file of macros: it has elements `{prefix}:...`");
-            return Err(root.fault(message, "run xacro first, and give the file that it writes"));
-        }
+    if root.children.iter().any(|child| child.name.starts_with("xacro:")) {
+        let message = "a file of macros: it has elements `xacro:...`";
+        return Err(root.fault(message, "run xacro first, and give the file that it writes"));
     }
     let in_attribute = root.attributes.iter().find(|attribute| attribute.value.contains("${"));
     let first = in_attribute.or_else(|| macro_in(root));

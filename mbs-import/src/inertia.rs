@@ -80,8 +80,10 @@ mod tests {
         };
         let pose = Pose::new(about(&unit(2), core::f64::consts::FRAC_PI_2), v3([0.0, 0.0, 5.0]));
         let rod = half(-0.5).seen_from(&pose).with(&half(0.5).seen_from(&pose));
-        assert_eq!(rod.mass, 3.0);
+        assert!((rod.mass - 3.0).abs() < 1.0e-15);
         assert_eq!(rod.center, v3([0.0, 0.0, 5.0]));
-        assert_eq!(rod.six(), [1.0, 0.0, 1.0, 0.0, 0.0, 0.0]);
+        for (found, expected) in rod.six().iter().zip([1.0, 0.0, 1.0, 0.0, 0.0, 0.0]) {
+            assert!((found - expected).abs() < 1.0e-15);
+        }
     }
 }

@@ -21,7 +21,7 @@ mod write;
 mod xml;
 
 pub use files::{read, scene_file};
-pub use findings::{Finding, FindingKind};
+pub use findings::{FindingKind, ModelFinding};
 pub use format::ModelFormat;
 pub use import::{Imported, ModelSizes, import, is_model};
-pub use options::{Base, ImportOptions, Stops};
+pub use options::{BaseKind, ImportOptions, Stops};

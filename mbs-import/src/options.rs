@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 /// Whether the root of a model stands on the ground or moves.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Base {
+pub enum BaseKind {
     /// It is fixed to the ground.
     Fixed,
     /// It moves freely.
@@ -29,7 +29,7 @@ pub enum Stops {
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct ImportOptions {
     /// The base; `None`: as the file says, and fixed where a URDF says nothing.
-    pub base: Option<Base>,
+    pub base: Option<BaseKind>,
     /// Stops at the ends of ranges that have no stiffness in the file; `None`: the ranges are data.
     pub limits: Option<Stops>,
     /// Whether impossible inertias are mended by the least raise of the two smaller moments.

@@ -24,8 +24,8 @@ impl Walk<'_> {
     /// The attributes and children of an element that is read.
     fn inside(&mut self, parent: &str, path: &str, element: &Element) {
         for attribute in element.attributes.iter().filter(|attribute| !attribute.is_read()) {
-            let told = treatment(self.table, parent, &element.name, &attribute.name);
-            self.tell(told, attribute.at, format!("{path}@{}", attribute.name), "attribute");
+            let treated = treatment(self.table, parent, &element.name, &attribute.name);
+            self.add(treated, attribute.at, format!("{path}@{}", attribute.name), "attribute");
         }
         for child in &element.children {
             let path = format!("{path}/{}", child.label());
@@ -39,12 +39,12 @@ impl Walk<'_> {
 
     /// An element with all that is in it.
     fn lost(&mut self, parent: &str, path: &str, element: &Element) {
-        let told = treatment(self.table, parent, &element.name, "");
-        self.tell(told, element.at, path.to_owned(), "element");
+        let treated = treatment(self.table, parent, &element.name, "");
+        self.add(treated, element.at, path.to_owned(), "element");
     }
 
-    fn tell(&mut self, told: Option<Treatment>, at: Origin, path: String, what: &str) {
-        match told {
+    fn add(&mut self, treated: Option<Treatment>, at: Origin, path: String, what: &str) {
+        match treated {
             Some(Treatment::Appearance) => self.findings.appearance(at, path),
             Some(Treatment::Silent) => {}
             Some(Treatment::Ignored(why)) => self.findings.ignored(at, path, why),

@@ -168,7 +168,8 @@ impl Writer<'_> {
             if let Some(number) = term.of.number {
                 let _ = write!(text, ", coordinate = {number}");
             }
-            if term.factor != 1.0 {
+            // a factor of one is what stands for it
+            if (term.factor - 1.0).abs() > 0.0 {
                 let _ = write!(text, ", factor = {}", number(term.factor));
             }
             if !term.coefficients.is_empty() {
@@ -291,6 +292,13 @@ impl Writer<'_> {
                     self.key(key, number(*value));
                 }
             }
+            _ => self.drive(name, what),
+        }
+    }
+
+    /// Stops by a joint's own range, and what is given as a force.
+    fn drive(&mut self, name: &str, what: &What) {
+        match what {
             What::RangeLimit { on, stiffness } => {
                 self.effect(name, "limit", on);
                 self.key("range", "true");

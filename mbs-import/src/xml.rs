@@ -170,10 +170,7 @@ impl Edited {
             let name = self.full_name(node, attribute.namespace(), attribute.name());
             Attribute::new(name, attribute.value().to_owned(), self.origin(attribute.range()))
         });
-        let declared = node.namespaces().filter(|_| node.parent_element().is_none());
-        let declared = declared.filter_map(|space| space.name());
-        let prefixes = declared.map(str::to_owned).collect();
-        Element::new(name, at, attributes.collect(), prefixes)
+        Element::new(name, at, attributes.collect())
     }
 
     fn full_name(&self, node: Node<'_, '_>, space: Option<&str>, name: &str) -> String {

@@ -1,7 +1,7 @@
 //! Loops and springs in elements of another program: `drake:...`.
 
 use super::frames::Frames;
-use super::{Scope, missing, vector};
+use super::scope::{Scope, missing, vector};
 use crate::element::Element;
 use crate::pose::V3;
 use crate::robot::{GROUND, Joint, Kind, Law, Robot, What};

@@ -1,8 +1,8 @@
 //! Joints: kinds, axes, springs, ends, followers, screws.
 
-use super::Scope;
 use super::frames::Frames;
 use super::link::number;
+use super::scope::Scope;
 use crate::context::Context;
 use crate::element::Element;
 use crate::options::Stops;
@@ -41,8 +41,7 @@ pub(super) fn read(
         )
     })?;
     let name = format!("{}{name}", scope.prefix);
-    let is_kept =
-        kind == Kind::Fixed && context.options.keep_fixed.iter().any(|kept| *kept == name);
+    let is_kept = kind == Kind::Fixed && context.options.keep_fixed.contains(&name);
     let kind = if is_kept { Kind::Weld } else { kind };
     let ends = [end(element, "parent", scope, frames)?, end(element, "child", scope, frames)?];
     if ends[0] == ends[1] {

@@ -1,41 +1,26 @@
 //! SDF: models in models, frames in frames, and loops by joints.
 
+mod collect;
 mod drake;
 mod frames;
 mod joint;
 mod link;
 mod pose;
 mod relations;
+mod scope;
 mod table;
 
 pub(crate) use table::TABLE;
 
-use crate::context::{Context, Named};
+use crate::context::Context;
 use crate::element::Element;
-use crate::options::Base;
-use crate::pose::{Pose, V3, v3};
-use crate::robot::{Frame, GROUND, Joint, Kind, Link, Robot};
-use crate::source::{Fault, Read};
-use frames::{Frames, MODEL, Node, WORLD};
-
-/// Where names stand.
-#[derive(Debug, Clone)]
-struct Scope {
-    /// What stands before full names: `outer::`, or nothing.
-    prefix: String,
-    version: [u32; 2],
-    is_static: bool,
-}
-
-impl Scope {
-    /// The full name of the frame of its model.
-    fn model(&self) -> String {
-        format!("{}{MODEL}", self.prefix)
-    }
-}
-
-/// A model of the file with its scope.
-type Model<'a> = (&'a Element, Scope);
+use crate::options::BaseKind;
+use crate::pose::v3;
+use crate::robot::{Frame, GROUND, Joint, Kind, Law, Link, Robot, Target, What};
+use crate::source::Read;
+use collect::{Collector, Model};
+use frames::{Frames, WORLD};
+use scope::{Scope, is_gearbox};
 
 /// Reads the root element `sdf`.
 pub(crate) fn read(root: &Element, context: &mut Context<'_>) -> Read<Robot> {
@@ -55,22 +40,14 @@ pub(crate) fn read(root: &Element, context: &mut Context<'_>) -> Read<Robot> {
         Some(_) => "Gravity: the world's.".to_owned(),
         None => "Gravity: 0 0 -9.8, the format's default.".to_owned(),
     });
-    let mut frames = Frames::default();
-    let mut models: Vec<Model<'_>> = Vec::new();
-    let mut names = Named::new("link", 1);
+    let mut collector = Collector::new(&mut robot, &context.sources);
     for top in &tops {
-        let is_alone = tops.len() == 1;
-        let own = if is_alone { String::new() } else { format!("{}::", top.need("name")?.value) };
-        top.attribute("name");
-        let scope = Scope { prefix: own, version, is_static: false };
-        collect(
-            top,
-            (scope, WORLD.to_owned()),
-            (&mut models, &mut frames),
-            (&mut robot, &mut names),
-            context,
-        )?;
+        let own = top.need("name")?;
+        let prefix = if tops.len() == 1 { String::new() } else { format!("{}::", own.value) };
+        let scope = Scope { prefix, version, is_static: false };
+        collector.model(top, scope, WORLD)?;
     }
+    let Collector { models, frames, .. } = collector;
     links(&models, &frames, &mut robot, context)?;
     for (model, scope) in &models {
         for element in model.each("joint").filter(|element| !is_gearbox(element)) {
@@ -85,13 +62,6 @@ pub(crate) fn read(root: &Element, context: &mut Context<'_>) -> Read<Robot> {
     Ok(robot)
 }
 
-fn is_gearbox(element: &Element) -> bool {
-    element
-        .attributes
-        .iter()
-        .any(|attribute| attribute.name == "type" && attribute.value.trim() == "gearbox")
-}
-
 fn version(root: &Element) -> Read<[u32; 2]> {
     let attribute = root.need("version")?;
     let number = |text: Option<&str>| text.and_then(|text| text.trim().parse::<u32>().ok());
@@ -101,94 +71,6 @@ fn version(root: &Element) -> Read<[u32; 2]> {
         _ => Err(attribute
             .fault(format!("`{}` is no version", attribute.value), "write version=\"1.9\"")),
     }
-}
-
-/// The frames of a model and of those in it, and their links.
-fn collect<'a>(
-    model: &'a Element,
-    (mut scope, outer): (Scope, String),
-    (models, frames): (&mut Vec<Model<'a>>, &mut Frames),
-    (robot, names): (&mut Robot, &mut Named),
-    context: &mut Context<'_>,
-) -> Read<()> {
-    if let Some(flag) = model.child("static") {
-        scope.is_static |= flag.content().flag()?;
-    }
-    let prefix = scope.prefix.clone();
-    let (own, in_frame) = pose::pose(model)?;
-    let outer_prefix = outer.strip_suffix(MODEL).unwrap_or("");
-    let relative_to = in_frame.map_or(outer.clone(), |name| match name {
-        WORLD => WORLD.to_owned(),
-        _ => format!("{outer_prefix}{name}"),
-    });
-    let mut first_link = None;
-    for element in model.each("link") {
-        let name = format!("{prefix}{}", element.need("name")?.value);
-        let number = names.add(&name, element.at, &context.sources)?;
-        first_link.get_or_insert(name.clone());
-        let (pose, in_frame) = pose::pose(element)?;
-        let relative_to = format!("{prefix}{}", in_frame.unwrap_or(MODEL));
-        let node =
-            Node { at: element.at, relative_to, pose, attached_to: None, link: Some(number) };
-        frames.add(name.clone(), node);
-        // the scene's own name for what does not move
-        let name = if name == "ground" { "ground-link".to_owned() } else { name };
-        robot.links.push(Link { name, at: element.at, pose: Pose::identity(), mass: None });
-    }
-    for element in model.each("frame") {
-        let name = format!("{prefix}{}", element.need("name")?.value);
-        let (pose, in_frame) = pose::pose(element)?;
-        let attached = format!(
-            "{prefix}{}",
-            element.value("attached_to").filter(|x| !x.is_empty()).unwrap_or(MODEL)
-        );
-        let relative_to = in_frame.map_or(attached.clone(), |name| format!("{prefix}{name}"));
-        frames.add(
-            name,
-            Node { at: element.at, relative_to, pose, attached_to: Some(attached), link: None },
-        );
-    }
-    for element in model.each("joint") {
-        let name = format!("{prefix}{}", element.need("name")?.value);
-        let (pose, in_frame) = pose::pose(element)?;
-        let child = element
-            .children
-            .iter()
-            .find(|child| child.name == "child")
-            .map_or("", |child| child.text.trim());
-        let child = if child == WORLD { child.to_owned() } else { format!("{prefix}{child}") };
-        let relative_to = in_frame.map_or(child.clone(), |name| format!("{prefix}{name}"));
-        frames.add(
-            name,
-            Node { at: element.at, relative_to, pose, attached_to: Some(child), link: None },
-        );
-    }
-    let canonical = model
-        .value("canonical_link")
-        .filter(|name| !name.is_empty())
-        .map(|name| format!("{prefix}{name}"));
-    let placement = model.value("placement_frame").filter(|name| !name.is_empty());
-    for inner in model.each("model") {
-        let name = &inner.need("name")?.value;
-        let inside = Scope { prefix: format!("{prefix}{name}::"), ..scope.clone() };
-        first_link.get_or_insert(format!("{prefix}{name}::{MODEL}"));
-        collect(inner, (inside, scope.model()), (models, frames), (robot, names), context)?;
-    }
-    let attached_to = canonical.or(first_link);
-    let at = model.at;
-    let mut node = Node { at, relative_to, pose: own, attached_to, link: None };
-    if let Some(placement) = placement {
-        // the pose is that of this frame: the model's follows from where the frame is in the model
-        frames.add(
-            scope.model(),
-            Node { relative_to: WORLD.into(), pose: Pose::identity(), ..node.clone() },
-        );
-        let inner = frames.alone(&format!("{prefix}{placement}"), &scope.model(), at)?;
-        node.pose = own.then(&inner.inverse());
-    }
-    frames.add(scope.model(), node);
-    models.push((model, scope));
-    Ok(())
 }
 
 /// Links where their frames are, with their inertia, their forms, and the frames that have names.
@@ -210,7 +92,7 @@ fn links(
             link.pose = pose;
             link.mass = mass.map(|mass| mass.seen_from(&pose));
             link::shapes(element, number, robot)?;
-            acts(element, &path, context)?;
+            gravity(element, number, robot)?;
         }
         for element in model.each("frame") {
             let name = format!("{}{}", scope.prefix, element.need("name")?.value);
@@ -223,13 +105,15 @@ fn links(
     Ok(())
 }
 
-/// What a link has that acts and is not in the scene.
-fn acts(element: &Element, path: &str, context: &mut Context<'_>) -> Read<()> {
-    if let Some(gravity) = element.child("gravity") {
-        if !gravity.content().flag()? {
-            let says = "the link has no gravity in the file; here it has";
-            context.findings.ignored(gravity.at, format!("{path}/gravity"), says);
-        }
+/// A link without gravity is held by its weight, upward.
+fn gravity(element: &Element, link: usize, robot: &mut Robot) -> Read<()> {
+    let Some(gravity) = element.child("gravity") else { return Ok(()) };
+    let mass = robot.links[link].mass.filter(|mass| mass.mass > 0.0);
+    if let (false, Some(mass)) = (gravity.content().flag()?, mass) {
+        let weight = v3(robot.gravity) * -mass.mass;
+        let on = Target::Point { link, place: mass.center, direction: weight };
+        let name = format!("{} without gravity", robot.links[link].name);
+        robot.laws.push(Law { name, what: What::Held { on, value: 1.0 } });
     }
     Ok(())
 }
@@ -251,7 +135,7 @@ fn base(models: &[Model<'_>], robot: &mut Robot, context: &Context<'_>) {
             hold(robot, link, Kind::Fixed, "ground");
         }
     }
-    let kind = if context.options.base == Some(Base::Fixed) { Kind::Fixed } else { Kind::Free };
+    let kind = if context.options.base == Some(BaseKind::Fixed) { Kind::Fixed } else { Kind::Free };
     let mut is_held = vec![false; robot.links.len()];
     is_held[GROUND] = true;
     spread(robot, &mut is_held);
@@ -297,15 +181,4 @@ fn hold(robot: &mut Robot, link: usize, kind: Kind, word: &str) {
     }
     let joint = Joint::new(&joint_name, *at, kind, [GROUND, link], pose.at);
     robot.joints.push(joint);
-}
-
-/// The three numbers in a child.
-fn vector(element: &Element, name: &str) -> Read<V3> {
-    let child = element.child(name).ok_or_else(|| missing(element, name))?;
-    Ok(v3(child.content().numbers()?))
-}
-
-fn missing(element: &Element, name: &str) -> Fault {
-    element
-        .fault(format!("`{}` has no <{name}>", element.name), format!("write <{name}>...</{name}>"))
 }

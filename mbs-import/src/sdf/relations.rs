@@ -2,7 +2,7 @@
 
 use super::frames::Frames;
 use super::joint::{direction_of, find};
-use super::{Scope, is_gearbox, missing};
+use super::scope::{Scope, is_gearbox, missing};
 use crate::context::Context;
 use crate::element::Element;
 use crate::pose::V3;

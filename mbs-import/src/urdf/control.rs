@@ -28,7 +28,7 @@ pub(super) fn inputs(
             if let Some(reduction) = reduction.filter(|ratio| ratio.text.trim().parse() != Ok(1.0))
             {
                 let says = format!(
-                    "gear ratio {}: told, not used; the input is the effort of the joint",
+                    "gear ratio {}: not used; the input is the effort of the joint",
                     reduction.text.trim()
                 );
                 context.findings.ignored(

@@ -10,7 +10,7 @@ pub(crate) use table::TABLE;
 
 use crate::context::{Context, Named};
 use crate::element::Element;
-use crate::options::Base;
+use crate::options::BaseKind;
 use crate::pose::Pose;
 use crate::robot::{GROUND, Joint, Kind, Robot};
 use crate::source::{Fault, Read};
@@ -161,7 +161,7 @@ fn base(robot: &mut Robot, trunk: usize, context: &mut Context<'_>) -> Read<()> 
     let (at, place) = (link.at, link.pose.at);
     let is_ground = link.name == "world";
     let asked = context.options.base;
-    if is_ground && asked == Some(Base::Free) {
+    if is_ground && asked == Some(BaseKind::Free) {
         return Err(Fault::new(
             at,
             "the root link is called `world`: it is the ground, and cannot be free",
@@ -170,10 +170,10 @@ fn base(robot: &mut Robot, trunk: usize, context: &mut Context<'_>) -> Read<()> 
     }
     let (kind, note) = match asked {
         _ if is_ground => (Kind::Fixed, "Base: its link `world` is the ground.".to_owned()),
-        Some(Base::Free) => {
+        Some(BaseKind::Free) => {
             (Kind::Free, format!("Base: link `{}` moves freely (--base free).", link.name))
         }
-        Some(Base::Fixed) => (
+        Some(BaseKind::Fixed) => (
             Kind::Fixed,
             format!("Base: link `{}` is fixed to the ground (--base fixed).", link.name),
         ),

@@ -57,11 +57,7 @@ pub(crate) const TABLE: &[Row] = &[
     row("transmission/flexJoint", " *", Ignored(CONTROL)),
     row("transmission/rollJoint", " *", Ignored(CONTROL)),
     row("hardwareInterface", " *", Mapped),
-    row(
-        "mechanicalReduction",
-        " *",
-        Ignored("told, not used; the input is the effort of the joint"),
-    ),
+    row("mechanicalReduction", " *", Ignored("not used; the input is the effort of the joint")),
     row("motorTorqueConstant", " *", Ignored(CONTROL)),
     row("joint/role", " *", Ignored(CONTROL)),
     row("ros2_control", " name type", Mapped),

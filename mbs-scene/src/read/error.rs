@@ -333,15 +333,23 @@ impl Display for ReadFault {
             Self::NotACount { text, .. } => write!(f, "`{text}` does not count anything"),
             Self::Missing { key } => write!(f, "`{key}` is missing"),
             Self::Both { keys: [one, other] } => write!(f, "both `{one}` and `{other}` are given"),
-            Self::Scene(SceneError { entry, fault: SceneFault::DuplicateName(first), .. }) => {
-                write!(f, "this name is already that of {}", numbered(*entry, *first))
-            }
-            Self::Scene(SceneError { entry, field, fault: SceneFault::GivenTwice(first) }) => {
-                write!(f, "`{field}` is already prescribed by {}", numbered(*entry, *first))
-            }
-            Self::Scene(error) => write!(f, "`{}` {:#}", error.field, error.fault),
+            Self::Scene(error) => of_scene(error, f),
             Self::Sweep(fault) => write!(f, "{fault}"),
         }
+    }
+}
+
+/// What cannot be meant of a scene that is read.
+fn of_scene(error: &SceneError, f: &mut Formatter<'_>) -> fmt::Result {
+    let SceneError { entry, field, fault } = error;
+    match fault {
+        SceneFault::DuplicateName(first) => {
+            write!(f, "this name is already that of {}", numbered(*entry, *first))
+        }
+        SceneFault::GivenTwice(first) => {
+            write!(f, "`{field}` is already prescribed by {}", numbered(*entry, *first))
+        }
+        fault => write!(f, "`{field}` {fault:#}"),
     }
 }
 

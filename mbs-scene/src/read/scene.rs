@@ -51,12 +51,11 @@ impl SceneFile {
         let [bodies, joints, signals, frames] =
             ["body", "joint", "signal", "frame"].map(|table| self.names(table));
         let joints = Names::new([joints.list(), &self.guided_bodies()?].concat());
-        // the dimension is not known yet; nothing dimensional is read before it is
-        let dimension = Dimension::Planar;
         let context = Context {
             values,
             texts: &self.texts,
-            dimension,
+            // not known yet; nothing dimensional is read before it is
+            dimension: Dimension::Planar,
             bodies: &bodies,
             joints: &joints,
             signals: &signals,
@@ -64,10 +63,7 @@ impl SceneFile {
         };
         self.check_tables(&context)?;
         self.check_points(&context)?;
-        self.refuse_duplicates(bodies.list(), Entry::Body)?;
-        self.refuse_duplicates(joints.list(), Entry::Joint)?;
-        self.refuse_duplicates(signals.list(), Entry::Signal)?;
-        self.refuse_duplicates(frames.list(), Entry::Frame)?;
+        self.refuse_shared_names([&bodies, &joints, &signals, &frames])?;
         let Some(item) = self.top("scene") else {
             return context.fault(&(0..0), ReadFault::Missing { key: "[scene]" });
         };
@@ -190,6 +186,14 @@ impl SceneFile {
     }
 
     /// Names are checked before they are referred to: else a repeated name reads as an unknown one.
+    /// Bodies, joints, signals and frames have a name of their own each.
+    fn refuse_shared_names(&self, [bodies, joints, signals, frames]: [&Names; 4]) -> Read<()> {
+        self.refuse_duplicates(bodies.list(), Entry::Body)?;
+        self.refuse_duplicates(joints.list(), Entry::Joint)?;
+        self.refuse_duplicates(signals.list(), Entry::Signal)?;
+        self.refuse_duplicates(frames.list(), Entry::Frame)
+    }
+
     fn refuse_duplicates(&self, names: &[String], entry: fn(usize) -> Entry) -> Read<()> {
         let mut seen = BTreeMap::new();
         for (i, name) in names.iter().enumerate().filter(|(_, name)| !name.is_empty()) {

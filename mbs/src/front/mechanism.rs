@@ -64,7 +64,7 @@ impl Mechanism {
         Self { scene, file: None, is_changed: true, functions: Vec::new() }
     }
 
-    /// Reads a scene file, or a model of another program (URDF).
+    /// Reads a scene file, or a model of another program: URDF, MJCF or SDF.
     ///
     /// # Errors
     /// [`ReadError`] with file, line, column and a hint.
