@@ -115,7 +115,7 @@ enum Command {
     Sweep(sweep::Arguments),
     /// Write a small scene to begin from; without a name, list them.
     New(new::Arguments),
-    /// Write a model of another program as a scene (URDF), and list what is not in it.
+    /// Write a model of another program as a scene (URDF, MJCF, SDF), and list what is not in it.
     Import(import::Arguments),
     /// Read scenes and assemble them, without a run.
     Check(check::Arguments),
