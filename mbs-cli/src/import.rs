@@ -85,7 +85,8 @@ fn imported(arguments: &Arguments) -> Result<ExitCode, Refusal> {
     let bytes = input::read(&arguments.file, "model")?;
     if !is_model(&bytes) {
         let message = format!("`{name}` is no XML");
-        let hint = "give a model: URDF, MJCF or SDF; a scene needs no import, run it: mbs run SCENE";
+        let hint =
+            "give a model: URDF, MJCF or SDF; a scene needs no import, run it: mbs run SCENE";
         return Err(Refusal::new("model-refused", message, hint));
     }
     let refused = |error| Refusal::read("model-refused", &error);
