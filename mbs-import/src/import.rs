@@ -147,6 +147,10 @@ fn format(root: &Element) -> Read<ModelFormat> {
         "robot" => Ok(ModelFormat::Urdf),
         "mujoco" => Ok(ModelFormat::Mjcf),
         "sdf" => Ok(ModelFormat::Sdf),
+        "mujocoinclude" => Err(root.fault(
+            "a fragment of a model, which other files include",
+            "give the file that includes it",
+        )),
         other => Err(root.fault(
             format!("the root element is `{other}`"),
             "a model begins with `robot` (URDF), `mujoco` (MJCF) or `sdf` (SDF)",

@@ -8,6 +8,7 @@ mod format;
 mod import;
 mod inertia;
 mod lump;
+mod mesh;
 mod mjcf;
 mod options;
 mod pose;

@@ -1,5 +1,6 @@
 //! The tree of bodies, with `frame` and `replicate`.
 
+use super::asset::{self, MeshGeom};
 use super::defaults::{MAIN, View};
 use super::geom::{self, Geom};
 use super::joint::{self, Written};
@@ -35,7 +36,7 @@ struct Own {
     joints: Vec<Written>,
     inertial: Option<Mass>,
     geoms: Vec<Mass>,
-    meshes: Vec<Fault>,
+    meshes: Vec<MeshGeom>,
     gravity_share: f64,
 }
 
@@ -119,7 +120,7 @@ impl<'a> Walk<'_, 'a, '_, '_> {
                     let view = classes.view(child.read(), scope.class)?;
                     match geom::read(&view, scope.link, &scope.frame, self.model)? {
                         Geom::Solid(mass) => own.geoms.push(mass),
-                        Geom::Mesh(fault) => own.meshes.push(fault),
+                        Geom::Mesh(mesh) => own.meshes.push(mesh),
                         Geom::Nothing => {}
                     }
                 }
@@ -207,14 +208,14 @@ impl<'a> Walk<'_, 'a, '_, '_> {
         if !counts_geoms {
             return Ok(own.inertial.unwrap_or_else(Mass::none));
         }
-        if let Some(fault) = own.meshes.first().filter(|_| !is_still) {
-            if !self.model.context.options.massless_meshes {
-                return Err(fault.clone());
-            }
-            for mesh in &own.meshes {
+        let mut sum = sum;
+        for mesh in own.meshes.iter().filter(|_| !is_still) {
+            if self.model.context.options.massless_meshes {
                 let says = "a mesh counts as massless (--massless-meshes)";
                 let label = format!("{}/geom", element.label());
                 self.model.context.findings.ignored(mesh.at, label, says);
+            } else {
+                sum = sum.with(&asset::mass(mesh, self.model)?);
             }
         }
         Ok(sum)

@@ -26,6 +26,12 @@ pub(super) struct Compiler {
     pub(super) bound_inertia: f64,
     pub(super) balance: bool,
     pub(super) total_mass: Option<f64>,
+    /// The folder of meshes, from that of the file.
+    pub(super) mesh_folder: String,
+    /// Does a mesh stand in that folder whatever its own path is?
+    pub(super) strip_path: bool,
+    /// Is the mass of a mesh that of the enclosed volume?
+    pub(super) is_mesh_exact: bool,
     pub(super) gravity: [f64; 3],
     pub(super) acts: Acts,
 }
@@ -56,6 +62,9 @@ impl Compiler {
             bound_inertia: 0.0,
             balance: false,
             total_mass: None,
+            mesh_folder: String::new(),
+            strip_path: false,
+            is_mesh_exact: false,
             gravity: [0.0, 0.0, -9.81],
             acts: Acts {
                 spring: true,
@@ -104,6 +113,12 @@ impl Compiler {
         if let Some(from) = element.attribute("inertiafromgeom") {
             let is = word(from, &["false", "true", "auto"])?;
             self.from_geoms = [FromGeoms::Never, FromGeoms::Always, FromGeoms::Auto][is];
+        }
+        flag(element, "strippath", &mut self.strip_path)?;
+        flag(element, "exactmeshinertia", &mut self.is_mesh_exact)?;
+        let folders = ["meshdir", "assetdir"].map(|name| element.value(name));
+        if let Some(folder) = folders.into_iter().flatten().next() {
+            self.mesh_folder = folder.to_owned();
         }
         flag(element, "autolimits", &mut self.auto_limits)?;
         flag(element, "balanceinertia", &mut self.balance)?;

@@ -1,12 +1,13 @@
 //! Geoms: mass, and what is drawn.
 
+use super::asset::MeshGeom;
 use super::defaults::View;
 use super::model::Model;
 use super::orientation::{from_to, pose};
 use crate::inertia::Mass;
 use crate::pose::{M3, Pose, V3, v3};
 use crate::robot::{Form, FormKind};
-use crate::source::{Fault, Read};
+use crate::source::Read;
 use core::f64::consts::PI;
 
 /// Groups that the format's own viewer shows; the others are for contact.
@@ -29,7 +30,7 @@ pub(super) enum Geom {
     /// A solid with its mass, which is zero where it counts for none.
     Solid(Mass),
     /// A mesh whose mass counts.
-    Mesh(Fault),
+    Mesh(MeshGeom),
     /// Neither.
     Nothing,
 }
@@ -140,12 +141,11 @@ pub(super) fn read(
     let counts = (first..=last).contains(&group) && written.unwrap_or(density) > 0.0;
     if view.attribute("mesh").is_some() || matches!(kind, "mesh" | "sdf") {
         view.attribute("size");
-        pose(view, &model.compiler)?;
-        let fault = view.element.fault(
-            "the mass of this geom follows from a mesh, and meshes are not read yet",
-            "write an <inertial> in its body, or mass=\"0\" here, or let --massless-meshes count it as massless",
-        );
-        return Ok(if counts { Geom::Mesh(fault) } else { Geom::Nothing });
+        let pose = scope.then(&pose(view, &model.compiler)?);
+        let mesh = view.attribute("mesh").cloned();
+        let (at, is_fitted) = (view.element.at, !matches!(kind, "mesh" | "sdf"));
+        let geom = MeshGeom { at, mesh, is_fitted, mass: written, density, pose };
+        return Ok(if counts { Geom::Mesh(geom) } else { Geom::Nothing });
     }
     let (frame, half) = match view.attribute("fromto") {
         Some(ends) => from_to(ends).map(|(frame, half)| (frame, Some(half)))?,

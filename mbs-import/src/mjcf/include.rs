@@ -1,5 +1,6 @@
 //! Files that a file includes: their elements stand where the `include` stood.
 
+use super::path;
 use crate::context::Context;
 use crate::element::{Attribute, Element};
 use crate::source::{Fault, Read};
@@ -15,16 +16,13 @@ const MAX_BYTES: u64 = 64 << 20;
 
 /// Puts the elements of other files in the places of `include` elements.
 pub(crate) fn include(root: &mut Element, context: &mut Context<'_>) -> Read<()> {
-    let folder = context.options.folder.clone();
     let mut includer =
-        Includer { context, folder, chain: Vec::new(), folders: Vec::new(), files: 0, bytes: 0 };
+        Includer { context, chain: Vec::new(), folders: Vec::new(), files: 0, bytes: 0 };
     includer.inside(root)
 }
 
 struct Includer<'a, 'c> {
     context: &'a mut Context<'c>,
-    /// The folder of the first file.
-    folder: Option<PathBuf>,
     /// The files that are open now.
     chain: Vec<PathBuf>,
     /// Their folders.
@@ -74,26 +72,8 @@ impl Includer<'_, '_> {
 
     /// Where a file is: looked for from the first file's folder, then from that of the file that includes it.
     fn path(&self, file: &Attribute) -> Read<PathBuf> {
-        let Some(folder) = &self.folder else {
-            let hint = "give the model as a file, or put the elements of the other file here";
-            return Err(
-                file.fault("this text has no folder, from which it could include files", hint)
-            );
-        };
-        let name = Path::new(file.value.trim());
-        let candidates = [Some(folder), self.folders.last()].into_iter().flatten();
-        let found = candidates.map(|folder| folder.join(name)).find(|path| path.is_file());
-        let found = found.and_then(|path| path.canonicalize().ok()).ok_or_else(|| {
-            let message = format!("there is no file `{}`", folder.join(name).display());
-            file.fault(message, "give its place from the folder of the first file")
-        })?;
-        let home = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
-        let is_inside = home.canonicalize().is_ok_and(|home| found.starts_with(home));
-        if self.context.options.no_outside && !is_inside {
-            let message = format!("`{}` lies outside of the folder of the first file", file.value);
-            return Err(file.fault(message, "leave out --no-outside where you trust the file"));
-        }
-        Ok(found)
+        let last: Vec<&Path> = self.folders.last().map(PathBuf::as_path).into_iter().collect();
+        path::find(file, Path::new(file.value.trim()), &last, self.context)
     }
 
     fn text(&mut self, path: &Path, file: &Attribute) -> Read<String> {

@@ -2,6 +2,7 @@
 #![allow(clippy::float_cmp, reason = "what a file writes is compared as it stands")]
 
 mod actuator;
+mod asset;
 mod body;
 mod compiler;
 mod defaults;
@@ -12,6 +13,7 @@ mod joint;
 mod keyframe;
 mod model;
 mod orientation;
+mod path;
 mod stops;
 mod table;
 mod tendon;
@@ -38,6 +40,7 @@ pub(crate) fn read(root: &Element, context: &mut Context<'_>) -> Read<Robot> {
     robot.gravity = compiler.gravity;
     let classes = Classes::read(root)?;
     let mut model = Model::new(compiler, &classes, robot, context);
+    asset::collect(root, &mut model)?;
     body::read(root, &mut model)?;
     if model.robot.links.len() == 1 {
         return Err(root.fault("the model has no body", "put a <body> into the <worldbody>"));

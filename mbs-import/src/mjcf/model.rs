@@ -107,6 +107,8 @@ pub(super) enum Tendon {
 
 /// The model while it is read.
 pub(super) struct Model<'a, 'b, 'c> {
+    /// Meshes by their names.
+    pub(super) meshes: HashMap<String, &'a Element>,
     pub(super) compiler: Compiler,
     pub(super) classes: &'a Classes<'a>,
     pub(super) context: &'b mut Context<'c>,
@@ -155,6 +157,7 @@ impl<'a, 'b, 'c> Model<'a, 'b, 'c> {
             copies: HashMap::new(),
             inputs: Vec::new(),
             touching: 0,
+            meshes: HashMap::new(),
             names: HashSet::new(),
         }
     }

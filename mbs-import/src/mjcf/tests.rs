@@ -233,3 +233,57 @@ fn a_position_actuator_has_the_force_of_qfrc_actuator_as_drawn() {
     let What::Sum { of } = law(&robot, "m geared") else { panic!("no gear") };
     assert_eq!(of[..], [("m limited".to_owned(), 3.0)]);
 }
+
+/// A channel with one high side: the other program's two ways to count its volume differ.
+const CHANNEL: &str = r#"<mujoco><asset><mesh name="u" INERTIA scale="1 2 -1" refpos="0.05 0.02 0.01" refquat="0.5 0.5 0.1 0.7"
+vertex="0 0 0 0.3 0 0 0.3 0.25 0 0.2 0.25 0 0.2 0.1 0 0.1 0.1 0 0.1 0.2 0 0 0.2 0 0 0 0.15 0.3 0 0.15 0.3 0.25 0.15 0.2 0.25 0.15 0.2 0.1 0.15 0.1 0.1 0.15 0.1 0.2 0.15 0 0.2 0.15"
+face="0 4 1 8 9 12 1 4 2 9 10 12 2 4 3 10 11 12 0 5 4 8 12 13 0 6 5 8 13 14 0 7 6 8 14 15 0 1 9 0 9 8 1 2 10 1 10 9 2 3 11 2 11 10 3 4 12 3 12 11 4 5 13 4 13 12 5 6 14 5 14 13 6 7 15 6 15 14 7 0 8 7 8 15"/></asset>
+<worldbody><body name="b" pos="0 0 1"><freejoint/><geom type="mesh" mesh="u" pos="0.1 0 0" quat="0.9 0.1 0.3 0.2" density="800"/></body></worldbody></mujoco>"#;
+
+#[test]
+fn masses_of_meshes_are_those_of_the_other_program() {
+    /// The other program keeps vertices in single precision.
+    const SINGLE: f64 = 3.0e-7;
+    for (inertia, expected) in [
+        (
+            "exact",
+            [
+                13.20000127553943,
+                0.161890717637123,
+                -0.06140249110508287,
+                0.8346765469934745,
+                0.35415557959033583,
+                0.21837153994386413,
+                0.2785288644203172,
+                0.04625373375523972,
+                -0.13972806834618687,
+                0.029423448390976936,
+            ],
+        ),
+        (
+            "legacy",
+            [
+                15.26562094643725,
+                0.16858591758018288,
+                -0.06377421563374332,
+                0.8328220090472009,
+                0.368631212621164,
+                0.23009412336411258,
+                0.29549260606844074,
+                0.05039347851486916,
+                -0.14346023081907727,
+                0.03195860804104621,
+            ],
+        ),
+    ] {
+        let robot = robot(&CHANNEL.replace("INERTIA", &format!("inertia=\"{inertia}\"")));
+        let mass = robot.links[1].mass.expect("mass");
+        let found = [&[mass.mass][..], mass.center.as_slice(), &mass.six()].concat();
+        for (found, expected) in found.iter().zip(expected) {
+            assert!(
+                (found - expected).abs() < SINGLE * expected.abs().max(1.0),
+                "{inertia}: {found} {expected}"
+            );
+        }
+    }
+}
