@@ -18,6 +18,7 @@ mod files;
 mod generate;
 mod import;
 mod input;
+mod inspect;
 mod keep;
 mod manual;
 mod model;
@@ -73,7 +74,7 @@ Exit status:
 const GROUPS: [(&str, &[&str]); 5] = [
     ("Write a scene", &["new", "import", "kinds", "check", "schema", "generate"]),
     ("Run it", &["run", "plot", "diff"]),
-    ("Analyse it", &["doctor", "explain", "equilibrium", "modes"]),
+    ("Analyse it", &["doctor", "explain", "inspect", "equilibrium", "modes"]),
     ("Many runs", &["sweep", "compare"]),
     ("Elsewhere", &["export", "completions", "man", "help"]),
 ];
@@ -117,6 +118,8 @@ enum Command {
     New(new::Arguments),
     /// Write a model of another program as a scene (URDF, MJCF, SDF), and list what is not in it.
     Import(import::Arguments),
+    /// Compute what a mechanism has at a state: accelerations, efforts, mass matrix, momentum, frames.
+    Inspect(inspect::Arguments),
     /// Read scenes and assemble them, without a run.
     Check(check::Arguments),
     /// List the tables and kinds of scene files; with a name, its keys, units, defaults and an example.
@@ -184,6 +187,7 @@ fn main() -> ExitCode {
         Command::Sweep(arguments) => sweep::main(&arguments),
         Command::New(arguments) => new::main(&arguments),
         Command::Import(arguments) => import::main(&arguments),
+        Command::Inspect(arguments) => inspect::main(&arguments),
         Command::Check(arguments) => check::main(&arguments),
         Command::Kinds(arguments) => manual::kinds(&arguments),
         Command::Schema(_) => manual::schema(),

@@ -55,7 +55,9 @@ pub use checkpoint::{Checkpoint, CheckpointError, CheckpointWriter, FILE as CHEC
 pub use choice::{INTEGRATORS, IntegratorKind, PRECISIONS, Precision, STEP_RULES, StepRule};
 pub use document::{run_document, run_document_kept};
 pub use equilibrium::{Search, equilibrium_start, find_equilibrium};
-pub use front::tree::{Matrix, Tree, TreeError, TreeErrorKind, TreeRange};
+pub use front::tree::{
+    FrameMotion, Matrix, TotalMomentum, Tree, TreeError, TreeErrorKind, TreeRange,
+};
 pub use front::{
     Body, BodyMotion, Components, ContactEvent, Coordinates, Coupling, Effect, Energies,
     EquilibriumOptions, Error, FunctionId, Guide, Id, InitialCondition, InputId, InputInfo,

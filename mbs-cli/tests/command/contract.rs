@@ -21,13 +21,14 @@ fn lists() -> BTreeMap<&'static str, BTreeSet<&'static str>> {
     lists
 }
 
-/// The keys of an object at any depth. Those under `outputs`, and of lists by joint or body, are names of the scene.
+/// The keys of an object at any depth. Those under `outputs` and `frames`, and of lists by joint or body, are names of the scene.
 fn keys<'a>(value: &'a Value, found: &mut BTreeSet<&'a str>) {
     match value {
         Value::Object(map) => {
             for (key, value) in map {
                 found.insert(key);
-                let is_named = matches!(key.as_str(), "outputs" | "joints" | "reactions");
+                let is_named =
+                    matches!(key.as_str(), "outputs" | "joints" | "reactions" | "frames");
                 if !(is_named && value.is_object()) {
                     keys(value, found);
                 }
@@ -50,6 +51,7 @@ fn json_keys_are_those_of_the_contract() {
         ("equilibrium", "rssr", &[]),
         ("modes", "double-pendulum", &[]),
         ("import", "", &[]),
+        ("inspect", "double-pendulum", &[]),
     ] {
         let path = if command == "import" { super::models::arm() } else { scene(name) };
         let output = run(command, &[&[path.as_str(), "--json"], options].concat());

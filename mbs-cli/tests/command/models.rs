@@ -1,6 +1,7 @@
 //! `mbs import`, and models where a scene is wanted.
 
 use super::{done, run, status, text};
+use serde_json::Value;
 use std::path::{Path, PathBuf};
 
 pub(crate) fn arm() -> String {
@@ -15,7 +16,7 @@ fn file(name: &str) -> PathBuf {
 }
 
 /// What a run says of the motion: all but its own time and the name of the file.
-fn motion(scene: &str) -> Vec<serde_json::Value> {
+fn motion(scene: &str) -> Vec<Value> {
     let object = done(&run("run", &[scene, "--json", "--step", "1e-2"]));
     ["outputs", "energy", "violation", "iterations", "channels"]
         .map(|key| object[key].clone())
@@ -56,7 +57,7 @@ fn a_model_runs_to_the_bits_of_the_scene_that_is_imported_from_it() {
 fn strict_refuses_what_can_act_and_is_not_in_the_scene() {
     let strict = run("import", &[&arm(), "--strict", "--json", "-o", "/nowhere/arm.toml"]);
     assert_eq!(status(&strict), 1);
-    let object: serde_json::Value = serde_json::from_slice(&strict.stdout).expect("JSON");
+    let object: Value = serde_json::from_slice(&strict.stdout).expect("JSON");
     assert_eq!(object["mapped"]["bodies"], 2);
     assert_eq!(object["approximated"][0]["element"], "robot/joint[shoulder]/limit");
     assert!(text(&strict.stderr).contains("--strict: "), "{}", text(&strict.stderr));
@@ -78,4 +79,80 @@ fn a_model_that_cannot_be_meant_is_refused_at_its_place_by_every_command() {
             "{command}: {said}"
         );
     }
+}
+
+/// Numbers of a value, at any depth.
+fn flat(value: &Value) -> Vec<f64> {
+    match value {
+        Value::Array(list) => list.iter().flat_map(flat).collect(),
+        other => other.as_f64().into_iter().collect(),
+    }
+}
+
+#[test]
+fn inspect_computes_what_pinocchio_does_at_a_state() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../lab/models/conventions");
+    let text = std::fs::read_to_string(folder.join("conventions.json"))
+        .expect("a file of this repository");
+    let references: Value = serde_json::from_str(&text).expect("JSON");
+    for model in [
+        "inertia_axes.urdf",
+        "fixed_lumps.urdf",
+        "long_axis.urdf",
+        "massive_root.urdf",
+        "default_axis.urdf",
+    ] {
+        let reference = &references["files"][model];
+        let state = file("state.json");
+        let joints = serde_json::json!({ "joints": reference["state"] });
+        std::fs::write(&state, joints.to_string()).expect("a folder");
+        let [path, state] =
+            [&folder.join(model), &state].map(|path| path.to_str().expect("UTF-8").to_owned());
+        let object = done(&run("inspect", &[&path, "--state", &state, "--json"]));
+        let name = |i: usize| object["rows"][i]["joint"].as_str().expect("a joint").to_owned();
+        let close = |what: &str, found: f64, expected: f64| {
+            // the reference is printed with 16 digits, and the solve loses one
+            assert!(
+                (found - expected).abs() < 1.0e-12 * expected.abs().max(1.0),
+                "{model}: {what}: {found} {expected}"
+            );
+        };
+        for (i, found) in flat(&object["accelerations"]).into_iter().enumerate() {
+            close("acceleration", found, flat(&reference["acceleration"][name(i)])[0]);
+        }
+        for (i, row) in reference["mass_matrix"].as_array().expect("rows").iter().enumerate() {
+            for (j, expected) in flat(row).into_iter().enumerate() {
+                close("mass matrix", flat(&object["mass_matrix"][i])[j], expected);
+            }
+        }
+        for (key, mine) in
+            [("momentum", "linear"), ("angular_momentum", "angular"), ("center", "center_of_mass")]
+        {
+            for (found, expected) in
+                flat(&object["momentum"][mine]).iter().zip(flat(&reference[key]))
+            {
+                close(key, *found, expected);
+            }
+        }
+    }
+}
+
+#[test]
+fn states_that_no_joint_can_have_are_refused_with_the_nearest_name() {
+    let scene = super::scene("double-pendulum");
+    for (option, message) in [
+        ("--joint=pivvot=0.1", "there is no joint `pivvot`"),
+        ("--joint=pivot", "no name with a value and a rate"),
+        ("--what=mass", "no such quantity"),
+    ] {
+        let refused = run("inspect", &[&scene, option]);
+        assert_eq!(status(&refused), 1, "{option}");
+        assert!(text(&refused.stderr).contains(message), "{option}: {}", text(&refused.stderr));
+    }
+    // with a loop the rest follows
+    let object =
+        done(&run("inspect", &[&super::scene("four-bar"), "--joint", "start-0=0.3", "--json"]));
+    let [rows, columns] =
+        [&object["loops"], &object["loops"][0]].map(|x| x.as_array().expect("a list").len());
+    assert_eq!((rows, columns), (2, 3));
 }

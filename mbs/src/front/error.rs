@@ -51,9 +51,9 @@ impl Error for WriteError {
 /// A name that no part of that kind has.
 #[derive(Debug, Clone, PartialEq)]
 pub struct UnknownName {
-    pub(super) word: &'static str,
-    pub(super) name: String,
-    pub(super) known: Vec<String>,
+    pub(crate) word: &'static str,
+    pub(crate) name: String,
+    pub(crate) known: Vec<String>,
 }
 
 impl Display for UnknownName {

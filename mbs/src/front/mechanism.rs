@@ -80,7 +80,11 @@ impl Mechanism {
         Self::of_file(SceneFile::parse(text, "scene")?)
     }
 
-    fn of_file(file: SceneFile) -> Result<Self, ReadError> {
+    /// The mechanism of a scene file that is read: with what a command line has set in it.
+    ///
+    /// # Errors
+    /// [`ReadError`] with file, line, column and a hint.
+    pub fn of_file(file: SceneFile) -> Result<Self, ReadError> {
         let scene = file.numbers()?;
         Ok(Self { scene, file: Some(file), is_changed: false, functions: Vec::new() })
     }
@@ -208,6 +212,13 @@ impl Mechanism {
         }
         let known = names.map(str::to_owned).collect();
         Err(UnknownName { word: I::WORD, name: name.to_owned(), known })
+    }
+
+    /// Names of all frames, then those of all bodies: what [`Tree::frame`](crate::Tree::frame) knows.
+    #[must_use]
+    pub fn frame_names(&self) -> Vec<String> {
+        let frames = self.scene.frames.iter().map(|frame| frame.name.clone());
+        frames.chain(self.scene.bodies.iter().map(|body| body.name.clone())).collect()
     }
 
     /// The name of a part; the ground's is `ground`.

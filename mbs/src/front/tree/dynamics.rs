@@ -220,7 +220,7 @@ impl Tree {
     }
 
     /// The motions of the bodies at v̇ = 0.
-    fn motions(&mut self) -> &[RigidMotion<f64>] {
+    pub(super) fn motions(&mut self) -> &[RigidMotion<f64>] {
         self.accelerations(None);
         with!(&mut self.inner, tree => {
             tree.model.write_motions(&tree.state, &mut tree.workspace, &mut tree.motions);

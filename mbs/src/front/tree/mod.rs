@@ -5,10 +5,12 @@ mod error;
 mod follow;
 mod inner;
 mod layout;
+mod places;
 mod values;
 
 pub use error::{TreeError, TreeErrorKind};
 pub use layout::TreeRange;
+pub use places::{FrameMotion, TotalMomentum};
 pub use values::Matrix;
 
 use crate::names::Names;

@@ -1,0 +1,304 @@
+//! `mbs inspect MODEL`.
+
+use crate::refusal::Refusal;
+use crate::say::say;
+use crate::scene::SceneArgument;
+use clap::Args;
+use mbs::core::scene::InitialTarget;
+use mbs::scene_file::nearest_name;
+use mbs::{
+    Error, InitialCondition, InitialId, JointId, Matrix, Mechanism, Method, Number, ReadError,
+    SimulationError, Tree, TreeError,
+};
+use serde_json::{Map, Value, json};
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+const STATUS: &str = "\
+Example: mbs inspect arm.toml --joint shoulder=0.4,1.2 --what accelerations,mass-matrix
+Bodies, joints and gravity count; springs, motors and friction do not. Rows of matrices are those of `rows`.
+Exit status:
+  0  computed
+  1  the scene, the state or the usage was refused";
+
+/// What can be asked for.
+const QUANTITIES: [&str; 8] =
+    ["accelerations", "efforts", "gravity", "bias", "mass-matrix", "loops", "momentum", "frames"];
+
+/// Arguments of `mbs inspect`.
+#[derive(Debug, Args)]
+#[command(after_help = STATUS)]
+pub(crate) struct Arguments {
+    #[command(flatten)]
+    scene: SceneArgument,
+    /// State, JSON: {"joints": {NAME: {"value": X, "rate": X, "effort": X}}}, each a number or a list. Default: that of the scene.
+    #[arg(long, value_name = "FILE")]
+    state: Option<PathBuf>,
+    /// Value of a joint with one coordinate, and its rate; may be repeated. Default: that of the scene.
+    #[arg(long, value_name = "NAME=VALUE[,RATE]", allow_hyphen_values = true)]
+    joint: Vec<String>,
+    /// What is computed: accelerations, efforts (that keep all rates), gravity, bias, mass-matrix, loops, momentum, frames. Default: all.
+    #[arg(long, value_name = "LIST", value_delimiter = ',')]
+    what: Vec<String>,
+    /// Print one JSON object on standard output and nothing else.
+    #[arg(long)]
+    json: bool,
+}
+
+/// Runs the command.
+pub(crate) fn main(arguments: &Arguments) -> ExitCode {
+    match inspected(arguments) {
+        Ok(object) if arguments.json => say(&object.to_string(), ExitCode::SUCCESS),
+        Ok(object) => say(&text(&object), ExitCode::SUCCESS),
+        Err(refusal) => refusal.report(),
+    }
+}
+
+/// What is given for a joint.
+struct Given {
+    name: String,
+    value: Option<Vec<f64>>,
+    rate: Option<Vec<f64>>,
+    effort: Option<Vec<f64>>,
+}
+
+fn inspected(arguments: &Arguments) -> Result<Value, Refusal> {
+    for word in &arguments.what {
+        if !QUANTITIES.contains(&word.as_str()) {
+            let hint = nearest_name(word, &QUANTITIES, "quantities");
+            return Err(Refusal::new("usage", format!("`--what {word}`: no such quantity"), hint));
+        }
+    }
+    let file = arguments.scene.document()?;
+    let name = file.file().to_owned();
+    let refused = |error: ReadError| Refusal::read("scene-refused", &error);
+    let mut mechanism = Mechanism::of_file(file).map_err(refused)?;
+    let given = given(arguments)?;
+    for given in &given {
+        start(&mut mechanism, given)?;
+    }
+    let simulation = mechanism.simulate(&Method::default()).map_err(|error| stopped(&error))?;
+    let mut tree = mechanism.tree().map_err(|error| stopped(&error))?;
+    tree.follow(&simulation).map_err(|error| no_tree(&error))?;
+    let (rows, efforts) = rows(&mechanism, &tree, &given)?;
+    let is_asked =
+        |word: &str| arguments.what.is_empty() || arguments.what.iter().any(|x| x == word);
+    let mut object = Map::new();
+    object.insert("model".into(), json!(name));
+    object.insert("rows".into(), json!(rows));
+    object.insert("q".into(), json!(tree.coordinates()));
+    object.insert("v".into(), json!(tree.velocities()));
+    for word in QUANTITIES.into_iter().filter(|word| is_asked(word)) {
+        let value =
+            quantity(word, &mut tree, &efforts, &mechanism).map_err(|error| no_tree(&error))?;
+        object.insert(word.replace('-', "_"), value);
+    }
+    Ok(Value::Object(object))
+}
+
+fn quantity(
+    word: &str,
+    tree: &mut Tree,
+    efforts: &[f64],
+    mechanism: &Mechanism,
+) -> Result<Value, TreeError> {
+    Ok(match word {
+        "accelerations" => json!(tree.forward_dynamics(efforts)?),
+        "efforts" => json!(tree.inverse_dynamics(&vec![0.0; efforts.len()])?),
+        "gravity" => json!(tree.gravity_forces()),
+        "bias" => json!(tree.bias_forces()),
+        "mass-matrix" => matrix(tree.mass_matrix()),
+        "loops" => matrix(tree.loop_jacobian()),
+        "momentum" => {
+            let (center, momentum) = (tree.center_of_mass(), tree.momentum());
+            json!({
+                "center_of_mass": center.position, "velocity": center.velocity,
+                "linear": momentum.linear, "angular": momentum.angular,
+            })
+        }
+        _ => frames(tree, mechanism),
+    })
+}
+
+fn frames(tree: &mut Tree, mechanism: &Mechanism) -> Value {
+    let mut found = Map::new();
+    for name in mechanism.frame_names() {
+        if let Ok(frame) = tree.frame(&name) {
+            let value = json!({
+                "position": frame.position, "rotation": frame.rotation,
+                "velocity": frame.velocity, "angular_velocity": frame.angular_velocity,
+            });
+            found.insert(name, value);
+        }
+    }
+    Value::Object(found)
+}
+
+fn matrix(matrix: &Matrix) -> Value {
+    json!((0..matrix.rows).map(|i| matrix.row(i)).collect::<Vec<_>>())
+}
+
+/// What the state file says of joints, then what the command line does.
+fn given(arguments: &Arguments) -> Result<Vec<Given>, Refusal> {
+    let mut all = Vec::new();
+    if let Some(path) = &arguments.state {
+        let bytes = crate::input::read(path, "state file")?;
+        let refused = |why: String| {
+            let hint = "write {\"joints\": {\"NAME\": {\"value\": 0.4, \"rate\": 0}}}";
+            Refusal::new("state-refused", format!("`{}`: {why}", path.display()), hint)
+        };
+        let state: Value =
+            serde_json::from_slice(&bytes).map_err(|error| refused(error.to_string()))?;
+        let joints = state.get("joints").and_then(Value::as_object);
+        for (name, entry) in joints.ok_or_else(|| refused("no object `joints`".to_owned()))? {
+            let numbers = |key: &str| {
+                numbers(entry.get(key)).map_err(|()| {
+                    refused(format!("`{key}` of `{name}` is no number and no list of them"))
+                })
+            };
+            let (value, rate, effort) = (numbers("value")?, numbers("rate")?, numbers("effort")?);
+            all.push(Given { name: name.clone(), value, rate, effort });
+        }
+    }
+    for text in &arguments.joint {
+        let parsed = text.rsplit_once('=').and_then(|(name, numbers)| {
+            let numbers: Option<Vec<f64>> = numbers
+                .split(',')
+                .map(|x| x.trim().parse().ok().filter(|x: &f64| x.is_finite()))
+                .collect();
+            match numbers?[..] {
+                [value] => Some((name, value, None)),
+                [value, rate] => Some((name, value, Some(vec![rate]))),
+                _ => None,
+            }
+        });
+        let Some((name, value, rate)) = parsed else {
+            let message = format!("`--joint {text}`: no name with a value and a rate");
+            return Err(Refusal::new(
+                "usage",
+                message,
+                "write --joint NAME=VALUE or --joint NAME=VALUE,RATE",
+            ));
+        };
+        all.push(Given { name: name.to_owned(), value: Some(vec![value]), rate, effort: None });
+    }
+    Ok(all)
+}
+
+/// A number, or a list of them.
+fn numbers(value: Option<&Value>) -> Result<Option<Vec<f64>>, ()> {
+    match value {
+        None | Some(Value::Null) => Ok(None),
+        Some(Value::Number(x)) => x.as_f64().map(|x| Some(vec![x])).ok_or(()),
+        Some(Value::Array(list)) => {
+            list.iter().map(Value::as_f64).collect::<Option<_>>().map(Some).ok_or(())
+        }
+        Some(_) => Err(()),
+    }
+}
+
+/// Puts a joint where the state has it; what the scene says of it is replaced.
+fn start(mechanism: &mut Mechanism, given: &Given) -> Result<(), Refusal> {
+    let joint = mechanism.find::<JointId>(&given.name).map_err(|error| {
+        Refusal::new("state-refused", error.to_string(), error.hint().unwrap_or_default())
+    })?;
+    let decimal = |list: &Option<Vec<f64>>| {
+        list.as_ref().map(|list| list.iter().map(|x| Number::from(*x)).collect())
+    };
+    let own = InitialCondition::joint(joint, decimal(&given.value), decimal(&given.rate));
+    let there = mechanism.ids::<InitialId>().find(|id| {
+        matches!(mechanism.part(*id).target, InitialTarget::Joint { joint: other, .. } if other == joint)
+    });
+    match there {
+        Some(id) => *mechanism.part_mut(id) = own,
+        None => {
+            mechanism.add(own);
+        }
+    }
+    Ok(())
+}
+
+/// What each row is of, and the efforts along all rows.
+fn rows(
+    mechanism: &Mechanism,
+    tree: &Tree,
+    given: &[Given],
+) -> Result<(Vec<Value>, Vec<f64>), Refusal> {
+    let mut rows = vec![json!({ "joint": null }); tree.velocities().len()];
+    let mut efforts = vec![0.0; rows.len()];
+    for joint in mechanism.ids::<JointId>() {
+        let Ok(range) = tree.coordinates_of(joint) else { continue };
+        let name = mechanism.name(joint);
+        for (number, row) in range.v.clone().enumerate() {
+            rows[row] = json!({ "joint": name, "number": number });
+        }
+        let effort = given
+            .iter()
+            .rev()
+            .find(|given| given.name == name)
+            .and_then(|given| given.effort.as_ref());
+        let Some(effort) = effort else { continue };
+        if effort.len() != range.v.len() {
+            let message = format!("`effort` of `{name}` has {} numbers", effort.len());
+            return Err(Refusal::new("state-refused", message, format!("write {}", range.v.len())));
+        }
+        efforts[range.v].copy_from_slice(effort);
+    }
+    Ok((rows, efforts))
+}
+
+fn stopped(error: &SimulationError) -> Refusal {
+    Refusal::new("state-refused", error.to_string(), error.hint().unwrap_or_default())
+}
+
+fn no_tree(error: &TreeError) -> Refusal {
+    Refusal::new("state-refused", error.to_string(), error.hint().unwrap_or_default())
+}
+
+/// The same for people: a line for each row, then what else was asked for.
+fn text(object: &Value) -> String {
+    let list = |key: &str| object[key].as_array().cloned().unwrap_or_default();
+    let columns = ["v", "accelerations", "efforts", "gravity", "bias"];
+    let there: Vec<&str> = columns.into_iter().filter(|key| object[key].is_array()).collect();
+    let mut out = format!("{:<4}{:<28}", "row", "joint");
+    out += &there.iter().map(|key| format!("{key:>15}")).collect::<String>();
+    out.push('\n');
+    for (i, row) in list("rows").iter().enumerate() {
+        let name = row["joint"].as_str().unwrap_or("a free body");
+        out += &format!("{i:<4}{name:<28}");
+        for key in &there {
+            out += &format!("{:>15.6}", object[key][i].as_f64().unwrap_or(f64::NAN));
+        }
+        out.push('\n');
+    }
+    for key in ["mass_matrix", "loops"] {
+        if !list(key).is_empty() {
+            out += &format!("\n{}\n", key.replace('_', " "));
+        }
+        for row in list(key) {
+            let row = row.as_array().cloned().unwrap_or_default();
+            let numbers = row.iter().map(|x| format!("{:>13.6}", x.as_f64().unwrap_or(f64::NAN)));
+            out += &(numbers.collect::<String>() + "\n");
+        }
+    }
+    let vector = |value: &Value| {
+        let numbers = value.as_array().cloned().unwrap_or_default();
+        numbers
+            .iter()
+            .map(|x| format!("{:>13.6}", x.as_f64().unwrap_or(f64::NAN)))
+            .collect::<String>()
+    };
+    if let Some(momentum) = object["momentum"].as_object() {
+        out.push('\n');
+        for (key, value) in momentum {
+            out += &format!("{:<32}{}\n", key.replace('_', " "), vector(value));
+        }
+    }
+    if let Some(frames) = object["frames"].as_object() {
+        out += "\nframe                                    x            y            z\n";
+        for (name, frame) in frames {
+            out += &format!("{name:<32}{}\n", vector(&frame["position"]));
+        }
+    }
+    out
+}

@@ -1,0 +1,124 @@
+//! Where bodies and frames of a [`Tree`] are, and their momentum.
+
+use super::Tree;
+use crate::front::error::UnknownName;
+use crate::front::values::Pose;
+use mbs_core::algebra::{Matrix, Vector, along, cross};
+use mbs_core::cluster::mass_properties;
+use mbs_core::rigid::RigidMotion;
+use mbs_core::scene::BodyId;
+
+/// A frame at an instant, in global axes.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
+pub struct FrameMotion {
+    /// Its origin [m].
+    pub position: [f64; 3],
+    /// Its axes, by rows: the columns are the directions of its x, y and z.
+    pub rotation: [[f64; 3]; 3],
+    /// Velocity of its origin [m/s].
+    pub velocity: [f64; 3],
+    /// Angular velocity [rad/s].
+    pub angular_velocity: [f64; 3],
+}
+
+/// Momentum of all bodies, in global axes.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
+pub struct TotalMomentum {
+    /// Mass times velocity of the centre of mass [kg m/s].
+    pub linear: [f64; 3],
+    /// About the centre of mass [kg m²/s].
+    pub angular: [f64; 3],
+}
+
+impl Tree {
+    /// Centre of mass of a body, and its rotation from the reference configuration. The ground's is at the origin.
+    ///
+    /// ```
+    /// # let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes/double-pendulum.toml");
+    /// let mut tree = mbs::Mechanism::read(path)?.tree()?;
+    /// tree.set(&[std::f64::consts::FRAC_PI_2, 0.0], &[0.0, 0.0])?;
+    /// assert!((tree.pose(mbs::BodyId::new(1)).position[1] - 1.5).abs() < 1e-12);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn pose(&mut self, body: BodyId) -> Pose {
+        let Some(b) = body.index() else { return Pose::default() };
+        let center = self.shares[b].1;
+        let motion = self.motions()[b];
+        Pose { position: motion.point(&center.into())[0].into(), rotation: rows(&motion.rotation) }
+    }
+
+    /// A `[[frame]]` of the scene by its name; or a body, whose frame is at its centre of mass, with the global axes of the reference
+    /// configuration.
+    ///
+    /// # Errors
+    /// [`UnknownName`], which proposes the nearest name.
+    ///
+    /// ```
+    /// # let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes/double-pendulum.toml");
+    /// let mut tree = mbs::Mechanism::read(path)?.tree()?;
+    /// tree.set(&[0.0, 0.0], &[2.0, 0.0])?;
+    /// let lower = tree.frame("lower")?;
+    /// assert_eq!((lower.velocity, lower.angular_velocity), ([0.0, 3.0, 0.0], [0.0, 0.0, 2.0]));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn frame(&mut self, name: &str) -> Result<FrameMotion, UnknownName> {
+        let frame = self.scene.frames.iter().find(|frame| frame.name == name);
+        let body = self.scene.bodies.iter().position(|body| body.name == name);
+        let (body, at, axes) = match (frame, body) {
+            (Some(frame), _) => (frame.body, frame.at, axes(frame.axes)),
+            (None, Some(b)) => (BodyId::new(b), self.shares[b].1, axes(None)),
+            (None, None) => {
+                let bodies = self.scene.bodies.iter().map(|body| &body.name);
+                let frames = self.scene.frames.iter().map(|frame| &frame.name);
+                let known = frames.chain(bodies).cloned().collect();
+                return Err(UnknownName { word: "frame", name: name.to_owned(), known });
+            }
+        };
+        let at_rest = RigidMotion::at_rest(at.into());
+        let motion = body.index().map_or(at_rest, |b| self.motions()[b]);
+        let [position, velocity, _] = motion.point(&at.into()).map(Into::into);
+        let rotation = rows(&(motion.rotation * axes));
+        Ok(FrameMotion { position, rotation, velocity, angular_velocity: motion.omega.into() })
+    }
+
+    /// Momentum of all bodies.
+    ///
+    /// ```
+    /// # let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes/double-pendulum.toml");
+    /// let mut tree = mbs::Mechanism::read(path)?.tree()?;
+    /// tree.set(&[0.0, 0.0], &[1.0, 0.0])?;
+    /// // a rod of 2 kg and 2 m that turns about its end: m v, and m l²/12
+    /// let momentum = tree.momentum();
+    /// assert!((momentum.linear[1] - 2.0).abs() < 1e-12 && (momentum.angular[2] - 2.0 / 3.0).abs() < 1e-12);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn momentum(&mut self) -> TotalMomentum {
+        let center = Vector::<f64, 3>::from(self.center_of_mass().position);
+        let motions = self.motions().to_vec();
+        let (mut linear, mut angular) = (Vector::<f64, 3>::zeros(), Vector::<f64, 3>::zeros());
+        for (b, motion) in motions.iter().enumerate() {
+            let (mass, own, inertia) = mass_properties(&self.scene, b);
+            let [at, velocity, _] = motion.point(&own);
+            let inertia = motion.rotation * inertia * motion.rotation.transpose();
+            linear += velocity * mass;
+            angular += inertia * motion.omega + cross(&(at - center), &velocity) * mass;
+        }
+        TotalMomentum { linear: linear.into(), angular: angular.into() }
+    }
+}
+
+/// The axes of a frame as columns: the second is made right-angled to the first.
+fn axes(axes: Option<[[f64; 3]; 2]>) -> Matrix<f64, 3> {
+    let Some([x, y]) = axes.map(|axes| axes.map(Vector::<f64, 3>::from)) else {
+        return Matrix::<f64, 3>::identity();
+    };
+    let x = along(&x);
+    let y = along(&(y - x * x.dot(&y)));
+    Matrix::<f64, 3>::from_columns(&[x, y, cross(&x, &y)])
+}
+
+fn rows(matrix: &Matrix<f64, 3>) -> [[f64; 3]; 3] {
+    [0, 1, 2].map(|i| [0, 1, 2].map(|j| matrix[(i, j)]))
+}
