@@ -32,6 +32,17 @@ fn filled<'a>(element: &'a Element, name: &str) -> Option<&'a str> {
     element.value(name).filter(|value| !value.is_empty())
 }
 
+/// A model that another file has would be lost.
+pub(super) fn refuse_include(element: &Element) -> Read<()> {
+    match element.child("include") {
+        Some(include) => Err(include.fault(
+            "a model of another file, which is not read yet",
+            "put the <model> of that file in its place",
+        )),
+        None => Ok(()),
+    }
+}
+
 impl<'a, 'r> Collector<'a, 'r> {
     pub(super) fn new(robot: &'r mut Robot, sources: &'r Sources) -> Self {
         let names = Named::new("link", 1);
@@ -40,6 +51,7 @@ impl<'a, 'r> Collector<'a, 'r> {
 
     /// A model, which stands in the frame `outer`, with all that is in it.
     pub(super) fn model(&mut self, model: &'a Element, mut scope: Scope, outer: &str) -> Read<()> {
+        refuse_include(model)?;
         if let Some(flag) = model.child("static") {
             scope.is_static |= flag.content().flag()?;
         }

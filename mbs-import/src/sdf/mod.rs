@@ -18,13 +18,15 @@ use crate::options::BaseKind;
 use crate::pose::v3;
 use crate::robot::{Frame, GROUND, Joint, Kind, Law, Link, Robot, Target, What};
 use crate::source::Read;
-use collect::{Collector, Model};
+use collect::{Collector, Model, refuse_include};
 use frames::{Frames, WORLD};
 use scope::{Scope, is_gearbox};
 
 /// Reads the root element `sdf`.
 pub(crate) fn read(root: &Element, context: &mut Context<'_>) -> Read<Robot> {
     let version = version(root)?;
+    refuse_include(root)?;
+    root.child("world").map_or(Ok(()), refuse_include)?;
     let (tops, world) = match root.child("world") {
         Some(world) => (world.each("model").collect::<Vec<_>>(), Some(world)),
         None => (root.each("model").collect(), None),

@@ -85,18 +85,46 @@ fn every_element_that_nobody_reads_is_told_with_its_place() {
     );
 }
 
-#[test]
-fn damaged_files_never_panic() {
-    let mut dice = mbs_scene::Dice::new(17);
-    let bytes = ARM.as_bytes();
-    for _ in 0..2000 {
-        let mut text = bytes.to_vec();
-        let at = dice.below(text.len());
-        match dice.below(3) {
-            0 => text[at] = u8::try_from(dice.below(256)).unwrap_or(0),
-            1 => drop(text.drain(at..(at + dice.below(40)).min(bytes.len()))),
-            _ => text.splice(at..at, bytes[at / 2..at].iter().copied()).for_each(drop),
+/// Damages a text in one place.
+fn damaged(bytes: &[u8], dice: &mut mbs_scene::Dice) -> Vec<u8> {
+    let mut text = bytes.to_vec();
+    let at = dice.below(text.len());
+    match dice.below(4) {
+        0 => text[at] = u8::try_from(dice.below(256)).unwrap_or(0),
+        1 => drop(text.drain(at..(at + dice.below(40)).min(bytes.len()))),
+        2 => text.splice(at..at, bytes[at / 2..at].iter().copied()).for_each(drop),
+        // another number
+        _ => {
+            let digits = ["-1", "0", "1e300", "nan", "7 7 7", ""];
+            let end = (at + 1 + dice.below(3)).min(bytes.len());
+            text.splice(at..end, dice.one_of(&digits).bytes()).for_each(drop);
         }
-        let _ = import(&text, "arm.urdf", &ImportOptions::default());
     }
+    text
+}
+
+#[test]
+fn damaged_files_of_all_formats_never_panic() {
+    let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../lab/models/conventions");
+    let mut dice = mbs_scene::Dice::new(17);
+    let (mut read, mut refused) = (0, 0);
+    for entry in std::fs::read_dir(folder).expect("a folder of this repository").flatten() {
+        let name = entry.path();
+        let ending = name.extension().and_then(|ending| ending.to_str()).unwrap_or_default();
+        if !matches!(ending, "urdf" | "xml" | "sdf") {
+            continue;
+        }
+        let bytes = std::fs::read(&name).expect("a file of this repository");
+        for _ in 0..40 {
+            match import(&damaged(&bytes, &mut dice), "model", &ImportOptions::default()) {
+                Ok(_) => read += 1,
+                Err(error) => {
+                    assert!(error.place().line > 0 && !error.hint().is_empty());
+                    refused += 1;
+                }
+            }
+        }
+    }
+    // of both kinds there are many
+    assert!(read > 300 && refused > 1000, "{read} {refused}");
 }
