@@ -101,6 +101,7 @@ fn inspect_computes_what_pinocchio_does_at_a_state() {
         "long_axis.urdf",
         "massive_root.urdf",
         "default_axis.urdf",
+        "armature.xml",
     ] {
         let reference = &references["files"][model];
         let state = file("state.json");
