@@ -4,10 +4,9 @@ use crate::refusal::Refusal;
 use crate::say::say;
 use crate::scene::SceneArgument;
 use clap::Args;
-use mbs::core::scene::InitialTarget;
 use mbs::scene_file::nearest_name;
 use mbs::{
-    Error, InitialCondition, InitialId, JointId, Matrix, Mechanism, Method, Number, ReadError,
+    Error, InitialCondition, JointId, Matrix, Mechanism, Method, Number, ReadError,
     SimulationError, Tree, TreeError,
 };
 use serde_json::{Map, Value, json};
@@ -31,10 +30,10 @@ const QUANTITIES: [&str; 8] =
 pub(crate) struct Arguments {
     #[command(flatten)]
     scene: SceneArgument,
-    /// State, JSON: {"joints": {NAME: {"value": X, "rate": X, "effort": X}}}, each a number or a list. Default: that of the scene.
+    /// State, JSON: {"joints": {NAME: {"value": X, "rate": X, "effort": X}}}, each a number or a list. What it leaves out follows. Default: the start of the scene.
     #[arg(long, value_name = "FILE")]
     state: Option<PathBuf>,
-    /// Value of a joint with one coordinate, and its rate; may be repeated. Default: that of the scene.
+    /// Value of a joint with one coordinate, and its rate; may be repeated. Other joints follow. Default: the start of the scene.
     #[arg(long, value_name = "NAME=VALUE[,RATE]", allow_hyphen_values = true)]
     joint: Vec<String>,
     /// What is computed: accelerations, efforts (that keep all rates), gravity, bias, mass-matrix, loops, momentum, frames. Default: all.
@@ -74,6 +73,10 @@ fn inspected(arguments: &Arguments) -> Result<Value, Refusal> {
     let refused = |error: ReadError| Refusal::read("scene-refused", &error);
     let mut mechanism = Mechanism::of_file(file).map_err(refused)?;
     let given = given(arguments)?;
+    if !given.is_empty() {
+        // a state is whole: a value of the scene's own start could be in the way of it
+        mechanism.clear_initial_conditions();
+    }
     for given in &given {
         start(&mut mechanism, given)?;
     }
@@ -180,6 +183,8 @@ fn given(arguments: &Arguments) -> Result<Vec<Given>, Refusal> {
                 "write --joint NAME=VALUE or --joint NAME=VALUE,RATE",
             ));
         };
+        // what the command line says of a joint counts before the file
+        all.retain(|given: &Given| given.name != name);
         all.push(Given { name: name.to_owned(), value: Some(vec![value]), rate, effort: None });
     }
     Ok(all)
@@ -197,7 +202,7 @@ fn numbers(value: Option<&Value>) -> Result<Option<Vec<f64>>, ()> {
     }
 }
 
-/// Puts a joint where the state has it; what the scene says of it is replaced.
+/// Puts a joint where the state has it.
 fn start(mechanism: &mut Mechanism, given: &Given) -> Result<(), Refusal> {
     let joint = mechanism.find::<JointId>(&given.name).map_err(|error| {
         Refusal::new("state-refused", error.to_string(), error.hint().unwrap_or_default())
@@ -205,16 +210,7 @@ fn start(mechanism: &mut Mechanism, given: &Given) -> Result<(), Refusal> {
     let decimal = |list: &Option<Vec<f64>>| {
         list.as_ref().map(|list| list.iter().map(|x| Number::from(*x)).collect())
     };
-    let own = InitialCondition::joint(joint, decimal(&given.value), decimal(&given.rate));
-    let there = mechanism.ids::<InitialId>().find(|id| {
-        matches!(mechanism.part(*id).target, InitialTarget::Joint { joint: other, .. } if other == joint)
-    });
-    match there {
-        Some(id) => *mechanism.part_mut(id) = own,
-        None => {
-            mechanism.add(own);
-        }
-    }
+    mechanism.add(InitialCondition::joint(joint, decimal(&given.value), decimal(&given.rate)));
     Ok(())
 }
 
@@ -248,7 +244,10 @@ fn rows(
 }
 
 fn stopped(error: &SimulationError) -> Refusal {
-    Refusal::new("state-refused", error.to_string(), error.hint().unwrap_or_default())
+    // its text ends with its hint
+    let text = error.to_string();
+    let message = text.split("\nhint: ").next().unwrap_or_default().to_owned();
+    Refusal::new("state-refused", message, error.hint().unwrap_or_default())
 }
 
 fn no_tree(error: &TreeError) -> Refusal {

@@ -214,6 +214,12 @@ impl Mechanism {
         Err(UnknownName { word: I::WORD, name: name.to_owned(), known })
     }
 
+    /// Takes all initial conditions out: it then starts at rest in the reference configuration.
+    pub fn clear_initial_conditions(&mut self) -> &mut Self {
+        self.scene_mut().initials.clear();
+        self
+    }
+
     /// Names of all frames, then those of all bodies: what [`Tree::frame`](crate::Tree::frame) knows.
     #[must_use]
     pub fn frame_names(&self) -> Vec<String> {
