@@ -11,7 +11,6 @@ use mbs::models::{
     BaseKind, FindingKind, ImportOptions, Imported, ModelFinding, ModelSizes, Stops, import,
     is_model,
 };
-use mbs::scene_file::SceneFile;
 use mbs::scene_file::format::counted;
 use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
@@ -91,8 +90,7 @@ fn imported(arguments: &Arguments) -> Result<ExitCode, Refusal> {
     }
     let refused = |error| Refusal::read("model-refused", &error);
     let model = import(&bytes, &name, &options(arguments)?).map_err(refused)?;
-    let scene = SceneFile::parse(&model.text, &format!("scene of {name}"));
-    let scene = scene.and_then(|file| file.scene::<f64>());
+    let scene = model.scene_file(&name).and_then(|file| file.scene::<f64>());
     scene.map_err(|error| Refusal::read("scene-refused", &error))?;
     let is_lost = arguments.strict && model.findings.iter().any(acts);
     let report = report(&name, &model);

@@ -19,13 +19,7 @@ pub fn scene_file(
     }
     let options = ImportOptions { folder: Some(folder.to_owned()), ..ImportOptions::default() };
     let model = import(bytes, file, &options)?;
-    let scene = SceneFile::parse(&model.text, &scene_name(file))?;
-    Ok((scene, Some(model)))
-}
-
-/// How messages call the scene of a model: its lines are not those of the file.
-fn scene_name(file: &str) -> String {
-    format!("scene of {file}")
+    Ok((model.scene_file(file)?, Some(model)))
 }
 
 /// Reads a file: a scene, or a model, which becomes one.
@@ -34,12 +28,10 @@ fn scene_name(file: &str) -> String {
 /// Those of [`SceneFile::read`] and of [`import`].
 pub fn read(path: impl AsRef<Path>) -> Result<SceneFile, ReadError> {
     let path = path.as_ref();
-    match std::fs::read(path) {
-        Ok(bytes) if is_model(&bytes) => {
-            let folder = path.parent().unwrap_or(Path::new(""));
-            scene_file(&bytes, &path.display().to_string(), folder).map(|(scene, _)| scene)
-        }
+    let Ok(bytes) = std::fs::read(path) else {
         // it says why a file cannot be read
-        _ => SceneFile::read(path),
-    }
+        return SceneFile::read(path);
+    };
+    let folder = path.parent().unwrap_or(Path::new(""));
+    scene_file(&bytes, &path.display().to_string(), folder).map(|(scene, _)| scene)
 }

@@ -1,7 +1,7 @@
 //! A file of a model in, the text of a scene out.
 
 use crate::context::Context;
-use crate::element::Element;
+use crate::element::{Attribute, Element};
 use crate::findings::{Findings, ModelFinding};
 use crate::format::ModelFormat;
 use crate::lump::{self, Lumps};
@@ -10,7 +10,8 @@ use crate::robot::{Frame, GROUND, Kind, Link, Robot, What};
 use crate::source::{Fault, Origin, Read, Sources};
 use crate::unread::unread;
 use crate::{mjcf, sdf, urdf, write, xml};
-use mbs_scene::ReadError;
+use mbs_scene::{ReadError, SceneFile};
+use std::collections::HashSet;
 
 /// A model as a scene.
 #[derive(Debug, Clone)]
@@ -23,6 +24,16 @@ pub struct Imported {
     pub findings: Vec<ModelFinding>,
     /// How much it has.
     pub sizes: ModelSizes,
+}
+
+impl Imported {
+    /// The scene of its text. Messages call it that of `file`: its lines are not those of the model.
+    ///
+    /// # Errors
+    /// Those of [`SceneFile::parse`].
+    pub fn scene_file(&self, file: &str) -> Result<SceneFile, ReadError> {
+        SceneFile::parse(&self.text, &format!("scene of {file}"))
+    }
 }
 
 /// How much a model has.
@@ -137,14 +148,14 @@ fn format(root: &Element) -> Read<ModelFormat> {
         let message = "a file of macros: it has elements `xacro:...`";
         return Err(root.fault(message, "run xacro first, and give the file that it writes"));
     }
-    let in_attribute = root.attributes.iter().find(|attribute| attribute.value.contains("${"));
-    let first = in_attribute.or_else(|| macro_in(root));
-    if let Some(attribute) = first.filter(|_| root.name == "robot") {
-        let message = format!("`{}` is a macro", attribute.value);
-        return Err(attribute.fault(message, "run xacro first, and give the file that it writes"));
-    }
     match root.name.as_str() {
-        "robot" => Ok(ModelFormat::Urdf),
+        "robot" => match first_macro(root) {
+            None => Ok(ModelFormat::Urdf),
+            Some(attribute) => Err(attribute.fault(
+                format!("`{}` is a macro", attribute.value),
+                "run xacro first, and give the file that it writes",
+            )),
+        },
         "mujoco" => Ok(ModelFormat::Mjcf),
         "sdf" => Ok(ModelFormat::Sdf),
         "mujocoinclude" => Err(root.fault(
@@ -158,9 +169,9 @@ fn format(root: &Element) -> Read<ModelFormat> {
     }
 }
 
-/// The first attribute below an element that is written as a macro.
-fn macro_in(root: &Element) -> Option<&crate::element::Attribute> {
-    let mut rest: Vec<&Element> = root.children.iter().rev().collect();
+/// The first attribute of a file that is written as a macro.
+fn first_macro(root: &Element) -> Option<&Attribute> {
+    let mut rest = vec![root];
     while let Some(element) = rest.pop() {
         let found = element.attributes.iter().find(|attribute| attribute.value.contains("${"));
         if found.is_some() {
@@ -173,10 +184,11 @@ fn macro_in(root: &Element) -> Option<&crate::element::Attribute> {
 
 /// A link that another one carries keeps its name as a frame.
 fn frames_of_parts(robot: &mut Robot, lumps: &Lumps) {
+    let mut names: HashSet<String> = robot.frames.iter().map(|frame| frame.name.clone()).collect();
     for (link, lump) in lumps.of.iter().enumerate().filter(|(link, _)| *link != GROUND) {
         let Link { name, pose, .. } = &robot.links[link];
         let is_carried = lumps.lumps[*lump].carrier != link;
-        if is_carried && robot.frames.iter().all(|frame| frame.name != *name) {
+        if is_carried && names.insert(name.clone()) {
             robot.frames.push(Frame { name: name.clone(), link, pose: *pose });
         }
     }

@@ -262,6 +262,23 @@ pub(crate) struct Start {
     pub(crate) rate: Vec<f64>,
 }
 
+impl Coupling {
+    /// x − factor y = offset of the coordinates x and y.
+    pub(crate) fn follows(name: &str, [x, y]: [Coordinate; 2], factor: f64, offset: f64) -> Self {
+        let terms = vec![Term::new(x, 1.0), Term::new(y, -factor)];
+        Self { name: format!("{name} mimic"), terms, value: offset }
+    }
+}
+
+impl Link {
+    /// A link at the origin, without mass.
+    pub(crate) fn new(name: &str, at: Origin) -> Self {
+        // the scene's own name for what does not move
+        let name = if name == "ground" { "ground-link" } else { name };
+        Self { name: name.to_owned(), at, pose: Pose::identity(), mass: None }
+    }
+}
+
 impl Joint {
     /// A joint of a kind between two links, with nothing else.
     pub(crate) fn new(

@@ -3,6 +3,7 @@
 use crate::lump::Lumps;
 use crate::pose::{M3, V3};
 use crate::robot::{Form, FormKind, GROUND, Joint, Kind, Robot, Target, Term, What};
+use mbs_scene::quoted;
 use std::fmt::Write;
 
 /// The text; a check of the scene's reader says whether it can be meant.
@@ -37,22 +38,6 @@ fn list(numbers: impl IntoIterator<Item = f64>) -> String {
 
 fn vector(x: &V3) -> String {
     list(x.iter().copied())
-}
-
-/// A text in quotes.
-fn quoted(text: &str) -> String {
-    let mut out = String::from("\"");
-    for c in text.chars() {
-        match c {
-            '"' | '\\' => out.extend(['\\', c]),
-            c if c.is_control() => {
-                let _ = write!(out, "\\u{:04X}", u32::from(c));
-            }
-            c => out.push(c),
-        }
-    }
-    out.push('"');
-    out
 }
 
 impl Writer<'_> {

@@ -13,4 +13,4 @@ pub use dice::Dice;
 pub use generate::{Family, GenerateError, MOST_BODIES, generate};
 pub use mbs_core::outputs::Component;
 pub use read::{Place, ReadError, ReadFault, SceneFile, SweepFault, SweepFile, nearest_name};
-pub use write::{WriteError, to_toml};
+pub use write::{WriteError, quoted, to_toml};

@@ -95,8 +95,6 @@ impl<'a, 'r> Collector<'a, 'r> {
             let node =
                 Node { at: element.at, relative_to, pose, attached_to: None, link: Some(number) };
             self.frames.add(name.clone(), node);
-            // the scene's own name for what does not move
-            let name = if name == "ground" { "ground-link".to_owned() } else { name };
             self.robot.links.push(Link {
                 name,
                 at: element.at,

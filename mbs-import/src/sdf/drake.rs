@@ -1,10 +1,10 @@
 //! Loops and springs in elements of another program: `drake:...`.
 
 use super::frames::Frames;
-use super::scope::{Scope, missing, vector};
+use super::scope::{Scope, placed, vector};
 use crate::element::Element;
 use crate::pose::V3;
-use crate::robot::{GROUND, Joint, Kind, Law, Robot, What};
+use crate::robot::{Joint, Kind, Law, Robot, What};
 use crate::source::{Fault, Read};
 
 /// Adds what a model has of them.
@@ -55,10 +55,8 @@ const CLOSED: f64 = 1.0e-5;
 fn points(element: &Element, word: &str, scope: &Scope, frames: &Frames) -> Read<[(usize, V3); 2]> {
     let point = |body: &str, at: &str| -> Read<(usize, V3)> {
         let name = format!("{word}_{body}");
-        let child = element.child(&name).ok_or_else(|| missing(element, &name))?;
-        let full = frames.full(&scope.prefix, child.text.trim(), child.at)?;
-        let local = vector(element, &format!("{word}_{at}"))?;
-        Ok((frames.link(&full)?.unwrap_or(GROUND), frames.place(&full)?.point(&local)))
+        let (link, pose) = placed(element, &name, scope, frames)?;
+        Ok((link, pose.point(&vector(element, &format!("{word}_{at}"))?)))
     };
     Ok([point("body_A", "p_AP")?, point("body_B", "p_BQ")?])
 }
@@ -70,13 +68,9 @@ fn bushing(
     frames: &Frames,
     robot: &mut Robot,
 ) -> Read<()> {
-    let mut found = Vec::new();
-    for word in ["drake:bushing_frameA", "drake:bushing_frameC"] {
-        let child = element.child(word).ok_or_else(|| missing(element, word))?;
-        let full = frames.full(&scope.prefix, child.text.trim(), child.at)?;
-        found.push((frames.link(&full)?.unwrap_or(GROUND), frames.place(&full)?));
-    }
-    let [(a, first), (c, second)] = found[..] else { unreachable!("two were pushed") };
+    let frame = |word: &str| placed(element, word, scope, frames);
+    let [(a, first), (c, second)] =
+        [frame("drake:bushing_frameA")?, frame("drake:bushing_frameC")?];
     if (first.at - second.at).norm() > CLOSED
         || (first.turn - second.turn).norm() > CLOSED
         || !is_global(&first.turn)

@@ -2,12 +2,12 @@
 
 use super::frames::Frames;
 use super::link::number;
-use super::scope::Scope;
+use super::scope::{Scope, link};
 use crate::context::Context;
 use crate::element::Element;
 use crate::options::Stops;
 use crate::pose::{V3, direction, v3};
-use crate::robot::{Coordinate, Coupling, GROUND, Joint, Kind, Law, Robot, Target, Term, What};
+use crate::robot::{Coordinate, Coupling, Joint, Kind, Law, Robot, Target, Term, What};
 use crate::source::{Fault, Read};
 
 /// The types of the format; a gearbox is no joint but a relation of two others.
@@ -48,8 +48,8 @@ pub(super) fn read(
         return Err(element
             .fault(format!("joint `{name}` joins a link to itself"), "give it another child"));
     }
-    let own = frames.full(&scope.prefix, &element.need("name")?.value, element.at)?;
-    let place = frames.place(&own)?;
+    let own = name.as_str();
+    let place = frames.place(own)?;
     let mut joint = Joint::new(&name, element.at, kind, ends, place.at);
     let axes: Vec<&Element> =
         ["axis", "axis2"].into_iter().filter_map(|word| element.child(word)).collect();
@@ -68,20 +68,15 @@ pub(super) fn read(
     }
     let number = robot.joints.len();
     for axis in &axes[..needed] {
-        joint.axes.push(direction_of(axis, &own, scope, frames)?);
+        joint.axes.push(direction_of(axis, own, scope, frames)?);
     }
     if let ([axis], Kind::Revolute | Kind::Prismatic) = (&axes[..needed], kind) {
         limits(axis, word.value.trim() != "continuous", &mut joint)?;
     }
     robot.joints.push(joint);
     for (i, axis) in axes[..needed].iter().enumerate() {
-        // of a cylinder the axis means the turn, which is its second coordinate
-        let coordinate = match kind {
-            Kind::Universal => Some(i),
-            Kind::Cylindrical => Some(1),
-            _ => None,
-        };
-        laws(axis, Coordinate { joint: number, number: coordinate }, robot, context)?;
+        let of = coordinate(&robot.joints, number, i);
+        laws(axis, of, robot, context)?;
     }
     if kind == Kind::Cylindrical {
         robot.couplings.push(screw(element, number, &name)?);
@@ -91,14 +86,23 @@ pub(super) fn read(
 
 /// The link of an end, which is the ground where it is the world.
 fn end(element: &Element, word: &str, scope: &Scope, frames: &Frames) -> Read<usize> {
-    let child = element.child(word).ok_or_else(|| {
-        element.fault(
+    if element.child(word).is_none() {
+        return Err(element.fault(
             format!("{} has no <{word}>", element.label()),
             format!("write <{word}>LINK</{word}>"),
-        )
-    })?;
-    let name = frames.full(&scope.prefix, child.text.trim(), child.at)?;
-    Ok(frames.link(&name)?.unwrap_or(GROUND))
+        ));
+    }
+    link(element, word, scope, frames)
+}
+
+/// The coordinate that the first or the second axis of a joint means: of a cylinder the turn.
+pub(super) fn coordinate(joints: &[Joint], joint: usize, axis: usize) -> Coordinate {
+    let number = match joints[joint].kind {
+        Kind::Universal => Some(axis),
+        Kind::Cylindrical => Some(1),
+        _ => None,
+    };
+    Coordinate { joint, number }
 }
 
 /// The direction of an axis, global.

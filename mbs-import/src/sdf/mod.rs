@@ -57,7 +57,7 @@ pub(crate) fn read(root: &Element, context: &mut Context<'_>) -> Read<Robot> {
         }
     }
     for (model, scope) in &models {
-        relations::read(model, scope, &frames, &mut robot, context)?;
+        relations::read(model, scope, &frames, &mut robot)?;
         drake::read(model, scope, &frames, &mut robot)?;
     }
     base(&models, &mut robot, context);
@@ -85,9 +85,8 @@ fn links(
     for (model, scope) in models {
         for element in model.each("link") {
             let name = format!("{}{}", scope.prefix, element.need("name")?.value);
-            let full = frames.full("", &name, element.at)?;
-            let Some(number) = frames.link(&full)? else { continue };
-            let pose = frames.place(&full)?;
+            let Some(number) = frames.link(&name)? else { continue };
+            let pose = frames.place(&name)?;
             let path = element.label();
             let mass = link::mass(element, &path, context)?;
             let link = &mut robot.links[number];
@@ -98,9 +97,8 @@ fn links(
         }
         for element in model.each("frame") {
             let name = format!("{}{}", scope.prefix, element.need("name")?.value);
-            let full = frames.full("", &name, element.at)?;
-            let link = frames.link(&full)?.unwrap_or(GROUND);
-            let pose = frames.place(&full)?;
+            let link = frames.link(&name)?.unwrap_or(GROUND);
+            let pose = frames.place(&name)?;
             robot.frames.push(Frame { name, link, pose });
         }
     }

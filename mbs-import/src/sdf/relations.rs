@@ -1,22 +1,16 @@
 //! What relates joints to each other: gearboxes and mimicry.
 
 use super::frames::Frames;
-use super::joint::{direction_of, find};
-use super::scope::{Scope, is_gearbox, missing};
-use crate::context::Context;
+use super::joint::{coordinate, direction_of, find};
+use super::link::number;
+use super::scope::{Scope, is_gearbox, link, missing};
 use crate::element::Element;
 use crate::pose::V3;
-use crate::robot::{Coordinate, Coupling, GROUND, Kind, Robot, Term};
+use crate::robot::{Coupling, Kind, Law, Robot, Target, Term, What};
 use crate::source::Read;
 
 /// Adds the gearboxes and followers of a model.
-pub(super) fn read(
-    model: &Element,
-    scope: &Scope,
-    frames: &Frames,
-    robot: &mut Robot,
-    context: &mut Context<'_>,
-) -> Read<()> {
+pub(super) fn read(model: &Element, scope: &Scope, frames: &Frames, robot: &mut Robot) -> Read<()> {
     for element in model.each("joint") {
         if is_gearbox(element) {
             let coupling = gearbox(element, scope, frames, robot)?;
@@ -30,62 +24,45 @@ pub(super) fn read(
                 continue;
             };
             let leader = mimic.need("joint")?;
-            let number = |word: &str, default| super::link::number(mimic, word, default);
+            let value = |word: &str, default| number(mimic, word, default);
             let (factor, offset, reference) =
-                (number("multiplier", 1.0)?, number("offset", 0.0)?, number("reference", 0.0)?);
+                (value("multiplier", 1.0)?, value("offset", 0.0)?, value("reference", 0.0)?);
             let of_leader = coordinate(
-                robot,
+                &robot.joints,
                 find(robot, scope, mimic, &leader.value)?,
-                mimic.value("axis") == Some("axis2"),
+                usize::from(mimic.value("axis") == Some("axis2")),
             );
-            let terms = [(coordinate(robot, follower, i == 1), 1.0), (of_leader, -factor)];
-            robot.couplings.push(Coupling {
-                name: format!("{}{name} mimic", scope.prefix),
-                terms: terms.map(|(of, factor)| Term::new(of, factor)).into(),
-                value: offset - factor * reference,
-            });
+            robot.couplings.push(Coupling::follows(
+                &format!("{}{name}", scope.prefix),
+                [coordinate(&robot.joints, follower, i), of_leader],
+                factor,
+                offset - factor * reference,
+            ));
         }
         if let Some(mimic) = element.child("drake:mimic") {
             let leader = mimic.need("joint")?;
             let leader = find(robot, scope, mimic, &leader.value)?;
             let factor = mimic.number_or("multiplier", 1.0)?;
-            let term = |joint, factor| Term::new(coordinate(robot, joint, false), factor);
-            robot.couplings.push(Coupling {
-                name: format!("{}{name} mimic", scope.prefix),
-                terms: vec![term(follower, 1.0), term(leader, -factor)],
-                value: mimic.number_or("offset", 0.0)?,
-            });
+            robot.couplings.push(Coupling::follows(
+                &format!("{}{name}", scope.prefix),
+                [follower, leader].map(|joint| coordinate(&robot.joints, joint, 0)),
+                factor,
+                mimic.number_or("offset", 0.0)?,
+            ));
         }
-        reflected(element, follower, robot, context)?;
+        reflected(element, follower, robot)?;
     }
     Ok(())
 }
 
-/// The coordinate that an axis of a joint means.
-fn coordinate(robot: &Robot, joint: usize, is_second: bool) -> Coordinate {
-    let number = match robot.joints[joint].kind {
-        Kind::Universal => Some(usize::from(is_second)),
-        Kind::Cylindrical => Some(1),
-        _ => None,
-    };
-    Coordinate { joint, number }
-}
-
 /// The inertia of a motor's rotor behind its gear.
-fn reflected(
-    element: &Element,
-    joint: usize,
-    robot: &mut Robot,
-    context: &mut Context<'_>,
-) -> Read<()> {
-    use crate::robot::{Law, Target, What};
-    let _ = context;
+fn reflected(element: &Element, joint: usize, robot: &mut Robot) -> Read<()> {
     let Some(inertia) = element.child("drake:rotor_inertia") else { return Ok(()) };
     let inertia = inertia.content().number()?;
     let ratio =
         element.child("drake:gear_ratio").map_or(Ok(1.0), |ratio| ratio.content().number())?;
     if inertia > 0.0 && ratio != 0.0 {
-        let on = Target::Coordinate(coordinate(robot, joint, false));
+        let on = Target::Coordinate(coordinate(&robot.joints, joint, 0));
         let name = format!("{} rotor", robot.joints[joint].name);
         robot.laws.push(Law { name, what: What::Rotor { on, inertia: inertia * ratio * ratio } });
     }
@@ -96,14 +73,10 @@ fn reflected(
 fn gearbox(element: &Element, scope: &Scope, frames: &Frames, robot: &Robot) -> Read<Coupling> {
     let name = &element.need("name")?.value;
     let own = frames.full(&scope.prefix, name, element.at)?;
-    let link = |word: &str| -> Read<usize> {
-        let child = element.child(word).ok_or_else(|| missing(element, word))?;
-        let full = frames.full(&scope.prefix, child.text.trim(), child.at)?;
-        Ok(frames.link(&full)?.unwrap_or(GROUND))
-    };
+    let link = |word: &str| link(element, word, scope, frames);
     let [parent, child, reference] =
         [link("parent")?, link("child")?, link("gearbox_reference_body")?];
-    let ratio = super::link::number(element, "gearbox_ratio", 1.0)?;
+    let ratio = number(element, "gearbox_ratio", 1.0)?;
     let axis = |word: &str| -> Read<V3> {
         let axis = element.child(word).ok_or_else(|| missing(element, word))?;
         direction_of(axis, &own, scope, frames)
@@ -111,7 +84,7 @@ fn gearbox(element: &Element, scope: &Scope, frames: &Frames, robot: &Robot) -> 
     let first = turn(element, robot, [reference, parent], &axis("axis")?)?;
     let second = turn(element, robot, [reference, child], &axis("axis2")?)?;
     let term = |(joint, sign): (usize, f64), factor: f64| {
-        Term::new(coordinate(robot, joint, false), sign * factor)
+        Term::new(coordinate(&robot.joints, joint, 0), sign * factor)
     };
     Ok(Coupling {
         name: format!("{}{name}", scope.prefix),

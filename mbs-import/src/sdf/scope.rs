@@ -1,8 +1,9 @@
 //! Where names stand, and what all readers of the format ask of elements.
 
-use super::frames::MODEL;
+use super::frames::{Frames, MODEL};
 use crate::element::Element;
-use crate::pose::{V3, v3};
+use crate::pose::{Pose, V3, v3};
+use crate::robot::GROUND;
 use crate::source::{Fault, Read};
 
 /// Where names stand.
@@ -39,4 +40,21 @@ pub(super) fn vector(element: &Element, name: &str) -> Read<V3> {
 pub(super) fn missing(element: &Element, name: &str) -> Fault {
     element
         .fault(format!("`{}` has no <{name}>", element.name), format!("write <{name}>...</{name}>"))
+}
+
+/// The frame that a child names: the link with which it moves, the ground where that is the world, and where it is.
+pub(super) fn placed(
+    element: &Element,
+    word: &str,
+    scope: &Scope,
+    frames: &Frames,
+) -> Read<(usize, Pose)> {
+    let child = element.child(word).ok_or_else(|| missing(element, word))?;
+    let full = frames.full(&scope.prefix, child.text.trim(), child.at)?;
+    Ok((frames.link(&full)?.unwrap_or(GROUND), frames.place(&full)?))
+}
+
+/// That link alone.
+pub(super) fn link(element: &Element, word: &str, scope: &Scope, frames: &Frames) -> Read<usize> {
+    placed(element, word, scope, frames).map(|(link, _)| link)
 }

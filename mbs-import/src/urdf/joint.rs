@@ -5,7 +5,7 @@ use crate::context::{Context, Named};
 use crate::element::Element;
 use crate::options::Stops;
 use crate::pose::{Pose, V3, direction, v3};
-use crate::robot::{Coordinate, Coupling, Joint, Kind, Law, Robot, Target, Term, What};
+use crate::robot::{Coordinate, Coupling, Joint, Kind, Law, Robot, Target, What};
 use crate::source::{Fault, Read};
 
 /// The types of the format.
@@ -146,12 +146,12 @@ pub(super) fn laws(
         let leader = mimic.need("joint")?;
         let leader = joints.find(&leader.value, leader.at)?;
         let factor = mimic.number_or("multiplier", 1.0)?;
-        let term = |joint, factor| Term::new(Coordinate { joint, number: None }, factor);
-        robot.couplings.push(Coupling {
-            name: format!("{name} mimic"),
-            terms: vec![term(number, 1.0), term(leader, -factor)],
-            value: mimic.number_or("offset", 0.0)?,
-        });
+        robot.couplings.push(Coupling::follows(
+            &name,
+            [number, leader].map(|joint| Coordinate { joint, number: None }),
+            factor,
+            mimic.number_or("offset", 0.0)?,
+        ));
     }
     Ok(())
 }

@@ -3,7 +3,7 @@
 use super::pose::origin;
 use crate::element::Element;
 use crate::inertia::{Mass, tensor};
-use crate::pose::{Pose, V3};
+use crate::pose::V3;
 use crate::robot::{Form, FormKind, Link, Robot};
 use crate::source::Read;
 use std::collections::HashMap;
@@ -13,11 +13,9 @@ pub(super) type Colours = HashMap<String, [f64; 4]>;
 
 /// A link in its own frame.
 pub(super) fn read(element: &Element) -> Read<Link> {
-    let name = element.need("name")?.value.clone();
-    // the scene's own name for what does not move
-    let name = if name == "ground" { "ground-link".to_owned() } else { name };
+    let name = &element.need("name")?.value;
     let mass = element.child("inertial").map(inertial).transpose()?;
-    Ok(Link { name, at: element.at, pose: Pose::identity(), mass })
+    Ok(Link { mass, ..Link::new(name, element.at) })
 }
 
 fn inertial(element: &Element) -> Read<Mass> {

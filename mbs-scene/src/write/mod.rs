@@ -5,3 +5,4 @@ mod serde;
 pub(crate) mod toml;
 
 pub use scene::{WriteError, to_toml};
+pub use toml::quoted;

@@ -69,8 +69,9 @@ fn bare(key: &str) -> String {
     if !key.is_empty() && key.chars().all(is_bare) { key.to_owned() } else { quoted(key) }
 }
 
-/// A text in quotes.
-pub(crate) fn quoted(text: &str) -> String {
+/// A text in quotes, as TOML has it.
+#[must_use]
+pub fn quoted(text: &str) -> String {
     let mut out = String::from("\"");
     for c in text.chars() {
         match c {
