@@ -54,6 +54,11 @@ impl Named {
         })
     }
 
+    /// The number of a copy with that ending, else of the name alone.
+    pub(crate) fn find_copy(&self, name: &str, ending: &str, at: Origin) -> Read<usize> {
+        self.get(&format!("{name}{ending}")).map_or_else(|| self.find(name, at), Ok)
+    }
+
     pub(crate) fn get(&self, name: &str) -> Option<usize> {
         self.by_name.get(name).map(|(number, _)| *number)
     }

@@ -7,7 +7,7 @@ use crate::format::ModelFormat;
 use crate::lump::{self, Lumps};
 use crate::options::ImportOptions;
 use crate::robot::{Frame, GROUND, Kind, Link, Robot, What};
-use crate::source::{Fault, Origin, Read, Sources};
+use crate::source::{Fault, MOST_BYTES, Origin, Read, Sources};
 use crate::unread::unread;
 use crate::{mjcf, sdf, urdf, write, xml};
 use mbs_scene::{ReadError, SceneFile};
@@ -103,9 +103,6 @@ pub fn import(bytes: &[u8], file: &str, options: &ImportOptions) -> Result<Impor
         Err(fault) => Err(context.sources.error(fault)),
     }
 }
-
-/// Most bytes of a text: an element takes a few hundred bytes of memory.
-const MOST_BYTES: usize = 64 << 20;
 
 fn whole(
     text: &str,

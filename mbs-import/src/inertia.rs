@@ -2,6 +2,9 @@
 
 use crate::pose::{M3, Pose, V3};
 
+/// How far a tensor may miss the triangle inequality, relative to its largest moment: what rounding and turning of printed numbers leave.
+pub(crate) const SLACK: f64 = 1.0e-9;
+
 /// The inertia of a body, in the axes of one frame.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Mass {

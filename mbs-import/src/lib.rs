@@ -7,6 +7,7 @@ mod findings;
 mod format;
 mod import;
 mod inertia;
+mod laws;
 mod lump;
 mod mesh;
 mod mjcf;

@@ -1,13 +1,10 @@
 //! Links that are welded together are one body.
 
 use crate::findings::Findings;
-use crate::inertia::Mass;
+use crate::inertia::{Mass, SLACK};
 use crate::pose::M3;
 use crate::robot::{GROUND, Kind, Robot};
 use crate::source::{Fault, Read};
-
-/// How far a tensor may miss the triangle inequality, relative to its largest moment: what rounding and turning of printed numbers leave.
-const SLACK: f64 = 1.0e-9;
 
 /// Radius of gyration below which a mass is a point [m]: far below that of any part, far above what rounding leaves of zero.
 const NEGLIGIBLE: f64 = 1.0e-9;

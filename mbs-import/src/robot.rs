@@ -262,6 +262,29 @@ pub(crate) struct Start {
     pub(crate) rate: Vec<f64>,
 }
 
+impl FormKind {
+    /// The form, if all its sizes are above zero.
+    pub(crate) fn of_size(self) -> Option<Self> {
+        let is_there = match self {
+            Self::Box(size) => size.iter().all(|x| *x > 0.0),
+            Self::Sphere { radius } => radius > 0.0,
+            Self::Capsule { radius, length } | Self::Cylinder { radius, length } => {
+                radius > 0.0 && length > 0.0
+            }
+        };
+        is_there.then_some(self)
+    }
+}
+
+/// Red, green, blue and opacity of three or four numbers; some files write other counts, and a colour is for the eye alone.
+pub(crate) fn colour(numbers: &[f64]) -> Option<[f64; 4]> {
+    match *numbers {
+        [r, g, b] => Some([r, g, b, 1.0]),
+        [r, g, b, a] => Some([r, g, b, a]),
+        _ => None,
+    }
+}
+
 impl Coupling {
     /// x − factor y = offset of the coordinates x and y.
     pub(crate) fn follows(name: &str, [x, y]: [Coordinate; 2], factor: f64, offset: f64) -> Self {

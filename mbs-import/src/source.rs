@@ -2,6 +2,9 @@
 
 use mbs_scene::{Place, ReadError};
 
+/// Most bytes of a file, and of all that it includes: an element takes a few hundred bytes of memory.
+pub(crate) const MOST_BYTES: usize = 64 << 20;
+
 /// Some bytes of one of the texts.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Origin {

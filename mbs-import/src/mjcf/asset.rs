@@ -7,12 +7,9 @@ use crate::element::{Attribute, Element};
 use crate::inertia::Mass;
 use crate::mesh::{self, Count, Mesh};
 use crate::pose::{M3, Pose, quaternion, v3};
-use crate::source::{Fault, Origin, Read};
+use crate::source::{Fault, MOST_BYTES, Origin, Read};
 use mbs_scene::nearest_name;
 use std::path::Path;
-
-/// Most bytes of a file with a mesh.
-const MAX_BYTES: u64 = 64 << 20;
 
 /// A geom that is a mesh, and whose mass counts.
 #[derive(Debug, Clone)]
@@ -112,8 +109,8 @@ fn surface(view: &View<'_>, model: &Model<'_, '_, '_>) -> Read<Mesh> {
     let unread =
         |why: String| file.fault(format!("`{}`: {why}", file.value), "give a mesh as STL or OBJ");
     let size = std::fs::metadata(&path).map_err(|error| unread(error.to_string()))?.len();
-    if size > MAX_BYTES {
-        return Err(unread(format!("more than {} MiB", MAX_BYTES >> 20)));
+    if size > MOST_BYTES as u64 {
+        return Err(unread(format!("more than {} MiB", MOST_BYTES >> 20)));
     }
     let bytes = std::fs::read(&path).map_err(|error| unread(error.to_string()))?;
     let ending = path.extension().and_then(|x| x.to_str()).unwrap_or_default().to_ascii_lowercase();

@@ -3,7 +3,7 @@
 use super::path;
 use crate::context::Context;
 use crate::element::{Attribute, Element};
-use crate::source::{Fault, Read};
+use crate::source::{Fault, MOST_BYTES, Read};
 use crate::xml;
 use std::path::{Path, PathBuf};
 
@@ -11,8 +11,6 @@ use std::path::{Path, PathBuf};
 const MAX_DEPTH: usize = 32;
 /// Files that a model includes in all.
 const MAX_FILES: usize = 1_000;
-/// Bytes of all files that a model includes.
-const MAX_BYTES: u64 = 64 << 20;
 
 /// Puts the elements of other files in the places of `include` elements.
 pub(crate) fn include(root: &mut Element, context: &mut Context<'_>) -> Read<()> {
@@ -82,8 +80,8 @@ impl Includer<'_, '_> {
             fault(format!("`{}` cannot be read: {error}", file.value), "give it to be read")
         };
         self.bytes += std::fs::metadata(path).map_err(unread)?.len();
-        if self.bytes > MAX_BYTES {
-            let message = format!("included files have more than {} MB", MAX_BYTES >> 20);
+        if self.bytes > MOST_BYTES as u64 {
+            let message = format!("included files have more than {} MB", MOST_BYTES >> 20);
             return Err(fault(message, "give a smaller model"));
         }
         let bytes = std::fs::read(path).map_err(unread)?;

@@ -197,8 +197,7 @@ impl<'a, 'b, 'c> Model<'a, 'b, 'c> {
         if word == "world" {
             return Ok(GROUND);
         }
-        let number = self.bodies.get(&format!("{word}{ending}"));
-        let number = number.map_or_else(|| self.bodies.find(word, name.at), Ok)?;
+        let number = self.bodies.find_copy(word, ending, name.at)?;
         Ok(self.body_links[number])
     }
 
@@ -215,25 +214,19 @@ impl<'a, 'b, 'c> Model<'a, 'b, 'c> {
 
     /// A place by its name.
     pub(super) fn site(&self, name: &Attribute, ending: &str) -> Read<&Site> {
-        let word = name.value.trim();
-        let number = self.site_names.get(&format!("{word}{ending}"));
-        let number = number.map_or_else(|| self.site_names.find(word, name.at), Ok)?;
+        let number = self.site_names.find_copy(name.value.trim(), ending, name.at)?;
         Ok(&self.sites[number])
     }
 
     /// A joint by its name.
     pub(super) fn motion(&self, name: &Attribute, ending: &str) -> Read<&Motion> {
-        let word = name.value.trim();
-        let number = self.joints.get(&format!("{word}{ending}"));
-        let number = number.map_or_else(|| self.joints.find(word, name.at), Ok)?;
+        let number = self.joints.find_copy(name.value.trim(), ending, name.at)?;
         Ok(&self.motions[number])
     }
 
     /// A tendon by its name.
     pub(super) fn tendon(&self, name: &Attribute, ending: &str) -> Read<&Tendon> {
-        let word = name.value.trim();
-        let number = self.tendon_names.get(&format!("{word}{ending}"));
-        let number = number.map_or_else(|| self.tendon_names.find(word, name.at), Ok)?;
+        let number = self.tendon_names.find_copy(name.value.trim(), ending, name.at)?;
         Ok(&self.tendons[number])
     }
 

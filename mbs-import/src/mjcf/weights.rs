@@ -1,13 +1,10 @@
 //! What settings of the whole model do to the inertias of its bodies.
 
 use super::model::Model;
-use crate::inertia::Mass;
+use crate::inertia::{Mass, SLACK};
 use crate::pose::{M3, v3};
 use crate::robot::{Target, What};
 use crate::source::Read;
-
-/// How far moments may miss the triangle inequality before they are mended, relative to the largest.
-const SLACK: f64 = 1.0e-9;
 
 /// Bounds, balances and scales the masses of all bodies, and gives them to the links.
 pub(super) fn settle(model: &mut Model<'_, '_, '_>) -> Read<()> {

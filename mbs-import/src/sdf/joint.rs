@@ -5,7 +5,7 @@ use super::link::number;
 use super::scope::{Scope, link};
 use crate::context::Context;
 use crate::element::Element;
-use crate::options::Stops;
+use crate::laws;
 use crate::pose::{V3, direction, v3};
 use crate::robot::{Coordinate, Coupling, Joint, Kind, Law, Robot, Target, Term, What};
 use crate::source::{Fault, Read};
@@ -163,7 +163,6 @@ fn laws(axis: &Element, of: Coordinate, robot: &mut Robot, context: &mut Context
         None => joint.name.clone(),
     };
     let path = format!("joint[{}]/{}", joint.name, axis.name);
-    let on = || Target::Coordinate(of.clone());
     if let Some(dynamics) = axis.child("dynamics") {
         let [damping, friction, stiffness, reference] =
             ["damping", "friction", "spring_stiffness", "spring_reference"]
@@ -175,52 +174,28 @@ fn laws(axis: &Element, of: Coordinate, robot: &mut Robot, context: &mut Context
         }
         if damping > 0.0 || stiffness > 0.0 {
             let free = if stiffness > 0.0 { free } else { 0.0 };
-            let what = What::Spring { on: on(), stiffness, damping, free };
+            let on = Target::Coordinate(of.clone());
+            let what = What::Spring { on, stiffness, damping, free };
             robot.laws.push(Law { name: format!("{name} spring"), what });
         }
-        if friction > 0.0 {
-            let says = "dry friction falls to zero below a rate of 1e-3";
-            context.findings.approximated(dynamics.at, format!("{path}/dynamics"), says);
-            let what = What::Friction { on: on(), coulomb: friction };
-            robot.laws.push(Law { name: format!("{name} friction"), what });
-        }
+        let of = (name.as_str(), of.clone());
+        laws::friction((dynamics.at, &path), of, friction, robot, context);
     }
     let range = robot.joints[of.joint].range;
     if let (Some(limit), true) = (axis.child("limit"), range.is_some()) {
-        stops(limit, &path, (name, of), robot, context)?;
+        let own = stiffness_of(limit)?;
+        laws::stops((limit.at, &path), (&name, of), own, robot, context);
     }
     Ok(())
 }
 
-fn stops(
-    limit: &Element,
-    path: &str,
-    (name, of): (String, Coordinate),
-    robot: &mut Robot,
-    context: &mut Context<'_>,
-) -> Read<()> {
+/// Stiffness and damping of stops that are not rigid.
+fn stiffness_of(limit: &Element) -> Read<Option<[f64; 2]>> {
     /// What the format writes where it means a rigid stop.
     const RIGID: f64 = 1.0e8;
     let stiffness = number(limit, "stiffness", RIGID)?;
     let damping = number(limit, "dissipation", 1.0)?;
-    let has_own = limit.child("stiffness").is_some() && stiffness > 0.0 && stiffness < RIGID;
-    let given = match context.options.limits {
-        _ if has_own => Some(Some([stiffness, damping.max(0.0)])),
-        None => None,
-        Some(Stops::ByMass) => Some(None),
-        Some(Stops::Given { stiffness, damping }) => Some(Some([stiffness, damping])),
-    };
-    let says = match given {
-        _ if has_own => "stops with the stiffness and dissipation that are written",
-        None => "ends without stiffness: kept as the joint's range, which does not act (--limits)",
-        Some(_) => "ends without stiffness in the file: stops as --limits says",
-    };
-    context.findings.approximated(limit.at, format!("{path}/limit"), says);
-    if let Some(stiffness) = given {
-        let what = What::RangeLimit { on: Target::Coordinate(of), stiffness };
-        robot.laws.push(Law { name: format!("{name} stops"), what });
-    }
-    Ok(())
+    Ok((stiffness > 0.0 && stiffness < RIGID).then_some([stiffness, damping.max(0.0)]))
 }
 
 /// The slide of a screw follows its turn.

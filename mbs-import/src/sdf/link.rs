@@ -5,7 +5,7 @@ use crate::context::Context;
 use crate::element::Element;
 use crate::inertia::{Mass, tensor};
 use crate::pose::{Pose, V3};
-use crate::robot::{Form, FormKind, Robot};
+use crate::robot::{self, Form, FormKind, Robot};
 use crate::source::Read;
 
 /// The inertia of a link, in its own axes.
@@ -62,22 +62,17 @@ pub(super) fn shapes(element: &Element, link: usize, robot: &mut Robot) -> Read<
 
 fn colour(material: &Element) -> Option<[f64; 4]> {
     let words = ["diffuse", "ambient"].into_iter().find_map(|word| material.child(word))?;
-    match words.content().list().ok()?[..] {
-        [r, g, b] => Some([r, g, b, 1.0]),
-        [r, g, b, a] => Some([r, g, b, a]),
-        _ => None,
-    }
+    robot::colour(&words.content().list().ok()?)
 }
 
 fn form(geometry: &Element) -> Read<Option<FormKind>> {
-    let positive = |sizes: &[f64]| sizes.iter().all(|x| *x > 0.0);
     if let Some(size) = geometry.child("box").and_then(|form| form.child("size")) {
         let size = size.content().numbers::<3>()?;
-        return Ok(positive(&size).then_some(FormKind::Box(size)));
+        return Ok(FormKind::Box(size).of_size());
     }
     if let Some(form) = geometry.child("sphere") {
         let radius = number(form, "radius", 1.0)?;
-        return Ok(positive(&[radius]).then_some(FormKind::Sphere { radius }));
+        return Ok(FormKind::Sphere { radius }.of_size());
     }
     for name in ["cylinder", "capsule"] {
         if let Some(form) = geometry.child(name) {
@@ -86,7 +81,7 @@ fn form(geometry: &Element) -> Read<Option<FormKind>> {
                 "cylinder" => FormKind::Cylinder { radius, length },
                 _ => FormKind::Capsule { radius, length },
             };
-            return Ok(positive(&[radius, length]).then_some(kind));
+            return Ok(kind.of_size());
         }
     }
     Ok(None)

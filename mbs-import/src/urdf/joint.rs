@@ -3,7 +3,7 @@
 use super::pose::origin;
 use crate::context::{Context, Named};
 use crate::element::Element;
-use crate::options::Stops;
+use crate::laws;
 use crate::pose::{Pose, V3, direction, v3};
 use crate::robot::{Coordinate, Coupling, Joint, Kind, Law, Robot, Target, What};
 use crate::source::{Fault, Read};
@@ -104,26 +104,9 @@ pub(super) fn laws(
     if !matches!(joint.kind, Kind::Revolute | Kind::Prismatic) {
         return Ok(());
     }
-    let on = || Target::Coordinate(Coordinate { joint: number, number: None });
+    let of = Coordinate { joint: number, number: None };
     if let Some(limit) = element.child("limit").filter(|_| joint.range.is_some()) {
-        let stiffness = match context.options.limits {
-            None => None,
-            Some(Stops::ByMass) => Some(None),
-            Some(Stops::Given { stiffness, damping }) => Some(Some([stiffness, damping])),
-        };
-        let says = match stiffness {
-            None => {
-                "ends without stiffness: kept as the joint's range, which does not act (--limits)"
-            }
-            Some(_) => "ends without stiffness in the file: stops as --limits says",
-        };
-        context.findings.approximated(limit.at, format!("{path}/limit"), says);
-        if let Some(stiffness) = stiffness {
-            robot.laws.push(Law {
-                name: format!("{name} stops"),
-                what: What::RangeLimit { on: on(), stiffness },
-            });
-        }
+        laws::stops((limit.at, &path), (&name, of.clone()), None, robot, context);
     }
     if let Some(dynamics) = element.child("dynamics") {
         let [damping, friction] =
@@ -132,15 +115,11 @@ pub(super) fn laws(
             return Err(dynamics.fault("damping or friction is below zero", "write zero or more"));
         }
         if damping > 0.0 {
-            let what = What::Spring { on: on(), stiffness: 0.0, damping, free: 0.0 };
+            let on = Target::Coordinate(of.clone());
+            let what = What::Spring { on, stiffness: 0.0, damping, free: 0.0 };
             robot.laws.push(Law { name: format!("{name} damping"), what });
         }
-        if friction > 0.0 {
-            let says = "dry friction falls to zero below a rate of 1e-3";
-            context.findings.approximated(dynamics.at, format!("{path}/dynamics"), says);
-            let what = What::Friction { on: on(), coulomb: friction };
-            robot.laws.push(Law { name: format!("{name} friction"), what });
-        }
+        laws::friction((dynamics.at, &path), (&name, of), friction, robot, context);
     }
     if let Some(mimic) = element.child("mimic") {
         let leader = mimic.need("joint")?;

@@ -4,7 +4,7 @@ use super::pose::origin;
 use crate::element::Element;
 use crate::inertia::{Mass, tensor};
 use crate::pose::V3;
-use crate::robot::{Form, FormKind, Link, Robot};
+use crate::robot::{self, Form, FormKind, Link, Robot};
 use crate::source::Read;
 use std::collections::HashMap;
 
@@ -62,12 +62,7 @@ fn colour(material: &Element) -> Read<Option<[f64; 4]>> {
     let Some(rgba) = material.child("color").and_then(|color| color.attribute("rgba")) else {
         return Ok(None);
     };
-    // some files write three numbers, and some write nothing: a colour is for the eye alone
-    Ok(match rgba.list()?[..] {
-        [r, g, b] => Some([r, g, b, 1.0]),
-        [r, g, b, a] => Some([r, g, b, a]),
-        _ => None,
-    })
+    Ok(robot::colour(&rgba.list()?))
 }
 
 /// The forms of `visual` that are drawn; meshes are not.
@@ -92,14 +87,13 @@ pub(super) fn shapes(
 }
 
 fn form(geometry: &Element) -> Read<Option<FormKind>> {
-    let positive = |sizes: &[f64]| sizes.iter().all(|x| *x > 0.0);
     if let Some(element) = geometry.child("box") {
         let size = element.need("size")?.numbers::<3>()?;
-        return Ok(positive(&size).then_some(FormKind::Box(size)));
+        return Ok(FormKind::Box(size).of_size());
     }
     if let Some(element) = geometry.child("sphere") {
         let radius = element.need("radius")?.number()?;
-        return Ok(positive(&[radius]).then_some(FormKind::Sphere { radius }));
+        return Ok(FormKind::Sphere { radius }.of_size());
     }
     for name in ["cylinder", "capsule"] {
         if let Some(element) = geometry.child(name) {
@@ -109,7 +103,7 @@ fn form(geometry: &Element) -> Read<Option<FormKind>> {
                 "cylinder" => FormKind::Cylinder { radius, length },
                 _ => FormKind::Capsule { radius, length },
             };
-            return Ok(positive(&[radius, length]).then_some(kind));
+            return Ok(kind.of_size());
         }
     }
     Ok(None)

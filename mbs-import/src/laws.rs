@@ -1,0 +1,48 @@
+//! Laws that formats have in common: stops at the ends of a range, and dry friction.
+
+use crate::context::Context;
+use crate::options::Stops;
+use crate::robot::{Coordinate, Law, Robot, Target, What};
+use crate::source::Origin;
+
+/// What becomes of the ends of a joint's range, which the file writes at a place: `own` is stiffness and damping that it writes.
+pub(crate) fn stops(
+    (at, path): (Origin, &str),
+    (name, of): (&str, Coordinate),
+    own: Option<[f64; 2]>,
+    robot: &mut Robot,
+    context: &mut Context<'_>,
+) {
+    let given = match (own, context.options.limits) {
+        (Some(own), _) => Some(Some(own)),
+        (None, None) => None,
+        (None, Some(Stops::ByMass)) => Some(None),
+        (None, Some(Stops::Given { stiffness, damping })) => Some(Some([stiffness, damping])),
+    };
+    let says = match given {
+        _ if own.is_some() => "stops with the stiffness and dissipation that are written",
+        None => "ends without stiffness: kept as the joint's range, which does not act (--limits)",
+        Some(_) => "ends without stiffness in the file: stops as --limits says",
+    };
+    context.findings.approximated(at, format!("{path}/limit"), says);
+    if let Some(stiffness) = given {
+        let what = What::RangeLimit { on: Target::Coordinate(of), stiffness };
+        robot.laws.push(Law { name: format!("{name} stops"), what });
+    }
+}
+
+/// Dry friction that is written in `dynamics`; nothing where it is zero.
+pub(crate) fn friction(
+    (at, path): (Origin, &str),
+    (name, of): (&str, Coordinate),
+    coulomb: f64,
+    robot: &mut Robot,
+    context: &mut Context<'_>,
+) {
+    if coulomb > 0.0 {
+        let says = "dry friction falls to zero below a rate of 1e-3";
+        context.findings.approximated(at, format!("{path}/dynamics"), says);
+        let what = What::Friction { on: Target::Coordinate(of), coulomb };
+        robot.laws.push(Law { name: format!("{name} friction"), what });
+    }
+}
