@@ -6,7 +6,7 @@ use crate::findings::{Findings, ModelFinding};
 use crate::format::ModelFormat;
 use crate::lump::{self, Lumps};
 use crate::options::ImportOptions;
-use crate::robot::{Frame, GROUND, Kind, Link, Robot, What};
+use crate::robot::{Frame, GROUND, Kind, Link, Robot, Signal, What};
 use crate::source::{Fault, MOST_BYTES, Origin, Read, Sources};
 use crate::unread::unread;
 use crate::{mjcf, sdf, urdf, write, xml};
@@ -192,7 +192,8 @@ fn frames_of_parts(robot: &mut Robot, lumps: &Lumps) {
 }
 
 fn sizes(robot: &Robot, lumps: &Lumps) -> ModelSizes {
-    let is_input = |what: &What| matches!(what, What::Input { .. } | What::Set { .. });
+    let is_input =
+        |what: &What| matches!(what, What::Input { .. } | What::Signal(Signal::Set { .. }));
     ModelSizes {
         links: robot.links.len() - 1,
         bodies: lumps.lumps.len() - 1,

@@ -3,7 +3,7 @@
 use crate::findings::Findings;
 use crate::inertia::{Mass, SLACK};
 use crate::pose::M3;
-use crate::robot::{GROUND, Kind, Robot};
+use crate::robot::{Kind, Robot};
 use crate::source::{Fault, Read};
 
 /// Radius of gyration below which a mass is a point [m]: far below that of any part, far above what rounding leaves of zero.
@@ -28,7 +28,7 @@ pub(crate) struct Lumps {
 
 /// Joins what `Fixed` joints weld, and checks the inertia of what moves. `balance` mends an impossible one.
 pub(crate) fn lumps(robot: &Robot, balance: bool, findings: &mut Findings) -> Read<Lumps> {
-    let carriers = carriers(robot);
+    let carriers = robot.carriers(|joint| joint.kind == Kind::Fixed);
     let mut found = Lumps { of: vec![0; robot.links.len()], lumps: Vec::new() };
     let mut number = vec![usize::MAX; robot.links.len()];
     for link in 0..robot.links.len() {
@@ -48,23 +48,6 @@ pub(crate) fn lumps(robot: &Robot, balance: bool, findings: &mut Findings) -> Re
         check(robot, lump, balance, findings)?;
     }
     Ok(found)
-}
-
-/// The link that carries each: over fixed joints, from child to parent.
-fn carriers(robot: &Robot) -> Vec<usize> {
-    let mut parent: Vec<usize> = (0..robot.links.len()).collect();
-    let root = |parent: &[usize], mut link: usize| {
-        while parent[link] != link {
-            link = parent[link];
-        }
-        link
-    };
-    for joint in robot.joints.iter().filter(|joint| joint.kind == Kind::Fixed) {
-        let (a, b) = (root(&parent, joint.parent), root(&parent, joint.child));
-        // the ground carries all that is welded to it
-        if b == GROUND { parent[a] = b } else { parent[b] = a }
-    }
-    (0..robot.links.len()).map(|link| root(&parent, link)).collect()
 }
 
 /// Is the inertia one that a body can have?

@@ -187,7 +187,13 @@ pub(crate) enum What {
         stiffness: [f64; 6],
         damping: [f64; 6],
     },
-    /// Signals.
+    Signal(Signal),
+}
+
+/// Signals that formats have.
+#[derive(Debug, Clone)]
+pub(crate) enum Signal {
+    /// Set from outside.
     Set {
         value: f64,
     },
@@ -333,5 +339,22 @@ impl Robot {
         let at = Origin::start_of(source);
         let ground = Link { name: "ground".into(), at, pose: Pose::identity(), mass: None };
         Self { name: name.to_owned(), links: vec![ground], ..Self::default() }
+    }
+
+    /// The link that carries each, over some of the joints, from child to parent. The ground carries all that is joined to it.
+    pub(crate) fn carriers(&self, is_counted: impl Fn(&Joint) -> bool) -> Vec<usize> {
+        fn root(parent: &mut [usize], mut link: usize) -> usize {
+            while parent[link] != link {
+                parent[link] = parent[parent[link]];
+                link = parent[link];
+            }
+            link
+        }
+        let mut parent: Vec<usize> = (0..self.links.len()).collect();
+        for joint in self.joints.iter().filter(|joint| is_counted(joint)) {
+            let (a, b) = (root(&mut parent, joint.parent), root(&mut parent, joint.child));
+            if b == GROUND { parent[a] = b } else { parent[b] = a }
+        }
+        (0..self.links.len()).map(|link| root(&mut parent, link)).collect()
     }
 }

@@ -2,7 +2,7 @@
 
 use crate::lump::Lumps;
 use crate::pose::{M3, V3};
-use crate::robot::{Form, FormKind, GROUND, Joint, Kind, Robot, Target, Term, What};
+use crate::robot::{Form, FormKind, GROUND, Joint, Kind, Robot, Signal, Target, Term, What};
 use mbs_scene::quoted;
 use std::fmt::Write;
 
@@ -226,35 +226,28 @@ impl Writer<'_> {
     fn laws(&mut self) {
         let robot = self.robot;
         for law in &robot.laws {
-            match &law.what {
-                What::Set { .. }
-                | What::Constant { .. }
-                | What::Measure { .. }
-                | What::MeasureLine { .. }
-                | What::Sum { .. }
-                | What::Clamp { .. }
-                | What::Lag { .. } => {
-                    self.signal_law(&law.name, &law.what);
-                }
-                what => self.effect_law(&law.name, what),
-            }
+            self.law(&law.name, &law.what);
         }
     }
 
-    fn effect_law(&mut self, name: &str, what: &What) {
+    fn numbers(&mut self, keys: &[(&str, f64)]) {
+        for (key, x) in keys {
+            self.key(key, number(*x));
+        }
+    }
+
+    fn law(&mut self, name: &str, what: &What) {
         match what {
             What::Spring { on, stiffness, damping, free } => {
                 self.effect(name, "torsion-spring", on);
-                self.key("stiffness", number(*stiffness));
-                self.key("damping", number(*damping));
+                self.numbers(&[("stiffness", *stiffness), ("damping", *damping)]);
                 if *free != 0.0 {
                     self.key("free_value", number(*free));
                 }
             }
             What::Pull { on, stiffness, free } => {
                 self.effect(name, "torsion-spring", on);
-                self.key("stiffness", number(*stiffness));
-                self.key("free_value", number(*free));
+                self.numbers(&[("stiffness", *stiffness), ("free_value", *free)]);
                 self.key("pulls_only", "true");
             }
             What::Friction { on, coulomb } => {
@@ -263,42 +256,23 @@ impl Writer<'_> {
             }
             What::Rotor { on, inertia } => {
                 self.effect(name, "rotor", on);
-                self.key("inertia", number(*inertia));
-                self.key("ratio", "1.0");
+                self.numbers(&[("inertia", *inertia), ("ratio", 1.0)]);
             }
             What::Limit { on, lower, upper, stiffness, damping } => {
                 self.effect(name, "limit", on);
-                for (key, value) in [
-                    ("lower", lower),
-                    ("upper", upper),
-                    ("stiffness", stiffness),
-                    ("damping", damping),
-                ] {
-                    self.key(key, number(*value));
-                }
+                self.numbers(&[("lower", *lower), ("upper", *upper)]);
+                self.numbers(&[("stiffness", *stiffness), ("damping", *damping)]);
             }
-            _ => self.drive(name, what),
-        }
-    }
-
-    /// Stops by a joint's own range, and what is given as a force.
-    fn drive(&mut self, name: &str, what: &What) {
-        match what {
             What::RangeLimit { on, stiffness } => {
                 self.effect(name, "limit", on);
                 self.key("range", "true");
                 if let Some([stiffness, damping]) = stiffness {
-                    self.key("stiffness", number(*stiffness));
-                    self.key("damping", number(*damping));
+                    self.numbers(&[("stiffness", *stiffness), ("damping", *damping)]);
                 }
             }
-            What::Held { on, value } => {
-                self.effect(name, word_of_drive(on), on);
-                self.value(on, *value);
-            }
+            What::Held { on, value } => self.drive(name, on, *value),
             What::Input { on, value } => {
-                self.effect(name, word_of_drive(on), on);
-                self.value(on, *value);
+                self.drive(name, on, *value);
                 self.key("input", "true");
             }
             What::Driven { on, signal } => {
@@ -306,42 +280,51 @@ impl Writer<'_> {
                 self.key("signal", quoted(signal));
             }
             What::Bushing { links, place, stiffness, damping } => {
-                let bodies = links.map(|link| self.body(link)).join(", ");
-                self.table("effect");
-                self.key("name", quoted(name));
-                self.key("kind", quoted("bushing"));
-                self.key("bodies", format!("[{bodies}]"));
-                self.key("at", vector(place));
-                self.key("stiffness", list(*stiffness));
-                self.key("damping", list(*damping));
+                self.bushing(name, (*links, place), [stiffness, damping]);
             }
-            _ => {}
+            What::Signal(signal) => self.signal_law(name, signal),
         }
     }
 
-    fn value(&mut self, on: &Target, value: f64) {
+    fn bushing(
+        &mut self,
+        name: &str,
+        (links, place): ([usize; 2], &V3),
+        [stiffness, damping]: [&[f64; 6]; 2],
+    ) {
+        let bodies = links.map(|link| self.body(link)).join(", ");
+        self.table("effect");
+        self.key("name", quoted(name));
+        self.key("kind", quoted("bushing"));
+        self.key("bodies", format!("[{bodies}]"));
+        self.key("at", vector(place));
+        self.key("stiffness", list(*stiffness));
+        self.key("damping", list(*damping));
+    }
+
+    /// A force or moment of a value.
+    fn drive(&mut self, name: &str, on: &Target, value: f64) {
+        self.effect(name, word_of_drive(on), on);
         match on {
             Target::Coordinate(_) | Target::Sum(_) => self.key("value", number(value)),
-            Target::Point { direction, .. } => {
-                self.key("value", vector(&(direction * value)));
-            }
+            Target::Point { direction, .. } => self.key("value", vector(&(direction * value))),
         }
     }
 
-    fn signal_law(&mut self, name: &str, what: &What) {
-        match what {
-            What::Set { value } => {
+    fn signal_law(&mut self, name: &str, signal: &Signal) {
+        match signal {
+            Signal::Set { value } => {
                 self.signal(name, "input");
                 self.key("value", number(*value));
             }
-            What::Measure { of, is_rate } => {
+            Signal::Measure { of, is_rate } => {
                 self.signal(name, "measure");
                 self.target(&Target::Coordinate(of.clone()));
                 if *is_rate {
                     self.key("quantity", quoted("rate"));
                 }
             }
-            What::MeasureLine { line, is_rate } => {
+            Signal::MeasureLine { line, is_rate } => {
                 let points = self.line_points(line);
                 self.signal(name, "measure");
                 self.key("points", points);
@@ -349,28 +332,27 @@ impl Writer<'_> {
                     self.key("quantity", quoted("rate"));
                 }
             }
-            What::Constant { value } => {
+            Signal::Constant { value } => {
                 self.signal(name, "constant");
                 self.key("value", number(*value));
             }
-            What::Sum { of } => {
+            Signal::Sum { of } => {
                 self.signal(name, "sum");
                 let names: Vec<_> = of.iter().map(|(name, _)| quoted(name)).collect();
                 self.key("of", format!("[{}]", names.join(", ")));
                 self.key("factors", list(of.iter().map(|(_, factor)| *factor)));
             }
-            What::Clamp { of, lower, upper } => {
+            Signal::Clamp { of, lower, upper } => {
                 self.signal(name, "clamp");
                 self.key("of", quoted(of));
                 self.key("lower", number(*lower));
                 self.key("upper", number(*upper));
             }
-            What::Lag { of, time } => {
+            Signal::Lag { of, time } => {
                 self.signal(name, "lag");
                 self.key("of", quoted(of));
                 self.key("time", number(*time));
             }
-            _ => {}
         }
     }
 

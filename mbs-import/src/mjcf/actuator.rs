@@ -3,7 +3,7 @@
 use super::defaults::is_actuator;
 use super::model::{Model, Motion, Tendon};
 use crate::element::Element;
-use crate::robot::{Target, Term, What};
+use crate::robot::{Signal, Target, Term, What};
 use crate::source::Read;
 
 /// An actuator: force = gain u + b₀ + b₁ l + b₂ l̇ of its length l.
@@ -335,13 +335,14 @@ fn laws(name: &str, actuator: &Actuator, pulled: &Transmission, model: &mut Mode
         return;
     }
     model.inputs.push(Some((model.robot.laws.len(), 1.0)));
-    let mut signal = model.law(name, What::Set { value: 0.0 });
+    let mut signal = model.signal(name, Signal::Set { value: 0.0 });
     if let Some([lower, upper]) = control {
-        signal = model.law(&format!("{name} control"), What::Clamp { of: signal, lower, upper });
+        signal =
+            model.signal(&format!("{name} control"), Signal::Clamp { of: signal, lower, upper });
     }
     if actuator.lags() {
-        signal =
-            model.law(&format!("{name} activation"), What::Lag { of: signal, time: actuator.time });
+        signal = model
+            .signal(&format!("{name} activation"), Signal::Lag { of: signal, time: actuator.time });
     }
     let mut sum = vec![(signal, gain)];
     if has_bias {
@@ -351,15 +352,18 @@ fn laws(name: &str, actuator: &Actuator, pulled: &Transmission, model: &mut Mode
     let clamp = force.is_some();
     let share = if clamp { 1.0 } else { gear };
     let of: Vec<_> = sum.into_iter().map(|(signal, factor)| (signal, factor * share)).collect();
-    signal = model.law(&format!("{name} force"), What::Sum { of });
+    signal = model.signal(&format!("{name} force"), Signal::Sum { of });
     if let Some([lower, upper]) = force {
-        signal = model.law(&format!("{name} limited"), What::Clamp { of: signal, lower, upper });
+        signal =
+            model.signal(&format!("{name} limited"), Signal::Clamp { of: signal, lower, upper });
         if gear != 1.0 {
-            signal = model.law(&format!("{name} geared"), What::Sum { of: vec![(signal, gear)] });
+            signal =
+                model.signal(&format!("{name} geared"), Signal::Sum { of: vec![(signal, gear)] });
         }
     }
     if let Some([lower, upper]) = pulled.effort {
-        signal = model.law(&format!("{name} effort"), What::Clamp { of: signal, lower, upper });
+        signal =
+            model.signal(&format!("{name} effort"), Signal::Clamp { of: signal, lower, upper });
     }
     model.law(&format!("{name} drive"), What::Driven { on, signal });
 }
@@ -379,7 +383,8 @@ fn add_bias(
     let drawn = if is_line { 0.0 } else { pulled.drawn };
     let constant = bias(0) + bias(1) * gear * drawn;
     if constant != 0.0 {
-        let signal = model.law(&format!("{name} constant"), What::Constant { value: constant });
+        let signal =
+            model.signal(&format!("{name} constant"), Signal::Constant { value: constant });
         sum.push((signal, 1.0));
     }
     for (factor, is_rate, word) in [(bias(1), false, "value"), (bias(2), true, "rate")] {
@@ -390,11 +395,11 @@ fn add_bias(
             let ending =
                 if pulled.terms.len() > 1 { format!(" {}", number + 1) } else { String::new() };
             let what = if term.line.is_empty() {
-                What::Measure { of: term.of.clone(), is_rate }
+                Signal::Measure { of: term.of.clone(), is_rate }
             } else {
-                What::MeasureLine { line: term.line.clone(), is_rate }
+                Signal::MeasureLine { line: term.line.clone(), is_rate }
             };
-            let signal = model.law(&format!("{name} {word}{ending}"), what);
+            let signal = model.signal(&format!("{name} {word}{ending}"), what);
             sum.push((signal, factor * gear * term.factor));
         }
     }

@@ -65,7 +65,8 @@ fn closing(element: &Element, ending: &str, model: &mut Model<'_, '_, '_>) -> Re
         let place = closing_place(element, is_weld, [first, second], model)?;
         ([first, second], place)
     };
-    if model.carrier(ends[0]) == model.carrier(ends[1]) {
+    let carriers = model.robot.carriers(|joint| joint.kind == Kind::Fixed);
+    if carriers[ends[0]] == carriers[ends[1]] {
         let says = "both ends are on one body: there is nothing to hold";
         model.context.findings.ignored(element.at, element.label(), says);
         return Ok(());

@@ -3,7 +3,7 @@
 use super::model::{Model, Motion, Moves};
 use crate::element::{Attribute, Element};
 use crate::pose::{M3, V3, quaternion, v3};
-use crate::robot::{GROUND, Kind, Start, What};
+use crate::robot::{GROUND, Kind, Signal, Start, What};
 use crate::source::{Fault, Origin, Read};
 use mbs_scene::nearest_name;
 
@@ -83,7 +83,7 @@ fn start(key: &Element, model: &mut Model<'_, '_, '_>) -> Read<()> {
         let list = controls.list()?;
         for (input, control) in model.inputs.iter().zip(list) {
             let Some((law, _)) = input else { continue };
-            if let What::Set { value } | What::Input { value, .. } =
+            if let What::Signal(Signal::Set { value }) | What::Input { value, .. } =
                 &mut model.robot.laws[*law].what
             {
                 *value = control;

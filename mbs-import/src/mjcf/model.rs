@@ -6,7 +6,7 @@ use crate::context::{Context, Named};
 use crate::element::{Attribute, Element};
 use crate::inertia::Mass;
 use crate::pose::{Pose, V3};
-use crate::robot::{Coordinate, GROUND, Kind, Law, Robot, Target, Term, What};
+use crate::robot::{Coordinate, GROUND, Law, Robot, Signal, Target, Term, What};
 use crate::source::{Origin, Read};
 use std::collections::{HashMap, HashSet};
 
@@ -180,6 +180,11 @@ impl<'a, 'b, 'c> Model<'a, 'b, 'c> {
         name
     }
 
+    /// Adds a signal; its name.
+    pub(super) fn signal(&mut self, wanted: &str, signal: Signal) -> String {
+        self.law(wanted, What::Signal(signal))
+    }
+
     /// Keeps a name with the ending that `replicate` gives it.
     pub(super) fn copied(&mut self, name: &str, ending: &str) -> String {
         if !ending.is_empty() {
@@ -199,17 +204,6 @@ impl<'a, 'b, 'c> Model<'a, 'b, 'c> {
         }
         let number = self.bodies.find_copy(word, ending, name.at)?;
         Ok(self.body_links[number])
-    }
-
-    /// The link that carries a link, over welds.
-    pub(super) fn carrier(&self, mut link: usize) -> usize {
-        // a weld stands before those of the links that hang on it
-        for joint in self.robot.joints.iter().rev() {
-            if joint.kind == Kind::Fixed && joint.child == link {
-                link = joint.parent;
-            }
-        }
-        link
     }
 
     /// A place by its name.

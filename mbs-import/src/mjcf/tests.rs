@@ -3,7 +3,7 @@
 use crate::context::Context;
 use crate::findings::Findings;
 use crate::options::ImportOptions;
-use crate::robot::{Kind, Robot, Target, What};
+use crate::robot::{Kind, Robot, Signal, Target, What};
 use crate::source::Sources;
 
 /// Rounding of turned tensors of size one.
@@ -222,15 +222,17 @@ fn a_position_actuator_has_the_force_of_qfrc_actuator_as_drawn() {
 <body><geom size=".1"/><joint name="a" ref="0.5"/></body></worldbody>
 <actuator><position name="p" joint="a" gear="2" ctrlrange="-1 1"/><motor name="m" joint="a" gear="3" forcerange="-1 1"/></actuator></mujoco>"#;
     let robot = robot(text);
-    let What::Sum { of } = law(&robot, "p force") else { panic!("no sum") };
-    let What::Constant { value } = law(&robot, "p constant") else { panic!("no constant") };
+    let What::Signal(Signal::Sum { of }) = law(&robot, "p force") else { panic!("no sum") };
+    let What::Signal(Signal::Constant { value }) = law(&robot, "p constant") else {
+        panic!("no constant")
+    };
     let factor = |name: &str| {
         of.iter().find(|(signal, _)| signal == name).map_or(0.0, |(_, factor)| *factor)
     };
     let force = 0.7 * factor("p control") + value * factor("p constant");
     assert!((force - -12.0).abs() < TOLERANCE, "{force}");
     assert_eq!((factor("p value"), factor("p rate")), (-80.0, -12.0));
-    let What::Sum { of } = law(&robot, "m geared") else { panic!("no gear") };
+    let What::Signal(Signal::Sum { of }) = law(&robot, "m geared") else { panic!("no gear") };
     assert_eq!(of[..], [("m limited".to_owned(), 3.0)]);
 }
 

@@ -136,16 +136,15 @@ fn base(models: &[Model<'_>], robot: &mut Robot, context: &Context<'_>) {
         }
     }
     let kind = if context.options.base == Some(BaseKind::Fixed) { Kind::Fixed } else { Kind::Free };
+    let carriers = robot.carriers(|_| true);
     let mut is_held = vec![false; robot.links.len()];
     is_held[GROUND] = true;
-    spread(robot, &mut is_held);
     let mut roots = Vec::new();
-    for link in 1..robot.links.len() {
-        if !is_held[link] {
+    for (link, carrier) in carriers.into_iter().enumerate() {
+        // the first link of those that are joined
+        if !std::mem::replace(&mut is_held[carrier], true) {
             hold(robot, link, kind, "base");
             roots.push(format!("`{}`", robot.links[link].name));
-            is_held[link] = true;
-            spread(robot, &mut is_held);
         }
     }
     robot.notes.push(match (&roots[..], kind) {
@@ -155,21 +154,6 @@ fn base(models: &[Model<'_>], robot: &mut Robot, context: &Context<'_>) {
         }
         (_, _) => format!("Base: {} free: nothing in the file holds it.", roots.join(", ")),
     });
-}
-
-/// All that is joined to what is held is held.
-fn spread(robot: &Robot, is_held: &mut [bool]) {
-    let mut has_changed = true;
-    while has_changed {
-        has_changed = false;
-        for joint in &robot.joints {
-            if is_held[joint.parent] != is_held[joint.child] {
-                is_held[joint.parent] = true;
-                is_held[joint.child] = true;
-                has_changed = true;
-            }
-        }
-    }
 }
 
 /// A joint between the ground and a link.
