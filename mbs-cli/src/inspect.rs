@@ -6,8 +6,8 @@ use crate::scene::SceneArgument;
 use clap::Args;
 use mbs::scene_file::nearest_name;
 use mbs::{
-    Error, InitialCondition, JointId, Matrix, Mechanism, Method, Number, ReadError,
-    SimulationError, Tree, TreeError,
+    Error, FrameMotion, InitialCondition, JointId, Matrix, Mechanism, Method, Number, ReadError,
+    Tree, TreeError,
 };
 use serde_json::{Map, Value, json};
 use std::path::PathBuf;
@@ -70,8 +70,8 @@ fn inspected(arguments: &Arguments) -> Result<Value, Refusal> {
     }
     let file = arguments.scene.document()?;
     let name = file.file().to_owned();
-    let refused = |error: ReadError| Refusal::read("scene-refused", &error);
-    let mut mechanism = Mechanism::of_file(file).map_err(refused)?;
+    let unread = |error: ReadError| Refusal::read("scene-refused", &error);
+    let mut mechanism = Mechanism::of_file(file).map_err(unread)?;
     let given = given(arguments)?;
     if !given.is_empty() {
         // a state is whole: a value of the scene's own start could be in the way of it
@@ -80,9 +80,9 @@ fn inspected(arguments: &Arguments) -> Result<Value, Refusal> {
     for given in &given {
         start(&mut mechanism, given)?;
     }
-    let simulation = mechanism.simulate(&Method::default()).map_err(|error| stopped(&error))?;
-    let mut tree = mechanism.tree().map_err(|error| stopped(&error))?;
-    tree.follow(&simulation).map_err(|error| no_tree(&error))?;
+    let simulation = mechanism.simulate(&Method::default()).map_err(|error| refused(&error))?;
+    let mut tree = mechanism.tree().map_err(|error| refused(&error))?;
+    tree.follow(&simulation).map_err(|error| refused(&error))?;
     let (rows, efforts) = rows(&mechanism, &tree, &given)?;
     let is_asked =
         |word: &str| arguments.what.is_empty() || arguments.what.iter().any(|x| x == word);
@@ -92,19 +92,13 @@ fn inspected(arguments: &Arguments) -> Result<Value, Refusal> {
     object.insert("q".into(), json!(tree.coordinates()));
     object.insert("v".into(), json!(tree.velocities()));
     for word in QUANTITIES.into_iter().filter(|word| is_asked(word)) {
-        let value =
-            quantity(word, &mut tree, &efforts, &mechanism).map_err(|error| no_tree(&error))?;
+        let value = quantity(word, &mut tree, &efforts).map_err(|error| refused(&error))?;
         object.insert(word.replace('-', "_"), value);
     }
     Ok(Value::Object(object))
 }
 
-fn quantity(
-    word: &str,
-    tree: &mut Tree,
-    efforts: &[f64],
-    mechanism: &Mechanism,
-) -> Result<Value, TreeError> {
+fn quantity(word: &str, tree: &mut Tree, efforts: &[f64]) -> Result<Value, TreeError> {
     Ok(match word {
         "accelerations" => json!(tree.forward_dynamics(efforts)?),
         "efforts" => json!(tree.inverse_dynamics(&vec![0.0; efforts.len()])?),
@@ -119,22 +113,18 @@ fn quantity(
                 "linear": momentum.linear, "angular": momentum.angular,
             })
         }
-        _ => frames(tree, mechanism),
+        _ => frames(tree),
     })
 }
 
-fn frames(tree: &mut Tree, mechanism: &Mechanism) -> Value {
-    let mut found = Map::new();
-    for name in mechanism.frame_names() {
-        if let Ok(frame) = tree.frame(&name) {
-            let value = json!({
-                "position": frame.position, "rotation": frame.rotation,
-                "velocity": frame.velocity, "angular_velocity": frame.angular_velocity,
-            });
-            found.insert(name, value);
-        }
-    }
-    Value::Object(found)
+fn frames(tree: &mut Tree) -> Value {
+    let value = |frame: FrameMotion| {
+        json!({
+            "position": frame.position, "rotation": frame.rotation,
+            "velocity": frame.velocity, "angular_velocity": frame.angular_velocity,
+        })
+    };
+    tree.frames().map(|(name, frame)| (name.to_owned(), value(frame))).collect::<Map<_, _>>().into()
 }
 
 fn matrix(matrix: &Matrix) -> Value {
@@ -243,15 +233,12 @@ fn rows(
     Ok((rows, efforts))
 }
 
-fn stopped(error: &SimulationError) -> Refusal {
-    // its text ends with its hint
+/// A state that there is not, or at which nothing can be computed.
+fn refused(error: &impl Error) -> Refusal {
+    // the text of some errors ends with their hint
     let text = error.to_string();
-    let message = text.split("\nhint: ").next().unwrap_or_default().to_owned();
+    let message = text.split("\nhint: ").next().unwrap_or_default();
     Refusal::new("state-refused", message, error.hint().unwrap_or_default())
-}
-
-fn no_tree(error: &TreeError) -> Refusal {
-    Refusal::new("state-refused", error.to_string(), error.hint().unwrap_or_default())
 }
 
 /// The same for people: a line for each row, then what else was asked for.

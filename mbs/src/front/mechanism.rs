@@ -220,13 +220,6 @@ impl Mechanism {
         self
     }
 
-    /// Names of all frames, then those of all bodies: what [`Tree::frame`](crate::Tree::frame) knows.
-    #[must_use]
-    pub fn frame_names(&self) -> Vec<String> {
-        let frames = self.scene.frames.iter().map(|frame| frame.name.clone());
-        frames.chain(self.scene.bodies.iter().map(|body| body.name.clone())).collect()
-    }
-
     /// The name of a part; the ground's is `ground`.
     ///
     /// # Panics

@@ -3,7 +3,7 @@
 
 use super::readings::Readings;
 use super::tree::{Tree, TreeError};
-use super::values::{BodyMotion, Coordinates, Energies, PointMotion, Pose, Sizes, Wrench};
+use super::values::{BodyMotion, Coordinates, Energies, PointMotion, Pose, Sizes, Wrench, rows};
 use crate::simulation::Simulation;
 use crate::stop::StopError;
 use core::borrow::Borrow;
@@ -111,9 +111,7 @@ where
             body,
             self.simulation.borrow().state(),
         );
-        let rotation =
-            core::array::from_fn(|i| core::array::from_fn(|j| rotation[(i, j)].to_f64()));
-        let pose = Pose { position: numbers(position.as_slice()), rotation };
+        let pose = Pose { position: numbers(position.as_slice()), rotation: rows(&rotation) };
         let motion = BodyMotion {
             velocity: numbers(velocity.as_slice()),
             acceleration: numbers(acceleration.as_slice()),

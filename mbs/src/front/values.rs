@@ -3,6 +3,7 @@
 use core::fmt::{self, Debug, Formatter};
 use core::ops::Deref;
 use mbs_core::Real;
+use mbs_core::algebra::Matrix;
 use mbs_core::control::Accepted;
 pub use mbs_core::laws::code::Wrench;
 use mbs_core::outputs::Instant;
@@ -66,6 +67,11 @@ pub struct Pose {
     pub position: [f64; 3],
     /// Rotation from the reference configuration, by rows: the columns are the present directions of what were the global axes.
     pub rotation: [[f64; 3]; 3],
+}
+
+/// A matrix by rows.
+pub(super) fn rows<T: Real>(matrix: &Matrix<T, 3>) -> [[f64; 3]; 3] {
+    core::array::from_fn(|i| core::array::from_fn(|j| matrix[(i, j)].to_f64()))
 }
 
 impl Default for Pose {

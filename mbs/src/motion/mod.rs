@@ -9,6 +9,8 @@ mod road;
 mod shapes;
 mod written;
 
+pub(crate) use pose::frame;
+
 use crate::checkpoint::tape::{Tape, Walked, holds};
 use crate::record::{DrawnBody, N_POSE, RecordedMotion};
 use drawing::Drawing;

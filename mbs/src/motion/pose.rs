@@ -85,6 +85,14 @@ pub(super) fn unit_of(a: [f64; 3]) -> [f64; 3] {
     if length > 0.0 { a.map(|x| x / length) } else { [0.0, 0.0, 1.0] }
 }
 
+/// Unit axes, of which the first is the first and the second lies in the plane of both.
+pub(crate) fn frame([first, second]: [[f64; 3]; 2]) -> [[f64; 3]; 3] {
+    let x = unit_of(first);
+    let along = dot(x, second);
+    let y = unit_of([0, 1, 2].map(|i| second[i] - along * x[i]));
+    [x, y, cross(x, y)]
+}
+
 /// The quaternion of a rotation matrix with these columns, by its largest number.
 pub(super) fn of_axes([x, y, z]: [[f64; 3]; 3]) -> [f64; 4] {
     let squares = [

@@ -1,7 +1,7 @@
 //! Shapes that the scene writes.
 
 use super::drawing::Drawing;
-use super::pose::{cross, dot, unit_of};
+use super::pose::frame;
 use crate::record::{DrawnShape, ShapeForm};
 use mbs_core::Real;
 use mbs_core::scene::{BodyShape, ShapeKind};
@@ -51,11 +51,3 @@ impl<T: Real> Drawing<'_, T> {
 
 /// Axes of a box that writes none: x, y and z [-].
 const GLOBAL: [[f64; 3]; 3] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
-
-/// Unit axes, of which the first is the first and the second lies in the plane of both.
-fn frame([first, second]: [[f64; 3]; 2]) -> [[f64; 3]; 3] {
-    let x = unit_of(first);
-    let along = dot(x, second);
-    let y = unit_of([0, 1, 2].map(|i| second[i] - along * x[i]));
-    [x, y, cross(x, y)]
-}

@@ -1,9 +1,11 @@
 //! Where bodies and frames of a [`Tree`] are, and their momentum.
 
 use super::Tree;
+use super::inner::{Inner, with};
 use crate::front::error::UnknownName;
-use crate::front::values::Pose;
-use mbs_core::algebra::{Matrix, Vector, along, cross};
+use crate::front::values::{Pose, rows};
+use crate::motion::frame;
+use mbs_core::algebra::{Matrix, Vector, cross};
 use mbs_core::cluster::mass_properties;
 use mbs_core::rigid::RigidMotion;
 use mbs_core::scene::BodyId;
@@ -64,23 +66,45 @@ impl Tree {
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn frame(&mut self, name: &str) -> Result<FrameMotion, UnknownName> {
-        let frame = self.scene.frames.iter().find(|frame| frame.name == name);
-        let body = self.scene.bodies.iter().position(|body| body.name == name);
-        let (body, at, axes) = match (frame, body) {
-            (Some(frame), _) => (frame.body, frame.at, axes(frame.axes)),
-            (None, Some(b)) => (BodyId::new(b), self.shares[b].1, axes(None)),
-            (None, None) => {
-                let bodies = self.scene.bodies.iter().map(|body| &body.name);
-                let frames = self.scene.frames.iter().map(|frame| &frame.name);
-                let known = frames.chain(bodies).cloned().collect();
-                return Err(UnknownName { word: "frame", name: name.to_owned(), known });
-            }
+        self.motions();
+        let found = self.placed().find(|(known, _)| *known == name);
+        found.map(|(_, frame)| frame).ok_or_else(|| {
+            let known = self.placed().map(|(name, _)| name.to_owned()).collect();
+            UnknownName { word: "frame", name: name.to_owned(), known }
+        })
+    }
+
+    /// All frames of the scene, then all bodies, each with its name, as [`frame`](Self::frame) has them.
+    ///
+    /// ```
+    /// # let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes/double-pendulum.toml");
+    /// let mut tree = mbs::Mechanism::read(path)?.tree()?;
+    /// let names: Vec<&str> = tree.frames().map(|(name, _)| name).collect();
+    /// assert_eq!(names, ["upper", "lower"]);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn frames(&mut self) -> impl Iterator<Item = (&str, FrameMotion)> {
+        self.motions();
+        self.placed()
+    }
+
+    /// The frames at the motions that were evaluated last.
+    fn placed(&self) -> impl Iterator<Item = (&str, FrameMotion)> {
+        let motions = with!(&self.inner, tree => &tree.motions);
+        let moved = |body: BodyId, at: [f64; 3], axes: &Matrix<f64, 3>| {
+            let at_rest = RigidMotion::at_rest(at.into());
+            let motion = body.index().map_or(at_rest, |b| motions[b]);
+            let [position, velocity, _] = motion.point(&at.into()).map(Into::into);
+            let (rotation, angular_velocity) =
+                (rows(&(motion.rotation * axes)), motion.omega.into());
+            FrameMotion { position, rotation, velocity, angular_velocity }
         };
-        let at_rest = RigidMotion::at_rest(at.into());
-        let motion = body.index().map_or(at_rest, |b| self.motions()[b]);
-        let [position, velocity, _] = motion.point(&at.into()).map(Into::into);
-        let rotation = rows(&(motion.rotation * axes));
-        Ok(FrameMotion { position, rotation, velocity, angular_velocity: motion.omega.into() })
+        let own = self.scene.frames.iter();
+        let own = own.map(move |x| (x.name.as_str(), moved(x.body, x.at, &axes(x.axes))));
+        let bodies = self.scene.bodies.iter().zip(&self.shares);
+        own.chain(bodies.map(move |(x, share)| {
+            (x.name.as_str(), moved(share.0, share.1, &Matrix::<f64, 3>::identity()))
+        }))
     }
 
     /// Momentum of all bodies.
@@ -96,7 +120,8 @@ impl Tree {
     /// ```
     pub fn momentum(&mut self) -> TotalMomentum {
         let center = Vector::<f64, 3>::from(self.center_of_mass().position);
-        let motions = self.motions().to_vec();
+        // the motions are those of the centre of mass
+        let motions = with!(&self.inner, tree => &tree.motions);
         let (mut linear, mut angular) = (Vector::<f64, 3>::zeros(), Vector::<f64, 3>::zeros());
         for (b, motion) in motions.iter().enumerate() {
             let (mass, own, inertia) = mass_properties(&self.scene, b);
@@ -109,16 +134,9 @@ impl Tree {
     }
 }
 
-/// The axes of a frame as columns: the second is made right-angled to the first.
+/// The axes of a frame as columns; those of the scene where it writes none.
 fn axes(axes: Option<[[f64; 3]; 2]>) -> Matrix<f64, 3> {
-    let Some([x, y]) = axes.map(|axes| axes.map(Vector::<f64, 3>::from)) else {
-        return Matrix::<f64, 3>::identity();
-    };
-    let x = along(&x);
-    let y = along(&(y - x * x.dot(&y)));
-    Matrix::<f64, 3>::from_columns(&[x, y, cross(&x, &y)])
-}
-
-fn rows(matrix: &Matrix<f64, 3>) -> [[f64; 3]; 3] {
-    [0, 1, 2].map(|i| [0, 1, 2].map(|j| matrix[(i, j)]))
+    axes.map_or_else(Matrix::<f64, 3>::identity, |axes| {
+        Matrix::<f64, 3>::from_columns(&frame(axes).map(Vector::<f64, 3>::from))
+    })
 }
