@@ -1,9 +1,8 @@
-//! The other way round: efforts from accelerations, the tree's mass matrix, forces through joints.
+//! The other way round: efforts from accelerations, forces through joints.
 //!
 //! ```text
 //! outward   Ż = Żₚ + b z̈ + d
 //! inward    f = M Ż − Q + Σ children,   τ = bᵀ f
-//! mass      M_z: composite inertias, columns b along the path to the ground
 //! ```
 
 use crate::coupled_rows;
@@ -178,47 +177,8 @@ pub(crate) fn add_efforts<T: Real, S: Space<T>>(
     Ok(())
 }
 
-/// The tree's mass matrix by composite inertias, row by row: `mass` has the square of the freedoms, `composite` a place for
-/// each link.
-///
-/// Cost: bodies times depth.
-pub fn mass_matrix<T: Real, S: Space<T>>(
-    links: &[Link<T, S>],
-    placed: &[LinkMotion<T, S>],
-    composite: &mut [ArticulatedInertia<T, S>],
-    n: usize,
-    mass: &mut [T],
-) {
-    passes::inertias(links, placed, composite);
-    mass.fill(T::ZERO);
-    for i in (1..links.len()).rev() {
-        let (before, from) = composite.split_at_mut(i);
-        let inertia = from[0].inertia;
-        let (link, p) = (&links[i], &placed[i]);
-        if link.parent > 0 {
-            S::add_shifted(&mut before[link.parent as usize].inertia, &inertia, &p.arm);
-        }
-        for f in 0..link.kind.n_freedoms::<T, S>() {
-            let mut force = S::times(&inertia, &direction(link, p, f));
-            let (mut j, column) = (i, link.v as usize + f);
-            loop {
-                let (other, q) = (&links[j], &placed[j]);
-                for g in 0..other.kind.n_freedoms::<T, S>() {
-                    let row = other.v as usize + g;
-                    let x = direction(other, q, g).dot(&force);
-                    (mass[row * n + column], mass[column * n + row]) = (x, x);
-                }
-                if other.kind == LinkKind::Free || other.parent == 0 {
-                    break;
-                }
-                force = S::gathered(&force, &q.arm);
-                j = other.parent as usize;
-            }
-        }
-    }
-}
-
 /// The motion of unit rate of one freedom, about the link's origin.
+#[cfg(feature = "alloc")]
 fn direction<T: Real, S: Space<T>>(link: &Link<T, S>, p: &LinkMotion<T, S>, f: usize) -> S::Motion {
     match link.kind {
         LinkKind::Ball | LinkKind::Free if f < S::Spin::N => {

@@ -23,9 +23,9 @@ pub struct NoInertia<T> {
     pub pivot: T,
 }
 
-/// Where a link is and how it moves, from its parent and its joint's coordinates.
+/// Where a link is and how it moves, from its parent and its joint's coordinates; without `MOVES` at rest, and `v` is not read.
 #[inline(always)]
-pub(crate) fn place<T: Real, S: Space<T>>(
+pub(crate) fn place<T: Real, S: Space<T>, const MOVES: bool>(
     link: &Link<T, S>,
     parent: &LinkMotion<T, S>,
     z: &[T],
@@ -34,43 +34,51 @@ pub(crate) fn place<T: Real, S: Space<T>>(
 ) -> Result<LinkMotion<T, S>, Outside> {
     let (zi, vi) = (link.z as usize, link.v as usize);
     let still = |freedom, rotation, arm| {
-        let velocity = S::carried(&parent.velocity, &arm);
-        let spin = S::spin(&parent.velocity);
-        let bias = S::motion(S::Spin::zero(), S::centrifugal(&spin, &arm));
+        let (velocity, bias) = if MOVES {
+            let spin = S::spin(&parent.velocity);
+            let bias = S::motion(S::Spin::zero(), S::centrifugal(&spin, &arm));
+            (S::carried(&parent.velocity, &arm), bias)
+        } else {
+            (S::Motion::zero(), S::Motion::zero())
+        };
         let center = S::rotate(&rotation, &link.center);
         let position = parent.position + arm;
         LinkMotion { rotation, position, arm, freedom, velocity, bias, center }
     };
+    let number = || {
+        if link.kind.is_guided() {
+            return at(guides, vi).copied();
+        }
+        let rate = if MOVES { *at(v, vi)? } else { T::ZERO };
+        Ok([*at(z, zi)?, rate, T::ZERO])
+    };
     Ok(match link.kind {
         LinkKind::Revolute | LinkKind::GuidedRevolute => {
-            let [angle, rate, second] = if link.kind == LinkKind::Revolute {
-                [*at(z, zi)?, *at(v, vi)?, T::ZERO]
-            } else {
-                *at(guides, vi)?
-            };
+            let [angle, rate, second] = number()?;
             // ω = ω_p + n z',   d = (ω_p × n z', ω_p × (ω_p × r))
             let axis = S::rotate_spin(&parent.rotation, &link.axis);
             let rotation = S::turned(&parent.rotation, &link.axis, angle);
             let arm = S::rotate(&parent.rotation, &link.offset);
             let mut p = still(S::motion(axis, S::Point::zero()), rotation, arm);
-            let turning = S::cross_spin(&S::spin(&parent.velocity), &axis) * rate + axis * second;
-            p.velocity += S::motion(axis * rate, S::Point::zero());
-            p.bias += S::motion(turning, S::Point::zero());
+            if MOVES {
+                let spin = S::spin(&parent.velocity);
+                let turning = S::cross_spin(&spin, &axis) * rate + axis * second;
+                p.velocity += S::motion(axis * rate, S::Point::zero());
+                p.bias += S::motion(turning, S::Point::zero());
+            }
             p
         }
         LinkKind::Prismatic | LinkKind::GuidedPrismatic => {
-            let [slide, rate, second] = if link.kind == LinkKind::Prismatic {
-                [*at(z, zi)?, *at(v, vi)?, T::ZERO]
-            } else {
-                *at(guides, vi)?
-            };
+            let [slide, rate, second] = number()?;
             // v = v_p + ω_p × r + e z',   d = (0, ω_p × (ω_p × r) + 2 ω_p × e z')
             let along = S::rotate(&parent.rotation, &link.direction);
             let arm = S::rotate(&parent.rotation, &link.offset) + along * slide;
             let mut p = still(S::motion(S::Spin::zero(), along), parent.rotation, arm);
-            let turning = S::cross(&S::spin(&parent.velocity), &along) * (T::TWO * rate);
-            p.velocity += S::motion(S::Spin::zero(), along * rate);
-            p.bias += S::motion(S::Spin::zero(), turning + along * second);
+            if MOVES {
+                let turning = S::cross(&S::spin(&parent.velocity), &along) * (T::TWO * rate);
+                p.velocity += S::motion(S::Spin::zero(), along * rate);
+                p.bias += S::motion(S::Spin::zero(), turning + along * second);
+            }
             p
         }
         LinkKind::Ball => {
@@ -78,10 +86,13 @@ pub(crate) fn place<T: Real, S: Space<T>>(
             let arm = S::rotate(&parent.rotation, &link.offset);
             let turn = part(z, zi, S::FREE - S::Point::N)?;
             let rotation = S::turned_by(&parent.rotation, turn);
-            let w = S::rotate_spin(&rotation, &read(v, vi)?);
             let mut p = still(S::Motion::zero(), rotation, arm);
-            p.velocity += S::motion(w, S::Point::zero());
-            p.bias += S::motion(S::cross_spin(&S::spin(&parent.velocity), &w), S::Point::zero());
+            if MOVES {
+                let w = S::rotate_spin(&rotation, &read(v, vi)?);
+                p.velocity += S::motion(w, S::Point::zero());
+                let turning = S::cross_spin(&S::spin(&parent.velocity), &w);
+                p.bias += S::motion(turning, S::Point::zero());
+            }
             p
         }
         LinkKind::GuidedBall => guided_ball(link, parent, guides)?,
@@ -89,9 +100,11 @@ pub(crate) fn place<T: Real, S: Space<T>>(
             let turn = part(z, zi, S::FREE - S::Point::N)?;
             let rotation = S::turned_by(&S::identity(), turn);
             let position: S::Point = read(z, zi + S::FREE - S::Point::N)?;
-            let w = S::rotate_spin(&rotation, &read(v, vi)?);
             let mut p = still(S::Motion::zero(), rotation, position);
-            p.velocity = S::motion(w, read(v, vi + S::Spin::N)?);
+            if MOVES {
+                let w = S::rotate_spin(&rotation, &read(v, vi)?);
+                p.velocity = S::motion(w, read(v, vi + S::Spin::N)?);
+            }
             p
         }
     })

@@ -47,6 +47,8 @@ pub mod loops;
 mod options;
 #[cfg(feature = "alloc")]
 mod order;
+#[cfg(feature = "alloc")]
+pub mod own;
 pub mod passes;
 pub mod plan;
 mod project;

@@ -33,7 +33,25 @@ pub fn kinematics<T: Real, S: Space<T>>(
 ) -> Result<(), Outside> {
     for (i, link) in links.iter().enumerate().skip(1) {
         // Zᵢ = Zₚ + bᵢ żᵢ   [P3 (26)]
-        let here = joint::place(link, at(placed, link.parent as usize)?, z, v, guides)?;
+        let here = joint::place::<T, S, true>(link, at(placed, link.parent as usize)?, z, v, guides)?;
+        *at_mut(placed, i)? = here;
+    }
+    Ok(())
+}
+
+/// Places alone; all velocities and velocity products are zero.
+///
+/// # Errors
+/// [`Outside`] if the tables do not fit each other.
+#[cfg(feature = "alloc")]
+pub(crate) fn positions<T: Real, S: Space<T>>(
+    links: &[Link<T, S>],
+    (z, guides): (&[T], &[[T; 3]]),
+    placed: &mut [LinkMotion<T, S>],
+) -> Result<(), Outside> {
+    for (i, link) in links.iter().enumerate().skip(1) {
+        let parent = at(placed, link.parent as usize)?;
+        let here = joint::place::<T, S, false>(link, parent, z, &[], guides)?;
         *at_mut(placed, i)? = here;
     }
     Ok(())

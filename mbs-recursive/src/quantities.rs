@@ -20,8 +20,6 @@ use crate::state::{TreeState, Workspace};
 use crate::tree::TreeModel;
 use core::ops::Range;
 use mbs_core::Real;
-use mbs_core::algebra::Vector;
-use mbs_core::scene::BodyId;
 use mbs_core::step::StepError;
 
 /// Parts of the efforts M v̇ + c + g.
@@ -105,30 +103,6 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         }
     }
 
-    /// Writes the mass matrix, loops being open, row by row.
-    ///
-    /// Cost: bodies times depth; no allocation.
-    ///
-    /// # Panics
-    /// If `mass` has not the square of the freedoms.
-    pub fn write_mass_matrix(
-        &self,
-        state: &TreeState<T>,
-        workspace: &mut Workspace<T, S>,
-        mass: &mut [T],
-    ) {
-        let mut s = workspace.store();
-        self.place_in(state, &mut s);
-        let n = self.n_freedoms;
-        inverse::mass_matrix(&self.links, s.placed, s.condensed, n, mass);
-        for rotor in &self.rotors {
-            let link = &self.links[rotor.link as usize];
-            if !link.kind.is_guided() {
-                mass[link.v as usize * (n + 1)] += rotor.inertia;
-            }
-        }
-    }
-
     /// Evaluates accelerations and multipliers of a state under efforts along the freedoms and gravity, without effects.
     ///
     /// Cost: one evaluation; no allocation.
@@ -155,38 +129,6 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         state.set_accelerations(s.zdd);
         state.lambda.copy_from_slice(s.lambda);
         Ok(())
-    }
-
-    /// Puts the links where a state has them: what [`add_jacobian`](Self::add_jacobian) sees.
-    ///
-    /// Cost: an outward pass; no allocation.
-    pub fn place(&self, state: &TreeState<T>, workspace: &mut Workspace<T, S>) {
-        self.place_in(state, &mut workspace.store());
-    }
-
-    /// Adds `weight` times the Jacobian of a body's point, which was at `at` in the reference configuration, row by row: of its velocity,
-    /// and where there are six rows of the body's angular velocity; global axes.
-    ///
-    /// Cost: the links on the way to the ground; no allocation.
-    pub fn add_jacobian(
-        &self,
-        (body, at, weight): (BodyId, [T; 3], T),
-        workspace: &mut Workspace<T, S>,
-        rows: &mut [T],
-    ) {
-        let s = workspace.store();
-        let (link, point) = self.seat_point(body, at);
-        let arm = S::rotate(&s.placed[link as usize].rotation, &point);
-        for (k, row) in rows.chunks_exact_mut(self.n_freedoms.max(1)).enumerate() {
-            let mut unit = Vector::<T, 3>::zeros();
-            unit[k % 3] = weight;
-            let wrench = if k < 3 {
-                S::wrench(&arm, &S::point_from(&unit))
-            } else {
-                S::motion(S::spin_from(&unit), S::Point::zero())
-            };
-            own(inverse::add_along(&self.links, s.placed, (link as usize, wrench), row));
-        }
     }
 
     /// Writes the Jacobian of the cut joints' equations row by row: rows times freedoms.

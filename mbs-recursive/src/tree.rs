@@ -427,6 +427,12 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         self.owner_of_link[link]
     }
 
+    /// What a link belongs to, for messages.
+    #[must_use]
+    pub fn owner_of_link(&self, link: usize) -> Owner {
+        self.owner_of_link[link]
+    }
+
     /// What a row belongs to, for messages.
     #[must_use]
     pub fn owner_of_row(&self, row: usize) -> Owner {

@@ -4,6 +4,7 @@ use crate::support::start;
 use mbs_core::scene::{Effect, EffectKind, JointId, JointTorque, Motion, Scene, Signal, TableEnds};
 use mbs_nostd::export::{Collected, bytes};
 use mbs_nostd::{Bounds, Checked, InputError, Options, Planar, Solver, Tables, Unwatched};
+use mbs_recursive::own::OwnFreedoms;
 use mbs_recursive::{Workspace, bounded_step};
 use mbs_testkit::file;
 
@@ -37,7 +38,8 @@ fn a_course_written_for_one_step_acts_in_that_whole_step() {
     let tables = RoomTables::read(&text).expect("a model");
     let flash = Checked::new(&collected.model()).expect("a model");
     let mut mass = [0.0];
-    tree.write_mass_matrix(&begin, &mut Workspace::new(&tree), &mut mass);
+    let mut freedoms = OwnFreedoms::of_tree(&tree);
+    freedoms.write_mass_matrix(&tree, &begin, &mut Workspace::new(&tree), &mut mass);
     let h = 1e-3;
     for model in [flash, tables.model()] {
         let mut solver = Room::new(&model).expect("room");

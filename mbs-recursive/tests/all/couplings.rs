@@ -6,6 +6,7 @@ use mbs_core::natural::NaturalModel;
 use mbs_core::scene::{
     Coupling, CouplingMeasure, CouplingTerm, Dimension, Freedom, JointId, Scene,
 };
+use mbs_recursive::own::OwnFreedoms;
 use mbs_recursive::space::Space;
 use mbs_recursive::{EffortTerms, Planar, Spatial, TreeError, TreeModel};
 use mbs_testkit::Random;
@@ -117,7 +118,8 @@ fn apart_from_saddle<S: Space<f64>>(scene: &Scene<f64>, seed: u64) -> f64 {
     }
     let (a, state) = (run.state.a.clone(), &mut run.state);
     let mut mass = vec![0.0; n * n];
-    run.model.write_mass_matrix(state, &mut run.workspace, &mut mass);
+    let mut freedoms = OwnFreedoms::of_tree(&run.model);
+    freedoms.write_mass_matrix(&run.model, state, &mut run.workspace, &mut mass);
     state.a.fill(0.0);
     let mut bias = vec![0.0; n];
     let terms = EffortTerms::WithoutEffects;

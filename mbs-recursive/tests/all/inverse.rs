@@ -4,6 +4,7 @@ use crate::support::{Run, random};
 use mbs_core::algebra::Vector;
 use mbs_core::outputs::Reactions;
 use mbs_core::scene::{Dimension, Scene};
+use mbs_recursive::own::OwnFreedoms;
 use mbs_recursive::space::Space;
 use mbs_recursive::{EffortTerms, Planar, Spatial};
 use mbs_testkit::{file, start};
@@ -27,7 +28,8 @@ fn check_tree<S: Space<f64>>(scene: &Scene<f64>, seed: u64) {
     let bias = inverse(&mut run);
     mbs_testkit::close("efforts of free motion", &free, &vec![0.0; n], ROUNDING * largest(&bias));
     let mut mass = vec![f64::NAN; n * n];
-    run.model.write_mass_matrix(&run.state, &mut run.workspace, &mut mass);
+    let mut freedoms = OwnFreedoms::of_tree(&run.model);
+    freedoms.write_mass_matrix(&run.model, &run.state, &mut run.workspace, &mut mass);
     let product: Vec<f64> =
         (0..n).map(|i| mbs_testkit::dot(&mass[i * n..(i + 1) * n], &a) + bias[i]).collect();
     mbs_testkit::close("M a + bias", &product, &vec![0.0; n], ROUNDING * largest(&bias));

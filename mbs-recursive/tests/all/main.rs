@@ -4,6 +4,7 @@ mod support;
 
 mod agreement;
 mod couplings;
+mod derivatives;
 mod double_double;
 mod effects;
 mod inverse;

@@ -50,4 +50,5 @@ mod sums;
 mod threads;
 mod tooth_forces;
 mod tree;
+mod tree_derivatives;
 mod vehicle;

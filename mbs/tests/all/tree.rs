@@ -18,7 +18,7 @@ const DIFFERENCES: f64 = 1e-6;
 /// What steps leave open of the joints.
 const FOLLOWED: f64 = 1e-8;
 
-fn tree(scene: &Scene<f64>) -> Tree {
+pub(crate) fn tree(scene: &Scene<f64>) -> Tree {
     Tree::new(scene).unwrap_or_else(|e| panic!("{}: {e}", scene.name))
 }
 
@@ -34,7 +34,7 @@ fn reversed(mut scene: Scene<f64>) -> Scene<f64> {
 }
 
 /// A body with a free joint off its centre, and a body on it by a joint.
-fn floating(dimension: Dimension) -> Scene<f64> {
+pub(crate) fn floating(dimension: Dimension) -> Scene<f64> {
     let mut scene = random::tree(3, dimension, 2);
     scene.bodies[1].center = [0.8, -0.3, 0.0];
     scene.joints[0].kind = JointKind::Free;
@@ -55,7 +55,7 @@ fn trees() -> impl Iterator<Item = Scene<f64>> {
 }
 
 /// Trees of all joints, with their bodies in both orders.
-fn mechanisms() -> Vec<Scene<f64>> {
+pub(crate) fn mechanisms() -> Vec<Scene<f64>> {
     let mut all: Vec<_> = trees().chain(BOTH.map(floating)).collect();
     // A body that nothing holds, which has no joint.
     all[7].joints.remove(0);
@@ -65,7 +65,7 @@ fn mechanisms() -> Vec<Scene<f64>> {
 }
 
 /// A tree at a random state; quaternions need not be unit.
-fn wandering(scene: &Scene<f64>, seed: u64) -> Tree {
+pub(crate) fn wandering(scene: &Scene<f64>, seed: u64) -> Tree {
     let (mut tree, mut random) = (tree(scene), Random::new(seed));
     let [n_q, n] = [tree.coordinates().len(), tree.velocities().len()];
     let (q, v) = (random.vector(n_q, n_q, 1.0), random.vector(n, n, 2.0));
@@ -372,6 +372,12 @@ fn nothing_allocates_after_the_first_calls_and_a_tree_can_be_sent_and_cloned() {
             let body = BodyId::Body(0);
             let _ = (tree.point_jacobian(body, [0.1; 3]).rows, tree.frame_jacobian(body).rows);
             let _ = (tree.center_of_mass_jacobian().rows, tree.center_of_mass());
+            let _ = tree.jacobian_rate_at(body, [0.1; 3]).rows;
+            if tree.loop_jacobian().rows == 0 {
+                let is_open = tree.inverse_dynamics_derivatives(&v).is_ok()
+                    && tree.forward_dynamics_derivatives(&v).is_ok();
+                assert!(is_open && tree.mobility_at(body, [0.1; 3]).is_ok(), "{}", scene.name);
+            }
         };
         all();
         let before = allocations::count();

@@ -1,7 +1,7 @@
 //! Matrices, efforts and Jacobians of a [`Tree`].
 
 use super::inner::{Inner, Typed, with};
-use super::{Matrix, Tree, TreeError, TreeErrorKind, Weighted, checked};
+use super::{Matrix, Tree, TreeError, TreeErrorKind, checked};
 use crate::front::values::PointMotion;
 use crate::stop::StopError;
 use mbs_core::algebra::Vector;
@@ -23,16 +23,10 @@ impl Tree {
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn mass_matrix(&mut self) -> &Matrix {
-        let n = self.v.len();
-        let rows = &mut self.rows[..n * n];
-        with!(&mut self.inner, t => t.model.write_mass_matrix(&t.state, &mut t.workspace, rows));
-        self.mass.take_rows(&self.layout, &self.rows);
-        for i in 0..n {
-            for j in 0..n {
-                self.rows[j * n + i] = self.mass.data[i * n + j];
-            }
-        }
-        self.mass.take_rows(&self.layout, &self.rows);
+        let mass = &mut self.mass.data;
+        with!(&mut self.inner, t => {
+            t.own.write_mass_matrix(&t.model, &t.state, &mut t.workspace, mass);
+        });
         &self.mass
     }
 
@@ -148,7 +142,7 @@ impl Tree {
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn point_jacobian(&mut self, body: BodyId, at: [f64; 3]) -> &Matrix {
-        self.jacobian(3, Some((body, at, 1.0)))
+        self.jacobian(3, body, at)
     }
 
     /// Of the velocity of a body's centre of mass (rows 0 to 2) and of its angular velocity (3 to 5): 6 × n, global axes.
@@ -164,7 +158,7 @@ impl Tree {
     /// ```
     pub fn frame_jacobian(&mut self, body: BodyId) -> &Matrix {
         let center = body.index().map_or([0.0; 3], |b| self.shares[b].1);
-        self.jacobian(6, Some((body, center, 1.0)))
+        self.jacobian(6, body, center)
     }
 
     /// Of the velocity of the centre of mass of all bodies: 3 × n, global axes.
@@ -177,7 +171,12 @@ impl Tree {
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn center_of_mass_jacobian(&mut self) -> &Matrix {
-        self.jacobian(3, None)
+        self.jacobian.resize_rows(3);
+        let (to, total) = (&mut self.jacobian.data, self.total);
+        with!(&mut self.inner, t => {
+            t.own.write_center_jacobian(&t.model, (&t.state, total), &mut t.workspace, to);
+        });
+        &self.jacobian
     }
 
     /// Motion of a body's point, which was at `at` in the reference configuration [m]. The acceleration is that of v̇ = 0, J̇ v: add the
@@ -228,23 +227,18 @@ impl Tree {
         })
     }
 
-    /// Of a point, or of the centre of mass.
-    fn jacobian(&mut self, rows: usize, point: Option<Weighted>) -> &Matrix {
+    /// Of a point.
+    pub(super) fn jacobian(&mut self, rows: usize, body: BodyId, at: [f64; 3]) -> &Matrix {
         self.jacobian.resize_rows(rows);
-        let to = &mut self.rows[..rows * self.v.len()];
-        to.fill(0.0);
-        with!(&mut self.inner, tree => {
-            tree.model.place(&tree.state, &mut tree.workspace);
-            for &point in point.as_ref().map_or(&self.shares[..], std::slice::from_ref) {
-                tree.model.add_jacobian(point, &mut tree.workspace, to);
-            }
+        let to = &mut self.jacobian.data;
+        with!(&mut self.inner, t => {
+            t.own.write_jacobian(&t.model, (&t.state, body, at), &mut t.workspace, to);
         });
-        self.jacobian.take_rows(&self.layout, &self.rows);
         &self.jacobian
     }
 
     /// Sets the accelerations of the state: those given, or v̇ = 0.
-    fn accelerations(&mut self, own: Option<&[f64]>) {
+    pub(super) fn accelerations(&mut self, own: Option<&[f64]>) {
         let state = self.inner.state();
         match own {
             Some(own) => self.layout.accelerations_inward(own, &mut state.a),
@@ -261,7 +255,7 @@ impl Tree {
     }
 
     /// Accelerations under efforts, into the state.
-    fn accelerate(&mut self, effort: Option<&[f64]>) -> Result<(), TreeError> {
+    pub(super) fn accelerate(&mut self, effort: Option<&[f64]>) -> Result<(), TreeError> {
         self.layout.efforts_inward(effort.unwrap_or(&self.zero), &mut self.tree);
         let (efforts, names) = (&self.tree, &self.names);
         with!(&mut self.inner, tree => {

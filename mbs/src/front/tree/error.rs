@@ -23,6 +23,10 @@ pub enum TreeErrorKind {
     NoTree(StopError),
     /// No accelerations follow from the efforts.
     NoAccelerations(StopError),
+    /// What is asked is of open trees alone, and the joint closes a loop.
+    Loops(&'static str),
+    /// No forces move the frame in some direction: it has no inertia there, because the joints do not move it so.
+    Held,
     /// The joint closes a loop: its equations are rows of the loop Jacobian.
     Cut,
     /// The joint follows its guide.
@@ -61,6 +65,16 @@ impl TreeError {
                 "no-accelerations",
                 "leave this position, in which loops are singular; check that q and v close them: `follow` a simulation there",
                 format!("no accelerations follow from the efforts: {reason}"),
+            ),
+            Kind::Loops(what) => (
+                "closed-loops",
+                "take differences of the accelerations, or leave out the joints that close loops",
+                format!("{what} are of open trees, and this joint closes a loop"),
+            ),
+            Kind::Held => (
+                "held-frame",
+                "ask for `frame_mobility`, its inverse, which every position has",
+                "the joints do not move the frame in every direction: it has no inertia there".into(),
             ),
             Kind::Cut => {
                 let hint = "use `loop_jacobian`, or coordinates of another joint of the loop";

@@ -1,8 +1,10 @@
 //! A tree with its state in the coordinates of its links, in the plane or in space.
 
+use super::layout::Layout;
 use crate::stop::StopError;
 use mbs_core::rigid::RigidMotion;
 use mbs_core::scene::{Dimension, Scene};
+use mbs_recursive::own::{MovingColumns, OwnFreedoms};
 use mbs_recursive::space::Space;
 use mbs_recursive::{Planar, Spatial, TreeModel, TreeState, Workspace};
 
@@ -20,6 +22,9 @@ pub(super) struct Typed<S: Space<f64>> {
     pub(super) workspace: Workspace<f64, S>,
     pub(super) state: TreeState<f64>,
     pub(super) motions: Vec<RigidMotion<f64>>,
+    pub(super) own: OwnFreedoms<f64, S>,
+    /// From the first call that asks for derivatives.
+    pub(super) moving: Option<MovingColumns<f64>>,
 }
 
 /// Does the same in either dimension.
@@ -35,10 +40,16 @@ pub(super) use with;
 
 impl Inner {
     /// The tree of a scene, at rest in the reference configuration.
-    pub(super) fn new(scene: &Scene<f64>) -> Result<Self, StopError> {
+    pub(super) fn new(scene: &Scene<f64>) -> Result<(Self, Layout), StopError> {
         Ok(match scene.dimension {
-            Dimension::Planar => Self::Planar(Box::new(Typed::new(scene)?)),
-            Dimension::Spatial => Self::Spatial(Box::new(Typed::new(scene)?)),
+            Dimension::Planar => {
+                let (typed, layout) = Typed::new(scene)?;
+                (Self::Planar(Box::new(typed)), layout)
+            }
+            Dimension::Spatial => {
+                let (typed, layout) = Typed::new(scene)?;
+                (Self::Spatial(Box::new(typed)), layout)
+            }
         })
     }
 
@@ -48,10 +59,12 @@ impl Inner {
 }
 
 impl<S: Space<f64>> Typed<S> {
-    fn new(scene: &Scene<f64>) -> Result<Self, StopError> {
+    fn new(scene: &Scene<f64>) -> Result<(Self, Layout), StopError> {
         let model = TreeModel::new(scene).map_err(StopError::tree)?;
+        let layout = Layout::new(scene, &model);
+        let own = OwnFreedoms::new(&model, &layout.freedoms(model.n_links()));
         let (workspace, state) = (Workspace::new(&model), TreeState::at_rest(&model));
         let motions = scene.bodies.iter().map(|b| RigidMotion::at_rest(b.center.into())).collect();
-        Ok(Self { model, workspace, state, motions })
+        Ok((Self { model, workspace, state, motions, own, moving: None }, layout))
     }
 }

@@ -12,8 +12,9 @@
 //! v = B w with B of the present position; v̇ = B ẇ + b, efforts go by the transposes. All other joints are in the same sense either way.
 
 use super::{TreeError, TreeErrorKind};
-use mbs_core::algebra::{Matrix, Vector, cross};
+use mbs_core::algebra::{Matrix, Vector, cross, rotation_vector};
 use mbs_core::scene::Scene;
+use mbs_recursive::own::LinkFreedoms;
 use mbs_recursive::space::{Numbers, Space};
 use mbs_recursive::{JointLinks, TreeModel};
 use std::ops::Range;
@@ -26,6 +27,8 @@ type Pair = [V3; 2];
 #[derive(Debug, Clone)]
 struct Place {
     own: TreeRange,
+    /// The link that has it.
+    link: usize,
     /// First of its numbers in z.
     z: usize,
     /// First of what moves and of what turns, in v and in w.
@@ -102,6 +105,8 @@ pub(super) struct Layout {
     /// Numbers of a rotation in q and in v.
     turns: [usize; 2],
     rotation: fn(&[f64]) -> Matrix<f64, 3>,
+    /// Moves the coordinates of a rotation by a rotation vector in its own axes.
+    advance: fn(&mut [f64], &[f64]),
     /// Numbers in q and in v.
     pub(super) n: [usize; 2],
 }
@@ -118,7 +123,8 @@ impl Layout {
         let rotation = |z: &[f64]| S::rotation_into(&S::turned_by(&S::identity(), z));
         let mut joints: Vec<_> = model.joint_links().collect();
         joints.sort_by_key(|joint| (joint.joint.is_none(), joint.joint, joint.body));
-        let mut layout = Self { places: Vec::new(), turns, rotation, n: [0; 2] };
+        let advance = S::advance_rotation;
+        let mut layout = Self { places: Vec::new(), turns, rotation, advance, n: [0; 2] };
         joints.iter().for_each(|joint| layout.add(scene, model, joint));
         layout
     }
@@ -130,11 +136,14 @@ impl Layout {
         joint: &JointLinks<f64>,
     ) {
         let (m, zero) = (model.mechanism(), V3::zeros());
-        let mut links = m.links[joint.links.clone()].to_vec();
+        let mut links: Vec<usize> = joint.links.clone().collect();
         if joint.is_reversed {
             links.reverse();
         }
-        for link in links.iter().filter(|link| !link.kind.is_guided()) {
+        for (i, link) in links.into_iter().map(|i| (i, &m.links[i])) {
+            if link.kind.is_guided() {
+                continue;
+            }
             let ([q, v], w) = (self.n, link.v as usize);
             self.n[0] += link.kind.n_coordinates::<f64, S>();
             self.n[1] += link.kind.n_freedoms::<f64, S>();
@@ -153,6 +162,7 @@ impl Layout {
             };
             self.places.push(Place {
                 own: TreeRange { q: q..self.n[0], v: v..self.n[1] },
+                link: i,
                 z: link.z as usize,
                 at: [[v, v + n], [w + self.turns[1], w]],
                 n,
@@ -161,6 +171,31 @@ impl Layout {
                 pose: is_rotation.then_some(pose),
             });
         }
+    }
+
+    /// Where the freedoms of each link stand, the ground's among them.
+    pub(super) fn freedoms(&self, n_links: usize) -> Vec<LinkFreedoms<f64>> {
+        let zero = V3::zeros();
+        let none = LinkFreedoms {
+            moves: 0,
+            turns: 0,
+            is_reversed: false,
+            point: zero,
+            reference: zero,
+        };
+        let mut links = vec![none; n_links + 1];
+        for place in &self.places {
+            let [moves, turns] = place.at[OWN];
+            let pose = place.pose.as_ref();
+            links[place.link] = LinkFreedoms {
+                moves,
+                turns,
+                is_reversed: pose.is_some_and(|pose| pose.is_reversed),
+                point: pose.map_or(zero, |pose| pose.point),
+                reference: pose.map_or(zero, |pose| pose.reference),
+            };
+        }
+        links
     }
 
     /// Where the numbers of a joint of the tree stand; nothing for a guided one.
@@ -186,19 +221,57 @@ impl Layout {
     /// # Errors
     /// [`TreeErrorKind::NoRotation`] for one without length; nothing is changed then.
     pub(super) fn normalise(&self, from: &[f64], q: &mut [f64]) -> Result<(), TreeError> {
-        let rotations = self.places.iter().filter(|place| place.pose.is_some());
-        let rotations = rotations.map(|place| place.own.q.end - self.turns[0]..place.own.q.end);
-        let quaternions = rotations.filter(|at| at.len() == 4);
-        let length = |at: &Range<usize>| from[at.clone()].iter().map(|x| x * x).sum::<f64>().sqrt();
-        if let Some(at) = quaternions.clone().find(|at| !(length(at) > f64::MIN_POSITIVE)) {
-            return Err(TreeErrorKind::NoRotation(at.start).into());
-        }
+        self.rotations(from)?;
         q.copy_from_slice(from);
-        for at in quaternions {
-            let length = length(&at);
+        for at in self.quaternions() {
+            let length = length(&q[at.clone()]);
             q[at].iter_mut().for_each(|x| *x /= length);
         }
         Ok(())
+    }
+
+    /// Refuses quaternions without length.
+    ///
+    /// # Errors
+    /// [`TreeErrorKind::NoRotation`].
+    pub(super) fn rotations(&self, q: &[f64]) -> Result<(), TreeError> {
+        match self.quaternions().find(|at| !(length(&q[at.clone()]) > f64::MIN_POSITIVE)) {
+            Some(at) => Err(TreeErrorKind::NoRotation(at.start).into()),
+            None => Ok(()),
+        }
+    }
+
+    /// Where quaternions stand in q.
+    fn quaternions(&self) -> impl Iterator<Item = Range<usize>> {
+        let rotations = self.places.iter().filter(|place| place.pose.is_some());
+        let rotations = rotations.map(|place| place.own.q.end - self.turns[0]..place.own.q.end);
+        rotations.filter(|at| at.len() == 4)
+    }
+
+    /// q ⊕ δ, δ along the velocities.
+    pub(super) fn integrate(&self, step: &[f64], q: &mut [f64]) {
+        for place in &self.places {
+            let (step, q) = (&step[place.own.v.clone()], &mut q[place.own.q.clone()]);
+            let n = step.len() - if place.pose.is_some() { self.turns[1] } else { 0 };
+            q[..n].iter_mut().zip(step).for_each(|(q, step)| *q += step);
+            if place.pose.is_some() {
+                (self.advance)(&mut q[n..], &step[n..]);
+            }
+        }
+    }
+
+    /// The δ with which `from` ⊕ δ is `to`; rotations by the shorter way.
+    pub(super) fn difference(&self, from: &[f64], to: &[f64], step: &mut [f64]) {
+        for place in &self.places {
+            let step = &mut step[place.own.v.clone()];
+            let (from, to) = (&from[place.own.q.clone()], &to[place.own.q.clone()]);
+            step.iter_mut().zip(to.iter().zip(from)).for_each(|(step, (to, from))| *step = to - from);
+            if to.len() > step.len() {
+                let n = step.len() - self.turns[1];
+                let relative = (self.rotation)(&from[n..]).transpose() * (self.rotation)(&to[n..]);
+                put(&rotation_vector(&relative), &mut step[n..]);
+            }
+        }
     }
 
     /// z of q.
@@ -313,6 +386,11 @@ fn transposed(map: impl Fn(Pair) -> Pair, [force, moment]: Pair) -> Pair {
         V3::from_fn(|i, _| along(map([unit(i), V3::zeros()]))),
         V3::from_fn(|i, _| along(map([V3::zeros(), unit(i)]))),
     ]
+}
+
+/// The length of a quaternion.
+fn length(q: &[f64]) -> f64 {
+    q.iter().map(|x| x * x).sum::<f64>().sqrt()
 }
 
 /// A vector of the first components.

@@ -1,13 +1,17 @@
 //! [`Tree`]: a mechanism in relative coordinates, at any position and velocity.
 
+mod derivatives;
 mod dynamics;
 mod error;
 mod follow;
+mod frames;
 mod inner;
 mod layout;
+mod manifold;
 mod places;
 mod values;
 
+pub use derivatives::{AccelerationDerivatives, EffortDerivatives};
 pub use error::{TreeError, TreeErrorKind};
 pub use layout::TreeRange;
 pub use places::{FrameMotion, TotalMomentum};
@@ -58,6 +62,8 @@ pub struct Tree {
     layout: Layout,
     /// Centres of mass, each with its part of all mass.
     shares: Vec<Weighted>,
+    /// All mass [kg].
+    total: f64,
     scene: Scene<f64>,
     names: Names,
     q: Vec<f64>,
@@ -71,6 +77,13 @@ pub struct Tree {
     loops: Matrix,
     jacobian: Matrix,
     rows: Vec<f64>,
+    /// Of a frame, 6 × 6.
+    frame: Matrix,
+    /// Columns of a Jacobian.
+    columns: Vec<f64>,
+    /// From the first calls that ask for them.
+    by_effort: Option<Box<AccelerationDerivatives>>,
+    of_effort: Option<Box<EffortDerivatives>>,
 }
 
 impl Tree {
@@ -82,10 +95,9 @@ impl Tree {
     pub fn new(scene: &Scene<f64>) -> Result<Self, TreeError> {
         let names = Names::new(scene);
         let made = Inner::new(scene);
-        let mut inner =
+        let (mut inner, mut layout) =
             made.map_err(|e| TreeError::of_model(TreeErrorKind::NoTree, (e, &names)))?;
-        let (mut layout, rows) =
-            with!(&inner, tree => (Layout::new(scene, &tree.model), tree.model.n_rows()));
+        let rows = with!(&inner, tree => tree.model.n_rows());
         let [n_q, n] = layout.n;
         let (mut q, zero) = (vec![0.0; n_q], vec![0.0; n]);
         layout.coordinates_outward(&inner.state().z, &mut q);
@@ -96,6 +108,7 @@ impl Tree {
         };
         Ok(Self {
             shares: (0..scene.bodies.len()).map(share).collect(),
+            total,
             scene: scene.clone(),
             v: zero.clone(),
             answer: zero.clone(),
@@ -104,7 +117,11 @@ impl Tree {
             mass: Matrix::zeros(n, n),
             loops: Matrix::zeros(rows, n),
             jacobian: Matrix::zeros(6, n),
-            rows: vec![0.0; n * n.max(6).max(rows)],
+            rows: vec![0.0; n * rows],
+            frame: Matrix::zeros(6, 6),
+            columns: Vec::new(),
+            by_effort: None,
+            of_effort: None,
             inner,
             layout,
             names,

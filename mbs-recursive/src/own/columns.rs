@@ -1,0 +1,250 @@
+//! The columns: which there are, and where they stand at a position.
+
+use super::six::{Moments, Six, V3};
+use crate::indexing::own;
+use crate::link::{Link, LinkKind, LinkMotion};
+use crate::loops::index;
+use crate::passes::positions;
+use crate::slices::TreeSlices;
+use crate::space::{Numbers, Space};
+use crate::state::{TreeState, Workspace};
+use crate::tree::TreeModel;
+use alloc::vec;
+use alloc::vec::Vec;
+use core::ops::Range;
+use mbs_core::Real;
+use mbs_core::algebra::Vector;
+
+/// No column.
+pub(super) const NONE: u32 = u32::MAX;
+
+/// Where the freedoms of a link stand in the own order, and from where they are seen.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct LinkFreedoms<T: Real> {
+    /// First number of those that move; of a joint that does not, anything.
+    pub moves: usize,
+    /// First number of those that turn; the number of a joint with one freedom.
+    pub turns: usize,
+    /// Is it the motion of the parent against the child?
+    pub is_reversed: bool,
+    /// A free joint's point on the ground, from the tree's base [m].
+    pub point: Vector<T, 3>,
+    /// A free joint's point on the body, from the link's origin, reference axes [m].
+    pub reference: Vector<T, 3>,
+}
+
+/// A part of a joint whose columns are of one kind.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum PartKind {
+    /// One freedom.
+    Single,
+    /// Turns about axes that the child carries.
+    ChildBall,
+    /// Turns about axes of the parent.
+    ParentBall,
+    /// Slides along axes of the parent.
+    ParentSlides,
+    /// Slides along axes that the child carries.
+    ChildSlides,
+}
+
+/// Columns of one kind that stand side by side.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct ColumnPart<T: Real> {
+    pub(super) link: usize,
+    pub(super) kind: PartKind,
+    pub(super) columns: Range<usize>,
+    /// Is it seen from the ground, as a free joint is?
+    pub(super) is_free: bool,
+    pub(super) point: V3<T>,
+    pub(super) reference: V3<T>,
+}
+
+/// The freedoms of a tree in the joints' own order and sense, with the scratch of what is made by them.
+#[derive(Debug, Clone)]
+pub struct OwnFreedoms<T: Real, S: Space<T>> {
+    pub(super) parts: Vec<ColumnPart<T>>,
+    /// The number of each column in the own order.
+    pub(super) number: Vec<u32>,
+    /// The column before it on the way to the ground.
+    pub(super) up: Vec<u32>,
+    /// The columns of each link.
+    pub(super) of_link: Vec<Range<usize>>,
+    /// The parent of each link; of a free one the ground.
+    pub(super) parent: Vec<usize>,
+    /// Tensors of the links about their origins in reference axes: xx, xy, xz, yy, yz, zz.
+    pub(super) tensors: Vec<[T; 6]>,
+    /// Each column about its link's origin.
+    pub(super) columns: Vec<Six<T>>,
+    pub(super) composite: Vec<Moments<T>>,
+    /// The least pivot of each freedom.
+    pub(super) least: Vec<T>,
+    space: core::marker::PhantomData<S>,
+}
+
+impl<T: Real, S: Space<T>> OwnFreedoms<T, S> {
+    /// The tree's freedoms, seen as `places` says for each link; guided links have none.
+    ///
+    /// # Panics
+    /// If there are not as many places as links, the ground among them.
+    #[must_use]
+    pub fn new(model: &TreeModel<T, S>, places: &[LinkFreedoms<T>]) -> Self {
+        let links = model.mechanism().links;
+        assert_eq!(places.len(), links.len(), "places and links");
+        let mut made = Self {
+            parts: Vec::new(),
+            number: Vec::new(),
+            up: Vec::new(),
+            of_link: vec![0..0; links.len()],
+            parent: links.iter().map(|l| l.parent as usize).collect(),
+            tensors: vec![[T::ZERO; 6]; links.len()],
+            columns: vec![Six::zero(); model.n_freedoms()],
+            composite: vec![Moments::zero(); links.len()],
+            least: vec![T::ZERO; model.n_freedoms()],
+            space: core::marker::PhantomData,
+        };
+        let mut last = vec![NONE; links.len()];
+        for (i, (link, place)) in links.iter().zip(places).enumerate().skip(1) {
+            let is_free = link.kind == LinkKind::Free;
+            if is_free {
+                made.parent[i] = 0;
+            }
+            made.tensors[i] = tensor::<T, S>(&link.tensor);
+            let first = made.number.len();
+            let before = last[made.parent[i]];
+            for (kind, numbers) in parts::<T, S>(link.kind, place) {
+                let columns = made.number.len()..made.number.len() + numbers.len();
+                for number in numbers {
+                    let up = made.number.len().checked_sub(1).filter(|&c| c >= first);
+                    made.up.push(up.map_or(before, index));
+                    made.number.push(index(number));
+                }
+                let (point, reference) = (place.point, place.reference);
+                made.parts.push(ColumnPart { link: i, kind, columns, is_free, point, reference });
+            }
+            made.of_link[i] = first..made.number.len();
+            last[i] = if made.number.len() > first { index(made.number.len() - 1) } else { before };
+        }
+        made
+    }
+
+    /// The tree's freedoms in its own order, as its states have them.
+    #[must_use]
+    pub fn of_tree(model: &TreeModel<T, S>) -> Self {
+        let links = model.mechanism().links.iter();
+        let place = |link: &Link<T, S>| {
+            let (first, zero) = (link.v as usize, V3::zeros());
+            let moves = first + S::Spin::N;
+            LinkFreedoms { moves, turns: first, is_reversed: false, point: zero, reference: zero }
+        };
+        Self::new(model, &links.map(place).collect::<Vec<_>>())
+    }
+
+    /// Puts the links where a state has them, without velocities, and the columns.
+    pub(super) fn place(
+        &mut self,
+        model: &TreeModel<T, S>,
+        state: &TreeState<T>,
+        workspace: &mut Workspace<T, S>,
+    ) {
+        let m = model.mechanism();
+        let s = workspace.store();
+        model.prescribed().write(state.t, &state.applied, s.guides, s.courses);
+        own(positions(m.links, (&state.z, s.guides), s.placed));
+        self.write_columns(&m, s.placed);
+    }
+
+    /// Writes the columns where the links are placed.
+    pub(super) fn write_columns(&mut self, m: &TreeSlices<'_, T, S>, placed: &[LinkMotion<T, S>]) {
+        for part in &self.parts {
+            let columns = &mut self.columns[part.columns.clone()];
+            let p = &placed[part.link];
+            if part.kind == PartKind::Single {
+                columns[0] = six::<T, S>(&p.freedom);
+                continue;
+            }
+            let parent = &placed[m.links[part.link].parent as usize].rotation;
+            for (k, column) in columns.iter_mut().enumerate() {
+                *column = part.column::<S>(k, (p, parent));
+            }
+        }
+    }
+}
+
+impl<T: Real> ColumnPart<T> {
+    /// One of the columns of a ball or of slides, about the link's origin.
+    fn column<S: Space<T>>(
+        &self,
+        k: usize,
+        (p, parent): (&LinkMotion<T, S>, &S::Rotation),
+    ) -> Six<T> {
+        let spin = |rotation: &S::Rotation| {
+            let mut e = S::Spin::zero();
+            e[k] = T::ONE;
+            S::spin_into(&S::rotate_spin(rotation, &e))
+        };
+        // (n, s × n): a turn about a point at s
+        let about = |n: V3<T>, s: V3<T>| Six { turn: n, push: mbs_core::algebra::cross(&s, &n) };
+        let slide = |rotation: &S::Rotation| {
+            let mut e = S::Point::zero();
+            e[k] = T::ONE;
+            Six { turn: V3::zeros(), push: S::point_into(&S::rotate(rotation, &e)) }
+        };
+        let place = || S::point_into(&p.position);
+        match self.kind {
+            PartKind::Single => six::<T, S>(&p.freedom),
+            PartKind::ChildBall => {
+                let s = S::rotate(&p.rotation, &S::point_from(&self.reference));
+                about(spin(&p.rotation), S::point_into(&s))
+            }
+            PartKind::ParentBall if self.is_free => about(-spin(parent), self.point - place()),
+            PartKind::ParentBall => Six { turn: -spin(parent), push: V3::zeros() },
+            PartKind::ParentSlides => slide(parent),
+            PartKind::ChildSlides => -slide(&p.rotation),
+        }
+    }
+}
+
+/// The parts of a link's joint, from the parent outward, with the numbers of their columns.
+fn parts<T: Real, S: Space<T>>(
+    kind: LinkKind,
+    place: &LinkFreedoms<T>,
+) -> impl Iterator<Item = (PartKind, Range<usize>)> + use<T, S> {
+    let turns = place.turns..place.turns + S::Spin::N;
+    let moves = place.moves..place.moves + S::Point::N;
+    let parts = match (kind, place.is_reversed) {
+        (LinkKind::Revolute | LinkKind::Prismatic, _) => {
+            [Some((PartKind::Single, place.turns..place.turns + 1)), None]
+        }
+        (LinkKind::Ball, false) => [Some((PartKind::ChildBall, turns)), None],
+        (LinkKind::Ball, true) => [Some((PartKind::ParentBall, turns)), None],
+        (LinkKind::Free, false) => {
+            [Some((PartKind::ParentSlides, moves)), Some((PartKind::ChildBall, turns))]
+        }
+        (LinkKind::Free, true) => {
+            [Some((PartKind::ParentBall, turns)), Some((PartKind::ChildSlides, moves))]
+        }
+        (LinkKind::GuidedRevolute | LinkKind::GuidedPrismatic | LinkKind::GuidedBall, _) => {
+            [None, None]
+        }
+    };
+    parts.into_iter().flatten()
+}
+
+/// A motion of the plane or of space.
+#[inline(always)]
+pub(super) fn six<T: Real, S: Space<T>>(motion: &S::Motion) -> Six<T> {
+    Six { turn: S::spin_into(&S::spin(motion)), push: S::point_into(&S::point(motion)) }
+}
+
+/// The numbers of a tensor in reference axes; of the plane the one about its normal.
+fn tensor<T: Real, S: Space<T>>(tensor: &S::Tensor) -> [T; 6] {
+    let inertia = S::body_inertia(T::ZERO, &S::Point::zero(), tensor, &S::identity());
+    let column = |k: usize| {
+        let mut e = V3::zeros();
+        e[k] = T::ONE;
+        S::spin_into(&S::turning_block(&inertia, &S::spin_from(&e)))
+    };
+    let [x, y, z] = [column(0), column(1), column(2)];
+    [x[0], y[0], z[0], y[1], z[1], z[2]]
+}

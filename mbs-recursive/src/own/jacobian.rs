@@ -1,0 +1,125 @@
+//! Jacobians of points and frames.
+
+use super::OwnFreedoms;
+use super::moving::MovingColumns;
+use super::six::V3;
+use crate::space::Space;
+use crate::state::{TreeState, Workspace};
+use crate::tree::TreeModel;
+use mbs_core::Real;
+use mbs_core::algebra::cross;
+use mbs_core::scene::BodyId;
+
+impl<T: Real, S: Space<T>> OwnFreedoms<T, S> {
+    /// Writes the Jacobian of a body's point, which was at `at` in the reference configuration, row by row: of its velocity, and where
+    /// there are six rows of the body's angular velocity; global axes.
+    ///
+    /// Cost: an outward pass without velocities, and the links on the way to the ground; no allocation.
+    ///
+    /// # Panics
+    /// If `rows` has not three or six rows.
+    pub fn write_jacobian(
+        &mut self,
+        model: &TreeModel<T, S>,
+        (state, body, at): (&TreeState<T>, BodyId, [T; 3]),
+        workspace: &mut Workspace<T, S>,
+        rows: &mut [T],
+    ) {
+        let n = self.number.len();
+        assert!(rows.len() == 3 * n || rows.len() == 6 * n, "rows of the Jacobian");
+        self.place(model, state, workspace);
+        let placed = workspace.store().placed;
+        rows.fill(T::ZERO);
+        let (link, point) = model.seat_point(body, at);
+        let mut i = link as usize;
+        let mut arm = S::point_into(&S::rotate(&placed[i].rotation, &point));
+        while i > 0 {
+            for c in self.of_link[i].clone() {
+                let column = self.columns[c].at(&arm);
+                put(rows, (n, self.number[c] as usize), [column.push, column.turn]);
+            }
+            arm += S::point_into(&placed[i].arm);
+            i = self.parent[i];
+        }
+    }
+
+    /// Writes the rate of [`write_jacobian`](Self::write_jacobian) at the state's velocities: times the velocities it is the acceleration
+    /// that a point has at constant velocities.
+    ///
+    /// Cost: two outward passes; no allocation.
+    ///
+    /// # Panics
+    /// If `rows` has not three or six rows.
+    pub fn write_jacobian_rate(
+        &mut self,
+        model: &TreeModel<T, S>,
+        (state, body, at): (&TreeState<T>, BodyId, [T; 3]),
+        (workspace, moving): (&mut Workspace<T, S>, &mut MovingColumns<T>),
+        rows: &mut [T],
+    ) {
+        let n = self.number.len();
+        assert!(rows.len() == 3 * n || rows.len() == 6 * n, "rows of the Jacobian");
+        self.move_to(model, state, (workspace, moving));
+        let placed = workspace.store().placed;
+        rows.fill(T::ZERO);
+        let (link, point) = model.seat_point(body, at);
+        let mut i = link as usize;
+        let p = &placed[i];
+        let x = S::point_into(&(p.position + S::rotate(&p.rotation, &point))) - moving.origin;
+        let velocity = moving.motions[i].v.at(&x).push;
+        while i > 0 {
+            for c in self.of_link[i].clone() {
+                let there = &moving.columns[c];
+                // d/dt (S_v + S_ω × x)
+                let rate = there.rate.at(&x);
+                let push = rate.push + cross(&there.column.turn, &velocity);
+                put(rows, (n, self.number[c] as usize), [push, rate.turn]);
+            }
+            i = self.parent[i];
+        }
+    }
+
+    /// Writes the Jacobian of the velocity of the centre of mass, row by row, of bodies of `total` mass.
+    ///
+    /// Cost: an outward pass without velocities, and an inward one; no allocation.
+    ///
+    /// # Panics
+    /// If `rows` has not three rows.
+    pub fn write_center_jacobian(
+        &mut self,
+        model: &TreeModel<T, S>,
+        (state, total): (&TreeState<T>, T),
+        workspace: &mut Workspace<T, S>,
+        rows: &mut [T],
+    ) {
+        let n = self.number.len();
+        assert_eq!(rows.len(), 3 * n, "rows of the Jacobian");
+        self.place(model, state, workspace);
+        let (links, placed) = (model.mechanism().links, workspace.store().placed);
+        rows.fill(T::ZERO);
+        for ((to, link), p) in self.composite.iter_mut().zip(links).zip(&*placed) {
+            (to.mass, to.first) = (link.mass, S::point_into(&p.center) * link.mass);
+        }
+        let part = if total > T::ZERO { T::ONE / total } else { T::ZERO };
+        for i in (1..links.len()).rev() {
+            let (mass, first) = (self.composite[i].mass, self.composite[i].first);
+            for c in self.of_link[i].clone() {
+                let column = &self.columns[c];
+                let moved = (column.push * mass + cross(&column.turn, &first)) * part;
+                put(rows, (n, self.number[c] as usize), [moved, V3::zeros()]);
+            }
+            let parent = &mut self.composite[self.parent[i]];
+            parent.mass += mass;
+            parent.first += first + S::point_into(&placed[i].arm) * mass;
+        }
+    }
+}
+
+/// Writes a column of three or six rows.
+#[inline(always)]
+pub(super) fn put<T: Real>(rows: &mut [T], (n, number): (usize, usize), column: [V3<T>; 2]) {
+    let both = column.iter().flat_map(|half| half.iter());
+    for (row, &x) in rows.chunks_exact_mut(n).zip(both) {
+        row[number] = x;
+    }
+}

@@ -1,0 +1,163 @@
+//! Columns that move: with their rates, about a common point.
+//!
+//! ```text
+//! Ṡ = w × S        w: the motion of what carries the column
+//! Ψ̇ = u × S,   Ψ̈ = u̇ × S + u × Ψ̇        u: the motion of what is at rest while the freedom moves
+//! ```
+//!
+//! A column that the child carries has w behind the joint and u before it; one that the parent carries the other way round.
+
+use super::OwnFreedoms;
+use super::columns::{ColumnPart, PartKind, six};
+use super::mass::moments;
+use super::six::{Six, V3};
+use super::sums::Sums;
+use crate::indexing::own;
+use crate::inverse;
+use crate::link::LinkMotion;
+use crate::passes::kinematics;
+use crate::slices::TreeSlices;
+use crate::space::{Numbers, Space};
+use crate::state::{TreeState, Workspace};
+use crate::tree::TreeModel;
+use alloc::vec;
+use alloc::vec::Vec;
+use mbs_core::Real;
+use mbs_core::algebra::cross;
+
+/// A column S with what its motion and that of its parent make of it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Moving<T: Real> {
+    /// S.
+    pub(super) column: Six<T>,
+    /// Ṡ.
+    pub(super) rate: Six<T>,
+    /// Ψ̇.
+    pub(super) first: Six<T>,
+    /// Ψ̈.
+    pub(super) second: Six<T>,
+    /// Ṡ + Ψ̇.
+    pub(super) both: Six<T>,
+}
+
+/// Velocity and acceleration about the common point.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Motion<T: Real> {
+    pub(super) v: Six<T>,
+    pub(super) a: Six<T>,
+}
+
+/// Scratch of derivatives of one tree.
+#[derive(Debug, Clone)]
+pub struct MovingColumns<T: Real> {
+    pub(super) motions: Vec<Motion<T>>,
+    pub(super) columns: Vec<Moving<T>>,
+    pub(super) sums: Vec<Sums<T>>,
+    /// The common point, from the tree's base.
+    pub(super) origin: V3<T>,
+}
+
+impl<T: Real> MovingColumns<T> {
+    /// Scratch for a tree.
+    #[must_use]
+    pub fn new<S: Space<T>>(model: &TreeModel<T, S>) -> Self {
+        let zero = Six::zero();
+        let column = Moving { column: zero, rate: zero, first: zero, second: zero, both: zero };
+        Self {
+            motions: vec![Motion { v: zero, a: zero }; model.n_links() + 1],
+            columns: vec![column; model.n_freedoms()],
+            sums: vec![Sums::zero(); model.n_links() + 1],
+            origin: V3::zeros(),
+        }
+    }
+}
+
+impl<T: Real, S: Space<T>> OwnFreedoms<T, S> {
+    /// Puts the links where a state has them with its velocities and accelerations, and the columns.
+    pub(super) fn move_to(
+        &mut self,
+        model: &TreeModel<T, S>,
+        state: &TreeState<T>,
+        (workspace, to): (&mut Workspace<T, S>, &mut MovingColumns<T>),
+    ) {
+        let m = model.mechanism();
+        let s = workspace.store();
+        model.prescribed().write(state.t, &state.applied, s.guides, s.courses);
+        own(kinematics(m.links, (&state.z, &state.v, s.guides), s.placed));
+        s.a[0] = S::motion(S::Spin::zero(), -m.gravity);
+        own(inverse::spread(m.links, s.placed, &state.a, s.a));
+        self.write_moving(&m, (s.placed, s.a), to);
+    }
+
+    /// Writes motions, columns and the sums of the single links, where the links move so and have accelerations `a`.
+    ///
+    /// The common point is the first link's origin, so that a vehicle far from the ground's origin loses no digits.
+    fn write_moving(
+        &mut self,
+        m: &TreeSlices<'_, T, S>,
+        (placed, a): (&[LinkMotion<T, S>], &[S::Motion]),
+        to: &mut MovingColumns<T>,
+    ) {
+        to.origin = placed.get(1).map_or_else(V3::zeros, |p| S::point_into(&p.position));
+        self.write_columns(m, placed);
+        to.motions[0] = Motion { v: Six::zero(), a: six::<T, S>(&a[0]) };
+        for (i, p) in placed.iter().enumerate().skip(1) {
+            let r = S::point_into(&p.position) - to.origin;
+            let (v, a) = (six::<T, S>(&p.velocity), six::<T, S>(&a[i]));
+            let turning = cross(&v.turn, &v.push);
+            let a = Six { turn: a.turn, push: a.push - turning }.at(&-r);
+            let motion = Motion { v: v.at(&-r), a };
+            let own = moments(&m.links[i], p, &self.tensors[i]).gathered(&r);
+            to.sums[i] = Sums::body(own, &motion.v, &motion.a);
+            to.motions[i] = motion;
+        }
+        for part in &self.parts {
+            let p = &placed[part.link];
+            let r = S::point_into(&p.position) - to.origin;
+            let [before, behind] = self.around(part, p, to);
+            let (carrier, still) = match part.kind {
+                PartKind::ParentBall | PartKind::ParentSlides => (before, behind),
+                PartKind::Single | PartKind::ChildBall | PartKind::ChildSlides => (behind, before),
+            };
+            for c in part.columns.clone() {
+                let column = self.columns[c].at(&-r);
+                let rate = carrier.v.carries(&column);
+                let first = still.v.carries(&column);
+                let second = still.a.carries(&column) + still.v.carries(&first);
+                to.columns[c] = Moving { column, rate, first, second, both: rate + first };
+            }
+        }
+    }
+
+    /// The motions before and behind a part of a joint; between the two parts of a free joint is a body of its own.
+    fn around(
+        &self,
+        part: &ColumnPart<T>,
+        p: &LinkMotion<T, S>,
+        to: &MovingColumns<T>,
+    ) -> [Motion<T>; 2] {
+        let [before, behind] = [to.motions[self.parent[part.link]], to.motions[part.link]];
+        match (part.is_free, part.kind) {
+            (true, PartKind::ParentSlides | PartKind::ChildBall) => {
+                // the body's point, without its turning
+                let arm = S::rotate(&p.rotation, &S::point_from(&part.reference));
+                let x = S::point_into(&(p.position + arm)) - to.origin;
+                let (v, a) = (behind.v.at(&x).push, behind.a.at(&x).push);
+                let a = a + cross(&behind.v.turn, &v);
+                let slide = |push| Six { turn: V3::zeros(), push };
+                let between = Motion { v: slide(v), a: slide(a) };
+                let is_last = part.kind == PartKind::ChildBall;
+                if is_last { [between, behind] } else { [before, between] }
+            }
+            (true, PartKind::ParentBall | PartKind::ChildSlides) => {
+                // the body's turning, about the ground's point
+                let x = part.point - to.origin;
+                let turn = |six: &Six<T>| Six { turn: six.turn, push: cross(&x, &six.turn) };
+                let between = Motion { v: turn(&behind.v), a: turn(&behind.a) + before.a };
+                let is_last = part.kind == PartKind::ChildSlides;
+                if is_last { [between, behind] } else { [before, between] }
+            }
+            _ => [before, behind],
+        }
+    }
+}

@@ -1,0 +1,149 @@
+//! Derivatives of inverse and forward dynamics of a [`Tree`].
+
+use super::inner::{Inner, with};
+use super::{Matrix, Tree, TreeError, TreeErrorKind, checked};
+use crate::stop::StopError;
+use mbs_recursive::own::{EffortSlopes, MovingColumns};
+
+/// How efforts τ = M v̇ + c + g change; each n × n, a row for each effort.
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub struct EffortDerivatives {
+    /// ∂τ/∂q, along the velocities: column j is the change while v_j moves q by its unit.
+    pub q: Matrix,
+    /// ∂τ/∂v.
+    pub v: Matrix,
+    /// ∂τ/∂v̇ = M.
+    pub acceleration: Matrix,
+}
+
+/// How accelerations v̇ change; each n × n, a row for each acceleration.
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub struct AccelerationDerivatives {
+    /// ∂v̇/∂q, along the velocities: column j is the change while v_j moves q by its unit.
+    pub q: Matrix,
+    /// ∂v̇/∂v.
+    pub v: Matrix,
+    /// ∂v̇/∂τ = M⁻¹.
+    pub effort: Matrix,
+}
+
+impl Tree {
+    /// Derivatives of [`inverse_dynamics`](Self::inverse_dynamics) at accelerations, without loops.
+    ///
+    /// ∂/∂q is along v, as a step of [`integrate`](Self::integrate): for a ball the turn about an axis of the second body, so it is
+    /// square like the others. Effects are left out, as everywhere here.
+    ///
+    /// Cost: an outward pass, and bodies times depth.
+    ///
+    /// # Errors
+    /// [`TreeErrorKind::Loops`] with the joint that closes a loop; [`TreeErrorKind::Length`], [`TreeErrorKind::NotFinite`].
+    ///
+    /// ```
+    /// # let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes/double-pendulum.toml");
+    /// let mut tree = mbs::Mechanism::read(path)?.tree()?;
+    /// tree.set(&[0.5, 0.0], &[0.0, 0.0])?;
+    /// // at rest only gravity changes: two rods of 1 m and 1 kg, of which the second one hangs on the first
+    /// let slopes = tree.inverse_dynamics_derivatives(&[0.0, 0.0])?;
+    /// assert!((slopes.q[(0, 0)] + 9.81 * (0.5 + 1.5) * 0.5_f64.sin()).abs() < 1e-12);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn inverse_dynamics_derivatives(
+        &mut self,
+        accelerations: &[f64],
+    ) -> Result<&EffortDerivatives, TreeError> {
+        checked("accelerations", accelerations, self.v.len())?;
+        self.open("derivatives of efforts")?;
+        self.accelerations(Some(accelerations));
+        let n = self.v.len();
+        let mut to = self.of_effort.take().unwrap_or_else(|| {
+            let square = || Matrix::zeros(n, n);
+            Box::new(EffortDerivatives { q: square(), v: square(), acceleration: square() })
+        });
+        let slopes =
+            EffortSlopes { q: &mut to.q.data, v: &mut to.v.data, a: &mut to.acceleration.data };
+        self.write_slopes(slopes);
+        Ok(self.of_effort.insert(to))
+    }
+
+    /// Derivatives of [`forward_dynamics`](Self::forward_dynamics) under efforts, without loops: ∂v̇/∂(q, v) = −M⁻¹ ∂τ/∂(q, v), ∂v̇/∂τ =
+    /// M⁻¹.
+    ///
+    /// ∂/∂q is along v, as in [`inverse_dynamics_derivatives`](Self::inverse_dynamics_derivatives). Efforts stay as they are, in the
+    /// directions of v.
+    ///
+    /// Cost: that of both dynamics and of their derivatives, and n² times depth.
+    ///
+    /// # Errors
+    /// [`TreeErrorKind::Loops`] with the joint that closes a loop; as for [`forward_dynamics`](Self::forward_dynamics).
+    ///
+    /// ```
+    /// # let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes/double-pendulum.toml");
+    /// let mut tree = mbs::Mechanism::read(path)?.tree()?;
+    /// let slopes = tree.forward_dynamics_derivatives(&[0.0, 0.0])?.clone();
+    /// let (one, more) = (tree.forward_dynamics(&[0.0, 0.0])?.to_vec(), tree.forward_dynamics(&[1.0, 0.0])?);
+    /// assert!((more[1] - one[1] - slopes.effort[(1, 0)]).abs() < 1e-12);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn forward_dynamics_derivatives(
+        &mut self,
+        effort: &[f64],
+    ) -> Result<&AccelerationDerivatives, TreeError> {
+        checked("effort", effort, self.v.len())?;
+        self.open("derivatives of accelerations")?;
+        self.accelerate(Some(effort))?;
+        let n = self.v.len();
+        let mut to = self.by_effort.take().unwrap_or_else(|| {
+            let square = || Matrix::zeros(n, n);
+            Box::new(AccelerationDerivatives { q: square(), v: square(), effort: square() })
+        });
+        let mut mass = core::mem::take(&mut self.mass);
+        let slopes =
+            EffortSlopes { q: &mut to.q.data, v: &mut to.v.data, a: &mut mass.data };
+        self.write_slopes(slopes);
+        self.mass = mass;
+        self.factor()?;
+        to.effort.data.fill(0.0);
+        to.effort.data.iter_mut().step_by(n + 1).for_each(|x| *x = 1.0);
+        for square in [&mut to.q.data, &mut to.v.data] {
+            square.iter_mut().for_each(|x| *x = -*x);
+        }
+        for square in [&mut to.q.data, &mut to.v.data, &mut to.effort.data] {
+            with!(&self.inner, t => t.own.solve(&self.mass.data, square));
+        }
+        Ok(self.by_effort.insert(to))
+    }
+
+    /// Writes the derivatives of the efforts of the state's accelerations.
+    fn write_slopes(&mut self, mut slopes: EffortSlopes<'_, f64>) {
+        with!(&mut self.inner, t => {
+            let moving = t.moving.get_or_insert_with(|| MovingColumns::new(&t.model));
+            let scratch = (&mut t.workspace, moving);
+            t.own.write_effort_slopes(&t.model, &t.state, scratch, &mut slopes);
+        });
+    }
+
+    /// Replaces the mass matrix by its factors.
+    pub(super) fn factor(&mut self) -> Result<(), TreeError> {
+        let mass = &mut self.mass.data;
+        with!(&mut self.inner, t => t.own.factor(mass).map_err(|link| {
+            let owner = t.model.owner_of_link(link);
+            let reason = StopError::tree(mbs_recursive::TreeError::NoInertia { owner });
+            TreeError::of_model(TreeErrorKind::NoAccelerations, (reason, &self.names))
+        }))
+    }
+
+    /// Refuses what is of open trees alone.
+    pub(super) fn open(&self, what: &'static str) -> Result<(), TreeError> {
+        if self.loops.rows == 0 {
+            return Ok(());
+        }
+        let cut = with!(&self.inner, t => t.model.cut_joints().next());
+        let kind = TreeErrorKind::Loops(what);
+        Err(match cut {
+            Some(joint) => TreeError::of_joint(kind, &self.scene.joints[joint].name),
+            None => kind.into(),
+        })
+    }
+}
