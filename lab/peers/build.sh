@@ -20,7 +20,7 @@ build() {
 p=$packages/cmeel.prefix
 boost="-DBOOST_MPL_LIMIT_LIST_SIZE=30 -DBOOST_MPL_LIMIT_VECTOR_SIZE=30 -DBOOST_MPL_CFG_NO_PREPROCESSED_HEADERS
   -DBOOST_FUSION_INVOKE_MAX_ARITY=12 -DPINOCCHIO_ENABLE_COMPATIBILITY_WITH_VERSION_3"
-for part in open loop; do
+for part in open loop robot; do
   # Header-only: the wheel's compiled library is for plain x86-64, and mixing breaks Eigen's alignment.
   build pinocchio_$part "$p/include/pinocchio/multibody.hpp" pinocchio/$part.cpp pinocchio/common.hpp -- \
     g++ -std=c++17 $fast $boost -w -I"$p/include" -I"$p/include/eigen3" "$here/pinocchio/$part.cpp" \
@@ -30,6 +30,8 @@ done
 m=$packages/mujoco
 build mujoco "$m/include/mujoco/mujoco.h" mujoco/forward.c -- \
   gcc $fast "$here/mujoco/forward.c" -I"$m/include" $(echo "$m"/libmujoco.so.*) -Wl,-rpath,"$m" -lm
+build mujoco_robot "$m/include/mujoco/mujoco.h" mujoco/robot.c -- \
+  gcc $fast "$here/mujoco/robot.c" -I"$m/include" $(echo "$m"/libmujoco.so.*) -Wl,-rpath,"$m" -lm
 
 build andrews_ida /usr/include/ida/ida.h andrews/ida.c andrews/andrews.h -- \
   gcc $fast "$here/andrews/ida.c" -lsundials_ida -lsundials_nvecserial -lsundials_sunmatrixdense -lsundials_sunlinsoldense -lm

@@ -33,7 +33,8 @@ pub fn kinematics<T: Real, S: Space<T>>(
 ) -> Result<(), Outside> {
     for (i, link) in links.iter().enumerate().skip(1) {
         // Zᵢ = Zₚ + bᵢ żᵢ   [P3 (26)]
-        let here = joint::place::<T, S, true>(link, at(placed, link.parent as usize)?, z, v, guides)?;
+        let here =
+            joint::place::<T, S, true>(link, at(placed, link.parent as usize)?, z, v, guides)?;
         *at_mut(placed, i)? = here;
     }
     Ok(())

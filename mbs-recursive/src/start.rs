@@ -11,7 +11,7 @@ use crate::link::{LinkKind, LinkMotion};
 use crate::options::{Closure, Options};
 use crate::passes::kinematics;
 use crate::project::{project, rounding};
-use crate::slices::Inputs;
+use crate::slices::{Inputs, TreeSlices};
 use crate::space::{Numbers, Space};
 use crate::state::{TreeState, Workspace};
 use crate::tree::{Part, TreeModel, TreePlace, parts};
@@ -144,6 +144,32 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
             self.read_seat((scene, values), seat, motions, &mut state);
         }
         state
+    }
+
+    /// Brings the positions of a state onto the loops by the moves that are smallest in the masses' norm; nothing else of it changes.
+    ///
+    /// Cost: some projections; no allocation.
+    ///
+    /// # Errors
+    /// [`StepError`]; the state is then unchanged.
+    pub fn close_loops(
+        &self,
+        state: &mut TreeState<T>,
+        workspace: &mut Workspace<T, S>,
+    ) -> Result<(), StepError> {
+        let m = TreeSlices { loads: &[], ..self.mechanism() };
+        let options = Options::default();
+        let mut s = workspace.store();
+        s.z.copy_from_slice(&state.z);
+        s.v.fill(T::ZERO);
+        self.prescribed.write(state.t, &state.applied, s.guides, s.courses);
+        let fault = |fault| failure(&m, fault);
+        if !self.rows.is_empty() {
+            accelerations(&m, &options, Level::Once, &mut s).map_err(fault)?;
+            project(&m, (&options, rounding()), &mut s).map_err(fault)?;
+        }
+        state.z.copy_from_slice(s.z);
+        Ok(())
     }
 
     /// Projects positions and velocities on the loops and evaluates accelerations and multipliers.

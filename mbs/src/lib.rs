@@ -56,8 +56,8 @@ pub use choice::{INTEGRATORS, IntegratorKind, PRECISIONS, Precision, STEP_RULES,
 pub use document::{run_document, run_document_kept};
 pub use equilibrium::{Search, equilibrium_start, find_equilibrium};
 pub use front::tree::{
-    AccelerationDerivatives, EffortDerivatives,
-    FrameMotion, Matrix, TotalMomentum, Tree, TreeError, TreeErrorKind, TreeRange,
+    AccelerationDerivatives, EffortDerivatives, FrameMotion, FrameTarget, InverseKinematics,
+    InverseKinematicsEnd, Matrix, TotalMomentum, Tree, TreeError, TreeErrorKind, TreeRange,
 };
 pub use front::{
     Body, BodyMotion, Components, ContactEvent, Coordinates, Coupling, Effect, Energies,

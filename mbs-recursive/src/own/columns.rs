@@ -68,6 +68,10 @@ pub struct OwnFreedoms<T: Real, S: Space<T>> {
     pub(super) number: Vec<u32>,
     /// The column before it on the way to the ground.
     pub(super) up: Vec<u32>,
+    /// The numbers on the way to the ground from each column, the nearest first; from the first factorisation on.
+    pub(super) above: Vec<Vec<u32>>,
+    /// The numbers of the columns that have each column on their way to the ground; likewise.
+    pub(super) below: Vec<Vec<u32>>,
     /// The columns of each link.
     pub(super) of_link: Vec<Range<usize>>,
     /// The parent of each link; of a free one the ground.
@@ -77,6 +81,8 @@ pub struct OwnFreedoms<T: Real, S: Space<T>> {
     /// Each column about its link's origin.
     pub(super) columns: Vec<Six<T>>,
     pub(super) composite: Vec<Moments<T>>,
+    /// A row of a solution.
+    pub(super) row: Vec<T>,
     /// The least pivot of each freedom.
     pub(super) least: Vec<T>,
     space: core::marker::PhantomData<S>,
@@ -95,11 +101,14 @@ impl<T: Real, S: Space<T>> OwnFreedoms<T, S> {
             parts: Vec::new(),
             number: Vec::new(),
             up: Vec::new(),
+            above: Vec::new(),
+            below: Vec::new(),
             of_link: vec![0..0; links.len()],
             parent: links.iter().map(|l| l.parent as usize).collect(),
             tensors: vec![[T::ZERO; 6]; links.len()],
             columns: vec![Six::zero(); model.n_freedoms()],
             composite: vec![Moments::zero(); links.len()],
+            row: Vec::new(),
             least: vec![T::ZERO; model.n_freedoms()],
             space: core::marker::PhantomData,
         };

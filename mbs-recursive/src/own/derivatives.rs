@@ -10,7 +10,7 @@
 //! force is carried along by none of its columns, within one of the parent's axes by all: the source has the former alone.
 
 use super::columns::{ColumnPart, NONE, PartKind};
-use super::moving::MovingColumns;
+use super::moving::{MovingColumns, move_to};
 use super::{OwnFreedoms, six::Six};
 use crate::space::Space;
 use crate::state::{TreeState, Workspace};
@@ -42,13 +42,28 @@ impl<T: Real, S: Space<T>> OwnFreedoms<T, S> {
         (workspace, moving): (&mut Workspace<T, S>, &mut MovingColumns<T>),
         slopes: &mut EffortSlopes<'_, T>,
     ) {
+        move_to(model, state, workspace);
+        self.write_effort_slopes_here(model, (workspace, moving), slopes);
+    }
+
+    /// The same where the links stand and are accelerated as the scratch has them after
+    /// [`accelerate_under`](TreeModel::accelerate_under).
+    ///
+    /// # Panics
+    /// If `slopes` are not squares of the freedoms.
+    pub fn write_effort_slopes_here(
+        &mut self,
+        model: &TreeModel<T, S>,
+        (workspace, moving): (&mut Workspace<T, S>, &mut MovingColumns<T>),
+        slopes: &mut EffortSlopes<'_, T>,
+    ) {
         let n = self.number.len();
         for square in [&mut *slopes.q, slopes.v, slopes.a] {
             assert_eq!(square.len(), n * n, "numbers of a square of freedoms");
             square.fill(T::ZERO);
         }
-        self.move_to(model, state, (workspace, moving));
-        let m = model.mechanism();
+        let (m, s) = (model.mechanism(), workspace.store());
+        self.write_moving(&m, (s.placed, s.a), moving);
         for i in (1..m.links.len()).rev() {
             let (before, behind) = moving.sums.split_at_mut(i);
             before[self.parent[i]] += behind[0];
@@ -87,8 +102,7 @@ impl<T: Real, S: Space<T>> OwnFreedoms<T, S> {
             let (up, down) = (other * n + own, own * n + other);
             let x = there.column.dot(&momentum);
             (slopes.a[up], slopes.a[down]) = (x, x);
-            slopes.v[down] =
-                super::six::dot(&back, &there.column.turn) + momentum.dot(&there.both);
+            slopes.v[down] = super::six::dot(&back, &there.column.turn) + momentum.dot(&there.both);
             slopes.v[up] = there.column.dot(&by_v);
             slopes.q[down] =
                 super::six::dot(&back, &there.first.turn) + momentum.dot(&there.second) + more;

@@ -3,6 +3,8 @@
 use super::OwnFreedoms;
 use super::columns::NONE;
 use crate::space::Space;
+use alloc::vec;
+use alloc::vec::Vec;
 use mbs_core::Real;
 
 /// Pivot that is no inertia, in units of rounding of the diagonal [-]. Chosen, not tuned.
@@ -11,7 +13,7 @@ const ROUNDINGS: f64 = 64.0;
 impl<T: Real, S: Space<T>> OwnFreedoms<T, S> {
     /// Replaces a mass matrix by D on its diagonal, and L below it in the order of the tree.
     ///
-    /// Cost: freedoms times the square of the depth; no allocation.
+    /// Cost: freedoms times the square of the depth; no allocation after the first call.
     ///
     /// # Errors
     /// The link whose joint meets no inertia.
@@ -21,6 +23,9 @@ impl<T: Real, S: Space<T>> OwnFreedoms<T, S> {
     pub fn factor(&mut self, mass: &mut [T]) -> Result<(), usize> {
         let n = self.number.len();
         assert_eq!(mass.len(), n * n, "numbers of the mass matrix");
+        if self.above.len() < n {
+            self.relate();
+        }
         for (k, least) in self.least.iter_mut().enumerate() {
             *least = mass[k * n + k] * T::EPSILON * T::from_f64(ROUNDINGS);
         }
@@ -32,48 +37,55 @@ impl<T: Real, S: Space<T>> OwnFreedoms<T, S> {
                 return Err(self.of_link.iter().position(holds).unwrap_or(0));
             }
             let inverse = T::ONE / pivot;
-            let mut i = self.up[c];
-            while i != NONE {
-                let row = self.number[i as usize] as usize;
-                let factor = mass[k * n + row] * inverse;
-                let mut j = i;
-                while j != NONE {
-                    let column = self.number[j as usize] as usize;
-                    let x = mass[k * n + column];
-                    mass[row * n + column] -= factor * x;
-                    j = self.up[j as usize];
+            // M_ij −= M_ki M_kj / D_k for i, j on the way to the ground, L_ki = M_ki / D_k
+            for (place, &i) in self.above[c].iter().enumerate() {
+                let factor = mass[k * n + i as usize] * inverse;
+                for &j in &self.above[c][place..] {
+                    let x = mass[k * n + j as usize];
+                    mass[i as usize * n + j as usize] -= factor * x;
                 }
-                mass[k * n + row] = factor;
-                i = self.up[i as usize];
+                mass[k * n + i as usize] = factor;
             }
         }
         Ok(())
     }
 
+    /// Finds which columns are on one way to the ground.
+    fn relate(&mut self) {
+        let n = self.number.len();
+        (self.above, self.below) = (vec![Vec::new(); n], vec![Vec::new(); n]);
+        for c in 0..n {
+            let mut up = self.up[c];
+            while up != NONE {
+                self.above[c].push(self.number[up as usize]);
+                self.below[up as usize].push(self.number[c]);
+                up = self.up[up as usize];
+            }
+        }
+    }
+
     /// Replaces the columns of `x`, which has a row for each freedom, by M⁻¹ times them, by the factors of M.
     ///
-    /// Cost: twice the columns, freedoms and depth multiplied; no allocation.
+    /// Cost: twice the columns, freedoms and depth multiplied; no allocation after the first call.
     ///
     /// # Panics
     /// If `x` has not a row for each freedom.
-    pub fn solve(&self, factors: &[T], x: &mut [T]) {
+    pub fn solve(&mut self, factors: &[T], x: &mut [T]) {
         let n = self.number.len();
         assert_eq!(x.len() % n.max(1), 0, "rows of freedoms");
         self.solve_half(factors, x);
-        let width = x.len() / n.max(1);
-        for (k, row) in x.chunks_exact_mut(width.max(1)).enumerate() {
-            let inverse = T::ONE / factors[k * n + k];
-            row.iter_mut().for_each(|x| *x *= inverse);
-        }
+        let mut sum = core::mem::take(&mut self.row);
         for c in 0..n {
             let k = self.number[c] as usize;
-            let mut j = self.up[c];
-            while j != NONE {
-                let other = self.number[j as usize] as usize;
-                subtract(x, (k, other), (factors[k * n + other], width));
-                j = self.up[j as usize];
-            }
+            // x_k ← x_k / D_k − Σ L_kj x_j over the way to the ground
+            let scale = T::ONE / factors[k * n + k];
+            sum.clear();
+            sum.extend(row(x, n, k).iter().map(|&x| x * scale));
+            let above = self.above[c].iter().map(|&j| (j as usize, factors[k * n + j as usize]));
+            subtract((x, n), above, &mut sum);
+            row_mut(x, n, k).copy_from_slice(&sum);
         }
+        self.row = sum;
     }
 
     /// Writes J M⁻¹ Jᵀ by the factors of M, for rows J; on return `columns` has L⁻ᵀ Jᵀ.
@@ -83,7 +95,7 @@ impl<T: Real, S: Space<T>> OwnFreedoms<T, S> {
     /// # Panics
     /// If `columns` is not as long as the rows, or `mobility` not the square of their number.
     pub fn write_mobility(
-        &self,
+        &mut self,
         factors: &[T],
         (rows, columns): (&[T], &mut [T]),
         mobility: &mut [T],
@@ -109,32 +121,53 @@ impl<T: Real, S: Space<T>> OwnFreedoms<T, S> {
     }
 
     /// Replaces the columns of `x` by L⁻ᵀ times them.
-    fn solve_half(&self, factors: &[T], x: &mut [T]) {
+    fn solve_half(&mut self, factors: &[T], x: &mut [T]) {
         let n = self.number.len();
-        let width = x.len() / n.max(1);
+        let mut sum = core::mem::take(&mut self.row);
         for c in (0..n).rev() {
             let k = self.number[c] as usize;
-            let mut j = self.up[c];
-            while j != NONE {
-                let other = self.number[j as usize] as usize;
-                subtract(x, (other, k), (factors[k * n + other], width));
-                j = self.up[j as usize];
-            }
+            // x_k ← x_k − Σ L_jk x_j over the subtree
+            sum.clear();
+            sum.extend_from_slice(row(x, n, k));
+            let below = self.below[c].iter().map(|&j| (j as usize, factors[j as usize * n + k]));
+            subtract((x, n), below, &mut sum);
+            row_mut(x, n, k).copy_from_slice(&sum);
         }
+        self.row = sum;
     }
 }
 
-/// Subtracts `factor` times one row from another.
+fn row<T>(x: &[T], n: usize, k: usize) -> &[T] {
+    let width = x.len() / n;
+    &x[k * width..][..width]
+}
+
+fn row_mut<T>(x: &mut [T], n: usize, k: usize) -> &mut [T] {
+    let width = x.len() / n;
+    &mut x[k * width..][..width]
+}
+
+/// Subtracts rows of `x`, each times its factor, from a sum: four in one pass, so that the sum is read and written once for them.
 #[inline(always)]
-fn subtract<T: Real>(x: &mut [T], (to, from): (usize, usize), (factor, width): (T, usize)) {
-    let (to, from) = if to < from {
-        let (before, behind) = x.split_at_mut(from * width);
-        (&mut before[to * width..][..width], &behind[..width])
-    } else {
-        let (before, behind) = x.split_at_mut(to * width);
-        (&mut behind[..width], &before[from * width..][..width])
-    };
-    for (to, &from) in to.iter_mut().zip(from) {
-        *to -= factor * from;
+fn subtract<T: Real>(
+    (x, n): (&[T], usize),
+    mut terms: impl ExactSizeIterator<Item = (usize, T)>,
+    sum: &mut [T],
+) {
+    while terms.len() >= 4 {
+        let mut next = || terms.next().map(|(k, factor)| (&row(x, n, k)[..sum.len()], factor));
+        let [Some((a, f)), Some((b, g)), Some((c, h)), Some((d, i))] =
+            [next(), next(), next(), next()]
+        else {
+            return;
+        };
+        for (k, sum) in sum.iter_mut().enumerate() {
+            *sum -= f * a[k] + g * b[k] + h * c[k] + i * d[k];
+        }
+    }
+    for (k, factor) in terms {
+        for (sum, &x) in sum.iter_mut().zip(row(x, n, k)) {
+            *sum -= factor * x;
+        }
     }
 }

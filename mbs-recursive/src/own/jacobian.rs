@@ -1,7 +1,7 @@
 //! Jacobians of points and frames.
 
 use super::OwnFreedoms;
-use super::moving::MovingColumns;
+use super::moving::{MovingColumns, move_to};
 use super::six::V3;
 use crate::space::Space;
 use crate::state::{TreeState, Workspace};
@@ -59,8 +59,10 @@ impl<T: Real, S: Space<T>> OwnFreedoms<T, S> {
     ) {
         let n = self.number.len();
         assert!(rows.len() == 3 * n || rows.len() == 6 * n, "rows of the Jacobian");
-        self.move_to(model, state, (workspace, moving));
-        let placed = workspace.store().placed;
+        move_to(model, state, workspace);
+        let store = workspace.store();
+        self.write_moving(&model.mechanism(), (store.placed, store.a), moving);
+        let placed = store.placed;
         rows.fill(T::ZERO);
         let (link, point) = model.seat_point(body, at);
         let mut i = link as usize;

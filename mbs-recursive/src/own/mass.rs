@@ -36,8 +36,7 @@ impl<T: Real, S: Space<T>> OwnFreedoms<T, S> {
             let composite = self.composite[i];
             let parent = self.parent[i];
             if parent > 0 {
-                self.composite[parent] +=
-                    composite.gathered(&S::point_into(&placed[i].arm));
+                self.composite[parent] += composite.gathered(&S::point_into(&placed[i].arm));
             }
             for c in self.of_link[i].clone() {
                 let column = &self.columns[c];

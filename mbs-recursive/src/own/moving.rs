@@ -72,27 +72,24 @@ impl<T: Real> MovingColumns<T> {
     }
 }
 
-impl<T: Real, S: Space<T>> OwnFreedoms<T, S> {
-    /// Puts the links where a state has them with its velocities and accelerations, and the columns.
-    pub(super) fn move_to(
-        &mut self,
-        model: &TreeModel<T, S>,
-        state: &TreeState<T>,
-        (workspace, to): (&mut Workspace<T, S>, &mut MovingColumns<T>),
-    ) {
-        let m = model.mechanism();
-        let s = workspace.store();
-        model.prescribed().write(state.t, &state.applied, s.guides, s.courses);
-        own(kinematics(m.links, (&state.z, &state.v, s.guides), s.placed));
-        s.a[0] = S::motion(S::Spin::zero(), -m.gravity);
-        own(inverse::spread(m.links, s.placed, &state.a, s.a));
-        self.write_moving(&m, (s.placed, s.a), to);
-    }
+/// Puts the links where a state has them, with its velocities and accelerations.
+pub(super) fn move_to<T: Real, S: Space<T>>(
+    model: &TreeModel<T, S>,
+    state: &TreeState<T>,
+    workspace: &mut Workspace<T, S>,
+) {
+    let (m, s) = (model.mechanism(), workspace.store());
+    model.prescribed().write(state.t, &state.applied, s.guides, s.courses);
+    own(kinematics(m.links, (&state.z, &state.v, s.guides), s.placed));
+    s.a[0] = S::motion(S::Spin::zero(), -m.gravity);
+    own(inverse::spread(m.links, s.placed, &state.a, s.a));
+}
 
+impl<T: Real, S: Space<T>> OwnFreedoms<T, S> {
     /// Writes motions, columns and the sums of the single links, where the links move so and have accelerations `a`.
     ///
     /// The common point is the first link's origin, so that a vehicle far from the ground's origin loses no digits.
-    fn write_moving(
+    pub(super) fn write_moving(
         &mut self,
         m: &TreeSlices<'_, T, S>,
         (placed, a): (&[LinkMotion<T, S>], &[S::Motion]),

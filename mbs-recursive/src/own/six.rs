@@ -1,8 +1,8 @@
 //! Motions (ω, v) and forces (τ, f) about one point, and the inertia of a rigid body there, always of space.
 
+use core::ops::{Add, AddAssign, Mul, Neg, Sub};
 use mbs_core::Real;
 use mbs_core::algebra::{Matrix, Vector, cross};
-use core::ops::{Add, AddAssign, Mul, Neg, Sub};
 
 pub(super) type V3<T> = Vector<T, 3>;
 

@@ -51,4 +51,5 @@ mod threads;
 mod tooth_forces;
 mod tree;
 mod tree_derivatives;
+mod tree_reach;
 mod vehicle;

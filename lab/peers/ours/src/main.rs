@@ -7,6 +7,7 @@ mod andrews;
 mod clock;
 mod loops;
 mod open;
+mod robots;
 mod runs;
 mod scenes;
 mod space;
@@ -19,6 +20,7 @@ use std::process::ExitCode;
 type Failure = Box<dyn Error>;
 
 const USAGE: &str = "ours (chain | tree | inverse | four-bars | step) N SECONDS\n\
+                     ours robot-(forward | inverse | mass | jacobian | derivatives) N SECONDS\n\
                      ours (double-pendulum | n-four-bars) N STEP\n\
                      ours andrews 7 SECONDS";
 
@@ -40,6 +42,7 @@ fn run() -> Result<(), Failure> {
         "chain" => open::forward(scenes::Shape::Chain, n, number),
         "tree" => open::forward(scenes::Shape::Tree, n, number),
         "inverse" => open::inverse(n, number),
+        robot if robot.starts_with("robot-") => robots::robot(robot, n, number),
         "four-bars" => loops::four_bars(n, number),
         "step" => step::step(n, number),
         "double-pendulum" => runs::double_pendulum(number),

@@ -63,6 +63,8 @@ pub(super) fn selected(names: &[String]) -> Vec<Problem> {
 
 const CHAINS: &[Who] =
     &[Who::PinocchioOpen, Who::MuJoCo, Who::RustChains, Who::Simbody, Who::Drake];
+/// Freedoms of the robots of lab/peers/robots.py: UR5, Panda, Solo12, Baxter, G1, Talos; the third and the last two on a free base.
+const ROBOTS: [usize; 6] = [6, 9, 18, 19, 35, 50];
 const TREES: &[Who] = &[Who::PinocchioOpen, Who::MuJoCo, Who::Simbody, Who::Drake];
 
 /// All of them.
@@ -97,6 +99,19 @@ fn all() -> Vec<Problem> {
         );
         all.push(evaluation("four-bars", title, n, [0.7, 0.7], peers));
     }
+    for (name, title, limit) in [
+        ("robot-forward", "accelerations of a robot", [0.4, 0.4]),
+        ("robot-inverse", "efforts of a robot for given accelerations", [0.5, 0.5]),
+        ("robot-mass", "mass matrix of a robot", [0.7, 0.5]),
+        ("robot-jacobian", "Jacobian of a robot's last body", [0.7, 0.7]),
+        ("robot-derivatives", "derivatives of a robot's accelerations", [1.0, 0.8]),
+    ] {
+        let peers: &[Who] = match name {
+            "robot-derivatives" => &[Who::PinocchioRobot],
+            _ => &[Who::PinocchioRobot, Who::MuJoCoRobot],
+        };
+        all.extend(ROBOTS.map(|n| evaluation(name, title, n, limit, peers)));
+    }
     let step = evaluation("step", "a step of a chain, order 4", 10, [0.7, 0.5], &[Who::MuJoCo]);
     all.push(Problem { kind: Kind::Run, ..step });
     all.push(run("double-pendulum", "10 s of a double pendulum", 2, [1.0 / 12.0, 1.0 / 25.0]));
@@ -117,7 +132,7 @@ mod tests {
     fn problems_are_asked_for_by_name() {
         let chains = selected(&["chain".to_owned(), "step".to_owned()]);
         assert_eq!(chains.iter().map(|p| p.n).collect::<Vec<_>>(), [6, 10, 30, 100, 300, 10]);
-        assert_eq!(selected(&[]).len(), 20);
+        assert_eq!(selected(&[]).len(), 50);
         assert!(selected(&[]).iter().all(|p| p.limit[1] <= p.limit[0]));
     }
 }

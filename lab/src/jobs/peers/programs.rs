@@ -12,7 +12,9 @@ pub(super) enum Who {
     Ours,
     PinocchioOpen,
     PinocchioLoop,
+    PinocchioRobot,
     MuJoCo,
+    MuJoCoRobot,
     Exudyn,
     Drake,
     Simbody,
@@ -24,10 +26,12 @@ pub(super) enum Who {
 
 impl Who {
     /// All peers, in the order of the tables.
-    pub(super) const PEERS: [Self; 10] = [
+    pub(super) const PEERS: [Self; 12] = [
         Self::PinocchioOpen,
         Self::PinocchioLoop,
+        Self::PinocchioRobot,
         Self::MuJoCo,
+        Self::MuJoCoRobot,
         Self::RustChains,
         Self::Simbody,
         Self::Drake,
@@ -41,8 +45,8 @@ impl Who {
     pub(super) fn name(self) -> &'static str {
         match self {
             Self::Ours => "mbs",
-            Self::PinocchioOpen | Self::PinocchioLoop => "Pinocchio",
-            Self::MuJoCo => "MuJoCo",
+            Self::PinocchioOpen | Self::PinocchioLoop | Self::PinocchioRobot => "Pinocchio",
+            Self::MuJoCo | Self::MuJoCoRobot => "MuJoCo",
             Self::Exudyn => "Exudyn",
             Self::Drake => "Drake",
             Self::Simbody => "Simbody",
@@ -58,7 +62,9 @@ impl Who {
         match self {
             Self::Ours => "cargo builds it",
             Self::PinocchioOpen | Self::PinocchioLoop => "lab/peers/setup.sh pinocchio",
+            Self::PinocchioRobot => "lab/peers/setup.sh pinocchio robots",
             Self::MuJoCo => "lab/peers/setup.sh mujoco",
+            Self::MuJoCoRobot => "lab/peers/setup.sh mujoco robots",
             Self::Exudyn => "lab/peers/setup.sh exudyn",
             Self::Drake => "lab/peers/setup.sh drake",
             Self::Simbody => "lab/peers/setup.sh simbody",
@@ -74,7 +80,9 @@ impl Who {
             Self::Ours => folder.join("ours/release/ours"),
             Self::PinocchioOpen => folder.join("pinocchio_open"),
             Self::PinocchioLoop => folder.join("pinocchio_loop"),
+            Self::PinocchioRobot => folder.join("pinocchio_robot"),
             Self::MuJoCo => folder.join("mujoco"),
+            Self::MuJoCoRobot => folder.join("mujoco_robot"),
             Self::Exudyn => package("exudyn"),
             Self::Drake => package("pydrake"),
             Self::Simbody => folder.join("simbody"),
@@ -113,7 +121,8 @@ impl Who {
             Self::RustChains => Some("dynibo 0.5.3, phyz-rigid 0.4.0".to_owned()),
             Self::RustAndrews => Some("0.18.0".to_owned()),
             Self::Ours => process::commit(),
-            Self::PinocchioLoop => Some(Self::PinocchioOpen.version()),
+            Self::PinocchioLoop | Self::PinocchioRobot => Some(Self::PinocchioOpen.version()),
+            Self::MuJoCoRobot => Some(Self::MuJoCo.version()),
             _ => output(self.command().arg("version")),
         };
         let text = text.unwrap_or_default();
@@ -131,6 +140,8 @@ impl Who {
             Self::Radau => command.arg(self.needed()).arg(asked.number.to_string()),
             _ => command.args([asked.problem, &asked.n.to_string(), &asked.number.to_string()]),
         };
+        // where the robots are
+        command.env("PEERS_DIR", folder());
         let text = printed(&mut command, Duration::from_secs(300))?;
         let lines: Vec<Line> = text.lines().filter_map(Line::read).collect();
         if lines.is_empty() { Err(format!("no result: {}", text.trim())) } else { Ok(lines) }

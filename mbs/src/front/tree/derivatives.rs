@@ -63,7 +63,7 @@ impl Tree {
         });
         let slopes =
             EffortSlopes { q: &mut to.q.data, v: &mut to.v.data, a: &mut to.acceleration.data };
-        self.write_slopes(slopes);
+        self.write_slopes(slopes, false);
         Ok(self.of_effort.insert(to))
     }
 
@@ -99,9 +99,8 @@ impl Tree {
             Box::new(AccelerationDerivatives { q: square(), v: square(), effort: square() })
         });
         let mut mass = core::mem::take(&mut self.mass);
-        let slopes =
-            EffortSlopes { q: &mut to.q.data, v: &mut to.v.data, a: &mut mass.data };
-        self.write_slopes(slopes);
+        let slopes = EffortSlopes { q: &mut to.q.data, v: &mut to.v.data, a: &mut mass.data };
+        self.write_slopes(slopes, true);
         self.mass = mass;
         self.factor()?;
         to.effort.data.fill(0.0);
@@ -110,17 +109,21 @@ impl Tree {
             square.iter_mut().for_each(|x| *x = -*x);
         }
         for square in [&mut to.q.data, &mut to.v.data, &mut to.effort.data] {
-            with!(&self.inner, t => t.own.solve(&self.mass.data, square));
+            with!(&mut self.inner, t => t.own.solve(&self.mass.data, square));
         }
         Ok(self.by_effort.insert(to))
     }
 
-    /// Writes the derivatives of the efforts of the state's accelerations.
-    fn write_slopes(&mut self, mut slopes: EffortSlopes<'_, f64>) {
+    /// Writes the derivatives of the efforts of the state's accelerations; `is_there`: these were made by efforts just now.
+    fn write_slopes(&mut self, mut slopes: EffortSlopes<'_, f64>, is_there: bool) {
         with!(&mut self.inner, t => {
             let moving = t.moving.get_or_insert_with(|| MovingColumns::new(&t.model));
             let scratch = (&mut t.workspace, moving);
-            t.own.write_effort_slopes(&t.model, &t.state, scratch, &mut slopes);
+            if is_there {
+                t.own.write_effort_slopes_here(&t.model, scratch, &mut slopes);
+            } else {
+                t.own.write_effort_slopes(&t.model, &t.state, scratch, &mut slopes);
+            }
         });
     }
 

@@ -23,6 +23,8 @@ pub enum TreeErrorKind {
     NoTree(StopError),
     /// No accelerations follow from the efforts.
     NoAccelerations(StopError),
+    /// From the position no small motion closes the loops.
+    OpenLoops(StopError),
     /// What is asked is of open trees alone, and the joint closes a loop.
     Loops(&'static str),
     /// No forces move the frame in some direction: it has no inertia there, because the joints do not move it so.
@@ -66,6 +68,11 @@ impl TreeError {
                 "leave this position, in which loops are singular; check that q and v close them: `follow` a simulation there",
                 format!("no accelerations follow from the efforts: {reason}"),
             ),
+            Kind::OpenLoops(reason) => (
+                "open-loops",
+                "begin from a position in which the loops are closed: `follow` a simulation there",
+                format!("the loops cannot be closed from this position: {reason}"),
+            ),
             Kind::Loops(what) => (
                 "closed-loops",
                 "take differences of the accelerations, or leave out the joints that close loops",
@@ -74,7 +81,8 @@ impl TreeError {
             Kind::Held => (
                 "held-frame",
                 "ask for `frame_mobility`, its inverse, which every position has",
-                "the joints do not move the frame in every direction: it has no inertia there".into(),
+                "the joints do not move the frame in every direction: it has no inertia there"
+                    .into(),
             ),
             Kind::Cut => {
                 let hint = "use `loop_jacobian`, or coordinates of another joint of the loop";

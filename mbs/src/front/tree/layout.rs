@@ -39,7 +39,7 @@ struct Place {
     of: (Option<usize>, usize),
     /// Does nothing hold the body?
     is_free: bool,
-    pose: Option<Pose>,
+    pose: Option<Box<Pose>>,
 }
 
 /// A ball or a free joint at the present state.
@@ -168,7 +168,7 @@ impl Layout {
                 n,
                 of: (joint.joint, joint.body),
                 is_free: joint.joint.is_none_or(|joint| scene.joints[joint].kind.is_free()),
-                pose: is_rotation.then_some(pose),
+                pose: is_rotation.then(|| Box::new(pose)),
             });
         }
     }
@@ -176,13 +176,8 @@ impl Layout {
     /// Where the freedoms of each link stand, the ground's among them.
     pub(super) fn freedoms(&self, n_links: usize) -> Vec<LinkFreedoms<f64>> {
         let zero = V3::zeros();
-        let none = LinkFreedoms {
-            moves: 0,
-            turns: 0,
-            is_reversed: false,
-            point: zero,
-            reference: zero,
-        };
+        let none =
+            LinkFreedoms { moves: 0, turns: 0, is_reversed: false, point: zero, reference: zero };
         let mut links = vec![none; n_links + 1];
         for place in &self.places {
             let [moves, turns] = place.at[OWN];
@@ -265,7 +260,9 @@ impl Layout {
         for place in &self.places {
             let step = &mut step[place.own.v.clone()];
             let (from, to) = (&from[place.own.q.clone()], &to[place.own.q.clone()]);
-            step.iter_mut().zip(to.iter().zip(from)).for_each(|(step, (to, from))| *step = to - from);
+            step.iter_mut()
+                .zip(to.iter().zip(from))
+                .for_each(|(step, (to, from))| *step = to - from);
             if to.len() > step.len() {
                 let n = step.len() - self.turns[1];
                 let relative = (self.rotation)(&from[n..]).transpose() * (self.rotation)(&to[n..]);

@@ -6,6 +6,7 @@ mod error;
 mod follow;
 mod frames;
 mod inner;
+mod inverse_kinematics;
 mod layout;
 mod manifold;
 mod places;
@@ -13,6 +14,7 @@ mod values;
 
 pub use derivatives::{AccelerationDerivatives, EffortDerivatives};
 pub use error::{TreeError, TreeErrorKind};
+pub use inverse_kinematics::{FrameTarget, InverseKinematics, InverseKinematicsEnd};
 pub use layout::TreeRange;
 pub use places::{FrameMotion, TotalMomentum};
 pub use values::Matrix;

@@ -1,0 +1,148 @@
+//! Robots of published models: what is asked of them, by the front door's tree.
+
+use crate::clock::{STATES, time_of};
+use crate::{Failure, print_line};
+use mbs::core::scene::{BodyId, Scene};
+use mbs::{JointId, Tree};
+use mbs_core::Real;
+use mbs_core::real::DoubleDouble as Pair;
+use mbs_recursive::own::{EffortSlopes, MovingColumns, OwnFreedoms};
+use mbs_recursive::{EffortTerms, Spatial, TreeModel, TreeState, Workspace};
+use std::hint::black_box;
+use std::path::PathBuf;
+
+/// Rate and acceleration of every joint [rad/s, m/s; per second].
+const RATE: f64 = 0.5;
+
+/// Angle or slide of every joint in a state.
+fn angle(k: usize) -> f64 {
+    0.2 + 0.1 * k as f64
+}
+
+/// A robot that the script of the robots has made, and the joint whose body's Jacobian is asked.
+struct Robot {
+    file: mbs_scene::SceneFile,
+    last: String,
+}
+
+impl Robot {
+    fn read(n: usize) -> Result<Self, Failure> {
+        let folder = PathBuf::from(std::env::var("PEERS_DIR")?).join("robots");
+        let text = std::fs::read_to_string(folder.join(format!("{n}.txt")))?;
+        let last = text.lines().last().and_then(|line| line.split(' ').nth(2));
+        let last = last.ok_or("no joints")?.to_owned();
+        Ok(Self { file: mbs::models::read(folder.join(format!("{n}.urdf")))?, last })
+    }
+
+    /// Its scene without what acts but gravity, and the place of the last joint on its body.
+    fn scene<T: Real>(&self) -> Result<(Scene<T>, BodyId, [T; 3]), Failure> {
+        let mut scene = self.file.scene::<T>()?;
+        scene.effects.clear();
+        let joint = scene.joints.iter().find(|joint| joint.name == self.last);
+        let joint = joint.ok_or_else(|| format!("no joint {}", self.last))?;
+        let (body, at) = (joint.bodies[1], joint.points[1]);
+        Ok((scene, body, at))
+    }
+}
+
+/// Times a problem, and gives its value in 32 digits.
+pub(crate) fn robot(problem: &str, n: usize, seconds: f64) -> Result<(), Failure> {
+    let robot = Robot::read(n)?;
+    print_line("reference", 0.0, reference(&robot, problem)?, "exact");
+    let (scene, body, at) = robot.scene::<f64>()?;
+    let mut tree = Tree::new(&scene)?;
+    let joints: Vec<usize> = (0..scene.joints.len())
+        .filter_map(|j| tree.coordinates_of(JointId::new(j)).ok())
+        .filter(|range| range.v.len() == 1)
+        .map(|range| range.v.start)
+        .collect();
+    let n = tree.velocities().len();
+    let (mut step, mut rates) = (vec![0.0; n], vec![0.0; n]);
+    joints.iter().for_each(|&j| rates[j] = RATE);
+    let mut states = Vec::new();
+    for k in 0..STATES {
+        joints.iter().for_each(|&j| step[j] = angle(k));
+        let mut q = tree.coordinates().to_vec();
+        tree.integrate(tree.coordinates(), &step, &mut q)?;
+        states.push(q);
+    }
+    let none = vec![0.0; n];
+    let mut call = |k: usize| -> Result<f64, Failure> {
+        tree.set(&states[k], &rates)?;
+        let diagonal = |square: &mbs::Matrix| joints.iter().map(|&j| square[(j, j)]).sum();
+        let sum = |x: &[f64]| joints.iter().map(|&j| x[j]).sum();
+        Ok(match problem {
+            "robot-mass" => diagonal(tree.mass_matrix()),
+            "robot-forward" => sum(tree.forward_dynamics(&none)?),
+            "robot-inverse" => sum(tree.inverse_dynamics(&rates)?),
+            "robot-jacobian" => {
+                let rows = tree.jacobian_at(body, at);
+                (0..6).map(|i| joints.iter().map(|&j| rows[(i, j)].powi(2)).sum::<f64>()).sum()
+            }
+            _ => {
+                let by_q = &tree.forward_dynamics_derivatives(&none)?.q;
+                joints.iter().map(|&i| sum(by_q.row(i))).sum()
+            }
+        })
+    };
+    let value = call(0)?;
+    let time = time_of(seconds, |k| {
+        black_box(call(k).is_ok());
+    });
+    print_line("Tree", time, value, "exact");
+    Ok(())
+}
+
+/// The value of the first state by the same equations in 32 digits.
+fn reference(robot: &Robot, problem: &str) -> Result<f64, Failure> {
+    let (scene, body, at) = robot.scene::<Pair>()?;
+    let model = TreeModel::<Pair, Spatial>::new(&scene)?;
+    let (mut state, mut workspace) = (TreeState::at_rest(&model), Workspace::new(&model));
+    let n = state.v.len();
+    let mut joints = Vec::new();
+    for link in model.mechanism().links.iter().skip(1) {
+        if link.kind.n_freedoms::<Pair, Spatial>() == 1 {
+            joints.push(link.v as usize);
+            state.z[link.z as usize] = Pair::from_f64(angle(0));
+            state.v[link.v as usize] = Pair::from_f64(RATE);
+        }
+    }
+    let mut freedoms = OwnFreedoms::of_tree(&model);
+    let (zero, mut efforts) = (vec![Pair::ZERO; n], vec![Pair::ZERO; n]);
+    let mut sum = Pair::ZERO;
+    match problem {
+        "robot-mass" => {
+            let mut mass = vec![Pair::ZERO; n * n];
+            freedoms.write_mass_matrix(&model, &state, &mut workspace, &mut mass);
+            joints.iter().for_each(|&j| sum += mass[j * (n + 1)]);
+        }
+        "robot-forward" => {
+            model.accelerate_under(&zero, &mut state, &mut workspace)?;
+            joints.iter().for_each(|&j| sum += state.a[j]);
+        }
+        "robot-inverse" => {
+            state.a.copy_from_slice(&state.v);
+            let terms = EffortTerms::WithoutEffects;
+            model.write_efforts((&state, terms), &mut workspace, &mut efforts);
+            joints.iter().for_each(|&j| sum += efforts[j]);
+        }
+        "robot-jacobian" => {
+            let mut rows = vec![Pair::ZERO; 6 * n];
+            freedoms.write_jacobian(&model, (&state, body, at), &mut workspace, &mut rows);
+            let entry = |(i, j): (usize, usize)| rows[i * n + j] * rows[i * n + j];
+            (0..6).for_each(|i| joints.iter().for_each(|&j| sum += entry((i, j))));
+        }
+        "robot-derivatives" => {
+            model.accelerate_under(&zero, &mut state, &mut workspace)?;
+            let [mut q, mut v, mut mass] = [0; 3].map(|_| vec![Pair::ZERO; n * n]);
+            let mut slopes = EffortSlopes { q: &mut q, v: &mut v, a: &mut mass };
+            let scratch = (&mut workspace, &mut MovingColumns::new(&model));
+            freedoms.write_effort_slopes(&model, &state, scratch, &mut slopes);
+            freedoms.factor(&mut mass).map_err(|link| format!("no inertia beyond link {link}"))?;
+            freedoms.solve(&mass, &mut q);
+            joints.iter().for_each(|&i| joints.iter().for_each(|&j| sum -= q[i * n + j]));
+        }
+        _ => return Err(format!("no problem {problem} of robots").into()),
+    }
+    Ok(sum.to_f64())
+}

@@ -1,0 +1,318 @@
+//! Inverse kinematics: positions of a [`Tree`] at which a body is where it is wanted.
+//!
+//! ```text
+//! δ = Aᵀ y,   (A Aᵀ + diag(μ, 0)) y = (e, 0),   A = (J; G)        μ = λ e·e        [Sugihara 2011 (9), (23)]
+//! ```
+//!
+//! e is the error of the wanted place, lengths by the scene's length; G are the rows of closed loops. Coordinates at an end of their range
+//! that a step would take out of it stay. After a step the loops are closed exactly; a step that does not lessen the error is taken
+//! back, and λ grows.
+
+use super::inner::{Inner, Typed, with};
+use super::{Tree, TreeError, TreeErrorKind, checked};
+use crate::stop::StopError;
+use mbs_core::algebra::{Matrix as Square, Vector, rotation_vector};
+use mbs_core::scene::{BodyId, JointId};
+
+/// Most steps [-]. A reachable place takes about ten.
+const MOST_STEPS: u32 = 200;
+/// Error of a place that is reached [-]: rounding of what the joints add up to.
+const REACHED: f64 = 1e-12;
+/// Damping beyond which no step is tried [-]: then none lessens the error.
+const MOST_DAMPING: f64 = 1e12;
+/// Damping of the first step [-], and its factors after a good step and after a bad one. Chosen, not tuned.
+const DAMPING: [f64; 3] = [1e-3, 0.2, 8.0];
+/// Largest step of a coordinate [rad, scene lengths].
+const LARGEST_STEP: f64 = 1.0;
+/// What is added to a diagonal that repeated rows of loops leave without pivot [-].
+const REPEATED: f64 = 1e-13;
+
+/// Where a body is wanted; what is `None` is free.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct FrameTarget {
+    /// Of the point that is asked for [m], global axes.
+    pub position: Option<[f64; 3]>,
+    /// Rotation of the body from the reference configuration, by rows.
+    pub rotation: Option<[[f64; 3]; 3]>,
+}
+
+/// Why a search for a position ended.
+#[derive(Debug, Clone, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum InverseKinematicsEnd {
+    /// The body is there.
+    Reached,
+    /// No motion of the joints takes it nearer: it is out of reach, or another start is needed.
+    Nearest,
+    /// The same with these joints at an end of their range.
+    AtRange(Vec<JointId>),
+    /// Steps still lessened the error, and were too many.
+    Unfinished,
+}
+
+/// What a search for a position found. The tree stands there, at rest.
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub struct InverseKinematics {
+    /// Why it ended.
+    pub end: InverseKinematicsEnd,
+    /// Distance of the point from its target [m]; zero without one.
+    pub distance: f64,
+    /// Angle between the rotation and its target [rad]; zero without one.
+    pub angle: f64,
+    /// Steps that were tried.
+    pub steps: u32,
+}
+
+impl Tree {
+    /// Moves the joints, from the present position on, until a point of a body, which was at `at` in the reference configuration [m], and
+    /// the body's rotation are those of the target, or as near as they come. The tree then stands there at rest; what was found
+    /// and why it ended is returned.
+    ///
+    /// Loops stay closed. Joints that have a `range` keep it if they stood in it: it is data, so that this is the one place where it
+    /// holds them. Of many solutions the nearest in the joints is found, mostly; guides stand where [`set_time`](Self::set_time) has
+    /// them. The ground is nowhere but where it is.
+    ///
+    /// Cost: some tens of outward passes, and the cube of the rows of target and loops; allocates.
+    ///
+    /// # Errors
+    /// [`TreeErrorKind::NotFinite`]; [`TreeErrorKind::OpenLoops`] where loops cannot be closed at the start; the tree is then
+    /// unchanged.
+    ///
+    /// ```
+    /// # let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes/double-pendulum.toml");
+    /// use mbs::{BodyId, FrameTarget, InverseKinematicsEnd};
+    /// let mut tree = mbs::Mechanism::read(path)?.tree()?;
+    /// tree.set(&[0.3, 0.3], &[0.0, 0.0])?;
+    /// // two rods of 1 m: the tip at a distance of √2 needs a right angle between them
+    /// let target = FrameTarget { position: Some([1.0, 1.0, 0.0]), ..FrameTarget::default() };
+    /// let found = tree.inverse_kinematics(BodyId::new(1), [2.0, 0.0, 0.0], &target)?;
+    /// assert_eq!(found.end, InverseKinematicsEnd::Reached);
+    /// assert!((tree.coordinates()[1] - std::f64::consts::FRAC_PI_2).abs() < 1e-9);
+    /// // three metres away is too far
+    /// let far = FrameTarget { position: Some([3.0, 0.0, 0.0]), ..FrameTarget::default() };
+    /// let found = tree.inverse_kinematics(BodyId::new(1), [2.0, 0.0, 0.0], &far)?;
+    /// assert!(found.end == InverseKinematicsEnd::Nearest && (found.distance - 1.0).abs() < 1e-9);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn inverse_kinematics(
+        &mut self,
+        body: BodyId,
+        at: [f64; 3],
+        target: &FrameTarget,
+    ) -> Result<InverseKinematics, TreeError> {
+        let position = target.position.unwrap_or_default();
+        checked("position", &position, 3)?;
+        checked("rotation", &target.rotation.unwrap_or_default().concat(), 9)?;
+        let start = self.q.clone();
+        let rest = vec![0.0; self.v.len()];
+        self.close_loops(&start)?;
+        let search = Search::new(self, (body, at), *target);
+        let (mut here, mut best) = (self.q.clone(), search.error(self));
+        let [mut damping, better, worse] = DAMPING;
+        let mut found = InverseKinematics {
+            end: InverseKinematicsEnd::Unfinished,
+            distance: 0.0,
+            angle: 0.0,
+            steps: 0,
+        };
+        while found.steps < MOST_STEPS {
+            if norm(&best) <= REACHED {
+                found.end = InverseKinematicsEnd::Reached;
+                break;
+            }
+            if damping > MOST_DAMPING {
+                let held = search.held(&here);
+                found.end = if held.is_empty() {
+                    InverseKinematicsEnd::Nearest
+                } else {
+                    InverseKinematicsEnd::AtRange(held)
+                };
+                break;
+            }
+            let step = search.step(self, (&here, &best), damping);
+            found.steps += 1;
+            let mut there = here.clone();
+            self.layout.integrate(&step, &mut there);
+            search.keep(&mut there);
+            let is_closed = self.close_loops(&there).is_ok() && search.is_kept(&self.q);
+            let error = search.error(self);
+            if is_closed && norm(&error) < norm(&best) {
+                (here, best) = (self.q.clone(), error);
+                damping *= better;
+            } else {
+                self.set(&here, &rest)?;
+                damping *= worse;
+            }
+        }
+        let three = |first: usize| norm(best.get(first..first + 3).unwrap_or(&[]));
+        let turns = if target.position.is_some() { 3 } else { 0 };
+        found.distance = if target.position.is_some() { three(0) * search.length } else { 0.0 };
+        found.angle = three(turns);
+        Ok(found)
+    }
+
+    /// Stands at rest at a position, with its loops closed.
+    fn close_loops(&mut self, q: &[f64]) -> Result<(), TreeError> {
+        let (before, v) = (self.q.clone(), self.v.clone());
+        let rest = vec![0.0; v.len()];
+        self.set(q, &rest)?;
+        if self.loops.rows == 0 {
+            return Ok(());
+        }
+        let closed = with!(&mut self.inner, tree => {
+            let Typed { model, state, workspace, .. } = &mut **tree;
+            model.close_loops(state, workspace).map_err(|error| {
+                let freedom = |u| model.owner_of_unknown(u);
+                let reason = StopError::step(error, freedom, |row| model.owner_of_row(row));
+                TreeError::of_model(TreeErrorKind::OpenLoops, (reason, &self.names))
+            })
+        });
+        if let Err(error) = closed {
+            self.set(&before, &v)?;
+            return Err(error);
+        }
+        let mut q = core::mem::take(&mut self.q);
+        self.layout.coordinates_outward(&self.inner.state().z, &mut q);
+        self.q = q;
+        Ok(())
+    }
+}
+
+/// A wanted place, and what the joints keep to.
+struct Search {
+    body: BodyId,
+    at: [f64; 3],
+    target: FrameTarget,
+    length: f64,
+    /// Number in q, number in v, joint and range.
+    ranges: Vec<([usize; 2], JointId, [f64; 2])>,
+}
+
+impl Search {
+    fn new(tree: &Tree, (body, at): (BodyId, [f64; 3]), target: FrameTarget) -> Self {
+        let joints = tree.scene.joints.iter().enumerate();
+        let ranges = joints.filter_map(|(j, joint)| {
+            let (range, own) = (joint.limits.range?, tree.layout.range(j)?);
+            let q = tree.q[own.q.start];
+            let is_inside = own.v.len() == 1 && (range[0]..=range[1]).contains(&q);
+            is_inside.then_some(([own.q.start, own.v.start], JointId::new(j), range))
+        });
+        let length = with!(&tree.inner, tree => tree.model.length());
+        Self { body, at, target, length, ranges: ranges.collect() }
+    }
+
+    /// What is between the target and the body: lengths, then a rotation vector.
+    fn error(&self, tree: &mut Tree) -> Vec<f64> {
+        let mut error = Vec::with_capacity(6);
+        if let Some(target) = self.target.position {
+            let now = tree.point(self.body, self.at).position;
+            error.extend(target.iter().zip(now).map(|(x, y)| (x - y) / self.length));
+        }
+        if let Some(target) = self.target.rotation {
+            let now = Square::<f64, 3>::from_fn(|i, j| tree.pose(self.body).rotation[i][j]);
+            let wanted = Square::<f64, 3>::from_fn(|i, j| target[i][j]);
+            error.extend(Vector::<f64, 3>::iter(&rotation_vector(&(wanted * now.transpose()))));
+        }
+        error
+    }
+
+    /// A step from a position, whose coordinates stay in their ranges to first order.
+    fn step(&self, tree: &mut Tree, (q, error): (&[f64], &[f64]), damping: f64) -> Vec<f64> {
+        let jacobian = tree.jacobian_at(self.body, self.at).clone();
+        let loops = tree.loop_jacobian().clone();
+        let mut rows: Vec<Vec<f64>> = Vec::new();
+        if self.target.position.is_some() {
+            rows.extend((0..3).map(|i| jacobian.row(i).iter().map(|x| x / self.length).collect()));
+        }
+        if self.target.rotation.is_some() {
+            rows.extend((3..6).map(|i| jacobian.row(i).to_vec()));
+        }
+        let asked = rows.len();
+        rows.extend((0..loops.rows).map(|i| loops.row(i).to_vec()));
+        let mu = damping * dot(error, error);
+        let mut right = error.to_vec();
+        right.resize(rows.len(), 0.0);
+        // at most every range is met once
+        for _ in 0..=self.ranges.len() {
+            let mut square: Vec<Vec<f64>> =
+                rows.iter().map(|a| rows.iter().map(|b| dot(a, b)).collect()).collect();
+            (0..asked).for_each(|i| square[i][i] += mu);
+            let y = solve(square, right.clone());
+            let mut step = vec![0.0; jacobian.columns];
+            for (row, y) in rows.iter().zip(&y) {
+                step.iter_mut().zip(row).for_each(|(step, x)| *step += x * y);
+            }
+            let largest = step.iter().fold(0.0_f64, |s, x| s.max(x.abs()));
+            let scale = if largest > LARGEST_STEP { LARGEST_STEP / largest } else { 1.0 };
+            step.iter_mut().for_each(|x| *x *= scale);
+            let mut is_inside = true;
+            for &([place, number], _, [lower, upper]) in &self.ranges {
+                let is_out = (q[place] <= lower && step[number] < 0.0)
+                    || (q[place] >= upper && step[number] > 0.0);
+                if is_out {
+                    rows.iter_mut().for_each(|row| row[number] = 0.0);
+                    is_inside = false;
+                }
+            }
+            if is_inside {
+                return step;
+            }
+        }
+        vec![0.0; jacobian.columns]
+    }
+
+    /// Puts coordinates back to the ends of their ranges.
+    fn keep(&self, q: &mut [f64]) {
+        for &([place, _], _, [lower, upper]) in &self.ranges {
+            q[place] = q[place].clamp(lower, upper);
+        }
+    }
+
+    /// Are all coordinates in their ranges, but for rounding?
+    fn is_kept(&self, q: &[f64]) -> bool {
+        let is_in = |q: f64, [lower, upper]: [f64; 2]| {
+            let room = (upper - lower) * REACHED;
+            q >= lower - room && q <= upper + room
+        };
+        self.ranges.iter().all(|&([place, _], _, range)| is_in(q[place], range))
+    }
+
+    /// The joints that are at an end of their range.
+    fn held(&self, q: &[f64]) -> Vec<JointId> {
+        let is_at = |q: f64, [lower, upper]: [f64; 2]| q <= lower || q >= upper;
+        let at = self.ranges.iter().filter(|&&([place, _], _, range)| is_at(q[place], range));
+        at.map(|&(_, joint, _)| joint).collect()
+    }
+}
+
+fn dot(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
+}
+
+fn norm(x: &[f64]) -> f64 {
+    dot(x, x).sqrt()
+}
+
+/// Solves a symmetric system without negative pivots by L D Lᵀ; rows that repeat others get a pivot of rounding's size.
+fn solve(mut a: Vec<Vec<f64>>, mut b: Vec<f64>) -> Vec<f64> {
+    let n = b.len();
+    let size = (0..n).fold(0.0_f64, |s, i| s.max(a[i][i]));
+    for k in 0..n {
+        a[k][k] += REPEATED * size;
+        let pivot = if a[k][k] > 0.0 { a[k][k] } else { f64::INFINITY };
+        for i in k + 1..n {
+            let factor = a[i][k] / pivot;
+            for j in k + 1..n {
+                let x = a[k][j];
+                a[i][j] -= factor * x;
+            }
+            b[i] -= factor * b[k];
+        }
+    }
+    for k in (0..n).rev() {
+        let rest: f64 = (k + 1..n).map(|j| a[k][j] * b[j]).sum();
+        b[k] = if a[k][k] > 0.0 { (b[k] - rest) / a[k][k] } else { 0.0 };
+    }
+    b
+}
