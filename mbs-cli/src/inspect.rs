@@ -21,8 +21,20 @@ Exit status:
   1  the scene, the state or the usage was refused";
 
 /// What can be asked for.
-const QUANTITIES: [&str; 8] =
-    ["accelerations", "efforts", "gravity", "bias", "mass-matrix", "loops", "momentum", "frames"];
+const QUANTITIES: [&str; 10] = [
+    "accelerations",
+    "efforts",
+    "gravity",
+    "bias",
+    "mass-matrix",
+    "loops",
+    "momentum",
+    "frames",
+    "jacobians",
+    "derivatives",
+];
+/// How many of them are computed where nothing is asked for: the last ones are large, and the last is of open trees alone.
+const DEFAULT: usize = 8;
 
 /// Arguments of `mbs inspect`.
 #[derive(Debug, Args)]
@@ -30,13 +42,13 @@ const QUANTITIES: [&str; 8] =
 pub(crate) struct Arguments {
     #[command(flatten)]
     scene: SceneArgument,
-    /// State, JSON: {"joints": {NAME: {"value": X, "rate": X, "effort": X}}}, each a number or a list. What it leaves out follows. Default: the start of the scene.
+    /// State, JSON: {"joints": {NAME: {"value": X, "rate": X, "effort": X}}, "base": {..}}, each a number or a list; `base` is the only free joint. What it leaves out follows. Default: the start of the scene.
     #[arg(long, value_name = "FILE")]
     state: Option<PathBuf>,
     /// Value of a joint with one coordinate, and its rate; may be repeated. Other joints follow. Default: the start of the scene.
     #[arg(long, value_name = "NAME=VALUE[,RATE]", allow_hyphen_values = true)]
     joint: Vec<String>,
-    /// What is computed: accelerations, efforts (that keep all rates), gravity, bias, mass-matrix, loops, momentum, frames. Default: all.
+    /// What is computed: accelerations, efforts (that keep all rates), gravity, bias, mass-matrix, loops, momentum, frames, jacobians (of all frames), derivatives (of accelerations). Default: all but the last two.
     #[arg(long, value_name = "LIST", value_delimiter = ',')]
     what: Vec<String>,
     /// Print one JSON object on standard output and nothing else.
@@ -72,7 +84,7 @@ fn inspected(arguments: &Arguments) -> Result<Value, Refusal> {
     let name = file.file().to_owned();
     let unread = |error: ReadError| Refusal::read("scene-refused", &error);
     let mut mechanism = Mechanism::of_file(file).map_err(unread)?;
-    let given = given(arguments)?;
+    let given = given(arguments, &mechanism)?;
     if !given.is_empty() {
         // a state is whole: a value of the scene's own start could be in the way of it
         mechanism.clear_initial_conditions();
@@ -84,8 +96,9 @@ fn inspected(arguments: &Arguments) -> Result<Value, Refusal> {
     let mut tree = mechanism.tree().map_err(|error| refused(&error))?;
     tree.follow(&simulation).map_err(|error| refused(&error))?;
     let (rows, efforts) = rows(&mechanism, &tree, &given)?;
-    let is_asked =
-        |word: &str| arguments.what.is_empty() || arguments.what.iter().any(|x| x == word);
+    let is_default =
+        |word: &str| arguments.what.is_empty() && QUANTITIES[..DEFAULT].contains(&word);
+    let is_asked = |word: &str| is_default(word) || arguments.what.iter().any(|x| x == word);
     let mut object = Map::new();
     object.insert("model".into(), json!(name));
     object.insert("rows".into(), json!(rows));
@@ -113,8 +126,24 @@ fn quantity(word: &str, tree: &mut Tree, efforts: &[f64]) -> Result<Value, TreeE
                 "linear": momentum.linear, "angular": momentum.angular,
             })
         }
+        "jacobians" => jacobians(tree),
+        "derivatives" => {
+            let slopes = tree.forward_dynamics_derivatives(efforts)?;
+            json!({
+                "q": matrix(&slopes.q), "v": matrix(&slopes.v), "effort": matrix(&slopes.effort),
+            })
+        }
         _ => frames(tree),
     })
+}
+
+fn jacobians(tree: &mut Tree) -> Value {
+    let names: Vec<String> = tree.frames().map(|(name, _)| name.to_owned()).collect();
+    let of = |name: &String| {
+        let (body, at) = tree.frame_place(name).ok()?;
+        Some((name.clone(), matrix(tree.jacobian_at(body, at))))
+    };
+    names.iter().filter_map(of).collect::<Map<_, _>>().into()
 }
 
 fn frames(tree: &mut Tree) -> Value {
@@ -132,7 +161,7 @@ fn matrix(matrix: &Matrix) -> Value {
 }
 
 /// What the state file says of joints, then what the command line does.
-fn given(arguments: &Arguments) -> Result<Vec<Given>, Refusal> {
+fn given(arguments: &Arguments, mechanism: &Mechanism) -> Result<Vec<Given>, Refusal> {
     let mut all = Vec::new();
     if let Some(path) = &arguments.state {
         let bytes = crate::input::read(path, "state file")?;
@@ -142,8 +171,26 @@ fn given(arguments: &Arguments) -> Result<Vec<Given>, Refusal> {
         };
         let state: Value =
             serde_json::from_slice(&bytes).map_err(|error| refused(error.to_string()))?;
-        let joints = state.get("joints").and_then(Value::as_object);
-        for (name, entry) in joints.ok_or_else(|| refused("no object `joints`".to_owned()))? {
+        let (joints, base) = (state.get("joints"), state.get("base"));
+        if joints.is_none() && base.is_none() {
+            return Err(refused("no object `joints`, and no `base`".to_owned()));
+        }
+        let known = state.as_object().into_iter().flat_map(Map::keys);
+        if let Some(key) = known.into_iter().find(|key| !["joints", "base"].contains(&key.as_str()))
+        {
+            return Err(refused(format!("unknown key `{key}` beside `joints` and `base`")));
+        }
+        let joints = joints.map(|joints| {
+            joints.as_object().ok_or_else(|| refused("`joints` is no object".to_owned()))
+        });
+        let mut entries: Vec<(String, &Value)> = match joints.transpose()? {
+            Some(joints) => joints.iter().map(|(name, entry)| (name.clone(), entry)).collect(),
+            None => Vec::new(),
+        };
+        if let Some(base) = base {
+            entries.push((base_joint(mechanism).map_err(&refused)?, base));
+        }
+        for (name, entry) in &entries {
             let numbers = |key: &str| {
                 numbers(entry.get(key)).map_err(|()| {
                     refused(format!("`{key}` of `{name}` is no number and no list of them"))
@@ -178,6 +225,17 @@ fn given(arguments: &Arguments) -> Result<Vec<Given>, Refusal> {
         all.push(Given { name: name.to_owned(), value: Some(vec![value]), rate, effort: None });
     }
     Ok(all)
+}
+
+/// The only free joint of a mechanism.
+fn base_joint(mechanism: &Mechanism) -> Result<String, String> {
+    let is_free = |joint: &JointId| mechanism.part(*joint).kind.is_free();
+    let mut free = mechanism.ids::<JointId>().filter(is_free);
+    match (free.next(), free.next()) {
+        (Some(joint), None) => Ok(mechanism.name(joint).to_owned()),
+        (None, _) => Err("`base` is the only free joint, and the mechanism has none".to_owned()),
+        _ => Err("`base` is the only free joint, and the mechanism has several: write them under `joints`".to_owned()),
+    }
 }
 
 /// A number, or a list of them.
@@ -241,6 +299,18 @@ fn refused(error: &impl Error) -> Refusal {
     Refusal::new("state-refused", message, error.hint().unwrap_or_default())
 }
 
+/// A matrix with its name; nothing of one without rows.
+fn matrix_text(name: &str, rows: &Value) -> String {
+    let rows = rows.as_array().cloned().unwrap_or_default();
+    let mut out = if rows.is_empty() { String::new() } else { format!("\n{name}\n") };
+    for row in rows {
+        let row = row.as_array().cloned().unwrap_or_default();
+        let numbers = row.iter().map(|x| format!("{:>13.6}", x.as_f64().unwrap_or(f64::NAN)));
+        out += &(numbers.collect::<String>() + "\n");
+    }
+    out
+}
+
 /// The same for people: a line for each row, then what else was asked for.
 fn text(object: &Value) -> String {
     let list = |key: &str| object[key].as_array().cloned().unwrap_or_default();
@@ -257,15 +327,16 @@ fn text(object: &Value) -> String {
         }
         out.push('\n');
     }
-    for key in ["mass_matrix", "loops"] {
-        if !list(key).is_empty() {
-            out += &format!("\n{}\n", key.replace('_', " "));
-        }
-        for row in list(key) {
-            let row = row.as_array().cloned().unwrap_or_default();
-            let numbers = row.iter().map(|x| format!("{:>13.6}", x.as_f64().unwrap_or(f64::NAN)));
-            out += &(numbers.collect::<String>() + "\n");
-        }
+    let mut matrices: Vec<(String, &Value)> = Vec::new();
+    for (key, name) in [("mass_matrix", "mass matrix"), ("loops", "loops")] {
+        matrices.push((name.to_owned(), &object[key]));
+    }
+    for (key, name) in [("jacobians", "jacobian of"), ("derivatives", "accelerations by")] {
+        let all = object[key].as_object().into_iter().flatten();
+        matrices.extend(all.map(|(of, value)| (format!("{name} {of}"), value)));
+    }
+    for (name, rows) in &matrices {
+        out += &matrix_text(name, rows);
     }
     let vector = |value: &Value| {
         let numbers = value.as_array().cloned().unwrap_or_default();

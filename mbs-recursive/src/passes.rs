@@ -40,17 +40,20 @@ pub fn kinematics<T: Real, S: Space<T>>(
     Ok(())
 }
 
-/// Places alone; all velocities and velocity products are zero.
+/// Places alone of some links, each behind its parent; all velocities and velocity products are zero.
 ///
 /// # Errors
 /// [`Outside`] if the tables do not fit each other.
 #[cfg(feature = "alloc")]
+#[inline]
 pub(crate) fn positions<T: Real, S: Space<T>>(
     links: &[Link<T, S>],
+    some: impl Iterator<Item = usize>,
     (z, guides): (&[T], &[[T; 3]]),
     placed: &mut [LinkMotion<T, S>],
 ) -> Result<(), Outside> {
-    for (i, link) in links.iter().enumerate().skip(1) {
+    for i in some {
+        let link = at(links, i)?;
         let parent = at(placed, link.parent as usize)?;
         let here = joint::place::<T, S, false>(link, parent, z, &[], guides)?;
         *at_mut(placed, i)? = here;

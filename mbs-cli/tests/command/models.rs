@@ -150,6 +150,22 @@ fn states_that_no_joint_can_have_are_refused_with_the_nearest_name() {
         assert_eq!(status(&refused), 1, "{option}");
         assert!(text(&refused.stderr).contains(message), "{option}: {}", text(&refused.stderr));
     }
+    // derivatives and Jacobians are computed where they are asked for
+    let asked = ["--joint=pivot=0.3,0.2", "--what=derivatives,jacobians,mass-matrix", "--json"];
+    let object = done(&run("inspect", &[&[scene.as_str()][..], &asked].concat()));
+    let (mass, inverse) = (flat(&object["mass_matrix"]), flat(&object["derivatives"]["effort"]));
+    let product = mass[0] * inverse[0] + mass[1] * inverse[2];
+    assert!((product - 1.0).abs() < 1e-12 && object["accelerations"].is_null(), "{object}");
+    assert_eq!(object["jacobians"]["lower"].as_array().expect("rows").len(), 6);
+    let loops = super::scene("four-bar");
+    let refused = run("inspect", &[&loops, "--what", "derivatives"]);
+    assert!(text(&refused.stderr).contains("this joint closes a loop"), "{refused:?}");
+    // the base is the only free joint
+    let state = file("base.json");
+    std::fs::write(&state, "{\"base\": {\"rate\": [1, 0, 0, 0, 0, 2]}}").expect("a folder");
+    let state = state.to_str().expect("UTF-8");
+    let refused = run("inspect", &[&scene, "--state", state]);
+    assert!(text(&refused.stderr).contains("the mechanism has none"), "{refused:?}");
     // with a loop the rest follows
     let object =
         done(&run("inspect", &[&super::scene("four-bar"), "--joint", "start-0=0.3", "--json"]));

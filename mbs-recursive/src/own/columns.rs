@@ -72,8 +72,14 @@ pub struct OwnFreedoms<T: Real, S: Space<T>> {
     pub(super) above: Vec<Vec<u32>>,
     /// The numbers of the columns that have each column on their way to the ground; likewise.
     pub(super) below: Vec<Vec<u32>>,
+    /// From the least to the largest of all these numbers and its own, for each column; likewise.
+    pub(super) related: Vec<Range<usize>>,
     /// The columns of each link.
     pub(super) of_link: Vec<Range<usize>>,
+    /// The parts of each link's joint.
+    pub(super) parts_of: Vec<Range<usize>>,
+    /// Links on the way from the ground to one of them.
+    pub(super) way: Vec<usize>,
     /// The parent of each link; of a free one the ground.
     pub(super) parent: Vec<usize>,
     /// Tensors of the links about their origins in reference axes: xx, xy, xz, yy, yz, zz.
@@ -103,7 +109,10 @@ impl<T: Real, S: Space<T>> OwnFreedoms<T, S> {
             up: Vec::new(),
             above: Vec::new(),
             below: Vec::new(),
+            related: Vec::new(),
             of_link: vec![0..0; links.len()],
+            parts_of: vec![0..0; links.len()],
+            way: Vec::with_capacity(links.len()),
             parent: links.iter().map(|l| l.parent as usize).collect(),
             tensors: vec![[T::ZERO; 6]; links.len()],
             columns: vec![Six::zero(); model.n_freedoms()],
@@ -119,7 +128,7 @@ impl<T: Real, S: Space<T>> OwnFreedoms<T, S> {
                 made.parent[i] = 0;
             }
             made.tensors[i] = tensor::<T, S>(&link.tensor);
-            let first = made.number.len();
+            let (first, first_part) = (made.number.len(), made.parts.len());
             let before = last[made.parent[i]];
             for (kind, numbers) in parts::<T, S>(link.kind, place) {
                 let columns = made.number.len()..made.number.len() + numbers.len();
@@ -132,6 +141,7 @@ impl<T: Real, S: Space<T>> OwnFreedoms<T, S> {
                 made.parts.push(ColumnPart { link: i, kind, columns, is_free, point, reference });
             }
             made.of_link[i] = first..made.number.len();
+            made.parts_of[i] = first_part..made.parts.len();
             last[i] = if made.number.len() > first { index(made.number.len() - 1) } else { before };
         }
         made
@@ -159,13 +169,46 @@ impl<T: Real, S: Space<T>> OwnFreedoms<T, S> {
         let m = model.mechanism();
         let s = workspace.store();
         model.prescribed().write(state.t, &state.applied, s.guides, s.courses);
-        own(positions(m.links, (&state.z, s.guides), s.placed));
+        own(positions(m.links, 1..m.links.len(), (&state.z, s.guides), s.placed));
         self.write_columns(&m, s.placed);
+    }
+
+    /// The same on the way from a link to the ground alone; `self.way` has it from the ground on.
+    pub(super) fn place_way(
+        &mut self,
+        model: &TreeModel<T, S>,
+        (state, mut link): (&TreeState<T>, usize),
+        workspace: &mut Workspace<T, S>,
+    ) {
+        self.way.clear();
+        while link > 0 {
+            self.way.push(link);
+            link = self.parent[link];
+        }
+        self.way.reverse();
+        let m = model.mechanism();
+        let s = workspace.store();
+        model.prescribed().write(state.t, &state.applied, s.guides, s.courses);
+        own(positions(m.links, self.way.iter().copied(), (&state.z, s.guides), s.placed));
+        for i in 0..self.way.len() {
+            self.write_columns_of(&m, self.parts_of[self.way[i]].clone(), s.placed);
+        }
     }
 
     /// Writes the columns where the links are placed.
     pub(super) fn write_columns(&mut self, m: &TreeSlices<'_, T, S>, placed: &[LinkMotion<T, S>]) {
-        for part in &self.parts {
+        self.write_columns_of(m, 0..self.parts.len(), placed);
+    }
+
+    /// The same of some parts.
+    #[inline]
+    fn write_columns_of(
+        &mut self,
+        m: &TreeSlices<'_, T, S>,
+        parts: Range<usize>,
+        placed: &[LinkMotion<T, S>],
+    ) {
+        for part in &self.parts[parts] {
             let columns = &mut self.columns[part.columns.clone()];
             let p = &placed[part.link];
             if part.kind == PartKind::Single {

@@ -5,6 +5,7 @@ use super::columns::NONE;
 use crate::space::Space;
 use alloc::vec;
 use alloc::vec::Vec;
+use core::ops::Range;
 use mbs_core::Real;
 
 /// Pivot that is no inertia, in units of rounding of the diagonal [-]. Chosen, not tuned.
@@ -62,6 +63,13 @@ impl<T: Real, S: Space<T>> OwnFreedoms<T, S> {
                 up = self.up[up as usize];
             }
         }
+        for c in 0..n {
+            let related = self.above[c].iter().chain(&self.below[c]).chain([&self.number[c]]);
+            let ends = related.fold([n, 0], |[least, most], &k| {
+                [least.min(k as usize), most.max(k as usize + 1)]
+            });
+            self.related.push(ends[0]..ends[1]);
+        }
     }
 
     /// Replaces the columns of `x`, which has a row for each freedom, by M⁻¹ times them, by the factors of M.
@@ -71,9 +79,25 @@ impl<T: Real, S: Space<T>> OwnFreedoms<T, S> {
     /// # Panics
     /// If `x` has not a row for each freedom.
     pub fn solve(&mut self, factors: &[T], x: &mut [T]) {
+        self.solve_half((factors, false), x);
+        self.solve_rest(factors, x);
+    }
+
+    /// The same of a square whose entries are zero where row and column are not on one way to the ground, as those of derivatives
+    /// of efforts are, and of one.
+    ///
+    /// # Panics
+    /// If `x` is not a square of the freedoms.
+    pub fn solve_square(&mut self, factors: &[T], x: &mut [T]) {
         let n = self.number.len();
-        assert_eq!(x.len() % n.max(1), 0, "rows of freedoms");
-        self.solve_half(factors, x);
+        assert_eq!(x.len(), n * n, "numbers of a square of freedoms");
+        self.solve_half((factors, true), x);
+        self.solve_rest(factors, x);
+    }
+
+    /// Replaces the columns of `x` by L⁻¹ D⁻¹ times them.
+    fn solve_rest(&mut self, factors: &[T], x: &mut [T]) {
+        let n = self.number.len();
         let mut sum = core::mem::take(&mut self.row);
         for c in 0..n {
             let k = self.number[c] as usize;
@@ -82,7 +106,7 @@ impl<T: Real, S: Space<T>> OwnFreedoms<T, S> {
             sum.clear();
             sum.extend(row(x, n, k).iter().map(|&x| x * scale));
             let above = self.above[c].iter().map(|&j| (j as usize, factors[k * n + j as usize]));
-            subtract((x, n), above, &mut sum);
+            subtract((x, n, 0), above, &mut sum);
             row_mut(x, n, k).copy_from_slice(&sum);
         }
         self.row = sum;
@@ -108,7 +132,7 @@ impl<T: Real, S: Space<T>> OwnFreedoms<T, S> {
                 columns[k * width + i] = x;
             }
         }
-        self.solve_half(factors, columns);
+        self.solve_half((factors, false), columns);
         mobility.fill(T::ZERO);
         for (k, column) in columns.chunks_exact(width.max(1)).enumerate() {
             let inverse = T::ONE / factors[k * n + k];
@@ -120,18 +144,21 @@ impl<T: Real, S: Space<T>> OwnFreedoms<T, S> {
         }
     }
 
-    /// Replaces the columns of `x` by L⁻ᵀ times them.
-    fn solve_half(&mut self, factors: &[T], x: &mut [T]) {
+    /// Replaces the columns of `x` by L⁻ᵀ times them; those of a square are zero outside of the related columns.
+    fn solve_half(&mut self, (factors, is_square): (&[T], bool), x: &mut [T]) {
         let n = self.number.len();
+        assert_eq!(x.len() % n.max(1), 0, "rows of freedoms");
         let mut sum = core::mem::take(&mut self.row);
         for c in (0..n).rev() {
             let k = self.number[c] as usize;
+            let width = x.len() / n;
+            let Range { start, end } = if is_square { self.related[c].clone() } else { 0..width };
             // x_k ← x_k − Σ L_jk x_j over the subtree
             sum.clear();
-            sum.extend_from_slice(row(x, n, k));
+            sum.extend_from_slice(&row(x, n, k)[start..end]);
             let below = self.below[c].iter().map(|&j| (j as usize, factors[j as usize * n + k]));
-            subtract((x, n), below, &mut sum);
-            row_mut(x, n, k).copy_from_slice(&sum);
+            subtract((x, n, start), below, &mut sum);
+            row_mut(x, n, k)[start..end].copy_from_slice(&sum);
         }
         self.row = sum;
     }
@@ -147,15 +174,16 @@ fn row_mut<T>(x: &mut [T], n: usize, k: usize) -> &mut [T] {
     &mut x[k * width..][..width]
 }
 
-/// Subtracts rows of `x`, each times its factor, from a sum: four in one pass, so that the sum is read and written once for them.
+/// Subtracts rows of `x` from a column on, each times its factor, from a sum: four in one pass, so that the sum is read and written once for them.
 #[inline(always)]
 fn subtract<T: Real>(
-    (x, n): (&[T], usize),
+    (x, n, start): (&[T], usize, usize),
     mut terms: impl ExactSizeIterator<Item = (usize, T)>,
     sum: &mut [T],
 ) {
     while terms.len() >= 4 {
-        let mut next = || terms.next().map(|(k, factor)| (&row(x, n, k)[..sum.len()], factor));
+        let mut next =
+            || terms.next().map(|(k, factor)| (&row(x, n, k)[start..][..sum.len()], factor));
         let [Some((a, f)), Some((b, g)), Some((c, h)), Some((d, i))] =
             [next(), next(), next(), next()]
         else {
@@ -166,7 +194,7 @@ fn subtract<T: Real>(
         }
     }
     for (k, factor) in terms {
-        for (sum, &x) in sum.iter_mut().zip(row(x, n, k)) {
+        for (sum, &x) in sum.iter_mut().zip(&row(x, n, k)[start..]) {
             *sum -= factor * x;
         }
     }

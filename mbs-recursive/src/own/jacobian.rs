@@ -14,7 +14,7 @@ impl<T: Real, S: Space<T>> OwnFreedoms<T, S> {
     /// Writes the Jacobian of a body's point, which was at `at` in the reference configuration, row by row: of its velocity, and where
     /// there are six rows of the body's angular velocity; global axes.
     ///
-    /// Cost: an outward pass without velocities, and the links on the way to the ground; no allocation.
+    /// Cost: that of the links on the way to the ground; no allocation.
     ///
     /// # Panics
     /// If `rows` has not three or six rows.
@@ -27,19 +27,17 @@ impl<T: Real, S: Space<T>> OwnFreedoms<T, S> {
     ) {
         let n = self.number.len();
         assert!(rows.len() == 3 * n || rows.len() == 6 * n, "rows of the Jacobian");
-        self.place(model, state, workspace);
+        let (link, point) = model.seat_point(body, at);
+        self.place_way(model, (state, link as usize), workspace);
         let placed = workspace.store().placed;
         rows.fill(T::ZERO);
-        let (link, point) = model.seat_point(body, at);
-        let mut i = link as usize;
-        let mut arm = S::point_into(&S::rotate(&placed[i].rotation, &point));
-        while i > 0 {
+        let mut arm = S::point_into(&S::rotate(&placed[link as usize].rotation, &point));
+        for &i in self.way.iter().rev() {
             for c in self.of_link[i].clone() {
                 let column = self.columns[c].at(&arm);
                 put(rows, (n, self.number[c] as usize), [column.push, column.turn]);
             }
             arm += S::point_into(&placed[i].arm);
-            i = self.parent[i];
         }
     }
 

@@ -109,7 +109,7 @@ impl Tree {
             square.iter_mut().for_each(|x| *x = -*x);
         }
         for square in [&mut to.q.data, &mut to.v.data, &mut to.effort.data] {
-            with!(&mut self.inner, t => t.own.solve(&self.mass.data, square));
+            with!(&mut self.inner, t => t.own.solve_square(&self.mass.data, square));
         }
         Ok(self.by_effort.insert(to))
     }
