@@ -26,6 +26,9 @@ LEFT_OUT = {"friction", "limit", "contact"}
 # Spreads below this say that a reference's end is worth comparing.
 WORTH = 1e-10
 
+# The accelerations that a reference has, those first in which most acts.
+ACCELERATIONS = ["acceleration_ctrl", "acceleration_actuated", "acceleration"]
+
 RUN = ["--formulation", "recursive", "--integrator", "rk853", "--tolerance", "1e-12", "--energy-alarm", "1e9"]
 
 
@@ -105,7 +108,7 @@ def difference(found, wanted):
 
 def compare(reference, found, first, last, end):
     out = {"acceleration": None, "motion": None}
-    wanted = reference.get("acceleration_actuated") or reference.get("acceleration")
+    wanted = next((reference[key] for key in ACCELERATIONS if reference.get(key)), None)
     if wanted:
         out["acceleration"] = difference([first[i, 2] for i in range(len(found))], [pair.rows(wanted) for pair in found])
     if end:
@@ -175,6 +178,8 @@ def one(name, model, reference, options, work):
     row = {"model": name, "imported": "no", "ran": "", "says": ""}
     scene = work / f"{name}.toml"
     extra = ["--base", "free"] if reference.get("base") == "free" else []
+    if "ctrl" in reference:
+        extra = ["--key", "on"]
     started = time.monotonic()
     code, said = run([*options.importer, "import", str(model), "-o", str(scene), *extra, *options.options], 60)
     row["ms"] = round(1000 * (time.monotonic() - started))

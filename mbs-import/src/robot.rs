@@ -181,6 +181,14 @@ pub(crate) enum What {
         on: Target,
         signal: String,
     },
+    /// A force at a place, or without one a moment, whose components follow signals: along global axes, or those of the reference
+    /// configuration that turn with the link.
+    Push {
+        link: usize,
+        at: Option<V3>,
+        turns: bool,
+        signals: [String; 3],
+    },
     Bushing {
         links: [usize; 2],
         place: V3,

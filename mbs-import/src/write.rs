@@ -279,6 +279,9 @@ impl Writer<'_> {
                 self.effect(name, word_of_drive(on), on);
                 self.key("signal", quoted(signal));
             }
+            What::Push { link, at, turns, signals } => {
+                self.push((name, *link), at.as_ref(), *turns, signals);
+            }
             What::Bushing { links, place, stiffness, damping } => {
                 self.bushing(name, (*links, place), [stiffness, damping]);
             }
@@ -300,6 +303,29 @@ impl Writer<'_> {
         self.key("at", vector(place));
         self.key("stiffness", list(*stiffness));
         self.key("damping", list(*damping));
+    }
+
+    /// A force at a place, or without one a moment, whose components follow signals.
+    fn push(
+        &mut self,
+        (name, link): (&str, usize),
+        at: Option<&V3>,
+        turns: bool,
+        signals: &[String; 3],
+    ) {
+        let (body, kind) = (self.body(link), if at.is_some() { "force" } else { "torque" });
+        self.table("effect");
+        self.key("name", quoted(name));
+        self.key("kind", quoted(kind));
+        self.key("body", body);
+        if let Some(at) = at {
+            self.key("at", vector(at));
+        }
+        let signals = signals.each_ref().map(|signal| quoted(signal)).join(", ");
+        self.key("signal", format!("[{signals}]"));
+        if turns {
+            self.key("frame", quoted("body"));
+        }
     }
 
     /// A force or moment of a value.

@@ -1,9 +1,10 @@
 //! Actuators: an input in units of their control, and the force that follows from it.
 
 use super::defaults::is_actuator;
-use super::model::{Model, Motion, Tendon};
+use super::model::Model;
+use super::transmission::{Transmission, push, transmission};
 use crate::element::Element;
-use crate::robot::{Signal, Target, Term, What};
+use crate::robot::{Signal, Target, What};
 use crate::source::Read;
 
 /// An actuator: force = gain u + b₀ + b₁ l + b₂ l̇ of its length l.
@@ -17,8 +18,7 @@ struct Actuator {
     bias_kind: String,
     dynamics: String,
     time: f64,
-    gear: f64,
-    other_gears: bool,
+    gear: [f64; 6],
     control: Option<[f64; 2]>,
     control_limited: Option<bool>,
     force: Option<[f64; 2]>,
@@ -40,8 +40,7 @@ impl Actuator {
             bias_kind: "none".into(),
             dynamics: "none".into(),
             time: 1.0,
-            gear: 1.0,
-            other_gears: false,
+            gear: [1.0, 0.0, 0.0, 0.0, 0.0, 0.0],
             control: None,
             control_limited: None,
             force: None,
@@ -133,9 +132,10 @@ impl Actuator {
             element.attribute(name);
         }
         if let Some(gear) = element.attribute("gear") {
-            let gear = gear.list()?;
-            self.gear = gear.first().copied().unwrap_or(1.0);
-            self.other_gears = gear.iter().skip(1).any(|x| *x != 0.0);
+            // a shorter list leaves the others as they are
+            for (own, written) in self.gear.iter_mut().zip(gear.list()?) {
+                *own = written;
+            }
         }
         let limited = |name: &str, value: &mut Option<bool>| -> Read<()> {
             if let Some(word) = element.attribute(name) {
@@ -192,16 +192,19 @@ impl Actuator {
         }
         None
     }
-}
 
-/// What an actuator pulls: terms of its length without gear, and the length in the reference configuration.
-struct Transmission {
-    terms: Vec<Term>,
-    drawn: f64,
-    /// Ends of the effort of its joint.
-    effort: Option<[f64; 2]>,
-    range: Option<[f64; 2]>,
-    label: String,
+    /// Why the scene cannot have it there: what is no coordinate has no measure.
+    fn refusal_of(&self, pulled: &Transmission) -> Option<String> {
+        let bias =
+            |i: usize| self.bias_kind == "affine" && self.bias.get(i).is_some_and(|x| *x != 0.0);
+        if pulled.pushes.is_empty() {
+            return None;
+        }
+        if bias(2) || (bias(1) && pulled.has_length) || self.damping > 0.0 || self.armature > 0.0 {
+            return Some("its force follows a length or a rate that is no coordinate".into());
+        }
+        None
+    }
 }
 
 /// Reads the elements `actuator`.
@@ -230,32 +233,28 @@ fn add(
     ending: &str,
     model: &mut Model<'_, '_, '_>,
 ) -> Read<()> {
-    let mut lost = |says: String| {
-        element.read_whole();
-        model.context.findings.ignored(element.at, format!("actuator/{}", element.label()), says);
-        model.inputs.push(None);
+    let label = format!("actuator/{}", element.label());
+    let found = if !model.compiler.acts.actuation {
+        Err("actuation is disabled in the file".into())
+    } else if let Some(why) = actuator.refusal() {
+        Err(format!("{why}: the actuator does not act here"))
+    } else {
+        let found = transmission(element, &actuator.gear, ending, model)?;
+        let found = found.and_then(|pulled| actuator.refusal_of(&pulled).map_or(Ok(pulled), Err));
+        found.map_err(|why| format!("{why}: the actuator does not act here"))
     };
-    if !model.compiler.acts.actuation {
-        lost("actuation is disabled in the file".into());
-        return Ok(());
-    }
-    if let Some(says) = actuator.refusal() {
-        lost(format!("{says}: the actuator does not act here"));
-        return Ok(());
-    }
-    let Some(pulled) = transmission(element, ending, model)? else {
-        element.read_whole();
-        let says = "what it pulls has no coordinate of the scene: the actuator does not act here";
-        model.context.findings.ignored(element.at, format!("actuator/{}", element.label()), says);
-        model.inputs.push(None);
-        return Ok(());
+    let pulled = match found {
+        Ok(pulled) => pulled,
+        Err(says) => {
+            element.read_whole();
+            model.context.findings.ignored(element.at, label, says);
+            model.inputs.push(None);
+            return Ok(());
+        }
     };
     for says in &actuator.lost {
-        model.context.findings.ignored(
-            element.at,
-            format!("actuator/{}", element.label()),
-            format!("{says}: does not act here"),
-        );
+        let says = format!("{says}: does not act here");
+        model.context.findings.ignored(element.at, label.as_str(), says);
     }
     let name = match element.value("name") {
         Some(name) => format!("{name}{ending}"),
@@ -265,70 +264,25 @@ fn add(
     Ok(())
 }
 
-/// What an actuator pulls; `None` where that is no sum of coordinates.
-fn transmission(
-    element: &Element,
-    ending: &str,
-    model: &mut Model<'_, '_, '_>,
-) -> Read<Option<Transmission>> {
-    let of_joint = |motion: &Motion| {
-        let (term, drawn) = motion.term(1.0);
-        let name = motion.name.clone();
-        Transmission {
-            terms: vec![term],
-            drawn,
-            effort: motion.effort,
-            range: motion.range,
-            label: name,
-        }
-    };
-    let joint = element.attribute("joint").or_else(|| element.attribute("jointinparent"));
-    if let Some(joint) = joint {
-        let motion = model.motion(joint, ending)?;
-        return Ok(motion.is_single().then(|| of_joint(motion)));
-    }
-    if let Some(tendon) = element.attribute("tendon") {
-        return Ok(match model.tendon(tendon, ending)? {
-            Tendon::Sum(terms, drawn) if !terms.is_empty() => Some(Transmission {
-                terms: terms.clone(),
-                drawn: *drawn,
-                effort: None,
-                range: None,
-                label: tendon.value.clone(),
-            }),
-            _ => None,
-        });
-    }
-    Ok(None)
-}
-
 /// The input, the signals that follow from it, and the effort that follows from those.
 fn laws(name: &str, actuator: &Actuator, pulled: &Transmission, model: &mut Model<'_, '_, '_>) {
-    let gear = actuator.gear;
+    let gear = pulled.gear;
     let on = match &pulled.terms[..] {
         [only] if only.factor == 1.0 && only.line.is_empty() => Target::Coordinate(only.of.clone()),
         terms => Target::Sum(terms.to_vec()),
     };
-    // inertia and damping of the actuator are on its length, which is gear times what it pulls
-    if actuator.damping > 0.0 {
-        let damping = actuator.damping * gear * gear;
-        let what = What::Spring { on: on.clone(), stiffness: 0.0, damping, free: 0.0 };
-        model.law(&format!("{name} damping"), what);
-    }
-    if let ([only], true) =
-        (&pulled.terms[..], actuator.armature > 0.0 && pulled.terms[0].line.is_empty())
-    {
-        let inertia = actuator.armature * (gear * only.factor).powi(2);
-        let on = Target::Coordinate(only.of.clone());
-        model.law(&format!("{name} armature"), What::Rotor { on, inertia });
-    }
+    own(name, actuator, pulled, &on, model);
     let control = control_range(actuator, pulled, model);
     let force =
         actuator.force.filter(|_| actuator.force_limited.unwrap_or(model.compiler.auto_limits));
     let gain = actuator.gain.first().copied().unwrap_or(1.0);
     let bias = |i: usize| actuator.bias.get(i).copied().unwrap_or(0.0);
     let has_bias = actuator.bias_kind == "affine" && (0..3).any(|i| bias(i) != 0.0);
-    let is_plain = control.is_none() && force.is_none() && pulled.effort.is_none() && !has_bias;
+    let is_plain = pulled.pushes.is_empty()
+        && control.is_none()
+        && force.is_none()
+        && pulled.effort.is_none()
+        && !has_bias;
     if is_plain && gain * gear == 1.0 && !actuator.lags() {
         model.inputs.push(Some((model.robot.laws.len(), 1.0)));
         model.law(name, What::Input { on, value: 0.0 });
@@ -365,7 +319,35 @@ fn laws(name: &str, actuator: &Actuator, pulled: &Transmission, model: &mut Mode
         signal =
             model.signal(&format!("{name} effort"), Signal::Clamp { of: signal, lower, upper });
     }
-    model.law(&format!("{name} drive"), What::Driven { on, signal });
+    if pulled.pushes.is_empty() {
+        model.law(&format!("{name} drive"), What::Driven { on, signal });
+    } else {
+        push(&format!("{name} drive"), &signal, &pulled.pushes, model);
+    }
+}
+
+/// Inertia and damping of the actuator itself.
+fn own(
+    name: &str,
+    actuator: &Actuator,
+    pulled: &Transmission,
+    on: &Target,
+    model: &mut Model<'_, '_, '_>,
+) {
+    let gear = pulled.gear;
+    // inertia and damping of the actuator are on its length, which is gear times what it pulls
+    if actuator.damping > 0.0 {
+        let damping = actuator.damping * gear * gear;
+        let what = What::Spring { on: on.clone(), stiffness: 0.0, damping, free: 0.0 };
+        model.law(&format!("{name} damping"), what);
+    }
+    if let ([only], true) = (&pulled.terms[..], actuator.armature > 0.0)
+        && only.line.is_empty()
+    {
+        let inertia = actuator.armature * (gear * only.factor).powi(2);
+        let on = Target::Coordinate(only.of.clone());
+        model.law(&format!("{name} armature"), What::Rotor { on, inertia });
+    }
 }
 
 /// b₀ + b₁ l + b₂ l̇ as signals, with l = gear times the length that is pulled.
@@ -376,7 +358,7 @@ fn add_bias(
     sum: &mut Vec<(String, f64)>,
     model: &mut Model<'_, '_, '_>,
 ) {
-    let gear = actuator.gear;
+    let gear = pulled.gear;
     let bias = |i: usize| actuator.bias.get(i).copied().unwrap_or(0.0);
     // a measured length is whole, a measured coordinate counts from the reference configuration
     let is_line = pulled.terms.iter().any(|term| !term.line.is_empty());

@@ -188,6 +188,8 @@ fn group(joints: &[Written]) -> Group {
         }
     }
     if moves == [Moves::Slide, Moves::Slide, Moves::Slide, Moves::Ball] {
+        // one mass for all directions
+        let is_alike = (1..3).all(|i| joints[i].motion.armature == joints[0].motion.armature);
         // the scene's slides are along the global axes
         let along = |axis: V3| {
             (0..3).find(|i| 1.0 - axis[*i].abs() <= RIGHT_ANGLE).map(|i| (i, axis[i].signum()))
@@ -195,7 +197,7 @@ fn group(joints: &[Written]) -> Group {
         let places: Vec<_> = (0..3).filter_map(|i| along(axis(i))).collect();
         let mut numbers: Vec<_> = places.iter().map(|(number, _)| *number).collect();
         numbers.sort_unstable();
-        if numbers == [0, 1, 2] {
+        if is_alike && numbers == [0, 1, 2] {
             return Group { len: 4, kind: Kind::Free, axes: Vec::new(), places };
         }
     }
@@ -278,12 +280,14 @@ fn single(read: &Written, motion: &Motion, model: &mut Model<'_, '_, '_>) {
             What::Friction { on: on.clone(), coulomb: read.friction },
         );
     }
-    if motion.armature > 0.0 {
+    // that of a free joint is a mass of its body
+    let is_free = model.robot.joints[motion.joint].kind == Kind::Free;
+    if motion.armature > 0.0 && !is_free {
         model.law(&format!("{name} armature"), What::Rotor { on, inertia: motion.armature });
     }
 }
 
-/// Spring, damping and armature of a ball or a free joint.
+/// Spring and damping of a ball or a free joint.
 fn several(
     read: &Written,
     motion: &Motion,
@@ -312,10 +316,6 @@ fn several(
     }
     if read.friction > 0.0 {
         let says = "frictionloss of a joint with several coordinates does not act here";
-        model.context.findings.ignored(motion.at, label.as_str(), says);
-    }
-    if motion.armature > 0.0 {
-        let says = "armature of a joint with several coordinates does not act here";
         model.context.findings.ignored(motion.at, label.as_str(), says);
     }
     if read.limited_ball {

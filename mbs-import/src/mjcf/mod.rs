@@ -19,6 +19,7 @@ mod table;
 mod tendon;
 #[cfg(test)]
 mod tests;
+mod transmission;
 mod weights;
 
 pub(crate) use include::include;
@@ -47,6 +48,7 @@ pub(crate) fn read(root: &Element, context: &mut Context<'_>) -> Read<Robot> {
     }
     weights::settle(&mut model)?;
     stops::add(&mut model);
+    weights::armatures(&mut model);
     tendon::read(root, &mut model)?;
     equality::read(root, &mut model)?;
     actuator::read(root, &mut model)?;

@@ -146,23 +146,23 @@ pub(crate) const TABLE: &[Row] = &[
     row("actuator", "", Mapped),
     row(
         "general",
-        " name class joint jointinparent tendon gear ctrlrange ctrllimited forcerange forcelimited gaintype gainprm biastype biasprm dyntype dynprm armature damping delay actlimited actrange group user",
+        " name class joint jointinparent tendon site gear ctrlrange ctrllimited forcerange forcelimited gaintype gainprm biastype biasprm dyntype dynprm armature damping delay actlimited actrange group user",
         Mapped,
     ),
     row(
         "motor",
-        " name class joint jointinparent tendon gear ctrlrange ctrllimited forcerange forcelimited armature damping delay group user",
+        " name class joint jointinparent tendon site gear ctrlrange ctrllimited forcerange forcelimited armature damping delay group user",
         Mapped,
     ),
     row(
         "position",
-        " name class joint jointinparent tendon gear ctrlrange ctrllimited forcerange forcelimited kp kv timeconst inheritrange armature damping delay group user",
+        " name class joint jointinparent tendon site gear ctrlrange ctrllimited forcerange forcelimited kp kv timeconst inheritrange armature damping delay group user",
         Mapped,
     ),
     row("position", "dampratio", Ignored("damping by a ratio does not act here: write kv")),
     row(
         "velocity",
-        " name class joint jointinparent tendon gear ctrlrange ctrllimited forcerange forcelimited kv armature damping delay group user",
+        " name class joint jointinparent tendon site gear ctrlrange ctrllimited forcerange forcelimited kv armature damping delay group user",
         Mapped,
     ),
     row("general", "*", Ignored("this of an actuator does not act here")),

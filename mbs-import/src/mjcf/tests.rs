@@ -3,8 +3,10 @@
 use crate::context::Context;
 use crate::findings::Findings;
 use crate::options::ImportOptions;
+use crate::pose::{V3, v3};
 use crate::robot::{Kind, Robot, Signal, Target, What};
 use crate::source::Sources;
+use mbs_core::algebra::cross;
 
 /// Rounding of turned tensors of size one.
 const TOLERANCE: f64 = 1.0e-12;
@@ -234,6 +236,30 @@ fn a_position_actuator_has_the_force_of_qfrc_actuator_as_drawn() {
     assert_eq!((factor("p value"), factor("p rate")), (-80.0, -12.0));
     let What::Signal(Signal::Sum { of }) = law(&robot, "m geared") else { panic!("no gear") };
     assert_eq!(of[..], [("m limited".to_owned(), 3.0)]);
+}
+
+#[test]
+fn a_motor_at_a_site_pushes_and_turns_as_qfrc_actuator_says() {
+    let text = r#"<mujoco><worldbody><body name="b"><freejoint name="f"/><geom size=".1"/><site name="s" pos=".1 .2 .3" euler="20 30 40"/></body></worldbody>
+<actuator><motor name="jet" site="s" gear="1 2 3 4 5 6"/></actuator></mujoco>"#;
+    let robot = robot(text);
+    let (mut force, mut moment) = (V3::zeros(), V3::zeros());
+    for found in &robot.laws {
+        let What::Push { at: Some(at), turns: true, signals, .. } = &found.what else { continue };
+        let value = signals.each_ref().map(|signal| match law(&robot, signal) {
+            What::Signal(Signal::Sum { of }) => of[0].1,
+            _ => panic!("no sum"),
+        });
+        force += v3(value);
+        moment += cross(at, &v3(value));
+    }
+    let expected = [
+        [1.0500731497160998, 1.066276000884629, 3.4293442332584214],
+        [3.2362898429299527, 4.184610855894216, 7.0391617640619515],
+    ];
+    for (found, expected) in [force, moment].into_iter().zip(expected) {
+        assert!((found - v3(expected)).norm() < TOLERANCE, "{found}");
+    }
 }
 
 /// A channel with one high side: the other program's two ways to count its volume differ.

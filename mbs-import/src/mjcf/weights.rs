@@ -1,9 +1,9 @@
 //! What settings of the whole model do to the inertias of its bodies.
 
-use super::model::Model;
+use super::model::{Model, Moves};
 use crate::inertia::{Mass, SLACK};
 use crate::pose::{M3, v3};
-use crate::robot::{Target, What};
+use crate::robot::{GROUND, Kind, Target, What};
 use crate::source::Read;
 
 /// Bounds, balances and scales the masses of all bodies, and gives them to the links.
@@ -41,6 +41,48 @@ pub(super) fn settle(model: &mut Model<'_, '_, '_>) -> Read<()> {
         }
     }
     Ok(())
+}
+
+/// Armature of a free joint, or of a ball on the ground, is an inertia of its body: E = ½ a |v|² + ½ a |ω|², with v of the joint's place, is
+/// that of a mass a there, without weight, and of a moment a about all axes. Between moving bodies it has no counterpart.
+pub(super) fn armatures(model: &mut Model<'_, '_, '_>) {
+    let carriers = model.robot.carriers(|joint| joint.kind == Kind::Fixed);
+    for number in 0..model.motions.len() {
+        let motion = model.motions[number].clone();
+        let joint = &model.robot.joints[motion.joint];
+        let (link, place, armature) = (joint.child, joint.place, motion.armature);
+        // the three slides of a free joint have the same
+        let [mass, moment] = match (joint.kind, motion.moves) {
+            (Kind::Free, Moves::Free) => [armature, armature],
+            (Kind::Free, Moves::Slide) if motion.number == Some(0) => [armature, 0.0],
+            (_, Moves::Ball) => [0.0, armature],
+            _ => continue,
+        };
+        if armature == 0.0 {
+            continue;
+        }
+        let own = model.robot.links[link].mass.unwrap_or_else(Mass::none);
+        if carriers[joint.parent] != GROUND || own.mass == 0.0 {
+            let moments = own.six();
+            let says = format!(
+                "armature of a ball between moving bodies: {armature} kg m^2 beside moments {:?} of its body does not act here",
+                &moments[..3]
+            );
+            let label = format!("joint[{}]", motion.name);
+            model.context.findings.ignored(motion.at, label, says);
+            continue;
+        }
+        let added = Mass { mass, center: place, tensor: M3::identity() * moment };
+        model.robot.links[link].mass = Some(own.with(&added));
+        let body = model.robot.links[link].name.clone();
+        let note = format!("Body {body}: armature {armature} of joint {} is in it.", motion.name);
+        model.robot.notes.push(note);
+        if mass > 0.0 {
+            let weight = v3(model.compiler.gravity) * -mass;
+            let on = Target::Point { link, place, direction: weight };
+            model.law(&format!("{} armature", motion.name), What::Held { on, value: 1.0 });
+        }
+    }
 }
 
 /// Raises mass and principal moments to the least that settings allow.

@@ -86,8 +86,8 @@ fn numbers(value: &Value) -> Vec<f64> {
     }
 }
 
-/// Its mass follows from a mesh, and meshes are not read.
-const NOT_READ: &str = "mesh.xml";
+/// The hull of a mesh is not computed; armature of a free body is in our body, not in that of the other program.
+const LEFT_OUT: [&str; 2] = ["mesh.xml", "armature_free.xml"];
 
 /// Compares all files of an ending; the number of bodies that were compared.
 fn compare(references: &str, ending: &str) -> usize {
@@ -96,8 +96,9 @@ fn compare(references: &str, ending: &str) -> usize {
     let references: Value = serde_json::from_str(&text).expect("JSON");
     let mut compared = 0;
     let files = references["files"].as_object().expect("an object");
-    for (file, reference) in
-        files.iter().filter(|(file, _)| file.ends_with(ending) && *file != NOT_READ)
+    for (file, reference) in files
+        .iter()
+        .filter(|(file, _)| file.ends_with(ending) && !LEFT_OUT.contains(&file.as_str()))
     {
         let scene = scene(file);
         let bodies = reference["bodies"].as_object().expect("an object");

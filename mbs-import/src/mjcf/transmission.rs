@@ -1,0 +1,169 @@
+//! What actuators pull: sums of coordinates, or forces and moments on a body.
+
+use super::model::{Model, Motion, Moves, Tendon};
+use crate::element::Element;
+use crate::pose::{M3, V3, direction, v3};
+use crate::robot::{GROUND, Kind, Signal, Term, What};
+use crate::source::Read;
+use mbs_core::algebra::cross;
+
+/// Distance of the two forces of a couple [m]: with it a moment of 1 N m is two forces of 1 N.
+const ARM: f64 = 1.0;
+
+/// What an actuator pulls.
+pub(super) struct Transmission {
+    /// Terms of its length without gear, and the length in the reference configuration.
+    pub(super) terms: Vec<Term>,
+    pub(super) drawn: f64,
+    pub(super) gear: f64,
+    /// What it does for each newton in place of terms; the gear is in it.
+    pub(super) pushes: Vec<Push>,
+    /// Whether its length stays zero.
+    pub(super) has_length: bool,
+    /// Ends of the effort of its joint.
+    pub(super) effort: Option<[f64; 2]>,
+    pub(super) range: Option<[f64; 2]>,
+    pub(super) label: String,
+}
+
+/// A force at a place of a link, or without a place a moment.
+#[derive(Debug, Clone)]
+pub(super) struct Push {
+    link: usize,
+    at: Option<V3>,
+    /// In global axes, of the reference configuration where it turns with the link.
+    value: V3,
+    turns: bool,
+}
+
+/// A transmission, or why the scene has none.
+type Found = Result<Transmission, String>;
+
+/// What an actuator pulls.
+pub(super) fn transmission(
+    element: &Element,
+    gear: &[f64; 6],
+    ending: &str,
+    model: &Model<'_, '_, '_>,
+) -> Read<Found> {
+    for (word, is_of_parent) in [("joint", false), ("jointinparent", true)] {
+        if let Some(joint) = element.attribute(word) {
+            let motion = model.motion(joint, ending)?;
+            return Ok(of_joint(motion, gear, is_of_parent, model));
+        }
+    }
+    if let Some(tendon) = element.attribute("tendon") {
+        return Ok(match model.tendon(tendon, ending)? {
+            Tendon::Sum(terms, drawn) if !terms.is_empty() => Ok(Transmission {
+                terms: terms.clone(),
+                drawn: *drawn,
+                gear: gear[0],
+                ..none(&tendon.value)
+            }),
+            _ => Err("its tendon is no sum of coordinates".into()),
+        });
+    }
+    if let Some(site) = element.attribute("site") {
+        if element.attribute("refsite").is_some() {
+            return Ok(Err("`refsite`: a force between two places of changing axes".into()));
+        }
+        let found = model.site(site, ending)?;
+        let [force, moment] = halves(gear).map(|half| found.pose.turn * half);
+        let pushes = turning(found.link, found.pose.at, force, moment);
+        return Ok(Ok(Transmission { pushes, ..none(&site.value) }));
+    }
+    let words = ["cranksite", "slidersite", "body"];
+    let word = words.into_iter().find(|word| element.attribute(word).is_some());
+    Ok(Err(match word {
+        Some("body") => "`body`: it pulls what a body touches".into(),
+        Some(word) => format!("`{word}`: a crank and its slider are not read"),
+        None => "it says nothing that it pulls".into(),
+    }))
+}
+
+/// One that pulls nothing yet.
+fn none(label: &str) -> Transmission {
+    Transmission {
+        terms: Vec::new(),
+        drawn: 0.0,
+        gear: 1.0,
+        pushes: Vec::new(),
+        has_length: false,
+        effort: None,
+        range: None,
+        label: label.to_owned(),
+    }
+}
+
+fn halves([a, b, c, d, e, f]: &[f64; 6]) -> [V3; 2] {
+    [v3([*a, *b, *c]), v3([*d, *e, *f])]
+}
+
+/// A hinge or a slide has a coordinate; a free joint, and a ball on the ground, take forces and moments.
+fn of_joint(
+    motion: &Motion,
+    gear: &[f64; 6],
+    is_of_parent: bool,
+    model: &Model<'_, '_, '_>,
+) -> Found {
+    if motion.is_single() {
+        let (term, drawn) = motion.term(1.0);
+        return Ok(Transmission {
+            terms: vec![term],
+            drawn,
+            gear: gear[0],
+            has_length: true,
+            effort: motion.effort,
+            range: motion.range,
+            ..none(&motion.name)
+        });
+    }
+    let joint = &model.robot.joints[motion.joint];
+    let carriers = model.robot.carriers(|joint| joint.kind == Kind::Fixed);
+    if carriers[joint.parent] != GROUND {
+        return Err("a moment between two moving bodies about axes of one of them".into());
+    }
+    let (link, [first, second]) = (joint.child, halves(gear));
+    // a ball has three numbers; a free joint's forces are along global axes
+    let is_free = motion.moves == Moves::Free;
+    let (force, moment) = if is_free { (first, second) } else { (V3::zeros(), first) };
+    let pose = &model.robot.links[link].pose;
+    let mut pushes = Vec::new();
+    if force != V3::zeros() {
+        pushes.push(Push { link, at: Some(pose.at), value: force, turns: false });
+    }
+    if is_of_parent {
+        // of a ball the axes are those of the child as it is drawn
+        let turn = if is_free { M3::identity() } else { pose.turn };
+        pushes.push(Push { link, at: None, value: turn * moment, turns: false });
+    } else {
+        pushes.extend(turning(link, pose.at, V3::zeros(), pose.turn * moment));
+    }
+    Ok(Transmission { pushes, has_length: !is_free, ..none(&motion.name) })
+}
+
+/// A force and a moment that turn with a link. The moment is a couple: F and −F, with d across the moment and F = m × d / d².
+fn turning(link: usize, at: V3, force: V3, moment: V3) -> Vec<Push> {
+    let push = |at: V3, value: V3| Push { link, at: Some(at), value, turns: true };
+    let least = (0..3).min_by(|a, b| moment[*a].abs().total_cmp(&moment[*b].abs())).unwrap_or(0);
+    let Some(arm) = direction(&cross(&moment, &crate::pose::unit(least))) else {
+        return vec![push(at, force)];
+    };
+    let couple = cross(&moment, &arm) / ARM;
+    let mut pushes = vec![push(at, force - couple), push(at + arm * ARM, couple)];
+    pushes.retain(|push| push.value != V3::zeros());
+    pushes
+}
+
+/// Adds the forces and moments that follow a signal.
+pub(super) fn push(name: &str, signal: &str, pushes: &[Push], model: &mut Model<'_, '_, '_>) {
+    for (number, push) in pushes.iter().enumerate() {
+        let ending = if pushes.len() > 1 { format!(" {}", number + 1) } else { String::new() };
+        let signals = [("x", 0), ("y", 1), ("z", 2)].map(|(axis, i)| {
+            let of = vec![(signal.to_owned(), push.value[i])];
+            model.signal(&format!("{name} {axis}{ending}"), Signal::Sum { of })
+        });
+        let Push { link, at, turns, .. } = *push;
+        model.law(&format!("{name}{ending}"), What::Push { link, at, turns, signals });
+    }
+}
