@@ -6,12 +6,14 @@ use crate::model::{count, first_line};
 use crate::refusal::Refusal;
 use crate::say::{say, warn};
 use crate::status::REFUSED;
-use clap::{Args, ValueEnum};
+use clap::{Args, Parser, ValueEnum};
 use mbs::models::{
     BaseKind, FindingKind, ImportOptions, Imported, ModelFinding, ModelSizes, Stops, import,
     is_model,
 };
 use mbs::scene_file::format::counted;
+use mbs::{Method, Precision, ResolvedMethod};
+use mbs_study::doctor::{Effort, Finding, Severity, examine};
 use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -19,9 +21,9 @@ use std::process::ExitCode;
 const STATUS: &str = "\
 Examples:
   mbs import robot.urdf -o robot.toml     the scene, and what is not in it
-  mbs run robot.urdf                      every command takes such a file where it takes a scene
+  mbs run robot.urdf --import base=free   every command takes such a file where it takes a scene
 Exit status:
-  0  imported
+  0  imported; what the doctor finds wrong with its start is told
   1  refused; with --strict, also when something that can act is not in the scene as the file has it";
 
 /// Arguments of `mbs import`.
@@ -33,6 +35,19 @@ pub(crate) struct Arguments {
     /// Scene file that is written. Default: standard output, and the report on standard error.
     #[arg(short, long, value_name = "FILE")]
     out: Option<PathBuf>,
+    #[command(flatten)]
+    model: ModelOptions,
+    /// Refuse a model of which something that can act is approximated or ignored.
+    #[arg(long)]
+    strict: bool,
+    /// Print what became of the elements as one JSON object on standard output.
+    #[arg(long)]
+    json: bool,
+}
+
+/// How a model is read; elsewhere they are words of `--import`.
+#[derive(Debug, Args)]
+struct ModelOptions {
     /// Whether the root is fixed to the ground. Default: as the file says, else fixed.
     #[arg(long, value_enum)]
     base: Option<BaseWord>,
@@ -54,12 +69,6 @@ pub(crate) struct Arguments {
     /// Refuse included files outside of the folder of the model.
     #[arg(long)]
     no_outside: bool,
-    /// Refuse a model of which something that can act is approximated or ignored.
-    #[arg(long)]
-    strict: bool,
-    /// Print what became of the elements as one JSON object on standard output.
-    #[arg(long)]
-    json: bool,
 }
 
 /// Words of `--base`.
@@ -69,6 +78,29 @@ enum BaseWord {
     Fixed,
     /// It moves.
     Free,
+}
+
+/// Options of a command line of their own.
+#[derive(Debug, Parser)]
+#[command(no_binary_name = true, disable_help_flag = true)]
+struct OptionLine {
+    #[command(flatten)]
+    model: ModelOptions,
+}
+
+/// The options that words say, `base=free` for `--base=free`; nothing where there are none.
+pub(crate) fn of_words(words: &[String]) -> Result<Option<ImportOptions>, Refusal> {
+    if words.is_empty() {
+        return Ok(None);
+    }
+    let line = OptionLine::try_parse_from(words.iter().map(|word| format!("--{word}")));
+    let line = line.map_err(|error| {
+        let text = error.render().to_string();
+        let message = text.lines().next().unwrap_or_default().trim_start_matches("error: ");
+        let hint = "write --import base=free, or another option that mbs import --help lists";
+        Refusal::new("usage", format!("--import: {message}"), hint)
+    })?;
+    options(&line.model, None).map(Some)
 }
 
 /// Runs the command.
@@ -89,13 +121,15 @@ fn imported(arguments: &Arguments) -> Result<ExitCode, Refusal> {
         return Err(Refusal::new("model-refused", message, hint));
     }
     let refused = |error| Refusal::read("model-refused", &error);
-    let model = import(&bytes, &name, &options(arguments)?).map_err(refused)?;
-    let scene = model.scene_file(&name).and_then(|file| file.scene::<f64>());
-    scene.map_err(|error| Refusal::read("scene-refused", &error))?;
+    let options = options(&arguments.model, arguments.file.parent())?;
+    let model = import(&bytes, &name, &options).map_err(refused)?;
+    let faults = faults(&name, &model)?;
     let is_lost = arguments.strict && model.findings.iter().any(acts);
-    let report = report(&name, &model);
+    let place = arguments.out.as_ref().map(|out| out.display().to_string());
+    let report =
+        report(&name, &model) + &faults.text(&place.unwrap_or_else(|| format!("scene of {name}")));
     let (said, report) = match (&arguments.out, arguments.json) {
-        (_, true) => (object(&name, &model).to_string(), String::new()),
+        (_, true) => (object(&name, &model, &faults).to_string(), String::new()),
         (Some(_), false) => (report, String::new()),
         (None, false) => (model.text.clone(), report),
     };
@@ -115,8 +149,8 @@ fn imported(arguments: &Arguments) -> Result<ExitCode, Refusal> {
     Ok(say(&said, ExitCode::SUCCESS))
 }
 
-fn options(arguments: &Arguments) -> Result<ImportOptions, Refusal> {
-    let limits = match arguments.limits.as_deref() {
+fn options(model: &ModelOptions, folder: Option<&Path>) -> Result<ImportOptions, Refusal> {
+    let limits = match model.limits.as_deref() {
         None => None,
         Some("") => Some(Stops::ByMass),
         Some(text) => {
@@ -138,20 +172,56 @@ fn options(arguments: &Arguments) -> Result<ImportOptions, Refusal> {
             }
         }
     };
-    let base = arguments.base.map(|base| match base {
+    let base = model.base.map(|base| match base {
         BaseWord::Fixed => BaseKind::Fixed,
         BaseWord::Free => BaseKind::Free,
     });
     Ok(ImportOptions {
         base,
         limits,
-        balance: arguments.balance,
-        keep_fixed: arguments.keep_fixed.clone(),
-        key: arguments.key.clone(),
-        folder: arguments.file.parent().map(Path::to_owned),
-        no_outside: arguments.no_outside,
-        massless_meshes: arguments.massless_meshes,
+        balance: model.balance,
+        keep_fixed: model.keep_fixed.clone(),
+        key: model.key.clone(),
+        folder: folder.map(Path::to_owned),
+        no_outside: model.no_outside,
+        massless_meshes: model.massless_meshes,
     })
+}
+
+/// What the doctor calls faults of the start, each with its line of the scene.
+struct Faults(Vec<(Finding, Option<usize>)>);
+
+/// Has the scene a start?
+fn faults(name: &str, model: &Imported) -> Result<Faults, Refusal> {
+    let refused = |error| Refusal::read("scene-refused", &error);
+    let document = model.scene_file(name).map_err(refused)?;
+    let scene = document.scene::<f64>().map_err(refused)?;
+    let overrides =
+        Method { precision: Some(Precision::F64.name().to_owned()), ..Method::default() };
+    let settings = ResolvedMethod::new(&scene, &overrides).map_err(|e| Refusal::settings(&e))?;
+    let effort = Effort { positions: 0, ..Effort::default() };
+    let found = examine(&scene, &settings, &effort).findings.into_iter();
+    let found = found.filter(|finding| finding.severity == Severity::Fault).map(|finding| {
+        let line = finding.place.map(|(entry, key)| document.place(entry, key).1.line);
+        (finding, line)
+    });
+    Ok(Faults(found.collect()))
+}
+
+impl Faults {
+    /// Lines of the report; `file` has the scene.
+    fn text(&self, file: &str) -> String {
+        let line = |(Finding { code, message, remedy, .. }, line): &(Finding, Option<usize>)| {
+            let line = line.map(|line| format!(":{line}")).unwrap_or_default();
+            format!("{:<13} {file}{line}  {code}: {message}; {remedy}\n", "fault")
+        };
+        self.0.iter().map(line).collect()
+    }
+
+    fn list(&self) -> Vec<Value> {
+        let object = |(Finding { code, message, remedy, .. }, line): &(Finding, Option<usize>)| json!({ "code": code, "says": message, "mend": remedy, "line": line });
+        self.0.iter().map(object).collect()
+    }
 }
 
 /// Could it act?
@@ -182,7 +252,7 @@ const fn word(kind: FindingKind) -> &'static str {
 }
 
 /// The report for programs.
-fn object(name: &str, model: &Imported) -> Value {
+fn object(name: &str, model: &Imported, faults: &Faults) -> Value {
     let list = |kind| {
         let found = model.findings.iter().filter(|finding| finding.kind == kind);
         let found = found.map(|ModelFinding { file, line, column, element, says, .. }| {
@@ -198,5 +268,6 @@ fn object(name: &str, model: &Imported) -> Value {
         "approximated": list(FindingKind::Approximated),
         "ignored": list(FindingKind::Ignored),
         "appearance": count(model, FindingKind::Appearance),
+        "faults": faults.list(),
     })
 }

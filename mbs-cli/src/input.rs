@@ -3,7 +3,7 @@
 use crate::model;
 use crate::refusal::Refusal;
 use crate::say::{plain, warn};
-use mbs::models::{is_model, scene_file};
+use mbs::models::{ImportOptions, is_model, scene_file};
 use mbs::scene_file::SceneFile;
 use std::fs::File;
 use std::io::{self, Read};
@@ -27,8 +27,12 @@ pub(crate) fn is_standard(path: &Path) -> bool {
     path == Path::new("-")
 }
 
-/// Reads a file of a kind that is called `what`; else the refusal.
-pub(crate) fn document(path: &Path, what: &str) -> Result<SceneFile, Refusal> {
+/// Reads a file of a kind that is called `what`, and where it is a model as the options say; else the refusal.
+pub(crate) fn document(
+    path: &Path,
+    what: &str,
+    options: Option<ImportOptions>,
+) -> Result<SceneFile, Refusal> {
     let bytes = read(path, what)?;
     // no value stands without one of these
     let values = bytes.iter().filter(|byte| matches!(byte, b',' | b'=')).count();
@@ -38,9 +42,15 @@ pub(crate) fn document(path: &Path, what: &str) -> Result<SceneFile, Refusal> {
             &format!("has more than {} million values", MOST_VALUES / 1_000_000),
         ));
     }
-    let folder = if is_standard(path) { None } else { path.parent() };
     let name = name(path);
-    let document = scene_file(&bytes, &name, folder.unwrap_or(Path::new("")));
+    if options.is_some() && !is_model(&bytes) {
+        let message = format!("`{name}` is no model, and `--import` is for models");
+        return Err(Refusal::new("usage", message, "leave out --import"));
+    }
+    let folder = if is_standard(path) { None } else { path.parent() };
+    let folder = Some(folder.unwrap_or(Path::new("")).to_owned());
+    let options = ImportOptions { folder, ..options.unwrap_or_default() };
+    let document = scene_file(&bytes, &name, &options);
     let (document, imported) = document.map_err(|error| {
         let code = if is_model(&bytes) { "model-refused" } else { "scene-refused" };
         Refusal::read(code, &error)

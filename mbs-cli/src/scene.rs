@@ -1,5 +1,6 @@
 //! The scene of a command line: its file, or standard input, with values that are set.
 
+use crate::import::of_words;
 use crate::input;
 use crate::refusal::Refusal;
 use clap::Args;
@@ -17,6 +18,9 @@ pub(crate) struct SceneArgument {
     /// Another value at a path of the scene, as sweeps write it: body.rod.mass=2, 'parameter.k=36 kN/m'. May be repeated. Default: none.
     #[arg(long, value_name = "PATH=VALUE", display_order = 800)]
     set: Vec<String>,
+    /// An option of `mbs import`, where the scene is a model: base=free, key=home, limits. May be repeated. Default: none.
+    #[arg(long, value_name = "OPTION", display_order = 801)]
+    import: Vec<String>,
 }
 
 impl Deref for SceneArgument {
@@ -30,7 +34,7 @@ impl Deref for SceneArgument {
 impl SceneArgument {
     /// A file, with those values.
     pub(crate) fn new(path: &Path, set: &[String]) -> Self {
-        Self { scene: path.to_owned(), set: set.to_vec() }
+        Self { scene: path.to_owned(), set: set.to_vec(), import: Vec::new() }
     }
 
     /// Is there something to read?
@@ -48,7 +52,7 @@ impl SceneArgument {
 
     /// Its tree with the values that are set; else the refusal.
     pub(crate) fn document(&self) -> Result<SceneFile, Refusal> {
-        let mut document = input::document(&self.scene, "scene file")?;
+        let mut document = input::document(&self.scene, "scene file", of_words(&self.import)?)?;
         for assignment in &self.set {
             let set = document.with_set(assignment);
             document = set.map_err(|error| Refusal::read("set-refused", &error))?;
@@ -59,6 +63,7 @@ impl SceneArgument {
     /// It as a command line has it.
     pub(crate) fn line(&self) -> String {
         let set = self.set.iter().map(|assignment| format!(" --set '{assignment}'"));
-        format!("{}{}", self.scene.display(), set.collect::<String>())
+        let import = self.import.iter().map(|option| format!(" --import '{option}'"));
+        format!("{}{}", self.scene.display(), set.chain(import).collect::<String>())
     }
 }

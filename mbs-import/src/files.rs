@@ -5,20 +5,21 @@ use crate::options::ImportOptions;
 use mbs_scene::{ReadError, SceneFile};
 use std::path::Path;
 
-/// Reads the bytes of a file that lies in a folder: a scene, or a model, which becomes one. `file` is the name that messages show.
+/// Reads the bytes of a file that lies in the folder of the options: a scene, or a model, which becomes one as they say. `file` is the name
+/// that messages show.
 ///
 /// # Errors
 /// Those of [`SceneFile::from_bytes_in`] and of [`import`].
 pub fn scene_file(
     bytes: &[u8],
     file: &str,
-    folder: &Path,
+    options: &ImportOptions,
 ) -> Result<(SceneFile, Option<Imported>), ReadError> {
     if !is_model(bytes) {
+        let folder = options.folder.as_deref().unwrap_or(Path::new(""));
         return SceneFile::from_bytes_in(bytes, file, folder).map(|scene| (scene, None));
     }
-    let options = ImportOptions { folder: Some(folder.to_owned()), ..ImportOptions::default() };
-    let model = import(bytes, file, &options)?;
+    let model = import(bytes, file, options)?;
     Ok((model.scene_file(file)?, Some(model)))
 }
 
@@ -33,5 +34,6 @@ pub fn read(path: impl AsRef<Path>) -> Result<SceneFile, ReadError> {
         return SceneFile::read(path);
     };
     let folder = path.parent().unwrap_or(Path::new(""));
-    scene_file(&bytes, &path.display().to_string(), folder).map(|(scene, _)| scene)
+    let options = ImportOptions { folder: Some(folder.to_owned()), ..ImportOptions::default() };
+    scene_file(&bytes, &path.display().to_string(), &options).map(|(scene, _)| scene)
 }

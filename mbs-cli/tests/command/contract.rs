@@ -53,7 +53,7 @@ fn json_keys_are_those_of_the_contract() {
         ("doctor", "spatial-four-bar", &["--duration", "0.05"]),
         ("equilibrium", "rssr", &[]),
         ("modes", "double-pendulum", &[]),
-        ("import", "", &[]),
+        ("import", "", &["--base", "free"]),
         ("inspect", "double-pendulum", &["--what", ALL_QUANTITIES]),
     ] {
         let path = if command == "import" { super::models::arm() } else { scene(name) };

@@ -81,6 +81,28 @@ fn a_model_that_cannot_be_meant_is_refused_at_its_place_by_every_command() {
     }
 }
 
+#[test]
+fn options_of_import_reach_every_command_and_faults_of_the_start_are_told() {
+    let imported = file("free.toml");
+    let imported = imported.to_str().expect("UTF-8");
+    // its base has no mass: a free one does not start
+    let report = run("import", &[&arm(), "--base", "free", "-o", imported]);
+    assert_eq!(status(&report), 0);
+    let report = text(&report.stdout);
+    assert!(report.contains("free.toml:13  no-inertia: "), "{report}");
+    let object = done(&run("import", &[&arm(), "--base", "free", "--json"]));
+    assert_eq!(object["faults"][0]["code"], "no-inertia");
+    let object = done(&run("import", &[&arm(), "--json"]));
+    assert_eq!(object["faults"], serde_json::json!([]));
+    let words = run("inspect", &[&arm(), "--import", "base=free"]);
+    assert!(text(&words.stderr).contains("body `base`"), "{}", text(&words.stderr));
+    let refused = run("run", &[&arm(), "--import", "bas=free"]);
+    assert_eq!(status(&refused), 1);
+    assert!(text(&refused.stderr).contains("unexpected argument '--bas'"));
+    let refused = run("run", &[imported, "--import", "base=free"]);
+    assert!(text(&refused.stderr).contains("leave out --import"));
+}
+
 /// Numbers of a value, at any depth.
 fn flat(value: &Value) -> Vec<f64> {
     match value {
