@@ -2,20 +2,17 @@
 
 use crate::files;
 use crate::input;
-use crate::model::{count, first_line};
+use crate::model::{self, ModelOptions, count, first_line};
 use crate::refusal::Refusal;
 use crate::say::{say, warn};
 use crate::status::REFUSED;
-use clap::{Args, Parser, ValueEnum};
-use mbs::models::{
-    BaseKind, FindingKind, ImportOptions, Imported, ModelFinding, ModelSizes, Stops, import,
-    is_model,
-};
+use clap::Args;
+use mbs::models::{FindingKind, Imported, ModelFinding, ModelSizes, import, is_model};
 use mbs::scene_file::format::counted;
 use mbs::{Method, Precision, ResolvedMethod};
 use mbs_study::doctor::{Effort, Finding, Severity, examine};
 use serde_json::{Value, json};
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::process::ExitCode;
 
 const STATUS: &str = "\
@@ -23,7 +20,7 @@ Examples:
   mbs import robot.urdf -o robot.toml     the scene, and what is not in it
   mbs run robot.urdf --import base=free   every command takes such a file where it takes a scene
 Exit status:
-  0  imported; what the doctor finds wrong with its start is told
+  0  imported; faults that the doctor finds in its start are listed
   1  refused; with --strict, also when something that can act is not in the scene as the file has it";
 
 /// Arguments of `mbs import`.
@@ -45,64 +42,6 @@ pub(crate) struct Arguments {
     json: bool,
 }
 
-/// How a model is read; elsewhere they are words of `--import`.
-#[derive(Debug, Args)]
-struct ModelOptions {
-    /// Whether the root is fixed to the ground. Default: as the file says, else fixed.
-    #[arg(long, value_enum)]
-    base: Option<BaseWord>,
-    /// Stops at the ends of the joints: stiffness and damping; without numbers, by the mass that they move. Default: the ends do not act.
-    #[arg(long, value_name = "K,C", num_args = 0..=1, default_missing_value = "")]
-    limits: Option<String>,
-    /// Raise the smaller moments of inertias that no body has.
-    #[arg(long)]
-    balance: bool,
-    /// A fixed joint that stays a joint, so that it has a reaction; may be repeated. Default: none.
-    #[arg(long, value_name = "NAME")]
-    keep_fixed: Vec<String>,
-    /// A keyframe of an MJCF from which it starts. Default: as the model is drawn.
-    #[arg(long, value_name = "NAME")]
-    key: Option<String>,
-    /// Meshes whose mass is needed count as massless, and are reported.
-    #[arg(long)]
-    massless_meshes: bool,
-    /// Refuse included files outside of the folder of the model.
-    #[arg(long)]
-    no_outside: bool,
-}
-
-/// Words of `--base`.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-enum BaseWord {
-    /// To the ground.
-    Fixed,
-    /// It moves.
-    Free,
-}
-
-/// Options of a command line of their own.
-#[derive(Debug, Parser)]
-#[command(no_binary_name = true, disable_help_flag = true)]
-struct OptionLine {
-    #[command(flatten)]
-    model: ModelOptions,
-}
-
-/// The options that words say, `base=free` for `--base=free`; nothing where there are none.
-pub(crate) fn of_words(words: &[String]) -> Result<Option<ImportOptions>, Refusal> {
-    if words.is_empty() {
-        return Ok(None);
-    }
-    let line = OptionLine::try_parse_from(words.iter().map(|word| format!("--{word}")));
-    let line = line.map_err(|error| {
-        let text = error.render().to_string();
-        let message = text.lines().next().unwrap_or_default().trim_start_matches("error: ");
-        let hint = "write --import base=free, or another option that mbs import --help lists";
-        Refusal::new("usage", format!("--import: {message}"), hint)
-    })?;
-    options(&line.model, None).map(Some)
-}
-
 /// Runs the command.
 pub(crate) fn main(arguments: &Arguments) -> ExitCode {
     match imported(arguments) {
@@ -121,7 +60,7 @@ fn imported(arguments: &Arguments) -> Result<ExitCode, Refusal> {
         return Err(Refusal::new("model-refused", message, hint));
     }
     let refused = |error| Refusal::read("model-refused", &error);
-    let options = options(&arguments.model, arguments.file.parent())?;
+    let options = model::options(&arguments.model, arguments.file.parent())?;
     let model = import(&bytes, &name, &options).map_err(refused)?;
     let faults = faults(&name, &model)?;
     let is_lost = arguments.strict && model.findings.iter().any(acts);
@@ -147,45 +86,6 @@ fn imported(arguments: &Arguments) -> Result<ExitCode, Refusal> {
         return Ok(say(&said, ExitCode::from(REFUSED)));
     }
     Ok(say(&said, ExitCode::SUCCESS))
-}
-
-fn options(model: &ModelOptions, folder: Option<&Path>) -> Result<ImportOptions, Refusal> {
-    let limits = match model.limits.as_deref() {
-        None => None,
-        Some("") => Some(Stops::ByMass),
-        Some(text) => {
-            let numbers: Vec<f64> = text.split(',').filter_map(|x| x.trim().parse().ok()).collect();
-            match numbers[..] {
-                [stiffness, damping]
-                    if stiffness > 0.0 && damping >= 0.0 && stiffness.is_finite() =>
-                {
-                    Some(Stops::Given { stiffness, damping })
-                }
-                _ => {
-                    let message = format!("`--limits {text}`: no stiffness and damping");
-                    return Err(Refusal::new(
-                        "usage",
-                        message,
-                        "write --limits 1e4,10, or --limits alone",
-                    ));
-                }
-            }
-        }
-    };
-    let base = model.base.map(|base| match base {
-        BaseWord::Fixed => BaseKind::Fixed,
-        BaseWord::Free => BaseKind::Free,
-    });
-    Ok(ImportOptions {
-        base,
-        limits,
-        balance: model.balance,
-        keep_fixed: model.keep_fixed.clone(),
-        key: model.key.clone(),
-        folder: folder.map(Path::to_owned),
-        no_outside: model.no_outside,
-        massless_meshes: model.massless_meshes,
-    })
 }
 
 /// What the doctor calls faults of the start, each with its line of the scene.

@@ -1,7 +1,7 @@
 //! The scene of a command line: its file, or standard input, with values that are set.
 
-use crate::import::of_words;
 use crate::input;
+use crate::model::of_words;
 use crate::refusal::Refusal;
 use clap::Args;
 use mbs::core::scene::Scene;
