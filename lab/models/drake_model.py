@@ -1,5 +1,7 @@
 """An SDF as Drake 1.51.1 reads it, for versions and elements that sdf_model.py does not know: open trees, no limits, no loops."""
 
+from pathlib import Path
+
 import numpy as np
 from pydrake.multibody.parsing import Parser
 from pydrake.multibody.plant import MultibodyPlant
@@ -11,7 +13,10 @@ GRAVITY = [0.0, 0.0, -9.8]
 class Drake:
     def __init__(self, path):
         self.plant = MultibodyPlant(0.0)
-        Parser(self.plant).AddModels(str(path))
+        parser = Parser(self.plant)
+        for folder in filter(Path.is_dir, path.parent.iterdir()):
+            parser.package_map().Add(folder.name, str(folder))
+        parser.AddModels(str(path))
         self.plant.mutable_gravity_field().set_gravity_vector(GRAVITY)
         self.plant.Finalize()
         self.context = self.plant.CreateDefaultContext()

@@ -126,7 +126,10 @@ fn whole(
             mjcf::include(&mut root, context)?;
             (mjcf::read(root.read(), context)?, mjcf::TABLE)
         }
-        ModelFormat::Sdf => (sdf::read(root.read(), context)?, sdf::TABLE),
+        ModelFormat::Sdf => {
+            sdf::include(&mut root, context)?;
+            (sdf::read(root.read(), context)?, sdf::TABLE)
+        }
     };
     unread(&root, table, &mut context.findings);
     let lumps = lump::lumps(&robot, context.options.balance, &mut context.findings)?;

@@ -2,7 +2,7 @@
 
 use super::defaults::{MAIN, View};
 use super::model::Model;
-use super::path;
+use crate::beside;
 use crate::element::{Attribute, Element};
 use crate::inertia::Mass;
 use crate::mesh::{self, Count, Mesh};
@@ -105,7 +105,7 @@ fn surface(view: &View<'_>, model: &Model<'_, '_, '_>) -> Read<Mesh> {
         None => name,
     };
     let path =
-        path::find(file, &Path::new(&model.compiler.mesh_folder).join(name), &[], model.context)?;
+        beside::find(file, &Path::new(&model.compiler.mesh_folder).join(name), &[], model.context)?;
     let unread =
         |why: String| file.fault(format!("`{}`: {why}", file.value), "give a mesh as STL or OBJ");
     let size = std::fs::metadata(&path).map_err(|error| unread(error.to_string()))?.len();

@@ -13,7 +13,6 @@ mod joint;
 mod keyframe;
 mod model;
 mod orientation;
-mod path;
 mod stops;
 mod table;
 mod tendon;

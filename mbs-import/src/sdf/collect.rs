@@ -2,7 +2,7 @@
 
 use super::frames::{Frames, MODEL, Node, WORLD};
 use super::pose::pose;
-use super::scope::Scope;
+use super::scope::{Scope, VERSION, version};
 use crate::context::Named;
 use crate::element::Element;
 use crate::pose::Pose;
@@ -32,17 +32,6 @@ fn filled<'a>(element: &'a Element, name: &str) -> Option<&'a str> {
     element.value(name).filter(|value| !value.is_empty())
 }
 
-/// A model that another file has would be lost.
-pub(super) fn refuse_include(element: &Element) -> Read<()> {
-    match element.child("include") {
-        Some(include) => Err(include.fault(
-            "a model of another file, which is not read yet",
-            "put the <model> of that file in its place",
-        )),
-        None => Ok(()),
-    }
-}
-
 impl<'a, 'r> Collector<'a, 'r> {
     pub(super) fn new(robot: &'r mut Robot, sources: &'r Sources) -> Self {
         let names = Named::new("link", 1);
@@ -51,7 +40,9 @@ impl<'a, 'r> Collector<'a, 'r> {
 
     /// A model, which stands in the frame `outer`, with all that is in it.
     pub(super) fn model(&mut self, model: &'a Element, mut scope: Scope, outer: &str) -> Read<()> {
-        refuse_include(model)?;
+        if let Some(number) = model.attribute(VERSION) {
+            scope.version = version(number)?;
+        }
         if let Some(flag) = model.child("static") {
             scope.is_static |= flag.content().flag()?;
         }

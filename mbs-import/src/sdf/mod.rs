@@ -3,6 +3,7 @@
 mod collect;
 mod drake;
 mod frames;
+mod include;
 mod joint;
 mod link;
 mod pose;
@@ -10,6 +11,7 @@ mod relations;
 mod scope;
 mod table;
 
+pub(crate) use include::include;
 pub(crate) use table::TABLE;
 
 use crate::context::Context;
@@ -18,15 +20,13 @@ use crate::options::BaseKind;
 use crate::pose::v3;
 use crate::robot::{Frame, GROUND, Joint, Kind, Law, Link, Robot, Target, What};
 use crate::source::Read;
-use collect::{Collector, Model, refuse_include};
+use collect::{Collector, Model};
 use frames::{Frames, WORLD};
-use scope::{Scope, is_gearbox};
+use scope::{Scope, is_gearbox, version};
 
 /// Reads the root element `sdf`.
 pub(crate) fn read(root: &Element, context: &mut Context<'_>) -> Read<Robot> {
-    let version = version(root)?;
-    refuse_include(root)?;
-    root.child("world").map_or(Ok(()), refuse_include)?;
+    let version = version(root.need("version")?)?;
     let (tops, world) = match root.child("world") {
         Some(world) => (world.each("model").collect::<Vec<_>>(), Some(world)),
         None => (root.each("model").collect(), None),
@@ -62,17 +62,6 @@ pub(crate) fn read(root: &Element, context: &mut Context<'_>) -> Read<Robot> {
     }
     base(&models, &mut robot, context);
     Ok(robot)
-}
-
-fn version(root: &Element) -> Read<[u32; 2]> {
-    let attribute = root.need("version")?;
-    let number = |text: Option<&str>| text.and_then(|text| text.trim().parse::<u32>().ok());
-    let mut parts = attribute.value.split('.');
-    match (number(parts.next()), number(parts.next())) {
-        (Some(major), Some(minor)) => Ok([major, minor]),
-        _ => Err(attribute
-            .fault(format!("`{}` is no version", attribute.value), "write version=\"1.9\"")),
-    }
 }
 
 /// Links where their frames are, with their inertia, their forms, and the frames that have names.

@@ -1,10 +1,13 @@
 //! Where names stand, and what all readers of the format ask of elements.
 
 use super::frames::{Frames, MODEL};
-use crate::element::Element;
+use crate::element::{Attribute, Element};
 use crate::pose::{Pose, V3, v3};
 use crate::robot::GROUND;
 use crate::source::{Fault, Read};
+
+/// The attribute in which a model of another file keeps the version of that file; no file can write such a name.
+pub(super) const VERSION: &str = "version of its file";
 
 /// Where names stand.
 #[derive(Debug, Clone)]
@@ -19,6 +22,17 @@ impl Scope {
     /// The full name of the frame of its model.
     pub(super) fn model(&self) -> String {
         format!("{}{MODEL}", self.prefix)
+    }
+}
+
+/// The two numbers of a version.
+pub(super) fn version(attribute: &Attribute) -> Read<[u32; 2]> {
+    let number = |text: Option<&str>| text.and_then(|text| text.trim().parse::<u32>().ok());
+    let mut parts = attribute.value.split('.');
+    match (number(parts.next()), number(parts.next())) {
+        (Some(major), Some(minor)) => Ok([major, minor]),
+        _ => Err(attribute
+            .fault(format!("`{}` is no version", attribute.value), "write version=\"1.9\"")),
     }
 }
 

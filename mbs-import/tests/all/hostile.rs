@@ -70,6 +70,44 @@ fn what_cannot_be_meant_is_refused_at_its_place() {
 }
 
 #[test]
+fn a_model_of_another_file_is_found_or_refused_with_the_chain() {
+    let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../lab/models/conventions");
+    let with = |uri: &str, no_outside: bool| {
+        let text = format!(
+            "<sdf version=\"1.9\"><model name=\"m\">\n<include><uri>{uri}</uri></include></model></sdf>"
+        );
+        let folder = Some(folder.join("sdf_part"));
+        let options = ImportOptions { folder, no_outside, ..ImportOptions::default() };
+        import(text.as_bytes(), "m.sdf", &options)
+            .map(|model| model.text.contains("name = \"part::two\""))
+            .map_err(|error| {
+                let error = error.render();
+                error.lines().next().unwrap_or_default().to_owned()
+            })
+    };
+    // the folder of `model.config`, by its place, and upwards of the file
+    for uri in ["../sdf_part", "model://sdf_part", "part.sdf", "file://part.sdf"] {
+        assert_eq!(with(uri, false), Ok(true), "{uri}");
+    }
+    for (uri, message) in [
+        ("https://a/b", "m.sdf:2:10: models are not fetched by `https://`"),
+        ("model://none", "m.sdf:2:10: there is no model `model://none`"),
+        ("../mimic.urdf", "m.sdf:2:10: the root element of `../mimic.urdf` is `robot`"),
+    ] {
+        assert_eq!(with(uri, false), Err(message.to_owned()));
+    }
+    let outside = with("../sdf_fixed.sdf", true).expect_err("outside");
+    assert!(outside.contains("lies outside"), "{outside}");
+    let temporary = std::path::Path::new(env!("CARGO_TARGET_TMPDIR"));
+    let own = "<sdf version=\"1.9\"><model name=\"m\"><include><uri>own.sdf</uri></include></model></sdf>";
+    std::fs::write(temporary.join("own.sdf"), own).expect("a folder");
+    let folder = Some(temporary.to_owned());
+    let options = ImportOptions { folder, ..ImportOptions::default() };
+    let error = import(own.as_bytes(), "own.sdf", &options).expect_err("a circle");
+    assert!(error.fault().to_string().starts_with("`own.sdf` includes itself"), "{error:?}");
+}
+
+#[test]
 fn every_element_that_nobody_reads_is_told_with_its_place() {
     let text = ARM.replacen("<mass value", "<weight/><mass unit=\"kg\" value", 1);
     let model = import(text.as_bytes(), "arm.urdf", &ImportOptions::default()).expect("read");

@@ -1,0 +1,110 @@
+//! Files beside the model: where they are, and those that stand for a part of it, within limits.
+
+use crate::context::Context;
+use crate::element::{Attribute, Element};
+use crate::source::{MOST_BYTES, Origin, Read};
+use crate::xml;
+use std::path::{Path, PathBuf};
+
+/// Files that include each other, one in the other.
+const MAX_DEPTH: usize = 32;
+/// Files that a model includes in all.
+const MAX_FILES: usize = 1_000;
+
+/// The file whose place an attribute says, from the first of the folders in which it is; the first one is that of the model.
+pub(crate) fn find(
+    file: &Attribute,
+    name: &Path,
+    folders: &[&Path],
+    context: &Context<'_>,
+) -> Read<PathBuf> {
+    let Some(home) = &context.options.folder else {
+        let hint = "give the model as a file, or put what is in the other file here";
+        return Err(file.fault("this text has no folder, from which it could read files", hint));
+    };
+    let all = core::iter::once(home.as_path()).chain(folders.iter().copied());
+    let found = first(file, all.map(|folder| folder.join(name)), context)?;
+    found.ok_or_else(|| {
+        let message = format!("there is no file `{}`", home.join(name).display());
+        file.fault(message, "give its place from the folder of the first file")
+    })
+}
+
+/// The first of some places at which there is a file, if any.
+pub(crate) fn first(
+    file: &Attribute,
+    mut places: impl Iterator<Item = PathBuf>,
+    context: &Context<'_>,
+) -> Read<Option<PathBuf>> {
+    let home = context.options.folder.as_deref().unwrap_or(Path::new(""));
+    let found = places.find(|path| path.is_file()).and_then(|path| path.canonicalize().ok());
+    let Some(found) = found else { return Ok(None) };
+    let home = if home.as_os_str().is_empty() { Path::new(".") } else { home };
+    let is_inside = home.canonicalize().is_ok_and(|home| found.starts_with(home));
+    if context.options.no_outside && !is_inside {
+        let message = format!("`{}` lies outside of the folder of the first file", file.value);
+        return Err(file.fault(message, "leave out --no-outside where you trust the file"));
+    }
+    Ok(Some(found))
+}
+
+/// Included files, those that are open now and all so far.
+#[derive(Debug, Default)]
+pub(crate) struct Included {
+    chain: Vec<PathBuf>,
+    files: usize,
+    bytes: u64,
+}
+
+impl Included {
+    /// Opens a file whose place an attribute of an element says; its root.
+    pub(crate) fn open(
+        &mut self,
+        file: &Attribute,
+        path: PathBuf,
+        by: Origin,
+        context: &mut Context<'_>,
+    ) -> Read<Element> {
+        if self.chain.contains(&path) {
+            let names: Vec<_> = self.chain.iter().map(|path| path.display().to_string()).collect();
+            let message = format!("`{}` includes itself: {}", file.value, names.join(" includes "));
+            return Err(file.fault(message, "leave out one of these includes"));
+        }
+        self.files += 1;
+        if self.chain.len() == MAX_DEPTH || self.files > MAX_FILES {
+            let message =
+                format!("more than {MAX_DEPTH} files in each other, or {MAX_FILES} files in all");
+            return Err(file.fault(message, "put the elements into fewer files"));
+        }
+        let text = self.text(&path, file)?;
+        let source = context.sources.add(&path.display().to_string(), &text, Some(by));
+        self.chain.push(path);
+        xml::read(&text, source)
+    }
+
+    /// The last one is read.
+    pub(crate) fn close(&mut self) {
+        self.chain.pop();
+    }
+
+    /// The folder of the file that is open.
+    pub(crate) fn folder(&self) -> Option<&Path> {
+        self.chain.last().and_then(|path| path.parent())
+    }
+
+    fn text(&mut self, path: &Path, file: &Attribute) -> Read<String> {
+        let unread = |error: std::io::Error| {
+            let message = format!("`{}` cannot be read: {error}", file.value);
+            file.fault(message, "give it to be read")
+        };
+        self.bytes += std::fs::metadata(path).map_err(unread)?.len();
+        if self.bytes > MOST_BYTES as u64 {
+            let message = format!("included files have more than {} MB", MOST_BYTES >> 20);
+            return Err(file.fault(message, "give a smaller model"));
+        }
+        let bytes = std::fs::read(path).map_err(unread)?;
+        String::from_utf8(bytes).map_err(|_| {
+            file.fault(format!("`{}` is not UTF-8 text", file.value), "save the file as UTF-8")
+        })
+    }
+}

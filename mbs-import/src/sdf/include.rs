@@ -1,0 +1,236 @@
+//! Models of other files: they stand where the `include` stood, with its name, pose and the like.
+
+use super::frames::MODEL;
+use super::scope::{VERSION, missing, version};
+use crate::beside::{Included, first};
+use crate::context::Context;
+use crate::element::{Attribute, Element};
+use crate::source::Read;
+use std::path::{Path, PathBuf};
+
+/// Folders of models, as other programs of the format have them.
+const FOLDERS: [&str; 2] = ["SDF_PATH", "GZ_SIM_RESOURCE_PATH"];
+/// What an `include` has besides the place of its model.
+const OWN: [&str; 5] = ["uri", "name", "pose", "placement_frame", "static"];
+
+/// Puts the models of other files in the places of `include` elements.
+pub(crate) fn include(root: &mut Element, context: &mut Context<'_>) -> Read<()> {
+    Includer { context, included: Included::default() }.inside(root)
+}
+
+struct Includer<'a, 'c> {
+    context: &'a mut Context<'c>,
+    included: Included,
+}
+
+impl Includer<'_, '_> {
+    fn inside(&mut self, element: &mut Element) -> Read<()> {
+        for mut child in std::mem::take(&mut element.children) {
+            match child.name.as_str() {
+                "include" => {
+                    let model = self.model(&child)?;
+                    let is_merged = child.attribute("merge").map(Attribute::flag);
+                    if is_merged.transpose()? == Some(true) {
+                        let parts = merged(&child, model, element.name == "model")?;
+                        element.children.extend(parts);
+                    } else {
+                        element.children.push(model);
+                    }
+                }
+                "world" | "model" => {
+                    self.inside(&mut child)?;
+                    element.children.push(child);
+                }
+                _ => element.children.push(child),
+            }
+        }
+        Ok(())
+    }
+
+    /// The model of an included file, as the `include` has it.
+    fn model(&mut self, include: &Element) -> Read<Element> {
+        let uri = include.child("uri").ok_or_else(|| missing(include, "uri"))?.content();
+        let path = self.path(&uri)?;
+        let mut root = self.included.open(&uri, path, include.at, self.context)?;
+        if root.name != "sdf" {
+            let message = format!("the root element of `{}` is `{}`", uri.value, root.name);
+            return Err(uri.fault(message, "include a model in an SDF file"));
+        }
+        self.inside(&mut root)?;
+        self.included.close();
+        let number = root.need("version")?.clone();
+        version(&number)?;
+        let (mut models, others): (Vec<_>, Vec<_>) =
+            root.children.into_iter().partition(|child| child.name == "model");
+        let (Some(mut model), true) = (models.pop(), models.is_empty()) else {
+            let message = format!("`{}` has not exactly one model", uri.value);
+            return Err(uri.fault(message, "include a file with one <model>"));
+        };
+        for other in others {
+            let says = "only the model of an included file is read";
+            self.context.findings.ignored(other.at, other.label(), says);
+        }
+        self.own(include, &mut model)?;
+        let number = Attribute::new(VERSION.to_owned(), number.value, number.at);
+        model.attributes.push(number);
+        Ok(model)
+    }
+
+    /// What the `include` says of its model, in place of what the model says.
+    fn own(&mut self, include: &Element, model: &mut Element) -> Read<()> {
+        let mut set = |name: &str, value: Attribute| {
+            model.attributes.retain(|attribute| attribute.name != name);
+            model.attributes.push(Attribute::new(name.to_owned(), value.value, value.at));
+        };
+        for name in ["name", "placement_frame"] {
+            if let Some(child) = include.child(name) {
+                set(name, child.content());
+            }
+        }
+        if include.child("placement_frame").is_some() && include.child("pose").is_none() {
+            return Err(include.fault("`placement_frame` without a <pose>", "write its <pose>"));
+        }
+        for name in ["pose", "static"] {
+            if let Some(child) = include.child(name) {
+                model.children.retain(|other| other.name != name);
+                model.children.push(child.clone());
+            }
+        }
+        for child in include.children.iter().filter(|child| !OWN.contains(&child.name.as_str())) {
+            let says = "this of an included model is not read";
+            self.context.findings.ignored(child.at, format!("include/{}", child.label()), says);
+        }
+        Ok(())
+    }
+
+    /// The file of a place. `model://NAME` is looked for from the folder of the file that includes it upwards, then in the folders of the
+    /// environment; other places from the folder of that file on.
+    fn path(&self, uri: &Attribute) -> Read<PathBuf> {
+        let text = uri.value.as_str();
+        let home = self.context.options.folder.as_deref().ok_or_else(|| {
+            let hint = "give the model as a file, or put the other model here";
+            uri.fault("this text has no folder, from which it could read files", hint)
+        })?;
+        let folder = self.included.folder().unwrap_or(home).to_owned();
+        let (is_model, name) = match text.split_once("://") {
+            None => (false, text),
+            Some(("file", name)) => (false, name),
+            Some(("model" | "package", name)) => (true, name),
+            Some((scheme, _)) => {
+                let hint = "fetch the model, and write model://NAME or the place of its file";
+                return Err(uri.fault(format!("models are not fetched by `{scheme}://`"), hint));
+            }
+        };
+        let folder = folder.canonicalize().unwrap_or(folder);
+        let mut folders = vec![folder.clone()];
+        if is_model {
+            folders.extend(folder.ancestors().skip(1).map(Path::to_owned));
+            let all = FOLDERS.into_iter().filter_map(std::env::var_os);
+            folders.extend(all.flat_map(|all| std::env::split_paths(&all).collect::<Vec<_>>()));
+        }
+        let places = folders.into_iter().map(|folder| described(folder.join(name)));
+        first(uri, places, self.context)?.ok_or_else(|| {
+            let hint =
+                "give its place from the folder of its file, as model://NAME, or set SDF_PATH";
+            uri.fault(format!("there is no model `{text}`"), hint)
+        })
+    }
+}
+
+/// The file of a place that may be a folder: that with the highest version of its `model.config`, else `model.sdf`.
+fn described(place: PathBuf) -> PathBuf {
+    if !place.is_dir() {
+        return place;
+    }
+    let config = std::fs::read_to_string(place.join("model.config")).unwrap_or_default();
+    let files = crate::xml::read(&config, 0).map(|root| {
+        let files = root.children.into_iter().filter(|child| child.name == "sdf");
+        files
+            .map(|file| {
+                let number = file.attribute("version").and_then(|number| version(number).ok());
+                (number, file.text.trim().to_owned())
+            })
+            .max()
+    });
+    let file = files.ok().flatten().map(|(_, file)| file);
+    place.join(file.unwrap_or_else(|| "model.sdf".to_owned()))
+}
+
+/// The parts of a model that go into the one around it. What stood in its frame stands in a frame of its own name.
+fn merged(include: &Element, model: Element, is_in_model: bool) -> Read<Vec<Element>> {
+    let refused =
+        |why: &str| include.fault(why, "leave out merge=\"true\": names then begin with its name");
+    if !is_in_model {
+        return Err(refused("a model that is merged into the world"));
+    }
+    if model.attribute("placement_frame").is_some() || model.child("static").is_some() {
+        return Err(refused("a merged model with `placement_frame` or `static`"));
+    }
+    if version(model.need(VERSION)?)? < [1, 7] {
+        return Err(refused("a merged model of a version before 1.7"));
+    }
+    let frame = format!("_merged__{}__model_frame__", model.need("name")?.value);
+    let attribute =
+        |name: &str, value: &str| Attribute::new(name.to_owned(), value.to_owned(), include.at);
+    let canonical = model.value("canonical_link").map(str::to_owned).or_else(|| {
+        let first = model.children.iter().find(|child| child.name == "link")?;
+        first.value("name").map(str::to_owned)
+    });
+    let canonical = canonical.ok_or_else(|| refused("a merged model without a link"))?;
+    let mut own = Element::new(
+        "frame".into(),
+        include.at,
+        vec![attribute("name", &frame), attribute("attached_to", &canonical)],
+    );
+    let mut parts = Vec::new();
+    for mut part in model.children {
+        match part.name.as_str() {
+            "pose" => {
+                own.children.push(part);
+                continue;
+            }
+            "link" | "model" => stand_in(&mut part, &frame),
+            "frame" if part.value("attached_to").is_none() => {
+                part.attributes.push(attribute("attached_to", &frame));
+            }
+            _ => {}
+        }
+        renamed(&mut part, &frame);
+        parts.push(part);
+    }
+    stand_in(&mut own, MODEL);
+    parts.push(own);
+    Ok(parts)
+}
+
+/// Gives the pose of an element the frame in which it stands, where it names none.
+fn stand_in(element: &mut Element, frame: &str) {
+    if !element.children.iter().any(|child| child.name == "pose") {
+        element.children.push(Element::new("pose".into(), element.at, Vec::new()));
+    }
+    for pose in element.children.iter_mut().filter(|child| child.name == "pose") {
+        if pose.value("relative_to").is_none_or(str::is_empty) {
+            pose.attributes.retain(|attribute| attribute.name != "relative_to");
+            let at = pose.at;
+            pose.attributes.push(Attribute::new("relative_to".into(), frame.to_owned(), at));
+        }
+    }
+}
+
+/// Names the frame anew where an element names that of its model, but not in models in it.
+fn renamed(element: &mut Element, frame: &str) {
+    for attribute in &mut element.attributes {
+        let is_frame =
+            matches!(attribute.name.as_str(), "relative_to" | "attached_to" | "expressed_in");
+        if is_frame && attribute.value == MODEL {
+            frame.clone_into(&mut attribute.value);
+        }
+    }
+    if element.text.trim() == MODEL {
+        frame.clone_into(&mut element.text);
+    }
+    let is_other = element.name == "model";
+    for child in element.children.iter_mut().filter(|child| !is_other || child.name == "pose") {
+        renamed(child, frame);
+    }
+}
