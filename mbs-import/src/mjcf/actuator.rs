@@ -1,11 +1,13 @@
 //! Actuators: an input in units of their control, and the force that follows from it.
 
 use super::defaults::is_actuator;
-use super::model::Model;
+use super::model::{Model, Motion};
+use super::stops::Factor;
 use super::transmission::{Transmission, push, transmission};
 use crate::element::Element;
-use crate::robot::{Signal, Target, What};
+use crate::robot::{Signal, Target, Term, What};
 use crate::source::Read;
+use std::cell::OnceCell;
 
 /// An actuator: force = gain u + b₀ + b₁ l + b₂ l̇ of its length l.
 #[derive(Debug, Clone)]
@@ -73,10 +75,12 @@ impl Actuator {
             }
             "position" => {
                 let stiffness = element.number_or("kp", first_gain)?;
-                let damping = -self.bias.get(2).copied().unwrap_or(0.0);
-                let damping = element.number_or("kv", damping)?;
+                let damping = self.bias.get(2).copied().unwrap_or(0.0);
+                let damping = element.number_or("kv", -damping)?;
+                // above zero it is a ratio
+                let damping = element.number_or("dampratio", -damping)?;
                 self.gain = vec![stiffness];
-                self.bias = vec![0.0, -stiffness, -damping];
+                self.bias = vec![0.0, -stiffness, damping];
                 (self.gain_kind, self.bias_kind) = ("fixed".into(), "affine".into());
                 self.inherit = element.number_or("inheritrange", self.inherit)?;
                 let time = element.number_or("timeconst", 0.0)?;
@@ -193,6 +197,23 @@ impl Actuator {
         None
     }
 
+    /// With the damping of its ratio: c = 2 d √(k m), and m what it moves in the reference configuration.
+    fn damped(&self, moved: impl FnOnce() -> Option<f64>) -> Result<Self, String> {
+        let (stiffness, ratio) = match (&self.gain[..], &self.bias[..]) {
+            ([k, ..], [_, bias, ratio, ..]) if *k == -*bias && *ratio > 0.0 => (*k, *ratio),
+            _ => return Ok(self.clone()),
+        };
+        if self.bias_kind != "affine" {
+            return Ok(self.clone());
+        }
+        let Some(moved) = moved().filter(|moved| moved.is_finite()) else {
+            return Err("its damping follows from the mass that it moves, and that is open".into());
+        };
+        let mut damped = self.clone();
+        damped.bias[2] = -2.0 * ratio * (stiffness * moved).sqrt();
+        Ok(damped)
+    }
+
     /// Why the scene cannot have it there: what is no coordinate has no measure.
     fn refusal_of(&self, pulled: &Transmission) -> Option<String> {
         let bias =
@@ -209,6 +230,7 @@ impl Actuator {
 
 /// Reads the elements `actuator`.
 pub(super) fn read<'a>(root: &'a Element, model: &mut Model<'a, '_, '_>) -> Read<()> {
+    let factor = OnceCell::new();
     for element in root.each("actuator").flat_map(|actuators| &actuators.children) {
         if !is_actuator(&element.name) {
             continue;
@@ -220,7 +242,7 @@ pub(super) fn read<'a>(root: &'a Element, model: &mut Model<'a, '_, '_>) -> Read
         }
         actuator.apply(element)?;
         for ending in model.endings(element) {
-            add(element, &actuator, &ending, model)?;
+            add(element, &actuator, &ending, &factor, model)?;
         }
     }
     Ok(())
@@ -231,6 +253,7 @@ fn add(
     element: &Element,
     actuator: &Actuator,
     ending: &str,
+    factor: &OnceCell<Option<Factor>>,
     model: &mut Model<'_, '_, '_>,
 ) -> Read<()> {
     let label = format!("actuator/{}", element.label());
@@ -240,11 +263,14 @@ fn add(
         Err(format!("{why}: the actuator does not act here"))
     } else {
         let found = transmission(element, &actuator.gear, ending, model)?;
-        let found = found.and_then(|pulled| actuator.refusal_of(&pulled).map_or(Ok(pulled), Err));
+        let found = found.and_then(|pulled| {
+            let damped = actuator.damped(|| moved(&pulled, factor, model))?;
+            actuator.refusal_of(&pulled).map_or(Ok((damped, pulled)), Err)
+        });
         found.map_err(|why| format!("{why}: the actuator does not act here"))
     };
-    let pulled = match found {
-        Ok(pulled) => pulled,
+    let (actuator, pulled) = match found {
+        Ok(found) => found,
         Err(says) => {
             element.read_whole();
             model.context.findings.ignored(element.at, label, says);
@@ -260,8 +286,23 @@ fn add(
         Some(name) => format!("{name}{ending}"),
         None => format!("{} {}", pulled.label, element.name),
     };
-    laws(&name, actuator, &pulled, model);
+    laws(&name, &actuator, &pulled, model);
     Ok(())
+}
+
+/// The mass that the length of an actuator moves; `None` where that is not a sum of coordinates.
+fn moved(
+    pulled: &Transmission,
+    factor: &OnceCell<Option<Factor>>,
+    model: &Model<'_, '_, '_>,
+) -> Option<f64> {
+    let term = |term: &Term| {
+        let is_it = |motion: &Motion| motion.coordinate() == term.of;
+        let number = model.motions.iter().position(is_it).filter(|_| term.line.is_empty())?;
+        Some((number, pulled.gear * term.factor))
+    };
+    let terms: Vec<_> = pulled.terms.iter().map(term).collect::<Option<_>>()?;
+    Some(factor.get_or_init(|| Factor::new(model)).as_ref()?.moved_by(&terms))
 }
 
 /// The input, the signals that follow from it, and the effort that follows from those.

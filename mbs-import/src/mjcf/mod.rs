@@ -47,11 +47,11 @@ pub(crate) fn read(root: &Element, context: &mut Context<'_>) -> Read<Robot> {
     }
     weights::settle(&mut model)?;
     stops::add(&mut model);
-    weights::armatures(&mut model);
     tendon::read(root, &mut model)?;
     equality::read(root, &mut model)?;
     actuator::read(root, &mut model)?;
     keyframe::read(root, &mut model)?;
+    weights::armatures(&mut model);
     body::frames(&mut model);
     if model.touching > 1 && model.compiler.acts.contact {
         let says = format!(

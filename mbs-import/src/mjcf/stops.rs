@@ -6,7 +6,7 @@ use super::model::{Model, Moves};
 use crate::inertia::Mass;
 use crate::options::Stops;
 use crate::pose::{M3, V3, unit};
-use crate::robot::{GROUND, Kind, What};
+use crate::robot::{GROUND, What};
 use mbs_core::algebra::cross;
 
 /// Entries of the mass matrix, above which stops follow from the scene's own estimate.
@@ -37,7 +37,7 @@ pub(super) fn add(model: &mut Model<'_, '_, '_>) {
     if !is_needed {
         return;
     }
-    let moved = moved(model);
+    let moved = Factor::new(model).map(|factor| factor.moved(model.motions.len()));
     for number in 0..model.motions.len() {
         let motion = model.motions[number].clone();
         if let (Some([time, ratio]), true) = (motion.timed, motion.is_single()) {
@@ -113,17 +113,78 @@ fn columns(model: &Model<'_, '_, '_>) -> Vec<Column> {
     columns
 }
 
-/// What each joint of the file moves while others give way, one over the diagonal of the inverse of M; `None` where a coordinate moves no mass,
-/// or the model is too large.
-fn moved(model: &Model<'_, '_, '_>) -> Option<Vec<f64>> {
+/// The factor of the mass matrix in the reference configuration; row i of L has the entries of the coordinates `chains[i]`.
+pub(super) struct Factor {
+    rows: Vec<Vec<f64>>,
+    chains: Vec<Vec<usize>>,
+    columns: Vec<Column>,
+}
+
+impl Factor {
+    /// `None` where a coordinate moves no mass, or the model is too large.
+    pub(super) fn new(model: &Model<'_, '_, '_>) -> Option<Self> {
+        let (columns, rows, chains) = matrix(model)?;
+        Some(Self { rows: factored(rows, &chains)?, chains, columns })
+    }
+
+    /// What each joint of the file moves while others give way: one over the diagonal of the inverse of M.
+    fn moved(&self, motions: usize) -> Vec<f64> {
+        let mut found = vec![0.0; motions];
+        let mut y = vec![0.0; self.rows.len()];
+        for (number, column) in self.columns.iter().enumerate() {
+            found[column.motion] = 1.0 / self.softness(&[(number, 1.0)], &mut y);
+        }
+        found
+    }
+
+    /// What a sum of joints with factors moves, 1 / J M⁻¹ Jᵀ.
+    pub(super) fn moved_by(&self, terms: &[(usize, f64)]) -> f64 {
+        let column = |motion: usize| self.columns.iter().position(|column| column.motion == motion);
+        let terms = terms.iter().filter_map(|(motion, factor)| Some((column(*motion)?, *factor)));
+        1.0 / self.softness(&terms.collect::<Vec<_>>(), &mut vec![0.0; self.rows.len()])
+    }
+
+    /// J M⁻¹ Jᵀ = ‖L⁻ᵀ Jᵀ‖²; `y` is zero before and after.
+    fn softness(&self, terms: &[(usize, f64)], y: &mut [f64]) -> f64 {
+        let mut order: Vec<usize> =
+            terms.iter().flat_map(|(number, _)| self.chains[*number].iter().copied()).collect();
+        order.sort_unstable();
+        order.dedup();
+        for (number, factor) in terms {
+            y[*number] += factor;
+        }
+        let mut sum = 0.0;
+        for i in order.into_iter().rev() {
+            let row = &self.rows[i];
+            let own = y[i] / row[row.len() - 1];
+            for (k, x) in self.chains[i].iter().zip(&row[..row.len() - 1]) {
+                y[*k] -= x * own;
+            }
+            y[i] = 0.0;
+            sum += own * own;
+        }
+        sum
+    }
+}
+
+/// Columns, rows and chains of the mass matrix.
+type Matrix = (Vec<Column>, Vec<Vec<f64>>, Vec<Vec<usize>>);
+
+/// The mass matrix of the tree; row i has the entries of the coordinates of its chain, which ends with i.
+fn matrix(model: &Model<'_, '_, '_>) -> Option<Matrix> {
     let robot = &model.robot;
     let mut parent = vec![GROUND; robot.links.len()];
-    // a link stands behind its parent: joints were added on the way down
-    for joint in robot.joints.iter().filter(|joint| !matches!(joint.kind, Kind::Weld)) {
-        parent[joint.child] = joint.parent;
+    // a link stands behind its parent, as joints were added on the way down; later ones close loops
+    let mut is_joined = vec![false; robot.links.len()];
+    is_joined[GROUND] = true;
+    let mut order = Vec::new();
+    for joint in &robot.joints {
+        if !std::mem::replace(&mut is_joined[joint.child], true) {
+            parent[joint.child] = joint.parent;
+            order.push(joint.child);
+        }
     }
     let mut composites: Vec<_> = robot.links.iter().map(|link| own(link.mass.as_ref())).collect();
-    let order: Vec<_> = robot.joints.iter().map(|joint| joint.child).collect();
     for link in order.iter().rev() {
         let own = composites[*link];
         let sum = &mut composites[parent[*link]];
@@ -164,12 +225,7 @@ fn moved(model: &Model<'_, '_, '_>) -> Option<Vec<f64>> {
         rows.push(row);
         chains.push(chain);
     }
-    let inverse = inverse_diagonal(rows, &chains)?;
-    let mut found = vec![0.0; model.motions.len()];
-    for (number, column) in columns.iter().enumerate() {
-        found[column.motion] = 1.0 / inverse[number];
-    }
-    Some(found)
+    Some((columns, rows, chains))
 }
 
 fn own(mass: Option<&Mass>) -> Composite {
@@ -179,8 +235,8 @@ fn own(mass: Option<&Mass>) -> Composite {
     Composite { mass: mass.mass, first: mass.center * mass.mass, second }
 }
 
-/// The diagonal of the inverse of M; row i of it has the entries of the coordinates `chains[i]`.
-fn inverse_diagonal(mut rows: Vec<Vec<f64>>, chains: &[Vec<usize>]) -> Option<Vec<f64>> {
+/// M = Lᵀ L along the branches; the rows of L.
+fn factored(mut rows: Vec<Vec<f64>>, chains: &[Vec<usize>]) -> Option<Vec<Vec<f64>>> {
     for k in (0..rows.len()).rev() {
         let row = std::mem::take(&mut rows[k]);
         let last = row.len() - 1;
@@ -197,21 +253,5 @@ fn inverse_diagonal(mut rows: Vec<Vec<f64>>, chains: &[Vec<usize>]) -> Option<Ve
         scaled.push(pivot);
         rows[k] = scaled;
     }
-    // (M⁻¹)ᵢᵢ = ‖L⁻ᵀ eᵢ‖²
-    let inverse = chains.iter().map(|chain| {
-        let mut y = vec![0.0; chain.len()];
-        if let Some(last) = y.last_mut() {
-            *last = 1.0;
-        }
-        for (place, i) in chain.iter().enumerate().rev() {
-            let row = &rows[*i];
-            y[place] /= row[place];
-            let own = y[place];
-            for (entry, x) in y[..place].iter_mut().zip(row) {
-                *entry -= x * own;
-            }
-        }
-        y.iter().map(|x| x * x).sum()
-    });
-    Some(inverse.collect())
+    Some(rows)
 }

@@ -156,10 +156,9 @@ pub(crate) const TABLE: &[Row] = &[
     ),
     row(
         "position",
-        " name class joint jointinparent tendon site gear ctrlrange ctrllimited forcerange forcelimited kp kv timeconst inheritrange armature damping delay group user",
+        " name class joint jointinparent tendon site gear ctrlrange ctrllimited forcerange forcelimited kp kv dampratio timeconst inheritrange armature damping delay group user",
         Mapped,
     ),
-    row("position", "dampratio", Ignored("damping by a ratio does not act here: write kv")),
     row(
         "velocity",
         " name class joint jointinparent tendon site gear ctrlrange ctrllimited forcerange forcelimited kv armature damping delay group user",
