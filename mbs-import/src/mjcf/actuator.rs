@@ -1,13 +1,12 @@
 //! Actuators: an input in units of their control, and the force that follows from it.
 
 use super::defaults::is_actuator;
-use super::model::{Model, Motion};
-use super::stops::Factor;
+use super::model::Model;
+use super::stops::{Factor, Lazy};
 use super::transmission::{Transmission, push, transmission};
 use crate::element::Element;
-use crate::robot::{Signal, Target, Term, What};
+use crate::robot::{Signal, Target, What};
 use crate::source::Read;
-use std::cell::OnceCell;
 
 /// An actuator: force = gain u + b₀ + b₁ l + b₂ l̇ of its length l.
 #[derive(Debug, Clone)]
@@ -229,8 +228,11 @@ impl Actuator {
 }
 
 /// Reads the elements `actuator`.
-pub(super) fn read<'a>(root: &'a Element, model: &mut Model<'a, '_, '_>) -> Read<()> {
-    let factor = OnceCell::new();
+pub(super) fn read<'a>(
+    root: &'a Element,
+    factor: &Lazy,
+    model: &mut Model<'a, '_, '_>,
+) -> Read<()> {
     for element in root.each("actuator").flat_map(|actuators| &actuators.children) {
         if !is_actuator(&element.name) {
             continue;
@@ -242,7 +244,7 @@ pub(super) fn read<'a>(root: &'a Element, model: &mut Model<'a, '_, '_>) -> Read
         }
         actuator.apply(element)?;
         for ending in model.endings(element) {
-            add(element, &actuator, &ending, &factor, model)?;
+            add(element, &actuator, &ending, factor, model)?;
         }
     }
     Ok(())
@@ -253,7 +255,7 @@ fn add(
     element: &Element,
     actuator: &Actuator,
     ending: &str,
-    factor: &OnceCell<Option<Factor>>,
+    factor: &Lazy,
     model: &mut Model<'_, '_, '_>,
 ) -> Read<()> {
     let label = format!("actuator/{}", element.label());
@@ -264,7 +266,10 @@ fn add(
     } else {
         let found = transmission(element, &actuator.gear, ending, model)?;
         let found = found.and_then(|pulled| {
-            let damped = actuator.damped(|| moved(&pulled, factor, model))?;
+            let damped = actuator.damped(|| {
+                let factor = factor.get_or_init(|| Factor::new(model)).as_ref()?;
+                Some(factor.moved_by(&pulled.terms)? / pulled.gear.powi(2))
+            })?;
             actuator.refusal_of(&pulled).map_or(Ok((damped, pulled)), Err)
         });
         found.map_err(|why| format!("{why}: the actuator does not act here"))
@@ -288,21 +293,6 @@ fn add(
     };
     laws(&name, &actuator, &pulled, model);
     Ok(())
-}
-
-/// The mass that the length of an actuator moves; `None` where that is not a sum of coordinates.
-fn moved(
-    pulled: &Transmission,
-    factor: &OnceCell<Option<Factor>>,
-    model: &Model<'_, '_, '_>,
-) -> Option<f64> {
-    let term = |term: &Term| {
-        let is_it = |motion: &Motion| motion.coordinate() == term.of;
-        let number = model.motions.iter().position(is_it).filter(|_| term.line.is_empty())?;
-        Some((number, pulled.gear * term.factor))
-    };
-    let terms: Vec<_> = pulled.terms.iter().map(term).collect::<Option<_>>()?;
-    Some(factor.get_or_init(|| Factor::new(model)).as_ref()?.moved_by(&terms))
 }
 
 /// The input, the signals that follow from it, and the effort that follows from those.

@@ -46,10 +46,11 @@ pub(crate) fn read(root: &Element, context: &mut Context<'_>) -> Read<Robot> {
         return Err(root.fault("the model has no body", "put a <body> into the <worldbody>"));
     }
     weights::settle(&mut model)?;
-    stops::add(&mut model);
-    tendon::read(root, &mut model)?;
+    let factor = stops::Lazy::new();
+    stops::add(&factor, &mut model);
+    tendon::read(root, &factor, &mut model)?;
     equality::read(root, &mut model)?;
-    actuator::read(root, &mut model)?;
+    actuator::read(root, &factor, &mut model)?;
     keyframe::read(root, &mut model)?;
     weights::armatures(&mut model);
     body::frames(&mut model);

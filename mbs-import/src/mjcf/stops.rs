@@ -5,9 +5,11 @@
 use super::model::{Model, Moves};
 use crate::inertia::Mass;
 use crate::options::Stops;
-use crate::pose::{M3, V3, unit};
-use crate::robot::{GROUND, What};
+use crate::pose::{M3, V3, direction, unit};
+use crate::robot::{GROUND, Term, What};
 use mbs_core::algebra::cross;
+use std::cell::OnceCell;
+use std::collections::HashMap;
 
 /// Entries of the mass matrix, above which stops follow from the scene's own estimate.
 const MAX_ENTRIES: usize = 4_000_000;
@@ -31,13 +33,14 @@ struct Composite {
 }
 
 /// Adds stops, and the springs that a time and a damping ratio say.
-pub(super) fn add(model: &mut Model<'_, '_, '_>) {
+pub(super) fn add(factor: &Lazy, model: &mut Model<'_, '_, '_>) {
     let is_needed =
         model.motions.iter().any(|motion| motion.stops.is_some() || motion.timed.is_some());
     if !is_needed {
         return;
     }
-    let moved = Factor::new(model).map(|factor| factor.moved(model.motions.len()));
+    let factor = factor.get_or_init(|| Factor::new(model)).as_ref();
+    let moved = factor.map(|factor| factor.moved(model.motions.len()));
     for number in 0..model.motions.len() {
         let motion = model.motions[number].clone();
         if let (Some([time, ratio]), true) = (motion.timed, motion.is_single()) {
@@ -79,7 +82,7 @@ pub(super) fn add(model: &mut Model<'_, '_, '_>) {
 }
 
 /// Stiffness and damping of a stop: of time and damping ratio, or where below zero for each kilogram.
-fn stop([first, second]: [f64; 2], inertia: f64) -> [f64; 2] {
+pub(super) fn stop([first, second]: [f64; 2], inertia: f64) -> [f64; 2] {
     if first > 0.0 {
         [inertia / (first * second).powi(2), 2.0 * inertia / first]
     } else {
@@ -113,65 +116,96 @@ fn columns(model: &Model<'_, '_, '_>) -> Vec<Column> {
     columns
 }
 
-/// The factor of the mass matrix in the reference configuration; row i of L has the entries of the coordinates `chains[i]`.
+/// A factor that is made where it is first asked for.
+pub(super) type Lazy = OnceCell<Option<Factor>>;
+
+/// The factor of the mass matrix in the reference configuration.
 pub(super) struct Factor {
+    tree: Chains,
+    /// Row i of L has the entries of the coordinates `tree.chains[i]`.
     rows: Vec<Vec<f64>>,
-    chains: Vec<Vec<usize>>,
-    columns: Vec<Column>,
+    /// The column of each coordinate of the scene that is one of a hinge or a slide.
+    of: HashMap<(usize, Option<usize>), usize>,
 }
 
 impl Factor {
     /// `None` where a coordinate moves no mass, or the model is too large.
     pub(super) fn new(model: &Model<'_, '_, '_>) -> Option<Self> {
-        let (columns, rows, chains) = matrix(model)?;
-        Some(Self { rows: factored(rows, &chains)?, chains, columns })
+        let (tree, rows) = matrix(model)?;
+        let rows = factored(rows, &tree.chains)?;
+        let of = tree.columns.iter().enumerate().map(|(number, column)| {
+            let motion = &model.motions[column.motion];
+            ((motion.joint, motion.number), number)
+        });
+        Some(Self { of: of.collect(), rows, tree })
     }
 
     /// What each joint of the file moves while others give way: one over the diagonal of the inverse of M.
     fn moved(&self, motions: usize) -> Vec<f64> {
         let mut found = vec![0.0; motions];
-        let mut y = vec![0.0; self.rows.len()];
-        for (number, column) in self.columns.iter().enumerate() {
-            found[column.motion] = 1.0 / self.softness(&[(number, 1.0)], &mut y);
+        for (number, column) in self.tree.columns.iter().enumerate() {
+            found[column.motion] = 1.0 / self.softness(&[(number, 1.0)]);
         }
         found
     }
 
-    /// What a sum of joints with factors moves, 1 / J M⁻¹ Jᵀ.
-    pub(super) fn moved_by(&self, terms: &[(usize, f64)]) -> f64 {
-        let column = |motion: usize| self.columns.iter().position(|column| column.motion == motion);
-        let terms = terms.iter().filter_map(|(motion, factor)| Some((column(*motion)?, *factor)));
-        1.0 / self.softness(&terms.collect::<Vec<_>>(), &mut vec![0.0; self.rows.len()])
+    /// What a sum moves, 1 / J M⁻¹ Jᵀ; `None` where it moves nothing.
+    pub(super) fn moved_by(&self, terms: &[Term]) -> Option<f64> {
+        let mut entries = Vec::new();
+        for term in terms.iter().filter(|term| term.line.is_empty()) {
+            entries.push((*self.of.get(&(term.of.joint, term.of.number))?, term.factor));
+        }
+        for term in terms {
+            for ends in term.line.windows(2) {
+                let [(first, from), (second, to)] = [ends[0], ends[1]];
+                let Some(along) = direction(&(to - from)) else { continue };
+                for (link, place, along) in [(first, from, -along), (second, to, along)] {
+                    let chain = self.tree.end[link].map_or(&[][..], |end| &self.tree.chains[end]);
+                    entries.extend(chain.iter().map(|number| {
+                        let Column { turn, slide, .. } = &self.tree.columns[*number];
+                        (*number, term.factor * along.dot(&(slide + cross(turn, &place))))
+                    }));
+                }
+            }
+        }
+        Some(1.0 / self.softness(&entries)).filter(|moved| moved.is_finite())
     }
 
-    /// J M⁻¹ Jᵀ = ‖L⁻ᵀ Jᵀ‖²; `y` is zero before and after.
-    fn softness(&self, terms: &[(usize, f64)], y: &mut [f64]) -> f64 {
+    /// J M⁻¹ Jᵀ = ‖L⁻ᵀ Jᵀ‖².
+    fn softness(&self, entries: &[(usize, f64)]) -> f64 {
+        let chains = &self.tree.chains;
         let mut order: Vec<usize> =
-            terms.iter().flat_map(|(number, _)| self.chains[*number].iter().copied()).collect();
+            entries.iter().flat_map(|(number, _)| chains[*number].iter().copied()).collect();
         order.sort_unstable();
         order.dedup();
-        for (number, factor) in terms {
-            y[*number] += factor;
+        // all ancestors of what is in it are in it
+        let place = |number: usize| order.binary_search(&number).unwrap_or_default();
+        let mut y = vec![0.0; order.len()];
+        for (number, factor) in entries {
+            y[place(*number)] += factor;
         }
-        let mut sum = 0.0;
-        for i in order.into_iter().rev() {
-            let row = &self.rows[i];
-            let own = y[i] / row[row.len() - 1];
-            for (k, x) in self.chains[i].iter().zip(&row[..row.len() - 1]) {
-                y[*k] -= x * own;
+        for (i, number) in order.iter().enumerate().rev() {
+            let row = &self.rows[*number];
+            y[i] /= row[row.len() - 1];
+            for (k, x) in chains[*number].iter().zip(&row[..row.len() - 1]) {
+                y[place(*k)] -= x * y[i];
             }
-            y[i] = 0.0;
-            sum += own * own;
         }
-        sum
+        y.iter().map(|y| y * y).sum()
     }
 }
 
-/// Columns, rows and chains of the mass matrix.
-type Matrix = (Vec<Column>, Vec<Vec<f64>>, Vec<Vec<usize>>);
+/// The coordinates of a tree.
+struct Chains {
+    columns: Vec<Column>,
+    /// The coordinates from the ground to each, which is the last.
+    chains: Vec<Vec<usize>>,
+    /// The last coordinate on the way from the ground to each link.
+    end: Vec<Option<usize>>,
+}
 
 /// The mass matrix of the tree; row i has the entries of the coordinates of its chain, which ends with i.
-fn matrix(model: &Model<'_, '_, '_>) -> Option<Matrix> {
+fn matrix(model: &Model<'_, '_, '_>) -> Option<(Chains, Vec<Vec<f64>>)> {
     let robot = &model.robot;
     let mut parent = vec![GROUND; robot.links.len()];
     // a link stands behind its parent, as joints were added on the way down; later ones close loops
@@ -225,7 +259,11 @@ fn matrix(model: &Model<'_, '_, '_>) -> Option<Matrix> {
         rows.push(row);
         chains.push(chain);
     }
-    Some((columns, rows, chains))
+    let mut end = vec![None; robot.links.len()];
+    for link in order {
+        end[link] = of_link[link].last().copied().or(end[parent[link]]);
+    }
+    Some((Chains { columns, chains, end }, rows))
 }
 
 fn own(mass: Option<&Mass>) -> Composite {

@@ -2,7 +2,9 @@
 
 use super::defaults::{MAIN, View};
 use super::model::{Model, Tendon};
+use super::stops::{Factor, Lazy, stop};
 use crate::element::Element;
+use crate::options::Stops;
 use crate::robot::{Coordinate, Target, Term, What};
 use crate::source::{Fault, Read};
 use mbs_core::algebra::norm;
@@ -15,7 +17,11 @@ struct Pulled {
 }
 
 /// Reads the elements `tendon`.
-pub(super) fn read<'a>(root: &'a Element, model: &mut Model<'a, '_, '_>) -> Read<()> {
+pub(super) fn read<'a>(
+    root: &'a Element,
+    factor: &Lazy,
+    model: &mut Model<'a, '_, '_>,
+) -> Read<()> {
     for element in root.each("tendon").flat_map(|tendons| &tendons.children) {
         if !matches!(element.name.as_str(), "fixed" | "spatial") {
             continue;
@@ -26,7 +32,7 @@ pub(super) fn read<'a>(root: &'a Element, model: &mut Model<'a, '_, '_>) -> Read
                 "fixed" => Some(fixed(element, &ending, model)?),
                 _ => spatial(&view, &ending, model)?,
             };
-            laws(&view, &ending, pulled, model)?;
+            laws(&view, &ending, pulled, factor, model)?;
         }
     }
     Ok(())
@@ -102,6 +108,7 @@ fn laws(
     view: &View<'_>,
     ending: &str,
     pulled: Option<Pulled>,
+    factor: &Lazy,
     model: &mut Model<'_, '_, '_>,
 ) -> Read<()> {
     let element = view.element;
@@ -140,11 +147,41 @@ fn laws(
             model.context.findings.ignored(element.at, label.as_str(), says);
         }
     }
-    let auto = model.compiler.auto_limits;
-    if view.is_limited("limited", "range", auto)? && model.compiler.acts.limit {
-        view.attribute("range");
-        model.context.findings.ignored(element.at, label, "the ends of a tendon do not act here");
-    }
+    ends(view, (&name, label), &pulled, factor, model)
+}
+
+/// The ends of the length of a tendon: stops of the inertia that it moves, as those of a joint.
+fn ends(
+    view: &View<'_>,
+    (name, label): (&str, String),
+    pulled: &Pulled,
+    factor: &Lazy,
+    model: &mut Model<'_, '_, '_>,
+) -> Read<()> {
+    let is_limited = view.is_limited("limited", "range", model.compiler.auto_limits)?;
+    let (range, solref) =
+        (view.numbers::<2>("range")?, view.numbers_or("solreflimit", [0.02, 1.0])?);
+    view.attribute("solimplimit");
+    let Some(range) = range.filter(|_| is_limited && model.compiler.acts.limit) else {
+        return Ok(());
+    };
+    let factor = factor.get_or_init(|| Factor::new(model)).as_ref();
+    let moved = factor.and_then(|factor| factor.moved_by(&pulled.terms));
+    let [stiffness, damping] = match (model.context.options.limits, moved) {
+        (Some(Stops::Given { stiffness, damping }), _) => [stiffness, damping],
+        (_, Some(moved)) => stop(solref, moved),
+        (_, None) => {
+            let says = "the ends of a tendon that moves no mass do not act here";
+            model.context.findings.ignored(view.element.at, label, says);
+            return Ok(());
+        }
+    };
+    let says = "its ends are soft constraints there; here a stop with stiffness and damping by solreflimit and the moved inertia";
+    model.context.findings.approximated(view.element.at, label, says);
+    let [lower, upper] = range.map(|end| end - pulled.drawn);
+    let on = Target::Sum(pulled.terms.clone());
+    let what = What::Limit { on, lower, upper, stiffness, damping };
+    model.law(&format!("{name} stops"), what);
     Ok(())
 }
 

@@ -203,6 +203,27 @@ fn springs_of_joints_and_tendons_pull_as_qfrc_passive_says() {
 }
 
 #[test]
+fn ends_of_tendons_are_stops_of_the_mass_that_tendon_invweight0_says() {
+    // 1 / tendon_invweight0 as the other program has it
+    let text = r#"<mujoco><worldbody><site name="w" pos="0 .1 1"/>
+<body name="a" pos="0 0 1"><joint name="i" axis="0 1 0"/><geom size=".1" pos=".3 0 0"/><body pos=".5 0 0"><joint name="j"/><geom size=".1" pos=".2 .1 0"/><site name="s" pos=".3 0 .1"/></body></body></worldbody>
+<tendon><fixed name="t" range="-1 2" solreflimit=".1 .5"><joint joint="i" coef="-2"/><joint joint="j" coef="3"/></fixed>
+<spatial name="u" limited="true" range="0 .9" solreflimit=".1 .5"><site site="w"/><site site="s"/></spatial></tendon></mujoco>"#;
+    let robot = robot(text);
+    for (name, invweight) in [("t", 41.41276580452379), ("u", 0.00602859632923846)] {
+        let What::Limit { stiffness, damping, .. } = law(&robot, &format!("{name} stops")) else {
+            panic!("no stops")
+        };
+        let [stiffness, damping] = [stiffness * 0.05 * 0.05, damping * 0.05].map(|x| x * invweight);
+        assert!((stiffness - 1.0).abs() < TOLERANCE, "{name}: {stiffness}");
+        assert!((damping - 1.0).abs() < TOLERANCE, "{name}: {damping}");
+    }
+    let What::Limit { upper, .. } = law(&robot, "u stops") else { panic!("no stops") };
+    // the string is drawn 0.812… m long
+    assert!((upper - (0.9 - (0.8_f64 * 0.8 + 0.1 * 0.1 + 0.1 * 0.1).sqrt())).abs() < TOLERANCE);
+}
+
+#[test]
 fn equalities_are_couplings_of_deviations_and_joints_of_loops() {
     let text = r#"<mujoco><worldbody><body name="p" pos="1 0 0" euler="0 0 90"><geom size=".1"/><joint name="a" ref="20"/>
 <body name="q"><geom size=".1"/><joint name="b" ref="10"/></body></body></worldbody>
