@@ -2,7 +2,7 @@
 
 use super::finding::{Finding, Severity, Topic, body_names, joint_names};
 use crate::redundancy::{Diagnosis, JointChange, Nature, Remedy, Set};
-use mbs_core::scene::Scene;
+use mbs_core::scene::{InitialTarget, Scene};
 use mbs_scene::format::{counted, few};
 
 /// One finding per set.
@@ -39,6 +39,37 @@ pub(super) fn findings(
         );
         let code = (Topic::Dependence, "hidden-by-sharing");
         findings.push(Finding::new(Severity::Note, code, message, ""));
+    }
+}
+
+/// Sets that depend in the reference configuration alone, where less than two of their joints are held: held values lead away from there on
+/// one of the branches that meet, and nothing in the file says on which.
+pub(super) fn left_behind(
+    scene: &Scene<f64>,
+    [rest, start]: [&Diagnosis; 2],
+    findings: &mut Vec<Finding>,
+) {
+    let is_held = |joint: usize| {
+        scene.initials.iter().any(|initial| {
+            matches!(&initial.target, InitialTarget::Joint { joint: held, value: Some(_), .. } if held.index() == joint)
+        })
+    };
+    for set in rest.sets.iter().filter(|set| set.is_exact) {
+        let joints: Vec<usize> = set.members.iter().map(|m| m.joint).collect();
+        let is_of_it = |other: &&Set| {
+            other.is_exact && other.members.iter().any(|member| joints.contains(&member.joint))
+        };
+        let now: usize = start.sets.iter().filter(is_of_it).map(|other| other.redundant).sum();
+        if now >= set.redundant || joints.iter().filter(|joint| is_held(**joint)).count() > 1 {
+            continue;
+        }
+        let message = format!(
+            "{} stand in a singular position in the reference configuration, where branches of their motion meet; nothing in the file says on which one the start is",
+            joint_names(scene, &joints)
+        );
+        let remedy = "hold a second of these joints by an [[initial]] value, or draw the mechanism away from this position";
+        let code = (Topic::Start, "singular-reference");
+        findings.push(Finding::new(Severity::Doubt, code, message, remedy).joints(joints));
     }
 }
 
