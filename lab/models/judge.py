@@ -129,13 +129,15 @@ def first_line(text):
 
 def by_drake(found, gravity):
     """A reference from what Drake says; its free bodies stand as they are drawn."""
-    kinds = {"revolute": "turn", "prismatic": "slide", "universal": "universal", "quaternion_floating": "free"}
+    kinds = {"revolute": "turn", "prismatic": "slide", "universal": "universal", "quaternion_floating": "free", "ball_rpy": "ball",
+             "screw": "cylinder"}
     out = {"joints": {}, "state": {}, "acceleration": {}, "gravity": gravity}
     for name, joint in found["joints"].items():
         kind = kinds.get(joint["type"])
         if kind is None:
             return None
-        value, rate, acceleration = joint["value"], joint["rate"], joint["acceleration"]
+        counted = joint.get("ours", joint)
+        value, rate, acceleration = counted["value"], counted["rate"], counted["acceleration"]
         if kind == "free":
             name, value = "base", [0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0]
             rate, acceleration = rate[3:] + rate[:3], acceleration[3:] + acceleration[:3]
@@ -146,7 +148,7 @@ def by_drake(found, gravity):
 
 
 def conventions():
-    """(name, model, reference) of the files on conventions; without those whose coordinates Drake counts in its own way."""
+    """(name, model, reference) of the files on conventions."""
     folder = common.HERE / "conventions"
     for name, found in json.loads((folder / "conventions.json").read_text())["files"].items():
         yield name, folder / name, found | found.get("hard", {})

@@ -2,13 +2,20 @@
 
 use super::frames::Frames;
 use super::scope::{Scope, placed, vector};
+use crate::context::Context;
 use crate::element::Element;
 use crate::pose::V3;
 use crate::robot::{Joint, Kind, Law, Robot, What};
 use crate::source::{Fault, Read};
 
 /// Adds what a model has of them.
-pub(super) fn read(model: &Element, scope: &Scope, frames: &Frames, robot: &mut Robot) -> Read<()> {
+pub(super) fn read(
+    model: &Element,
+    scope: &Scope,
+    frames: &Frames,
+    robot: &mut Robot,
+    context: &mut Context<'_>,
+) -> Read<()> {
     if let Some(joint) = model.child("drake:joint") {
         let hint = "write it as a <joint> of the format, and a planar one as two prismatic joints and a revolute one";
         return Err(joint.fault("a joint of another program is not read", hint));
@@ -44,6 +51,8 @@ pub(super) fn read(model: &Element, scope: &Scope, frames: &Frames, robot: &mut 
     }
     for (i, element) in model.each("drake:linear_bushing_rpy").enumerate() {
         bushing(element, (i, scope), frames, robot)?;
+        let says = "moments by roll, pitch and yaw in a frame halfway there; here by a rotation vector in the first frame";
+        context.findings.approximated(element.at, "drake:linear_bushing_rpy", says);
     }
     Ok(())
 }

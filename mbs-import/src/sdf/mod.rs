@@ -58,7 +58,7 @@ pub(crate) fn read(root: &Element, context: &mut Context<'_>) -> Read<Robot> {
     }
     for (model, scope) in &models {
         relations::read(model, scope, &frames, &mut robot)?;
-        drake::read(model, scope, &frames, &mut robot)?;
+        drake::read(model, scope, &frames, &mut robot, context)?;
     }
     base(&models, &mut robot, context);
     Ok(robot)

@@ -150,7 +150,7 @@ pub(crate) const TABLE: &[Row] = &[
     ),
     row("drake:ball_constraint", "", Mapped),
     row("drake:distance_constraint", "", Mapped),
-    row("drake:linear_bushing_rpy", "", Mapped),
+    row("drake:linear_bushing_rpy", "", Approximated),
     row(
         "drake:linear_spring_damper",
         " *",
