@@ -144,10 +144,7 @@ fn in_space<const D: usize>(
         Err(error) => start::no_start(scene, error, &mut findings),
         Ok(begun) => {
             start = Some(start::findings(scene, begun, &mut findings));
-            if findings.iter().any(|finding| finding.code == "moved") {
-                let drawn = diagnose(&linkage, &rest);
-                sets::left_behind(scene, [&drawn, &joint_level], &mut findings);
-            }
+            sets::left_behind(scene, (&linkage, &rest), &joint_level, &mut findings);
             if is_dependent {
                 methods = methods::try_all::<D>(scene, settings);
                 methods::findings(&methods, &mut findings);

@@ -1,7 +1,8 @@
 //! Dependent sets as findings, and the words for their remedy.
 
 use super::finding::{Finding, Severity, Topic, body_names, joint_names};
-use crate::redundancy::{Diagnosis, JointChange, Nature, Remedy, Set};
+use crate::redundancy::{Diagnosis, JointChange, Linkage, Nature, Remedy, Set, diagnose};
+use mbs_core::rigid::RigidMotion;
 use mbs_core::scene::{InitialTarget, Scene};
 use mbs_scene::format::{counted, few};
 
@@ -46,15 +47,19 @@ pub(super) fn findings(
 /// one of the branches that meet, and nothing in the file says on which.
 pub(super) fn left_behind(
     scene: &Scene<f64>,
-    [rest, start]: [&Diagnosis; 2],
+    (linkage, rest): (&Linkage, &[RigidMotion<f64>]),
+    start: &Diagnosis,
     findings: &mut Vec<Finding>,
 ) {
+    if !findings.iter().any(|finding| finding.code == "moved") {
+        return;
+    }
     let is_held = |joint: usize| {
         scene.initials.iter().any(|initial| {
             matches!(&initial.target, InitialTarget::Joint { joint: held, value: Some(_), .. } if held.index() == joint)
         })
     };
-    for set in rest.sets.iter().filter(|set| set.is_exact) {
+    for set in diagnose(linkage, rest).sets.iter().filter(|set| set.is_exact) {
         let joints: Vec<usize> = set.members.iter().map(|m| m.joint).collect();
         let is_of_it = |other: &&Set| {
             other.is_exact && other.members.iter().any(|member| joints.contains(&member.joint))
