@@ -147,7 +147,7 @@ def one(path):
 def main():
     folder = Path(sys.argv[1]) if len(sys.argv) > 1 else FOLDER
     out = {"by": {"urdf": f"pinocchio {pin.__version__}", "xml": f"mujoco {mujoco.__version__}"}}
-    out["files"] = {p.name: plain(one(p)) for p in sorted(folder.iterdir()) if p.suffix in (".xml", ".urdf")}
+    out["files"] = {p.name: plain(one(p)) for p in sorted(folder.iterdir()) if p.suffix in (".xml", ".urdf") and not p.name.startswith("drake_")}
     lines = [f"{json.dumps(name)}:{json.dumps(found, separators=(',', ':'))}" for name, found in out["files"].items()]
     text = '{"by":' + json.dumps(out["by"]) + ',"files":{\n' + ",\n".join(lines) + "\n}}\n"
     (folder / "conventions.json").write_text(text)

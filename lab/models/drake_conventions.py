@@ -1,4 +1,4 @@
-"""Writes what Drake says of the SDF files on conventions: drake_conventions.py. Wants `setup.sh drake`."""
+"""Writes what Drake says of the SDF files on conventions, and of URDFs with its own elements: drake_conventions.py. Wants `setup.sh drake`."""
 
 import json
 import zlib
@@ -17,7 +17,7 @@ def plain(thing):
 
 def main():
     folder, lines = common.HERE / "conventions", []
-    for path in sorted(folder.glob("*.sdf")):
+    for path in sorted([*folder.glob("*.sdf"), *folder.glob("drake_*.urdf")]):
         model = Drake(path)
         found = {"bodies": model.bodies()} | model.numbers(np.random.default_rng(zlib.crc32(path.name.encode())))
         lines.append(f"{json.dumps(path.name)}:{json.dumps(plain(found), separators=(',', ':'))}")

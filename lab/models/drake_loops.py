@@ -1,4 +1,4 @@
-"""Loops and couplings of an SDF that Drake takes in discrete plants only: exact rows beside Drake's own terms of the open tree."""
+"""Loops and couplings of an SDF or a URDF that Drake takes in discrete plants only: exact rows beside Drake's own terms of the open tree."""
 
 import re
 from xml.etree import ElementTree
@@ -10,8 +10,9 @@ LOOPS = ("drake:ball_constraint", "drake:distance_constraint")
 
 
 def declared(text):
-    """Drake's prefix is used by files that do not declare it."""
-    return text if "xmlns:drake" in text else re.sub(r"<sdf\b", '<sdf xmlns:drake="drake"', text, count=1)
+    """Drake's prefix stands for itself: files declare it as they like, or not at all."""
+    text = re.sub(r'\s+xmlns:drake="[^"]*"', "", text)
+    return re.sub(r"<(sdf|robot)\b", r'<\1 xmlns:drake="drake"', text, count=1)
 
 
 def split(path):
@@ -19,11 +20,11 @@ def split(path):
     ElementTree.register_namespace("drake", "drake")
     root = ElementTree.fromstring(declared(path.read_text()))
     loops, couplings = [], []
-    for model in root.iter("model"):
+    for model in [root] if root.tag == "robot" else root.iter("model"):
         for child in list(model):
             name = child.tag.replace("{drake}", "drake:")
             if name in LOOPS:
-                loops.append((name, {part.tag.split("_constraint_")[1]: part.text.strip() for part in child}))
+                loops.append((name, {part.tag.split("_constraint_")[1]: said(part) for part in child}))
                 model.remove(child)
             elif child.get("type") == "gearbox":
                 couplings.append(gearbox(model, child))
@@ -34,6 +35,11 @@ def split(path):
                 couplings.append(({child.get("name"): 1.0, mimic.get("joint"): -factor}, float(mimic.get("offset", 0))))
                 child.remove(mimic)
     return ElementTree.tostring(root, encoding="unicode"), loops, couplings
+
+
+def said(part):
+    """What an element says: as text in an SDF, as an attribute in a URDF."""
+    return (part.text or "").strip() or part.get("name") or part.get("value")
 
 
 def gearbox(model, element):

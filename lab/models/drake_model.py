@@ -11,6 +11,8 @@ import rotation
 from drake_loops import Rows, split
 
 GRAVITY = [0.0, 0.0, -9.8]
+# The format has none; this is what our reader writes.
+URDF_GRAVITY = [0.0, 0.0, -9.81]
 
 
 class Drake:
@@ -20,8 +22,8 @@ class Drake:
         for folder in filter(Path.is_dir, path.parent.iterdir()):
             parser.package_map().Add(folder.name, str(folder))
         text, loops, couplings = split(path)
-        parser.AddModelsFromString(text, "sdf")
-        self.plant.mutable_gravity_field().set_gravity_vector(GRAVITY)
+        parser.AddModelsFromString(text, path.suffix[1:])
+        self.plant.mutable_gravity_field().set_gravity_vector(URDF_GRAVITY if path.suffix == ".urdf" else GRAVITY)
         self.plant.Finalize()
         self.context = self.plant.CreateDefaultContext()
         self.rows = Rows(self.plant, self.context, loops, couplings) if loops or couplings else None

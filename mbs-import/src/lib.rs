@@ -1,6 +1,7 @@
 #![doc = include_str!("../README.md")]
 
 mod beside;
+mod closing;
 mod context;
 mod element;
 mod files;

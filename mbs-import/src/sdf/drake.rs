@@ -2,6 +2,7 @@
 
 use super::frames::Frames;
 use super::scope::{Scope, placed, vector};
+use crate::closing::{CLOSED, ball};
 use crate::context::Context;
 use crate::element::Element;
 use crate::pose::V3;
@@ -21,16 +22,9 @@ pub(super) fn read(
         return Err(joint.fault("a joint of another program is not read", hint));
     }
     for (i, element) in model.each("drake:ball_constraint").enumerate() {
-        let [a, b] = points(element, "drake:ball_constraint", scope, frames)?;
+        let ends = points(element, "drake:ball_constraint", scope, frames)?;
         let name = format!("{}ball constraint {}", scope.prefix, i + 1);
-        let gap = (a.1 - b.1).norm();
-        if gap > CLOSED {
-            return Err(element.fault(
-                format!("the two points are {gap:e} m apart where all joints are at zero"),
-                "give poses in which the loop is closed",
-            ));
-        }
-        robot.joints.push(Joint::new(&name, element.at, Kind::Spherical, [a.0, b.0], a.1));
+        robot.joints.push(ball(&name, element, ends)?);
     }
     for (i, element) in model.each("drake:distance_constraint").enumerate() {
         let word = "drake:distance_constraint";
@@ -56,9 +50,6 @@ pub(super) fn read(
     }
     Ok(())
 }
-
-/// How far the ends of a loop may be apart [m]: published poses have six digits.
-const CLOSED: f64 = 1.0e-5;
 
 /// The link and the global place of the points of a constraint.
 fn points(element: &Element, word: &str, scope: &Scope, frames: &Frames) -> Read<[(usize, V3); 2]> {

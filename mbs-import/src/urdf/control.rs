@@ -1,5 +1,6 @@
 //! Drives: transmissions and interfaces of effort become inputs.
 
+use super::drake::rotor;
 use crate::context::{Context, Named};
 use crate::element::Element;
 use crate::robot::{Coordinate, Kind, Law, Robot, Target, What};
@@ -24,6 +25,10 @@ pub(super) fn inputs(
         for actuator in transmission.each("actuator") {
             actuator.attribute("name");
             actuator.child("hardwareInterface");
+            let joint = transmission.child("joint").and_then(|joint| joint.value("name"));
+            if let Some(number) = joint.and_then(|joint| joints.get(joint)) {
+                rotor(actuator, number, robot)?;
+            }
             let reduction = actuator.child("mechanicalReduction");
             if let Some(reduction) = reduction.filter(|ratio| ratio.text.trim().parse() != Ok(1.0))
             {

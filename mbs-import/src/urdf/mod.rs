@@ -1,6 +1,7 @@
 //! URDF: a tree of links, from one root.
 
 mod control;
+mod drake;
 mod joint;
 mod link;
 mod pose;
@@ -42,8 +43,10 @@ pub(crate) fn read(root: &Element, context: &mut Context<'_>) -> Read<Robot> {
     }
     for (number, element) in root.each("joint").enumerate() {
         joint::laws(element, number, &joints, &mut robot, context)?;
+        drake::rotor(element, number, &mut robot)?;
     }
     joint::check_mimics(&robot)?;
+    drake::loops(root, &links, &mut robot)?;
     control::inputs(root, &joints, &mut robot, context)?;
     base(&mut robot, trunk, context)?;
     Ok(robot)

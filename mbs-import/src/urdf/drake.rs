@@ -1,0 +1,47 @@
+//! Loops and rotors in elements of another program: `drake:...`.
+
+use crate::closing::ball;
+use crate::context::Named;
+use crate::element::Element;
+use crate::pose::{V3, v3};
+use crate::robot::{Coordinate, GROUND, Kind, Law, Robot, Target, What};
+use crate::source::Read;
+
+/// Adds the balls that close loops.
+pub(super) fn loops(root: &Element, links: &Named, robot: &mut Robot) -> Read<()> {
+    const WORD: &str = "drake:ball_constraint";
+    for (i, element) in root.each(WORD).enumerate() {
+        let need = |part: &str| {
+            let name = format!("{WORD}_{part}");
+            element.child(&name).ok_or_else(|| {
+                element.fault(format!("no <{name}>"), format!("write <{name} ...=\"...\"/>"))
+            })
+        };
+        let point = |body: &str, at: &str| -> Read<(usize, V3)> {
+            let link = need(body)?.need("name")?;
+            let is_ground = link.value == "world" && links.get("world").is_none();
+            let link = if is_ground { GROUND } else { links.find(&link.value, link.at)? };
+            let at = v3(need(at)?.need("value")?.numbers()?);
+            Ok((link, robot.links[link].pose.point(&at)))
+        };
+        let ends = [point("body_A", "p_AP")?, point("body_B", "p_BQ")?];
+        robot.joints.push(ball(&format!("ball constraint {}", i + 1), element, ends)?);
+    }
+    Ok(())
+}
+
+/// Adds the inertia of a motor's rotor behind its gear, which an element of a joint or of its actuator says.
+pub(super) fn rotor(element: &Element, joint: usize, robot: &mut Robot) -> Read<()> {
+    let number = |word: &str, default: f64| {
+        element.child(word).map_or(Ok(default), |child| child.number_or("value", default))
+    };
+    let [inertia, ratio] = [number("drake:rotor_inertia", 0.0)?, number("drake:gear_ratio", 1.0)?];
+    let (Kind::Revolute | Kind::Prismatic) = robot.joints[joint].kind else { return Ok(()) };
+    let inertia = inertia * ratio * ratio;
+    if inertia > 0.0 {
+        let name = format!("{} rotor", robot.joints[joint].name);
+        let on = Target::Coordinate(Coordinate { joint, number: None });
+        robot.laws.push(Law { name, what: What::Rotor { on, inertia } });
+    }
+    Ok(())
+}
