@@ -28,7 +28,7 @@ impl Includer<'_, '_> {
         for mut child in std::mem::take(&mut element.children) {
             match child.name.as_str() {
                 "include" => {
-                    let model = self.model(&child)?;
+                    let Some(model) = self.model(&child)? else { continue };
                     let is_merged = child.attribute("merge").map(Attribute::flag);
                     if is_merged.transpose()? == Some(true) {
                         let parts = merged(&child, model, element.name == "model")?;
@@ -47,8 +47,8 @@ impl Includer<'_, '_> {
         Ok(())
     }
 
-    /// The model of an included file, as the `include` has it.
-    fn model(&mut self, include: &Element) -> Read<Element> {
+    /// The model of an included file, as the `include` has it; nothing where the file has lights alone.
+    fn model(&mut self, include: &Element) -> Read<Option<Element>> {
         let uri = include.child("uri").ok_or_else(|| missing(include, "uri"))?.content();
         let path = self.path(&uri)?;
         let mut root = self.included.open(&uri, path, include.at, self.context)?;
@@ -62,6 +62,10 @@ impl Includer<'_, '_> {
         version(&number)?;
         let (mut models, others): (Vec<_>, Vec<_>) =
             root.children.into_iter().partition(|child| child.name == "model");
+        if models.is_empty() && !others.is_empty() && others.iter().all(|x| x.name == "light") {
+            self.context.findings.appearance(include.at, include.label());
+            return Ok(None);
+        }
         let (Some(mut model), true) = (models.pop(), models.is_empty()) else {
             let message = format!("`{}` has not exactly one model", uri.value);
             return Err(uri.fault(message, "include a file with one <model>"));
@@ -73,7 +77,7 @@ impl Includer<'_, '_> {
         self.own(include, &mut model)?;
         let number = Attribute::new(VERSION.to_owned(), number.value, number.at);
         model.attributes.push(number);
-        Ok(model)
+        Ok(Some(model))
     }
 
     /// What the `include` says of its model, in place of what the model says.
@@ -131,7 +135,7 @@ impl Includer<'_, '_> {
         let places = folders.into_iter().map(|folder| described(folder.join(name)));
         first(uri, places, self.context)?.ok_or_else(|| {
             let hint =
-                "give its place from the folder of its file, as model://NAME, or set SDF_PATH";
+                "give its place from the folder of its file, as model://NAME, or set SDF_PATH; a light can be left out";
             uri.fault(format!("there is no model `{text}`"), hint)
         })
     }

@@ -99,10 +99,14 @@ fn a_model_of_another_file_is_found_or_refused_with_the_chain() {
     let outside = with("../sdf_fixed.sdf", true).expect_err("outside");
     assert!(outside.contains("lies outside"), "{outside}");
     let temporary = std::path::Path::new(env!("CARGO_TARGET_TMPDIR"));
+    let light = "<sdf version=\"1.9\"><light name=\"sun\" type=\"point\"/></sdf>";
+    std::fs::write(temporary.join("sun.sdf"), light).expect("a folder");
+    let world = "<sdf version=\"1.9\"><world name=\"w\"><include><uri>sun.sdf</uri></include><model name=\"m\"><link name=\"l\"/></model></world></sdf>";
+    let options = ImportOptions { folder: Some(temporary.to_owned()), ..ImportOptions::default() };
+    let model = import(world.as_bytes(), "w.sdf", &options).expect("a light is for the eye");
+    assert!(model.findings.iter().any(|x| x.kind == FindingKind::Appearance));
     let own = "<sdf version=\"1.9\"><model name=\"m\"><include><uri>own.sdf</uri></include></model></sdf>";
     std::fs::write(temporary.join("own.sdf"), own).expect("a folder");
-    let folder = Some(temporary.to_owned());
-    let options = ImportOptions { folder, ..ImportOptions::default() };
     let error = import(own.as_bytes(), "own.sdf", &options).expect_err("a circle");
     assert!(error.fault().to_string().starts_with("`own.sdf` includes itself"), "{error:?}");
 }
