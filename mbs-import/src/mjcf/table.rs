@@ -146,22 +146,22 @@ pub(crate) const TABLE: &[Row] = &[
     row("actuator", "", Mapped),
     row(
         "general",
-        " name class joint jointinparent tendon site gear ctrlrange ctrllimited forcerange forcelimited gaintype gainprm biastype biasprm dyntype dynprm armature damping delay actlimited actrange group user",
+        " name class joint jointinparent tendon site refsite gear ctrlrange ctrllimited forcerange forcelimited gaintype gainprm biastype biasprm dyntype dynprm armature damping delay actlimited actrange group user",
         Mapped,
     ),
     row(
         "motor",
-        " name class joint jointinparent tendon site gear ctrlrange ctrllimited forcerange forcelimited armature damping delay group user",
+        " name class joint jointinparent tendon site refsite gear ctrlrange ctrllimited forcerange forcelimited armature damping delay group user",
         Mapped,
     ),
     row(
         "position",
-        " name class joint jointinparent tendon site gear ctrlrange ctrllimited forcerange forcelimited kp kv dampratio timeconst inheritrange armature damping delay group user",
+        " name class joint jointinparent tendon site refsite gear ctrlrange ctrllimited forcerange forcelimited kp kv dampratio timeconst inheritrange armature damping delay group user",
         Mapped,
     ),
     row(
         "velocity",
-        " name class joint jointinparent tendon site gear ctrlrange ctrllimited forcerange forcelimited kv armature damping delay group user",
+        " name class joint jointinparent tendon site refsite gear ctrlrange ctrllimited forcerange forcelimited kv armature damping delay group user",
         Mapped,
     ),
     row("general", "*", Ignored("this of an actuator does not act here")),

@@ -64,10 +64,20 @@ pub(super) fn transmission(
         });
     }
     if let Some(site) = element.attribute("site") {
-        if element.attribute("refsite").is_some() {
-            return Ok(Err("`refsite`: a force between two places of changing axes".into()));
-        }
         let found = model.site(site, ending)?;
+        if let Some(other) = element.attribute("refsite") {
+            let other = model.site(other, ending)?;
+            if model.robot.carriers(|joint| joint.kind == Kind::Fixed)[other.link] != GROUND {
+                return Ok(Err("`refsite`: a force between two places that move".into()));
+            }
+            let [force, moment] = halves(gear).map(|half| other.pose.turn * half);
+            let mut pushes = vec![
+                Push { link: found.link, at: Some(found.pose.at), value: force, turns: false },
+                Push { link: found.link, at: None, value: moment, turns: false },
+            ];
+            pushes.retain(|push| push.value != V3::zeros());
+            return Ok(Ok(Transmission { pushes, has_length: true, ..none(&site.value) }));
+        }
         let [force, moment] = halves(gear).map(|half| found.pose.turn * half);
         let pushes = turning(found.link, found.pose.at, force, moment);
         return Ok(Ok(Transmission { pushes, ..none(&site.value) }));
