@@ -30,7 +30,7 @@ pub(super) fn loops(root: &Element, links: &Named, robot: &mut Robot) -> Read<()
     Ok(())
 }
 
-/// Adds the inertia of a motor's rotor behind its gear, which an element of a joint or of its actuator says.
+/// Adds the inertia of a motor's rotor behind its gear, which the actuator of a transmission says.
 pub(super) fn rotor(element: &Element, joint: usize, robot: &mut Robot) -> Read<()> {
     let number = |word: &str, default: f64| {
         element.child(word).map_or(Ok(default), |child| child.number_or("value", default))

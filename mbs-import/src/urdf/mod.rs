@@ -43,7 +43,6 @@ pub(crate) fn read(root: &Element, context: &mut Context<'_>) -> Read<Robot> {
     }
     for (number, element) in root.each("joint").enumerate() {
         joint::laws(element, number, &joints, &mut robot, context)?;
-        drake::rotor(element, number, &mut robot)?;
     }
     joint::check_mimics(&robot)?;
     drake::loops(root, &links, &mut robot)?;

@@ -87,6 +87,11 @@ pub(crate) const TABLE: &[Row] = &[
     row("collision/*", " *", Ignored("there is no contact between bodies yet")),
     row("visual/drake:*", " *", Appearance),
     row("geometry/drake:*", " *", Appearance),
+    row(
+        "joint/drake:*",
+        " *",
+        Ignored("it belongs into the actuator of a transmission, where it is read"),
+    ),
     row("drake:rotor_inertia", " value", Mapped),
     row("drake:gear_ratio", " value", Mapped),
     row("drake:ball_constraint", "", Mapped),
