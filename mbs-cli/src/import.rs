@@ -7,12 +7,14 @@ use crate::refusal::Refusal;
 use crate::say::{say, warn};
 use crate::status::REFUSED;
 use clap::Args;
-use mbs::models::{FindingKind, Imported, ModelFinding, ModelSizes, import, is_model};
+use mbs::models::{
+    FindingKind, ImportOptions, Imported, ModelFinding, ModelSizes, import, is_model,
+};
 use mbs::scene_file::format::counted;
 use mbs::{Method, Precision, ResolvedMethod};
 use mbs_study::doctor::{Effort, Finding, Severity, examine};
 use serde_json::{Value, json};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 const STATUS: &str = "\
@@ -60,7 +62,13 @@ fn imported(arguments: &Arguments) -> Result<ExitCode, Refusal> {
         return Err(Refusal::new("model-refused", message, hint));
     }
     let refused = |error| Refusal::read("model-refused", &error);
-    let options = model::options(&arguments.model, arguments.file.parent())?;
+    let home = arguments.file.parent().unwrap_or(Path::new(""));
+    let out = arguments.out.as_deref().and_then(Path::parent);
+    let options = ImportOptions {
+        // on standard output it is taken for a file of the working directory
+        scene_folder: Some(out.unwrap_or(Path::new("")).to_owned()),
+        ..model::options(&arguments.model, home)?
+    };
     let model = import(&bytes, &name, &options).map_err(refused)?;
     let faults = faults(&name, &model)?;
     let is_lost = arguments.strict && model.findings.iter().any(acts);
@@ -136,11 +144,24 @@ fn report(name: &str, model: &Imported) -> String {
         let ModelFinding { kind, file, line, column, element, says } = finding;
         text += &format!("{:<13} {file}:{line}:{column}  {element}: {says}\n", word(*kind));
     }
-    let shown = count(model, FindingKind::Appearance);
-    if shown > 0 {
-        text += &format!("{:<13} {}\n", "for the eye", counted(shown, "element"));
+    for (says, n) in for_the_eye(model) {
+        let says = if says == "for the eye" { String::new() } else { format!(": {says}") };
+        text += &format!("{:<13} {}{says}\n", "for the eye", counted(n, "element"));
     }
     text
+}
+
+/// What is for the eye alone, by what is said of it: how many elements each.
+fn for_the_eye(model: &Imported) -> Vec<(&str, usize)> {
+    let mut list: Vec<(&str, usize)> = Vec::new();
+    let found = model.findings.iter().filter(|finding| !acts(finding));
+    for ModelFinding { says, .. } in found {
+        match list.iter_mut().find(|(known, _)| known == says) {
+            Some((_, n)) => *n += 1,
+            None => list.push((says, 1)),
+        }
+    }
+    list
 }
 
 const fn word(kind: FindingKind) -> &'static str {

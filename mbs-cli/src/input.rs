@@ -48,8 +48,11 @@ pub(crate) fn document(
         return Err(Refusal::new("usage", message, "leave out --import"));
     }
     let folder = if is_standard(path) { None } else { path.parent() };
-    let folder = Some(folder.unwrap_or(Path::new("")).to_owned());
-    let options = ImportOptions { folder, ..options.unwrap_or_default() };
+    let folder = folder.unwrap_or(Path::new("")).to_owned();
+    let options = match options {
+        Some(options) => ImportOptions { folder: Some(folder), ..options },
+        None => ImportOptions::in_folder(folder),
+    };
     let document = scene_file(&bytes, &name, &options);
     let (document, imported) = document.map_err(|error| {
         let code = if is_model(&bytes) { "model-refused" } else { "scene-refused" };

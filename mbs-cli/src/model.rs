@@ -4,7 +4,7 @@ use crate::refusal::Refusal;
 use clap::{Args, Parser, ValueEnum};
 use mbs::models::{BaseKind, FindingKind, ImportOptions, Imported, ModelSizes, Stops};
 use mbs::scene_file::format::counted;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// How a model is read; elsewhere they are words of `--import`.
 #[derive(Debug, Args)]
@@ -27,6 +27,9 @@ pub(crate) struct ModelOptions {
     /// Meshes whose mass is needed count as massless, and are reported.
     #[arg(long)]
     massless_meshes: bool,
+    /// The folder of a package, for links `package://NAME/...`; may be repeated. Default: ROS_PACKAGE_PATH, then upwards from the model.
+    #[arg(long, value_name = "NAME=FOLDER")]
+    package: Vec<String>,
     /// Refuse included files outside of the folder of the model.
     #[arg(long)]
     no_outside: bool,
@@ -61,14 +64,11 @@ pub(crate) fn of_words(words: &[String]) -> Result<Option<ImportOptions>, Refusa
         let hint = "write --import base=free, or another option that mbs import --help lists";
         Refusal::new("usage", format!("--import: {message}"), hint)
     })?;
-    options(&line.model, None).map(Some)
+    options(&line.model, Path::new("")).map(Some)
 }
 
 /// The options of a command line, for a model that lies in a folder; else the refusal.
-pub(crate) fn options(
-    model: &ModelOptions,
-    folder: Option<&Path>,
-) -> Result<ImportOptions, Refusal> {
+pub(crate) fn options(model: &ModelOptions, folder: &Path) -> Result<ImportOptions, Refusal> {
     let limits = match model.limits.as_deref() {
         None => None,
         Some("") => Some(Stops::ByMass),
@@ -101,10 +101,24 @@ pub(crate) fn options(
         balance: model.balance,
         keep_fixed: model.keep_fixed.clone(),
         key: model.key.clone(),
-        folder: folder.map(Path::to_owned),
         no_outside: model.no_outside,
         massless_meshes: model.massless_meshes,
+        packages: model.package.iter().map(|text| package(text)).collect::<Result<_, _>>()?,
+        ..ImportOptions::in_folder(folder.to_owned())
     })
+}
+
+/// `NAME=FOLDER`
+fn package(text: &str) -> Result<(String, PathBuf), Refusal> {
+    let refused = |what: &str| {
+        let message = format!("`--package {text}`: {what}");
+        Refusal::new("usage", message, "write --package NAME=FOLDER")
+    };
+    let (name, folder) = text.split_once('=').ok_or_else(|| refused("no `=`"))?;
+    if !Path::new(folder).is_dir() {
+        return Err(refused("there is no such folder"));
+    }
+    Ok((name.to_owned(), PathBuf::from(folder)))
 }
 
 /// A line of a model that stands where a scene is wanted.

@@ -34,6 +34,6 @@ pub fn read(path: impl AsRef<Path>) -> Result<SceneFile, ReadError> {
         return SceneFile::read(path);
     };
     let folder = path.parent().unwrap_or(Path::new(""));
-    let options = ImportOptions { folder: Some(folder.to_owned()), ..ImportOptions::default() };
+    let options = ImportOptions::in_folder(folder.to_owned());
     scene_file(&bytes, &path.display().to_string(), &options).map(|(scene, _)| scene)
 }

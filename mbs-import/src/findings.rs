@@ -54,7 +54,17 @@ impl Findings {
     }
 
     pub(crate) fn appearance(&mut self, at: Origin, element: impl Into<String>) {
-        self.0.push((FindingKind::Appearance, at, element.into(), "for the eye".into()));
+        self.not_drawn(at, element, "for the eye");
+    }
+
+    /// Something that is for the eye, and why it is not drawn.
+    pub(crate) fn not_drawn(
+        &mut self,
+        at: Origin,
+        element: impl Into<String>,
+        says: impl Into<String>,
+    ) {
+        self.0.push((FindingKind::Appearance, at, element.into(), says.into()));
     }
 
     /// All of them with their places, in the order of the files.

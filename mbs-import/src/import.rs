@@ -12,6 +12,7 @@ use crate::unread::unread;
 use crate::{mjcf, sdf, urdf, write, xml};
 use mbs_scene::{ReadError, SceneFile};
 use std::collections::HashSet;
+use std::path::PathBuf;
 
 /// A model as a scene.
 #[derive(Debug, Clone)]
@@ -24,6 +25,8 @@ pub struct Imported {
     pub findings: Vec<ModelFinding>,
     /// How much it has.
     pub sizes: ModelSizes,
+    /// Where its text names files from.
+    folder: Option<PathBuf>,
 }
 
 impl Imported {
@@ -32,7 +35,11 @@ impl Imported {
     /// # Errors
     /// Those of [`SceneFile::parse`].
     pub fn scene_file(&self, file: &str) -> Result<SceneFile, ReadError> {
-        SceneFile::parse(&self.text, &format!("scene of {file}"))
+        let name = format!("scene of {file}");
+        match &self.folder {
+            Some(folder) => SceneFile::parse_in(&self.text, &name, folder),
+            None => SceneFile::parse(&self.text, &name),
+        }
     }
 }
 
@@ -98,7 +105,8 @@ pub fn import(bytes: &[u8], file: &str, options: &ImportOptions) -> Result<Impor
     match whole(text, source, file, &mut context) {
         Ok((format, text, sizes)) => {
             let Context { sources, findings, .. } = context;
-            Ok(Imported { format, text, findings: findings.list(&sources), sizes })
+            let folder = options.scene_folder.as_ref().or(options.folder.as_ref()).cloned();
+            Ok(Imported { format, text, findings: findings.list(&sources), sizes, folder })
         }
         Err(fault) => Err(context.sources.error(fault)),
     }

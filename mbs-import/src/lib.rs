@@ -21,6 +21,7 @@ mod source;
 mod table;
 mod unread;
 mod urdf;
+mod visual;
 mod write;
 mod xml;
 

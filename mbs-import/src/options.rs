@@ -42,6 +42,22 @@ pub struct ImportOptions {
     pub folder: Option<PathBuf>,
     /// Whether a file outside of that folder is refused.
     pub no_outside: bool,
+    /// The folder of the scene, from which it names files of meshes; `None`: that of the model.
+    pub scene_folder: Option<PathBuf>,
+    /// Folders of packages by their names.
+    pub packages: Vec<(String, PathBuf)>,
+    /// Folders in which packages lie: `ROS_PACKAGE_PATH`.
+    pub package_path: Vec<PathBuf>,
     /// Whether meshes whose mass is needed count as massless, and are reported.
     pub massless_meshes: bool,
+}
+
+impl ImportOptions {
+    /// Those of a model in a folder, with the search path of the environment.
+    #[must_use]
+    pub fn in_folder(folder: PathBuf) -> Self {
+        let path = std::env::var_os("ROS_PACKAGE_PATH");
+        let path = path.map(|path| std::env::split_paths(&path).collect());
+        Self { folder: Some(folder), package_path: path.unwrap_or_default(), ..Self::default() }
+    }
 }

@@ -242,7 +242,7 @@ pub(crate) struct Form {
 }
 
 /// Forms along the z axis of their frame.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub(crate) enum FormKind {
     /// Three lengths.
     Box([f64; 3]),
@@ -257,6 +257,11 @@ pub(crate) enum FormKind {
     Cylinder {
         radius: f64,
         length: f64,
+    },
+    /// The file as the scene names it, and factors of its numbers.
+    Mesh {
+        file: String,
+        scale: [f64; 3],
     },
 }
 
@@ -279,12 +284,13 @@ pub(crate) struct Start {
 impl FormKind {
     /// The form, if all its sizes are above zero.
     pub(crate) fn of_size(self) -> Option<Self> {
-        let is_there = match self {
+        let is_there = match &self {
             Self::Box(size) => size.iter().all(|x| *x > 0.0),
-            Self::Sphere { radius } => radius > 0.0,
+            Self::Sphere { radius } => *radius > 0.0,
             Self::Capsule { radius, length } | Self::Cylinder { radius, length } => {
-                radius > 0.0 && length > 0.0
+                *radius > 0.0 && *length > 0.0
             }
+            Self::Mesh { scale, .. } => scale.iter().all(|x| *x != 0.0),
         };
         is_there.then_some(self)
     }

@@ -451,28 +451,42 @@ impl FormKind {
             Self::Sphere { .. } => "sphere",
             Self::Capsule { .. } => "capsule",
             Self::Cylinder { .. } => "cylinder",
+            Self::Mesh { .. } => "mesh",
         }
     }
 }
 
 impl Form {
+    /// Its axes, where they are not the global ones.
+    fn turned(&self) -> String {
+        let is_turned = self.pose.turn != M3::identity();
+        if is_turned { format!(", axes = {}", axes(&self.pose.turn)) } else { String::new() }
+    }
+
     fn text(&self) -> String {
         let ends = |length: f64| {
             let half = self.pose.turn.column(2) * (length / 2.0);
             [self.pose.at - half, self.pose.at + half].map(|x| vector(&x))
         };
-        match self.kind {
+        match &self.kind {
             FormKind::Box(size) => {
-                let turned = format!(", axes = {}", axes(&self.pose.turn));
-                let turned = if self.pose.turn == M3::identity() { "" } else { &turned };
-                format!("{{ center = {}, size = {}{turned} }}", vector(&self.pose.at), list(size))
+                let turned = self.turned();
+                format!("{{ center = {}, size = {}{turned} }}", vector(&self.pose.at), list(*size))
             }
             FormKind::Sphere { radius } => {
-                format!("{{ center = {}, radius = {} }}", vector(&self.pose.at), number(radius))
+                format!("{{ center = {}, radius = {} }}", vector(&self.pose.at), number(*radius))
+            }
+            FormKind::Mesh { file, scale } => {
+                let scale = match *scale {
+                    [x, y, z] if x == y && y == z => number(x),
+                    _ => list(*scale),
+                };
+                let (file, at, turned) = (quoted(file), vector(&self.pose.at), self.turned());
+                format!("{{ file = {file}, at = {at}{turned}, scale = {scale} }}")
             }
             FormKind::Capsule { radius, length } | FormKind::Cylinder { radius, length } => {
-                let [from, to] = ends(length);
-                format!("{{ from = {from}, to = {to}, radius = {} }}", number(radius))
+                let [from, to] = ends(*length);
+                format!("{{ from = {from}, to = {to}, radius = {} }}", number(*radius))
             }
         }
     }

@@ -52,7 +52,7 @@ impl Report {
         let mut tables = open.into_iter().chain(folded).map(PageSection::of);
         let mut sections: Vec<_> = error.into_iter().chain(tables.next()).collect();
         let (view, pack) = self.motion.as_ref().and_then(still_view).unzip();
-        sections.extend(view);
+        sections.extend(view.into_iter().flatten());
         sections.extend(tables);
         sections.push(PageSection::of(Section::made(self.provenance.rows()).folded()));
         Page { title: self.title.clone(), sections, pack }.html()

@@ -133,6 +133,12 @@ impl<T> BodyShape<T> {
                 ShapeKind::Disc { center: all(center, f), radius: f(radius) }
             }
             ShapeKind::Polygon { points } => ShapeKind::Polygon { points: rows(points, f) },
+            ShapeKind::Mesh { file, at, axes, scale } => ShapeKind::Mesh {
+                file: file.clone(),
+                at: all(at, f),
+                axes: axes.as_ref().map(|axes| pair(axes, f)),
+                scale: all(scale, f),
+            },
         };
         let (name, body, colour, is_visual) =
             (self.name.clone(), self.body, self.colour, self.is_visual);

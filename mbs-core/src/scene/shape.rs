@@ -79,6 +79,17 @@ pub enum ShapeKind<T> {
         /// Its corners, one after the other.
         points: Vec<[T; 3]>,
     },
+    /// A surface of triangles of space, from a file that only pictures read.
+    Mesh {
+        /// The file: STL, OBJ or MSH.
+        file: String,
+        /// Where the origin of the file is.
+        at: [T; 3],
+        /// The file's first and second axis, any length; `None`: x and y.
+        axes: Option<[[T; 3]; 2]>,
+        /// Factors of the file's numbers along its axes; a negative one mirrors [-].
+        scale: [T; 3],
+    },
 }
 
 impl<T> ShapeKind<T> {
@@ -92,6 +103,7 @@ impl<T> ShapeKind<T> {
             Self::Cylinder { .. } => "cylinder",
             Self::Disc { .. } => "disc",
             Self::Polygon { .. } => "polygon",
+            Self::Mesh { .. } => "mesh",
         }
     }
 
@@ -99,7 +111,9 @@ impl<T> ShapeKind<T> {
     #[must_use]
     pub const fn dimensions(&self) -> [bool; 2] {
         match self {
-            Self::Box { .. } | Self::Sphere { .. } | Self::Cylinder { .. } => [false, true],
+            Self::Box { .. } | Self::Sphere { .. } | Self::Cylinder { .. } | Self::Mesh { .. } => {
+                [false, true]
+            }
             Self::Capsule { .. } => [true, true],
             Self::Disc { .. } | Self::Polygon { .. } => [true, false],
         }

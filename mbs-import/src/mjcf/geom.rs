@@ -1,6 +1,6 @@
 //! Geoms: mass, and what is drawn.
 
-use super::asset::MeshGeom;
+use super::asset::{self, MeshGeom};
 use super::defaults::View;
 use super::model::Model;
 use super::orientation::{from_to, pose};
@@ -145,6 +145,9 @@ pub(super) fn read(
         let mesh = view.attribute("mesh").cloned();
         let (at, is_fitted) = (view.element.at, !matches!(kind, "mesh" | "sdf"));
         let geom = MeshGeom { at, mesh, is_fitted, mass: written, density, pose };
+        if kind == "mesh" && group <= SEEN_GROUPS {
+            draw(&geom, view, link, model)?;
+        }
         return Ok(if counts { Geom::Mesh(geom) } else { Geom::Nothing });
     }
     let (frame, half) = match view.attribute("fromto") {
@@ -176,6 +179,18 @@ pub(super) fn read(
     let mass = written.unwrap_or(density * size);
     let tensor = M3::from_diagonal(&v3(moments.map(|x| x * mass)));
     Ok(Geom::Solid(Mass { mass, center: V3::zeros(), tensor }.seen_from(&frame)))
+}
+
+/// Adds what is drawn of a mesh.
+fn draw(geom: &MeshGeom, view: &View<'_>, link: usize, model: &mut Model<'_, '_, '_>) -> Read<()> {
+    match asset::form(geom, model)? {
+        Ok((pose, kind)) => {
+            let colour = view.numbers("rgba")?;
+            model.robot.shapes.push(Form { link, pose, kind, colour });
+        }
+        Err(says) => model.context.findings.not_drawn(geom.at, view.element.label(), says),
+    }
+    Ok(())
 }
 
 /// The form and its sizes; of one between two places the half length is known.

@@ -7,6 +7,7 @@ use crate::inertia::{Mass, tensor};
 use crate::pose::{Pose, V3};
 use crate::robot::{self, Form, FormKind, Robot};
 use crate::source::Read;
+use crate::visual::mesh_form;
 
 /// The inertia of a link, in its own axes.
 pub(super) fn mass(element: &Element, path: &str, context: &mut Context<'_>) -> Read<Option<Mass>> {
@@ -45,19 +46,41 @@ pub(super) fn number(element: &Element, name: &str, default: f64) -> Read<f64> {
     element.child(name).map_or(Ok(default), |child| child.content().number())
 }
 
-/// The forms of `visual` that are drawn; meshes are not. `prefix` is that of the link's model.
-pub(super) fn shapes(element: &Element, link: usize, robot: &mut Robot) -> Read<()> {
+/// The forms of `visual` that are drawn.
+pub(super) fn shapes(
+    element: &Element,
+    link: usize,
+    robot: &mut Robot,
+    context: &mut Context<'_>,
+) -> Read<()> {
     for visual in element.each("visual") {
-        let Some(kind) = visual.child("geometry").map(form).transpose()?.flatten() else {
-            continue;
-        };
+        let Some(geometry) = visual.child("geometry") else { continue };
         visual.attribute("name");
+        let kind = match geometry.child("mesh").map(|mesh| surface(mesh, context)) {
+            None => form(geometry)?,
+            Some(Ok(kind)) => kind,
+            Some(Err(says)) => {
+                visual.read_whole();
+                context.findings.not_drawn(visual.at, "visual", says);
+                None
+            }
+        };
+        let Some(kind) = kind else { continue };
         let (local, _) = pose(visual)?;
         let pose: Pose = robot.links[link].pose.then(&local);
         let colour = visual.child("material").and_then(colour);
         robot.shapes.push(Form { link, pose, kind, colour });
     }
     Ok(())
+}
+
+/// A mesh, or why it is not drawn.
+fn surface(mesh: &Element, context: &Context<'_>) -> Result<Option<FormKind>, String> {
+    if mesh.child("submesh").is_some() {
+        return Err("parts of meshes are not drawn".to_owned());
+    }
+    let [uri, scale] = ["uri", "scale"].map(|name| mesh.child(name).map(Element::content));
+    mesh_form(uri.as_ref(), scale.as_ref(), context)
 }
 
 fn colour(material: &Element) -> Option<[f64; 4]> {

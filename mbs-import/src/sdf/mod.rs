@@ -81,7 +81,7 @@ fn links(
             let link = &mut robot.links[number];
             link.pose = pose;
             link.mass = mass.map(|mass| mass.seen_from(&pose));
-            link::shapes(element, number, robot)?;
+            link::shapes(element, number, robot, context)?;
             gravity(element, number, robot)?;
         }
         for element in model.each("frame") {

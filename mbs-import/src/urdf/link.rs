@@ -1,11 +1,13 @@
 //! Links: inertia, and what is drawn.
 
 use super::pose::origin;
+use crate::context::Context;
 use crate::element::Element;
 use crate::inertia::{Mass, tensor};
 use crate::pose::V3;
 use crate::robot::{self, Form, FormKind, Link, Robot};
 use crate::source::Read;
+use crate::visual::mesh_form;
 use std::collections::HashMap;
 
 /// Colours of the robot's materials.
@@ -65,28 +67,63 @@ fn colour(material: &Element) -> Read<Option<[f64; 4]>> {
     Ok(robot::colour(&rgba.list()?))
 }
 
-/// The forms of `visual` that are drawn; meshes are not.
+/// The forms of `visual`; where none of them can be drawn, those of `collision`.
 pub(super) fn shapes(
     element: &Element,
     link: usize,
     colours: &Colours,
-    robot: &mut Robot,
+    (robot, context): (&mut Robot, &mut Context<'_>),
 ) -> Read<()> {
+    let (first, mut lost) = (robot.shapes.len(), Vec::new());
+    let frame = robot.links[link].pose;
+    let draw = |visual: &Element, colour, robot: &mut Robot| -> Read<Option<String>> {
+        match visual.child("geometry").map(|g| form(g, context)).transpose()?.flatten() {
+            Some(Ok(kind)) => {
+                let pose = frame.then(&origin(visual)?);
+                robot.shapes.push(Form { link, pose, kind, colour });
+            }
+            Some(Err(says)) => return Ok(Some(says)),
+            None => {}
+        }
+        Ok(None)
+    };
     for visual in element.each("visual") {
-        let Some(kind) = visual.child("geometry").map(form).transpose()?.flatten() else {
-            continue;
-        };
-        let pose = robot.links[link].pose.then(&origin(visual)?);
         visual.attribute("name");
         let material = visual.child("material");
         let own = material.map(colour).transpose()?.flatten();
         let named = material.and_then(|material| colours.get(material.value("name")?).copied());
-        robot.shapes.push(Form { link, pose, kind, colour: own.or(named) });
+        let says = draw(visual, own.or(named), robot)?;
+        if let Some(says) = says {
+            visual.read_whole();
+            lost.push((visual.at, says));
+        }
+    }
+    if robot.shapes.len() == first && !lost.is_empty() {
+        // what a collision says beside its form is still not in the scene
+        let collisions = element.children.iter().filter(|child| child.name == "collision");
+        for collision in collisions {
+            // it is no reason to refuse the model
+            let _ = draw(collision, None, robot);
+        }
+        let stands_in = if robot.shapes.len() > first { "; forms of contact stand in" } else { "" };
+        lost.iter_mut().for_each(|(_, says)| says.push_str(stands_in));
+    }
+    for (at, says) in lost {
+        context.findings.not_drawn(at, "visual", says);
     }
     Ok(())
 }
 
-fn form(geometry: &Element) -> Read<Option<FormKind>> {
+/// A form, or why it is not drawn; nothing where there is none.
+fn form(geometry: &Element, context: &Context<'_>) -> Read<Option<Result<FormKind, String>>> {
+    if let Some(mesh) = geometry.child("mesh") {
+        let form = mesh_form(mesh.attribute("filename"), mesh.attribute("scale"), context);
+        return Ok(form.transpose());
+    }
+    Ok(solid(geometry)?.map(Ok))
+}
+
+fn solid(geometry: &Element) -> Read<Option<FormKind>> {
     if let Some(element) = geometry.child("box") {
         let size = element.need("size")?.numbers::<3>()?;
         return Ok(FormKind::Box(size).of_size());

@@ -39,7 +39,7 @@ pub(crate) fn read(root: &Element, context: &mut Context<'_>) -> Read<Robot> {
     let trunk = root_link(&robot, root)?;
     place(&mut robot, trunk, &origins)?;
     for (link, element) in root.each("link").enumerate() {
-        link::shapes(element, link + 1, &colours, &mut robot)?;
+        link::shapes(element, link + 1, &colours, (&mut robot, context))?;
     }
     for (number, element) in root.each("joint").enumerate() {
         joint::laws(element, number, &joints, &mut robot, context)?;

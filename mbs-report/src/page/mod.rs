@@ -7,6 +7,7 @@ mod captions;
 mod decimate;
 mod diagram;
 mod glossary;
+mod meshes;
 mod motion;
 mod open_rows;
 mod paced;

@@ -1,9 +1,10 @@
 //! The motion of a run in a pack: pictures, and what is drawn.
 
 use super::decimate::spread;
+use super::meshes::PageMeshes;
 use super::pack::{Column, Pack};
 use super::section::PageSection;
-use mbs::record::{N_POSE, RecordedMotion};
+use mbs::record::{DrawnShape, N_POSE, RecordedMotion, ShapeForm};
 use serde_json::{Value, json};
 
 /// Step of places, relative to the scene's length [-]: a hundredth of a millimetre on a metre. A fraction of the path would jitter where
@@ -14,20 +15,23 @@ const TURN_STEP: f64 = 1.0 / 16_384.0;
 /// Step of times, relative to the time of the run [-].
 pub(super) const TIME_STEP: f64 = 1e-6;
 
-/// The view of a mechanism at its start with the names of bodies and joints, and its pack; `None`: there is nothing to draw.
-pub(crate) fn still_view(motion: &RecordedMotion) -> Option<(PageSection, String)> {
+/// The view of a mechanism at its start with the names of bodies and joints, behind notes, and its pack; `None`: there is nothing to draw.
+pub(crate) fn still_view(motion: &RecordedMotion) -> Option<(Vec<PageSection>, String)> {
     let mut first = motion.clone();
     first.times.truncate(1);
     let mut pack = Pack::default();
-    let motion = packed(&first, (1, true), &mut pack)?;
+    let meshes = PageMeshes::of(&first);
+    let motion = packed((&first, &meshes), (1, true), &mut pack)?;
     let caption = "The start, with the names of bodies, and in italics of the joints that findings name. Left button turns, right \
                    button moves, wheel or pinch zooms.";
-    Some((PageSection::View(caption.to_owned()), pack.text(json!({ "motion": motion }))))
+    let notes = (!meshes.notes.is_empty()).then_some(PageSection::Notes(meshes.notes));
+    let sections = notes.into_iter().chain([PageSection::View(caption.to_owned())]);
+    Some((sections.collect(), pack.text(json!({ "motion": motion }))))
 }
 
 /// Packs a motion with at most so many pictures, with names of bodies and joints shown or not; `None`: there is nothing to draw.
 pub(super) fn packed(
-    motion: &RecordedMotion,
+    (motion, meshes): (&RecordedMotion, &PageMeshes),
     (most, is_named): (usize, bool),
     pack: &mut Pack,
 ) -> Option<Value> {
@@ -56,7 +60,8 @@ pub(super) fn packed(
         "places": pack.fixed(&columns(0..3), step),
         "turns": pack.fixed(&columns(3..N_POSE), TURN_STEP),
         "bodies": motion.bodies,
-        "shapes": motion.shapes,
+        "meshes": meshes.packed(pack),
+        "shapes": shapes(motion, meshes),
         "lines": motion.lines,
         "traces": motion.traces,
         "joints": motion.joints,
@@ -72,6 +77,28 @@ pub(super) fn packed(
             ),
         })),
     }))
+}
+
+/// The shapes that are drawn: meshes by their numbers, and what stands in for those that cannot be read.
+fn shapes(motion: &RecordedMotion, meshes: &PageMeshes) -> Vec<Value> {
+    let number = |shape: &DrawnShape| match &shape.form {
+        ShapeForm::Mesh { file, .. } => meshes.number(file),
+        _ => None,
+    };
+    let with_mesh: Vec<_> =
+        motion.shapes.iter().filter(|s| number(s).is_some()).map(|s| s.body).collect();
+    let is_drawn = |shape: &&DrawnShape| match shape.form {
+        ShapeForm::Mesh { .. } => number(shape).is_some(),
+        _ => !(shape.stands_in && with_mesh.contains(&shape.body)),
+    };
+    let shapes = motion.shapes.iter().filter(is_drawn).map(|shape| {
+        let mut value = json!(shape);
+        if let Some(number) = number(shape) {
+            value["mesh"] = number.into();
+        }
+        value
+    });
+    shapes.collect()
 }
 
 /// Packs times [s] to a part of the time of the run.

@@ -1,6 +1,7 @@
 //! The page of a run: what stopped it, key numbers, the motion, plots, statistics, and how it was made.
 
 use super::decimate::MAX_POINTS;
+use super::meshes::PageMeshes;
 use super::motion;
 use super::paced;
 use super::pack::Pack;
@@ -57,12 +58,14 @@ pub fn paced_page(record: &RunRecord, paced: &RealtimeSummary) -> String {
 }
 
 fn html(record: &RunRecord, head: Vec<PageSection>) -> String {
-    let (drawn, halvings) = fitting(record);
+    let meshes = record.motion.as_ref().map(PageMeshes::of).unwrap_or_default();
+    let (drawn, halvings) = fitting(record, &meshes);
     let mut sections = Vec::new();
     let stop =
         record.error.as_ref().map(|error| PageSection::Error(format!("The run stopped {error}")));
     sections.extend(stop);
     let mut notes = record.notes.clone();
+    notes.extend(meshes.notes);
     if halvings > 0 {
         notes.push(format!(
             "The page has one in {} of the pictures and points that a page may have; run.csv has all rows.",
@@ -101,10 +104,10 @@ fn html(record: &RunRecord, head: Vec<PageSection>) -> String {
 }
 
 /// What is drawn, with half the pictures and points as often as the pack is too large; and how often that was.
-fn fitting(record: &RunRecord) -> (Drawn, u32) {
+fn fitting(record: &RunRecord, meshes: &PageMeshes) -> (Drawn, u32) {
     let mut halvings = 0;
     loop {
-        let drawn = drawn(record, MAX_PICTURES >> halvings, MAX_POINTS >> halvings);
+        let drawn = drawn(record, meshes, [MAX_PICTURES, MAX_POINTS].map(|n| n >> halvings));
         if drawn.pack.len() <= MAX_PACK || halvings == HALVINGS {
             return (drawn, halvings);
         }
@@ -112,10 +115,11 @@ fn fitting(record: &RunRecord) -> (Drawn, u32) {
     }
 }
 
-fn drawn(record: &RunRecord, pictures: usize, points: usize) -> Drawn {
+fn drawn(record: &RunRecord, meshes: &PageMeshes, [pictures, points]: [usize; 2]) -> Drawn {
     let mut pack = Pack::default();
     let recorded = record.motion.as_ref();
-    let mut motion = recorded.and_then(|m| motion::packed(m, (pictures, false), &mut pack));
+    let mut motion =
+        recorded.and_then(|m| motion::packed((m, meshes), (pictures, false), &mut pack));
     let mut panels = Panels::new(points);
     let (frames, still) = panels.add_channels(&record.channels, &mut pack);
     if let (Some(motion), Some(recorded)) = (&mut motion, recorded) {

@@ -15,10 +15,11 @@ const LICENCE: &str = include_str!("web/three/LICENSE");
 /// The part of three.js that pages use, deflated and in base64.
 const THREE: &str = include_str!("web/three/three.txt");
 /// The scripts of pages with a view or plots, in the order of their use.
-const SCRIPTS: [&str; 9] = [
+const SCRIPTS: [&str; 10] = [
     include_str!("web/pack.js"),
     include_str!("web/clock.js"),
     include_str!("web/motion.js"),
+    include_str!("web/meshes.js"),
     include_str!("web/shapes.js"),
     include_str!("web/view.js"),
     include_str!("web/lines.js"),
@@ -26,6 +27,9 @@ const SCRIPTS: [&str; 9] = [
     include_str!("web/diagram.js"),
     include_str!("web/main.js"),
 ];
+
+/// Notes that stand open at the top of a page [-]; more are folded, so that a phone shows the motion soon. Chosen, not tuned.
+const OPEN_NOTES: usize = 3;
 
 /// The keys of lines, and buttons that show some of them.
 const KEYS: &str =
@@ -143,8 +147,21 @@ impl PageSection {
                 writeln!(out, "<p class=\"stopped\" role=\"alert\">{}</p>", escape(text))
             }
             Self::Notes(notes) => {
-                let items = notes.iter().map(|note| format!("<li>{}</li>", escape(note)));
-                writeln!(out, "<ul class=\"notes\">{}</ul>", items.collect::<String>())
+                let items: Vec<_> =
+                    notes.iter().map(|note| format!("<li>{}</li>", escape(note))).collect();
+                let (shown, more) = items.split_at(if items.len() > OPEN_NOTES + 1 {
+                    OPEN_NOTES
+                } else {
+                    items.len()
+                });
+                let more = match more.len() {
+                    0 => String::new(),
+                    n => format!(
+                        "<details><summary>{n} more notes</summary><ul>{}</ul></details>",
+                        more.concat()
+                    ),
+                };
+                writeln!(out, "<div class=\"notes\"><ul>{}</ul>{more}</div>", shown.concat())
             }
             Self::Cards(cards) => {
                 let card = |[label, value]: &[String; 2]| {

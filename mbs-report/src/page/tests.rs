@@ -303,6 +303,13 @@ fn the_rear_wheels_stand_on_the_drawn_road_at_the_start_and_at_the_landing_behin
     assert!(landing.iter().all(|gap| (-0.03..0.0).contains(gap)), "{landing:?} at t = {t} s");
 }
 
+fn page_of(file: &mbs_scene::SceneFile) -> String {
+    let scene = file.scene::<f64>().expect("a scene");
+    let settings = mbs::ResolvedMethod::new(&scene, &mbs::Method::default()).expect("settings");
+    let outcome = mbs::run_document((file, &scene), &settings, &mut |_| {}).expect("a run");
+    page(&outcome.record(Provenance::default()))
+}
+
 #[test]
 fn a_shape_of_the_scene_stands_for_the_inertia_of_its_body() {
     let text = "\
@@ -323,11 +330,7 @@ colour = \"#ff8000\"
 opacity = 0.5
 ";
     let file = mbs_scene::SceneFile::parse(text, "plate.toml").expect("TOML");
-    let scene = file.scene::<f64>().expect("a scene");
-    let method = mbs::Method::default();
-    let settings = mbs::ResolvedMethod::new(&scene, &method).expect("settings");
-    let outcome = mbs::run_document((&file, &scene), &settings, &mut |_| {}).expect("a run");
-    let html = page(&outcome.record(Provenance::default()));
+    let html = page_of(&file);
     let (header, _) = data(&html);
     let boxes: Vec<_> = header["motion"]["shapes"]
         .as_array()
@@ -345,4 +348,54 @@ opacity = 0.5
         serde_json::json!([[0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [1.0, 0.0, 0.0]])
     );
     assert_eq!((&shape["colour"], &shape["opacity"]), (&"#ff8000".into(), &0.5.into()));
+}
+
+#[test]
+fn a_mesh_is_drawn_and_one_that_cannot_be_read_is_a_note_with_the_inertia_in_its_place() {
+    let folder = std::env::temp_dir().join(format!("mbs-mesh-page-{}", std::process::id()));
+    std::fs::create_dir_all(&folder).expect("a folder");
+    // a square of more triangles than a page has
+    let n = 130;
+    let corner = |i: usize| format!("v {} {} 0\n", i % n, i / n);
+    let face = |i: usize| {
+        let first = i / (n - 1) * n + i % (n - 1) + 1;
+        format!("f {first} {} {} {}\n", first + 1, first + n + 1, first + n)
+    };
+    let square: String = (0..n * n).map(corner).chain((0..(n - 1) * (n - 1)).map(face)).collect();
+    std::fs::write(folder.join("square.obj"), square).expect("a file");
+    std::fs::write(folder.join("broken.stl"), "solid\nvertex 1 x 2\n").expect("a file");
+    let body = |name: &str, mesh: &str| {
+        format!(
+            "[[body]]\nname = \"{name}\"\nmass = 1.0\ncenter = [0.0, 0.0, 0.0]\ninertia = [1.0, 1.0, 1.0, 0.0, 0.0, 0.0]\n\
+             [[shape]]\nbody = \"{name}\"\nmesh = {{ file = \"{mesh}\", at = [1, 2, 3], scale = 2 }}\n"
+        )
+    };
+    let text = "[scene]\ndimension = 3\nduration = 0.1\n".to_owned()
+        + &body("square", "square.obj")
+        + &body("broken", "broken.stl")
+        + &body("missing", "none.stl");
+    let file = mbs_scene::SceneFile::parse_in(&text, "meshes.toml", &folder).expect("TOML");
+    let html = page_of(&file);
+    let (header, groups) = data(&html);
+    let shapes = header["motion"]["shapes"].as_array().expect("shapes");
+    let forms = |body: usize| -> Vec<_> {
+        let own = shapes.iter().filter(|shape| shape["body"] == body);
+        own.map(|shape| shape["form"].as_str().expect("a word")).collect()
+    };
+    assert_eq!(forms(0), ["mesh"]);
+    assert!(forms(1).contains(&"box") && forms(2).contains(&"box"), "{shapes:?}");
+    assert!(!html.contains(r#""file":"#), "a page has no paths");
+    let square = &header["motion"]["meshes"][0];
+    let group =
+        usize::try_from(square["triangles"][0]["group"].as_u64().expect("a group")).unwrap();
+    let drawn = groups[group][0].len();
+    assert!((12_000..=20_000).contains(&drawn), "{drawn}");
+    for note in [
+        "2 mesh files",
+        "broken.stl (a vertex without three numbers)",
+        "Of 33282 triangles of meshes",
+    ] {
+        assert!(html.contains(note), "{note}");
+    }
+    std::fs::remove_dir_all(&folder).expect("it is there");
 }

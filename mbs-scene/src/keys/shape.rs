@@ -6,7 +6,8 @@ use super::value::KeyValue::{Flag, Name, Number, Of, Place, Text, Vectors};
 use super::value::Referent;
 
 /// The forms, as they are written.
-pub(crate) const SHAPES: [&str; 6] = ["box", "sphere", "capsule", "cylinder", "disc", "polygon"];
+pub(crate) const SHAPES: [&str; 7] =
+    ["box", "sphere", "capsule", "cylinder", "disc", "polygon", "mesh"];
 
 /// Colours that have a name.
 pub(crate) const COLOURS: [(&str, [u8; 3]); 12] = [
@@ -46,6 +47,7 @@ pub(super) fn tables() -> Vec<KeyTable> {
             form("cylinder", "A cylinder with flat ends.").in_space(),
             form("disc", "A disc.").in_the_plane(),
             form("polygon", "A polygon.").in_the_plane(),
+            form("mesh", "A surface of triangles from a file.").in_space(),
             may("colour", Text, "", "that of its body", &colour),
             may("opacity", Number, "", "1", "From 0, not seen, to 1."),
             may(
@@ -80,6 +82,23 @@ fn forms() -> Vec<KeyTable> {
         may("axes", Vectors(2), "", "x and y", "Its first and its second axis."),
     ];
     let corners = "Its corners, one after the other.";
+    let mesh = vec![
+        need(
+            "file",
+            Text,
+            "",
+            "STL, OBJ, or MSH of MuJoCo; its path from the folder of the scene. Pages read it, and no other command: what is missing is a note there.",
+        ),
+        may("at", Place, "m", "the global origin", "Where its origin is."),
+        may("axes", Vectors(2), "", "x and y", "Its first and its second axis."),
+        may(
+            "scale",
+            KeyValue::SomeNumbers,
+            "",
+            "1",
+            "Factor of its numbers, or three along its axes: 0.001 for a file in millimetres.",
+        ),
+    ];
     vec![
         inside("box", "The sizes of a box.", block),
         inside("sphere", "The sizes of a sphere.", vec![center(), radius()]),
@@ -91,5 +110,6 @@ fn forms() -> Vec<KeyTable> {
             "The corners of a polygon.",
             vec![need("points", KeyValue::SomePlaces, "m", corners)],
         ),
+        inside("mesh", "A file of triangles, and where it stands.", mesh),
     ]
 }

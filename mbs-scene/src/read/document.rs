@@ -40,7 +40,7 @@ impl SceneFile {
         file: &str,
         folder: Option<PathBuf>,
     ) -> Result<Self, ReadError> {
-        let mut texts = Texts::new(file, text);
+        let mut texts = Texts::new(file, text, folder.clone());
         let root = syntax::read(&texts, 0)?;
         let root = include::resolve(&mut texts, root, folder.as_deref())?;
         Ok(Self { texts, root, folder })

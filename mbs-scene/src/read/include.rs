@@ -128,12 +128,14 @@ impl Includes<'_> {
         let prefix = format!("{outer}{}", include.prefix);
         let by = Some(include.span.clone());
         let name = path.display().to_string();
-        let start =
-            self.texts.add(Text { name, text, prefix, by, is_file: true, ..Text::default() });
+        let home = path.parent().unwrap_or(folder).to_owned();
+        let folder = Some(home.clone());
+        let text = Text { name, text, prefix, by, is_file: true, folder, ..Text::default() };
+        let start = self.texts.add(text);
         let root = super::syntax::read(self.texts, start)?;
         self.refuse_whole(&root)?;
         self.chain.push(place);
-        let mut root = self.expanded(root, path.parent().unwrap_or(folder))?;
+        let mut root = self.expanded(root, &home)?;
         self.chain.pop();
         self.set(&mut root, &include.set, &include.file)?;
         Prefix::new(&include.prefix, &root).put(&mut root);

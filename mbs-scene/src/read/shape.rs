@@ -13,7 +13,7 @@ pub(crate) fn read(index: usize, fields: &Fields<'_>) -> Read<BodyShape<Number>>
     let form = match written.collect::<Vec<_>>()[..] {
         [] => {
             let fault =
-                ReadFault::Missing { key: "box, sphere, capsule, cylinder, disc or polygon" };
+                ReadFault::Missing { key: "box, sphere, capsule, cylinder, disc, polygon or mesh" };
             return context.fault(fields.header, fault);
         }
         [(form, item)] => kind(fields, form, item)?,
@@ -45,6 +45,7 @@ fn kind<'a>(fields: &Fields<'a>, form: &str, item: &'a Item) -> Read<ShapeKind<N
             let points = points.iter().map(|point| table.context.place(point));
             ShapeKind::Polygon { points: points.collect::<Read<_>>()? }
         }
+        "mesh" => mesh(&table)?,
         "capsule" | "cylinder" => {
             let (from, to) = (table.vector("from")?, table.vector("to")?);
             let radius = table.number("radius")?;
@@ -61,6 +62,29 @@ fn kind<'a>(fields: &Fields<'a>, form: &str, item: &'a Item) -> Read<ShapeKind<N
             }
         }
     })
+}
+
+/// A file of triangles; its path becomes one that holds in every folder.
+fn mesh(table: &Fields<'_>) -> Read<ShapeKind<Number>> {
+    let file = table.need("file")?;
+    let path = table.context.text(file)?;
+    let scale = match table.get("scale").map(|item| table.context.numbers(item)).transpose()? {
+        None => core::array::from_fn(|_| Number::from(1)),
+        Some(factors) => match &factors[..] {
+            [factor] => core::array::from_fn(|_| factor.clone()),
+            [x, y, z] => [x.clone(), y.clone(), z.clone()],
+            other => {
+                let fault = ReadFault::WrongCount { needed: 3, found: other.len() };
+                return table.context.fault(&table.need("scale")?.span, fault);
+            }
+        },
+    };
+    let at = match table.get("at") {
+        Some(_) => table.vector("at")?,
+        None => [const { Number::ZERO }; 3],
+    };
+    let axes = table.get("axes").map(|_| table.two_vectors("axes")).transpose()?;
+    Ok(ShapeKind::Mesh { file: table.context.texts.path(&file.span, path), at, axes, scale })
 }
 
 /// A name of the list, or `#rrggbb`.

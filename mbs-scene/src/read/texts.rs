@@ -2,6 +2,7 @@
 
 use super::tree::Span;
 use super::{Place, ReadError, ReadFault};
+use std::path::PathBuf;
 
 /// The texts of a scene, its file first. Their bytes are counted through all of them, so that a span says where in which text it is.
 #[derive(Debug, Clone, Default)]
@@ -21,16 +22,19 @@ pub(crate) struct Text {
     pub(crate) by: Option<Span>,
     /// Is it a file, not a value from a command line?
     pub(crate) is_file: bool,
+    /// Where paths in it begin; `None`: the working directory.
+    pub(crate) folder: Option<PathBuf>,
 }
 
 impl Texts {
     /// A text alone.
-    pub(crate) fn new(name: &str, text: &str) -> Self {
+    pub(crate) fn new(name: &str, text: &str, folder: Option<PathBuf>) -> Self {
         let mut texts = Self::default();
         texts.add(Text {
             name: name.to_owned(),
             text: text.to_owned(),
             is_file: true,
+            folder,
             ..Text::default()
         });
         texts
@@ -62,6 +66,7 @@ impl Texts {
             prefix: String::new(),
             by: None,
             is_file: true,
+            folder: None,
         };
         self.0.first().unwrap_or(NONE)
     }
@@ -70,6 +75,13 @@ impl Texts {
     pub(crate) fn of(&self, span: &Span) -> &Text {
         let after = self.0.partition_point(|text| text.start <= span.start);
         self.0.get(after.wrapping_sub(1)).unwrap_or_else(|| self.main())
+    }
+
+    /// A path that stands at a span, from the folder of its text; one that holds in every folder where the text is a file.
+    pub(crate) fn path(&self, span: &Span, written: &str) -> String {
+        let Some(folder) = &self.of(span).folder else { return written.to_owned() };
+        let joined = folder.join(written);
+        std::path::absolute(&joined).unwrap_or(joined).display().to_string()
     }
 
     /// The text in which a span is, that which includes it, and so on to the file.

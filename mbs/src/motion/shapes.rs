@@ -7,7 +7,7 @@ use super::principal::principal;
 use crate::record::{DrawnShape, RecordedMotion, ShapeForm};
 use mbs_core::Real;
 use mbs_core::effects::{EffectKind, Tire};
-use mbs_core::scene::{Axis, BodyId, Dimension, Inertia, JointId, RollingKind};
+use mbs_core::scene::{Axis, BodyId, Dimension, Inertia, JointId, RollingKind, ShapeKind};
 
 /// Radius of a rod, relative to the scene's length [-].
 const ROD: f64 = 0.012;
@@ -43,11 +43,15 @@ impl<T: Real> Drawing<'_, T> {
     pub(super) fn add_bodies(&self, motion: &mut RecordedMotion) {
         let wheels = self.add_wheels(motion);
         motion.shapes.extend(self.scene.shapes.iter().map(|shape| self.shape(shape)));
-        let has_shape =
-            |body: usize| self.scene.shapes.iter().any(|shape| shape.body == BodyId::Body(body));
-        for body in (0..self.scene.bodies.len()).filter(|body| !has_shape(*body)) {
-            let is_wheel = wheels.contains(&body);
-            self.add_body(body, is_wheel, motion);
+        for body in 0..self.scene.bodies.len() {
+            let mut own = self.scene.shapes.iter().filter(|s| s.body == BodyId::Body(body));
+            let has_any = own.clone().next().is_some();
+            // files of meshes may be missing
+            if own.all(|shape| matches!(shape.form, ShapeKind::Mesh { .. })) {
+                let first = motion.shapes.len();
+                self.add_body(body, wheels.contains(&body), motion);
+                motion.shapes[first..].iter_mut().for_each(|shape| shape.stands_in = has_any);
+            }
         }
     }
 

@@ -17,7 +17,7 @@ impl<T: Real> Drawing<'_, T> {
             ShapeKind::Box { center, size, axes } => ShapeForm::Box {
                 at: place(*center),
                 half: size.map(|length| 0.5 * length.to_f64()),
-                axes: axes.map_or(GLOBAL, |axes| frame(axes.map(|axis| axis.map(Real::to_f64)))),
+                axes: axes_of(axes.as_ref()),
                 is_clear: false,
             },
             ShapeKind::Sphere { center, radius } => {
@@ -40,6 +40,15 @@ impl<T: Real> Drawing<'_, T> {
             ShapeKind::Polygon { points } => {
                 ShapeForm::Polygon { points: points.iter().map(|point| place(*point)).collect() }
             }
+            ShapeKind::Mesh { file, at, axes, scale } => {
+                let axes = axes_of(axes.as_ref());
+                let scaled = |i: usize| axes[i].map(|x| x * scale[i].to_f64());
+                ShapeForm::Mesh {
+                    file: file.clone(),
+                    at: place(*at),
+                    axes: [scaled(0), scaled(1), scaled(2)],
+                }
+            }
         };
         DrawnShape {
             colour: shape.colour_code(),
@@ -47,6 +56,11 @@ impl<T: Real> Drawing<'_, T> {
             ..DrawnShape::new(shape.body.index(), form)
         }
     }
+}
+
+/// Axes by the first and second of them.
+fn axes_of<T: Real>(axes: Option<&[[T; 3]; 2]>) -> [[f64; 3]; 3] {
+    axes.map_or(GLOBAL, |axes| frame(axes.map(|axis| axis.map(Real::to_f64))))
 }
 
 /// Axes of a box that writes none: x, y and z [-].

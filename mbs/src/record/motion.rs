@@ -104,12 +104,15 @@ pub struct DrawnShape {
     pub colour: Option<String>,
     /// From 0, not seen, to 1 [-].
     pub opacity: f64,
+    /// Is it drawn only where no file of its body's meshes can be read?
+    #[serde(skip)]
+    pub stands_in: bool,
 }
 
 impl DrawnShape {
     /// In the colour of its body.
     pub(crate) fn new(body: Option<usize>, form: ShapeForm) -> Self {
-        Self { body, form, colour: None, opacity: 1.0 }
+        Self { body, form, colour: None, opacity: 1.0, stands_in: false }
     }
 }
 
@@ -163,6 +166,16 @@ pub enum ShapeForm {
         from: [f64; 3],
         /// The other end.
         to: [f64; 3],
+    },
+    /// A surface of triangles, from a file that the page reads.
+    Mesh {
+        /// The file.
+        #[serde(skip)]
+        file: String,
+        /// Where its origin is.
+        at: [f64; 3],
+        /// Its axes, times the factors of its numbers.
+        axes: [[f64; 3]; 3],
     },
     /// A flat polygon across z.
     Polygon {

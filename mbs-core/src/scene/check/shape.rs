@@ -31,13 +31,7 @@ fn check_form<T: Real>(shape: &BodyShape<T>, place: Place) -> Result<(), SceneEr
         ShapeKind::Box { center, size, axes } => {
             place.vector(key, *center)?;
             size.iter().try_for_each(|length| place.positive(key, *length))?;
-            if let Some([first, second]) = axes {
-                place.axis(key, *first)?;
-                place.axis(key, *second)?;
-                if is_parallel(*first, *second) {
-                    return place.fault(key, SceneFault::ParallelAxes);
-                }
-            }
+            check_axes(axes.as_ref(), key, place)?;
         }
         ShapeKind::Sphere { center, radius } | ShapeKind::Disc { center, radius } => {
             place.vector(key, *center)?;
@@ -58,6 +52,31 @@ fn check_form<T: Real>(shape: &BodyShape<T>, place: Place) -> Result<(), SceneEr
                 return place.fault(key, fault);
             }
         }
+        ShapeKind::Mesh { file: _, at, axes, scale } => {
+            place.vector(key, *at)?;
+            check_axes(axes.as_ref(), key, place)?;
+            for factor in scale {
+                place.finite(key, *factor)?;
+                if factor.is_zero() {
+                    return place.fault(key, SceneFault::NotPositive(0.0));
+                }
+            }
+        }
+    }
+    Ok(())
+}
+
+/// Two axes that span a plane.
+fn check_axes<T: Real>(
+    axes: Option<&[[T; 3]; 2]>,
+    key: &'static str,
+    place: Place,
+) -> Result<(), SceneError> {
+    let Some([first, second]) = axes else { return Ok(()) };
+    place.axis(key, *first)?;
+    place.axis(key, *second)?;
+    if is_parallel(*first, *second) {
+        return place.fault(key, SceneFault::ParallelAxes);
     }
     Ok(())
 }

@@ -15,6 +15,7 @@ function makeLines(motion, clock, section) {
   }
   function outline(s) {
     const mark = 0.02 * motion.length;
+    if (s.form === "mesh") return meshEdges(s, 200);
     if (s.from) return [[s.from, s.to]];
     if (s.form === "polygon") return [[...s.points, s.points[0]]];
     if (s.form === "wheel") return [circle(s.at, s.axis, s.radius), [s.at, vec.add(s.at, vec.across(s.axis)[0], s.radius)]];
@@ -28,7 +29,7 @@ function makeLines(motion, clock, section) {
     if (s.form === "support") return [[s.at, vec.add(s.at, up, -3 * mark)], circle(vec.add(s.at, up, -3 * mark), up, mark)];
     return s.at && s.form !== "plane" ? [circle(s.at, s.axis || up, mark / 2)] : [];
   }
-  const shapes = motion.shapes.map((s) => ({ body: s.body, lines: outline(s) }));
+  const shapes = motion.shapes.map((s) => ({ body: s.body, lines: outline(s), thick: s.form === "mesh" ? 1 : s.body === null ? 1.5 : 2.5 }));
   const heaviest = motion.bodies.reduce((best, body, i) => (body.mass > motion.bodies[best].mass ? i : best), 0);
   let low, high;
   function extents() {
@@ -68,9 +69,9 @@ function makeLines(motion, clock, section) {
       const shift = motion.road.start - motion.road.speed * clock.now();
       stroke([...motion.road.heights[s]].map((h, i) => (spatial ? [shift + i * motion.road.spacing, y, h] : [shift + i * motion.road.spacing, h, 0])), rule, 2);
     }));
-    for (const { body, lines } of shapes) {
+    for (const { body, lines, thick } of shapes) {
       const colour = body === null ? soft : `hsl(${360 * bodyHue(body)} 55% 50%)`;
-      for (const line of lines) stroke(line.map((p) => motion.point(pose, body, p)), colour, body === null ? 1.5 : 2.5);
+      for (const line of lines) stroke(line.map((p) => motion.point(pose, body, p)), colour, thick);
     }
     for (const force of motion.forces) motion.load(force, clock.now()).forEach((value, i) => {
       const from = motion.point(pose, force.place.body, force.place.at);

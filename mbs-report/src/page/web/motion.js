@@ -1,5 +1,6 @@
 // The poses of all bodies at any time: places are interpolated linearly, turns along the shortest arc.
 function makeMotion(motion, panels, column) {
+  placeMeshes(motion, column);
   const times = column(motion.times), places = motion.places.map((c) => column(c)), turns = motion.turns.map((c) => column(c));
   const n = motion.bodies.length, pose = new Float64Array(7 * n);
 

@@ -74,6 +74,12 @@ function makeShapes(T, motion) {
         bar(g, vec.add(s.at, out, 0.15 * s.radius), vec.add(s.at, out, 0.95 * s.radius), 0.03 * s.radius, tire ? steel : paint[0]);
       }
     },
+    mesh(g, s, paint) {
+      const geometry = new T.BufferGeometry(), { places, normals } = meshArrays(s);
+      geometry.setAttribute("position", new T.BufferAttribute(places, 3));
+      geometry.setAttribute("normal", new T.BufferAttribute(normals, 3));
+      put(g, geometry, paint[0]);
+    },
     pin: (g, s) => bar(g, ...about(s.at, s.axis, (planar ? 0.02 : 0.03) * L), 0.016 * L, steel),
     socket: (g, s) => put(g, new T.SphereGeometry(0.018 * L, 20, 14), steel, s.at),
     rail(g, s) {

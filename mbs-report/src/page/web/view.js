@@ -14,7 +14,8 @@ function makeView(T, motion, clock, section) {
   if (planar) { controls.mouseButtons.LEFT = 2; controls.touches.ONE = 1; }
 
   // Boxes of all places over the whole run, and about a body that is followed; sizes of shapes are added.
-  const size = motion.shapes.map((s) => [s.body, shapeReach(s)]);
+  const size = motion.shapes.filter((s) => s.form !== "mesh").map((s) => [s.body, shapeReach(s)]);
+  const boxes = motion.shapes.filter((s) => s.form === "mesh").map((s) => [s.body, meshBox(s)]);
   function range(about) {
     const low = [1 / 0, 1 / 0, 1 / 0], high = low.map((x) => -x), take = (p, r) => p.forEach((x, i) => { low[i] = Math.min(low[i], x - r); high[i] = Math.max(high[i], x + r); });
     for (let k = 0; k < motion.times.length; k += Math.max(1, Math.floor(motion.times.length / 60))) {
@@ -23,9 +24,10 @@ function makeView(T, motion, clock, section) {
         if (body === null) continue;
         take(vec.add([...pose.slice(7 * body, 7 * body + 3)], origin, -1), r);
       }
+      for (const [body, corners] of boxes) if (body !== null || about === null) for (const p of corners) take(vec.add(motion.point(pose, body, p), origin, -1), 0);
       for (const line of about === null ? motion.lines : []) for (const p of line.places) take(motion.point(pose, p.body, p.at), 0);
     }
-    if (about === null) motion.shapes.forEach((s) => { if (s.body === null && s.at && s.form !== "plane") take(s.at, 0.08 * motion.length); });
+    if (about === null) motion.shapes.forEach((s) => { if (s.body === null && s.at && s.form !== "plane" && s.form !== "mesh") take(s.at, 0.08 * motion.length); });
     return low[0] <= high[0] ? [low, high] : [[-1, -1, -1], [1, 1, 1]];
   }
   const travels = (b) => {

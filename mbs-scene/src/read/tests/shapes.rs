@@ -45,6 +45,31 @@ fn forms_are_read_with_points_units_and_colours() {
 }
 
 #[test]
+fn a_mesh_names_its_file_from_the_folder_of_the_scene() {
+    let text = format!("{SPACE}mesh = {{ file = \"parts/a.stl\", at = \"p\", scale = 0.001 }}\n");
+    let folder = std::path::Path::new("/somewhere");
+    let file = SceneFile::parse_in(&text, "test.toml", folder).expect("TOML");
+    let scene = file.numbers().unwrap_or_else(|e| panic!("{}", e.render()));
+    let again = to_toml(&scene).expect("no code");
+    for text in [&text, &again] {
+        let file = SceneFile::parse_in(text, "test.toml", folder).expect("TOML");
+        let shape = file.scene::<f64>().expect("a scene").shapes.remove(0);
+        let ShapeKind::Mesh { file, at, axes, scale } = shape.form else { panic!("{shape:?}") };
+        assert_eq!(file, "/somewhere/parts/a.stl");
+        assert_eq!((at, axes, scale), ([1.0, 2.0, 3.0], None, [0.001; 3]));
+    }
+    // a text that is no file has no folder
+    let ShapeKind::Mesh { file, .. } = scene_of_text(&text).shapes.remove(0).form else {
+        panic!("a mesh")
+    };
+    assert_eq!(file, "parts/a.stl");
+}
+
+fn scene_of_text(text: &str) -> Scene<f64> {
+    SceneFile::parse(text, "test.toml").and_then(|file| file.scene()).expect("a scene")
+}
+
+#[test]
 fn shapes_are_written_as_they_are_read() {
     let file = SceneFile::parse(
         &format!(
@@ -62,7 +87,7 @@ fn shapes_are_written_as_they_are_read() {
 #[test]
 fn what_is_no_shape_is_refused_at_its_place() {
     let cases = [
-        ("", "`box, sphere, capsule, cylinder, disc or polygon` is missing", 15),
+        ("", "`box, sphere, capsule, cylinder, disc, polygon or mesh` is missing", 15),
         (
             "sphere = { center = \"p\", radius = 1 }\nbox = { center = \"p\", size = [1, 1, 1] }",
             "both `box` and `sphere` are given",
@@ -85,6 +110,9 @@ fn what_is_no_shape_is_refused_at_its_place() {
         ),
         ("sphere = { center = \"p\", radius = 1 }\ncolour = \"stel\"", "unknown colour `stel`", 18),
         ("sphere = { center = \"p\", radius = 1 }\ncolour = \"#12é45\"", "unknown colour", 18),
+        ("mesh = { file = \"a.stl\", scale = [1, 2] }", "expected 3 entries, found 2", 17),
+        ("mesh = { file = \"a.stl\", scale = 0 }", "`mesh` must be larger than zero", 17),
+        ("mesh = { at = \"p\" }", "`file` is missing", 17),
         ("sphere = { center = \"p\", radius = 1 }\ncolor = \"red\"", "unknown key `color`", 18),
     ];
     for (shape, message, line) in cases {

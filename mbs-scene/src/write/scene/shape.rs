@@ -26,6 +26,12 @@ impl Writer<'_> {
                 form.push("to", self.vector(to));
                 form.push("radius", radius);
             }
+            ShapeKind::Mesh { file, at, axes, scale } => {
+                form.push("file", file.as_str());
+                form.push("at", self.vector(at));
+                form.push_some("axes", axes.as_ref().map(|axes| self.two(axes)));
+                form.push("scale", scale);
+            }
             ShapeKind::Polygon { points } => {
                 form.push("points", list(points.iter().map(|point| self.vector(point))));
             }

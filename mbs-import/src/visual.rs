@@ -1,0 +1,107 @@
+//! Files of meshes that are drawn: where they are, and how the scene names them.
+
+use crate::context::Context;
+use crate::element::Attribute;
+use crate::robot::FormKind;
+use mbs_scene::{MESH_ENDINGS, mesh_ending};
+use std::path::{Component, Path, PathBuf};
+
+/// The form of a mesh by its file and the factors of its numbers, where none is zero; or why it is not drawn.
+pub(crate) fn mesh_form(
+    file: Option<&Attribute>,
+    scale: Option<&Attribute>,
+    context: &Context<'_>,
+) -> Result<Option<FormKind>, String> {
+    let file = file.ok_or("meshes without a file are not drawn")?;
+    let scale = match scale.map(Attribute::list) {
+        None => [1.0; 3],
+        Some(Ok(factors)) if factors.len() == 1 => [factors[0]; 3],
+        Some(Ok(factors)) if factors.len() == 3 => [factors[0], factors[1], factors[2]],
+        Some(_) => return Err("meshes whose scale is no three numbers are not drawn".to_owned()),
+    };
+    let file = mesh_file(&file.value, context)?;
+    Ok(FormKind::Mesh { file, scale }.of_size())
+}
+
+/// A file that is drawn, as the scene names it; or why it is not.
+pub(crate) fn mesh_file(written: &str, context: &Context<'_>) -> Result<String, String> {
+    let written = written.trim();
+    let ending = mesh_ending(Path::new(written));
+    if !MESH_ENDINGS.contains(&ending.as_str()) {
+        return Err(match ending.as_str() {
+            "" => "meshes without an ending are not drawn".to_owned(),
+            _ => format!("meshes `.{ending}` are not drawn; those as STL or OBJ are"),
+        });
+    }
+    let path = found(written, context)?;
+    let outside = context.options.no_outside && !is_inside(&path, context);
+    if outside {
+        return Err("meshes outside of the folder are not drawn (--no-outside)".to_owned());
+    }
+    let folder = context.options.scene_folder.as_ref().or(context.options.folder.as_ref());
+    let folder = folder.map_or(Path::new(""), PathBuf::as_path);
+    Ok(from_folder(folder, &path))
+}
+
+fn is_inside(path: &Path, context: &Context<'_>) -> bool {
+    let home = context.options.folder.as_deref().map(whole);
+    home.is_some_and(|home| path.starts_with(home))
+}
+
+/// The whole path of a file that is there.
+fn found(written: &str, context: &Context<'_>) -> Result<PathBuf, String> {
+    let Some(home) = &context.options.folder else {
+        return Err("meshes are not drawn: this text has no folder".to_owned());
+    };
+    let (candidates, missing) = match written.split_once("://") {
+        Some(("package" | "model", rest)) => {
+            let rest = rest.trim_start_matches('/');
+            let (package, rest) = rest.split_once('/').unwrap_or((rest, ""));
+            let missing = format!(
+                "meshes of the package `{package}` that are not found are not drawn: --package {package}=FOLDER"
+            );
+            (in_package(package, rest, home, context), missing)
+        }
+        Some(("file", rest)) => {
+            (vec![PathBuf::from(rest)], "meshes that are not found are not drawn".to_owned())
+        }
+        Some((scheme, _)) => return Err(format!("meshes `{scheme}://` are not drawn")),
+        None => (vec![home.join(written)], "meshes that are not found are not drawn".to_owned()),
+    };
+    let file = candidates.into_iter().find(|path| path.is_file());
+    file.map(|path| whole(&path)).ok_or(missing)
+}
+
+/// Where a file of a package may be: the folder that is given for it, those of the search path, then upwards from the model.
+fn in_package(package: &str, rest: &str, home: &Path, context: &Context<'_>) -> Vec<PathBuf> {
+    let options = context.options;
+    let given = options.packages.iter().filter(|(name, _)| name == package);
+    let given = given.map(|(_, folder)| folder.join(rest));
+    let home = whole(home);
+    let around = options.package_path.iter().map(PathBuf::as_path).chain(home.ancestors());
+    let around = around.flat_map(|folder| {
+        let is_it = folder.file_name().is_some_and(|name| name == package);
+        let own = is_it.then(|| folder.join(rest));
+        [Some(folder.join(package).join(rest)), own].into_iter().flatten()
+    });
+    given.chain(around).collect()
+}
+
+/// The path without links and dots, where it is there.
+fn whole(path: &Path) -> PathBuf {
+    let path = if path.as_os_str().is_empty() { Path::new(".") } else { path };
+    path.canonicalize().unwrap_or_else(|_| path.to_owned())
+}
+
+/// A file from a folder, if they have more than the root in common: a scene and its files can move together.
+fn from_folder(folder: &Path, file: &Path) -> String {
+    let folder = whole(folder);
+    let common = folder.components().zip(file.components()).take_while(|(a, b)| a == b).count();
+    let is_near = folder.components().take(common).any(|part| matches!(part, Component::Normal(_)));
+    if !is_near {
+        return file.display().to_string();
+    }
+    let up = folder.components().skip(common).map(|_| "..".to_owned());
+    let down = file.components().skip(common).map(|x| x.as_os_str().to_string_lossy().into_owned());
+    up.chain(down).collect::<Vec<_>>().join("/")
+}

@@ -1,0 +1,300 @@
+//! Surfaces of triangles from files: STL, OBJ, and the older MSH of MuJoCo.
+
+use core::fmt::{self, Display, Formatter};
+use std::collections::HashMap;
+use std::io::{ErrorKind, Read as _};
+use std::path::Path;
+
+/// Endings of the files that are read, in small letters.
+pub const MESH_ENDINGS: [&str; 3] = ["stl", "obj", "msh"];
+/// Most bytes of a file. Chosen, not tuned.
+const MOST_BYTES: u64 = 64 << 20;
+
+/// A surface of triangles.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct TriangleMesh {
+    /// Places; no two are the same.
+    pub vertices: Vec<[f64; 3]>,
+    /// The numbers of three vertices each.
+    pub triangles: Vec<[usize; 3]>,
+}
+
+/// Why a file is no surface.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum MeshFault {
+    /// It cannot be read.
+    File(ErrorKind),
+    /// Its ending is none of [`MESH_ENDINGS`].
+    Ending,
+    /// It is too large.
+    TooLarge,
+    /// It is no text.
+    NotText,
+    /// This line, counted from 1, is none of its format.
+    Line(usize),
+    /// A vertex has no three numbers.
+    Vertex,
+    /// It ends within its numbers.
+    Ends,
+    /// A count is below zero.
+    Count,
+    /// A triangle has a vertex that is not there.
+    Missing,
+    /// A vertex is not finite.
+    NotFinite,
+}
+
+impl Display for MeshFault {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::File(kind) => write!(f, "{kind}"),
+            Self::Ending => f.write_str("this format is not read: give STL or OBJ"),
+            Self::TooLarge => write!(f, "more than {} MiB", MOST_BYTES >> 20),
+            Self::NotText => f.write_str("it is no text"),
+            Self::Line(line) => write!(f, "line {line} is wrong"),
+            Self::Vertex => f.write_str("a vertex without three numbers"),
+            Self::Ends => f.write_str("it ends within its numbers"),
+            Self::Count => f.write_str("a count is below zero"),
+            Self::Missing => f.write_str("a triangle has a vertex that is not there"),
+            Self::NotFinite => f.write_str("a vertex is not finite"),
+        }
+    }
+}
+
+impl core::error::Error for MeshFault {}
+
+/// The ending of a file, in small letters; empty without one.
+#[must_use]
+pub fn mesh_ending(path: &Path) -> String {
+    path.extension().and_then(|x| x.to_str()).unwrap_or_default().to_ascii_lowercase()
+}
+
+impl TriangleMesh {
+    /// Reads a file.
+    ///
+    /// # Errors
+    /// [`MeshFault`], where it cannot be read or is no surface.
+    pub fn read(path: &Path) -> Result<Self, MeshFault> {
+        let ending = mesh_ending(path);
+        if !MESH_ENDINGS.contains(&ending.as_str()) {
+            return Err(MeshFault::Ending);
+        }
+        let mut bytes = Vec::new();
+        let file = std::fs::File::open(path).map_err(|error| MeshFault::File(error.kind()))?;
+        // one byte more shows that there is one
+        let read = file.take(MOST_BYTES + 1).read_to_end(&mut bytes);
+        read.map_err(|error| MeshFault::File(error.kind()))?;
+        if bytes.len() as u64 > MOST_BYTES {
+            return Err(MeshFault::TooLarge);
+        }
+        Self::of_bytes(&bytes, &ending)
+    }
+
+    /// Reads the bytes of a file by its ending.
+    ///
+    /// # Errors
+    /// [`MeshFault`], where they are no surface.
+    pub fn of_bytes(bytes: &[u8], ending: &str) -> Result<Self, MeshFault> {
+        let mesh = match ending {
+            "stl" => stl(bytes),
+            "obj" => obj(bytes),
+            "msh" => msh(bytes),
+            _ => Err(MeshFault::Ending),
+        }?;
+        if mesh.triangles.iter().flatten().any(|i| *i >= mesh.vertices.len()) {
+            return Err(MeshFault::Missing);
+        }
+        if mesh.vertices.iter().flatten().any(|x| !x.is_finite()) {
+            return Err(MeshFault::NotFinite);
+        }
+        Ok(mesh)
+    }
+}
+
+/// Little-endian numbers of four bytes.
+struct Words<'a>(&'a [u8]);
+
+impl Words<'_> {
+    fn next(&mut self) -> Result<[u8; 4], MeshFault> {
+        let (word, rest) = self.0.split_first_chunk().ok_or(MeshFault::Ends)?;
+        self.0 = rest;
+        Ok(*word)
+    }
+
+    fn number(&mut self) -> Result<f64, MeshFault> {
+        self.next().map(|word| f64::from(f32::from_le_bytes(word)))
+    }
+
+    fn vertex(&mut self) -> Result<[f64; 3], MeshFault> {
+        Ok([self.number()?, self.number()?, self.number()?])
+    }
+
+    fn count(&mut self) -> Result<usize, MeshFault> {
+        let count = i32::from_le_bytes(self.next()?);
+        usize::try_from(count).map_err(|_| MeshFault::Count)
+    }
+}
+
+/// Vertices that are the same are one.
+#[derive(Default)]
+struct Joined {
+    mesh: TriangleMesh,
+    numbers: HashMap<[u64; 3], usize>,
+}
+
+impl Joined {
+    fn vertex(&mut self, x: [f64; 3]) -> usize {
+        // both zeros are one
+        let key = x.map(|x| (x + 0.0).to_bits());
+        let next = self.mesh.vertices.len();
+        let number = *self.numbers.entry(key).or_insert(next);
+        if number == next {
+            self.mesh.vertices.push(x);
+        }
+        number
+    }
+}
+
+/// STL: a head of 80 bytes and a count, or text.
+fn stl(bytes: &[u8]) -> Result<TriangleMesh, MeshFault> {
+    /// Bytes of the head, and of each triangle.
+    const SIZES: [usize; 2] = [80, 50];
+    let mut joined = Joined::default();
+    let count = bytes.get(SIZES[0]..).map(|rest| Words(rest).count());
+    let is_binary = count.as_ref().is_some_and(|n| {
+        n.as_ref().is_ok_and(|n| n.checked_mul(SIZES[1]) == bytes.len().checked_sub(SIZES[0] + 4))
+    });
+    if is_binary {
+        for triangle in bytes[SIZES[0] + 4..].chunks_exact(SIZES[1]) {
+            let mut words = Words(triangle);
+            // the normal follows from the vertices
+            words.vertex()?;
+            let three = [words.vertex()?, words.vertex()?, words.vertex()?];
+            let three = three.map(|x| joined.vertex(x));
+            joined.mesh.triangles.push(three);
+        }
+        return Ok(joined.mesh);
+    }
+    let text = core::str::from_utf8(bytes).map_err(|_| MeshFault::NotText)?;
+    let mut words = text.split_ascii_whitespace();
+    let mut three = Vec::new();
+    while let Some(word) = words.next() {
+        if word == "vertex" {
+            let mut number = || words.next().and_then(|x| x.parse::<f64>().ok());
+            let [x, y, z] = [number(), number(), number()].map(|x| x.ok_or(MeshFault::Vertex));
+            three.push(joined.vertex([x?, y?, z?]));
+        }
+        if let [a, b, c] = three[..] {
+            joined.mesh.triangles.push([a, b, c]);
+            three.clear();
+        }
+    }
+    Ok(joined.mesh)
+}
+
+/// OBJ: lines `v x y z` and `f a b c ...`, of which each may be `a/b/c` and counts from 1, or from the end.
+fn obj(bytes: &[u8]) -> Result<TriangleMesh, MeshFault> {
+    let text = core::str::from_utf8(bytes).map_err(|_| MeshFault::NotText)?;
+    let (mut joined, mut numbers) = (Joined::default(), Vec::new());
+    for (i, line) in text.lines().enumerate() {
+        let mut words = line.split_ascii_whitespace();
+        let fault = || MeshFault::Line(i + 1);
+        match words.next() {
+            Some("v") => {
+                let mut number =
+                    || words.next().and_then(|x| x.parse::<f64>().ok()).ok_or_else(fault);
+                let x = [number()?, number()?, number()?];
+                numbers.push(joined.vertex(x));
+            }
+            Some("f") => {
+                let number = |word: &str| {
+                    let i = word.split('/').next()?.parse::<i64>().ok()?;
+                    let n = i64::try_from(numbers.len()).ok()?;
+                    let at = usize::try_from(if i < 0 { n + i } else { i - 1 }).ok()?;
+                    numbers.get(at).copied()
+                };
+                let face: Option<Vec<usize>> = words.map(number).collect();
+                let face = face.filter(|face| face.len() > 2).ok_or_else(fault)?;
+                // a face of more corners is a fan
+                joined
+                    .mesh
+                    .triangles
+                    .extend(face[1..].windows(2).map(|pair| [face[0], pair[0], pair[1]]));
+            }
+            _ => {}
+        }
+    }
+    Ok(joined.mesh)
+}
+
+/// The older binary form of MuJoCo: four counts, vertices, normals, texture coordinates, triangles.
+fn msh(bytes: &[u8]) -> Result<TriangleMesh, MeshFault> {
+    let mut words = Words(bytes);
+    let [vertices, normals, coordinates, triangles] =
+        [words.count()?, words.count()?, words.count()?, words.count()?];
+    let mut joined = Joined::default();
+    let mut numbers = Vec::new();
+    for _ in 0..vertices {
+        let x = words.vertex()?;
+        numbers.push(joined.vertex(x));
+    }
+    for _ in 0..normals {
+        words.vertex()?;
+    }
+    for _ in 0..coordinates {
+        words.number()?;
+        words.number()?;
+    }
+    for _ in 0..triangles {
+        let three = [words.count()?, words.count()?, words.count()?];
+        let found = three.map(|i| numbers.get(i).copied());
+        let [Some(a), Some(b), Some(c)] = found else {
+            return Err(MeshFault::Missing);
+        };
+        joined.mesh.triangles.push([a, b, c]);
+    }
+    Ok(joined.mesh)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A box of 1, 2 and 3 m at a corner of the origin.
+    const BOX: &str = "\
+v 0 0 0\nv 1 0 0\nv 1 2 0\nv 0 2 0\nv 0 0 3\nv 1 0 3\nv 1 2 3\nv 0 2 3
+f 1 4 3 2\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3/1 4/2/3 8//1 7\nf -5 -8 -4 -1\n";
+
+    #[test]
+    fn a_file_that_is_no_surface_is_refused() {
+        let read = TriangleMesh::of_bytes;
+        assert_eq!(read(b"v 0 0 0\nf 1 2 3\n", "obj"), Err(MeshFault::Line(2)));
+        assert_eq!(read(b"solid\nvertex 0 0\n", "stl"), Err(MeshFault::Vertex));
+        assert_eq!(read(&[255; 20], "msh"), Err(MeshFault::Count));
+        assert_eq!(read(&[1, 0, 0, 0], "msh"), Err(MeshFault::Ends));
+        assert_eq!(read(b"", "dae"), Err(MeshFault::Ending));
+        let missing = TriangleMesh::read(Path::new("no/such/file.stl"));
+        assert_eq!(missing, Err(MeshFault::File(ErrorKind::NotFound)));
+    }
+
+    #[test]
+    fn binary_and_text_of_one_surface_are_one_surface() {
+        let mesh = TriangleMesh::of_bytes(BOX.as_bytes(), "obj").expect("read");
+        let (mut text, mut bytes) = ("solid box\n".to_owned(), vec![0; 80]);
+        bytes.extend(12_u32.to_le_bytes());
+        for triangle in &mesh.triangles {
+            text += "facet normal 0 0 0\nouter loop\n";
+            bytes.extend([0; 12]);
+            for x in triangle.map(|i| mesh.vertices[i]) {
+                text += &format!("vertex {} {} {}\n", x[0], x[1], x[2]);
+                x.iter().for_each(|x| bytes.extend((*x as f32).to_le_bytes()));
+            }
+            text += "endloop\nendfacet\n";
+            bytes.extend([0; 2]);
+        }
+        let [one, other] = [text.as_bytes(), &bytes]
+            .map(|bytes| TriangleMesh::of_bytes(bytes, "stl").expect("read"));
+        assert_eq!(one, other);
+        assert_eq!((one.vertices.len(), one.triangles.len()), (8, 12));
+    }
+}
