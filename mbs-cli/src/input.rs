@@ -4,7 +4,7 @@ use crate::model;
 use crate::refusal::Refusal;
 use crate::say::{plain, warn};
 use mbs::models::{ImportOptions, is_model, scene_file};
-use mbs::scene_file::SceneFile;
+use mbs::scene_file::{SceneFile, nearest_name};
 use std::fs::File;
 use std::io::{self, Read};
 use std::path::Path;
@@ -101,6 +101,24 @@ fn bytes(path: &Path) -> io::Result<Option<Vec<u8>>> {
     Ok((bytes.len() as u64 <= MOST_BYTES).then_some(bytes))
 }
 
+/// The names of the files beside a path that have its ending.
+fn files_like(path: &Path) -> Vec<String> {
+    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty());
+    let Ok(entries) = std::fs::read_dir(folder.unwrap_or(Path::new("."))) else {
+        return Vec::new();
+    };
+    let files = entries.filter_map(Result::ok).map(|entry| entry.path());
+    let Some(ending) = path.extension() else { return Vec::new() };
+    let like = files.filter(|file| file.is_file() && file.extension() == Some(ending));
+    let mut names: Vec<String> = like.map(|file| name_of(&file)).collect();
+    names.sort();
+    names
+}
+
+fn name_of(path: &Path) -> String {
+    path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default()
+}
+
 /// The refusal of a file that cannot be read.
 fn unreadable(path: &Path, what: &str, error: &io::Error) -> Refusal {
     let with_ending = path.with_extension("toml");
@@ -111,7 +129,12 @@ fn unreadable(path: &Path, what: &str, error: &io::Error) -> Refusal {
     } else if with_ending.is_file() {
         format!("did you mean `{}`?", with_ending.display())
     } else {
-        format!("give the path of a {what}; it ends with .toml or .json, or is a model")
+        match files_like(path) {
+            names if names.is_empty() => {
+                format!("give the path of a {what}; it ends with .toml or .json, or is a model")
+            }
+            names => nearest_name(&name_of(path), &names, "files there"),
+        }
     };
     let message = format!("cannot read `{}`: {}", path.display(), plain(error));
     Refusal::new("file-unreadable", message, hint)

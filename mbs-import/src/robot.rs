@@ -281,6 +281,11 @@ pub(crate) struct Start {
     pub(crate) rate: Vec<f64>,
 }
 
+/// Are the factors along all axes the same?
+pub(crate) fn is_even(scale: [f64; 3]) -> bool {
+    scale.map(f64::to_bits) == [scale[0].to_bits(); 3]
+}
+
 impl FormKind {
     /// The form, if all its sizes are above zero.
     pub(crate) fn of_size(self) -> Option<Self> {

@@ -2,7 +2,9 @@
 
 use crate::lump::Lumps;
 use crate::pose::{M3, V3};
-use crate::robot::{Form, FormKind, GROUND, Joint, Kind, Robot, Signal, Target, Term, What};
+use crate::robot::{
+    Form, FormKind, GROUND, Joint, Kind, Robot, Signal, Target, Term, What, is_even,
+};
 use mbs_scene::quoted;
 use std::fmt::Write;
 
@@ -477,10 +479,7 @@ impl Form {
                 format!("{{ center = {}, radius = {} }}", vector(&self.pose.at), number(*radius))
             }
             FormKind::Mesh { file, scale } => {
-                let scale = match *scale {
-                    [x, y, z] if x == y && y == z => number(x),
-                    _ => list(*scale),
-                };
+                let scale = if is_even(*scale) { number(scale[0]) } else { list(*scale) };
                 let (file, at, turned) = (quoted(file), vector(&self.pose.at), self.turned());
                 format!("{{ file = {file}, at = {at}{turned}, scale = {scale} }}")
             }

@@ -7,7 +7,7 @@ use crate::element::{Attribute, Element};
 use crate::inertia::Mass;
 use crate::mesh::{Count, Surface};
 use crate::pose::{M3, Pose, V3, quaternion, v3};
-use crate::robot::FormKind;
+use crate::robot::{FormKind, is_even};
 use crate::source::{Fault, Origin, Read};
 use crate::visual::mesh_file;
 use mbs_scene::{TriangleMesh, nearest_name};
@@ -134,8 +134,7 @@ pub(super) fn form(
         Err(says) => return Ok(Err(says)),
     };
     let Reference { from, turn, scale } = reference(&view)?;
-    let is_even = scale.iter().all(|x| *x == scale[0]);
-    if !is_even && turn != M3::identity() {
+    if !is_even(scale) && turn != M3::identity() {
         return Ok(Err("meshes that are turned and stretched are not drawn".to_owned()));
     }
     // pose (S Rt (x - p)), where S and Rt commute

@@ -14,19 +14,23 @@ const STYLE: &str = include_str!("web/style.css");
 const LICENCE: &str = include_str!("web/three/LICENSE");
 /// The part of three.js that pages use, deflated and in base64.
 const THREE: &str = include_str!("web/three/three.txt");
-/// The scripts of pages with a view or plots, in the order of their use.
-const SCRIPTS: [&str; 10] = [
+/// The scripts of all pages with a pack.
+const SCRIPTS: [&str; 5] = [
     include_str!("web/pack.js"),
     include_str!("web/clock.js"),
     include_str!("web/motion.js"),
+    include_str!("web/plot.js"),
+    include_str!("web/main.js"),
+];
+/// Those of pages with a view.
+const VIEW_SCRIPTS: [&str; 4] = [
     include_str!("web/meshes.js"),
     include_str!("web/shapes.js"),
     include_str!("web/view.js"),
     include_str!("web/lines.js"),
-    include_str!("web/plot.js"),
-    include_str!("web/diagram.js"),
-    include_str!("web/main.js"),
 ];
+/// That of pages with diagrams.
+const DIAGRAM_SCRIPT: &str = include_str!("web/diagram.js");
 
 /// Notes that stand open at the top of a page [-]; more are folded, so that a phone shows the motion soon. Chosen, not tuned.
 const OPEN_NOTES: usize = 3;
@@ -115,7 +119,11 @@ impl Page {
             // Writing into a String has nothing to fail on.
             let _ = writeln!(scripts, "<script type=\"text/plain\" id=\"pack\">{pack}</script>");
             let _ = writeln!(scripts, "<script type=\"text/plain\" id=\"three\">{three}</script>");
-            let _ = writeln!(scripts, "<script>\n\"use strict\";\n{}</script>", SCRIPTS.concat());
+            let view = if has_view { VIEW_SCRIPTS.concat() } else { String::new() };
+            let has_diagrams = self.sections.iter().any(PageSection::has_diagrams);
+            let diagram = if has_diagrams { DIAGRAM_SCRIPT } else { "" };
+            let all = [&view, diagram, &SCRIPTS.concat()].concat();
+            let _ = writeln!(scripts, "<script>\n\"use strict\";\n{all}</script>");
         }
         fill(
             FRAME,
@@ -138,6 +146,14 @@ impl PageSection {
         }
         let title = section.title.clone();
         Self::Fold(title, vec![Self::Table(Section { title: String::new(), ..section })])
+    }
+
+    fn has_diagrams(&self) -> bool {
+        match self {
+            Self::Diagrams(_) | Self::Keys => true,
+            Self::Fold(_, sections) => sections.iter().any(Self::has_diagrams),
+            _ => false,
+        }
     }
 
     fn write(&self, out: &mut String) {

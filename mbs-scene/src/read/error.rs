@@ -369,6 +369,12 @@ impl ReadFault {
             Self::Unreadable { .. } => "name a file that exists and that may be read".to_owned(),
             Self::NotUtf8 => "save the file as UTF-8".to_owned(),
             Self::Syntax { format: "JSON", .. } => "see https://www.json.org for the syntax of the file".to_owned(),
+            Self::Syntax { message, line, .. } if message.contains("duplicate key") && line.trim_start().starts_with("[[") => {
+                "write every such header in double brackets; an earlier one has single ones".to_owned()
+            }
+            Self::Syntax { message, line, .. } if message.contains("duplicate key") && line.trim_start().starts_with('[') => {
+                "of several such tables each has a header in double brackets: [[body]]".to_owned()
+            }
             Self::Syntax { line, .. } => units::of_line(line)
                 .unwrap_or_else(|| "see https://toml.io for the syntax of the file".to_owned()),
             Self::Expression(fault) | Self::Include(fault) | Self::Model(fault) => fault.hint.clone(),

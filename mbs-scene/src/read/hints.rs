@@ -50,7 +50,11 @@ const HINTS: &[Hint] = &[
         "that is an effect: `[[effect]]` with `kind = \"spring-damper\"`, \"bushing\" or \"bumper\"",
     ),
     means("revolute", &["hinge", "pin", "pivot", "rotary", "rotation", "rotational", "bearing"]),
-    means("spherical", &["ball", "ball-joint", "ball-and-socket", "socket", "sphere"]),
+    says(
+        "spherical",
+        &["ball", "ball-joint", "ball-and-socket", "socket", "sphere"],
+        "did you mean `spherical`? In the plane it is a `revolute` joint",
+    ),
     means(
         "prismatic",
         &["slider", "sliding", "slide", "translational", "translation", "linear", "rail"],

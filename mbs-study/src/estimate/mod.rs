@@ -280,9 +280,11 @@ impl Judge<'_> {
         }
         let mut errors = errors.into_iter();
         let by_channel = channels.iter().map(|channel| {
-            (channel.name.clone(), errors.by_ref().take(channel.components.len()).collect())
+            let own: Vec<f64> = errors.by_ref().take(channel.components.len()).collect();
+            (!channel.is_of_run()).then(|| (channel.name.clone(), own))
         });
-        estimate.outputs = Some(Outputs(by_channel.collect()));
+        let outputs: Vec<_> = by_channel.flatten().collect();
+        estimate.outputs = (!outputs.is_empty()).then_some(Outputs(outputs));
         estimate.basis = Some(found.basis);
     }
 

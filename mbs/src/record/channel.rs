@@ -1,6 +1,6 @@
 //! Channels of a run: what is recorded, with names and units.
 
-use mbs_core::outputs::Component;
+use mbs_core::outputs::{Component, QUANTITIES};
 use mbs_core::scene::{Output, Scene};
 
 /// A recorded channel: its name and its components.
@@ -15,6 +15,12 @@ pub struct Channel {
 }
 
 impl Channel {
+    /// Is it of the run itself, as its energy error, so that an error of it says nothing of the motion?
+    #[must_use]
+    pub fn is_of_run(&self) -> bool {
+        QUANTITIES.iter().any(|row| row.name == self.quantity && row.is_of_run)
+    }
+
     /// The channels of a scene: its outputs, or every joint coordinate when it names none.
     ///
     /// Vectors have components `x`, `y`, `z`; joints with several coordinates `1`, `2`, ...; reactions

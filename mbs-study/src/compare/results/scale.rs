@@ -2,7 +2,6 @@
 
 use super::data::OutputScale;
 use mbs::record::Channel;
-use mbs_core::outputs::QUANTITIES;
 
 /// Least scale of an output, relative to the largest range of its unit [-]. Chosen, not tuned.
 const FLOOR: f64 = 1e-3;
@@ -35,9 +34,7 @@ pub fn output_scales(channels: &[Channel], rows: &[Vec<f64>], length: f64) -> Ve
         }
     }
     let is_of_run = |scale: &OutputScale| {
-        let of = channels.iter().find(|channel| channel.name == scale.output);
-        let row = of.and_then(|of| QUANTITIES.iter().find(|row| row.name == of.quantity));
-        row.is_some_and(|row| row.is_of_run)
+        channels.iter().any(|channel| channel.name == scale.output && channel.is_of_run())
     };
     let judged = scales.iter().filter(|scale| !is_of_run(scale));
     let ranges: Vec<(String, f64)> = judged.map(|s| (s.unit.clone(), s.range)).collect();
