@@ -39,9 +39,12 @@ impl PageMeshes {
             let ShapeForm::Mesh { file, axes, .. } = &shape.form else { continue };
             if tried.insert(file.as_str()) {
                 match TriangleMesh::read(Path::new(file)) {
+                    Ok(mesh) if mesh.triangles.is_empty() => {
+                        lost.push(format!("{file} (no triangles)"));
+                    }
                     Ok(mesh) => {
                         meshes.by_file.insert(file.clone(), meshes.list.len());
-                        meshes.list.push(mesh);
+                        meshes.list.push(used(&mesh));
                         scales.push(0.0_f64);
                         uses.push(0);
                     }
@@ -148,6 +151,19 @@ impl PageMeshes {
         });
         packed.collect()
     }
+}
+
+/// The mesh with the vertices of its triangles alone, in the order of their use: their numbers change little from one to the next.
+fn used(mesh: &TriangleMesh) -> TriangleMesh {
+    let (mut numbers, mut vertices) = (vec![None; mesh.vertices.len()], Vec::new());
+    let mut of = |old: usize| {
+        *numbers[old].get_or_insert_with(|| {
+            vertices.push(mesh.vertices[old]);
+            vertices.len() - 1
+        })
+    };
+    let triangles = mesh.triangles.iter().map(|triangle| triangle.map(&mut of)).collect();
+    TriangleMesh { triangles, vertices }
 }
 
 /// The area of all triangles.

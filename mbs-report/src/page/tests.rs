@@ -363,6 +363,7 @@ fn a_mesh_is_drawn_and_one_that_cannot_be_read_is_a_note_with_the_inertia_in_its
     };
     let square: String = (0..n * n).map(corner).chain((0..(n - 1) * (n - 1)).map(face)).collect();
     std::fs::write(folder.join("square.obj"), square).expect("a file");
+    std::fs::write(folder.join("empty.stl"), "solid\nendsolid\n").expect("a file");
     std::fs::write(folder.join("broken.stl"), "solid\nvertex 1 x 2\n").expect("a file");
     let body = |name: &str, mesh: &str| {
         format!(
@@ -373,7 +374,8 @@ fn a_mesh_is_drawn_and_one_that_cannot_be_read_is_a_note_with_the_inertia_in_its
     let text = "[scene]\ndimension = 3\nduration = 0.1\n".to_owned()
         + &body("square", "square.obj")
         + &body("broken", "broken.stl")
-        + &body("missing", "none.stl");
+        + &body("missing", "none.stl")
+        + &body("empty", "empty.stl");
     let file = mbs_scene::SceneFile::parse_in(&text, "meshes.toml", &folder).expect("TOML");
     let html = page_of(&file);
     let (header, groups) = data(&html);
@@ -391,7 +393,7 @@ fn a_mesh_is_drawn_and_one_that_cannot_be_read_is_a_note_with_the_inertia_in_its
     let drawn = groups[group][0].len();
     assert!((12_000..=20_000).contains(&drawn), "{drawn}");
     for note in [
-        "2 mesh files",
+        "3 mesh files",
         "broken.stl (a vertex without three numbers)",
         "Of 33282 triangles of meshes",
     ] {

@@ -363,20 +363,28 @@ const INERTIA: &str = "add `inertia`, about the centre of mass [kg m^2]: one num
                        to a body has zeros; instead of `center` and `inertia`, a point mass has `point = [...]`, and a slender rod \
                        `rod = { from = [...], to = [...] }`";
 
+/// What to do about a line that is no TOML.
+fn hint_of_toml(message: &str, line: &str) -> String {
+    let is_header = message.contains("duplicate key") && line.trim_start().starts_with('[');
+    match units::of_line(line) {
+        Some(hint) => hint,
+        None if is_header && line.trim_start().starts_with("[[") => {
+            "write every such header in double brackets; an earlier one has single ones".to_owned()
+        }
+        None if is_header => {
+            "of several such tables each has a header in double brackets: [[body]]".to_owned()
+        }
+        None => "see https://toml.io for the syntax of the file".to_owned(),
+    }
+}
+
 impl ReadFault {
     fn hint(&self) -> String {
         match self {
             Self::Unreadable { .. } => "name a file that exists and that may be read".to_owned(),
             Self::NotUtf8 => "save the file as UTF-8".to_owned(),
             Self::Syntax { format: "JSON", .. } => "see https://www.json.org for the syntax of the file".to_owned(),
-            Self::Syntax { message, line, .. } if message.contains("duplicate key") && line.trim_start().starts_with("[[") => {
-                "write every such header in double brackets; an earlier one has single ones".to_owned()
-            }
-            Self::Syntax { message, line, .. } if message.contains("duplicate key") && line.trim_start().starts_with('[') => {
-                "of several such tables each has a header in double brackets: [[body]]".to_owned()
-            }
-            Self::Syntax { line, .. } => units::of_line(line)
-                .unwrap_or_else(|| "see https://toml.io for the syntax of the file".to_owned()),
+            Self::Syntax { message, line, .. } => hint_of_toml(message, line),
             Self::Expression(fault) | Self::Include(fault) | Self::Model(fault) => fault.hint.clone(),
             Self::OtherUnit { unit, .. } => format!("write a number in {unit}, or with such a unit"),
             Self::UnknownKey { key, known } => nearest_name(key, known, "keys"),
