@@ -101,12 +101,19 @@ pub(super) fn shapes(
     if robot.shapes.len() == first && !lost.is_empty() {
         // what a collision says beside its form is still not in the scene
         let collisions = element.children.iter().filter(|child| child.name == "collision");
+        let mut why = None;
         for collision in collisions {
             // it is no reason to refuse the model
-            let _ = draw(collision, None, robot);
+            why = why.or(draw(collision, None, robot).ok().flatten());
         }
-        let stands_in = if robot.shapes.len() > first { "; forms of contact stand in" } else { "" };
-        lost.iter_mut().for_each(|(_, says)| says.push_str(stands_in));
+        let stands_in = match why {
+            _ if robot.shapes.len() > first => "; forms of contact stand in".to_owned(),
+            Some(why) if lost.iter().all(|(_, says)| *says != why) => {
+                format!("; of contact, {why}")
+            }
+            _ => String::new(),
+        };
+        lost.iter_mut().for_each(|(_, says)| says.push_str(&stands_in));
     }
     for (at, says) in lost {
         context.findings.not_drawn(at, "visual", says);

@@ -86,6 +86,17 @@ fn a_mesh_that_is_not_read_is_no_reason_to_refuse_a_model() {
 }
 
 #[test]
+fn it_is_said_which_package_would_have_given_a_form() {
+    let home = folder("mesh-contact");
+    let options = ImportOptions { folder: Some(home), ..ImportOptions::default() };
+    let text = LINK.replace("MESH", "<mesh filename=\"a.dae\"/>");
+    let text = text.replace("<sphere radius=\"0.5\"/>", "<mesh filename=\"package://p/a.stl\"/>");
+    let (lines, says) = drawn(&text, &options);
+    assert!(lines.is_empty(), "{lines:?}");
+    assert!(says[0].contains("`.dae`") && says[0].ends_with("--package p=FOLDER"), "{says:?}");
+}
+
+#[test]
 fn meshes_of_mjcf_and_sdf_stand_where_their_files_say() {
     let home = folder("mesh-others");
     let options = ImportOptions { folder: Some(home), ..ImportOptions::default() };

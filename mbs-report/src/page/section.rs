@@ -162,23 +162,7 @@ impl PageSection {
             Self::Error(text) => {
                 writeln!(out, "<p class=\"stopped\" role=\"alert\">{}</p>", escape(text))
             }
-            Self::Notes(notes) => {
-                let items: Vec<_> =
-                    notes.iter().map(|note| format!("<li>{}</li>", escape(note))).collect();
-                let (shown, more) = items.split_at(if items.len() > OPEN_NOTES + 1 {
-                    OPEN_NOTES
-                } else {
-                    items.len()
-                });
-                let more = match more.len() {
-                    0 => String::new(),
-                    n => format!(
-                        "<details><summary>{n} more notes</summary><ul>{}</ul></details>",
-                        more.concat()
-                    ),
-                };
-                writeln!(out, "<div class=\"notes\"><ul>{}</ul>{more}</div>", shown.concat())
-            }
+            Self::Notes(notes) => writeln!(out, "{}", list_of_notes(notes)),
             Self::Cards(cards) => {
                 let card = |[label, value]: &[String; 2]| {
                     format!("<div><dt>{}</dt><dd>{}</dd></div>", escape(label), escape(value))
@@ -226,6 +210,22 @@ impl PageSection {
             Self::Text(text) => writeln!(out, "<pre>{}</pre>", escape(text)),
         };
     }
+}
+
+/// The first notes, and the others folded.
+fn list_of_notes(notes: &[String]) -> String {
+    let items: Vec<_> = notes.iter().map(|note| format!("<li>{}</li>", escape(note))).collect();
+    // a fold with one note takes as much room as the note
+    let n = if items.len() > OPEN_NOTES + 1 { OPEN_NOTES } else { items.len() };
+    let (shown, more) = items.split_at(n);
+    let more = match more.len() {
+        0 => String::new(),
+        n => {
+            let more = more.concat();
+            format!("<details><summary>{n} more notes</summary><ul>{more}</ul></details>")
+        }
+    };
+    format!("<div class=\"notes\"><ul>{}</ul>{more}</div>", shown.concat())
 }
 
 impl PlotFrame {

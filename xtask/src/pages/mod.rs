@@ -48,7 +48,7 @@ fn made(folder: &Path) -> Result<[&'static str; 6], String> {
     let scene = |name: &str| process::root().join("scenes").join(name).display().to_string();
     let place = |name: &str| folder.join(name).display().to_string();
     let (pendulum, out) = (scene("simple-pendulum.toml"), place(""));
-    let suspension = scene("iltis-suspension.toml");
+    let suspension = with_mesh(&scene("iltis-suspension.toml"), folder)?;
     mbs(&["run", &suspension, "--duration", "1", "--no-estimate", "--out", &out])?;
     let compare = [
         "compare",
@@ -73,6 +73,21 @@ fn made(folder: &Path) -> Result<[&'static str; 6], String> {
     let sweep = ["--duration", "1", "--restart", "--page", "--traces", "4", "--out", &out];
     mbs(&[&["sweep", double.as_str(), lengths.as_str()][..], &sweep].concat())?;
     Ok(["run.html", "compare.html", "diff.html", "plot.html", "doctor.html", "sweep.html"])
+}
+
+/// A scene with a mesh on its first body, in a folder.
+fn with_mesh(scene: &str, folder: &Path) -> Result<String, String> {
+    let fault = |e: std::io::Error| format!("{}: {e}", folder.display());
+    fs::create_dir_all(folder).map_err(fault)?;
+    let text = fs::read_to_string(scene).map_err(|e| format!("{scene}: {e}"))?;
+    let body = text.split("[[body]]").nth(1).and_then(|body| body.split('"').nth(1));
+    let body = body.ok_or_else(|| format!("{scene} has no body"))?;
+    let mesh = "v 0 0 0\nv 0.3 0 0\nv 0 0.3 0\nv 0 0 0.3\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n";
+    fs::write(folder.join("mesh.obj"), mesh).map_err(fault)?;
+    let shape = format!("\n[[shape]]\nbody = \"{body}\"\nmesh = {{ file = \"mesh.obj\" }}\n");
+    let place = folder.join("with-mesh.toml");
+    fs::write(&place, text + &shape).map_err(fault)?;
+    Ok(place.display().to_string())
 }
 
 /// The browser, installed where that is possible.

@@ -47,6 +47,7 @@ async function lookedAt() {
       return [drawn / (n * n), sum];
     };
     must(view.kind === (window.probeWithoutWebGL ? "lines" : "three"), `the motion is drawn by ${view.kind}`);
+    for (const shape of page.motion.shapes) must(shape.form !== "mesh" || shape.corners?.length > 0, "a mesh has no corners");
     page.clock.seek(page.clock.start);
     const [share, first] = seen();
     must(share > 0.002, `the motion fills ${share} of its canvas`);

@@ -139,7 +139,7 @@ impl Index {
         Self { quick, provenance: provenance(), entries: Vec::new() }
     }
 
-    /// Writes a page, and adds it.
+    /// Writes a page, and adds it with the first picture that it has.
     pub(super) fn add_page(
         &mut self,
         folder: &Path,
@@ -147,7 +147,7 @@ impl Index {
         entry: Entry,
     ) -> Result<(), String> {
         process::write(&folder.join(entry.page.file), html.as_bytes())?;
-        self.add(folder, entry)
+        self.add(folder, entry.with_picture(first_picture(html).to_owned()))
     }
 
     /// Adds a page that was written, and writes this one.
@@ -192,6 +192,14 @@ fn provenance() -> String {
     known.join(", ")
 }
 
+/// The first figure of a page; empty without one.
+fn first_picture(html: &str) -> &str {
+    const ENDS: [&str; 2] = ["<figure>", "</figure>"];
+    let [start, end] = ENDS.map(|mark| html.find(mark));
+    let picture = start.zip(end).and_then(|(start, end)| html.get(start..end + ENDS[1].len()));
+    picture.unwrap_or_default()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -201,8 +209,9 @@ mod tests {
         let mut index = Index::new(true);
         let clock = Instant::now();
         index.entries.push(Entry::new(&TABLES, "3 entries".into(), clock, vec!["T1 <x>".into()]));
+        let page = "<p>a</p><figure>speed-up</figure><figure>b</figure>";
         let bench = Entry::new(&BENCH, "none".into(), clock, Vec::new());
-        index.entries.push(bench.with_picture("<figure>speed-up</figure>".into()));
+        index.entries.push(bench.with_picture(first_picture(page).to_owned()));
         let html = index.html();
         for page in [TABLES, BENCH] {
             assert!(html.contains(&format!("href=\"{}\"", page.file)));
@@ -211,6 +220,7 @@ mod tests {
         assert!(html.contains("<figure>speed-up</figure>"));
         assert!(html.contains("class=\"fails\">T1 &lt;x&gt;") && html.contains("report --quick"));
         assert!(!html.contains("{{") && !html.contains("src="), "nothing is fetched");
+        assert_eq!(first_picture("<p>none</p>"), "");
         assert_eq!(index.surprises(), ["T1 <x>"]);
     }
 }
