@@ -10,7 +10,7 @@ use mbs::{
     Tree, TreeError,
 };
 use serde_json::{Map, Value, json};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 const STATUS: &str = "\
@@ -162,44 +162,10 @@ fn matrix(matrix: &Matrix) -> Value {
 
 /// What the state file says of joints, then what the command line does.
 fn given(arguments: &Arguments, mechanism: &Mechanism) -> Result<Vec<Given>, Refusal> {
-    let mut all = Vec::new();
-    if let Some(path) = &arguments.state {
-        let bytes = crate::input::read(path, "state file")?;
-        let refused = |why: String| {
-            let hint = "write {\"joints\": {\"NAME\": {\"value\": 0.4, \"rate\": 0}}}";
-            Refusal::new("state-refused", format!("`{}`: {why}", path.display()), hint)
-        };
-        let state: Value =
-            serde_json::from_slice(&bytes).map_err(|error| refused(error.to_string()))?;
-        let (joints, base) = (state.get("joints"), state.get("base"));
-        if joints.is_none() && base.is_none() {
-            return Err(refused("no object `joints`, and no `base`".to_owned()));
-        }
-        let known = state.as_object().into_iter().flat_map(Map::keys);
-        if let Some(key) = known.into_iter().find(|key| !["joints", "base"].contains(&key.as_str()))
-        {
-            return Err(refused(format!("unknown key `{key}` beside `joints` and `base`")));
-        }
-        let joints = joints.map(|joints| {
-            joints.as_object().ok_or_else(|| refused("`joints` is no object".to_owned()))
-        });
-        let mut entries: Vec<(String, &Value)> = match joints.transpose()? {
-            Some(joints) => joints.iter().map(|(name, entry)| (name.clone(), entry)).collect(),
-            None => Vec::new(),
-        };
-        if let Some(base) = base {
-            entries.push((base_joint(mechanism).map_err(&refused)?, base));
-        }
-        for (name, entry) in &entries {
-            let numbers = |key: &str| {
-                numbers(entry.get(key)).map_err(|()| {
-                    refused(format!("`{key}` of `{name}` is no number and no list of them"))
-                })
-            };
-            let (value, rate, effort) = (numbers("value")?, numbers("rate")?, numbers("effort")?);
-            all.push(Given { name: name.clone(), value, rate, effort });
-        }
-    }
+    let mut all = match &arguments.state {
+        Some(path) => of_file(path, mechanism)?,
+        None => Vec::new(),
+    };
     for text in &arguments.joint {
         let parsed = text.rsplit_once('=').and_then(|(name, numbers)| {
             let numbers: Option<Vec<f64>> = numbers
@@ -223,6 +189,46 @@ fn given(arguments: &Arguments, mechanism: &Mechanism) -> Result<Vec<Given>, Ref
         // what the command line says of a joint counts before the file
         all.retain(|given: &Given| given.name != name);
         all.push(Given { name: name.to_owned(), value: Some(vec![value]), rate, effort: None });
+    }
+    Ok(all)
+}
+
+/// What a state file says.
+fn of_file(path: &Path, mechanism: &Mechanism) -> Result<Vec<Given>, Refusal> {
+    let mut all = Vec::new();
+    let bytes = crate::input::read(path, "state file")?;
+    let refused = |why: String| {
+        let hint = "write {\"joints\": {\"NAME\": {\"value\": 0.4, \"rate\": 0}}}";
+        Refusal::new("state-refused", format!("`{}`: {why}", path.display()), hint)
+    };
+    let state: Value =
+        serde_json::from_slice(&bytes).map_err(|error| refused(error.to_string()))?;
+    let (joints, base) = (state.get("joints"), state.get("base"));
+    if joints.is_none() && base.is_none() {
+        return Err(refused("no object `joints`, and no `base`".to_owned()));
+    }
+    let known = state.as_object().into_iter().flat_map(Map::keys);
+    if let Some(key) = known.into_iter().find(|key| !["joints", "base"].contains(&key.as_str())) {
+        return Err(refused(format!("unknown key `{key}` beside `joints` and `base`")));
+    }
+    let joints = joints.map(|joints| {
+        joints.as_object().ok_or_else(|| refused("`joints` is no object".to_owned()))
+    });
+    let mut entries: Vec<(String, &Value)> = match joints.transpose()? {
+        Some(joints) => joints.iter().map(|(name, entry)| (name.clone(), entry)).collect(),
+        None => Vec::new(),
+    };
+    if let Some(base) = base {
+        entries.push((base_joint(mechanism).map_err(&refused)?, base));
+    }
+    for (name, entry) in &entries {
+        let numbers = |key: &str| {
+            numbers(entry.get(key)).map_err(|()| {
+                refused(format!("`{key}` of `{name}` is no number and no list of them"))
+            })
+        };
+        let (value, rate, effort) = (numbers("value")?, numbers("rate")?, numbers("effort")?);
+        all.push(Given { name: name.clone(), value, rate, effort });
     }
     Ok(all)
 }

@@ -33,18 +33,8 @@ pub(crate) fn place<T: Real, S: Space<T>, const MOVES: bool>(
     guides: &[[T; 3]],
 ) -> Result<LinkMotion<T, S>, Outside> {
     let (zi, vi) = (link.z as usize, link.v as usize);
-    let still = |freedom, rotation, arm| {
-        let (velocity, bias) = if MOVES {
-            let spin = S::spin(&parent.velocity);
-            let bias = S::motion(S::Spin::zero(), S::centrifugal(&spin, &arm));
-            (S::carried(&parent.velocity, &arm), bias)
-        } else {
-            (S::Motion::zero(), S::Motion::zero())
-        };
-        let center = S::rotate(&rotation, &link.center);
-        let position = parent.position + arm;
-        LinkMotion { rotation, position, arm, freedom, velocity, bias, center }
-    };
+    let still =
+        |freedom, rotation, arm| carried::<T, S, MOVES>(link, parent, (freedom, rotation, arm));
     let number = || {
         if link.kind.is_guided() {
             return at(guides, vi).copied();
@@ -81,33 +71,68 @@ pub(crate) fn place<T: Real, S: Space<T>, const MOVES: bool>(
             }
             p
         }
-        LinkKind::Ball => {
-            // ω = ω_p + w, w = R v,   d = (ω_p × w, ω_p × (ω_p × r))
-            let arm = S::rotate(&parent.rotation, &link.offset);
-            let turn = part(z, zi, S::FREE - S::Point::N)?;
-            let rotation = S::turned_by(&parent.rotation, turn);
-            let mut p = still(S::Motion::zero(), rotation, arm);
-            if MOVES {
-                let w = S::rotate_spin(&rotation, &read(v, vi)?);
-                p.velocity += S::motion(w, S::Point::zero());
-                let turning = S::cross_spin(&S::spin(&parent.velocity), &w);
-                p.bias += S::motion(turning, S::Point::zero());
-            }
-            p
-        }
+        LinkKind::Ball => ball::<T, S, MOVES>(link, parent, z, v)?,
         LinkKind::GuidedBall => guided_ball(link, parent, guides)?,
-        LinkKind::Free => {
-            let turn = part(z, zi, S::FREE - S::Point::N)?;
-            let rotation = S::turned_by(&S::identity(), turn);
-            let position: S::Point = read(z, zi + S::FREE - S::Point::N)?;
-            let mut p = still(S::Motion::zero(), rotation, position);
-            if MOVES {
-                let w = S::rotate_spin(&rotation, &read(v, vi)?);
-                p.velocity = S::motion(w, read(v, vi + S::Spin::N)?);
-            }
-            p
-        }
+        LinkKind::Free => free::<T, S, MOVES>(link, parent, z, v)?,
     })
+}
+
+/// Where a link is that moves with its parent, but for what its joint adds to velocity and bias.
+#[inline(always)]
+fn carried<T: Real, S: Space<T>, const MOVES: bool>(
+    link: &Link<T, S>,
+    parent: &LinkMotion<T, S>,
+    (freedom, rotation, arm): (S::Motion, S::Rotation, S::Point),
+) -> LinkMotion<T, S> {
+    let (velocity, bias) = if MOVES {
+        let spin = S::spin(&parent.velocity);
+        let bias = S::motion(S::Spin::zero(), S::centrifugal(&spin, &arm));
+        (S::carried(&parent.velocity, &arm), bias)
+    } else {
+        (S::Motion::zero(), S::Motion::zero())
+    };
+    let center = S::rotate(&rotation, &link.center);
+    let position = parent.position + arm;
+    LinkMotion { rotation, position, arm, freedom, velocity, bias, center }
+}
+
+#[inline(always)]
+fn ball<T: Real, S: Space<T>, const MOVES: bool>(
+    link: &Link<T, S>,
+    parent: &LinkMotion<T, S>,
+    z: &[T],
+    v: &[T],
+) -> Result<LinkMotion<T, S>, Outside> {
+    // ω = ω_p + w, w = R v,   d = (ω_p × w, ω_p × (ω_p × r))
+    let arm = S::rotate(&parent.rotation, &link.offset);
+    let turn = part(z, link.z as usize, S::FREE - S::Point::N)?;
+    let rotation = S::turned_by(&parent.rotation, turn);
+    let mut p = carried::<T, S, MOVES>(link, parent, (S::Motion::zero(), rotation, arm));
+    if MOVES {
+        let w = S::rotate_spin(&rotation, &read(v, link.v as usize)?);
+        p.velocity += S::motion(w, S::Point::zero());
+        p.bias += S::motion(S::cross_spin(&S::spin(&parent.velocity), &w), S::Point::zero());
+    }
+    Ok(p)
+}
+
+#[inline(always)]
+fn free<T: Real, S: Space<T>, const MOVES: bool>(
+    link: &Link<T, S>,
+    parent: &LinkMotion<T, S>,
+    z: &[T],
+    v: &[T],
+) -> Result<LinkMotion<T, S>, Outside> {
+    let (zi, vi) = (link.z as usize, link.v as usize);
+    let turn = part(z, zi, S::FREE - S::Point::N)?;
+    let rotation = S::turned_by(&S::identity(), turn);
+    let position: S::Point = read(z, zi + S::FREE - S::Point::N)?;
+    let mut p = carried::<T, S, MOVES>(link, parent, (S::Motion::zero(), rotation, position));
+    if MOVES {
+        let w = S::rotate_spin(&rotation, &read(v, vi)?);
+        p.velocity = S::motion(w, read(v, vi + S::Spin::N)?);
+    }
+    Ok(p)
 }
 
 /// Are guided balls in this build? Tables for controllers have none.

@@ -49,6 +49,8 @@ mod options;
 mod order;
 #[cfg(feature = "alloc")]
 pub mod own;
+#[cfg(feature = "alloc")]
+mod owners;
 pub mod passes;
 pub mod plan;
 mod project;

@@ -82,7 +82,7 @@ pub struct TreeModel<T: Real, S: Space<T>> {
     /// Link of each body of the scene; 0: ground.
     pub(crate) link_of_body: Vec<u32>,
     pub(crate) clusters: Clusters<T>,
-    owner_of_link: Vec<Owner>,
+    pub(crate) owner_of_link: Vec<Owner>,
 }
 
 impl<T: Real, S: Space<T>> TreeModel<T, S> {
@@ -414,37 +414,6 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
     /// The scene's length [m].
     pub fn length(&self) -> T {
         self.length
-    }
-
-    /// What a freedom belongs to, for messages.
-    #[must_use]
-    pub fn owner_of_unknown(&self, unknown: usize) -> Owner {
-        let owns = |link: &Link<T, S>| {
-            let first = link.v as usize;
-            (first..first + link.kind.n_freedoms::<T, S>()).contains(&unknown)
-        };
-        let link = self.links.iter().skip(1).position(owns).map_or(0, |i| i + 1);
-        self.owner_of_link[link]
-    }
-
-    /// What a link belongs to, for messages.
-    #[must_use]
-    pub fn owner_of_link(&self, link: usize) -> Owner {
-        self.owner_of_link[link]
-    }
-
-    /// What a row belongs to, for messages.
-    #[must_use]
-    pub fn owner_of_row(&self, row: usize) -> Owner {
-        let lap = self.loops.iter().find(|l| (l.first..l.first + l.n).contains(&index(row)));
-        let number = lap.map_or(0, |lap| lap.joint as usize);
-        match self.rows.get(row) {
-            Some(Row::Coupled(_)) => Owner::Coupling(number),
-            Some(Row::Height { .. } | Row::NoSlip { .. } | Row::Blade { .. }) => {
-                Owner::Rolling(number)
-            }
-            _ => Owner::Joint(number),
-        }
     }
 }
 

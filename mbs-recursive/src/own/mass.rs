@@ -44,7 +44,7 @@ impl<T: Real, S: Space<T>> OwnFreedoms<T, S> {
                     LinkKind::Revolute => composite.times_turn(&column.turn),
                     _ => composite.times(column),
                 };
-                self.write_column((links, placed), (i, c, force), mass);
+                self.write_column(links, placed, (i, c, force), mass);
             }
         }
         for rotor in model.mechanism().rotors {
@@ -59,7 +59,8 @@ impl<T: Real, S: Space<T>> OwnFreedoms<T, S> {
     #[inline(always)]
     fn write_column(
         &self,
-        (links, placed): (&[Link<T, S>], &[LinkMotion<T, S>]),
+        links: &[Link<T, S>],
+        placed: &[LinkMotion<T, S>],
         (mut i, c, mut force): (usize, usize, Six<T>),
         mass: &mut [T],
     ) {

@@ -117,9 +117,8 @@ fn apart_from_saddle<S: Space<f64>>(scene: &Scene<f64>, seed: u64) -> f64 {
         }
     }
     let (a, state) = (run.state.a.clone(), &mut run.state);
-    let mut mass = vec![0.0; n * n];
-    let mut freedoms = OwnFreedoms::of_tree(&run.model);
-    freedoms.write_mass_matrix(&run.model, state, &mut run.workspace, &mut mass);
+    let (mut mass, workspace) = (vec![0.0; n * n], &mut run.workspace);
+    OwnFreedoms::of_tree(&run.model).write_mass_matrix(&run.model, state, workspace, &mut mass);
     state.a.fill(0.0);
     let mut bias = vec![0.0; n];
     let terms = EffortTerms::WithoutEffects;

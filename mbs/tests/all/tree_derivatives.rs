@@ -13,12 +13,11 @@ const DIFFERENCES: f64 = 1e-9;
 /// Rounding through trees of some bodies.
 const ROUNDING: f64 = 1e-11;
 
+/// What is asked of a tree.
+type Quantity<'a> = &'a dyn Fn(&mut Tree) -> Vec<f64>;
+
 /// The derivative of a quantity of a copy of the tree that `change` takes to a distance.
-fn derivative(
-    tree: &Tree,
-    change: &dyn Fn(&mut Tree, f64),
-    quantity: &dyn Fn(&mut Tree) -> Vec<f64>,
-) -> Vec<f64> {
+fn derivative(tree: &Tree, change: &dyn Fn(&mut Tree, f64), quantity: Quantity<'_>) -> Vec<f64> {
     let weights = [4.0 / 5.0, -1.0 / 5.0, 4.0 / 105.0, -1.0 / 280.0];
     let at = |h: f64| {
         let mut there = tree.clone();
@@ -75,7 +74,7 @@ fn derivatives_of_both_dynamics_are_those_of_differences_whichever_body_comes_fi
         close(&scene.name, &inverse.acceleration.data, &mass.data, ROUNDING * largest(&mass.data));
         for k in 0..n {
             let both = [(&inverse.q, &inverse.v), (&forward.q, &forward.v)];
-            let of: [&dyn Fn(&mut Tree) -> Vec<f64>; 2] = [&efforts, &motion];
+            let of: [Quantity<'_>; 2] = [&efforts, &motion];
             for ((q, v), quantity) in both.into_iter().zip(of) {
                 let size = DIFFERENCES * largest(&q.data).max(largest(&v.data));
                 let name = format!("{} {k}", scene.name);
@@ -109,7 +108,7 @@ fn the_rate_of_a_jacobian_is_its_change_in_time_and_gives_the_acceleration_at_co
         let drift = |t: &mut Tree, h: f64| {
             let step: Vec<f64> = v.iter().map(|v| v * h * slower).collect();
             let mut q = vec![0.0; t.coordinates().len()];
-            t.integrate(&t.coordinates().to_vec(), &step, &mut q).expect("a step");
+            t.integrate(t.coordinates(), &step, &mut q).expect("a step");
             t.set(&q, &v).expect("a state");
         };
         let change = derivative(&tree, &drift, &|t| t.jacobian_at(body, at).data.clone());

@@ -1,33 +1,11 @@
 //! Derivatives of inverse and forward dynamics of a [`Tree`].
 
 use super::inner::{Inner, with};
-use super::{Matrix, Tree, TreeError, TreeErrorKind, checked};
+use super::{
+    AccelerationDerivatives, EffortDerivatives, Matrix, Tree, TreeError, TreeErrorKind, checked,
+};
 use crate::stop::StopError;
 use mbs_recursive::own::{EffortSlopes, MovingColumns};
-
-/// How efforts τ = M v̇ + c + g change; each n × n, a row for each effort.
-#[derive(Debug, Clone, PartialEq)]
-#[non_exhaustive]
-pub struct EffortDerivatives {
-    /// ∂τ/∂q, along the velocities: column j is the change while v_j moves q by its unit.
-    pub q: Matrix,
-    /// ∂τ/∂v.
-    pub v: Matrix,
-    /// ∂τ/∂v̇ = M.
-    pub acceleration: Matrix,
-}
-
-/// How accelerations v̇ change; each n × n, a row for each acceleration.
-#[derive(Debug, Clone, PartialEq)]
-#[non_exhaustive]
-pub struct AccelerationDerivatives {
-    /// ∂v̇/∂q, along the velocities: column j is the change while v_j moves q by its unit.
-    pub q: Matrix,
-    /// ∂v̇/∂v.
-    pub v: Matrix,
-    /// ∂v̇/∂τ = M⁻¹.
-    pub effort: Matrix,
-}
 
 impl Tree {
     /// Derivatives of [`inverse_dynamics`](Self::inverse_dynamics) at accelerations, without loops.

@@ -12,12 +12,11 @@ mod manifold;
 mod places;
 mod values;
 
-pub use derivatives::{AccelerationDerivatives, EffortDerivatives};
 pub use error::{TreeError, TreeErrorKind};
 pub use inverse_kinematics::{FrameTarget, InverseKinematics, InverseKinematicsEnd};
 pub use layout::TreeRange;
 pub use places::{FrameMotion, TotalMomentum};
-pub use values::Matrix;
+pub use values::{AccelerationDerivatives, EffortDerivatives, Matrix};
 
 use crate::names::Names;
 use crate::typed;

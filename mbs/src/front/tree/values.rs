@@ -51,6 +51,30 @@ impl Index<(usize, usize)> for Matrix {
     }
 }
 
+/// How efforts τ = M v̇ + c + g change; each n × n, a row for each effort.
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub struct EffortDerivatives {
+    /// ∂τ/∂q, along the velocities: column j is the change while v_j moves q by its unit.
+    pub q: Matrix,
+    /// ∂τ/∂v.
+    pub v: Matrix,
+    /// ∂τ/∂v̇ = M.
+    pub acceleration: Matrix,
+}
+
+/// How accelerations v̇ change; each n × n, a row for each acceleration.
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub struct AccelerationDerivatives {
+    /// ∂v̇/∂q, along the velocities: column j is the change while v_j moves q by its unit.
+    pub q: Matrix,
+    /// ∂v̇/∂v.
+    pub v: Matrix,
+    /// ∂v̇/∂τ = M⁻¹.
+    pub effort: Matrix,
+}
+
 impl PointMotion {
     pub(super) fn of(motion: [Vector<f64, 3>; 3]) -> Self {
         let [position, velocity, acceleration] = motion.map(Into::into);
