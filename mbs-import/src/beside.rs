@@ -2,6 +2,7 @@
 
 use crate::context::Context;
 use crate::element::{Attribute, Element};
+use crate::options::ImportOptions;
 use crate::source::{MOST_BYTES, Origin, Read};
 use crate::xml;
 use std::path::{Path, PathBuf};
@@ -28,6 +29,47 @@ pub(crate) fn find(
         let message = format!("there is no file `{}`", home.join(name).display());
         file.fault(message, "give its place from the folder of the first file")
     })
+}
+
+/// Where the file of a place may be that is written in a file of this folder. A package or model is looked for in the folder that is given
+/// for it, those of the search path, then upwards.
+///
+/// # Errors
+/// A scheme from which nothing is fetched.
+pub(crate) fn places<'a>(
+    written: &'a str,
+    folder: &Path,
+    options: &ImportOptions,
+) -> Result<Vec<PathBuf>, &'a str> {
+    match written.split_once("://") {
+        None => Ok(vec![folder.join(written)]),
+        Some(("file", place)) => Ok(vec![folder.join(place)]),
+        Some(("package" | "model", rest)) => {
+            let rest = rest.trim_start_matches('/');
+            let (package, rest) = rest.split_once('/').unwrap_or((rest, ""));
+            Ok(in_package(package, rest, folder, options))
+        }
+        Some((scheme, _)) => Err(scheme),
+    }
+}
+
+fn in_package(package: &str, rest: &str, folder: &Path, options: &ImportOptions) -> Vec<PathBuf> {
+    let given = options.packages.iter().filter(|(name, _)| name == package);
+    let given = given.map(|(_, folder)| folder.join(rest));
+    let folder = whole(folder);
+    let around = options.package_path.iter().map(PathBuf::as_path).chain(folder.ancestors());
+    let around = around.flat_map(|folder| {
+        let is_it = folder.file_name().is_some_and(|name| name == package);
+        let own = is_it.then(|| folder.join(rest));
+        [Some(folder.join(package).join(rest)), own].into_iter().flatten()
+    });
+    given.chain(around).collect()
+}
+
+/// The path without links and dots, where it is there.
+pub(crate) fn whole(path: &Path) -> PathBuf {
+    let path = if path.as_os_str().is_empty() { Path::new(".") } else { path };
+    path.canonicalize().unwrap_or_else(|_| path.to_owned())
 }
 
 /// The first of some places at which there is a file, if any.

@@ -25,6 +25,9 @@ pub enum Stops {
     },
 }
 
+/// Folders of packages and models, as other programs have them.
+const SEARCH_PATHS: [&str; 3] = ["ROS_PACKAGE_PATH", "SDF_PATH", "GZ_SIM_RESOURCE_PATH"];
+
 /// What a user may ask of a reader.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct ImportOptions {
@@ -46,18 +49,18 @@ pub struct ImportOptions {
     pub scene_folder: Option<PathBuf>,
     /// Folders of packages by their names.
     pub packages: Vec<(String, PathBuf)>,
-    /// Folders in which packages lie: `ROS_PACKAGE_PATH`.
+    /// Folders in which packages and models lie.
     pub package_path: Vec<PathBuf>,
     /// Whether meshes whose mass is needed count as massless, and are reported.
     pub massless_meshes: bool,
 }
 
 impl ImportOptions {
-    /// Those of a model in a folder, with the search path of the environment.
+    /// Those of a model in a folder, with the search paths of the environment: `ROS_PACKAGE_PATH`, `SDF_PATH`, `GZ_SIM_RESOURCE_PATH`.
     #[must_use]
     pub fn in_folder(folder: PathBuf) -> Self {
-        let path = std::env::var_os("ROS_PACKAGE_PATH");
-        let path = path.map(|path| std::env::split_paths(&path).collect());
-        Self { folder: Some(folder), package_path: path.unwrap_or_default(), ..Self::default() }
+        let paths = SEARCH_PATHS.into_iter().filter_map(std::env::var_os);
+        let paths = paths.flat_map(|paths| std::env::split_paths(&paths).collect::<Vec<_>>());
+        Self { folder: Some(folder), package_path: paths.collect(), ..Self::default() }
     }
 }

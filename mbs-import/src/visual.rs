@@ -1,5 +1,6 @@
 //! Files of meshes that are drawn: where they are, and how the scene names them.
 
+use crate::beside::{places, whole};
 use crate::context::Context;
 use crate::element::Attribute;
 use crate::robot::FormKind;
@@ -53,44 +54,21 @@ fn found(written: &str, context: &Context<'_>) -> Result<PathBuf, String> {
     let Some(home) = &context.options.folder else {
         return Err("meshes are not drawn: this text has no folder".to_owned());
     };
-    let (candidates, missing) = match written.split_once("://") {
-        Some(("package" | "model", rest)) => {
+    let candidates = places(written, home, context.options)
+        .map_err(|scheme| format!("meshes `{scheme}://` are not drawn"))?;
+    let package = written.split_once("://").filter(|(scheme, _)| *scheme != "file");
+    let missing = match package {
+        Some((_, rest)) => {
             let rest = rest.trim_start_matches('/');
-            let (package, rest) = rest.split_once('/').unwrap_or((rest, ""));
-            let missing = format!(
+            let package = rest.split_once('/').map_or(rest, |(package, _)| package);
+            format!(
                 "meshes of the package `{package}` that are not found are not drawn: --package {package}=FOLDER"
-            );
-            (in_package(package, rest, home, context), missing)
+            )
         }
-        Some(("file", rest)) => {
-            (vec![PathBuf::from(rest)], "meshes that are not found are not drawn".to_owned())
-        }
-        Some((scheme, _)) => return Err(format!("meshes `{scheme}://` are not drawn")),
-        None => (vec![home.join(written)], "meshes that are not found are not drawn".to_owned()),
+        None => "meshes that are not found are not drawn".to_owned(),
     };
     let file = candidates.into_iter().find(|path| path.is_file());
     file.map(|path| whole(&path)).ok_or(missing)
-}
-
-/// Where a file of a package may be: the folder that is given for it, those of the search path, then upwards from the model.
-fn in_package(package: &str, rest: &str, home: &Path, context: &Context<'_>) -> Vec<PathBuf> {
-    let options = context.options;
-    let given = options.packages.iter().filter(|(name, _)| name == package);
-    let given = given.map(|(_, folder)| folder.join(rest));
-    let home = whole(home);
-    let around = options.package_path.iter().map(PathBuf::as_path).chain(home.ancestors());
-    let around = around.flat_map(|folder| {
-        let is_it = folder.file_name().is_some_and(|name| name == package);
-        let own = is_it.then(|| folder.join(rest));
-        [Some(folder.join(package).join(rest)), own].into_iter().flatten()
-    });
-    given.chain(around).collect()
-}
-
-/// The path without links and dots, where it is there.
-fn whole(path: &Path) -> PathBuf {
-    let path = if path.as_os_str().is_empty() { Path::new(".") } else { path };
-    path.canonicalize().unwrap_or_else(|_| path.to_owned())
 }
 
 /// A file from a folder, if they have more than the root in common: a scene and its files can move together.

@@ -79,11 +79,15 @@ impl TriangleMesh {
         if !MESH_ENDINGS.contains(&ending.as_str()) {
             return Err(MeshFault::Ending);
         }
+        let fault = |error: std::io::Error| MeshFault::File(error.kind());
+        // a pipe would be waited for
+        if !std::fs::metadata(path).map_err(fault)?.is_file() {
+            return Err(MeshFault::File(std::io::ErrorKind::InvalidInput));
+        }
         let mut bytes = Vec::new();
-        let file = std::fs::File::open(path).map_err(|error| MeshFault::File(error.kind()))?;
+        let file = std::fs::File::open(path).map_err(fault)?;
         // one byte more shows that there is one
-        let read = file.take(MOST_BYTES + 1).read_to_end(&mut bytes);
-        read.map_err(|error| MeshFault::File(error.kind()))?;
+        file.take(MOST_BYTES + 1).read_to_end(&mut bytes).map_err(fault)?;
         if bytes.len() as u64 > MOST_BYTES {
             return Err(MeshFault::TooLarge);
         }

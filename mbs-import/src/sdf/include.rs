@@ -2,14 +2,12 @@
 
 use super::frames::MODEL;
 use super::scope::{VERSION, missing, version};
-use crate::beside::{Included, first};
+use crate::beside::{Included, first, places};
 use crate::context::Context;
 use crate::element::{Attribute, Element};
 use crate::source::Read;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
-/// Folders of models, as other programs of the format have them.
-const FOLDERS: [&str; 2] = ["SDF_PATH", "GZ_SIM_RESOURCE_PATH"];
 /// What an `include` has besides the place of its model.
 const OWN: [&str; 5] = ["uri", "name", "pose", "placement_frame", "static"];
 
@@ -107,36 +105,21 @@ impl Includer<'_, '_> {
         Ok(())
     }
 
-    /// The file of a place. `model://NAME` is looked for from the folder of the file that includes it upwards, then in the folders of the
-    /// environment; other places from the folder of that file on.
+    /// The file of a place, from the folder of the file that includes it on.
     fn path(&self, uri: &Attribute) -> Read<PathBuf> {
-        let text = uri.value.as_str();
         let home = self.context.options.folder.as_deref().ok_or_else(|| {
             let hint = "give the model as a file, or put the other model here";
             uri.fault("this text has no folder, from which it could read files", hint)
         })?;
-        let folder = self.included.folder().unwrap_or(home).to_owned();
-        let (is_model, name) = match text.split_once("://") {
-            None => (false, text),
-            Some(("file", name)) => (false, name),
-            Some(("model" | "package", name)) => (true, name),
-            Some((scheme, _)) => {
-                let hint = "fetch the model, and write model://NAME or the place of its file";
-                return Err(uri.fault(format!("models are not fetched by `{scheme}://`"), hint));
-            }
-        };
-        let folder = folder.canonicalize().unwrap_or(folder);
-        let mut folders = vec![folder.clone()];
-        if is_model {
-            folders.extend(folder.ancestors().skip(1).map(Path::to_owned));
-            let all = FOLDERS.into_iter().filter_map(std::env::var_os);
-            folders.extend(all.flat_map(|all| std::env::split_paths(&all).collect::<Vec<_>>()));
-        }
-        let places = folders.into_iter().map(|folder| described(folder.join(name)));
-        first(uri, places, self.context)?.ok_or_else(|| {
+        let folder = self.included.folder().unwrap_or(home);
+        let all = places(&uri.value, folder, self.context.options).map_err(|scheme| {
+            let hint = "fetch the model, and write model://NAME or the place of its file";
+            uri.fault(format!("models are not fetched by `{scheme}://`"), hint)
+        })?;
+        first(uri, all.into_iter().map(described), self.context)?.ok_or_else(|| {
             let hint =
                 "give its place from the folder of its file, as model://NAME, or set SDF_PATH; a light can be left out";
-            uri.fault(format!("there is no model `{text}`"), hint)
+            uri.fault(format!("there is no model `{}`", uri.value), hint)
         })
     }
 }
