@@ -96,14 +96,24 @@ fn imported(arguments: &Arguments) -> Result<ExitCode, Refusal> {
     Ok(say(&said, ExitCode::SUCCESS))
 }
 
-/// What the doctor calls faults of the start, each with its line of the scene.
-struct Faults(Vec<(Finding, Option<usize>)>);
+/// What the doctor calls faults of the start, each with its line of the scene; nothing where it was not asked.
+struct Faults(Option<Vec<(Finding, Option<usize>)>>);
 
-/// Has the scene a start?
+/// Joints up to which the doctor looks at a model with loops [-]: its time grows with their cube, and is a second here.
+const MOST_JOINTS: usize = 200;
+
+/// Has the scene a start? An open tree has one where nothing beyond a joint lacks inertia.
 fn faults(name: &str, model: &Imported) -> Result<Faults, Refusal> {
     let refused = |error| Refusal::read("scene-refused", &error);
     let document = model.scene_file(name).map_err(refused)?;
     let scene = document.scene::<f64>().map_err(refused)?;
+    let tree = mbs::Tree::new(&scene);
+    if tree.is_ok_and(|mut tree| tree.loop_jacobian().rows == 0) {
+        return Ok(Faults(Some(Vec::new())));
+    }
+    if model.sizes.joints > MOST_JOINTS {
+        return Ok(Faults(None));
+    }
     let overrides =
         Method { precision: Some(Precision::F64.name().to_owned()), ..Method::default() };
     let settings = ResolvedMethod::new(&scene, &overrides).map_err(|e| Refusal::settings(&e))?;
@@ -113,7 +123,7 @@ fn faults(name: &str, model: &Imported) -> Result<Faults, Refusal> {
         let line = finding.place.map(|(entry, key)| document.place(entry, key).1.line);
         (finding, line)
     });
-    Ok(Faults(found.collect()))
+    Ok(Faults(Some(found.collect())))
 }
 
 impl Faults {
@@ -123,12 +133,18 @@ impl Faults {
             let line = line.map(|line| format!(":{line}")).unwrap_or_default();
             format!("{:<13} {file}{line}  {code}: {message}; {remedy}\n", "fault")
         };
-        self.0.iter().map(line).collect()
+        match &self.0 {
+            Some(found) => found.iter().map(line).collect(),
+            None => {
+                format!("{:<13} {file}  its start was not looked at: mbs doctor {file}\n", "large")
+            }
+        }
     }
 
-    fn list(&self) -> Vec<Value> {
+    /// The same as JSON; null where the start was not looked at.
+    fn list(&self) -> Value {
         let object = |(Finding { code, message, remedy, .. }, line): &(Finding, Option<usize>)| json!({ "code": code, "says": message, "mend": remedy, "line": line });
-        self.0.iter().map(object).collect()
+        self.0.as_ref().map(|found| found.iter().map(object).collect::<Vec<_>>()).into()
     }
 }
 

@@ -112,7 +112,7 @@ impl<T: Real, S: Space<T>> OwnFreedoms<T, S> {
         self.row = sum;
     }
 
-    /// Writes J M⁻¹ Jᵀ by the factors of M, for rows J; on return `columns` has L⁻ᵀ Jᵀ.
+    /// Writes J M⁻¹ Jᵀ by the factors of M, for `width` rows J; on return `columns` has L⁻ᵀ Jᵀ.
     ///
     /// Cost: rows times freedoms times depth and rows; no allocation.
     ///
@@ -121,12 +121,13 @@ impl<T: Real, S: Space<T>> OwnFreedoms<T, S> {
     pub fn write_mobility(
         &mut self,
         factors: &[T],
+        width: usize,
         (rows, columns): (&[T], &mut [T]),
         mobility: &mut [T],
     ) {
         let n = self.number.len();
-        let width = rows.len() / n.max(1);
-        assert_eq!((columns.len(), mobility.len()), (rows.len(), width * width), "sizes of J");
+        let sizes = [rows.len(), columns.len(), mobility.len()];
+        assert_eq!(sizes, [width * n, width * n, width * width], "sizes of J");
         for (i, row) in rows.chunks_exact(n.max(1)).enumerate() {
             for (k, &x) in row.iter().enumerate() {
                 columns[k * width + i] = x;

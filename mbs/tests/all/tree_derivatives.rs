@@ -2,8 +2,8 @@
 
 use crate::tree::{floating, mechanisms, tree, wandering};
 use mbs::core::scene::{BodyId, Dimension};
-use mbs::{Error as _, Matrix, Tree};
-use mbs_testkit::random::Random;
+use mbs::{Error as _, FrameTarget, InverseKinematicsEnd, Matrix, Tree};
+use mbs_testkit::random::{self, Random};
 use mbs_testkit::{close, dot, file};
 
 /// Step of the differences, of order eight: truncation and rounding of what they are taken of are both below 1e-13 of it.
@@ -19,8 +19,9 @@ type Quantity<'a> = &'a dyn Fn(&mut Tree) -> Vec<f64>;
 /// The derivative of a quantity of a copy of the tree that `change` takes to a distance.
 fn derivative(tree: &Tree, change: &dyn Fn(&mut Tree, f64), quantity: Quantity<'_>) -> Vec<f64> {
     let weights = [4.0 / 5.0, -1.0 / 5.0, 4.0 / 105.0, -1.0 / 280.0];
-    let at = |h: f64| {
-        let mut there = tree.clone();
+    let (mut there, q, v) = (tree.clone(), tree.coordinates(), tree.velocities());
+    let mut at = |h: f64| {
+        there.set(q, v).expect("its own state");
         change(&mut there, h);
         quantity(&mut there)
     };
@@ -183,4 +184,27 @@ fn what_is_of_open_trees_alone_is_refused_by_the_name_of_the_joint_that_closes_t
     let mut ball = tree(&floating(Dimension::Spatial));
     let error = ball.inverse_dynamics_derivatives(&[0.0]).expect_err("too few");
     assert_eq!(error.code(), "wrong-length");
+}
+
+#[test]
+fn a_mechanism_without_freedoms_and_the_ground_have_empty_answers() {
+    for dimension in [Dimension::Planar, Dimension::Spatial] {
+        let scene = random::guided_whole(random::guided(random::tree(1, dimension, 3), 1, 4), 1, 4);
+        let mut tree = tree(&scene);
+        let n = tree.velocities().len();
+        let none = vec![0.0; n];
+        for body in [BodyId::Ground, BodyId::Body(0)] {
+            let at = [0.1, 0.0, 0.0];
+            assert_eq!(tree.jacobian_at(body, at).columns, n);
+            assert_eq!(tree.jacobian_rate_at(body, at).columns, n);
+            let mobility = tree.mobility_at(body, at).expect("no loops");
+            assert!(n > 0 || mobility.data.iter().all(|x| *x == 0.0));
+            let place = FrameTarget { position: Some([9.0, 0.0, 0.0]), rotation: None };
+            let found = tree.inverse_kinematics(body, at, &place).expect("no loops");
+            assert_eq!(found.end, InverseKinematicsEnd::Nearest);
+        }
+        assert_eq!(tree.inverse_dynamics_derivatives(&none).expect("no loops").q.rows, n);
+        assert_eq!(tree.forward_dynamics_derivatives(&none).expect("no loops").q.rows, n);
+        assert_eq!(tree.center_of_mass_jacobian().columns, n);
+    }
 }

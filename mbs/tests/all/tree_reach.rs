@@ -69,6 +69,12 @@ fn joints_keep_their_range_and_are_named_where_it_keeps_the_body_from_its_place(
     let found = far.inverse_kinematics(tip.0, tip.1, &place(0.0, 3.0)).expect("open");
     assert_eq!(found.end, End::Nearest);
     assert!((found.distance - 1.0).abs() < 1e-9, "{found:?}");
+    let skew = FrameTarget {
+        position: None,
+        rotation: Some([[1.0, 0.1, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]),
+    };
+    let skew = far.inverse_kinematics(tip.0, tip.1, &skew).expect_err("no rotation");
+    assert_eq!(skew.code(), "no-rotation");
     let nan = far.inverse_kinematics(tip.0, tip.1, &place(f64::NAN, 0.0)).expect_err("no number");
     assert_eq!(nan.code(), "not-finite");
 }

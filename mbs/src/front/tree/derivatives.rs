@@ -76,6 +76,7 @@ impl Tree {
             let square = || Matrix::zeros(n, n);
             Box::new(AccelerationDerivatives { q: square(), v: square(), effort: square() })
         });
+        self.mass.resize_rows(n);
         let mut mass = core::mem::take(&mut self.mass);
         let slopes = EffortSlopes { q: &mut to.q.data, v: &mut to.v.data, a: &mut mass.data };
         self.write_slopes(slopes, true);

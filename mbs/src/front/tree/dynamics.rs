@@ -23,6 +23,7 @@ impl Tree {
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn mass_matrix(&mut self) -> &Matrix {
+        self.mass.resize_rows(self.v.len());
         let mass = &mut self.mass.data;
         with!(&mut self.inner, t => {
             t.own.write_mass_matrix(&t.model, &t.state, &mut t.workspace, mass);

@@ -39,6 +39,8 @@ pub enum TreeErrorKind {
     Length(&'static str, usize, usize),
     /// An infinite number or none: what it is, and its place.
     NotFinite(&'static str, usize),
+    /// The rows that are given are not those of a rotation.
+    NotOrthogonal,
     /// Four zeros from this place of q are no quaternion.
     NoRotation(usize),
 }
@@ -108,6 +110,11 @@ impl TreeError {
             Kind::NotFinite(what, place) => {
                 ("not-finite", "give finite numbers", format!("{what}[{place}] is not finite"))
             }
+            Kind::NotOrthogonal => (
+                "no-rotation",
+                "give unit vectors at right angles, right-handed; no rotation is 1 0 0, 0 1 0, 0 0 1",
+                "the rows of the target are not those of a rotation".into(),
+            ),
             Kind::NoRotation(place) => {
                 let message =
                     format!("q[{place}] and the three numbers behind it are no quaternion");

@@ -99,7 +99,7 @@ impl Tree {
         self.columns.resize(self.jacobian.data.len(), 0.0);
         let (rows, columns) = (&self.jacobian.data, &mut self.columns);
         let to = &mut self.frame.data;
-        with!(&mut self.inner, t => t.own.write_mobility(&self.mass.data, (rows, columns), to));
+        with!(&mut self.inner, t => t.own.write_mobility(&self.mass.data, 6, (rows, columns), to));
         Ok(&self.frame)
     }
 

@@ -11,7 +11,7 @@
 use super::inner::{Inner, Typed, with};
 use super::{Tree, TreeError, TreeErrorKind, checked};
 use crate::stop::StopError;
-use mbs_core::algebra::{Matrix as Square, Vector, rotation_vector};
+use mbs_core::algebra::{Matrix as Square, Vector, cross, rotation_vector};
 use mbs_core::scene::{BodyId, JointId};
 
 /// Most steps [-]. A reachable place takes about ten.
@@ -24,6 +24,8 @@ const MOST_DAMPING: f64 = 1e12;
 const DAMPING: [f64; 3] = [1e-3, 0.2, 8.0];
 /// Largest step of a coordinate [rad, scene lengths].
 const LARGEST_STEP: f64 = 1.0;
+/// What the rows of a target may be off from those of a rotation [-]: six digits that somebody writes.
+const ORTHOGONAL: f64 = 1e-5;
 /// What is added to a diagonal that repeated rows of loops leave without pivot [-].
 const REPEATED: f64 = 1e-13;
 
@@ -76,7 +78,7 @@ impl Tree {
     /// Cost: some tens of outward passes, and the cube of the rows of target and loops; allocates.
     ///
     /// # Errors
-    /// [`TreeErrorKind::NotFinite`]; [`TreeErrorKind::OpenLoops`] where loops cannot be closed at the start; the tree is then
+    /// [`TreeErrorKind::NotFinite`], [`TreeErrorKind::NotOrthogonal`]; [`TreeErrorKind::OpenLoops`] where loops cannot be closed at the start; the tree is then
     /// unchanged.
     ///
     /// ```
@@ -104,6 +106,9 @@ impl Tree {
         let position = target.position.unwrap_or_default();
         checked("position", &position, 3)?;
         checked("rotation", &target.rotation.unwrap_or_default().concat(), 9)?;
+        if !target.rotation.is_none_or(|rows| is_rotation(&rows)) {
+            return Err(TreeErrorKind::NotOrthogonal.into());
+        }
         let start = self.q.clone();
         let rest = vec![0.0; self.v.len()];
         self.close_loops(&start)?;
@@ -210,9 +215,8 @@ impl Search {
             error.extend(target.iter().zip(now).map(|(x, y)| (x - y) / self.length));
         }
         if let Some(target) = self.target.rotation {
-            let now = Square::<f64, 3>::from_fn(|i, j| tree.pose(self.body).rotation[i][j]);
-            let wanted = Square::<f64, 3>::from_fn(|i, j| target[i][j]);
-            error.extend(Vector::<f64, 3>::iter(&rotation_vector(&(wanted * now.transpose()))));
+            let now = matrix(&tree.pose(self.body).rotation);
+            error.extend(rotation_vector(&(matrix(&target) * now.transpose())).iter());
         }
         error
     }
@@ -284,6 +288,18 @@ impl Search {
         let at = self.ranges.iter().filter(|&&([place, _], _, range)| is_at(q[place], range));
         at.map(|&(_, joint, _)| joint).collect()
     }
+}
+
+/// Are the rows at right angles, of unit length and right-handed, but for six digits?
+fn is_rotation(rows: &[[f64; 3]; 3]) -> bool {
+    let rotation = matrix(rows);
+    let off = (rotation * rotation.transpose() - Square::<f64, 3>::identity()).amax();
+    let third = cross(&Vector::from(rows[0]), &Vector::from(rows[1]));
+    off < ORTHOGONAL && third.dot(&Vector::from(rows[2])) > 0.0
+}
+
+fn matrix(rows: &[[f64; 3]; 3]) -> Square<f64, 3> {
+    Square::<f64, 3>::from_fn(|i, j| rows[i][j])
 }
 
 fn dot(a: &[f64], b: &[f64]) -> f64 {

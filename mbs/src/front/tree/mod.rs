@@ -115,7 +115,8 @@ impl Tree {
             answer: zero.clone(),
             tree: zero.clone(),
             zero,
-            mass: Matrix::zeros(n, n),
+            // as large as its square, from the first call that asks for it
+            mass: Matrix::zeros(0, n),
             loops: Matrix::zeros(rows, n),
             jacobian: Matrix::zeros(6, n),
             rows: vec![0.0; n * rows],
