@@ -109,6 +109,7 @@ pub(crate) fn results(path: &Path, set: &[String]) -> Result<ResultTable, Refusa
             let message = format!("--set changes scenes, and `{}` has results", path.display());
             return Err(Refusal::new("set-refused", message, "give a scene, or leave --set out"));
         }
+        files::warn_of_mixed(path);
         return ResultTable::open(path).map_err(|error| unreadable(&error));
     }
     let overrides = Method { interrupt: signals::heeded(), ..Method::default() };
@@ -165,7 +166,11 @@ fn lines(found: &Difference, within: Option<f64>) -> Vec<String> {
             _ => String::new(),
         };
         let share = number(*relative);
-        lines.push(format!("  largest difference: {share} of the range, of {name}{verdict}"));
+        lines.push(if *relative > 0.0 {
+            format!("  largest difference: {share} of the range, of {name}{verdict}")
+        } else {
+            "  no difference beyond rounding".to_owned()
+        });
     }
     lines
 }

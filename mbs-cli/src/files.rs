@@ -59,14 +59,19 @@ pub(crate) fn with_inputs(
 /// Takes a directory for results in these files; else the refusal.
 pub(crate) fn folder(out: &Path, files: &[&str]) -> Result<Folder, Refusal> {
     let folder = Folder::open(out, files).map_err(|error| Refusal::folder(out, &error))?;
-    if let Some([file, object]) = folder.mixed() {
+    warn_of_mixed(out);
+    Ok(folder)
+}
+
+/// Warns of files in a directory that do not belong to its results.
+pub(crate) fn warn_of_mixed(folder: &Path) {
+    if let Some([file, object]) = Folder::mixed_in(folder) {
         warn(&format!(
             "warning: `{file}` in `{}` does not belong to the results of `{object}`: it was changed, or a process was killed between two \
              files",
-            out.display()
+            folder.display()
         ));
     }
-    Ok(folder)
 }
 
 /// Writes a file that is named alone, unless it is the one that was read; else the refusal.

@@ -89,8 +89,8 @@ fn inspected(arguments: &Arguments) -> Result<Value, Refusal> {
         // a state is whole: a value of the scene's own start could be in the way of it
         mechanism.clear_initial_conditions();
     }
-    for given in &given {
-        start(&mut mechanism, given)?;
+    if !given.is_empty() {
+        begin(&mut mechanism, &given)?;
     }
     let simulation = mechanism.simulate(&Method::default()).map_err(|error| refused(&error))?;
     let mut tree = mechanism.tree().map_err(|error| refused(&error))?;
@@ -106,6 +106,11 @@ fn inspected(arguments: &Arguments) -> Result<Value, Refusal> {
     object.insert("v".into(), json!(tree.velocities()));
     for word in QUANTITIES.into_iter().filter(|word| is_asked(word)) {
         let value = quantity(word, &mut tree, &efforts).map_err(|error| refused(&error))?;
+        if !is_finite(&value) {
+            let message = format!("{word} at this state are no finite numbers");
+            let hint = "give smaller efforts and rates";
+            return Err(Refusal::new("state-refused", message, hint));
+        }
         object.insert(word.replace('-', "_"), value);
     }
     Ok(Value::Object(object))
@@ -222,6 +227,11 @@ fn of_file(path: &Path, mechanism: &Mechanism) -> Result<Vec<Given>, Refusal> {
         entries.push((base_joint(mechanism).map_err(&refused)?, base));
     }
     for (name, entry) in &entries {
+        let keys = entry.as_object().ok_or_else(|| refused(format!("`{name}` is no object")))?;
+        let unknown = keys.keys().find(|key| !["value", "rate", "effort"].contains(&key.as_str()));
+        if let Some(key) = unknown {
+            return Err(refused(format!("unknown key `{key}` of `{name}`")));
+        }
         let numbers = |key: &str| {
             numbers(entry.get(key)).map_err(|()| {
                 refused(format!("`{key}` of `{name}` is no number and no list of them"))
@@ -256,16 +266,53 @@ fn numbers(value: Option<&Value>) -> Result<Option<Vec<f64>>, ()> {
     }
 }
 
-/// Puts a joint where the state has it.
-fn start(mechanism: &mut Mechanism, given: &Given) -> Result<(), Refusal> {
-    let joint = mechanism.find::<JointId>(&given.name).map_err(|error| {
-        Refusal::new("state-refused", error.to_string(), error.hint().unwrap_or_default())
-    })?;
-    let decimal = |list: &Option<Vec<f64>>| {
-        list.as_ref().map(|list| list.iter().map(|x| Number::from(*x)).collect())
-    };
-    mechanism.add(InitialCondition::joint(joint, decimal(&given.value), decimal(&given.rate)));
+/// Puts the joints where the state has them. A joint that no row ties to others stands as the model is drawn, at rest, where the state says
+/// nothing: else all bodies would share in the motion of those that it names. Of the others the rest follows.
+fn begin(mechanism: &mut Mechanism, given: &[Given]) -> Result<(), Refusal> {
+    for given in given {
+        mechanism.find::<JointId>(&given.name).map_err(|error| {
+            Refusal::new("state-refused", error.to_string(), error.hint().unwrap_or_default())
+        })?;
+    }
+    let mut tree = mechanism.tree().map_err(|error| refused(&error))?;
+    let rows = tree.loop_jacobian().clone();
+    let is_tied = |column: usize| (0..rows.rows).any(|row| rows[(row, column)] != 0.0);
+    let joints: Vec<JointId> = mechanism.ids::<JointId>().collect();
+    for joint in joints {
+        let own = given.iter().rev().find(|given| given.name == mechanism.name(joint));
+        let range = tree.coordinates_of(joint).map(|range| range.v).ok().filter(|v| !v.is_empty());
+        let held = range.clone().filter(|v| !v.clone().any(is_tied)).map(|v| vec![0.0; v.len()]);
+        let [value, rate] = [
+            ("value", own.and_then(|own| own.value.clone())),
+            ("rate", own.and_then(|own| own.rate.clone())),
+        ]
+        .map(|(key, numbers)| match (&range, numbers) {
+            (Some(v), Some(numbers)) if numbers.len() != v.len() => {
+                let name = mechanism.name(joint);
+                let message = format!("`{key}` of `{name}` has {} numbers", numbers.len());
+                Err(Refusal::new("state-refused", message, format!("write {}", v.len())))
+            }
+            (_, numbers) => Ok(numbers.or_else(|| held.clone())),
+        });
+        let decimal = |list: Option<Vec<f64>>| {
+            list.map(|list| list.into_iter().map(Number::from).collect::<Vec<_>>())
+        };
+        let (value, rate) = (decimal(value?), decimal(rate?));
+        if value.is_some() || rate.is_some() {
+            mechanism.add(InitialCondition::joint(joint, value, rate));
+        }
+    }
     Ok(())
+}
+
+/// Has JSON no place where a number was not finite?
+fn is_finite(value: &Value) -> bool {
+    match value {
+        Value::Null => false,
+        Value::Array(list) => list.iter().all(is_finite),
+        Value::Object(object) => object.values().all(is_finite),
+        _ => true,
+    }
 }
 
 /// What each row is of, and the efforts along all rows.
@@ -320,8 +367,11 @@ fn matrix_text(name: &str, rows: &Value) -> String {
 /// The same for people: a line for each row, then what else was asked for.
 fn text(object: &Value) -> String {
     let list = |key: &str| object[key].as_array().cloned().unwrap_or_default();
-    let columns = ["v", "accelerations", "efforts", "gravity", "bias"];
-    let there: Vec<&str> = columns.into_iter().filter(|key| object[key].is_array()).collect();
+    // a rotation has more numbers in q than rows
+    let columns = ["q", "v", "accelerations", "efforts", "gravity", "bias"];
+    let n = list("rows").len();
+    let there: Vec<&str> =
+        columns.into_iter().filter(|key| object[key].is_array() && list(key).len() == n).collect();
     let mut out = format!("{:<4}{:<28}", "row", "joint");
     out += &there.iter().map(|key| format!("{key:>15}")).collect::<String>();
     out.push('\n');

@@ -181,13 +181,31 @@ fn states_that_no_joint_can_have_are_refused_with_the_nearest_name() {
     assert_eq!(object["jacobians"]["lower"].as_array().expect("rows").len(), 6);
     let loops = super::scene("four-bar");
     let refused = run("inspect", &[&loops, "--what", "derivatives"]);
-    assert!(text(&refused.stderr).contains("this joint closes a loop"), "{refused:?}");
+    assert!(
+        text(&refused.stderr).contains("`end-0`: derivatives of accelerations are of open trees"),
+        "{refused:?}"
+    );
+    // joints that are not named stay as they are drawn
+    let asked = ["--joint=pivot=0.4", "--what=accelerations", "--json"];
+    let object = done(&run("inspect", &[&[scene.as_str()][..], &asked].concat()));
+    assert_eq!(flat(&object["q"]), [0.4, 0.0]);
     // the base is the only free joint
     let state = file("base.json");
     std::fs::write(&state, "{\"base\": {\"rate\": [1, 0, 0, 0, 0, 2]}}").expect("a folder");
     let state = state.to_str().expect("UTF-8");
     let refused = run("inspect", &[&scene, "--state", state]);
     assert!(text(&refused.stderr).contains("the mechanism has none"), "{refused:?}");
+    for (entry, message) in [
+        ("{\"rates\": 1}", "unknown key `rates` of `pivot`"),
+        ("0.4", "`pivot` is no object"),
+        ("{\"value\": [1, 2]}", "`value` of `pivot` has 2 numbers"),
+        ("{\"effort\": 1e308, \"rate\": 1e200}", "no finite numbers"),
+    ] {
+        let file = file("entry.json");
+        std::fs::write(&file, format!("{{\"joints\": {{\"pivot\": {entry}}}}}")).expect("a folder");
+        let refused = run("inspect", &[&scene, "--state", file.to_str().expect("UTF-8")]);
+        assert!(text(&refused.stderr).contains(message), "{entry}: {refused:?}");
+    }
     // with a loop the rest follows
     let object =
         done(&run("inspect", &[&super::scene("four-bar"), "--joint", "start-0=0.3", "--json"]));

@@ -73,7 +73,13 @@ impl Folder {
     /// process was killed between two renames.
     #[must_use]
     pub fn mixed(&self) -> Option<[String; 2]> {
-        mixed::find(&self.path)
+        Self::mixed_in(&self.path)
+    }
+
+    /// The same of a directory that is only read.
+    #[must_use]
+    pub fn mixed_in(path: &Path) -> Option<[String; 2]> {
+        mixed::find(path)
     }
 }
 

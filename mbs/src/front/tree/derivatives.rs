@@ -121,11 +121,8 @@ impl Tree {
         if self.loops.rows == 0 {
             return Ok(());
         }
-        let cut = with!(&self.inner, t => t.model.cut_joints().next());
-        let kind = TreeErrorKind::Loops(what);
-        Err(match cut {
-            Some(joint) => TreeError::of_joint(kind, &self.scene.joints[joint].name),
-            None => kind.into(),
-        })
+        let owner = with!(&self.inner, t => t.model.owner_of_row(0));
+        let (joint, body) = self.names.of(owner);
+        Err(TreeError { kind: TreeErrorKind::Loops(what), joint, body })
     }
 }

@@ -11,8 +11,8 @@ use std::fmt;
 pub struct TreeError {
     /// What is wrong.
     pub kind: TreeErrorKind,
-    joint: Option<String>,
-    body: Option<String>,
+    pub(super) joint: Option<String>,
+    pub(super) body: Option<String>,
 }
 
 /// What is wrong.
@@ -25,7 +25,7 @@ pub enum TreeErrorKind {
     NoAccelerations(StopError),
     /// From the position no small motion closes the loops.
     OpenLoops(StopError),
-    /// What is asked is of open trees alone, and the joint closes a loop.
+    /// What is asked is of open trees alone, and the joint closes a loop, or it is a coupling that ties joints.
     Loops(&'static str),
     /// No forces move the frame in some direction: it has no inertia there, because the joints do not move it so.
     Held,
@@ -77,8 +77,8 @@ impl TreeError {
             ),
             Kind::Loops(what) => (
                 "closed-loops",
-                "take differences of the accelerations, or leave out the joints that close loops",
-                format!("{what} are of open trees, and this joint closes a loop"),
+                "take differences of the accelerations, or leave out what ties joints to each other",
+                format!("{what} are of open trees, and this closes a loop or ties joints"),
             ),
             Kind::Held => (
                 "held-frame",
