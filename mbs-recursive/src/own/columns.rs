@@ -60,6 +60,20 @@ pub(super) struct ColumnPart<T: Real> {
     pub(super) reference: V3<T>,
 }
 
+/// What the columns of a link need to know of it, side by side.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct OwnLink<T: Real> {
+    /// Its origin from that of the first link on the way from the ground.
+    pub(super) place: V3<T>,
+    /// Its parent; of a free one the ground.
+    pub(super) parent: usize,
+    pub(super) columns: Range<usize>,
+    /// The parts of its joint.
+    pub(super) parts: Range<usize>,
+    /// Its tensor about its origin in reference axes: xx, xy, xz, yy, yz, zz.
+    pub(super) tensor: [T; 6],
+}
+
 /// The freedoms of a tree in the joints' own order and sense, with the scratch of what is made by them.
 #[derive(Debug, Clone)]
 pub struct OwnFreedoms<T: Real, S: Space<T>> {
@@ -74,18 +88,14 @@ pub struct OwnFreedoms<T: Real, S: Space<T>> {
     pub(super) below: Vec<Vec<u32>>,
     /// From the least to the largest of all these numbers and its own, for each column; likewise.
     pub(super) related: Vec<Range<usize>>,
-    /// The columns of each link.
-    pub(super) of_link: Vec<Range<usize>>,
-    /// The parts of each link's joint.
-    pub(super) parts_of: Vec<Range<usize>>,
+    /// The links, the ground first.
+    pub(super) links: Vec<OwnLink<T>>,
     /// Links on the way from the ground to one of them.
     pub(super) way: Vec<usize>,
-    /// The parent of each link; of a free one the ground.
-    pub(super) parent: Vec<usize>,
-    /// Tensors of the links about their origins in reference axes: xx, xy, xz, yy, yz, zz.
-    pub(super) tensors: Vec<[T; 6]>,
     /// Each column about its link's origin.
     pub(super) columns: Vec<Six<T>>,
+    /// Each column about the origin of the first link on the way from the ground.
+    pub(super) rooted: Vec<Six<T>>,
     pub(super) composite: Vec<Moments<T>>,
     /// A row of a solution.
     pub(super) row: Vec<T>,
@@ -110,26 +120,21 @@ impl<T: Real, S: Space<T>> OwnFreedoms<T, S> {
             above: Vec::new(),
             below: Vec::new(),
             related: Vec::new(),
-            of_link: vec![0..0; links.len()],
-            parts_of: vec![0..0; links.len()],
+            links: Vec::with_capacity(links.len()),
             way: Vec::with_capacity(links.len()),
-            parent: links.iter().map(|l| l.parent as usize).collect(),
-            tensors: vec![[T::ZERO; 6]; links.len()],
             columns: vec![Six::zero(); model.n_freedoms()],
+            rooted: vec![Six::zero(); model.n_freedoms()],
             composite: vec![Moments::zero(); links.len()],
             row: Vec::new(),
             least: vec![T::ZERO; model.n_freedoms()],
             space: core::marker::PhantomData,
         };
         let mut last = vec![NONE; links.len()];
-        for (i, (link, place)) in links.iter().zip(places).enumerate().skip(1) {
+        for (i, (link, place)) in links.iter().zip(places).enumerate() {
             let is_free = link.kind == LinkKind::Free;
-            if is_free {
-                made.parent[i] = 0;
-            }
-            made.tensors[i] = tensor::<T, S>(&link.tensor);
+            let parent = if is_free { 0 } else { link.parent as usize };
             let (first, first_part) = (made.number.len(), made.parts.len());
-            let before = last[made.parent[i]];
+            let before = last[parent];
             for (kind, numbers) in parts::<T, S>(link.kind, place) {
                 let columns = made.number.len()..made.number.len() + numbers.len();
                 for number in numbers {
@@ -140,8 +145,13 @@ impl<T: Real, S: Space<T>> OwnFreedoms<T, S> {
                 let (point, reference) = (place.point, place.reference);
                 made.parts.push(ColumnPart { link: i, kind, columns, is_free, point, reference });
             }
-            made.of_link[i] = first..made.number.len();
-            made.parts_of[i] = first_part..made.parts.len();
+            made.links.push(OwnLink {
+                place: V3::zeros(),
+                parent,
+                columns: first..made.number.len(),
+                parts: first_part..made.parts.len(),
+                tensor: tensor::<T, S>(&link.tensor),
+            });
             last[i] = if made.number.len() > first { index(made.number.len() - 1) } else { before };
         }
         made
@@ -183,7 +193,7 @@ impl<T: Real, S: Space<T>> OwnFreedoms<T, S> {
         self.way.clear();
         while link > 0 {
             self.way.push(link);
-            link = self.parent[link];
+            link = self.links[link].parent;
         }
         self.way.reverse();
         let m = model.mechanism();
@@ -191,7 +201,7 @@ impl<T: Real, S: Space<T>> OwnFreedoms<T, S> {
         model.prescribed().write(state.t, &state.applied, s.guides, s.courses);
         own(positions(m.links, self.way.iter().copied(), (&state.z, s.guides), s.placed));
         for i in 0..self.way.len() {
-            self.write_columns_of(&m, self.parts_of[self.way[i]].clone(), s.placed);
+            self.write_columns_of(&m, self.links[self.way[i]].parts.clone(), s.placed);
         }
     }
 

@@ -66,7 +66,7 @@ impl<T: Real, S: Space<T>> OwnFreedoms<T, S> {
         self.write_moving(&m, (s.placed, s.a), moving);
         for i in (1..m.links.len()).rev() {
             let (before, behind) = moving.sums.split_at_mut(i);
-            before[self.parent[i]] += behind[0];
+            before[self.links[i].parent] += behind[0];
         }
         for part in &self.parts {
             for c in part.columns.clone() {
@@ -74,7 +74,7 @@ impl<T: Real, S: Space<T>> OwnFreedoms<T, S> {
             }
         }
         for rotor in m.rotors {
-            for c in self.of_link[rotor.link as usize].clone() {
+            for c in self.links[rotor.link as usize].columns.clone() {
                 slopes.a[self.number[c] as usize * (n + 1)] += rotor.inertia;
             }
         }

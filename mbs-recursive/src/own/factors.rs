@@ -34,8 +34,8 @@ impl<T: Real, S: Space<T>> OwnFreedoms<T, S> {
             let k = self.number[c] as usize;
             let pivot = mass[k * n + k];
             if !(pivot > self.least[k]) {
-                let holds = |columns: &core::ops::Range<usize>| columns.contains(&c);
-                return Err(self.of_link.iter().position(holds).unwrap_or(0));
+                let link = self.links.iter().position(|link| link.columns.contains(&c));
+                return Err(link.unwrap_or(0));
             }
             let inverse = T::ONE / pivot;
             // M_ij −= M_ki M_kj / D_k for i, j on the way to the ground, L_ki = M_ki / D_k

@@ -33,7 +33,7 @@ impl<T: Real, S: Space<T>> OwnFreedoms<T, S> {
         rows.fill(T::ZERO);
         let mut arm = S::point_into(&S::rotate(&placed[link as usize].rotation, &point));
         for &i in self.way.iter().rev() {
-            for c in self.of_link[i].clone() {
+            for c in self.links[i].columns.clone() {
                 let column = self.columns[c].at(&arm);
                 put(rows, (n, self.number[c] as usize), [column.push, column.turn]);
             }
@@ -68,14 +68,14 @@ impl<T: Real, S: Space<T>> OwnFreedoms<T, S> {
         let x = S::point_into(&(p.position + S::rotate(&p.rotation, &point))) - moving.origin;
         let velocity = moving.motions[i].v.at(&x).push;
         while i > 0 {
-            for c in self.of_link[i].clone() {
+            for c in self.links[i].columns.clone() {
                 let there = &moving.columns[c];
                 // d/dt (S_v + S_ω × x)
                 let rate = there.rate.at(&x);
                 let push = rate.push + cross(&there.column.turn, &velocity);
                 put(rows, (n, self.number[c] as usize), [push, rate.turn]);
             }
-            i = self.parent[i];
+            i = self.links[i].parent;
         }
     }
 
@@ -103,12 +103,12 @@ impl<T: Real, S: Space<T>> OwnFreedoms<T, S> {
         let part = if total > T::ZERO { T::ONE / total } else { T::ZERO };
         for i in (1..links.len()).rev() {
             let (mass, first) = (self.composite[i].mass, self.composite[i].first);
-            for c in self.of_link[i].clone() {
+            for c in self.links[i].columns.clone() {
                 let column = &self.columns[c];
                 let moved = (column.push * mass + cross(&column.turn, &first)) * part;
                 put(rows, (n, self.number[c] as usize), [moved, V3::zeros()]);
             }
-            let parent = &mut self.composite[self.parent[i]];
+            let parent = &mut self.composite[self.links[i].parent];
             parent.mass += mass;
             parent.first += first + S::point_into(&placed[i].arm) * mass;
         }

@@ -1,8 +1,9 @@
 //! The mass matrix by composite bodies.
 
 use super::OwnFreedoms;
-use super::six::{Moments, Six, dot};
-use crate::link::{Link, LinkKind, LinkMotion};
+use super::columns::NONE;
+use super::six::{Moments, V3};
+use crate::link::{Link, LinkMotion};
 use crate::space::Space;
 use crate::state::{TreeState, Workspace};
 use crate::tree::TreeModel;
@@ -27,65 +28,53 @@ impl<T: Real, S: Space<T>> OwnFreedoms<T, S> {
         self.place(model, state, workspace);
         let (links, placed) = (model.mechanism().links, workspace.store().placed);
         mass.fill(T::ZERO);
-        for ((to, tensor), (link, p)) in
-            self.composite.iter_mut().zip(&self.tensors).zip(links.iter().zip(&*placed)).skip(1)
-        {
-            *to = moments(link, p, tensor);
-        }
+        self.write_rooted(links, placed);
         for i in (1..links.len()).rev() {
-            let composite = self.composite[i];
-            let parent = self.parent[i];
-            if parent > 0 {
-                self.composite[parent] += composite.gathered(&S::point_into(&placed[i].arm));
+            let (before, here) = self.composite.split_at_mut(i);
+            let (composite, own) = (&here[0], &self.links[i]);
+            if own.parent > 0 {
+                let arm = own.place - self.links[own.parent].place;
+                before[own.parent] += composite.gathered(&arm);
             }
-            for c in self.of_link[i].clone() {
-                let column = &self.columns[c];
-                let force = match links[i].kind {
-                    LinkKind::Revolute => composite.times_turn(&column.turn),
-                    _ => composite.times(column),
-                };
-                self.write_column(links, placed, (i, c, force), mass);
+            for c in own.columns.clone() {
+                let force = composite.times(&self.columns[c]);
+                let row = self.number[c] as usize;
+                for k in own.columns.start..=c {
+                    let x = self.columns[k].dot(&force);
+                    let other = self.number[k] as usize;
+                    (mass[row * n + other], mass[other * n + row]) = (x, x);
+                }
+                let rooted = force.gathered(&own.place);
+                let mut k = self.up[own.columns.start];
+                while k != NONE {
+                    let x = self.rooted[k as usize].dot(&rooted);
+                    let other = self.number[k as usize] as usize;
+                    (mass[row * n + other], mass[other * n + row]) = (x, x);
+                    k = self.up[k as usize];
+                }
             }
         }
         for rotor in model.mechanism().rotors {
-            for c in self.of_link[rotor.link as usize].clone() {
+            for c in self.links[rotor.link as usize].columns.clone() {
                 mass[self.number[c] as usize * (n + 1)] += rotor.inertia;
             }
         }
     }
 
-    /// Writes what a force on a link about its origin does along the columns on the way to the ground, in a row and a column of
-    /// `mass`: those of column `c` of link `i`.
-    #[inline(always)]
-    fn write_column(
-        &self,
-        links: &[Link<T, S>],
-        placed: &[LinkMotion<T, S>],
-        (mut i, c, mut force): (usize, usize, Six<T>),
-        mass: &mut [T],
-    ) {
-        let (n, own) = (self.number.len(), self.number[c] as usize);
-        let mut put = |k: usize, x: T| {
-            let other = self.number[k] as usize;
-            (mass[own * n + other], mass[other * n + own]) = (x, x);
-        };
-        for k in self.of_link[i].start..=c {
-            put(k, self.columns[k].dot(&force));
-        }
-        while self.parent[i] > 0 {
-            force = force.gathered(&S::point_into(&placed[i].arm));
-            i = self.parent[i];
-            for k in self.of_link[i].clone() {
-                let column = &self.columns[k];
-                put(
-                    k,
-                    match links[i].kind {
-                        LinkKind::Revolute => dot(&column.turn, &force.turn),
-                        LinkKind::Prismatic => dot(&column.push, &force.push),
-                        _ => column.dot(&force),
-                    },
-                );
+    /// Writes the bodies about their links' origins, and the columns about the origin of the first link on the way from the ground. From
+    /// there the way to other links is known to rounding of its length, wherever the mechanism is.
+    fn write_rooted(&mut self, links: &[Link<T, S>], placed: &[LinkMotion<T, S>]) {
+        for (i, (link, p)) in links.iter().zip(placed).enumerate().skip(1) {
+            let own = &self.links[i];
+            let place = match own.parent {
+                0 => V3::zeros(),
+                parent => self.links[parent].place + S::point_into(&p.arm),
+            };
+            self.composite[i] = moments(link, p, &own.tensor);
+            for c in own.columns.clone() {
+                self.rooted[c] = self.columns[c].at(&-place);
             }
+            self.links[i].place = place;
         }
     }
 }

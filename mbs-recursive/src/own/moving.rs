@@ -104,7 +104,7 @@ impl<T: Real, S: Space<T>> OwnFreedoms<T, S> {
             let turning = cross(&v.turn, &v.push);
             let a = Six { turn: a.turn, push: a.push - turning }.at(&-r);
             let motion = Motion { v: v.at(&-r), a };
-            let own = moments(&m.links[i], p, &self.tensors[i]).gathered(&r);
+            let own = moments(&m.links[i], p, &self.links[i].tensor).gathered(&r);
             to.sums[i] = Sums::body(own, &motion.v, &motion.a);
             to.motions[i] = motion;
         }
@@ -133,7 +133,7 @@ impl<T: Real, S: Space<T>> OwnFreedoms<T, S> {
         p: &LinkMotion<T, S>,
         to: &MovingColumns<T>,
     ) -> [Motion<T>; 2] {
-        let [before, behind] = [to.motions[self.parent[part.link]], to.motions[part.link]];
+        let [before, behind] = [to.motions[self.links[part.link].parent], to.motions[part.link]];
         match (part.is_free, part.kind) {
             (true, PartKind::ParentSlides | PartKind::ChildBall) => {
                 // the body's point, without its turning

@@ -130,12 +130,6 @@ impl<T: Real> Moments<T> {
         }
     }
 
-    /// Momentum of a turn n about the point.
-    #[inline(always)]
-    pub(super) fn times_turn(&self, n: &V3<T>) -> Six<T> {
-        Six { turn: self.turning(n), push: cross(n, &self.first) }
-    }
-
     /// About the point from which the present one is at `arm`.
     #[inline(always)]
     pub(super) fn gathered(&self, arm: &V3<T>) -> Self {
