@@ -42,10 +42,10 @@ const DEFAULT: usize = 8;
 pub(crate) struct Arguments {
     #[command(flatten)]
     scene: SceneArgument,
-    /// State, JSON: {"joints": {NAME: {"value": X, "rate": X, "effort": X}}, "base": {..}}, each a number or a list; `base` is the only free joint. What it leaves out follows. Default: the start of the scene.
+    /// State, JSON: {"joints": {NAME: {"value": X, "rate": X, "effort": X}}, "base": {..}}, each a number or a list; `base` is the only free joint. What it leaves out stays as it is drawn, or follows a loop. Default: the start of the scene.
     #[arg(long, value_name = "FILE")]
     state: Option<PathBuf>,
-    /// Value of a joint with one coordinate, and its rate; may be repeated. Other joints follow. Default: the start of the scene.
+    /// Value of a joint with one coordinate, and its rate; may be repeated. Other joints stay as they are drawn, or follow a loop. Default: the start of the scene.
     #[arg(long, value_name = "NAME=VALUE[,RATE]", allow_hyphen_values = true)]
     joint: Vec<String>,
     /// What is computed: accelerations, efforts (that keep all rates), gravity, bias, mass-matrix, loops, momentum, frames, jacobians (of all frames), derivatives (of accelerations). Default: all but the last two.
