@@ -116,7 +116,7 @@ fn pair<'a>(fields: &Fields<'a>, joints: &'a [Joint<Number>]) -> Read<[Named<'a>
 
 fn radii(fields: &Fields<'_>) -> Read<[Number; 2]> {
     let item = fields.need("radii")?;
-    let radii: [Number; 2] = fields.context.numbers_of(item, "a list of two radii")?;
+    let radii: [Number; 2] = fields.at("radii").numbers_of(item, "a list of two radii")?;
     positive(fields, item, &radii)?;
     Ok(radii)
 }
@@ -155,7 +155,7 @@ fn gear<'a>(fields: &Fields<'a>, joints: &'a [Joint<Number>]) -> Read<Vec<Coupli
     }
     let [first, second] = pair(fields, joints)?;
     if let Some(ratio) = fields.get("ratio") {
-        let ratio = fields.context.number(ratio)?;
+        let ratio = fields.at("ratio").number(ratio)?;
         return Ok(vec![second.turn(fields, one())?, first.turn(fields, minus(ratio))?]);
     }
     let (item, sizes) = if let Some(item) = fields.get("teeth") {
@@ -217,7 +217,7 @@ const TWO_PI: &str = "6.28318530717958647692528676655900576839433879875021";
 fn screw<'a>(fields: &Fields<'a>, joints: &'a [Joint<Number>]) -> Read<Vec<CouplingTerm<Number>>> {
     fields.exclusive("joint", "joints")?;
     let item = fields.need("lead")?;
-    let lead = fields.context.number(item)?;
+    let lead = fields.at("lead").number(item)?;
     if lead.is_zero() {
         return fields.context.fault(&item.span, ReadFault::NoLead);
     }
@@ -278,7 +278,7 @@ fn rope<'a>(fields: &Fields<'a>, joints: &'a [Joint<Number>]) -> Read<Sum> {
                     (d(0) * d(0) + d(1) * d(1) + d(2) * d(2)).sqrt()
                 })
                 .sum();
-            context.number(item)? + Number::from(-reference)
+            fields.at("length").number(item)? + Number::from(-reference)
         }
     };
     let line = CouplingTerm { factor: one(), of: CouplingMeasure::Length { points }, curve: None };

@@ -5,7 +5,7 @@ mod value;
 use crate::read::ReadFault;
 use crate::read::coupling::ball_angle;
 use crate::read::fields::{Fields, Read};
-use crate::read::tree::Node;
+use crate::read::tree::{Item, Node};
 use mbs_core::effects::{Default, EFFECTS, Field, Form, Value};
 use mbs_core::scene::{AxisFrame, BallAngle, Effect, EffectKind, Joint, Number, Signal};
 
@@ -28,6 +28,7 @@ pub(crate) fn read(
         }
         None => choose(fields, &named)?,
     };
+    let fields = &on_coordinate(fields, joints)?;
     let is_swing = on_ball.is_some_and(|(_, angle)| angle == BallAngle::Swing);
     let all = EFFECTS[row].fields;
     let written = all.iter().map(|field| value::read(fields, field, (word, joints)));
@@ -52,6 +53,21 @@ pub(crate) fn read(
         Some(kind) => Ok(Effect { name, enabled, kind }),
         None => fields.context.fault(fields.header, ReadFault::Missing { key: "kind" }),
     }
+}
+
+/// The fields of an effect on a coordinate of a joint: one that is named, or the only one.
+fn on_coordinate<'a>(fields: &Fields<'a>, joints: &[Joint<Number>]) -> Read<Fields<'a>> {
+    let Some(joint) = fields.get("joint") else { return Ok(*fields) };
+    let joint = &joints[fields.context.joint(joint)?.index()];
+    let angles = BallAngle::ALL.map(BallAngle::name);
+    Ok(match fields.get("coordinate") {
+        Some(Item { node: Node::Text(word), .. }) if angles.contains(&word.as_str()) => *fields,
+        Some(item) => fields.about(joint.kind, fields.coordinate(item, joint)?),
+        None if joint.kind.n_coordinates(fields.context.dimension) == 1 => {
+            fields.about(joint.kind, 0)
+        }
+        None => *fields,
+    })
 }
 
 /// The kind on a sum, where a kind with a joint is on an angle of a ball, and which angle.

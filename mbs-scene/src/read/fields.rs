@@ -3,7 +3,6 @@
 use crate::keys::{self, KeyTable, KeyValue};
 use crate::read::ReadFault;
 pub(crate) use crate::read::error::Read;
-use crate::read::expression::unit;
 use crate::read::names::Names;
 use crate::read::point;
 use crate::read::texts::Texts;
@@ -21,7 +20,14 @@ pub(crate) struct Context<'a> {
     pub(crate) signals: &'a Names,
     pub(crate) frames: Frames<'a>,
     pub(crate) values: &'a Values<'a>,
+    /// The key of which numbers are read, with its unit; `None`: any unit may stand there.
+    pub(crate) unit: Option<KeyUnit>,
+    /// Is the coordinate of which a table speaks a slide? `None`: that is not known.
+    pub(crate) is_slide: Option<bool>,
 }
+
+/// A key, and its unit.
+pub(crate) type KeyUnit = (&'static str, &'static str);
 
 /// The frames of a file.
 #[derive(Debug, Clone, Copy)]
@@ -52,7 +58,8 @@ impl<'a> Context<'a> {
     pub(crate) fn of_file(texts: &'a Texts, values: &'a Values<'a>, none: &'a Names) -> Self {
         let (bodies, joints, signals) = (none, none, none);
         let frames = Frames { names: none, items: &[] };
-        Self { texts, dimension: Dimension::Planar, bodies, joints, signals, frames, values }
+        let (dimension, unit, is_slide) = (Dimension::Planar, None, None);
+        Self { texts, dimension, bodies, joints, signals, frames, values, unit, is_slide }
     }
 
     pub(crate) fn fault<R>(&self, span: &Span, fault: ReadFault) -> Read<R> {
@@ -63,7 +70,7 @@ impl<'a> Context<'a> {
         self.dimension == Dimension::Planar
     }
 
-    fn wrong_type<R>(&self, item: &Item, expected: &'static str) -> Read<R> {
+    pub(crate) fn wrong_type<R>(&self, item: &Item, expected: &'static str) -> Read<R> {
         let found = item.node.description();
         self.fault(&item.span, ReadFault::WrongType { expected, found })
     }
@@ -77,7 +84,8 @@ impl<'a> Context<'a> {
     ) -> Read<Fields<'a>> {
         let Node::Table(members) = &item.node else { return self.wrong_type(item, expected) };
         let tables = keys::of(header);
-        let fields = Fields { context: *self, header: &item.span, members, tables };
+        let context = Context { unit: None, ..*self };
+        let fields = Fields { context, header: &item.span, members, tables };
         if tables.len() == 1 { fields.checked() } else { Ok(fields) }
     }
 
@@ -120,41 +128,6 @@ impl<'a> Context<'a> {
         }
     }
 
-    /// The nearest number to the decimal text; finite.
-    pub(crate) fn number(&self, item: &Item) -> Read<Number> {
-        let text = match &item.node {
-            Node::Number(text) => text,
-            Node::Text(text) => return Ok(self.values.number(text, &item.span)?.0),
-            _ => return self.wrong_type(item, "a number"),
-        };
-        match Number::from_decimal(text) {
-            Some(number) if number.to_f64().is_finite() => Ok(number),
-            _ => self.fault(&item.span, ReadFault::NotFinite { text: text.clone() }),
-        }
-    }
-
-    /// One number or a list of numbers.
-    pub(crate) fn numbers(&self, item: &'a Item) -> Read<Vec<Number>> {
-        match &item.node {
-            Node::Number(_) | Node::Text(_) => Ok(vec![self.number(item)?]),
-            Node::List(items) => items.iter().map(|entry| self.number(entry)).collect(),
-            _ => self.wrong_type(item, "a number or a list of numbers"),
-        }
-    }
-
-    /// Exactly `N` numbers.
-    pub(crate) fn numbers_of<const N: usize>(
-        &self,
-        item: &'a Item,
-        expected: &'static str,
-    ) -> Read<[Number; N]> {
-        let mut numbers = [const { Number::ZERO }; N];
-        for (number, item) in numbers.iter_mut().zip(self.exactly::<N>(item, expected)?) {
-            *number = self.number(item)?;
-        }
-        Ok(numbers)
-    }
-
     /// A vector of the scene's dimension that is no place, also from one place to another; a third component in a planar scene is left
     /// to the check.
     pub(crate) fn vector(&self, item: &'a Item) -> Read<[Number; 3]> {
@@ -182,19 +155,6 @@ impl<'a> Context<'a> {
             return Ok(place.at);
         }
         self.fault(&item.span, ReadFault::WrongCount { needed, found: place.n })
-    }
-
-    /// The components of a vector that stand in `items`, a part of `whole`.
-    pub(crate) fn components(&self, whole: &Item, items: &[Item]) -> Read<[Number; 3]> {
-        let needed = self.dimension.count();
-        if items.len() != needed && items.len() != 3 {
-            return self.fault(&whole.span, ReadFault::WrongCount { needed, found: items.len() });
-        }
-        let mut vector = [const { Number::ZERO }; 3];
-        for (component, item) in vector.iter_mut().zip(items) {
-            *component = self.number(item)?;
-        }
-        Ok(vector)
     }
 
     /// A body, and no frame.
@@ -366,27 +326,11 @@ impl<'a> Fields<'a> {
     }
 
     pub(crate) fn number(&self, key: &'static str) -> Read<Number> {
-        self.in_unit(key, self.need(key)?)
+        self.at(key).number(self.need(key)?)
     }
 
     pub(crate) fn optional(&self, key: &str) -> Read<Option<Number>> {
-        self.get(key).map(|item| self.in_unit(key, item)).transpose()
-    }
-
-    /// A number; one that is written with a unit alone must have the dimensions of the key's.
-    fn in_unit(&self, key: &str, item: &Item) -> Read<Number> {
-        let Node::Text(text) = &item.node else { return self.context.number(item) };
-        let (number, dimensions) = self.context.values.number(text, &item.span)?;
-        let known = self.tables.iter().find_map(|table| table.key(key));
-        let Some((dimensions, key)) = dimensions.zip(known) else { return Ok(number) };
-        let ways = unit::of_key(key.unit);
-        if ways.is_empty() || ways.contains(&dimensions) {
-            return Ok(number);
-        }
-        let found = unit::described(dimensions);
-        let (key, unit) = (key.name, key.unit);
-        let fault = ReadFault::OtherUnit { key, unit, text: text.clone(), found };
-        self.context.fault(&item.span, fault)
+        self.get(key).map(|item| self.at(key).number(item)).transpose()
     }
 
     pub(crate) fn number_or_zero(&self, key: &str) -> Read<Number> {
@@ -422,9 +366,9 @@ impl<'a> Fields<'a> {
         let value = self.tables.iter().find_map(|table| table.key(key)).map(|key| &key.value);
         match value {
             Some(KeyValue::Place | KeyValue::Places(_) | KeyValue::PlacesOrTables(_)) => {
-                self.context.place(item)
+                self.at(key).place(item)
             }
-            _ => self.context.vector(item),
+            _ => self.at(key).vector(item),
         }
     }
 

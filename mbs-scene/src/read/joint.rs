@@ -30,10 +30,17 @@ pub(crate) fn read(fields: &Fields<'_>, known: &[Body<Number>]) -> Read<Joint<Nu
             fields.need(axis_keys[i])?;
         }
         let vector =
-            |key: &str| fields.get(key).map(|item| fields.context.vector(item)).transpose();
+            |key: &str| fields.get(key).map(|item| fields.at(key).vector(item)).transpose();
         [vector("axis")?, vector("direction")?]
     };
-    Ok(Joint { name: fields.name()?, kind, bodies, points, axes, limits: read_limits(fields)? })
+    Ok(Joint {
+        name: fields.name()?,
+        kind,
+        bodies,
+        points,
+        axes,
+        limits: read_limits(fields, kind)?,
+    })
 }
 
 /// The free joint from the ground by which a body is guided, at its centre of mass or `at`; it has the body's name.
@@ -59,8 +66,10 @@ pub(crate) fn read_of_guided_body(
     }))
 }
 
-fn read_limits(fields: &Fields<'_>) -> Read<JointLimits<Number>> {
-    let range = |item| fields.context.numbers_of(item, "a list of two numbers: [lower, upper]");
+fn read_limits(fields: &Fields<'_>, kind: JointKind) -> Read<JointLimits<Number>> {
+    // a kind with other coordinates has no limits, as the scene's check says
+    let fields = &fields.about(kind, 0);
+    let range = |item| fields.at("range").numbers_of(item, "a list of two numbers: [lower, upper]");
     Ok(JointLimits {
         range: fields.get("range").map(range).transpose()?,
         effort: fields.optional("effort_limit")?,

@@ -14,6 +14,7 @@ mod hints;
 mod include;
 mod joint;
 mod json;
+mod measured;
 mod motion;
 mod named;
 mod names;

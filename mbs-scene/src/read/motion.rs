@@ -4,7 +4,10 @@ use crate::read::ReadFault;
 use crate::read::fields::{Fields, Read};
 use mbs_core::scene::{Guide, InitialCondition, InitialTarget, Joint, Motion, Number, TableEnds};
 
-pub(crate) fn read_initial(fields: &Fields<'_>) -> Read<InitialCondition<Number>> {
+pub(crate) fn read_initial(
+    fields: &Fields<'_>,
+    joints: &[Joint<Number>],
+) -> Read<InitialCondition<Number>> {
     let context = fields.context;
     fields.exclusive("joint", "body")?;
     let fields = &fields.by("body", "joint")?;
@@ -15,8 +18,13 @@ pub(crate) fn read_initial(fields: &Fields<'_>) -> Read<InitialCondition<Number>
             angular_velocity: angular_velocity(fields)?,
         },
         None => {
-            let numbers = |key| fields.get(key).map(|item| context.numbers(item)).transpose();
             let joint = context.joint(fields.need("joint")?)?;
+            let numbers = |key| {
+                fields
+                    .get(key)
+                    .map(|item| fields.at(key).coordinates(item, joints[joint.index()].kind))
+                    .transpose()
+            };
             InitialTarget::Joint { joint, value: numbers("value")?, rate: numbers("rate")? }
         }
     };
@@ -35,9 +43,9 @@ fn point_velocity(fields: &Fields<'_>) -> Read<Option<([Number; 3], [Number; 3])
 fn angular_velocity(fields: &Fields<'_>) -> Read<Option<[Number; 3]>> {
     let Some(item) = fields.get("angular_velocity") else { return Ok(None) };
     if fields.context.is_planar() {
-        return Ok(Some([Number::ZERO, Number::ZERO, fields.context.number(item)?]));
+        return Ok(Some([Number::ZERO, Number::ZERO, fields.at("angular_velocity").number(item)?]));
     }
-    fields.context.vector(item).map(Some)
+    fields.at("angular_velocity").vector(item).map(Some)
 }
 
 /// The guides of an entry: of one coordinate, or with `signals` of all coordinates of a joint, also of the free joint that a guided `body`
@@ -73,6 +81,7 @@ pub(crate) fn read_guides(
         Some(item) => fields.coordinate(item, &joints[joint.index()])?,
         None => 0,
     };
+    let fields = &fields.about(joints[joint.index()].kind, number);
     match read_motion(fields)? {
         Some(law) => Ok(vec![Guide { joint, number, law }]),
         None => {
@@ -132,13 +141,13 @@ pub(crate) fn read_ends(fields: &Fields<'_>) -> Read<TableEnds> {
 }
 
 pub(crate) fn read_table(fields: &Fields<'_>) -> Read<Vec<[Number; 2]>> {
-    let context = fields.context;
+    let context = fields.at("table");
     context
         .list(fields.need("table")?, "a list of rows [time, value]")?
         .iter()
         .map(|row| {
             let [time, value] = context.exactly(row, "a row [time, value]")?;
-            Ok([context.number(time)?, context.number(value)?])
+            Ok([context.entry(0, 2).number(time)?, context.entry(1, 2).number(value)?])
         })
         .collect()
 }

@@ -3,7 +3,7 @@
 use super::error::{ExpressionFault, Read};
 use super::expression::{Fault, evaluate, unit::Dimensions};
 use super::nearest::nearest_name;
-use super::number::{decimal, rounded};
+use super::number::{check_unit, decimal, rounded};
 use super::point::{self, Given, Point};
 use super::texts::Texts;
 use super::tree::{Item, Member, Node, Span};
@@ -217,8 +217,9 @@ impl Given for Named<'_> {
         self.texts
     }
 
-    fn number(&self, text: &str, span: &Span) -> Read<Number> {
-        let value = self.expression(text, span)?.0;
+    fn length(&self, text: &str, span: &Span) -> Read<Number> {
+        let (value, dimensions) = self.expression(text, span)?;
+        check_unit(self.texts, (text, span), dimensions, ("place", "m"))?;
         rounded(self.texts, value, (text, span))
     }
 

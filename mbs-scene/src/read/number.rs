@@ -2,6 +2,7 @@
 
 use super::ReadFault;
 use super::error::Read;
+use super::expression::unit::{self, Dimensions};
 use super::texts::Texts;
 use super::tree::Span;
 use mbs_core::real::DoubleDouble;
@@ -29,4 +30,21 @@ pub(super) fn rounded(
     let decimal = format!("{}0e{exponent}", digits.trim_end_matches('0'));
     let number = Number::from_decimal(&decimal).filter(|number| number.to_f64().is_finite());
     number.ok_or_else(|| texts.error(span, ReadFault::NotFinite { text: text.to_owned() }))
+}
+
+/// Refuses a number with a unit alone of other dimensions than the key's.
+pub(super) fn check_unit(
+    texts: &Texts,
+    (text, span): (&str, &Span),
+    dimensions: Option<Dimensions>,
+    (key, unit): (&'static str, &'static str),
+) -> Read<()> {
+    let ways = unit::of_key(unit);
+    match dimensions {
+        Some(dimensions) if !ways.is_empty() && !ways.contains(&dimensions) => {
+            let (text, found) = (text.to_owned(), unit::described(dimensions));
+            Err(texts.error(span, ReadFault::OtherUnit { key, unit, text, found }))
+        }
+        _ => Ok(()),
+    }
 }

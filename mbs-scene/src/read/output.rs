@@ -89,7 +89,7 @@ fn target(
     let frame = || fields.context.body(fields.need("relative_to")?);
     // the centre of mass where no place is written
     let place_on = |body: BodyId, key| match fields.get(key).or_else(|| fields.of_frame(key)) {
-        Some(item) => fields.context.place(item),
+        Some(item) => fields.at(key).place(item),
         None => Ok(body
             .index()
             .and_then(|i| centers.get(i).cloned())
@@ -139,6 +139,7 @@ pub(crate) fn read_solver(fields: &Fields<'_>) -> Read<SolverTable<Number>> {
         None => None,
         Some(item) => {
             let [upper, lower] = context.exactly(item, "a list of two numbers: [U, L]")?;
+            let context = fields.at("energy_tolerance");
             Some([context.number(upper)?, context.number(lower)?])
         }
     };

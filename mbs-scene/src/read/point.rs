@@ -18,8 +18,8 @@ pub(super) struct Point {
 /// What gives the values of names.
 pub(super) trait Given {
     fn texts(&self) -> &Texts;
-    /// The value of an expression that stands there.
-    fn number(&self, text: &str, span: &Span) -> Read<Number>;
+    /// The length of an expression that stands there.
+    fn length(&self, text: &str, span: &Span) -> Read<Number>;
     /// The point of a full name that stands there.
     fn point(&self, name: &str, span: &Span) -> Read<Point>;
 }
@@ -56,7 +56,7 @@ fn numbers(given: &dyn Given, whole: &Item, items: &[Item]) -> Read<Point> {
     for (x, item) in at.iter_mut().zip(items) {
         *x = match &item.node {
             Node::Number(text) => decimal(given.texts(), text, &item.span)?,
-            Node::Text(text) => given.number(text, &item.span)?,
+            Node::Text(text) => given.length(text, &item.span)?,
             other => return wrong_type(given, item, "a number", other.description()),
         };
     }

@@ -98,7 +98,7 @@ fn bump(fields: &Fields<'_>) -> Read<RoadFeature<Number>> {
 }
 
 fn points(fields: &Fields<'_>) -> Read<Vec<[Number; 2]>> {
-    let context = fields.context;
+    let context = fields.at("points");
     let items = context.list(fields.need("points")?, "a list of points [x, z]")?;
     items.iter().map(|item| context.numbers_of(item, "a point [x, z]")).collect()
 }

@@ -60,6 +60,8 @@ impl SceneFile {
             joints: &joints,
             signals: &signals,
             frames: Frames { names: &frames, items: self.list("frame") },
+            unit: None,
+            is_slide: None,
         };
         self.check_tables(&context)?;
         self.check_points(&context)?;
@@ -85,11 +87,14 @@ impl SceneFile {
         let scene = Scene {
             name: self.scene_name(&header)?,
             dimension,
-            gravity: header.get("gravity").map(|item| context.vector(item)).transpose()?,
+            gravity: header
+                .get("gravity")
+                .map(|item| header.at("gravity").vector(item))
+                .transpose()?,
             duration: header.number("duration")?,
             bodies: body_data,
             initials: self
-                .entries(&context, "initial", |_, fields| motion::read_initial(fields))?,
+                .entries(&context, "initial", |_, fields| motion::read_initial(fields, &joints))?,
             guides,
             couplings,
             rollings,

@@ -35,14 +35,15 @@ fn kind<'a>(fields: &Fields<'a>, form: &str, item: &'a Item) -> Read<ShapeKind<N
     let table = fields.context.table(item, "a table with the sizes of the form", form)?;
     Ok(match form {
         "box" => {
-            let size = table.context.numbers_of(table.need("size")?, "three lengths: [x, y, z]")?;
+            let size =
+                table.at("size").numbers_of(table.need("size")?, "three lengths: [x, y, z]")?;
             let axes = table.get("axes").map(|_| table.two_vectors("axes")).transpose()?;
             ShapeKind::Box { center: table.vector("center")?, size, axes }
         }
         "polygon" => {
             let item = table.need("points")?;
             let points = table.context.list(item, "a list of places, one after the other")?;
-            let points = points.iter().map(|point| table.context.place(point));
+            let points = points.iter().map(|point| table.at("points").place(point));
             ShapeKind::Polygon { points: points.collect::<Read<_>>()? }
         }
         "mesh" => mesh(&table)?,
@@ -68,7 +69,7 @@ fn kind<'a>(fields: &Fields<'a>, form: &str, item: &'a Item) -> Read<ShapeKind<N
 fn mesh(table: &Fields<'_>) -> Read<ShapeKind<Number>> {
     let file = table.need("file")?;
     let path = table.context.text(file)?;
-    let scale = match table.get("scale").map(|item| table.context.numbers(item)).transpose()? {
+    let scale = match table.get("scale").map(|item| table.at("scale").numbers(item)).transpose()? {
         None => core::array::from_fn(|_| Number::from(1)),
         Some(factors) => match &factors[..] {
             [factor] => core::array::from_fn(|_| factor.clone()),

@@ -12,6 +12,7 @@ mod frames;
 mod guides;
 mod includes;
 mod limits;
+mod measured;
 mod outputs;
 mod points;
 mod points_by_name;

@@ -2,7 +2,7 @@
 
 use crate::read::ReadFault;
 use crate::read::coupling::{ball_term, read_points, read_terms};
-use crate::read::fields::{Fields, Read};
+use crate::read::fields::{Context, Fields, Read};
 use crate::read::signal::components;
 use crate::read::tree::{Item, Node};
 use mbs_core::effects::{Field, Form, SignalForm, Value};
@@ -17,9 +17,9 @@ pub(super) fn read(
     field: &'static Field,
     (name, joints): (&str, &[Joint<Number>]),
 ) -> Read<Option<Value<Number>>> {
-    let (key, context) = (field.key, fields.context);
+    let (key, context) = (field.key, fields.context.of_unit(field.key, field.unit));
     match field.form {
-        Form::Signal(form) => return Ok(signal(fields, form)?.map(Value::Signal)),
+        Form::Signal(form) => return Ok(signal(fields, (form, context))?.map(Value::Signal)),
         Form::Side => return side(fields).map(Value::Side).map(Some),
         Form::Name(own) => return Ok(Some(Value::Name(own == name))),
         Form::ForceLaw | Form::BodyLaw => return Ok(None),
@@ -52,7 +52,7 @@ pub(super) fn read(
         Form::Slip => Value::Slip(Some(slip(fields, item)?)),
         Form::Number(_) => Value::Number(context.number(item)?),
         Form::Flag => Value::Flag(fields.flag(key, false)?),
-        Form::Six => Value::Six(six(fields, item)?),
+        Form::Six => Value::Six(six(&context, item)?),
         Form::Pieces => {
             let pieces = context.list(item, "a list of pieces [lower, upper, c0, c1, ...]")?;
             Value::Pieces(pieces.iter().map(|item| piece(fields, item)).collect::<Read<_>>()?)
@@ -67,7 +67,10 @@ pub(super) fn read(
 }
 
 /// `value`, with `input = true` one that is set between steps, `signal` with a name or a list of them, or `table` with rows `[time, value]`; a vector may also stand flat: `[time, x, y, z]`.
-fn signal(fields: &Fields<'_>, form: SignalForm) -> Read<Option<Signal<Number>>> {
+fn signal<'a>(
+    fields: &Fields<'a>,
+    (form, context): (SignalForm, Context<'a>),
+) -> Read<Option<Signal<Number>>> {
     for [one, other] in [
         ["value", "table"],
         ["table", "input"],
@@ -77,7 +80,7 @@ fn signal(fields: &Fields<'_>, form: SignalForm) -> Read<Option<Signal<Number>>>
     ] {
         fields.exclusive(one, other)?;
     }
-    let context = fields.context;
+    let time_of = |item| context.of_unit("table", "s").number(item);
     if let Some(item) = fields.get("signal") {
         return components(&context, item).map(|signals| Some(Signal::Named(signals)));
     }
@@ -99,11 +102,11 @@ fn signal(fields: &Fields<'_>, form: SignalForm) -> Read<Option<Signal<Number>>>
             if !is_scalar
                 && matches!(flat, [Item { node: Node::Number(_) | Node::Text(_), .. }, ..]) =>
         {
-            Ok((context.number(time)?, context.components(row, flat)?))
+            Ok((time_of(time)?, context.components(row, flat)?))
         }
         _ => {
             let [time, item] = context.exactly(row, "a row [time, value]")?;
-            Ok((context.number(time)?, value(item)?))
+            Ok((time_of(time)?, value(item)?))
         }
     };
     rows.iter().map(read_row).collect::<Read<Vec<_>>>().map(|rows| Some(Signal::Table(rows)))
@@ -125,8 +128,7 @@ fn piece(fields: &Fields<'_>, item: &Item) -> Read<PolynomialPiece<Number>> {
 }
 
 /// Along and about x, y, z; in the plane along x, y and about z.
-fn six(fields: &Fields<'_>, item: &Item) -> Read<[Number; 6]> {
-    let context = fields.context;
+fn six(context: &Context<'_>, item: &Item) -> Read<[Number; 6]> {
     if context.is_planar() {
         let [x, y, about] = context.numbers_of(item, "a list of three numbers: [x, y, theta]")?;
         const ZERO: Number = Number::ZERO;
@@ -170,12 +172,11 @@ fn side(fields: &Fields<'_>) -> Read<Option<CalspanCoefficients<Number>>> {
     };
     let form = "a table: { a = [..], omega = .., b = [..], skid = .., trail = [..] }";
     let table = fields.context.table(item, form, "calspan")?;
-    let context = table.context;
     Ok(Some(CalspanCoefficients {
-        a: context.numbers_of(table.need("a")?, "five numbers: [A0, A1, A2, A3, A4]")?,
+        a: table.at("a").numbers_of(table.need("a")?, "five numbers: [A0, A1, A2, A3, A4]")?,
         omega: table.number("omega")?,
-        b: context.numbers_of(table.need("b")?, "three numbers: [B1, B3, B4]")?,
+        b: table.at("b").numbers_of(table.need("b")?, "three numbers: [B1, B3, B4]")?,
         skid: table.number("skid")?,
-        trail: context.numbers_of(table.need("trail")?, "two numbers: [AF1, AF2]")?,
+        trail: table.at("trail").numbers_of(table.need("trail")?, "two numbers: [AF1, AF2]")?,
     }))
 }
