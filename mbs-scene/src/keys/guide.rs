@@ -17,7 +17,7 @@ pub(super) fn tables() -> Vec<KeyTable> {
 fn initial() -> Vec<KeyTable> {
     let of_joint = listed(
         "initial",
-        "Coordinates of a joint at the start. What is written holds exactly; the rest follows from the constraints.",
+        "Coordinates of a joint at the start. What is written holds exactly; the rest follows from the constraints by the smallest motion of the bodies.",
         vec![
             need("joint", Of(Referent::Joint), "", "The joint."),
             may(
