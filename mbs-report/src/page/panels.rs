@@ -345,13 +345,14 @@ fn extent(values: &[f64]) -> (f64, f64) {
     if low <= high { (high - low, low.abs().max(high.abs())) } else { (f64::INFINITY, 0.0) }
 }
 
-/// The largest size among the channels of each unit.
+/// The largest size among the channels of each unit; that of angles is at least a radian, beside which rounding is nothing.
 fn sizes(channels: &[ChannelSeries]) -> BTreeMap<&str, f64> {
     let mut sizes = BTreeMap::new();
     for series in channels {
         for (component, values) in series.channel.components.iter().zip(&series.values) {
             let (_, size) = extent(values);
-            let largest = sizes.entry(component.unit.as_str()).or_insert(0.0_f64);
+            let least = if component.unit == "rad" { 1.0 } else { 0.0_f64 };
+            let largest = sizes.entry(component.unit.as_str()).or_insert(least);
             *largest = largest.max(size);
         }
     }

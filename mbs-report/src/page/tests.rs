@@ -203,7 +203,11 @@ fn forces_are_drawn_from_the_lines_of_their_channel() {
 #[test]
 fn what_stands_still_is_listed_and_not_drawn() {
     let mut record = record();
-    record.channels = vec![number("moves", "m", [0.0, 1.0]), number("rests", "m", [2.5, 2.5])];
+    record.channels = vec![
+        number("moves", "m", [0.0, 1.0]),
+        number("rests", "m", [2.5, 2.5]),
+        number("still", "rad", [0.0, 1e-14]),
+    ];
     let html = page(&record);
     let (json, _) = data(&html);
     assert_eq!(json["panels"].as_array().unwrap().len(), 1);
