@@ -47,6 +47,7 @@ pub enum MeshFault {
 impl Display for MeshFault {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         match self {
+            Self::File(ErrorKind::NotFound) => f.write_str("there is no such file"),
             Self::File(kind) => write!(f, "{kind}"),
             Self::Ending => f.write_str("this format is not read: give STL or OBJ"),
             Self::TooLarge => write!(f, "more than {} MiB", MOST_BYTES >> 20),

@@ -152,6 +152,16 @@ pub enum ReadFault {
         /// What it is.
         found: String,
     },
+    /// A place has neither two nor three numbers.
+    NoPlace {
+        /// How many it has.
+        found: usize,
+    },
+    /// A guided body that is a joint.
+    GuidedJoint {
+        /// Its name.
+        name: String,
+    },
     /// The count of numbers or entries in a list is wrong.
     WrongCount {
         /// How many are needed.
@@ -310,13 +320,19 @@ impl Display for ReadFault {
                 f.write_str(&fault.message)
             }
             Self::OtherUnit { key, unit, text, found } => {
-                write!(f, "`{text}` is {found}, `{key}` is in {unit}")
+                let unit =
+                    if unit.is_empty() { "has no unit".into() } else { format!("is in {unit}") };
+                write!(f, "`{text}` is {found}, `{key}` {unit}")
+            }
+            Self::NoPlace { found } => {
+                write!(f, "expected the two or three numbers of a place, found {found}")
             }
             Self::WrongCount { needed, found } => {
                 write!(f, "expected {needed} entries, found {found}")
             }
             Self::NotFinite { text } => write!(f, "`{text}` is not a finite number"),
             Self::NotPositive { number } => write!(f, "must be larger than zero, but is {number}"),
+            Self::GuidedJoint { name } => write!(f, "`{name}` is a joint, no body"),
             Self::SamePoint { name, first } => {
                 write!(f, "`{name}` is already the name of point {}", first + 1)
             }
@@ -383,9 +399,13 @@ impl ReadFault {
         match self {
             Self::Unreadable { .. } => "name a file that exists and that may be read".to_owned(),
             Self::NotUtf8 => "save the file as UTF-8".to_owned(),
-            Self::Syntax { format: "JSON", .. } => "see https://www.json.org for the syntax of the file".to_owned(),
+            Self::Syntax { format: "JSON", line, .. } => {
+                let usual = || "see https://www.json.org for the syntax of the file".to_owned();
+                units::of_json(line).unwrap_or_else(usual)
+            }
             Self::Syntax { message, line, .. } => hint_of_toml(message, line),
             Self::Expression(fault) | Self::Include(fault) | Self::Model(fault) => fault.hint.clone(),
+            Self::OtherUnit { unit: "", .. } => "write a plain number".to_owned(),
             Self::OtherUnit { unit, .. } => format!("write a number in {unit}, or with such a unit"),
             Self::UnknownKey { key, known } => nearest_name(key, known, "keys"),
             Self::UnusedKey { known, .. } => format!("remove it; {}", listing(known, "keys")),
@@ -397,9 +417,11 @@ impl ReadFault {
             Self::SignalCircle { .. } => SceneFault::SignalCircle.advice().to_owned(),
             Self::SignalNotSmooth { remedy, .. } => (*remedy).to_owned(),
             Self::OfPoint { fault, .. } => fault.advice().to_owned(),
+            Self::GuidedJoint { name } => format!("a guide moves a joint: write `joint = \"{name}\"`"),
             Self::GroundDoesNotMove => "name a body".to_owned(),
             Self::NoOwnBody => "write the name of the body whose axes are meant, or `global`".to_owned(),
             Self::WrongType { expected, .. } => format!("write {expected}"),
+            Self::NoPlace { .. } => "write two numbers in the plane, three in space".to_owned(),
             Self::WrongCount { needed, .. } => {
                 format!("write {needed}, in the order of the format")
             }

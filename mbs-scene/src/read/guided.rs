@@ -2,6 +2,7 @@
 //!
 //! An entry with `signals` makes a guide for each of them, one with `body` also a free joint, which comes after those of the file.
 
+use crate::read::ReadFault;
 use crate::read::document::SceneFile;
 use crate::read::fields::Read;
 use crate::read::tree::{Item, Node};
@@ -69,6 +70,12 @@ impl SceneFile {
             if let Some(&(_, other)) = twice {
                 let (entry, fault) = (Entry::Guide(first), SceneFault::GivenTwice(other));
                 return Err(self.meaning(SceneError { entry, field: "body", fault }));
+            }
+            let is =
+                |table: &str| self.listed(table).iter().any(|x| x.text_at("name") == Some(name));
+            if is("joint") && !is("body") {
+                let fault = ReadFault::GuidedJoint { name: name.to_owned() };
+                return Err(self.texts.error(&body.span, fault));
             }
             names.push((name.to_owned(), first));
         }

@@ -140,6 +140,16 @@ const HINTS: &[Hint] = &[
     means("velocity", &["speed", "rate"]),
     // tables
     says(
+        "scene",
+        &["gravity"],
+        "gravity is a key of [scene]: `gravity = [0.0, -9.81]`, with three numbers in space",
+    ),
+    says(
+        "scene",
+        &["world", "ground", "earth", "fixed-frame"],
+        "the fixed world is always there: name it `\"ground\"` wherever a body stands",
+    ),
+    says(
         "effect",
         &["motor", "drive", "servo", "engine", "motors"],
         "a motor is a `[[guide]]` with its `joint` for a given motion, or an `[[effect]]` with `kind = \"torque\"` and the `joint` for a \

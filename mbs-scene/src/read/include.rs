@@ -152,7 +152,7 @@ impl Includes<'_> {
         let place = match path.canonicalize() {
             Ok(place) if place.is_file() => place,
             Ok(_) => return unreadable("it is no file".to_owned()),
-            Err(error) => return unreadable(error.to_string()),
+            Err(error) => return unreadable(plain(&error)),
         };
         if let Some(i) = self.chain.iter().position(|other| *other == place) {
             let names = self.chain[i..].iter().chain([&place]).map(|path| name_of(path));
@@ -177,7 +177,7 @@ impl Includes<'_> {
         let read = std::fs::File::open(path)
             .and_then(|file| file.take(left as u64 + 1).read_to_end(&mut bytes));
         if let Err(error) = read {
-            let message = format!("cannot include `{}`: {error}", path.display());
+            let message = format!("cannot include `{}`: {}", path.display(), plain(&error));
             return self.refused(&include.file_span, message, "give a file that can be read");
         }
         if bytes.len() > left {
@@ -230,6 +230,15 @@ impl Includes<'_> {
             old.item = new.item.clone();
         }
         Ok(())
+    }
+}
+
+/// Why a file cannot be read, in words.
+fn plain(error: &std::io::Error) -> String {
+    match error.kind() {
+        std::io::ErrorKind::NotFound => "there is no such file".to_owned(),
+        std::io::ErrorKind::PermissionDenied => "it may not be read".to_owned(),
+        _ => error.to_string(),
     }
 }
 

@@ -49,7 +49,7 @@ fn wrong_type<R>(
 /// Two or three numbers.
 fn numbers(given: &dyn Given, whole: &Item, items: &[Item]) -> Read<Point> {
     if !matches!(items.len(), 2 | 3) {
-        let fault = ReadFault::WrongCount { needed: 3, found: items.len() };
+        let fault = ReadFault::NoPlace { found: items.len() };
         return Err(given.texts().error(&whole.span, fault));
     }
     let mut at = [const { Number::ZERO }; 3];

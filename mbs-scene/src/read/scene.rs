@@ -193,6 +193,10 @@ impl SceneFile {
     /// Names are checked before they are referred to: else a repeated name reads as an unknown one.
     /// Bodies, joints, signals and frames have a name of their own each.
     fn refuse_shared_names(&self, [bodies, joints, signals, frames]: [&Names; 4]) -> Read<()> {
+        if let Some(i) = bodies.place("ground") {
+            let (entry, fault) = (Entry::Body(i), SceneFault::ReservedName);
+            return Err(self.meaning(SceneError { entry, field: "name", fault }));
+        }
         self.refuse_duplicates(bodies.list(), Entry::Body)?;
         self.refuse_duplicates(joints.list(), Entry::Joint)?;
         self.refuse_duplicates(signals.list(), Entry::Signal)?;

@@ -23,6 +23,7 @@ mod same;
 mod set;
 mod shapes;
 mod signals;
+mod slips;
 mod sums;
 
 const PLANAR: &str = r#"[scene]

@@ -41,9 +41,25 @@ fn hint(text: &str) -> Option<String> {
 /// What to do about a line that is not TOML because a number in it has a unit.
 pub(crate) fn of_line(line: &str) -> Option<String> {
     let (_, value) = line.split_once('=')?;
-    let value = value.split('#').next()?;
+    of_value(value.split('#').next()?)
+}
+
+/// The same in JSON.
+pub(crate) fn of_json(line: &str) -> Option<String> {
+    of_value(line.split_once(':')?.1)
+}
+
+fn of_value(value: &str) -> Option<String> {
+    let comma = value.trim().split_once(',');
+    let is_digits = |text: &str| !text.is_empty() && text.chars().all(|c| c.is_ascii_digit());
+    if let Some((whole, part)) = comma
+        && is_digits(whole.trim_start_matches('-'))
+        && is_digits(part)
+    {
+        return Some(format!("write {whole}.{part}, with a decimal point"));
+    }
     let is_unit = |unit: &str| unit.starts_with(|c: char| c.is_alphabetic() || c == '\u{b0}');
-    let parts = value.split([',', '[', ']', '{', '}', '=']);
+    let parts = value.split([',', '[', ']', '{', '}', '=', ':']);
     let mut parts = parts.map(str::trim);
     parts.find(|part| quantity(part).is_some_and(|(_, unit)| is_unit(unit))).and_then(hint)
 }
@@ -73,6 +89,8 @@ mod tests {
         assert!(of_line("stiffness = 3e4N/m").expect("a unit").starts_with("write 3e4,"));
         let place = of_line("rod = { from = [0.0, 0.0], to = [40 mm, 0] }").expect("a unit");
         assert!(place.starts_with("write 0.04,"), "{place}");
+        assert_eq!(of_line("mass = 2,5").as_deref(), Some("write 2.5, with a decimal point"));
+        assert!(of_json("\"mass\": 1.0 kg,").expect("a unit").starts_with("write 1.0,"));
         for line in ["mass = 1.0", "mass 1.0 kg", "name = \"a", "at = [1, 2", "[scene", "x = 1 = 2"]
         {
             assert_eq!(of_line(line), None, "{line}");

@@ -92,7 +92,13 @@ fn refusals_of_points_have_their_place() {
             17,
         ),
         ("\"ball\"", "[[point]]\nname = \"c\"\n", "`at` is missing", "", 16),
-        ("\"ball\"", "[[point]]\nname = \"c\"\nat = [1]\n", "expected 3 entries, found 1", "", 18),
+        (
+            "\"ball\"",
+            "[[point]]\nname = \"c\"\nat = [1]\n",
+            "expected the two or three numbers of a place, found 1",
+            "",
+            18,
+        ),
         ("\"c\"", "[[point]]\nname = \"c\"\nat = [0, 0]\n", "expected 3 entries, found 2", "", 15),
     ];
     for (place, more, message, hint, line) in cases {
