@@ -129,12 +129,10 @@ fn unreadable(path: &Path, what: &str, error: &io::Error) -> Refusal {
     } else if with_ending.is_file() {
         format!("did you mean `{}`?", with_ending.display())
     } else {
-        match files_like(path) {
-            names if names.is_empty() => {
-                format!("give the path of a {what}; it ends with .toml or .json, or is a model")
-            }
-            names => nearest_name(&name_of(path), &names, "files there"),
-        }
+        let near = nearest_name(&name_of(path), &files_like(path), "files there");
+        let model = if what == "scene file" { ", or is a model" } else { "" };
+        let usual = format!("give the path of a {what}; it ends with .toml or .json{model}");
+        if near.starts_with("did you mean") { near } else { usual }
     };
     let message = format!("cannot read `{}`: {}", path.display(), plain(error));
     Refusal::new("file-unreadable", message, hint)

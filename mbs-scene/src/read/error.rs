@@ -337,12 +337,7 @@ impl Display for ReadFault {
                 write!(f, "`{name}` is already the name of point {}", first + 1)
             }
             Self::NoLead => write!(f, "a screw without lead does not move its slide"),
-            Self::AxesNotParallel => {
-                write!(
-                    f,
-                    "the axes of the two joints are not parallel in the reference configuration"
-                )
-            }
+            Self::AxesNotParallel => f.write_str(NOT_PARALLEL),
             Self::NotOneOf { needed, known } => {
                 write!(f, "one {needed} is needed; the joint has: {}", known.join(", "))
             }
@@ -394,15 +389,21 @@ fn hint_of_toml(message: &str, line: &str) -> String {
     }
 }
 
+fn hint_of_json(line: &str) -> String {
+    let usual = || "see https://www.json.org for the syntax of the file".to_owned();
+    units::of_json(line).unwrap_or_else(usual)
+}
+
+/// What is wrong with the axes of two joints.
+const NOT_PARALLEL: &str =
+    "the axes of the two joints are not parallel in the reference configuration";
+
 impl ReadFault {
     fn hint(&self) -> String {
         match self {
             Self::Unreadable { .. } => "name a file that exists and that may be read".to_owned(),
             Self::NotUtf8 => "save the file as UTF-8".to_owned(),
-            Self::Syntax { format: "JSON", line, .. } => {
-                let usual = || "see https://www.json.org for the syntax of the file".to_owned();
-                units::of_json(line).unwrap_or_else(usual)
-            }
+            Self::Syntax { format: "JSON", line, .. } => hint_of_json(line),
             Self::Syntax { message, line, .. } => hint_of_toml(message, line),
             Self::Expression(fault) | Self::Include(fault) | Self::Model(fault) => fault.hint.clone(),
             Self::OtherUnit { unit: "", .. } => "write a plain number".to_owned(),

@@ -87,10 +87,7 @@ impl SceneFile {
         let scene = Scene {
             name: self.scene_name(&header)?,
             dimension,
-            gravity: header
-                .get("gravity")
-                .map(|item| header.at("gravity").vector(item))
-                .transpose()?,
+            gravity: read_gravity(&header)?,
             duration: header.number("duration")?,
             bodies: body_data,
             initials: self
@@ -108,12 +105,13 @@ impl SceneFile {
             outputs: self.entries(&context, "output", |_, fields| {
                 output::read(fields, &centers, [&of_couplings, &of_rollings, &of_effects])
             })?,
-            solver: match self.top("solver") {
-                Some(item) => read_solver(&context, item)?,
-                None => Default::default(),
-            },
+            solver: self.solver(&context)?,
         };
         with_asked(&header, scene)
+    }
+
+    fn solver(&self, context: &Context<'_>) -> Read<SolverTable<Number>> {
+        self.top("solver").map_or(Ok(SolverTable::default()), |item| read_solver(context, item))
     }
 
     /// The joints of a file, then those of its guided bodies; and the guides.
@@ -334,6 +332,10 @@ fn with_asked(header: &Fields<'_>, mut scene: Scene<Number>) -> Read<Scene<Numbe
 
 fn read_solver<'a>(context: &Context<'a>, item: &'a Item) -> Read<SolverTable<Number>> {
     output::read_solver(&context.table(item, "a table: [solver]", "solver")?)
+}
+
+fn read_gravity(header: &Fields<'_>) -> Read<Option<[Number; 3]>> {
+    header.get("gravity").map(|item| header.at("gravity").vector(item)).transpose()
 }
 
 fn read_start(header: &Fields<'_>) -> Read<Start> {

@@ -84,7 +84,7 @@ impl Tree {
     /// ```
     /// # let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes/simple-pendulum.toml");
     /// let mut tree = mbs::Mechanism::read(path)?.tree()?;
-    /// let (body, at) = tree.frame_place("rod")?;
+    /// let (body, at) = tree.frame_place("bob")?;
     /// let mobility = tree.mobility_at(body, at)?.clone();
     /// // a rod of length l about its end, pushed in its middle: (l/2)² / (m l²/3)
     /// let mass = tree.mass_matrix()[(0, 0)];
@@ -115,7 +115,7 @@ impl Tree {
     /// # let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes/free-body.toml");
     /// let mut tree = mbs::Mechanism::read(path)?.tree()?;
     /// // of a body that nothing holds its own mass at its centre
-    /// let (body, at) = tree.frame_place("brick")?;
+    /// let (body, at) = tree.frame_place("body")?;
     /// let inertia = tree.operational_space_inertia_at(body, at)?.clone();
     /// assert!((inertia[(0, 0)] - tree.mass_matrix()[(0, 0)]).abs() < 1e-12);
     /// # Ok::<(), Box<dyn std::error::Error>>(())
