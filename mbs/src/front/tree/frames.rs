@@ -86,7 +86,7 @@ impl Tree {
     /// let mut tree = mbs::Mechanism::read(path)?.tree()?;
     /// let (body, at) = tree.frame_place("bob")?;
     /// let mobility = tree.mobility_at(body, at)?.clone();
-    /// // a rod of length l about its end, pushed in its middle: (l/2)² / (m l²/3)
+    /// // one joint: a moment about its axis meets its inertia
     /// let mass = tree.mass_matrix()[(0, 0)];
     /// assert!((mobility[(5, 5)] - 1.0 / mass).abs() < 1e-12);
     /// # Ok::<(), Box<dyn std::error::Error>>(())
