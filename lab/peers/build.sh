@@ -28,9 +28,9 @@ for part in open loop robot; do
 done
 
 m=$packages/mujoco
-build mujoco "$m/include/mujoco/mujoco.h" mujoco/forward.c -- \
+build mujoco "$m/include/mujoco/mujoco.h" mujoco/forward.c mujoco/clock.h -- \
   gcc $fast "$here/mujoco/forward.c" -I"$m/include" $(echo "$m"/libmujoco.so.*) -Wl,-rpath,"$m" -lm
-build mujoco_robot "$m/include/mujoco/mujoco.h" mujoco/robot.c -- \
+build mujoco_robot "$m/include/mujoco/mujoco.h" mujoco/robot.c mujoco/clock.h -- \
   gcc $fast "$here/mujoco/robot.c" -I"$m/include" $(echo "$m"/libmujoco.so.*) -Wl,-rpath,"$m" -lm
 
 build andrews_ida /usr/include/ida/ida.h andrews/ida.c andrews/andrews.h -- \

@@ -1,13 +1,10 @@
 /* MuJoCo on chains, a tree, four-bars and a step: mujoco (chain | tree | four-bars | step) N SECONDS */
 #include <mujoco/mujoco.h>
+#include "clock.h"
 #include <math.h>
 #include <stdint.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
-#include <time.h>
-
-enum { STATES = 8, BATCHES = 7 };
 
 /* A rod of 1 m and 1 kg on a hinge about z at x of its parent. */
 static mjsBody *add_rod(mjsBody *parent, double x, const char *name) {
@@ -91,15 +88,14 @@ static void set(const mjModel *m, mjData *d, int k) {
   memcpy(d->qvel, states[k][1], sizeof(double) * m->nv);
 }
 
-/* CPU time of this process [s]. */
-static double now(void) {
-  struct timespec t;
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
-  return t.tv_sec + 1e-9 * t.tv_nsec;
-}
-
 /* CPU seconds for n evaluations, or for n steps on from the first state. */
-static double batch(const mjModel *m, mjData *d, int is_step, long n) {
+struct run { const mjModel *m; mjData *d; int is_step; };
+
+static double batch(void *what, long n) {
+  const struct run *run = what;
+  const mjModel *m = run->m;
+  mjData *d = run->d;
+  int is_step = run->is_step;
   set(m, d, 0);
   d->time = 0;
   double start = now();
@@ -112,20 +108,6 @@ static double batch(const mjModel *m, mjData *d, int is_step, long n) {
   return now() - start;
 }
 
-static int compare(const void *a, const void *b) {
-  double x = *(const double *)a, y = *(const double *)b;
-  return x < y ? -1 : x > y;
-}
-
-static double time_of(const mjModel *m, mjData *d, int is_step, double seconds) {
-  long n = 1;
-  while (batch(m, d, is_step, n) < seconds / (2 * BATCHES)) n *= 2;
-  double times[BATCHES];
-  for (int i = 0; i < BATCHES; ++i) times[i] = batch(m, d, is_step, n) / n;
-  qsort(times, BATCHES, sizeof(double), compare);
-  return times[BATCHES / 2];
-}
-
 int main(int argc, char **argv) {
   if (argc == 2 && !strcmp(argv[1], "version")) return printf("%s\n", mj_versionString()), 0;
   if (argc != 4) return fprintf(stderr, "mujoco (chain | tree | four-bars | step) N SECONDS\n"), 1;
@@ -135,7 +117,8 @@ int main(int argc, char **argv) {
   if (is_step) m->opt.integrator = mjINT_RK4;
   mjData *d = mj_makeData(m);
   make_states(m->nv, !strcmp(argv[1], "four-bars"));
-  double seconds = time_of(m, d, is_step, atof(argv[3]));
+  struct run run = { m, d, is_step };
+  double seconds = time_of(batch, &run, atof(argv[3]));
   set(m, d, 0);
   mju_zero(d->qacc_warmstart, m->nv);
   if (is_step) {

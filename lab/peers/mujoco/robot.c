@@ -1,22 +1,8 @@
 /* MuJoCo on robots: mujoco_robot PROBLEM N SECONDS, for the robot of N freedoms that robots.py made */
 #include <mujoco/mujoco.h>
+#include "clock.h"
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
-#include <time.h>
-
-enum { STATES = 8, BATCHES = 7 };
-
-static double now(void) {
-  struct timespec t;
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
-  return t.tv_sec + 1e-9 * t.tv_nsec;
-}
-
-static int compare(const void *a, const void *b) {
-  double x = *(const double *)a, y = *(const double *)b;
-  return x < y ? -1 : x > y;
-}
 
 /* The first freedom that is no base's. */
 static int first_joint(const mjModel *m) { return m->jnt_type[0] == mjJNT_FREE ? 6 : 0; }
@@ -75,6 +61,16 @@ static double value(const mjModel *m, mjData *d, const char *problem) {
   return sum;
 }
 
+struct asked { const mjModel *m; mjData *d; const char *problem; };
+
+/* CPU seconds for n calls. */
+static double batch(void *what, long n) {
+  const struct asked *asked = what;
+  double start = now();
+  for (long k = 0; k < n; ++k) call(asked->m, asked->d, asked->problem, k % STATES);
+  return now() - start;
+}
+
 int main(int argc, char **argv) {
   if (argc == 2 && !strcmp(argv[1], "version")) return printf("%s\n", mj_versionString()), 0;
   if (argc != 4) return fprintf(stderr, "mujoco_robot PROBLEM N SECONDS\n"), 1;
@@ -87,18 +83,10 @@ int main(int argc, char **argv) {
   if (last < 0) return fprintf(stderr, "no last joint\n"), 1;
   m->opt.disableflags |= mjDSBL_CONTACT | mjDSBL_LIMIT;
   mjData *d = mj_makeData(m);
-  double seconds = atof(argv[3]), times[BATCHES];
-  long n = 1;
-  for (int i = -1; i < BATCHES; ++i) {
-    double start = now();
-    for (long k = 0; k < n; ++k) call(m, d, argv[1], k % STATES);
-    double time = now() - start;
-    if (i >= 0) times[i] = time / n;
-    else if (time < seconds / (2 * BATCHES)) { n *= 2; i = -2; }
-  }
-  qsort(times, BATCHES, sizeof(double), compare);
+  struct asked asked = { m, d, argv[1] };
+  double seconds = time_of(batch, &asked, atof(argv[3]));
   const char *algorithm = !strcmp(argv[1], "robot-forward") ? "mj_forward" : !strcmp(argv[1], "robot-inverse") ? "mj_inverse"
     : !strcmp(argv[1], "robot-mass") ? "mj_makeM" : "mj_jac";
-  printf("%s,%.6e,%.17g,exact\n", algorithm, times[BATCHES / 2], value(m, d, argv[1]));
+  printf("%s,%.6e,%.17g,exact\n", algorithm, seconds, value(m, d, argv[1]));
   return 0;
 }

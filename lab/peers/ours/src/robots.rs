@@ -139,7 +139,7 @@ fn reference(robot: &Robot, problem: &str) -> Result<f64, Failure> {
             let scratch = (&mut workspace, &mut MovingColumns::new(&model));
             freedoms.write_effort_slopes(&model, &state, scratch, &mut slopes);
             freedoms.factor(&mut mass).map_err(|link| format!("no inertia beyond link {link}"))?;
-            freedoms.solve_square(&mass, &mut q);
+            freedoms.solve(&mass, &mut q);
             joints.iter().for_each(|&i| joints.iter().for_each(|&j| sum -= q[i * n + j]));
         }
         _ => return Err(format!("no problem {problem} of robots").into()),
