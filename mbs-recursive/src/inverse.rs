@@ -126,25 +126,6 @@ pub(crate) fn effort<T: Real, S: Space<T>>(
     }
 }
 
-/// Adds what a force on a link about its origin does along every freedom on the way to the ground: Jᵀ f.
-#[cfg(feature = "alloc")]
-pub(crate) fn add_along<T: Real, S: Space<T>>(
-    links: &[Link<T, S>],
-    placed: &[LinkMotion<T, S>],
-    (mut i, mut force): (usize, S::Motion),
-    out: &mut [T],
-) -> Result<(), Outside> {
-    while i > 0 {
-        let (link, p) = (at(links, i)?, at(placed, i)?);
-        for f in 0..link.kind.n_freedoms::<T, S>() {
-            *at_mut(out, link.v as usize + f)? += direction(link, p, f).dot(&force);
-        }
-        force = S::gathered(&force, &p.arm);
-        i = if link.kind == LinkKind::Free { 0 } else { link.parent as usize };
-    }
-    Ok(())
-}
-
 /// Lets efforts act along the freedoms; between two links those of a ball act on both.
 #[cfg(feature = "alloc")]
 pub(crate) fn add_efforts<T: Real, S: Space<T>>(
@@ -175,22 +156,4 @@ pub(crate) fn add_efforts<T: Real, S: Space<T>>(
         }
     }
     Ok(())
-}
-
-/// The motion of unit rate of one freedom, about the link's origin.
-#[cfg(feature = "alloc")]
-fn direction<T: Real, S: Space<T>>(link: &Link<T, S>, p: &LinkMotion<T, S>, f: usize) -> S::Motion {
-    match link.kind {
-        LinkKind::Ball | LinkKind::Free if f < S::Spin::N => {
-            let mut e = S::Spin::zero();
-            e[f] = T::ONE;
-            S::motion(S::rotate_spin(&p.rotation, &e), S::Point::zero())
-        }
-        LinkKind::Free => {
-            let mut e = S::Motion::zero();
-            e[f] = T::ONE;
-            e
-        }
-        _ => p.freedom,
-    }
 }

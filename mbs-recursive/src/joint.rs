@@ -23,7 +23,7 @@ pub struct NoInertia<T> {
     pub pivot: T,
 }
 
-/// Where a link is and how it moves, from its parent and its joint's coordinates; without `MOVES` at rest, and `v` is not read.
+/// Where a link is and how it moves, from its parent and its joint's coordinates; without `MOVES` at rest.
 #[inline(always)]
 pub(crate) fn place<T: Real, S: Space<T>, const MOVES: bool>(
     link: &Link<T, S>,
@@ -32,16 +32,9 @@ pub(crate) fn place<T: Real, S: Space<T>, const MOVES: bool>(
     v: &[T],
     guides: &[[T; 3]],
 ) -> Result<LinkMotion<T, S>, Outside> {
-    let (zi, vi) = (link.z as usize, link.v as usize);
     let still =
         |freedom, rotation, arm| carried::<T, S, MOVES>(link, parent, (freedom, rotation, arm));
-    let number = || {
-        if link.kind.is_guided() {
-            return at(guides, vi).copied();
-        }
-        let rate = if MOVES { *at(v, vi)? } else { T::ZERO };
-        Ok([*at(z, zi)?, rate, T::ZERO])
-    };
+    let number = || link.coordinate((z, v, guides));
     Ok(match link.kind {
         LinkKind::Revolute | LinkKind::GuidedRevolute => {
             let [angle, rate, second] = number()?;
@@ -72,7 +65,7 @@ pub(crate) fn place<T: Real, S: Space<T>, const MOVES: bool>(
             p
         }
         LinkKind::Ball => ball::<T, S, MOVES>(link, parent, z, v)?,
-        LinkKind::GuidedBall => guided_ball(link, parent, guides)?,
+        LinkKind::GuidedBall => guided_ball::<T, S, MOVES>(link, parent, guides)?,
         LinkKind::Free => free::<T, S, MOVES>(link, parent, z, v)?,
     })
 }
@@ -140,7 +133,7 @@ pub(crate) const HAS_GUIDED_BALLS: bool = cfg!(feature = "alloc");
 
 /// Where a link is that a guided ball turns against its parent.
 #[inline(never)]
-fn guided_ball<T: Real, S: Space<T>>(
+fn guided_ball<T: Real, S: Space<T>, const MOVES: bool>(
     link: &Link<T, S>,
     parent: &LinkMotion<T, S>,
     guides: &[[T; 3]],
@@ -155,17 +148,15 @@ fn guided_ball<T: Real, S: Space<T>>(
     let rotation = S::turned(&parent.rotation, &S::spin_from(&axis), angle);
     // ω = ω_p + w,   d = (ω_p × w + R_p ω'(f), ω_p × (ω_p × r)),   w = R_p ω(f)
     let [w, second] = spin(f).map(|w| S::rotate_spin(&parent.rotation, &S::spin_from(&w)));
-    let (arm, turning) = (S::rotate(&parent.rotation, &link.offset), S::spin(&parent.velocity));
+    let arm = S::rotate(&parent.rotation, &link.offset);
     let freedom = S::motion(w, S::Point::zero());
-    Ok(LinkMotion {
-        rotation,
-        position: parent.position + arm,
-        arm,
-        freedom,
-        velocity: S::carried(&parent.velocity, &arm) + freedom,
-        bias: S::motion(S::cross_spin(&turning, &w) + second, S::centrifugal(&turning, &arm)),
-        center: S::rotate(&rotation, &link.center),
-    })
+    let mut p = carried::<T, S, MOVES>(link, parent, (freedom, rotation, arm));
+    if MOVES {
+        let turning = S::cross_spin(&S::spin(&parent.velocity), &w) + second;
+        p.velocity += freedom;
+        p.bias += S::motion(turning, S::Point::zero());
+    }
+    Ok(p)
 }
 
 /// The rotation vector of a guided ball against its parent, with its first two derivatives.

@@ -49,13 +49,13 @@ pub fn kinematics<T: Real, S: Space<T>>(
 pub(crate) fn positions<T: Real, S: Space<T>>(
     links: &[Link<T, S>],
     some: impl Iterator<Item = usize>,
-    (z, guides): (&[T], &[[T; 3]]),
+    (z, v, guides): (&[T], &[T], &[[T; 3]]),
     placed: &mut [LinkMotion<T, S>],
 ) -> Result<(), Outside> {
     for i in some {
         let link = at(links, i)?;
         let parent = at(placed, link.parent as usize)?;
-        let here = joint::place::<T, S, false>(link, parent, z, &[], guides)?;
+        let here = joint::place::<T, S, false>(link, parent, z, v, guides)?;
         *at_mut(placed, i)? = here;
     }
     Ok(())

@@ -3,18 +3,17 @@
 //! ```text
 //! M v̇ + c + g = τ + Jᵀ λ,   J v̇ + J̇ v = 0        g: gravity,   c: velocity products and motion of guided joints
 //! τ = bᵀ f                                        by the passes of `inverse`
-//! rows of J and of Jacobians                      bᵀ w along the path to the ground, for a wrench w on a link
 //! ```
 
-use crate::evaluate::{Level, accelerations_under, evaluate_rows};
+use crate::evaluate::{Level, accelerations_under};
 use crate::fault::failure;
-use crate::indexing::{Outside, at, at_mut, own, part_mut};
+use crate::indexing::own;
 use crate::inverse;
 use crate::loops::Loops;
 use crate::options::Options;
 use crate::passes::kinematics;
 use crate::rotor;
-use crate::slices::{Store, TreeSlices};
+use crate::slices::TreeSlices;
 use crate::space::{Numbers, Space};
 use crate::state::{TreeState, Workspace};
 use crate::tree::TreeModel;
@@ -128,55 +127,6 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         left.map_err(|fault| failure(&m, fault))?;
         state.set_accelerations(s.zdd);
         state.lambda.copy_from_slice(s.lambda);
-        Ok(())
-    }
-
-    /// Writes the Jacobian of the cut joints' equations row by row: rows times freedoms.
-    ///
-    /// Cost: for each row the links on the way to the ground; no allocation.
-    ///
-    /// # Panics
-    /// If `rows` has not rows times freedoms numbers.
-    pub fn write_loop_rows(
-        &self,
-        state: &TreeState<T>,
-        workspace: &mut Workspace<T, S>,
-        rows: &mut [T],
-    ) {
-        let mut s = workspace.store();
-        self.place_in(state, &mut s);
-        let n = self.n_freedoms;
-        rows.fill(T::ZERO);
-        for lap in self.mechanism().loops.cut() {
-            own(lap.evaluate(&self.rows, s.placed, |k, value| {
-                let row = part_mut(rows, k * n, n)?;
-                for (&link, &gradient) in lap.links.iter().zip(&value.gradient) {
-                    inverse::add_along(&self.links, s.placed, (link as usize, gradient), row)?;
-                }
-                Ok(())
-            }));
-        }
-        own(self.write_coupled_rows(&mut s, rows));
-    }
-
-    /// Writes the rows of couplings.
-    fn write_coupled_rows(&self, s: &mut Store<'_, T, S>, rows: &mut [T]) -> Result<(), Outside> {
-        let m = self.mechanism();
-        evaluate_rows(&m, s)?;
-        for (row, k, n_rows) in m.loops.coupled() {
-            let out = part_mut(rows, k * self.n_freedoms, self.n_freedoms)?;
-            for start in m.loops.couplings.starts_of(row)? {
-                let gradient = *at(s.gradient, start.side as usize * n_rows + k)?;
-                let wrench = (start.link as usize, gradient);
-                inverse::add_along(&self.links, s.placed, wrench, out)?;
-            }
-            for (link, _, slope) in m.loops.couplings.joints_of(row, s.loops.slopes)? {
-                let link = at(&self.links, link as usize)?;
-                if !link.kind.is_guided() {
-                    *at_mut(out, link.v as usize)? += slope;
-                }
-            }
-        }
         Ok(())
     }
 }

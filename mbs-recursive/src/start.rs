@@ -2,7 +2,7 @@
 
 use crate::error::TreeError;
 use crate::evaluate::{Level, accelerations};
-use crate::fault::failure;
+use crate::fault::{Fault, failure};
 use crate::graph::Branch;
 use crate::indexing::own;
 use crate::inverse;
@@ -11,7 +11,7 @@ use crate::link::{LinkKind, LinkMotion};
 use crate::options::{Closure, Options};
 use crate::passes::kinematics;
 use crate::project::{project, rounding};
-use crate::slices::{Inputs, TreeSlices};
+use crate::slices::{Inputs, Store, TreeSlices};
 use crate::space::{Numbers, Space};
 use crate::state::{TreeState, Workspace};
 use crate::tree::{Part, TreeModel, TreePlace, parts};
@@ -158,16 +158,11 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         workspace: &mut Workspace<T, S>,
     ) -> Result<(), StepError> {
         let m = TreeSlices { loads: &[], ..self.mechanism() };
-        let options = Options::default();
         let mut s = workspace.store();
         s.z.copy_from_slice(&state.z);
         s.v.fill(T::ZERO);
         self.prescribed.write(state.t, &state.applied, s.guides, s.courses);
-        let fault = |fault| failure(&m, fault);
-        if !self.rows.is_empty() {
-            accelerations(&m, &options, Level::Once, &mut s).map_err(fault)?;
-            project(&m, (&options, rounding()), &mut s).map_err(fault)?;
-        }
+        onto_loops(&m, &mut s).map_err(|fault| failure(&m, fault))?;
         state.z.copy_from_slice(s.z);
         Ok(())
     }
@@ -188,10 +183,7 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         self.inputs(state).evaluate(state.t, s.guides, s.courses);
         own(s.begin_signals(T::ZERO, &state.signals));
         let fault = |fault| failure(&m, fault);
-        if !self.rows.is_empty() {
-            accelerations(&m, &options, Level::Once, &mut s).map_err(fault)?;
-            project(&m, (&options, rounding()), &mut s).map_err(fault)?;
-        }
+        onto_loops(&m, &mut s).map_err(fault)?;
         accelerations(&m, &options, Level::Fine, &mut s).map_err(fault)?;
         state.power = own(crate::energy_balance::power(&m, &mut s));
         state.signals.copy_from_slice(s.signals.ends);
@@ -380,6 +372,20 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         // no rows take more freedoms than there are
         Ok(counted.min(self.n_freedoms()))
     }
+}
+
+/// Brings positions and velocities of the store onto the loops.
+fn onto_loops<T: Real, S: Space<T>>(
+    m: &TreeSlices<'_, T, S>,
+    s: &mut Store<'_, T, S>,
+) -> Result<(), Fault<T>> {
+    if m.loops.rows.is_empty() {
+        return Ok(());
+    }
+    let options = Options::default();
+    accelerations(m, &options, Level::Once, s)?;
+    project(m, (&options, rounding()), s)?;
+    Ok(())
 }
 
 /// How far the child of a branch turned against the parent: the last coordinates of its joint, in reverse the other way round.

@@ -179,7 +179,7 @@ impl<T: Real, S: Space<T>> OwnFreedoms<T, S> {
         let m = model.mechanism();
         let s = workspace.store();
         model.prescribed().write(state.t, &state.applied, s.guides, s.courses);
-        own(positions(m.links, 1..m.links.len(), (&state.z, s.guides), s.placed));
+        own(positions(m.links, 1..m.links.len(), (&state.z, &state.v, s.guides), s.placed));
         self.write_columns(&m, s.placed);
     }
 
@@ -199,7 +199,7 @@ impl<T: Real, S: Space<T>> OwnFreedoms<T, S> {
         let m = model.mechanism();
         let s = workspace.store();
         model.prescribed().write(state.t, &state.applied, s.guides, s.courses);
-        own(positions(m.links, self.way.iter().copied(), (&state.z, s.guides), s.placed));
+        own(positions(m.links, self.way.iter().copied(), (&state.z, &state.v, s.guides), s.placed));
         for i in 0..self.way.len() {
             self.write_columns_of(&m, self.links[self.way[i]].parts.clone(), s.placed);
         }

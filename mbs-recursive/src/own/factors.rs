@@ -72,32 +72,17 @@ impl<T: Real, S: Space<T>> OwnFreedoms<T, S> {
         }
     }
 
-    /// Replaces the columns of `x`, which has a row for each freedom, by M⁻¹ times them, by the factors of M.
+    /// Replaces a square by M⁻¹ times it, by the factors of M. Its entries are zero where row and column are not on one way to the ground, as
+    /// those of derivatives of efforts are, and of one.
     ///
-    /// Cost: twice the columns, freedoms and depth multiplied; no allocation after the first call.
-    ///
-    /// # Panics
-    /// If `x` has not a row for each freedom.
-    pub fn solve(&mut self, factors: &[T], x: &mut [T]) {
-        self.solve_half((factors, false), x);
-        self.solve_rest(factors, x);
-    }
-
-    /// The same of a square whose entries are zero where row and column are not on one way to the ground, as those of derivatives
-    /// of efforts are, and of one.
+    /// Cost: twice the freedoms squared times depth; no allocation after the first call.
     ///
     /// # Panics
     /// If `x` is not a square of the freedoms.
-    pub fn solve_square(&mut self, factors: &[T], x: &mut [T]) {
+    pub fn solve(&mut self, factors: &[T], x: &mut [T]) {
         let n = self.number.len();
         assert_eq!(x.len(), n * n, "numbers of a square of freedoms");
         self.solve_half((factors, true), x);
-        self.solve_rest(factors, x);
-    }
-
-    /// Replaces the columns of `x` by L⁻¹ D⁻¹ times them.
-    fn solve_rest(&mut self, factors: &[T], x: &mut [T]) {
-        let n = self.number.len();
         let mut sum = core::mem::take(&mut self.row);
         for c in 0..n {
             let k = self.number[c] as usize;

@@ -17,6 +17,7 @@ mod factors;
 mod jacobian;
 mod mass;
 mod moving;
+mod rows;
 mod six;
 mod sums;
 

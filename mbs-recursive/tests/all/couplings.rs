@@ -452,9 +452,9 @@ fn rows_of_couplings_stand_in_the_jacobian() {
     // J v is the rate of the sum, J a + bias its acceleration: both are zero but for the driven sum.
     let scene = mbs_testkit::scene(MACHINE);
     let mut run = Run::<Spatial>::wandering(&scene, 3);
-    let n = run.model.n_freedoms();
-    let mut rows = vec![f64::NAN; 4 * n];
-    run.model.write_loop_rows(&run.state, &mut run.workspace, &mut rows);
+    let (model, workspace) = (&run.model, &mut run.workspace);
+    let (n, mut rows) = (model.n_freedoms(), vec![f64::NAN; 4 * model.n_freedoms()]);
+    OwnFreedoms::of_tree(model).write_loop_rows(model, &run.state, workspace, &mut rows);
     for (k, row) in rows.chunks_exact(n).enumerate() {
         let rate = mbs_testkit::dot(row, &run.state.v);
         let turning = 2.0 * core::f64::consts::PI * 0.7;

@@ -34,15 +34,14 @@ impl Tree {
         checked("accelerations", accelerations, self.v.len())?;
         self.open("derivatives of efforts")?;
         self.accelerations(Some(accelerations));
-        let n = self.v.len();
-        let mut to = self.of_effort.take().unwrap_or_else(|| {
-            let square = || Matrix::zeros(n, n);
-            Box::new(EffortDerivatives { q: square(), v: square(), acceleration: square() })
+        let to = &mut self.of_effort;
+        let mut slopes = slopes_in([&mut to.q, &mut to.v, &mut to.acceleration]);
+        with!(&mut self.inner, t => {
+            let moving = t.moving.get_or_insert_with(|| MovingColumns::new(&t.model));
+            let scratch = (&mut t.workspace, moving);
+            t.own.write_effort_slopes(&t.model, &t.state, scratch, &mut slopes);
         });
-        let slopes =
-            EffortSlopes { q: &mut to.q.data, v: &mut to.v.data, a: &mut to.acceleration.data };
-        self.write_slopes(slopes, false);
-        Ok(self.of_effort.insert(to))
+        Ok(&self.of_effort)
     }
 
     /// Derivatives of [`forward_dynamics`](Self::forward_dynamics) under efforts, without loops: ∂v̇/∂(q, v) = −M⁻¹ ∂τ/∂(q, v), ∂v̇/∂τ =
@@ -71,39 +70,26 @@ impl Tree {
         checked("effort", effort, self.v.len())?;
         self.open("derivatives of accelerations")?;
         self.accelerate(Some(effort))?;
-        let n = self.v.len();
-        let mut to = self.by_effort.take().unwrap_or_else(|| {
-            let square = || Matrix::zeros(n, n);
-            Box::new(AccelerationDerivatives { q: square(), v: square(), effort: square() })
+        let to = &mut self.by_effort;
+        let mut slopes = slopes_in([&mut to.q, &mut to.v, &mut self.mass]);
+        with!(&mut self.inner, t => {
+            let moving = t.moving.get_or_insert_with(|| MovingColumns::new(&t.model));
+            let scratch = (&mut t.workspace, moving);
+            // the links are accelerated as the scratch has them
+            t.own.write_effort_slopes_here(&t.model, scratch, &mut slopes);
         });
-        self.mass.resize_rows(n);
-        let mut mass = core::mem::take(&mut self.mass);
-        let slopes = EffortSlopes { q: &mut to.q.data, v: &mut to.v.data, a: &mut mass.data };
-        self.write_slopes(slopes, true);
-        self.mass = mass;
         self.factor()?;
+        let (n, to) = (self.v.len(), &mut self.by_effort);
+        to.effort.resize_rows(n);
         to.effort.data.fill(0.0);
         to.effort.data.iter_mut().step_by(n + 1).for_each(|x| *x = 1.0);
         for square in [&mut to.q.data, &mut to.v.data] {
             square.iter_mut().for_each(|x| *x = -*x);
         }
         for square in [&mut to.q.data, &mut to.v.data, &mut to.effort.data] {
-            with!(&mut self.inner, t => t.own.solve_square(&self.mass.data, square));
+            with!(&mut self.inner, t => t.own.solve(&self.mass.data, square));
         }
-        Ok(self.by_effort.insert(to))
-    }
-
-    /// Writes the derivatives of the efforts of the state's accelerations; `is_there`: these were made by efforts just now.
-    fn write_slopes(&mut self, mut slopes: EffortSlopes<'_, f64>, is_there: bool) {
-        with!(&mut self.inner, t => {
-            let moving = t.moving.get_or_insert_with(|| MovingColumns::new(&t.model));
-            let scratch = (&mut t.workspace, moving);
-            if is_there {
-                t.own.write_effort_slopes_here(&t.model, scratch, &mut slopes);
-            } else {
-                t.own.write_effort_slopes(&t.model, &t.state, scratch, &mut slopes);
-            }
-        });
+        Ok(&self.by_effort)
     }
 
     /// Replaces the mass matrix by its factors.
@@ -122,7 +108,15 @@ impl Tree {
             return Ok(());
         }
         let owner = with!(&self.inner, t => t.model.owner_of_row(0));
-        let (joint, body) = self.names.of(owner);
-        Err(TreeError { kind: TreeErrorKind::Loops(what), joint, body })
+        Err(TreeError::of_owner(TreeErrorKind::Loops(what), (Some(owner), &self.names)))
     }
+}
+
+/// Where derivatives go, by positions, velocities and accelerations, each as large as its square from now on.
+fn slopes_in(squares: [&mut Matrix; 3]) -> EffortSlopes<'_, f64> {
+    let [q, v, a] = squares.map(|square| {
+        square.resize_rows(square.columns);
+        &mut square.data[..]
+    });
+    EffortSlopes { q, v, a }
 }

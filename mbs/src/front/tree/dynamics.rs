@@ -3,7 +3,6 @@
 use super::inner::{Inner, Typed, with};
 use super::{Matrix, Tree, TreeError, TreeErrorKind, checked};
 use crate::front::values::PointMotion;
-use crate::stop::StopError;
 use mbs_core::algebra::Vector;
 use mbs_core::rigid::RigidMotion;
 use mbs_core::scene::BodyId;
@@ -42,9 +41,10 @@ impl Tree {
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn loop_jacobian(&mut self) -> &Matrix {
-        let rows = &mut self.rows[..self.loops.data.len()];
-        with!(&mut self.inner, t => t.model.write_loop_rows(&t.state, &mut t.workspace, rows));
-        self.loops.take_rows(&self.layout, &self.rows);
+        let rows = &mut self.loops.data;
+        with!(&mut self.inner, t => {
+            t.own.write_loop_rows(&t.model, &t.state, &mut t.workspace, rows);
+        });
         &self.loops
     }
 
@@ -262,9 +262,8 @@ impl Tree {
         with!(&mut self.inner, tree => {
             let Typed { model, state, workspace, .. } = &mut **tree;
             model.accelerate_under(efforts, state, workspace).map_err(|error| {
-                let freedom = |u| model.owner_of_unknown(u);
-                let reason = StopError::step(error, freedom, |row| model.owner_of_row(row));
-                TreeError::of_model(TreeErrorKind::NoAccelerations, (reason, names))
+                let reason = (Typed::reason(model, error), names);
+                TreeError::of_model(TreeErrorKind::NoAccelerations, reason)
             })
         })
     }

@@ -3,6 +3,7 @@
 use crate::front::Error;
 use crate::names::Names;
 use crate::stop::StopError;
+use mbs_core::model::Owner;
 use std::fmt;
 
 /// Why there is no tree, or why it does not answer.
@@ -11,8 +12,8 @@ use std::fmt;
 pub struct TreeError {
     /// What is wrong.
     pub kind: TreeErrorKind,
-    pub(super) joint: Option<String>,
-    pub(super) body: Option<String>,
+    joint: Option<String>,
+    body: Option<String>,
 }
 
 /// What is wrong.
@@ -51,8 +52,13 @@ impl TreeError {
         kind: fn(StopError) -> TreeErrorKind,
         (reason, names): (StopError, &Names),
     ) -> Self {
-        let (joint, body) = reason.owner().map_or((None, None), |owner| names.of(owner));
-        Self { kind: kind(reason), joint, body }
+        let owner = reason.owner();
+        Self::of_owner(kind(reason), (owner, names))
+    }
+
+    pub(super) fn of_owner(kind: TreeErrorKind, (owner, names): (Option<Owner>, &Names)) -> Self {
+        let (joint, body) = owner.map_or((None, None), |owner| names.of(owner));
+        Self { kind, joint, body }
     }
 
     pub(super) fn of_joint(kind: TreeErrorKind, joint: &str) -> Self {

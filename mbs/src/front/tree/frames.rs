@@ -24,16 +24,7 @@ impl Tree {
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn frame_place(&self, name: &str) -> Result<(BodyId, [f64; 3]), UnknownName> {
-        let own = self.scene.frames.iter().map(|x| (x.name.as_str(), (x.body, x.at)));
-        let bodies = self.scene.bodies.iter().zip(&self.shares);
-        let bodies = bodies.map(|(x, share)| (x.name.as_str(), (share.0, share.1)));
-        let mut all = own.chain(bodies);
-        let found = all.clone().find(|(known, _)| *known == name);
-        found.map(|(_, place)| place).ok_or_else(|| UnknownName {
-            word: "frame",
-            name: name.to_owned(),
-            known: all.by_ref().map(|(name, _)| name.to_owned()).collect(),
-        })
+        self.named(name).map(|frame| (frame.body, frame.at))
     }
 
     /// Of the velocity of a point that moves with a body (rows 0 to 2), which was at `at` in the reference configuration [m], and of the

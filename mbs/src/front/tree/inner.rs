@@ -4,6 +4,7 @@ use super::layout::Layout;
 use crate::stop::StopError;
 use mbs_core::rigid::RigidMotion;
 use mbs_core::scene::{Dimension, Scene};
+use mbs_core::step::StepError;
 use mbs_recursive::own::{MovingColumns, OwnFreedoms};
 use mbs_recursive::space::Space;
 use mbs_recursive::{Planar, Spatial, TreeModel, TreeState, Workspace};
@@ -59,6 +60,12 @@ impl Inner {
 }
 
 impl<S: Space<f64>> Typed<S> {
+    /// Why a step error of the model stops, by what it names.
+    pub(super) fn reason(model: &TreeModel<f64, S>, error: StepError) -> StopError {
+        let freedom = |unknown| model.owner_of_unknown(unknown);
+        StopError::step(error, freedom, |row| model.owner_of_row(row))
+    }
+
     fn new(scene: &Scene<f64>) -> Result<(Self, Layout), StopError> {
         let model = TreeModel::new(scene).map_err(StopError::tree)?;
         let layout = Layout::new(scene, &model);

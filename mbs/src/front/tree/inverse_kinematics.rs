@@ -10,7 +10,6 @@
 
 use super::inner::{Inner, Typed, with};
 use super::{Tree, TreeError, TreeErrorKind, checked};
-use crate::stop::StopError;
 use mbs_core::algebra::{Matrix as Square, Vector, cross, rotation_vector};
 use mbs_core::scene::{BodyId, JointId};
 
@@ -168,9 +167,8 @@ impl Tree {
         let closed = with!(&mut self.inner, tree => {
             let Typed { model, state, workspace, .. } = &mut **tree;
             model.close_loops(state, workspace).map_err(|error| {
-                let freedom = |u| model.owner_of_unknown(u);
-                let reason = StopError::step(error, freedom, |row| model.owner_of_row(row));
-                TreeError::of_model(TreeErrorKind::OpenLoops, (reason, &self.names))
+                let reason = (Typed::reason(model, error), &self.names);
+                TreeError::of_model(TreeErrorKind::OpenLoops, reason)
             })
         });
         if let Err(error) = closed {

@@ -77,14 +77,12 @@ pub struct Tree {
     mass: Matrix,
     loops: Matrix,
     jacobian: Matrix,
-    rows: Vec<f64>,
     /// Of a frame, 6 × 6.
     frame: Matrix,
     /// Columns of a Jacobian.
     columns: Vec<f64>,
-    /// From the first calls that ask for them.
-    by_effort: Option<Box<AccelerationDerivatives>>,
-    of_effort: Option<Box<EffortDerivatives>>,
+    by_effort: AccelerationDerivatives,
+    of_effort: EffortDerivatives,
 }
 
 impl Tree {
@@ -107,6 +105,8 @@ impl Tree {
             let (mass, center, _) = mass_properties(scene, b);
             (BodyId::new(b), center.into(), if total > 0.0 { mass / total } else { 0.0 })
         };
+        // squares are as large as that from the first call that asks for them
+        let square = || Matrix::zeros(0, n);
         Ok(Self {
             shares: (0..scene.bodies.len()).map(share).collect(),
             total,
@@ -115,15 +115,13 @@ impl Tree {
             answer: zero.clone(),
             tree: zero.clone(),
             zero,
-            // as large as its square, from the first call that asks for it
-            mass: Matrix::zeros(0, n),
+            mass: square(),
             loops: Matrix::zeros(rows, n),
             jacobian: Matrix::zeros(6, n),
-            rows: vec![0.0; n * rows],
             frame: Matrix::zeros(6, 6),
             columns: Vec::new(),
-            by_effort: None,
-            of_effort: None,
+            by_effort: AccelerationDerivatives { q: square(), v: square(), effort: square() },
+            of_effort: EffortDerivatives { q: square(), v: square(), acceleration: square() },
             inner,
             layout,
             names,

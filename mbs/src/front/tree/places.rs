@@ -34,6 +34,14 @@ pub struct TotalMomentum {
     pub angular: [f64; 3],
 }
 
+/// A frame in the reference configuration.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Frame {
+    pub(super) body: BodyId,
+    pub(super) at: [f64; 3],
+    axes: Matrix<f64, 3>,
+}
+
 impl Tree {
     /// Centre of mass of a body, and its rotation from the reference configuration. The ground's is at the origin.
     ///
@@ -67,11 +75,7 @@ impl Tree {
     /// ```
     pub fn frame(&mut self, name: &str) -> Result<FrameMotion, UnknownName> {
         self.motions();
-        let found = self.placed().find(|(known, _)| *known == name);
-        found.map(|(_, frame)| frame).ok_or_else(|| {
-            let known = self.placed().map(|(name, _)| name.to_owned()).collect();
-            UnknownName { word: "frame", name: name.to_owned(), known }
-        })
+        self.named(name).map(|frame| self.moved(frame))
     }
 
     /// All frames of the scene, then all bodies, each with its name, as [`frame`](Self::frame) has them.
@@ -90,21 +94,37 @@ impl Tree {
 
     /// The frames at the motions that were evaluated last.
     fn placed(&self) -> impl Iterator<Item = (&str, FrameMotion)> {
+        self.known().map(|(name, frame)| (name, self.moved(frame)))
+    }
+
+    /// A frame at the motions that were evaluated last.
+    fn moved(&self, Frame { body, at, axes }: Frame) -> FrameMotion {
         let motions = with!(&self.inner, tree => &tree.motions);
-        let moved = |body: BodyId, at: [f64; 3], axes: &Matrix<f64, 3>| {
-            let at_rest = RigidMotion::at_rest(at.into());
-            let motion = body.index().map_or(at_rest, |b| motions[b]);
-            let [position, velocity, _] = motion.point(&at.into()).map(Into::into);
-            let (rotation, angular_velocity) =
-                (rows(&(motion.rotation * axes)), motion.omega.into());
-            FrameMotion { position, rotation, velocity, angular_velocity }
-        };
-        let own = self.scene.frames.iter();
-        let own = own.map(move |x| (x.name.as_str(), moved(x.body, x.at, &axes(x.axes))));
-        let bodies = self.scene.bodies.iter().zip(&self.shares);
-        own.chain(bodies.map(move |(x, share)| {
-            (x.name.as_str(), moved(share.0, share.1, &Matrix::<f64, 3>::identity()))
-        }))
+        let at_rest = RigidMotion::at_rest(at.into());
+        let motion = body.index().map_or(at_rest, |b| motions[b]);
+        let [position, velocity, _] = motion.point(&at.into()).map(Into::into);
+        let (rotation, angular_velocity) = (rows(&(motion.rotation * axes)), motion.omega.into());
+        FrameMotion { position, rotation, velocity, angular_velocity }
+    }
+
+    /// All frames of the scene, then all bodies, with their names.
+    fn known(&self) -> impl Iterator<Item = (&str, Frame)> {
+        let own = self.scene.frames.iter().map(|x| {
+            let frame = Frame { body: x.body, at: x.at, axes: axes(x.axes) };
+            (x.name.as_str(), frame)
+        });
+        let bodies = self.scene.bodies.iter().zip(&self.shares).map(|(x, &(body, at, _))| {
+            (x.name.as_str(), Frame { body, at, axes: Matrix::<f64, 3>::identity() })
+        });
+        own.chain(bodies)
+    }
+
+    pub(super) fn named(&self, name: &str) -> Result<Frame, UnknownName> {
+        let found = self.known().find(|(known, _)| *known == name);
+        found.map(|(_, frame)| frame).ok_or_else(|| {
+            let known = self.known().map(|(name, _)| name.to_owned()).collect();
+            UnknownName { word: "frame", name: name.to_owned(), known }
+        })
     }
 
     /// Momentum of all bodies.

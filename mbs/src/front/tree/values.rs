@@ -1,6 +1,5 @@
 //! What a tree answers with.
 
-use super::layout::Layout;
 use crate::front::values::PointMotion;
 use mbs_core::algebra::Vector;
 use std::ops::Index;
@@ -24,14 +23,6 @@ impl Matrix {
     pub(super) fn resize_rows(&mut self, rows: usize) {
         self.rows = rows;
         self.data.resize(rows * self.columns, 0.0);
-    }
-
-    /// Takes rows in the tree's order over into the joints' own.
-    pub(super) fn take_rows(&mut self, layout: &Layout, rows: &[f64]) {
-        let n = self.columns.max(1);
-        for (own, tree) in self.data.chunks_exact_mut(n).zip(rows.chunks_exact(n)) {
-            layout.efforts_outward(tree, own);
-        }
     }
 
     /// A row.

@@ -1,0 +1,86 @@
+//! Rows of what closes loops and ties joints, along the columns.
+
+use super::OwnFreedoms;
+use super::columns::six;
+use crate::evaluate::evaluate_rows;
+use crate::indexing::{Outside, at, own, part_mut};
+use crate::link::LinkMotion;
+use crate::slices::Store;
+use crate::space::Space;
+use crate::state::{TreeState, Workspace};
+use crate::tree::TreeModel;
+use mbs_core::Real;
+
+impl<T: Real, S: Space<T>> OwnFreedoms<T, S> {
+    /// Writes the Jacobian of the equations of cut joints and couplings row by row: rows times freedoms.
+    ///
+    /// Cost: for each row the links on the way to the ground; no allocation.
+    ///
+    /// # Panics
+    /// If `rows` has not rows times freedoms numbers.
+    pub fn write_loop_rows(
+        &mut self,
+        model: &TreeModel<T, S>,
+        state: &TreeState<T>,
+        workspace: &mut Workspace<T, S>,
+        rows: &mut [T],
+    ) {
+        let n = self.number.len();
+        assert_eq!(rows.len(), model.n_rows() * n, "numbers of the rows");
+        let (m, mut s) = (model.mechanism(), workspace.store());
+        model.place_in(state, &mut s);
+        self.write_columns(&m, s.placed);
+        rows.fill(T::ZERO);
+        for lap in m.loops.cut() {
+            own(lap.evaluate(m.loops.rows, s.placed, |k, value| {
+                let row = part_mut(rows, k * n, n)?;
+                for (&link, gradient) in lap.links.iter().zip(&value.gradient) {
+                    self.add_along((link as usize, gradient), s.placed, row);
+                }
+                Ok(())
+            }));
+        }
+        own(self.write_coupled_rows(model, &mut s, rows));
+    }
+
+    fn write_coupled_rows(
+        &self,
+        model: &TreeModel<T, S>,
+        s: &mut Store<'_, T, S>,
+        rows: &mut [T],
+    ) -> Result<(), Outside> {
+        let (m, n) = (model.mechanism(), self.number.len());
+        evaluate_rows(&m, s)?;
+        for (row, k, n_rows) in m.loops.coupled() {
+            let out = part_mut(rows, k * n, n)?;
+            for start in m.loops.couplings.starts_of(row)? {
+                let gradient = at(s.gradient, start.side as usize * n_rows + k)?;
+                self.add_along((start.link as usize, gradient), s.placed, out);
+            }
+            for (link, _, slope) in m.loops.couplings.joints_of(row, s.loops.slopes)? {
+                // a guided joint has none
+                for c in self.links[link as usize].columns.clone() {
+                    out[self.number[c] as usize] += slope;
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Adds what a force on a link about its origin does along the columns on the way to the ground.
+    fn add_along(
+        &self,
+        (mut i, force): (usize, &S::Motion),
+        placed: &[LinkMotion<T, S>],
+        row: &mut [T],
+    ) {
+        let mut force = six::<T, S>(force);
+        while i > 0 {
+            for c in self.links[i].columns.clone() {
+                row[self.number[c] as usize] += self.columns[c].dot(&force);
+            }
+            force = force.gathered(&S::point_into(&placed[i].arm));
+            i = self.links[i].parent;
+        }
+    }
+}
