@@ -12,18 +12,25 @@ const MAX_DEPTH: usize = 32;
 /// Files that a model includes in all.
 const MAX_FILES: usize = 1_000;
 
-/// The file whose place an attribute says, from the first of the folders in which it is; the first one is that of the model.
+/// The folder of the model, for an attribute that says the place of a file; `hint` is what to do where there is none.
+pub(crate) fn home<'a>(file: &Attribute, hint: &str, context: &'a Context<'_>) -> Read<&'a Path> {
+    context
+        .options
+        .folder
+        .as_deref()
+        .ok_or_else(|| file.fault("this text has no folder, from which it could read files", hint))
+}
+
+/// The file whose place an attribute says, from the folder of the model, else from another one.
 pub(crate) fn find(
     file: &Attribute,
     name: &Path,
-    folders: &[&Path],
+    other: Option<&Path>,
     context: &Context<'_>,
 ) -> Read<PathBuf> {
-    let Some(home) = &context.options.folder else {
-        let hint = "give the model as a file, or put what is in the other file here";
-        return Err(file.fault("this text has no folder, from which it could read files", hint));
-    };
-    let all = core::iter::once(home.as_path()).chain(folders.iter().copied());
+    let hint = "give the model as a file, or put what is in the other file here";
+    let home = home(file, hint, context)?;
+    let all = core::iter::once(home).chain(other);
     let found = first(file, all.map(|folder| folder.join(name)), context)?;
     found.ok_or_else(|| {
         let message = format!("there is no file `{}`", home.join(name).display());
@@ -41,16 +48,21 @@ pub(crate) fn places<'a>(
     folder: &Path,
     options: &ImportOptions,
 ) -> Result<Vec<PathBuf>, &'a str> {
+    if let Some((package, rest)) = package(written) {
+        return Ok(in_package(package, rest, folder, options));
+    }
     match written.split_once("://") {
         None => Ok(vec![folder.join(written)]),
         Some(("file", place)) => Ok(vec![folder.join(place)]),
-        Some(("package" | "model", rest)) => {
-            let rest = rest.trim_start_matches('/');
-            let (package, rest) = rest.split_once('/').unwrap_or((rest, ""));
-            Ok(in_package(package, rest, folder, options))
-        }
         Some((scheme, _)) => Err(scheme),
     }
+}
+
+/// The package or model of a place, and the place in it.
+pub(crate) fn package(written: &str) -> Option<(&str, &str)> {
+    let Some(("package" | "model", rest)) = written.split_once("://") else { return None };
+    let rest = rest.trim_start_matches('/');
+    Some(rest.split_once('/').unwrap_or((rest, "")))
 }
 
 fn in_package(package: &str, rest: &str, folder: &Path, options: &ImportOptions) -> Vec<PathBuf> {
@@ -72,22 +84,29 @@ pub(crate) fn whole(path: &Path) -> PathBuf {
     path.canonicalize().unwrap_or_else(|_| path.to_owned())
 }
 
-/// The first of some places at which there is a file, if any.
+/// The whole path of the first of some places at which there is a file, if any.
+pub(crate) fn existing(places: impl IntoIterator<Item = PathBuf>) -> Option<PathBuf> {
+    places.into_iter().find(|path| path.is_file())?.canonicalize().ok()
+}
+
+/// Does a file, by its whole path, lie outside of the folder of the model where that is not allowed?
+pub(crate) fn is_barred(path: &Path, options: &ImportOptions) -> bool {
+    let is_inside = |home: &Path| path.starts_with(whole(home));
+    options.no_outside && !options.folder.as_deref().is_some_and(is_inside)
+}
+
+/// The same file; one that is not allowed is refused.
 pub(crate) fn first(
     file: &Attribute,
-    mut places: impl Iterator<Item = PathBuf>,
+    places: impl IntoIterator<Item = PathBuf>,
     context: &Context<'_>,
 ) -> Read<Option<PathBuf>> {
-    let home = context.options.folder.as_deref().unwrap_or(Path::new(""));
-    let found = places.find(|path| path.is_file()).and_then(|path| path.canonicalize().ok());
-    let Some(found) = found else { return Ok(None) };
-    let home = if home.as_os_str().is_empty() { Path::new(".") } else { home };
-    let is_inside = home.canonicalize().is_ok_and(|home| found.starts_with(home));
-    if context.options.no_outside && !is_inside {
+    let found = existing(places);
+    if found.as_ref().is_some_and(|path| is_barred(path, context.options)) {
         let message = format!("`{}` lies outside of the folder of the first file", file.value);
         return Err(file.fault(message, "leave out --no-outside where you trust the file"));
     }
-    Ok(Some(found))
+    Ok(found)
 }
 
 /// Included files, those that are open now and all so far.

@@ -12,7 +12,7 @@ use crate::unread::unread;
 use crate::{mjcf, sdf, urdf, write, xml};
 use mbs_scene::{ReadError, SceneFile};
 use std::collections::HashSet;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// A model as a scene.
 #[derive(Debug, Clone)]
@@ -105,7 +105,7 @@ pub fn import(bytes: &[u8], file: &str, options: &ImportOptions) -> Result<Impor
     match whole(text, source, file, &mut context) {
         Ok((format, text, sizes)) => {
             let Context { sources, findings, .. } = context;
-            let folder = options.scene_folder.as_ref().or(options.folder.as_ref()).cloned();
+            let folder = options.scene_home().map(Path::to_owned);
             Ok(Imported { format, text, findings: findings.list(&sources), sizes, folder })
         }
         Err(fault) => Err(context.sources.error(fault)),

@@ -1,6 +1,6 @@
 //! What a user may ask of a reader.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// Whether the root of a model stands on the ground or moves.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -62,5 +62,10 @@ impl ImportOptions {
         let paths = SEARCH_PATHS.into_iter().filter_map(std::env::var_os);
         let paths = paths.flat_map(|paths| std::env::split_paths(&paths).collect::<Vec<_>>());
         Self { folder: Some(folder), package_path: paths.collect(), ..Self::default() }
+    }
+
+    /// From where the scene names files, if that is known.
+    pub(crate) fn scene_home(&self) -> Option<&Path> {
+        self.scene_folder.as_deref().or(self.folder.as_deref())
     }
 }

@@ -1,6 +1,6 @@
 //! Files of meshes that are drawn: where they are, and how the scene names them.
 
-use crate::beside::{places, whole};
+use crate::beside::{existing, is_barred, package, places, whole};
 use crate::context::Context;
 use crate::element::Attribute;
 use crate::robot::FormKind;
@@ -35,18 +35,11 @@ pub(crate) fn mesh_file(written: &str, context: &Context<'_>) -> Result<String, 
         });
     }
     let path = found(written, context)?;
-    let outside = context.options.no_outside && !is_inside(&path, context);
-    if outside {
+    if is_barred(&path, context.options) {
         return Err("meshes outside of the folder are not drawn (--no-outside)".to_owned());
     }
-    let folder = context.options.scene_folder.as_ref().or(context.options.folder.as_ref());
-    let folder = folder.map_or(Path::new(""), PathBuf::as_path);
+    let folder = context.options.scene_home().unwrap_or(Path::new(""));
     Ok(from_folder(folder, &path))
-}
-
-fn is_inside(path: &Path, context: &Context<'_>) -> bool {
-    let home = context.options.folder.as_deref().map(whole);
-    home.is_some_and(|home| path.starts_with(home))
 }
 
 /// The whole path of a file that is there.
@@ -56,19 +49,12 @@ fn found(written: &str, context: &Context<'_>) -> Result<PathBuf, String> {
     };
     let candidates = places(written, home, context.options)
         .map_err(|scheme| format!("meshes `{scheme}://` are not drawn"))?;
-    let package = written.split_once("://").filter(|(scheme, _)| *scheme != "file");
-    let missing = match package {
-        Some((_, rest)) => {
-            let rest = rest.trim_start_matches('/');
-            let package = rest.split_once('/').map_or(rest, |(package, _)| package);
-            format!(
-                "meshes of the package `{package}` that are not found are not drawn: --package {package}=FOLDER"
-            )
-        }
+    existing(candidates).ok_or_else(|| match package(written) {
+        Some((package, _)) => format!(
+            "meshes of the package `{package}` that are not found are not drawn: --package {package}=FOLDER"
+        ),
         None => "meshes that are not found are not drawn".to_owned(),
-    };
-    let file = candidates.into_iter().find(|path| path.is_file());
-    file.map(|path| whole(&path)).ok_or(missing)
+    })
 }
 
 /// A file from a folder, if they have more than the root in common: a scene and its files can move together.

@@ -102,7 +102,7 @@ fn surface(view: &View<'_>, model: &Model<'_, '_, '_>) -> Read<TriangleMesh> {
         view.element.fault("the mesh has neither `file` nor `vertex`", "write file=\"...\"")
     })?;
     let name = place_of(&file.value, model);
-    let path = beside::find(file, &name, &[], model.context)?;
+    let path = beside::find(file, &name, None, model.context)?;
     TriangleMesh::read(&path)
         .map_err(|why| file.fault(format!("`{}`: {why}", file.value), "give a mesh as STL or OBJ"))
 }

@@ -32,8 +32,8 @@ impl Includer<'_, '_> {
     /// The elements of an included file: looked for from the first file's folder, then from that of the file that includes it.
     fn file(&mut self, include: &Element) -> Read<Vec<Element>> {
         let file = include.need("file")?;
-        let last: Vec<&Path> = self.included.folder().into_iter().collect();
-        let path = find(file, Path::new(file.value.trim()), &last, self.context)?;
+        let name = Path::new(file.value.trim());
+        let path = find(file, name, self.included.folder(), self.context)?;
         let mut root = self.included.open(file, path, include.at, self.context)?;
         self.inside(&mut root)?;
         self.included.close();

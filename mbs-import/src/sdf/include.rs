@@ -2,7 +2,7 @@
 
 use super::frames::MODEL;
 use super::scope::{VERSION, missing, version};
-use crate::beside::{Included, first, places};
+use crate::beside::{Included, first, home, places};
 use crate::context::Context;
 use crate::element::{Attribute, Element};
 use crate::source::Read;
@@ -107,10 +107,8 @@ impl Includer<'_, '_> {
 
     /// The file of a place, from the folder of the file that includes it on.
     fn path(&self, uri: &Attribute) -> Read<PathBuf> {
-        let home = self.context.options.folder.as_deref().ok_or_else(|| {
-            let hint = "give the model as a file, or put the other model here";
-            uri.fault("this text has no folder, from which it could read files", hint)
-        })?;
+        let hint = "give the model as a file, or put the other model here";
+        let home = home(uri, hint, self.context)?;
         let folder = self.included.folder().unwrap_or(home);
         let all = places(&uri.value, folder, self.context.options).map_err(|scheme| {
             let hint = "fetch the model, and write model://NAME or the place of its file";
