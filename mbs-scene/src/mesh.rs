@@ -83,7 +83,7 @@ impl TriangleMesh {
         let fault = |error: std::io::Error| MeshFault::File(error.kind());
         // a pipe would be waited for
         if !std::fs::metadata(path).map_err(fault)?.is_file() {
-            return Err(MeshFault::File(std::io::ErrorKind::InvalidInput));
+            return Err(MeshFault::File(ErrorKind::InvalidInput));
         }
         let mut bytes = Vec::new();
         let file = std::fs::File::open(path).map_err(fault)?;
@@ -106,9 +106,6 @@ impl TriangleMesh {
             "msh" => msh(bytes),
             _ => Err(MeshFault::Ending),
         }?;
-        if mesh.triangles.iter().flatten().any(|i| *i >= mesh.vertices.len()) {
-            return Err(MeshFault::Missing);
-        }
         if mesh.vertices.iter().flatten().any(|x| !x.is_finite()) {
             return Err(MeshFault::NotFinite);
         }
@@ -160,15 +157,20 @@ impl Joined {
     }
 }
 
+/// The next three words, where they are numbers.
+fn coordinates<'a>(words: &mut impl Iterator<Item = &'a str>) -> Option<[f64; 3]> {
+    let mut number = || words.next()?.parse().ok();
+    Some([number()?, number()?, number()?])
+}
+
 /// STL: a head of 80 bytes and a count, or text.
 fn stl(bytes: &[u8]) -> Result<TriangleMesh, MeshFault> {
     /// Bytes of the head, and of each triangle.
     const SIZES: [usize; 2] = [80, 50];
     let mut joined = Joined::default();
-    let count = bytes.get(SIZES[0]..).map(|rest| Words(rest).count());
-    let is_binary = count.as_ref().is_some_and(|n| {
-        n.as_ref().is_ok_and(|n| n.checked_mul(SIZES[1]) == bytes.len().checked_sub(SIZES[0] + 4))
-    });
+    let count = bytes.get(SIZES[0]..).and_then(|rest| Words(rest).count().ok());
+    let is_binary =
+        count.is_some_and(|n| n.checked_mul(SIZES[1]) == bytes.len().checked_sub(SIZES[0] + 4));
     if is_binary {
         for triangle in bytes[SIZES[0] + 4..].chunks_exact(SIZES[1]) {
             let mut words = Words(triangle);
@@ -185,9 +187,8 @@ fn stl(bytes: &[u8]) -> Result<TriangleMesh, MeshFault> {
     let mut three = Vec::new();
     while let Some(word) = words.next() {
         if word == "vertex" {
-            let mut number = || words.next().and_then(|x| x.parse::<f64>().ok());
-            let [x, y, z] = [number(), number(), number()].map(|x| x.ok_or(MeshFault::Vertex));
-            three.push(joined.vertex([x?, y?, z?]));
+            let x = coordinates(&mut words).ok_or(MeshFault::Vertex)?;
+            three.push(joined.vertex(x));
         }
         if let [a, b, c] = three[..] {
             joined.mesh.triangles.push([a, b, c]);
@@ -206,9 +207,7 @@ fn obj(bytes: &[u8]) -> Result<TriangleMesh, MeshFault> {
         let fault = || MeshFault::Line(i + 1);
         match words.next() {
             Some("v") => {
-                let mut number =
-                    || words.next().and_then(|x| x.parse::<f64>().ok()).ok_or_else(fault);
-                let x = [number()?, number()?, number()?];
+                let x = coordinates(&mut words).ok_or_else(fault)?;
                 numbers.push(joined.vertex(x));
             }
             Some("f") => {

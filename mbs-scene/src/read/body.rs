@@ -32,7 +32,7 @@ pub(crate) fn read(fields: &Fields<'_>) -> Read<Body<Number>> {
         (_, true) => Inertia::Planar(fields.number("inertia")?),
         (_, false) => {
             let form = "a list of six numbers: [Ixx, Iyy, Izz, Ixy, Iyz, Izx]";
-            Inertia::Spatial(fields.at("inertia").numbers_of(fields.need("inertia")?, form)?)
+            Inertia::Spatial(fields.numbers_of("inertia", form)?)
         }
     };
     Ok(Body { name, mass, center, inertia })

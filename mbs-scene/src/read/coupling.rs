@@ -115,9 +115,8 @@ fn pair<'a>(fields: &Fields<'a>, joints: &'a [Joint<Number>]) -> Read<[Named<'a>
 }
 
 fn radii(fields: &Fields<'_>) -> Read<[Number; 2]> {
-    let item = fields.need("radii")?;
-    let radii: [Number; 2] = fields.at("radii").numbers_of(item, "a list of two radii")?;
-    positive(fields, item, &radii)?;
+    let radii: [Number; 2] = fields.numbers_of("radii", "a list of two radii")?;
+    positive(fields, fields.need("radii")?, &radii)?;
     Ok(radii)
 }
 
@@ -154,8 +153,7 @@ fn gear<'a>(fields: &Fields<'a>, joints: &'a [Joint<Number>]) -> Read<Vec<Coupli
         fields.exclusive(one, other)?;
     }
     let [first, second] = pair(fields, joints)?;
-    if let Some(ratio) = fields.get("ratio") {
-        let ratio = fields.at("ratio").number(ratio)?;
+    if let Some(ratio) = fields.optional("ratio")? {
         return Ok(vec![second.turn(fields, one())?, first.turn(fields, minus(ratio))?]);
     }
     let (item, sizes) = if let Some(item) = fields.get("teeth") {

@@ -362,6 +362,10 @@ impl<'a> Fields<'a> {
         self.vector_or_place(key, self.need(key)?)
     }
 
+    pub(crate) fn optional_vector(&self, key: &str) -> Read<Option<[Number; 3]>> {
+        self.get(key).map(|item| self.vector_or_place(key, item)).transpose()
+    }
+
     fn vector_or_place(&self, key: &str, item: &'a Item) -> Read<[Number; 3]> {
         let value = self.tables.iter().find_map(|table| table.key(key)).map(|key| &key.value);
         match value {

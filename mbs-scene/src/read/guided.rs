@@ -10,7 +10,7 @@ use mbs_core::scene::{Entry, SceneError, SceneFault};
 
 impl SceneFile {
     /// The entries of a list of tables.
-    fn listed(&self, table: &str) -> &[Item] {
+    pub(crate) fn listed(&self, table: &str) -> &[Item] {
         match self.top(table) {
             Some(Item { node: Node::List(items), .. }) => items,
             _ => &[],

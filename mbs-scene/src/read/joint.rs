@@ -29,9 +29,7 @@ pub(crate) fn read(fields: &Fields<'_>, known: &[Body<Number>]) -> Read<Joint<Nu
         for i in (0..2).filter(|&i| needed[i]) {
             fields.need(axis_keys[i])?;
         }
-        let vector =
-            |key: &str| fields.get(key).map(|item| fields.at(key).vector(item)).transpose();
-        [vector("axis")?, vector("direction")?]
+        [fields.optional_vector("axis")?, fields.optional_vector("direction")?]
     };
     Ok(Joint {
         name: fields.name()?,

@@ -13,6 +13,15 @@ impl<'a> Fields<'a> {
         Context { unit: known.map(|key| (key.name, key.unit)), ..self.context }
     }
 
+    /// Exactly `N` numbers of that key.
+    pub(crate) fn numbers_of<const N: usize>(
+        &self,
+        key: &'static str,
+        expected: &'static str,
+    ) -> Read<[Number; N]> {
+        self.at(key).numbers_of(self.need(key)?, expected)
+    }
+
     /// The fields of an entry about a coordinate of a joint.
     pub(crate) fn about(&self, kind: JointKind, number: usize) -> Self {
         Self { context: self.context.about(kind, number), ..*self }
@@ -23,8 +32,9 @@ impl<'a> Context<'a> {
     /// The same for a coordinate of a kind of joint: `rad or m` is then one of them.
     pub(crate) fn about(&self, kind: JointKind, number: usize) -> Self {
         let freedoms = kind.freedoms(self.dimension);
-        let units = freedoms.iter().flat_map(|x| core::iter::repeat_n(x.unit(), x.n_coordinates()));
-        Self { is_slide: units.into_iter().nth(number).map(|unit| unit == "m"), ..*self }
+        let mut units =
+            freedoms.iter().flat_map(|x| core::iter::repeat_n(x.unit(), x.n_coordinates()));
+        Self { is_slide: units.nth(number).map(|unit| unit == "m"), ..*self }
     }
 
     /// The same for numbers of another unit.
@@ -44,13 +54,8 @@ impl<'a> Context<'a> {
         let (number, dimensions) = self.values.number(text, &item.span)?;
         if let Some((key, unit)) = self.unit {
             let unit = match (self.is_slide, unit.split_once(" or ")) {
-                (Some(is_slide), Some((turn, slide))) => {
-                    if is_slide {
-                        slide
-                    } else {
-                        turn
-                    }
-                }
+                (Some(true), Some((_, slide))) => slide,
+                (Some(false), Some((turn, _))) => turn,
                 _ => unit,
             };
             check_unit(self.texts, (text, &item.span), dimensions, (key, unit))?;

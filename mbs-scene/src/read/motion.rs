@@ -41,11 +41,11 @@ fn point_velocity(fields: &Fields<'_>) -> Read<Option<([Number; 3], [Number; 3])
 
 /// Planar: one number, about z. Spatial: a vector in global axes.
 fn angular_velocity(fields: &Fields<'_>) -> Read<Option<[Number; 3]>> {
-    let Some(item) = fields.get("angular_velocity") else { return Ok(None) };
     if fields.context.is_planar() {
-        return Ok(Some([Number::ZERO, Number::ZERO, fields.at("angular_velocity").number(item)?]));
+        let about_z = fields.optional("angular_velocity")?;
+        return Ok(about_z.map(|x| [Number::ZERO, Number::ZERO, x]));
     }
-    fields.at("angular_velocity").vector(item).map(Some)
+    fields.optional_vector("angular_velocity")
 }
 
 /// The guides of an entry: of one coordinate, or with `signals` of all coordinates of a joint, also of the free joint that a guided `body`
@@ -145,9 +145,6 @@ pub(crate) fn read_table(fields: &Fields<'_>) -> Read<Vec<[Number; 2]>> {
     context
         .list(fields.need("table")?, "a list of rows [time, value]")?
         .iter()
-        .map(|row| {
-            let [time, value] = context.exactly(row, "a row [time, value]")?;
-            Ok([context.entry(0, 2).number(time)?, context.entry(1, 2).number(value)?])
-        })
+        .map(|row| context.numbers_of(row, "a row [time, value]"))
         .collect()
 }

@@ -135,14 +135,10 @@ pub(crate) fn read_solver(fields: &Fields<'_>) -> Read<SolverTable<Number>> {
     let flag = |key| -> Read<Option<bool>> {
         fields.get(key).map(|_| fields.flag(key, false)).transpose()
     };
-    let energy_tolerance = match fields.get("energy_tolerance") {
-        None => None,
-        Some(item) => {
-            let [upper, lower] = context.exactly(item, "a list of two numbers: [U, L]")?;
-            let context = fields.at("energy_tolerance");
-            Some([context.number(upper)?, context.number(lower)?])
-        }
+    let two = |item| {
+        fields.at("energy_tolerance").numbers_of(item, "a list of two numbers: [U, L]")
     };
+    let energy_tolerance = fields.get("energy_tolerance").map(two).transpose()?;
     Ok(SolverTable {
         formulation: word("formulation")?,
         integrator: word("integrator")?,

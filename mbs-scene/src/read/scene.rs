@@ -59,7 +59,7 @@ impl SceneFile {
             bodies: &bodies,
             joints: &joints,
             signals: &signals,
-            frames: Frames { names: &frames, items: self.list("frame") },
+            frames: Frames { names: &frames, items: self.listed("frame") },
             unit: None,
             is_slide: None,
         };
@@ -87,7 +87,7 @@ impl SceneFile {
         let scene = Scene {
             name: self.scene_name(&header)?,
             dimension,
-            gravity: read_gravity(&header)?,
+            gravity: header.optional_vector("gravity")?,
             duration: header.number("duration")?,
             bodies: body_data,
             initials: self
@@ -136,10 +136,7 @@ impl SceneFile {
 
     /// A key's value, or the entry when the key is not written.
     fn item<'a>(&'a self, entry: Entry, field: &str) -> Option<&'a Item> {
-        let entries = |table: &str, i: usize| match &self.top(table)?.node {
-            Node::List(items) => items.get(i),
-            _ => None,
-        };
+        let entries = |table: &str, i: usize| self.listed(table).get(i);
         let road = |track: &str, i| road::item_of(self.top("road")?, track, i);
         let item = match entry {
             Entry::Scene => self.top("scene"),
@@ -174,16 +171,8 @@ impl SceneFile {
     }
 
     /// Names of entries that are texts; the rest is refused when the entry is read.
-    /// The entries of a list of tables; none where there is something else.
-    fn list(&self, key: &str) -> &[Item] {
-        match self.top(key) {
-            Some(Item { node: Node::List(items), .. }) => items,
-            _ => &[],
-        }
-    }
-
     fn names(&self, key: &str) -> Names {
-        let items = self.list(key);
+        let items = self.listed(key);
         let name = |item: &Item| item.text_at("name").unwrap_or_default().to_owned();
         Names::new(items.iter().map(name).collect())
     }
@@ -332,10 +321,6 @@ fn with_asked(header: &Fields<'_>, mut scene: Scene<Number>) -> Read<Scene<Numbe
 
 fn read_solver<'a>(context: &Context<'a>, item: &'a Item) -> Read<SolverTable<Number>> {
     output::read_solver(&context.table(item, "a table: [solver]", "solver")?)
-}
-
-fn read_gravity(header: &Fields<'_>) -> Read<Option<[Number; 3]>> {
-    header.get("gravity").map(|item| header.at("gravity").vector(item)).transpose()
 }
 
 fn read_start(header: &Fields<'_>) -> Read<Start> {

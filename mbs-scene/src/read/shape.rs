@@ -35,8 +35,7 @@ fn kind<'a>(fields: &Fields<'a>, form: &str, item: &'a Item) -> Read<ShapeKind<N
     let table = fields.context.table(item, "a table with the sizes of the form", form)?;
     Ok(match form {
         "box" => {
-            let size =
-                table.at("size").numbers_of(table.need("size")?, "three lengths: [x, y, z]")?;
+            let size = table.numbers_of("size", "three lengths: [x, y, z]")?;
             let axes = table.get("axes").map(|_| table.two_vectors("axes")).transpose()?;
             ShapeKind::Box { center: table.vector("center")?, size, axes }
         }
@@ -80,10 +79,7 @@ fn mesh(table: &Fields<'_>) -> Read<ShapeKind<Number>> {
             }
         },
     };
-    let at = match table.get("at") {
-        Some(_) => table.vector("at")?,
-        None => [const { Number::ZERO }; 3],
-    };
+    let at = table.optional_vector("at")?.unwrap_or_default();
     let axes = table.get("axes").map(|_| table.two_vectors("axes")).transpose()?;
     Ok(ShapeKind::Mesh { file: table.context.texts.path(&file.span, path), at, axes, scale })
 }

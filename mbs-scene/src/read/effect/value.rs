@@ -173,10 +173,10 @@ fn side(fields: &Fields<'_>) -> Read<Option<CalspanCoefficients<Number>>> {
     let form = "a table: { a = [..], omega = .., b = [..], skid = .., trail = [..] }";
     let table = fields.context.table(item, form, "calspan")?;
     Ok(Some(CalspanCoefficients {
-        a: table.at("a").numbers_of(table.need("a")?, "five numbers: [A0, A1, A2, A3, A4]")?,
+        a: table.numbers_of("a", "five numbers: [A0, A1, A2, A3, A4]")?,
         omega: table.number("omega")?,
-        b: table.at("b").numbers_of(table.need("b")?, "three numbers: [B1, B3, B4]")?,
+        b: table.numbers_of("b", "three numbers: [B1, B3, B4]")?,
         skid: table.number("skid")?,
-        trail: table.at("trail").numbers_of(table.need("trail")?, "two numbers: [AF1, AF2]")?,
+        trail: table.numbers_of("trail", "two numbers: [AF1, AF2]")?,
     }))
 }
