@@ -135,9 +135,8 @@ pub(crate) fn read_solver(fields: &Fields<'_>) -> Read<SolverTable<Number>> {
     let flag = |key| -> Read<Option<bool>> {
         fields.get(key).map(|_| fields.flag(key, false)).transpose()
     };
-    let two = |item| {
-        fields.at("energy_tolerance").numbers_of(item, "a list of two numbers: [U, L]")
-    };
+    let two =
+        |item| fields.at("energy_tolerance").numbers_of(item, "a list of two numbers: [U, L]");
     let energy_tolerance = fields.get("energy_tolerance").map(two).transpose()?;
     Ok(SolverTable {
         formulation: word("formulation")?,
