@@ -40,7 +40,7 @@ pub fn kinematics<T: Real, S: Space<T>>(
     Ok(())
 }
 
-/// Places alone of some links, each behind its parent; all velocities and velocity products are zero.
+/// Places alone of some links, each behind its parent; velocities and velocity products stay as they are.
 ///
 /// # Errors
 /// [`Outside`] if the tables do not fit each other.
@@ -56,7 +56,9 @@ pub(crate) fn positions<T: Real, S: Space<T>>(
         let link = at(links, i)?;
         let parent = at(placed, link.parent as usize)?;
         let here = joint::place::<T, S, false>(link, parent, z, v, guides)?;
-        *at_mut(placed, i)? = here;
+        let p = at_mut(placed, i)?;
+        (p.rotation, p.position, p.arm) = (here.rotation, here.position, here.arm);
+        (p.freedom, p.center) = (here.freedom, here.center);
     }
     Ok(())
 }

@@ -201,11 +201,13 @@ impl<T: Real, S: Space<T>> Workspace<T, S> {
     }
 
     /// The scratch as slices.
+    #[inline]
     pub fn store(&mut self) -> Store<'_, T, S> {
         self.parts().0
     }
 
     /// The scratch as slices, and that of explicit steps.
+    #[inline]
     pub(crate) fn parts(&mut self) -> (Store<'_, T, S>, &mut Explicit<T>) {
         let (links, rows) = (self.placed.len(), self.rows.len());
         let (a, a_response) = self.motions.split_at_mut(links);

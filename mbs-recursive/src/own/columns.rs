@@ -60,6 +60,19 @@ pub(super) struct ColumnPart<T: Real> {
     pub(super) reference: V3<T>,
 }
 
+/// A column.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Column<T: Real> {
+    /// Its number in the own order.
+    pub(super) number: u32,
+    /// The column before it on the way to the ground.
+    pub(super) up: u32,
+    /// It about its link's origin.
+    pub(super) here: Six<T>,
+    /// It about the origin of the first link on the way from the ground.
+    pub(super) rooted: Six<T>,
+}
+
 /// What the columns of a link need to know of it, side by side.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct OwnLink<T: Real> {
@@ -78,10 +91,7 @@ pub(super) struct OwnLink<T: Real> {
 #[derive(Debug, Clone)]
 pub struct OwnFreedoms<T: Real, S: Space<T>> {
     pub(super) parts: Vec<ColumnPart<T>>,
-    /// The number of each column in the own order.
-    pub(super) number: Vec<u32>,
-    /// The column before it on the way to the ground.
-    pub(super) up: Vec<u32>,
+    pub(super) columns: Vec<Column<T>>,
     /// The numbers on the way to the ground from each column, the nearest first; from the first factorisation on.
     pub(super) above: Vec<Vec<u32>>,
     /// The numbers of the columns that have each column on their way to the ground; likewise.
@@ -92,10 +102,6 @@ pub struct OwnFreedoms<T: Real, S: Space<T>> {
     pub(super) links: Vec<OwnLink<T>>,
     /// Links on the way from the ground to one of them.
     pub(super) way: Vec<usize>,
-    /// Each column about its link's origin.
-    pub(super) columns: Vec<Six<T>>,
-    /// Each column about the origin of the first link on the way from the ground.
-    pub(super) rooted: Vec<Six<T>>,
     pub(super) composite: Vec<Moments<T>>,
     /// A row of a solution.
     pub(super) row: Vec<T>,
@@ -115,15 +121,12 @@ impl<T: Real, S: Space<T>> OwnFreedoms<T, S> {
         assert_eq!(places.len(), links.len(), "places and links");
         let mut made = Self {
             parts: Vec::new(),
-            number: Vec::new(),
-            up: Vec::new(),
+            columns: Vec::with_capacity(model.n_freedoms()),
             above: Vec::new(),
             below: Vec::new(),
             related: Vec::new(),
             links: Vec::with_capacity(links.len()),
             way: Vec::with_capacity(links.len()),
-            columns: vec![Six::zero(); model.n_freedoms()],
-            rooted: vec![Six::zero(); model.n_freedoms()],
             composite: vec![Moments::zero(); links.len()],
             row: Vec::new(),
             least: vec![T::ZERO; model.n_freedoms()],
@@ -133,14 +136,19 @@ impl<T: Real, S: Space<T>> OwnFreedoms<T, S> {
         for (i, (link, place)) in links.iter().zip(places).enumerate() {
             let is_free = link.kind == LinkKind::Free;
             let parent = if is_free { 0 } else { link.parent as usize };
-            let (first, first_part) = (made.number.len(), made.parts.len());
+            let (first, first_part) = (made.columns.len(), made.parts.len());
             let before = last[parent];
             for (kind, numbers) in parts::<T, S>(link.kind, place) {
-                let columns = made.number.len()..made.number.len() + numbers.len();
+                let columns = made.columns.len()..made.columns.len() + numbers.len();
                 for number in numbers {
-                    let up = made.number.len().checked_sub(1).filter(|&c| c >= first);
-                    made.up.push(up.map_or(before, index));
-                    made.number.push(index(number));
+                    let up = made.columns.len().checked_sub(1).filter(|&c| c >= first);
+                    let (number, up) = (index(number), up.map_or(before, index));
+                    made.columns.push(Column {
+                        number,
+                        up,
+                        here: Six::zero(),
+                        rooted: Six::zero(),
+                    });
                 }
                 let (point, reference) = (place.point, place.reference);
                 made.parts.push(ColumnPart { link: i, kind, columns, is_free, point, reference });
@@ -148,11 +156,12 @@ impl<T: Real, S: Space<T>> OwnFreedoms<T, S> {
             made.links.push(OwnLink {
                 place: V3::zeros(),
                 parent,
-                columns: first..made.number.len(),
+                columns: first..made.columns.len(),
                 parts: first_part..made.parts.len(),
                 tensor: tensor::<T, S>(&link.tensor),
             });
-            last[i] = if made.number.len() > first { index(made.number.len() - 1) } else { before };
+            last[i] =
+                if made.columns.len() > first { index(made.columns.len() - 1) } else { before };
         }
         made
     }
@@ -222,48 +231,50 @@ impl<T: Real, S: Space<T>> OwnFreedoms<T, S> {
             let columns = &mut self.columns[part.columns.clone()];
             let p = &placed[part.link];
             if part.kind == PartKind::Single {
-                columns[0] = six::<T, S>(&p.freedom);
+                columns[0].here = six::<T, S>(&p.freedom);
                 continue;
             }
             let parent = &placed[m.links[part.link].parent as usize].rotation;
-            for (k, column) in columns.iter_mut().enumerate() {
-                *column = part.column::<S>(k, (p, parent));
+            for (column, here) in columns.iter_mut().zip(part.columns::<S>((p, parent))) {
+                column.here = here;
             }
         }
     }
 }
 
 impl<T: Real> ColumnPart<T> {
-    /// One of the columns of a ball or of slides, about the link's origin.
-    fn column<S: Space<T>>(
+    /// The columns of a ball or of slides, about the link's origin.
+    fn columns<S: Space<T>>(
         &self,
-        k: usize,
         (p, parent): (&LinkMotion<T, S>, &S::Rotation),
-    ) -> Six<T> {
-        let spin = |rotation: &S::Rotation| {
-            let mut e = S::Spin::zero();
-            e[k] = T::ONE;
-            S::spin_into(&S::rotate_spin(rotation, &e))
-        };
-        // (n, s × n): a turn about a point at s
-        let about = |n: V3<T>, s: V3<T>| Six { turn: n, push: mbs_core::algebra::cross(&s, &n) };
-        let slide = |rotation: &S::Rotation| {
-            let mut e = S::Point::zero();
-            e[k] = T::ONE;
-            Six { turn: V3::zeros(), push: S::point_into(&S::rotate(rotation, &e)) }
-        };
-        let place = || S::point_into(&p.position);
-        match self.kind {
-            PartKind::Single => six::<T, S>(&p.freedom),
+    ) -> impl Iterator<Item = Six<T>> + use<T, S> {
+        let is_turn = matches!(self.kind, PartKind::ChildBall | PartKind::ParentBall);
+        let (of_child, of_parent) = (&p.rotation, parent);
+        // about what a turn is, and the axes with their sense
+        let (point, axes, sense) = match self.kind {
             PartKind::ChildBall => {
-                let s = S::rotate(&p.rotation, &S::point_from(&self.reference));
-                about(spin(&p.rotation), S::point_into(&s))
+                let s = S::rotate(of_child, &S::point_from(&self.reference));
+                (S::point_into(&s), of_child, T::ONE)
             }
-            PartKind::ParentBall if self.is_free => about(-spin(parent), self.point - place()),
-            PartKind::ParentBall => Six { turn: -spin(parent), push: V3::zeros() },
-            PartKind::ParentSlides => slide(parent),
-            PartKind::ChildSlides => -slide(&p.rotation),
-        }
+            PartKind::ParentBall if self.is_free => {
+                (self.point - S::point_into(&p.position), of_parent, -T::ONE)
+            }
+            PartKind::ParentBall => (V3::zeros(), of_parent, -T::ONE),
+            PartKind::ChildSlides => (V3::zeros(), of_child, -T::ONE),
+            PartKind::ParentSlides | PartKind::Single => (V3::zeros(), of_parent, T::ONE),
+        };
+        let axes = S::rotation_into(axes);
+        // the plane turns about its normal alone
+        let first = if is_turn { 3 - S::Spin::N } else { 0 };
+        (first..3).map(move |k| {
+            let n = V3::new(axes[(0, k)], axes[(1, k)], axes[(2, k)]) * sense;
+            if is_turn {
+                // (n, s × n)
+                Six { turn: n, push: mbs_core::algebra::cross(&point, &n) }
+            } else {
+                Six { turn: V3::zeros(), push: n }
+            }
+        })
     }
 }
 

@@ -57,7 +57,7 @@ impl<T: Real, S: Space<T>> OwnFreedoms<T, S> {
         (workspace, moving): (&mut Workspace<T, S>, &mut MovingColumns<T>),
         slopes: &mut EffortSlopes<'_, T>,
     ) {
-        let n = self.number.len();
+        let n = self.columns.len();
         for square in [&mut *slopes.q, slopes.v, slopes.a] {
             assert_eq!(square.len(), n * n, "numbers of a square of freedoms");
             square.fill(T::ZERO);
@@ -75,7 +75,7 @@ impl<T: Real, S: Space<T>> OwnFreedoms<T, S> {
         }
         for rotor in m.rotors {
             for c in self.links[rotor.link as usize].columns.clone() {
-                slopes.a[self.number[c] as usize * (n + 1)] += rotor.inertia;
+                slopes.a[self.columns[c].number as usize * (n + 1)] += rotor.inertia;
             }
         }
     }
@@ -95,10 +95,10 @@ impl<T: Real, S: Space<T>> OwnFreedoms<T, S> {
         let by_v = sums.streams(&s) + sums.moments.times(&here.both);
         let by_q = sums.streams(&here.first) + sums.moments.times(&here.second);
         let carried = by_q + s.carries_force(&sums.force);
-        let n = self.number.len();
-        let own = self.number[c] as usize;
+        let n = self.columns.len();
+        let own = self.columns[c].number as usize;
         let mut put = |j: usize, by_q: &Six<T>, more: T| {
-            let (there, other) = (&moving.columns[j], self.number[j] as usize);
+            let (there, other) = (&moving.columns[j], self.columns[j].number as usize);
             let (up, down) = (other * n + own, own * n + other);
             let x = there.column.dot(&momentum);
             (slopes.a[up], slopes.a[down]) = (x, x);
@@ -118,10 +118,10 @@ impl<T: Real, S: Space<T>> OwnFreedoms<T, S> {
                 put(j, &by_q, T::ZERO);
             }
         }
-        let mut j = self.up[part.columns.start];
+        let mut j = self.columns[part.columns.start].up;
         while j != NONE {
             put(j as usize, &carried, T::ZERO);
-            j = self.up[j as usize];
+            j = self.columns[j as usize].up;
         }
     }
 }

@@ -22,7 +22,7 @@ impl<T: Real, S: Space<T>> OwnFreedoms<T, S> {
     /// # Panics
     /// If `mass` has not the square of the freedoms.
     pub fn factor(&mut self, mass: &mut [T]) -> Result<(), usize> {
-        let n = self.number.len();
+        let n = self.columns.len();
         assert_eq!(mass.len(), n * n, "numbers of the mass matrix");
         if self.above.len() < n {
             self.relate();
@@ -31,7 +31,7 @@ impl<T: Real, S: Space<T>> OwnFreedoms<T, S> {
             *least = mass[k * n + k] * T::EPSILON * T::from_f64(ROUNDINGS);
         }
         for c in (0..n).rev() {
-            let k = self.number[c] as usize;
+            let k = self.columns[c].number as usize;
             let pivot = mass[k * n + k];
             if !(pivot > self.least[k]) {
                 let link = self.links.iter().position(|link| link.columns.contains(&c));
@@ -53,18 +53,19 @@ impl<T: Real, S: Space<T>> OwnFreedoms<T, S> {
 
     /// Finds which columns are on one way to the ground.
     fn relate(&mut self) {
-        let n = self.number.len();
+        let n = self.columns.len();
         (self.above, self.below) = (vec![Vec::new(); n], vec![Vec::new(); n]);
         for c in 0..n {
-            let mut up = self.up[c];
+            let mut up = self.columns[c].up;
             while up != NONE {
-                self.above[c].push(self.number[up as usize]);
-                self.below[up as usize].push(self.number[c]);
-                up = self.up[up as usize];
+                self.above[c].push(self.columns[up as usize].number);
+                self.below[up as usize].push(self.columns[c].number);
+                up = self.columns[up as usize].up;
             }
         }
         for c in 0..n {
-            let related = self.above[c].iter().chain(&self.below[c]).chain([&self.number[c]]);
+            let related =
+                self.above[c].iter().chain(&self.below[c]).chain([&self.columns[c].number]);
             let ends = related.fold([n, 0], |[least, most], &k| {
                 [least.min(k as usize), most.max(k as usize + 1)]
             });
@@ -80,12 +81,12 @@ impl<T: Real, S: Space<T>> OwnFreedoms<T, S> {
     /// # Panics
     /// If `x` is not a square of the freedoms.
     pub fn solve(&mut self, factors: &[T], x: &mut [T]) {
-        let n = self.number.len();
+        let n = self.columns.len();
         assert_eq!(x.len(), n * n, "numbers of a square of freedoms");
         self.solve_half((factors, true), x);
         let mut sum = core::mem::take(&mut self.row);
         for c in 0..n {
-            let k = self.number[c] as usize;
+            let k = self.columns[c].number as usize;
             // x_k ← x_k / D_k − Σ L_kj x_j over the way to the ground
             let scale = T::ONE / factors[k * n + k];
             sum.clear();
@@ -110,7 +111,7 @@ impl<T: Real, S: Space<T>> OwnFreedoms<T, S> {
         (rows, columns): (&[T], &mut [T]),
         mobility: &mut [T],
     ) {
-        let n = self.number.len();
+        let n = self.columns.len();
         let sizes = [rows.len(), columns.len(), mobility.len()];
         assert_eq!(sizes, [width * n, width * n, width * width], "sizes of J");
         for (i, row) in rows.chunks_exact(n.max(1)).enumerate() {
@@ -132,11 +133,11 @@ impl<T: Real, S: Space<T>> OwnFreedoms<T, S> {
 
     /// Replaces the columns of `x` by L⁻ᵀ times them; those of a square are zero outside of the related columns.
     fn solve_half(&mut self, (factors, is_square): (&[T], bool), x: &mut [T]) {
-        let n = self.number.len();
+        let n = self.columns.len();
         assert_eq!(x.len() % n.max(1), 0, "rows of freedoms");
         let mut sum = core::mem::take(&mut self.row);
         for c in (0..n).rev() {
-            let k = self.number[c] as usize;
+            let k = self.columns[c].number as usize;
             let width = x.len() / n;
             let Range { start, end } = if is_square { self.related[c].clone() } else { 0..width };
             // x_k ← x_k − Σ L_jk x_j over the subtree

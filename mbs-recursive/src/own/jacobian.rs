@@ -25,7 +25,7 @@ impl<T: Real, S: Space<T>> OwnFreedoms<T, S> {
         workspace: &mut Workspace<T, S>,
         rows: &mut [T],
     ) {
-        let n = self.number.len();
+        let n = self.columns.len();
         assert!(rows.len() == 3 * n || rows.len() == 6 * n, "rows of the Jacobian");
         let (link, point) = model.seat_point(body, at);
         self.place_way(model, (state, link as usize), workspace);
@@ -34,8 +34,8 @@ impl<T: Real, S: Space<T>> OwnFreedoms<T, S> {
         let mut arm = S::point_into(&S::rotate(&placed[link as usize].rotation, &point));
         for &i in self.way.iter().rev() {
             for c in self.links[i].columns.clone() {
-                let column = self.columns[c].at(&arm);
-                put(rows, (n, self.number[c] as usize), [column.push, column.turn]);
+                let column = self.columns[c].here.at(&arm);
+                put(rows, (n, self.columns[c].number as usize), [column.push, column.turn]);
             }
             arm += S::point_into(&placed[i].arm);
         }
@@ -55,7 +55,7 @@ impl<T: Real, S: Space<T>> OwnFreedoms<T, S> {
         (workspace, moving): (&mut Workspace<T, S>, &mut MovingColumns<T>),
         rows: &mut [T],
     ) {
-        let n = self.number.len();
+        let n = self.columns.len();
         assert!(rows.len() == 3 * n || rows.len() == 6 * n, "rows of the Jacobian");
         move_to(model, state, workspace);
         let store = workspace.store();
@@ -73,7 +73,7 @@ impl<T: Real, S: Space<T>> OwnFreedoms<T, S> {
                 // d/dt (S_v + S_ω × x)
                 let rate = there.rate.at(&x);
                 let push = rate.push + cross(&there.column.turn, &velocity);
-                put(rows, (n, self.number[c] as usize), [push, rate.turn]);
+                put(rows, (n, self.columns[c].number as usize), [push, rate.turn]);
             }
             i = self.links[i].parent;
         }
@@ -92,7 +92,7 @@ impl<T: Real, S: Space<T>> OwnFreedoms<T, S> {
         workspace: &mut Workspace<T, S>,
         rows: &mut [T],
     ) {
-        let n = self.number.len();
+        let n = self.columns.len();
         assert_eq!(rows.len(), 3 * n, "rows of the Jacobian");
         self.place(model, state, workspace);
         let (links, placed) = (model.mechanism().links, workspace.store().placed);
@@ -104,9 +104,9 @@ impl<T: Real, S: Space<T>> OwnFreedoms<T, S> {
         for i in (1..links.len()).rev() {
             let (mass, first) = (self.composite[i].mass, self.composite[i].first);
             for c in self.links[i].columns.clone() {
-                let column = &self.columns[c];
+                let column = &self.columns[c].here;
                 let moved = (column.push * mass + cross(&column.turn, &first)) * part;
-                put(rows, (n, self.number[c] as usize), [moved, V3::zeros()]);
+                put(rows, (n, self.columns[c].number as usize), [moved, V3::zeros()]);
             }
             let parent = &mut self.composite[self.links[i].parent];
             parent.mass += mass;
@@ -118,8 +118,8 @@ impl<T: Real, S: Space<T>> OwnFreedoms<T, S> {
 /// Writes a column of three or six rows.
 #[inline(always)]
 pub(super) fn put<T: Real>(rows: &mut [T], (n, number): (usize, usize), column: [V3<T>; 2]) {
-    let both = column.iter().flat_map(|half| half.iter());
-    for (row, &x) in rows.chunks_exact_mut(n).zip(both) {
-        row[number] = x;
+    assert!(number < n, "numbers of the columns");
+    for (rows, half) in rows.chunks_exact_mut(3 * n).zip(&column) {
+        (rows[number], rows[n + number], rows[2 * n + number]) = (half[0], half[1], half[2]);
     }
 }

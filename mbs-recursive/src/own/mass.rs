@@ -1,7 +1,6 @@
 //! The mass matrix by composite bodies.
 
 use super::OwnFreedoms;
-use super::columns::NONE;
 use super::six::{Moments, V3};
 use crate::link::{Link, LinkMotion};
 use crate::space::Space;
@@ -23,7 +22,7 @@ impl<T: Real, S: Space<T>> OwnFreedoms<T, S> {
         workspace: &mut Workspace<T, S>,
         mass: &mut [T],
     ) {
-        let n = self.number.len();
+        let n = self.columns.len();
         assert_eq!(mass.len(), n * n, "numbers of the mass matrix");
         self.place(model, state, workspace);
         let (links, placed) = (model.mechanism().links, workspace.store().placed);
@@ -37,26 +36,26 @@ impl<T: Real, S: Space<T>> OwnFreedoms<T, S> {
                 before[own.parent] += composite.gathered(&arm);
             }
             for c in own.columns.clone() {
-                let force = composite.times(&self.columns[c]);
-                let row = self.number[c] as usize;
-                for k in own.columns.start..=c {
-                    let x = self.columns[k].dot(&force);
-                    let other = self.number[k] as usize;
+                let force = composite.times(&self.columns[c].here);
+                let row = self.columns[c].number as usize;
+                let mut put = |other: u32, x| {
+                    let other = other as usize;
                     (mass[row * n + other], mass[other * n + row]) = (x, x);
+                };
+                for column in &self.columns[own.columns.start..=c] {
+                    put(column.number, column.here.dot(&force));
                 }
                 let rooted = force.gathered(&own.place);
-                let mut k = self.up[own.columns.start];
-                while k != NONE {
-                    let x = self.rooted[k as usize].dot(&rooted);
-                    let other = self.number[k as usize] as usize;
-                    (mass[row * n + other], mass[other * n + row]) = (x, x);
-                    k = self.up[k as usize];
+                let mut k = self.columns[own.columns.start].up;
+                while let Some(column) = self.columns.get(k as usize) {
+                    put(column.number, column.rooted.dot(&rooted));
+                    k = column.up;
                 }
             }
         }
         for rotor in model.mechanism().rotors {
             for c in self.links[rotor.link as usize].columns.clone() {
-                mass[self.number[c] as usize * (n + 1)] += rotor.inertia;
+                mass[self.columns[c].number as usize * (n + 1)] += rotor.inertia;
             }
         }
     }
@@ -72,7 +71,7 @@ impl<T: Real, S: Space<T>> OwnFreedoms<T, S> {
             };
             self.composite[i] = moments(link, p, &own.tensor);
             for c in own.columns.clone() {
-                self.rooted[c] = self.columns[c].at(&-place);
+                self.columns[c].rooted = self.columns[c].here.at(&-place);
             }
             self.links[i].place = place;
         }

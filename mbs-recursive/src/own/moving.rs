@@ -117,7 +117,7 @@ impl<T: Real, S: Space<T>> OwnFreedoms<T, S> {
                 PartKind::Single | PartKind::ChildBall | PartKind::ChildSlides => (behind, before),
             };
             for c in part.columns.clone() {
-                let column = self.columns[c].at(&-r);
+                let column = self.columns[c].here.at(&-r);
                 let rate = carrier.v.carries(&column);
                 let first = still.v.carries(&column);
                 let second = still.a.carries(&column) + still.v.carries(&first);

@@ -25,7 +25,7 @@ impl<T: Real, S: Space<T>> OwnFreedoms<T, S> {
         workspace: &mut Workspace<T, S>,
         rows: &mut [T],
     ) {
-        let n = self.number.len();
+        let n = self.columns.len();
         assert_eq!(rows.len(), model.n_rows() * n, "numbers of the rows");
         let (m, mut s) = (model.mechanism(), workspace.store());
         model.place_in(state, &mut s);
@@ -49,7 +49,7 @@ impl<T: Real, S: Space<T>> OwnFreedoms<T, S> {
         s: &mut Store<'_, T, S>,
         rows: &mut [T],
     ) -> Result<(), Outside> {
-        let (m, n) = (model.mechanism(), self.number.len());
+        let (m, n) = (model.mechanism(), self.columns.len());
         evaluate_rows(&m, s)?;
         for (row, k, n_rows) in m.loops.coupled() {
             let out = part_mut(rows, k * n, n)?;
@@ -60,7 +60,7 @@ impl<T: Real, S: Space<T>> OwnFreedoms<T, S> {
             for (link, _, slope) in m.loops.couplings.joints_of(row, s.loops.slopes)? {
                 // a guided joint has none
                 for c in self.links[link as usize].columns.clone() {
-                    out[self.number[c] as usize] += slope;
+                    out[self.columns[c].number as usize] += slope;
                 }
             }
         }
@@ -77,7 +77,7 @@ impl<T: Real, S: Space<T>> OwnFreedoms<T, S> {
         let mut force = six::<T, S>(force);
         while i > 0 {
             for c in self.links[i].columns.clone() {
-                row[self.number[c] as usize] += self.columns[c].dot(&force);
+                row[self.columns[c].number as usize] += self.columns[c].here.dot(&force);
             }
             force = force.gathered(&S::point_into(&placed[i].arm));
             i = self.links[i].parent;

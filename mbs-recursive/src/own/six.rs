@@ -24,10 +24,13 @@ impl<T: Real> Six<T> {
         Self { turn: V3::zeros(), push: V3::zeros() }
     }
 
-    /// Power of a force along a motion.
+    /// Power of a force along a motion, in two sums side by side.
     #[inline(always)]
     pub(super) fn dot(&self, other: &Self) -> T {
-        dot(&self.turn, &other.turn) + dot(&self.push, &other.push)
+        let (a, b, c, d) = (&self.turn, &self.push, &other.turn, &other.push);
+        let even = a[0] * c[0] + a[2] * c[2] + b[1] * d[1];
+        let odd = a[1] * c[1] + b[0] * d[0] + b[2] * d[2];
+        even + odd
     }
 
     /// v × s: the rate of a motion s that is carried along by the motion v.
