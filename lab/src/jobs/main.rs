@@ -91,7 +91,7 @@ enum Job {
         /// Fewer and shorter turns
         #[arg(long)]
         quick: bool,
-        /// These problems alone: chain, tree, inverse, four-bars, step, double-pendulum, n-four-bars, andrews
+        /// These problems alone: chain, tree, inverse, four-bars, robot, step, double-pendulum, n-four-bars, andrews
         #[arg(value_name = "PROBLEM")]
         names: Vec<String>,
     },

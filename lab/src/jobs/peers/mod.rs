@@ -35,10 +35,7 @@ const QUICK: Effort = Effort { turns: 3, seconds: 0.05, point: 0.01 };
 #[allow(clippy::print_stdout, reason = "the tables are what is asked for")]
 pub(crate) fn peers(quick: bool, names: &[String]) -> Result<bool, String> {
     let effort = if quick { QUICK } else { FULL };
-    let problems = selected(names);
-    if problems.is_empty() {
-        return Err(format!("no problem is named {}", names.join(", ")));
-    }
+    let problems = selected(names)?;
     programs::build()?;
     let mut machine = Machine::now();
     let mut measured = Vec::new();

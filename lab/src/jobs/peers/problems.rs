@@ -55,10 +55,25 @@ pub(super) fn limit_at(digits: u8) -> f64 {
     if digits < 6 { 1.3 } else { 1.0 }
 }
 
-/// The problems that are asked for, or all of them.
-pub(super) fn selected(names: &[String]) -> Vec<Problem> {
-    let is_wanted = |p: &Problem| names.is_empty() || names.iter().any(|name| name == p.name);
-    all().into_iter().filter(is_wanted).collect()
+/// The problems that are asked for, or all of them; `robot` asks for every `robot-...`.
+///
+/// # Errors
+///
+/// A name that no problem has, with those that there are.
+pub(super) fn selected(names: &[String]) -> Result<Vec<Problem>, String> {
+    let is_asked = |name: &String, p: &Problem| {
+        p.name
+            .strip_prefix(name.as_str())
+            .is_some_and(|rest| rest.is_empty() || rest.starts_with('-'))
+    };
+    let problems = all();
+    if let Some(name) = names.iter().find(|name| !problems.iter().any(|p| is_asked(name, p))) {
+        let mut known: Vec<_> = problems.iter().map(|p| p.name).collect();
+        known.dedup();
+        return Err(format!("no problem is named {name}; there are {}", known.join(", ")));
+    }
+    let is_wanted = |p: &Problem| names.is_empty() || names.iter().any(|name| is_asked(name, p));
+    Ok(problems.into_iter().filter(is_wanted).collect())
 }
 
 const CHAINS: &[Who] =
@@ -130,9 +145,16 @@ mod tests {
 
     #[test]
     fn problems_are_asked_for_by_name() {
-        let chains = selected(&["chain".to_owned(), "step".to_owned()]);
-        assert_eq!(chains.iter().map(|p| p.n).collect::<Vec<_>>(), [6, 10, 30, 100, 300, 10]);
-        assert_eq!(selected(&[]).len(), 50);
-        assert!(selected(&[]).iter().all(|p| p.limit[1] <= p.limit[0]));
+        let sizes = |names: &[&str]| {
+            let names: Vec<_> = names.iter().map(|&name| name.to_owned()).collect();
+            Ok::<Vec<_>, String>(selected(&names)?.iter().map(|p| p.n).collect())
+        };
+        assert_eq!(sizes(&["chain", "step"]).unwrap(), [6, 10, 30, 100, 300, 10]);
+        assert_eq!(sizes(&["robot"]).unwrap().len(), 30);
+        let all = selected(&[]).unwrap();
+        assert_eq!(all.len(), 50);
+        assert!(all.iter().all(|p| p.limit[1] <= p.limit[0]));
+        let why = sizes(&["chain", "robots"]).unwrap_err();
+        assert!(why.contains("no problem is named robots; there are chain, tree,"), "{why}");
     }
 }
