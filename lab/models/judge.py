@@ -127,11 +127,11 @@ def first_line(text):
     return errors[0][:200].replace(str(common.folder()) + "/", "") if errors else "nothing said"
 
 
-def by_drake(found, gravity):
+def by_drake(found):
     """A reference from what Drake says; its free bodies stand as they are drawn."""
     kinds = {"revolute": "turn", "prismatic": "slide", "universal": "universal", "quaternion_floating": "free", "ball_rpy": "ball",
              "screw": "cylinder"}
-    out = {"joints": {}, "state": {}, "acceleration": {}, "gravity": gravity}
+    out = {"joints": {}, "state": {}, "acceleration": {}}
     for name, joint in found["joints"].items():
         kind = kinds.get(joint["type"])
         if kind is None:
@@ -152,9 +152,8 @@ def conventions():
     folder = common.HERE / "conventions"
     for name, found in json.loads((folder / "conventions.json").read_text())["files"].items():
         yield name, folder / name, found | found.get("hard", {})
-    drake = json.loads((folder / "sdf.json").read_text())
-    for name, found in drake["files"].items():
-        reference = by_drake(found, drake["gravity"])
+    for name, found in json.loads((folder / "sdf.json").read_text())["files"].items():
+        reference = by_drake(found)
         if reference:
             yield name, folder / name, reference
 
@@ -181,7 +180,7 @@ def one(name, model, reference, options, work):
     scene = work / f"{name}.toml"
     extra = ["--base", "free"] if reference.get("base") == "free" else []
     if "ctrl" in reference:
-        extra = ["--key", "on"]
+        extra += ["--key", "on"]
     started = time.monotonic()
     code, said = run([*options.importer, "import", str(model), "-o", str(scene), *extra, *options.options], 60)
     row["ms"] = round(1000 * (time.monotonic() - started))

@@ -17,6 +17,11 @@ use mbs_study::compare::{CompareError, Earlier, JournalError, Request, Watch, co
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
+/// Timings of each run of a first look [-]. Chosen, not tuned.
+const QUICK_REPEATS: u32 = 2;
+/// CPU time of all its runs together [s].
+const QUICK_BUDGET: f64 = 5.0;
+
 /// Arguments of `mbs compare`.
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
@@ -40,6 +45,9 @@ pub(crate) struct Arguments {
     /// Duration [s]. Default: the scene's.
     #[arg(long, value_name = "T", allow_hyphen_values = true)]
     duration: Option<f64>,
+    /// A first look in seconds: f64, runs of 5 s together, two timings of each, no maps.
+    #[arg(long, conflicts_with_all = ["repeats", "budget", "no_maps"])]
+    quick: bool,
     /// Least number of timings of each run; more where they differ.
     #[arg(long, value_name = "N", default_value_t = Request::default().repeats)]
     repeats: u32,
@@ -82,17 +90,22 @@ impl Arguments {
         let formulation =
             |name: &String| named("formulation", name, &FORMULATIONS[1..], &FormulationKind::ALL);
         let precision = |name: &String| named("precision", name, &PRECISIONS, &Precision::ALL);
+        let given = self.precision.iter().map(precision).collect::<Result<_, _>>()?;
+        let precisions = match self.quick {
+            true if self.precision.is_empty() => vec![Precision::F64],
+            _ => given,
+        };
         Ok(Request {
             formulations: self.formulation.iter().map(formulation).collect::<Result<_, _>>()?,
-            precisions: self.precision.iter().map(precision).collect::<Result<_, _>>()?,
+            precisions,
             steps: self.steps.clone(),
             tolerances: self.tolerances.clone(),
             errors: if self.error.is_empty() { plain.errors.clone() } else { self.error.clone() },
             duration: self.duration,
-            repeats: self.repeats,
+            repeats: if self.quick { QUICK_REPEATS } else { self.repeats },
             time_limit: self.time_limit,
-            budget: self.budget,
-            maps: !self.no_maps,
+            budget: if self.quick { QUICK_BUDGET } else { self.budget },
+            maps: !(self.no_maps || self.quick),
             choices: self.choice,
             ..plain
         })

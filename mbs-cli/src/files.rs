@@ -65,7 +65,7 @@ pub(crate) fn folder(out: &Path, files: &[&str]) -> Result<Folder, Refusal> {
 
 /// Warns of files in a directory that do not belong to its results.
 pub(crate) fn warn_of_mixed(folder: &Path) {
-    if let Some([file, object]) = Folder::mixed_in(folder) {
+    if let Some([file, object]) = Folder::mixed(folder) {
         warn(&format!(
             "warning: `{file}` in `{}` does not belong to the results of `{object}`: it was changed, or a process was killed between two \
              files",

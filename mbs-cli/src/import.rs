@@ -63,24 +63,24 @@ fn imported(arguments: &Arguments) -> Result<ExitCode, Refusal> {
     }
     let refused = |error| Refusal::read("model-refused", &error);
     let home = arguments.file.parent().unwrap_or(Path::new(""));
-    let out = arguments.out.as_deref().and_then(Path::parent);
+    let folder = arguments.out.as_deref().and_then(Path::parent);
     let options = ImportOptions {
         // on standard output it is taken for a file of the working directory
-        scene_folder: Some(out.unwrap_or(Path::new("")).to_owned()),
+        scene_folder: Some(folder.unwrap_or(Path::new("")).to_owned()),
         ..model::options(&arguments.model, home)?
     };
     let model = import(&bytes, &name, &options).map_err(refused)?;
     let faults = faults(&name, &model)?;
     let is_lost = arguments.strict && model.findings.iter().any(acts);
-    let place = arguments.out.as_ref().map(|out| out.display().to_string());
-    let report =
-        report(&name, &model) + &faults.text(&place.unwrap_or_else(|| format!("scene of {name}")));
+    let out = arguments.out.as_deref().filter(|_| !is_lost);
+    let place = out.map_or_else(|| format!("scene of {name}"), |out| out.display().to_string());
+    let report = report(&name, &model) + &faults.text(&place, out.unwrap_or(&arguments.file));
     let (said, report) = match (&arguments.out, arguments.json) {
         (_, true) => (object(&name, &model, &faults).to_string(), String::new()),
         (Some(_), false) => (report, String::new()),
         (None, false) => (model.text.clone(), report),
     };
-    if let Some(out) = arguments.out.as_deref().filter(|_| !is_lost) {
+    if let Some(out) = out {
         files::write(out, model.text.as_bytes(), Some(&arguments.file))?;
     }
     if !report.is_empty() {
@@ -96,8 +96,14 @@ fn imported(arguments: &Arguments) -> Result<ExitCode, Refusal> {
     Ok(say(&said, ExitCode::SUCCESS))
 }
 
-/// What the doctor calls faults of the start, each with its line of the scene; nothing where it was not asked.
-struct Faults(Option<Vec<(Finding, Option<usize>)>>);
+/// What the doctor calls a fault of the start, with its line of the scene.
+struct StartFault {
+    finding: Finding,
+    line: Option<usize>,
+}
+
+/// All of them; nothing where it was not asked.
+struct Faults(Option<Vec<StartFault>>);
 
 /// Joints up to which the doctor looks at a model with loops [-]: its time grows with their cube, and is a second here.
 const MOST_JOINTS: usize = 200;
@@ -121,29 +127,34 @@ fn faults(name: &str, model: &Imported) -> Result<Faults, Refusal> {
     let found = examine(&scene, &settings, &effort).findings.into_iter();
     let found = found.filter(|finding| finding.severity == Severity::Fault).map(|finding| {
         let line = finding.place.map(|(entry, key)| document.place(entry, key).1.line);
-        (finding, line)
+        StartFault { finding, line }
     });
     Ok(Faults(Some(found.collect())))
 }
 
 impl Faults {
-    /// Lines of the report; `file` has the scene.
-    fn text(&self, file: &str) -> String {
-        let line = |(Finding { code, message, remedy, .. }, line): &(Finding, Option<usize>)| {
+    /// Lines of the report: `place` is the scene's, and the doctor takes `file`.
+    fn text(&self, place: &str, file: &Path) -> String {
+        let text = |StartFault { finding, line }: &StartFault| {
+            let Finding { code, message, remedy, .. } = finding;
             let line = line.map(|line| format!(":{line}")).unwrap_or_default();
-            format!("{:<13} {file}{line}  {code}: {message}; {remedy}\n", "fault")
+            format!("{:<13} {place}{line}  {code}: {message}; {remedy}\n", "fault")
         };
         match &self.0 {
-            Some(found) => found.iter().map(line).collect(),
+            Some(found) => found.iter().map(text).collect(),
             None => {
-                format!("{:<13} {file}  its start was not looked at: mbs doctor {file}\n", "large")
+                let file = file.display();
+                format!("{:<13} {place}  its start was not looked at: mbs doctor {file}\n", "large")
             }
         }
     }
 
     /// The same as JSON; null where the start was not looked at.
     fn list(&self) -> Value {
-        let object = |(Finding { code, message, remedy, .. }, line): &(Finding, Option<usize>)| json!({ "code": code, "says": message, "mend": remedy, "line": line });
+        let object = |StartFault { finding, line }: &StartFault| {
+            let Finding { code, message, remedy, .. } = finding;
+            json!({ "code": code, "message": message, "remedy": remedy, "line": line })
+        };
         self.0.as_ref().map(|found| found.iter().map(object).collect::<Vec<_>>()).into()
     }
 }
@@ -161,8 +172,8 @@ fn report(name: &str, model: &Imported) -> String {
         text += &format!("{:<13} {file}:{line}:{column}  {element}: {says}\n", word(*kind));
     }
     for (says, n) in for_the_eye(model) {
-        let says = if says == "for the eye" { String::new() } else { format!(": {says}") };
-        text += &format!("{:<13} {}{says}\n", "for the eye", counted(n, "element"));
+        let says = if says.is_empty() { String::new() } else { format!(": {says}") };
+        text += &format!("{:<13} {}{says}\n", word(FindingKind::Appearance), counted(n, "element"));
     }
     text
 }
@@ -184,7 +195,7 @@ const fn word(kind: FindingKind) -> &'static str {
     match kind {
         FindingKind::Approximated => "approximated",
         FindingKind::Ignored => "ignored",
-        FindingKind::Appearance => "appearance",
+        FindingKind::Appearance => "for the eye",
     }
 }
 

@@ -121,17 +121,21 @@ fn name_of(path: &Path) -> String {
 
 /// The refusal of a file that cannot be read.
 fn unreadable(path: &Path, what: &str, error: &io::Error) -> Refusal {
-    let with_ending = path.with_extension("toml");
+    // a sweep, too, is a file with one of the endings of scenes
+    let is_scene = ["scene file", "sweep file"].contains(&what);
+    let with_ending = Some(path.with_extension("toml")).filter(|file| is_scene && file.is_file());
     let hint = if path.is_dir() {
         format!("that is a directory; give a {what} in it")
     } else if path.exists() {
         format!("give a {what} that this user may read")
-    } else if with_ending.is_file() {
-        format!("did you mean `{}`?", with_ending.display())
+    } else if let Some(file) = with_ending {
+        format!("did you mean `{}`?", file.display())
     } else {
         let near = nearest_name(&name_of(path), &files_like(path), "files there");
         let model = if what == "scene file" { ", or is a model" } else { "" };
-        let usual = format!("give the path of a {what}; it ends with .toml or .json{model}");
+        let ending =
+            if is_scene { format!("; it ends with .toml or .json{model}") } else { String::new() };
+        let usual = format!("give the path of a {what}{ending}");
         if near.starts_with("did you mean") { near } else { usual }
     };
     let message = format!("cannot read `{}`: {}", path.display(), plain(error));

@@ -88,8 +88,6 @@ fn inspected(arguments: &Arguments) -> Result<Value, Refusal> {
     if !given.is_empty() {
         // a state is whole: a value of the scene's own start could be in the way of it
         mechanism.clear_initial_conditions();
-    }
-    if !given.is_empty() {
         begin(&mut mechanism, &given)?;
     }
     let simulation = mechanism.simulate(&Method::default()).map_err(|error| refused(&error))?;
@@ -192,8 +190,11 @@ fn given(arguments: &Arguments, mechanism: &Mechanism) -> Result<Vec<Given>, Ref
             ));
         };
         // what the command line says of a joint counts before the file
-        all.retain(|given: &Given| given.name != name);
-        all.push(Given { name: name.to_owned(), value: Some(vec![value]), rate, effort: None });
+        let value = Some(vec![value]);
+        match all.iter_mut().find(|given: &&mut Given| given.name == name) {
+            Some(given) => (given.value, given.rate) = (value, rate.or(given.rate.take())),
+            None => all.push(Given { name: name.to_owned(), value, rate, effort: None }),
+        }
     }
     Ok(all)
 }
@@ -224,7 +225,11 @@ fn of_file(path: &Path, mechanism: &Mechanism) -> Result<Vec<Given>, Refusal> {
         None => Vec::new(),
     };
     if let Some(base) = base {
-        entries.push((base_joint(mechanism).map_err(&refused)?, base));
+        let name = base_joint(mechanism).map_err(&refused)?;
+        if entries.iter().any(|(known, _)| *known == name) {
+            return Err(refused(format!("`base` is `{name}`, which stands under `joints` too")));
+        }
+        entries.push((name, base));
     }
     for (name, entry) in &entries {
         let keys = entry.as_object().ok_or_else(|| refused(format!("`{name}` is no object")))?;
@@ -275,11 +280,11 @@ fn begin(mechanism: &mut Mechanism, given: &[Given]) -> Result<(), Refusal> {
         })?;
     }
     let mut tree = mechanism.tree().map_err(|error| refused(&error))?;
-    let rows = tree.loop_jacobian().clone();
+    let rows = rows_aside(&mut tree).map_err(|error| refused(&error))?;
     let is_tied = |column: usize| (0..rows.rows).any(|row| rows[(row, column)] != 0.0);
     let joints: Vec<JointId> = mechanism.ids::<JointId>().collect();
     for joint in joints {
-        let own = given.iter().rev().find(|given| given.name == mechanism.name(joint));
+        let own = given.iter().find(|given| given.name == mechanism.name(joint));
         let range = tree.coordinates_of(joint).map(|range| range.v).ok().filter(|v| !v.is_empty());
         let held = range.clone().filter(|v| !v.clone().any(is_tied)).map(|v| vec![0.0; v.len()]);
         let [value, rate] = [
@@ -303,6 +308,17 @@ fn begin(mechanism: &mut Mechanism, given: &[Given]) -> Result<(), Refusal> {
         }
     }
     Ok(())
+}
+
+/// The rows of loops beside the drawn position, where a mechanism that is drawn folded does not hide what they tie.
+fn rows_aside(tree: &mut Tree) -> Result<Matrix, TreeError> {
+    // different turns, so that no two joints stand in line
+    let step: Vec<f64> =
+        (1..).take(tree.velocities().len()).map(|i: u32| f64::from(i).sin()).collect();
+    let mut aside = tree.coordinates().to_vec();
+    tree.integrate(tree.coordinates(), &step, &mut aside)?;
+    tree.set(&aside, &vec![0.0; step.len()])?;
+    Ok(tree.loop_jacobian().clone())
 }
 
 /// Has JSON no place where a number was not finite?
@@ -329,11 +345,8 @@ fn rows(
         for (number, row) in range.v.clone().enumerate() {
             rows[row] = json!({ "joint": name, "number": number });
         }
-        let effort = given
-            .iter()
-            .rev()
-            .find(|given| given.name == name)
-            .and_then(|given| given.effort.as_ref());
+        let effort =
+            given.iter().find(|given| given.name == name).and_then(|given| given.effort.as_ref());
         let Some(effort) = effort else { continue };
         if effort.len() != range.v.len() {
             let message = format!("`effort` of `{name}` has {} numbers", effort.len());
@@ -354,14 +367,18 @@ fn refused(error: &impl Error) -> Refusal {
 
 /// A matrix with its name; nothing of one without rows.
 fn matrix_text(name: &str, rows: &Value) -> String {
-    let rows = rows.as_array().cloned().unwrap_or_default();
+    let rows = rows.as_array().map(Vec::as_slice).unwrap_or_default();
     let mut out = if rows.is_empty() { String::new() } else { format!("\n{name}\n") };
     for row in rows {
-        let row = row.as_array().cloned().unwrap_or_default();
-        let numbers = row.iter().map(|x| format!("{:>13.6}", x.as_f64().unwrap_or(f64::NAN)));
-        out += &(numbers.collect::<String>() + "\n");
+        out += &(numbers_text(row) + "\n");
     }
     out
+}
+
+/// The numbers of a list.
+fn numbers_text(list: &Value) -> String {
+    let numbers = list.as_array().into_iter().flatten();
+    numbers.map(|x| format!("{:>13.6}", x.as_f64().unwrap_or(f64::NAN))).collect()
 }
 
 /// The same for people: a line for each row, then what else was asked for.
@@ -394,23 +411,16 @@ fn text(object: &Value) -> String {
     for (name, rows) in &matrices {
         out += &matrix_text(name, rows);
     }
-    let vector = |value: &Value| {
-        let numbers = value.as_array().cloned().unwrap_or_default();
-        numbers
-            .iter()
-            .map(|x| format!("{:>13.6}", x.as_f64().unwrap_or(f64::NAN)))
-            .collect::<String>()
-    };
     if let Some(momentum) = object["momentum"].as_object() {
         out.push('\n');
         for (key, value) in momentum {
-            out += &format!("{:<32}{}\n", key.replace('_', " "), vector(value));
+            out += &format!("{:<32}{}\n", key.replace('_', " "), numbers_text(value));
         }
     }
     if let Some(frames) = object["frames"].as_object() {
         out += "\nframe                                    x            y            z\n";
         for (name, frame) in frames {
-            out += &format!("{name:<32}{}\n", vector(&frame["position"]));
+            out += &format!("{name:<32}{}\n", numbers_text(&frame["position"]));
         }
     }
     out

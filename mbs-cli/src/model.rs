@@ -73,11 +73,10 @@ pub(crate) fn options(model: &ModelOptions, folder: &Path) -> Result<ImportOptio
         None => None,
         Some("") => Some(Stops::ByMass),
         Some(text) => {
-            let numbers: Vec<f64> = text.split(',').filter_map(|x| x.trim().parse().ok()).collect();
-            match numbers[..] {
-                [stiffness, damping]
-                    if stiffness > 0.0 && damping >= 0.0 && stiffness.is_finite() =>
-                {
+            let finite = |x: &str| x.trim().parse().ok().filter(|x: &f64| x.is_finite());
+            let numbers: Option<Vec<f64>> = text.split(',').map(finite).collect();
+            match numbers.as_deref() {
+                Some(&[stiffness, damping]) if stiffness > 0.0 && damping >= 0.0 => {
                     Some(Stops::Given { stiffness, damping })
                 }
                 _ => {

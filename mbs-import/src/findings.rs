@@ -54,7 +54,7 @@ impl Findings {
     }
 
     pub(crate) fn appearance(&mut self, at: Origin, element: impl Into<String>) {
-        self.not_drawn(at, element, "for the eye");
+        self.not_drawn(at, element, "");
     }
 
     /// Something that is for the eye, and why it is not drawn.

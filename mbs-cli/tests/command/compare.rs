@@ -120,6 +120,20 @@ fn two_comparisons_make_the_same_runs_with_the_same_errors() {
     assert!(n("not-run") > 0, "a budget of 2 s leaves something out");
 }
 
+#[test]
+fn a_quick_comparison_is_of_f64_alone_and_has_no_maps() {
+    let scene = scene("double-pendulum");
+    let arguments =
+        [&scene, "--duration", "0.1", "--formulation", "index-3,recursive", "--quick", "--json"];
+    let found = json(&crate::run("compare", &arguments));
+    let names = found["methods"].as_array().expect("a list").iter().map(|m| &m["name"]);
+    let names: Vec<&str> = names.map(|name| name.as_str().expect("a name")).collect();
+    assert!(names.len() > 3 && names.iter().all(|name| name.ends_with(", f64")), "{names:?}");
+    assert!(found["maps"].as_array().is_none_or(Vec::is_empty), "{}", found["maps"]);
+    let refused = crate::run("compare", &[&arguments[..], &["--budget", "3"]].concat());
+    assert_eq!(crate::status(&refused), 1, "{refused:?}");
+}
+
 /// A short comparison in a directory, with a map: its JSON.
 fn short(out: &Path, more: &[&str]) -> Output {
     let arguments = ["--formulation", "index-3", "--duration", "0.4", "--steps", "1e-2,5e-3"];

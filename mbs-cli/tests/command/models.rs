@@ -206,10 +206,57 @@ fn states_that_no_joint_can_have_are_refused_with_the_nearest_name() {
         let refused = run("inspect", &[&scene, "--state", file.to_str().expect("UTF-8")]);
         assert!(text(&refused.stderr).contains(message), "{entry}: {refused:?}");
     }
+    // what the command line says of a joint leaves the effort that the file gives it
+    let state = file("effort.json");
+    let entry = "{\"joints\": {\"pivot\": {\"value\": 0.1, \"effort\": 7}}}";
+    std::fs::write(&state, entry).expect("a folder");
+    let state = ["--state", state.to_str().expect("UTF-8"), "--what", "accelerations", "--json"];
+    let by_file = done(&run("inspect", &[&[scene.as_str()][..], &state].concat()));
+    let both =
+        done(&run("inspect", &[&[scene.as_str(), "--joint=pivot=0.1"][..], &state].concat()));
+    assert_eq!(by_file["accelerations"], both["accelerations"]);
     // with a loop the rest follows
     let object =
         done(&run("inspect", &[&super::scene("four-bar"), "--joint", "start-0=0.3", "--json"]));
     let [rows, columns] =
         [&object["loops"], &object["loops"][0]].map(|x| x.as_array().expect("a list").len());
     assert_eq!((rows, columns), (2, 3));
+}
+
+#[test]
+fn a_folded_four_bar_follows_the_joint_that_is_given_and_a_base_is_said_once() {
+    let bar = |name: &str, center: f64| {
+        format!(
+            "[[body]]\nname = \"{name}\"\nmass = 1.0\ncenter = [{center}, 0.0]\ninertia = 0.1\n"
+        )
+    };
+    let joint = |name: &str, bodies: &str, at: f64| {
+        format!(
+            "[[joint]]\nname = \"{name}\"\nkind = \"revolute\"\nbodies = {bodies}\nat = [{at}, 0.0]\n"
+        )
+    };
+    let folded = "[scene]\ndimension = 2\nduration = 0.1\n".to_owned()
+        + &(bar("crank", 0.5) + &bar("coupler", 0.5) + &bar("rocker", 0.3))
+        + &joint("O", "[\"ground\", \"crank\"]", 0.0)
+        + &joint("A", "[\"crank\", \"coupler\"]", 1.0)
+        // the coupler's end lies on the crank's pivot
+        + &joint("C", "[\"coupler\", \"rocker\"]", 0.0)
+        + &joint("B", "[\"ground\", \"rocker\"]", 0.6);
+    let scene = file("folded.toml");
+    std::fs::write(&scene, folded).expect("a folder");
+    let scene = scene.to_str().expect("UTF-8");
+    let object = done(&run("inspect", &[scene, "--joint=B=0.3", "--json"]));
+    // crank and coupler have length 1: the crank stands at acos(|C| / 2) from the way to C
+    let end = [0.6 - 0.6 * 0.3_f64.cos(), -0.6 * 0.3_f64.sin()];
+    let crank = end[1].atan2(end[0]) + (end[0].hypot(end[1]) / 2.0).acos();
+    assert!((flat(&object["q"])[0] - crank).abs() < 1e-9, "{crank}: {object}");
+    let both = "{\"joints\": {\"root\": {\"value\": [1, 0, 0, 0, 0, 0]}}, \"base\": {\"value\": [2, 0, 0, 0, 0, 0]}}";
+    let free = file("free.toml");
+    let text_of = "[scene]\ndimension = 3\nduration = 0.1\n[[body]]\nname = \"b\"\nmass = 1.0\ncenter = [0, 0, 0]\n\
+        inertia = [1, 1, 1, 0, 0, 0]\n[[joint]]\nname = \"root\"\nkind = \"free\"\nbodies = [\"ground\", \"b\"]\nat = [0, 0, 0]\n";
+    let state = file("both.json");
+    std::fs::write(&free, text_of).and_then(|()| std::fs::write(&state, both)).expect("a folder");
+    let [free, state] = [&free, &state].map(|path| path.to_str().expect("UTF-8"));
+    let refused = run("inspect", &[free, "--state", state]);
+    assert!(text(&refused.stderr).contains("`base` is `root`, which stands under"), "{refused:?}");
 }

@@ -1,6 +1,7 @@
 //! The meshes of a page: files that are read once, and corners that become one where there are too many triangles.
 
 use super::pack::Pack;
+use super::panels::extent;
 use mbs::record::{RecordedMotion, ShapeForm};
 use mbs_scene::TriangleMesh;
 use mbs_scene::format::counted;
@@ -14,7 +15,7 @@ const MOST_TRIANGLES: usize = 20_000;
 const ENOUGH: f64 = 0.8;
 /// Lengths of cells that are tried [-]. Chosen, not tuned.
 const TRIALS: usize = 6;
-/// Steps of the longest side of a mesh [-]: 0.06 mm of a metre.
+/// Steps of the longest side of a mesh [-]: 0.06 mm of a metre, so that most differences between corners take two bytes.
 const STEPS: f64 = 16_383.0;
 /// Files that a note names [-].
 const NAMED: usize = 3;
@@ -40,7 +41,7 @@ impl PageMeshes {
             if tried.insert(file.as_str()) {
                 match TriangleMesh::read(Path::new(file)) {
                     Ok(mesh) if mesh.triangles.is_empty() => {
-                        lost.push(format!("{file} (no triangles)"));
+                        lost.push(format!("{} (no triangles)", name(file)));
                     }
                     Ok(mesh) => {
                         meshes.by_file.insert(file.clone(), meshes.list.len());
@@ -48,7 +49,7 @@ impl PageMeshes {
                         scales.push(0.0_f64);
                         uses.push(0);
                     }
-                    Err(why) => lost.push(format!("{file} ({why})")),
+                    Err(why) => lost.push(format!("{} ({why})", name(file))),
                 }
             }
             if let Some(number) = meshes.by_file.get(file) {
@@ -119,15 +120,16 @@ impl PageMeshes {
                 ));
             }
             None => {
-                *self = Self::default();
+                (self.list, self.by_file) = (Vec::new(), HashMap::new());
                 self.notes.push(format!("Meshes are not drawn: they have {whole} triangles."));
             }
         }
     }
 
-    /// The number of a file's mesh, where it is drawn.
+    /// The number of a file's mesh, where something of it is drawn.
     pub(super) fn number(&self, file: &str) -> Option<usize> {
-        self.by_file.get(file).copied()
+        let number = *self.by_file.get(file)?;
+        (!self.list[number].triangles.is_empty()).then_some(number)
     }
 
     /// The meshes in a pack: columns of places, and of the numbers of their triangles.
@@ -136,11 +138,7 @@ impl PageMeshes {
             let column =
                 |i: usize| -> Vec<f64> { mesh.vertices.iter().map(|vertex| vertex[i]).collect() };
             let columns = [column(0), column(1), column(2)];
-            let side = columns.iter().map(|column| {
-                let low = column.iter().copied().fold(f64::INFINITY, f64::min);
-                column.iter().copied().fold(f64::NEG_INFINITY, f64::max) - low
-            });
-            let side = side.fold(0.0, f64::max);
+            let side = columns.iter().map(|column| extent(column).0).fold(0.0, f64::max);
             let step = if side > 0.0 { side / STEPS } else { 1.0 };
             #[allow(clippy::cast_precision_loss, reason = "numbers of vertices are far below 2^53")]
             let numbers = |i: usize| -> Vec<f64> {
@@ -151,6 +149,13 @@ impl PageMeshes {
         });
         packed.collect()
     }
+}
+
+/// The name of a file without its folders: a page goes to others.
+fn name(file: &str) -> String {
+    Path::new(file)
+        .file_name()
+        .map_or_else(|| file.to_owned(), |name| name.to_string_lossy().into_owned())
 }
 
 /// The mesh with the vertices of its triangles alone, in the order of their use: their numbers change little from one to the next.

@@ -338,7 +338,7 @@ fn logarithms(values: &[f64]) -> Vec<f64> {
 }
 
 /// Range of the finite values, and the largest size; infinite and zero where there are none.
-fn extent(values: &[f64]) -> (f64, f64) {
+pub(super) fn extent(values: &[f64]) -> (f64, f64) {
     let finite = || values.iter().copied().filter(|x| x.is_finite());
     let low = finite().fold(f64::INFINITY, f64::min);
     let high = finite().fold(f64::NEG_INFINITY, f64::max);

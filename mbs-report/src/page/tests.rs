@@ -403,5 +403,18 @@ fn a_mesh_is_drawn_and_one_that_cannot_be_read_is_a_note_with_the_inertia_in_its
     ] {
         assert!(html.contains(note), "{note}");
     }
+    // corners of a large ground become one so far apart that nothing is left of a small part: it has its inertia, not nothing
+    std::fs::write(folder.join("small.obj"), "v 0 0 0\nv 0.01 0 0\nv 0 0.01 0\nf 1 2 3\n")
+        .expect("a file");
+    let text = "[scene]\ndimension = 3\nduration = 0.1\n".to_owned()
+        + &body("square", "square.obj")
+        + &body("small", "small.obj");
+    let file = mbs_scene::SceneFile::parse_in(&text, "meshes.toml", &folder).expect("TOML");
+    let html = page_of(&file);
+    let shapes = data(&html).0["motion"]["shapes"].clone();
+    let of_small = |shape: &&serde_json::Value| shape["body"] == 1;
+    let shapes = shapes.as_array().expect("shapes");
+    assert!(shapes.iter().filter(of_small).any(|shape| shape["form"] == "box"), "{shapes:?}");
+    assert!(!html.contains(&folder.display().to_string()), "a page has no folders");
     std::fs::remove_dir_all(&folder).expect("it is there");
 }

@@ -55,7 +55,8 @@ pub(super) fn left_behind(
         return;
     }
     let is_held = |joint: usize| {
-        scene.initials.iter().any(|initial| {
+        let is_guided = scene.guides.iter().any(|guide| guide.joint.index() == joint);
+        is_guided || scene.initials.iter().any(|initial| {
             matches!(&initial.target, InitialTarget::Joint { joint: held, value: Some(_), .. } if held.index() == joint)
         })
     };

@@ -284,8 +284,11 @@ impl Judge<'_> {
             (!channel.is_of_run()).then(|| (channel.name.clone(), own))
         });
         let outputs: Vec<_> = by_channel.flatten().collect();
-        estimate.outputs = (!outputs.is_empty()).then_some(Outputs(outputs));
-        estimate.basis = Some(found.basis);
+        if outputs.is_empty() {
+            estimate.missing = Some("no output is one of the motion".to_owned());
+            return;
+        }
+        (estimate.outputs, estimate.basis) = (Some(Outputs(outputs)), Some(found.basis));
     }
 
     /// The largest error in the scale of its output [-], and the output.

@@ -134,9 +134,13 @@ fn a_flat_parallelogram_that_one_held_value_leads_away_may_fold() {
     let c = checkup(&mbs_testkit::scene(&flat.concat()), &still);
     let told = finding(&c, "singular-reference");
     assert_eq!((told.severity, &told.joints[..]), (Severity::Doubt, &[0, 1, 2, 3][..]));
-    let both = flat.concat() + "[[initial]]\njoint = \"B\"\nvalue = 0.5\n";
-    let c = checkup(&mbs_testkit::scene(&both), &still);
-    assert!(!codes(&c).contains(&"singular-reference"), "{:?}", c.findings);
+    let held = "[[initial]]\njoint = \"B\"\nvalue = 0.5\n".to_owned();
+    // a guide holds its joint, too
+    let guided = "[[guide]]\njoint = \"B\"\ntable = [[0.0, 0.5], [1.0, 0.6]]\n".to_owned();
+    for second in [held, guided] {
+        let c = checkup(&mbs_testkit::scene(&(flat.concat() + &second)), &still);
+        assert!(!codes(&c).contains(&"singular-reference"), "{second}: {:?}", c.findings);
+    }
 }
 
 #[test]

@@ -134,6 +134,19 @@ fn a_run_that_stops_has_no_estimate_and_says_why() {
     assert_eq!(estimate.missing.as_deref(), Some("the run stopped before its end"));
 }
 
+#[test]
+fn outputs_of_the_run_alone_have_no_estimate_and_it_is_said() {
+    let outputs = "[[output]]\nname = \"r\"\nquantity = \"invariant-error\"\n";
+    let bar = "[[body]]\nname = \"b\"\nmass = 1.0\ncenter = [0.5, 0.0]\ninertia = 0.1\n\
+        [[joint]]\nname = \"j\"\nkind = \"revolute\"\nbodies = [\"ground\", \"b\"]\nat = [0.0, 0.0]\n";
+    let scene = "[scene]\ndimension = 2\nduration = 0.1\ngravity = [0.0, -9.8]\n".to_owned()
+        + bar
+        + outputs;
+    let (_, estimate) = estimated(&read(&scene, "of the run"));
+    assert_eq!(estimate.missing.as_deref(), Some("no output is one of the motion"));
+    assert!(estimate.outputs.is_none() && estimate.basis.is_none());
+}
+
 /// The light wrist with other masses of its last links, and let go from another state.
 fn arm(seed: u32) -> Scene<f64> {
     let mut state = u64::from(seed);

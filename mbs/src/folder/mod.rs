@@ -69,16 +69,10 @@ impl Folder {
         &self.path
     }
 
-    /// The first file in it that does not belong to the results of its JSON object, with the name of that object. It was changed, or a
+    /// The first file of a directory that does not belong to the results of its JSON object, with the name of that object. It was changed, or a
     /// process was killed between two renames.
     #[must_use]
-    pub fn mixed(&self) -> Option<[String; 2]> {
-        Self::mixed_in(&self.path)
-    }
-
-    /// The same of a directory that is only read.
-    #[must_use]
-    pub fn mixed_in(path: &Path) -> Option<[String; 2]> {
+    pub fn mixed(path: &Path) -> Option<[String; 2]> {
         mixed::find(path)
     }
 }

@@ -66,15 +66,15 @@ fn a_mixture_is_found_and_stale_tables_go_with_their_results() {
     part.table("run.csv", |sink| sink.write_all(b"1\n")).unwrap();
     part.table("realtime.csv", |sink| sink.write_all(b"2\n")).unwrap();
     part.finish("run.json", "{}").unwrap_or_default();
-    assert_eq!(folder.mixed(), None);
+    assert_eq!(Folder::mixed(&path), None);
     put(&folder, "3\n").unwrap();
     assert!(!path.join("realtime.csv").exists());
-    assert_eq!(folder.mixed(), None);
+    assert_eq!(Folder::mixed(&path), None);
     fs::write(path.join("run.csv"), "4\n").unwrap();
-    assert_eq!(folder.mixed(), Some(["run.csv", "run.json"].map(str::to_owned)));
+    assert_eq!(Folder::mixed(&path), Some(["run.csv", "run.json"].map(str::to_owned)));
     put(&folder, "3\n").unwrap();
     fs::write(path.join("run.html"), "<p>id-2</p>").unwrap();
-    assert_eq!(folder.mixed(), Some(["run.html", "run.json"].map(str::to_owned)));
+    assert_eq!(Folder::mixed(&path), Some(["run.html", "run.json"].map(str::to_owned)));
     drop(folder);
     fs::remove_dir_all(path).unwrap();
 }
