@@ -170,7 +170,7 @@ pub(super) mod tests {
 
     #[test]
     fn ratios_are_taken_turn_by_turn_against_the_fastest_peer_that_is_right() {
-        let mut measured = Measured::new(selected(&["chain".to_owned()])[0]);
+        let mut measured = Measured::new(selected(&["chain".to_owned()]).unwrap()[0]);
         for (ours, peer) in [(1.0, 2.0), (4.0, 5.0), (1.0, 4.0)] {
             let own =
                 [line("reference", 0.0, 3.0), line("planar", ours, 3.0), line("spatial", 9.0, 3.1)];
@@ -185,7 +185,7 @@ pub(super) mod tests {
 
     #[test]
     fn a_run_may_err_as_much_as_the_peer_and_no_more() {
-        let mut measured = Measured::new(selected(&["double-pendulum".to_owned()])[0]);
+        let mut measured = Measured::new(selected(&["double-pendulum".to_owned()]).unwrap()[0]);
         let of = |algorithm, seconds, value| Line {
             reference: "zero".into(),
             ..line(algorithm, seconds, value)

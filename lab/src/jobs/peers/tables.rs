@@ -229,7 +229,7 @@ mod tests {
 
     #[test]
     fn a_missed_limit_is_reported_and_a_missing_peer_too() {
-        let mut measured = Measured::new(selected(&["tree".to_owned()])[0]);
+        let mut measured = Measured::new(selected(&["tree".to_owned()]).unwrap()[0]);
         let own = [line("reference", 0.0, 3.0), line("planar", 1.0, 3.0)];
         measured.take(Who::Ours, own.to_vec());
         let alone = text(&[measured.clone()], "remark");

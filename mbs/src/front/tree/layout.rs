@@ -23,11 +23,30 @@ type V3 = Vector<f64, 3>;
 /// What moves and what turns: a velocity, an acceleration, or a force with its moment.
 type Pair = [V3; 2];
 
-/// One coordinate, or those of a rotation.
+/// Whose some coordinates are.
 #[derive(Debug, Clone)]
 struct Place {
     own: TreeRange,
-    /// The link that has it.
+    /// The joint of the scene, and a body that it carries.
+    of: (Option<usize>, usize),
+    /// Does nothing hold the body?
+    is_free: bool,
+}
+
+/// One coordinate.
+#[derive(Debug, Clone, Copy)]
+struct Single {
+    link: u32,
+    q: u32,
+    z: u32,
+    /// Its places in v and in w.
+    at: [u32; 2],
+}
+
+/// The coordinates of a ball or of a free joint.
+#[derive(Debug, Clone)]
+struct Turning {
+    own: TreeRange,
     link: usize,
     /// First of its numbers in z.
     z: usize,
@@ -35,11 +54,7 @@ struct Place {
     at: [[usize; 2]; 2],
     /// How many numbers move.
     n: usize,
-    /// The joint of the scene, and a body that it carries.
-    of: (Option<usize>, usize),
-    /// Does nothing hold the body?
-    is_free: bool,
-    pose: Option<Box<Pose>>,
+    pose: Pose,
 }
 
 /// A ball or a free joint at the present state.
@@ -85,6 +100,28 @@ impl Pose {
         [linear - cross(&(self.rotation * spin), &self.arm), spin]
     }
 
+    /// Efforts along w of those along v: Bᵀ f.
+    fn forces_inward(&self, [force, moment]: Pair) -> Pair {
+        let back = self.rotation.transpose();
+        if !self.is_reversed {
+            return [force, moment + back * cross(&self.arm, &force)];
+        }
+        let turned = -(self.rotation * force);
+        let moment = back * (cross(&self.arm, &turned) - moment);
+        [turned, moment - cross(&self.gap, &force)]
+    }
+
+    /// Efforts along v of those along w: B⁻ᵀ f.
+    fn forces_outward(&self, [force, moment]: Pair) -> Pair {
+        let back = self.rotation.transpose();
+        let moment = moment - back * cross(&self.arm, &force);
+        if !self.is_reversed {
+            return [force, moment];
+        }
+        let force = -(back * force);
+        [force, -(self.rotation * (moment + cross(&self.gap, &force)))]
+    }
+
     /// b at the velocities v and w.
     fn set_bias(&mut self, [[linear, _], [_, spin]]: [Pair; 2]) {
         let turning = self.rotation * spin;
@@ -102,6 +139,8 @@ impl Pose {
 #[derive(Debug, Clone)]
 pub(super) struct Layout {
     places: Vec<Place>,
+    singles: Vec<Single>,
+    turning: Vec<Turning>,
     /// Numbers of a rotation in q and in v.
     turns: [usize; 2],
     rotation: fn(&[f64]) -> Matrix<f64, 3>,
@@ -124,7 +163,8 @@ impl Layout {
         let mut joints: Vec<_> = model.joint_links().collect();
         joints.sort_by_key(|joint| (joint.joint.is_none(), joint.joint, joint.body));
         let advance = S::advance_rotation;
-        let mut layout = Self { places: Vec::new(), turns, rotation, advance, n: [0; 2] };
+        let (places, singles, turning) = (Vec::new(), Vec::new(), Vec::new());
+        let mut layout = Self { places, singles, turning, turns, rotation, advance, n: [0; 2] };
         joints.iter().for_each(|joint| layout.add(scene, model, joint));
         layout
     }
@@ -147,8 +187,18 @@ impl Layout {
             let ([q, v], w) = (self.n, link.v as usize);
             self.n[0] += link.kind.n_coordinates::<f64, S>();
             self.n[1] += link.kind.n_freedoms::<f64, S>();
-            let is_rotation = self.n[1] > v + 1;
-            let n = if is_rotation { self.n[1] - v - self.turns[1] } else { 0 };
+            let own = TreeRange { q: q..self.n[0], v: v..self.n[1] };
+            self.places.push(Place {
+                own: own.clone(),
+                of: (joint.joint, joint.body),
+                is_free: joint.joint.is_none_or(|joint| scene.joints[joint].kind.is_free()),
+            });
+            if own.v.len() == 1 {
+                let [i, q, z, v, w] = [i, q, link.z as usize, v, w].map(index);
+                self.singles.push(Single { link: i, q, z, at: [v, w] });
+                continue;
+            }
+            let n = own.v.len() - self.turns[1];
             let origin = V3::from(joint.origin);
             let point = joint.joint.map_or(origin, |j| V3::from(scene.joints[j].points[0]));
             let pose = Pose {
@@ -160,16 +210,8 @@ impl Layout {
                 gap: zero,
                 bias: zero,
             };
-            self.places.push(Place {
-                own: TreeRange { q: q..self.n[0], v: v..self.n[1] },
-                link: i,
-                z: link.z as usize,
-                at: [[v, v + n], [w + self.turns[1], w]],
-                n,
-                of: (joint.joint, joint.body),
-                is_free: joint.joint.is_none_or(|joint| scene.joints[joint].kind.is_free()),
-                pose: is_rotation.then(|| Box::new(pose)),
-            });
+            let at = [[v, v + n], [w + self.turns[1], w]];
+            self.turning.push(Turning { own, link: i, z: link.z as usize, at, n, pose });
         }
     }
 
@@ -179,16 +221,13 @@ impl Layout {
         let none =
             LinkFreedoms { moves: 0, turns: 0, is_reversed: false, point: zero, reference: zero };
         let mut links = vec![none; n_links + 1];
-        for place in &self.places {
-            let [moves, turns] = place.at[OWN];
-            let pose = place.pose.as_ref();
-            links[place.link] = LinkFreedoms {
-                moves,
-                turns,
-                is_reversed: pose.is_some_and(|pose| pose.is_reversed),
-                point: pose.map_or(zero, |pose| pose.point),
-                reference: pose.map_or(zero, |pose| pose.reference),
-            };
+        for single in &self.singles {
+            links[single.link as usize].turns = single.at[OWN] as usize;
+        }
+        for Turning { link, at, pose, .. } in &self.turning {
+            let [moves, turns] = at[OWN];
+            let &Pose { is_reversed, point, reference, .. } = pose;
+            links[*link] = LinkFreedoms { moves, turns, is_reversed, point, reference };
         }
         links
     }
@@ -238,33 +277,34 @@ impl Layout {
 
     /// Where quaternions stand in q.
     fn quaternions(&self) -> impl Iterator<Item = Range<usize>> {
-        let rotations = self.places.iter().filter(|place| place.pose.is_some());
-        let rotations = rotations.map(|place| place.own.q.end - self.turns[0]..place.own.q.end);
-        rotations.filter(|at| at.len() == 4)
+        let ends = self.turning.iter().map(|turning| turning.own.q.end);
+        ends.map(|end| end - self.turns[0]..end).filter(|at| at.len() == 4)
     }
 
     /// q ⊕ δ, δ along the velocities.
     pub(super) fn integrate(&self, step: &[f64], q: &mut [f64]) {
-        for place in &self.places {
-            let (step, q) = (&step[place.own.v.clone()], &mut q[place.own.q.clone()]);
-            let n = step.len() - if place.pose.is_some() { self.turns[1] } else { 0 };
-            q[..n].iter_mut().zip(step).for_each(|(q, step)| *q += step);
-            if place.pose.is_some() {
-                (self.advance)(&mut q[n..], &step[n..]);
-            }
+        for single in &self.singles {
+            q[single.q as usize] += step[single.at[OWN] as usize];
+        }
+        for turning in &self.turning {
+            let (step, q) = (&step[turning.own.v.clone()], &mut q[turning.own.q.clone()]);
+            q[..turning.n].iter_mut().zip(step).for_each(|(q, step)| *q += step);
+            (self.advance)(&mut q[turning.n..], &step[turning.n..]);
         }
     }
 
     /// The δ with which `from` ⊕ δ is `to`; rotations by the shorter way.
     pub(super) fn difference(&self, from: &[f64], to: &[f64], step: &mut [f64]) {
-        for place in &self.places {
-            let step = &mut step[place.own.v.clone()];
-            let (from, to) = (&from[place.own.q.clone()], &to[place.own.q.clone()]);
-            step.iter_mut()
-                .zip(to.iter().zip(from))
-                .for_each(|(step, (to, from))| *step = to - from);
+        for single in &self.singles {
+            let q = single.q as usize;
+            step[single.at[OWN] as usize] = to[q] - from[q];
+        }
+        for turning in &self.turning {
+            let (step, n) = (&mut step[turning.own.v.clone()], turning.n);
+            let (from, to) = (&from[turning.own.q.clone()], &to[turning.own.q.clone()]);
+            let pairs = step.iter_mut().zip(to.iter().zip(from));
+            pairs.for_each(|(step, (to, from))| *step = to - from);
             if to.len() > step.len() {
-                let n = step.len() - self.turns[1];
                 let relative = (self.rotation)(&from[n..]).transpose() * (self.rotation)(&to[n..]);
                 put(&rotation_vector(&relative), &mut step[n..]);
             }
@@ -273,35 +313,31 @@ impl Layout {
 
     /// z of q.
     pub(super) fn coordinates_inward(&mut self, q: &[f64], z: &mut [f64]) {
-        for place in &mut self.places {
-            let (own, z) = (&q[place.own.q.clone()], &mut z[place.z..]);
-            let Some(pose) = &mut place.pose else {
-                z[0] = own[0];
-                continue;
-            };
-            let ((gap, turn), (to, center)) =
-                (own.split_at(place.n), z.split_at_mut(self.turns[0]));
+        for single in &self.singles {
+            z[single.z as usize] = q[single.q as usize];
+        }
+        for Turning { own, z: first, n, pose, .. } in &mut self.turning {
+            let (own, z) = (&q[own.q.clone()], &mut z[*first..]);
+            let ((gap, turn), (to, center)) = (own.split_at(*n), z.split_at_mut(self.turns[0]));
             invert(turn, pose.is_reversed, to);
             pose.turn((self.rotation)(to));
             pose.gap = vector(gap);
             let moved = if pose.is_reversed { -(pose.rotation * pose.gap) } else { pose.gap };
-            put(&(pose.point + moved - pose.arm), &mut center[..place.n]);
+            put(&(pose.point + moved - pose.arm), &mut center[..*n]);
         }
     }
 
     /// q of z.
     pub(super) fn coordinates_outward(&mut self, z: &[f64], q: &mut [f64]) {
-        for place in &mut self.places {
-            let (own, z) = (&mut q[place.own.q.clone()], &z[place.z..]);
-            let Some(pose) = &mut place.pose else {
-                own[0] = z[0];
-                continue;
-            };
-            let ((gap, turn), (from, center)) =
-                (own.split_at_mut(place.n), z.split_at(self.turns[0]));
+        for single in &self.singles {
+            q[single.q as usize] = z[single.z as usize];
+        }
+        for Turning { own, z: first, n, pose, .. } in &mut self.turning {
+            let (own, z) = (&mut q[own.q.clone()], &z[*first..]);
+            let ((gap, turn), (from, center)) = (own.split_at_mut(*n), z.split_at(self.turns[0]));
             invert(from, pose.is_reversed, turn);
             pose.turn((self.rotation)(from));
-            let moved = vector(&center[..place.n]) + pose.arm - pose.point;
+            let moved = vector(&center[..*n]) + pose.arm - pose.point;
             let back = -(pose.rotation.transpose() * moved);
             pose.gap = if pose.is_reversed { back } else { moved };
             put(&pose.gap, gap);
@@ -311,9 +347,9 @@ impl Layout {
     /// Takes the velocities v and w for what accelerations have of them.
     pub(super) fn set_velocities(&mut self, v: &[f64], w: &[f64]) {
         let turns = self.turns[1];
-        for place in &mut self.places {
-            let pairs = [place.pair(OWN, turns, v), place.pair(TREE, turns, w)];
-            place.pose.iter_mut().for_each(|pose| pose.set_bias(pairs));
+        for turning in &mut self.turning {
+            let pairs = [turning.pair(OWN, turns, v), turning.pair(TREE, turns, w)];
+            turning.pose.set_bias(pairs);
         }
     }
 
@@ -333,12 +369,10 @@ impl Layout {
         });
     }
     pub(super) fn efforts_inward(&self, own: &[f64], tree: &mut [f64]) {
-        let map = |pose: &Pose, efforts| transposed(|unit| pose.outward(unit), efforts);
-        self.map([OWN, TREE], (own, tree), map);
+        self.map([OWN, TREE], (own, tree), Pose::forces_inward);
     }
     pub(super) fn efforts_outward(&self, tree: &[f64], own: &mut [f64]) {
-        let map = |pose: &Pose, efforts| transposed(|unit| pose.inward(unit), efforts);
-        self.map([TREE, OWN], (tree, own), map);
+        self.map([TREE, OWN], (tree, own), Pose::forces_outward);
     }
 
     fn map(
@@ -347,27 +381,22 @@ impl Layout {
         (x, out): (&[f64], &mut [f64]),
         map: impl Fn(&Pose, Pair) -> Pair,
     ) {
-        for place in &self.places {
-            let [moving, turning] = place.at[to];
-            let Some(pose) = &place.pose else {
-                out[turning] = x[place.at[from][1]];
-                continue;
-            };
-            let turns = self.turns[1];
-            let [linear, spin] = map(pose, place.pair(from, turns, x));
-            put(&linear, &mut out[moving..][..place.n]);
-            out[turning..][..turns].copy_from_slice(&spin.as_slice()[3 - turns..]);
+        for single in &self.singles {
+            out[single.at[to] as usize] = x[single.at[from] as usize];
+        }
+        for place in &self.turning {
+            let ([moves, turns], n_turns) = (place.at[to], self.turns[1]);
+            let [linear, spin] = map(&place.pose, place.pair(from, n_turns, x));
+            put(&linear, &mut out[moves..][..place.n]);
+            out[turns..][..n_turns].copy_from_slice(&spin.as_slice()[3 - n_turns..]);
         }
     }
 }
 
-impl Place {
+impl Turning {
     /// Its numbers in v or w as vectors; one number turns about z.
     fn pair(&self, side: usize, turns: usize, x: &[f64]) -> Pair {
         let [moving, turning] = self.at[side];
-        if self.pose.is_none() {
-            return [V3::zeros(); 2];
-        }
         let mut spin = V3::zeros();
         spin.as_mut_slice()[3 - turns..].copy_from_slice(&x[turning..][..turns]);
         let linear = x.get(moving..).map_or_else(V3::zeros, |x| vector(&x[..self.n]));
@@ -375,14 +404,10 @@ impl Place {
     }
 }
 
-/// The transposed of a linear map.
-fn transposed(map: impl Fn(Pair) -> Pair, [force, moment]: Pair) -> Pair {
-    let along = |[linear, spin]: Pair| force.dot(&linear) + moment.dot(&spin);
-    let unit = |i| V3::from_fn(|k, _| f64::from(u8::from(k == i)));
-    [
-        V3::from_fn(|i, _| along(map([unit(i), V3::zeros()]))),
-        V3::from_fn(|i, _| along(map([V3::zeros(), unit(i)]))),
-    ]
+/// A number of a table.
+#[allow(clippy::cast_possible_truncation, reason = "trees have fewer freedoms than 2^32")]
+fn index(i: usize) -> u32 {
+    i as u32
 }
 
 /// The length of a quaternion.

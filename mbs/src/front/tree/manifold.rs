@@ -1,6 +1,6 @@
 //! Steps along the velocities, and what is between two positions of a [`Tree`].
 
-use super::{Tree, TreeError, checked};
+use super::{Tree, TreeError, checked, sized};
 
 impl Tree {
     /// `to` = q ⊕ δ: the position after a step δ along the velocities v [rad, m]. Angles and slides add up; quaternions turn about δ as
@@ -21,7 +21,7 @@ impl Tree {
     pub fn integrate(&self, q: &[f64], step: &[f64], to: &mut [f64]) -> Result<(), TreeError> {
         checked("q", q, self.q.len())?;
         checked("step", step, self.v.len())?;
-        checked("q", &*to, self.q.len())?;
+        sized("q", to, self.q.len())?;
         self.layout.normalise(q, to)?;
         self.layout.integrate(step, to);
         Ok(())
@@ -44,7 +44,7 @@ impl Tree {
     pub fn difference(&self, from: &[f64], to: &[f64], step: &mut [f64]) -> Result<(), TreeError> {
         checked("q", from, self.q.len())?;
         checked("q", to, self.q.len())?;
-        checked("step", &*step, self.v.len())?;
+        sized("step", step, self.v.len())?;
         self.layout.rotations(from)?;
         self.layout.rotations(to)?;
         self.layout.difference(from, to, step);

@@ -294,12 +294,18 @@ impl Tree {
     }
 }
 
+/// Are there as many numbers as expected?
+fn sized(what: &'static str, x: &[f64], expected: usize) -> Result<(), TreeError> {
+    match x.len() {
+        n if n == expected => Ok(()),
+        n => Err(TreeErrorKind::Length(what, expected, n).into()),
+    }
+}
+
 /// # Errors
 /// [`TreeErrorKind::Length`] or [`TreeErrorKind::NotFinite`].
 fn checked(what: &'static str, x: &[f64], expected: usize) -> Result<(), TreeError> {
-    if x.len() != expected {
-        return Err(TreeErrorKind::Length(what, expected, x.len()).into());
-    }
+    sized(what, x, expected)?;
     let bad = x.iter().position(|x| !x.is_finite());
     bad.map_or(Ok(()), |place| Err(TreeErrorKind::NotFinite(what, place).into()))
 }
