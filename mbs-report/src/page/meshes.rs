@@ -1,7 +1,6 @@
 //! The meshes of a page: files that are read once, and corners that become one where there are too many triangles.
 
-use super::pack::Pack;
-use super::panels::extent;
+use super::pack::{Pack, ends};
 use mbs::record::{RecordedMotion, ShapeForm};
 use mbs_scene::TriangleMesh;
 use mbs_scene::format::counted;
@@ -138,7 +137,8 @@ impl PageMeshes {
             let column =
                 |i: usize| -> Vec<f64> { mesh.vertices.iter().map(|vertex| vertex[i]).collect() };
             let columns = [column(0), column(1), column(2)];
-            let side = columns.iter().map(|column| extent(column).0).fold(0.0, f64::max);
+            let sides = columns.iter().filter_map(|column| ends(column));
+            let side = sides.map(|[low, high]| high - low).fold(0.0, f64::max);
             let step = if side > 0.0 { side / STEPS } else { 1.0 };
             #[allow(clippy::cast_precision_loss, reason = "numbers of vertices are far below 2^53")]
             let numbers = |i: usize| -> Vec<f64> {

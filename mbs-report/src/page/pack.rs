@@ -96,17 +96,18 @@ fn nearest(x: f64) -> i64 {
     x.round() as i64
 }
 
-/// The smallest finite value, and the range in 65534 parts.
+/// The least and the largest of the finite values.
+pub(super) fn ends(values: &[f64]) -> Option<[f64; 2]> {
+    let mut finite = values.iter().copied().filter(|x| x.is_finite());
+    let first = finite.next()?;
+    Some(finite.fold([first, first], |[low, high], x| [low.min(x), high.max(x)]))
+}
+
+/// The least finite value, and the range in 65534 parts.
 fn scale(column: &[f64]) -> (f64, f64) {
-    let finite = || column.iter().copied().filter(|x| x.is_finite());
-    let low = finite().fold(f64::INFINITY, f64::min);
-    let high = finite().fold(f64::NEG_INFINITY, f64::max);
+    let Some([low, high]) = ends(column) else { return (0.0, 1.0) };
     let step = high / STEPS - low / STEPS;
-    if step.is_finite() && step > 0.0 {
-        (low, step)
-    } else {
-        (if low.is_finite() { low } else { 0.0 }, 1.0)
-    }
+    (low, if step.is_finite() && step > 0.0 { step } else { 1.0 })
 }
 
 /// Bytes in base64, with padding.

@@ -3,7 +3,7 @@
 use super::captions;
 use super::decimate::{envelope, kept};
 use super::motion::times_of;
-use super::pack::{Column, Pack};
+use super::pack::{Column, Pack, ends};
 use super::section::PlotFrame;
 use mbs::record::{ChannelSeries, DrawnForce, RunRecord};
 use serde::Serialize;
@@ -338,11 +338,9 @@ fn logarithms(values: &[f64]) -> Vec<f64> {
 }
 
 /// Range of the finite values, and the largest size; infinite and zero where there are none.
-pub(super) fn extent(values: &[f64]) -> (f64, f64) {
-    let finite = || values.iter().copied().filter(|x| x.is_finite());
-    let low = finite().fold(f64::INFINITY, f64::min);
-    let high = finite().fold(f64::NEG_INFINITY, f64::max);
-    if low <= high { (high - low, low.abs().max(high.abs())) } else { (f64::INFINITY, 0.0) }
+fn extent(values: &[f64]) -> (f64, f64) {
+    let of = |[low, high]: [f64; 2]| (high - low, low.abs().max(high.abs()));
+    ends(values).map_or((f64::INFINITY, 0.0), of)
 }
 
 /// The largest size among the channels of each unit; that of angles is at least a radian, beside which rounding is nothing.

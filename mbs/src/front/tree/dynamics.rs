@@ -95,7 +95,9 @@ impl Tree {
     pub fn forward_dynamics(&mut self, effort: &[f64]) -> Result<&[f64], TreeError> {
         checked("effort", effort, self.v.len())?;
         self.accelerate(Some(effort))?;
-        self.layout.accelerations_outward(&self.inner.state().a, &mut self.answer);
+        let state = self.inner.state();
+        let velocities = [&self.v[..], &state.v];
+        self.layout.accelerations_outward(velocities, (&state.a, &mut self.answer));
         Ok(&self.answer)
     }
 
@@ -124,9 +126,10 @@ impl Tree {
             return Ok(self.efforts(EffortTerms::WithoutEffects));
         }
         self.accelerate(None)?;
-        self.layout.accelerations_inward(accelerations, &mut self.tree);
-        let free = &mut self.inner.state().a;
-        free.iter_mut().zip(&self.tree).for_each(|(a, x)| *a = x - *a);
+        let state = self.inner.state();
+        let velocities = [&self.v[..], &state.v];
+        self.layout.accelerations_inward(velocities, (accelerations, &mut self.tree));
+        state.a.iter_mut().zip(&self.tree).for_each(|(a, x)| *a = x - *a);
         Ok(self.efforts(EffortTerms::Inertia))
     }
 
@@ -241,10 +244,8 @@ impl Tree {
     /// Sets the accelerations of the state: those given, or v̇ = 0.
     pub(super) fn accelerations(&mut self, own: Option<&[f64]>) {
         let state = self.inner.state();
-        match own {
-            Some(own) => self.layout.accelerations_inward(own, &mut state.a),
-            None => self.layout.accelerations_inward(&self.zero, &mut state.a),
-        }
+        let (own, velocities) = (own.unwrap_or(&self.zero), [&self.v[..], &state.v]);
+        self.layout.accelerations_inward(velocities, (own, &mut state.a));
     }
 
     /// Efforts of the state's accelerations.

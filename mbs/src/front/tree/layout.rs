@@ -70,8 +70,6 @@ struct Pose {
     arm: V3,
     /// x.
     gap: V3,
-    /// b.
-    bias: V3,
 }
 
 impl Pose {
@@ -123,15 +121,14 @@ impl Pose {
     }
 
     /// b at the velocities v and w.
-    fn set_bias(&mut self, [[linear, _], [_, spin]]: [Pair; 2]) {
+    fn bias(&self, [[linear, _], [_, spin]]: [Pair; 2]) -> V3 {
         let turning = self.rotation * spin;
         let central = cross(&turning, &cross(&turning, &self.arm));
-        self.bias = if self.is_reversed {
-            let carried = linear * 2.0 + cross(&spin, &self.gap);
-            -(cross(&spin, &carried) + self.rotation.transpose() * central)
-        } else {
-            central
-        };
+        if !self.is_reversed {
+            return central;
+        }
+        let carried = linear * 2.0 + cross(&spin, &self.gap);
+        -(cross(&spin, &carried) + self.rotation.transpose() * central)
     }
 }
 
@@ -208,7 +205,6 @@ impl Layout {
                 rotation: Matrix::<f64, 3>::identity(),
                 arm: zero,
                 gap: zero,
-                bias: zero,
             };
             let at = [[v, v + n], [w + self.turns[1], w]];
             self.turning.push(Turning { own, link: i, z: link.z as usize, at, n, pose });
@@ -344,49 +340,52 @@ impl Layout {
         }
     }
 
-    /// Takes the velocities v and w for what accelerations have of them.
-    pub(super) fn set_velocities(&mut self, v: &[f64], w: &[f64]) {
-        let turns = self.turns[1];
-        for turning in &mut self.turning {
-            let pairs = [turning.pair(OWN, turns, v), turning.pair(TREE, turns, w)];
-            turning.pose.set_bias(pairs);
-        }
-    }
-
     pub(super) fn velocities_inward(&self, v: &[f64], w: &mut [f64]) {
-        self.map([OWN, TREE], (v, w), Pose::inward);
+        self.map([OWN, TREE], (v, w), |joint, pair| joint.pose.inward(pair));
     }
     pub(super) fn velocities_outward(&self, w: &[f64], v: &mut [f64]) {
-        self.map([TREE, OWN], (w, v), Pose::outward);
+        self.map([TREE, OWN], (w, v), |joint, pair| joint.pose.outward(pair));
     }
-    pub(super) fn accelerations_inward(&self, v: &[f64], w: &mut [f64]) {
-        self.map([OWN, TREE], (v, w), |pose, [x, spin]| pose.inward([x - pose.bias, spin]));
+    /// ẇ of v̇ at the velocities v and w.
+    pub(super) fn accelerations_inward(
+        &self,
+        velocities: [&[f64]; 2],
+        (own, tree): (&[f64], &mut [f64]),
+    ) {
+        self.map([OWN, TREE], (own, tree), |joint, [linear, spin]| {
+            joint.pose.inward([linear - joint.bias(self.turns[1], velocities), spin])
+        });
     }
-    pub(super) fn accelerations_outward(&self, w: &[f64], v: &mut [f64]) {
-        self.map([TREE, OWN], (w, v), |pose, pair| {
-            let [linear, spin] = pose.outward(pair);
-            [linear + pose.bias, spin]
+    /// v̇ of ẇ at the velocities v and w.
+    pub(super) fn accelerations_outward(
+        &self,
+        velocities: [&[f64]; 2],
+        (tree, own): (&[f64], &mut [f64]),
+    ) {
+        self.map([TREE, OWN], (tree, own), |joint, pair| {
+            let [linear, spin] = joint.pose.outward(pair);
+            [linear + joint.bias(self.turns[1], velocities), spin]
         });
     }
     pub(super) fn efforts_inward(&self, own: &[f64], tree: &mut [f64]) {
-        self.map([OWN, TREE], (own, tree), Pose::forces_inward);
+        self.map([OWN, TREE], (own, tree), |joint, pair| joint.pose.forces_inward(pair));
     }
     pub(super) fn efforts_outward(&self, tree: &[f64], own: &mut [f64]) {
-        self.map([TREE, OWN], (tree, own), Pose::forces_outward);
+        self.map([TREE, OWN], (tree, own), |joint, pair| joint.pose.forces_outward(pair));
     }
 
     fn map(
         &self,
         [from, to]: [usize; 2],
         (x, out): (&[f64], &mut [f64]),
-        map: impl Fn(&Pose, Pair) -> Pair,
+        map: impl Fn(&Turning, Pair) -> Pair,
     ) {
         for single in &self.singles {
             out[single.at[to] as usize] = x[single.at[from] as usize];
         }
         for place in &self.turning {
             let ([moves, turns], n_turns) = (place.at[to], self.turns[1]);
-            let [linear, spin] = map(&place.pose, place.pair(from, n_turns, x));
+            let [linear, spin] = map(place, place.pair(from, n_turns, x));
             put(&linear, &mut out[moves..][..place.n]);
             out[turns..][..n_turns].copy_from_slice(&spin.as_slice()[3 - n_turns..]);
         }
@@ -394,6 +393,11 @@ impl Layout {
 }
 
 impl Turning {
+    /// b at the velocities v and w.
+    fn bias(&self, turns: usize, [v, w]: [&[f64]; 2]) -> V3 {
+        self.pose.bias([self.pair(OWN, turns, v), self.pair(TREE, turns, w)])
+    }
+
     /// Its numbers in v or w as vectors; one number turns about z.
     fn pair(&self, side: usize, turns: usize, x: &[f64]) -> Pair {
         let [moving, turning] = self.at[side];

@@ -152,7 +152,6 @@ impl Tree {
         let state = self.inner.state();
         self.layout.coordinates_inward(&self.q, &mut state.z);
         self.layout.velocities_inward(&self.v, &mut state.v);
-        self.layout.set_velocities(&self.v, &state.v);
         Ok(())
     }
 
@@ -209,7 +208,6 @@ impl Tree {
         let state = self.inner.state();
         self.layout.coordinates_outward(&state.z, &mut self.q);
         self.layout.velocities_outward(&state.v, &mut self.v);
-        self.layout.set_velocities(&self.v, &state.v);
         Ok(())
     }
 
@@ -306,6 +304,10 @@ fn sized(what: &'static str, x: &[f64], expected: usize) -> Result<(), TreeError
 /// [`TreeErrorKind::Length`] or [`TreeErrorKind::NotFinite`].
 fn checked(what: &'static str, x: &[f64], expected: usize) -> Result<(), TreeError> {
     sized(what, x, expected)?;
+    // all of them first, side by side
+    if x.iter().fold(true, |all, x| all & x.is_finite()) {
+        return Ok(());
+    }
     let bad = x.iter().position(|x| !x.is_finite());
     bad.map_or(Ok(()), |place| Err(TreeErrorKind::NotFinite(what, place).into()))
 }
