@@ -13,7 +13,9 @@ use mbs::scene_file::SceneFile;
 use mbs::scene_file::format::counted;
 use mbs::{Method, words};
 use mbs_report::sweep_page;
-use mbs_study::sweep::{Report, Study, StudyError, SweepError, Watch};
+use mbs_study::sweep::{
+    PartsError, Report, Study, StudyError, SweepError, SweepPart, SweepTask, Watch,
+};
 use serde_json::json;
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
@@ -38,6 +40,12 @@ pub(crate) struct Arguments {
     /// With --page: members whose outputs are drawn over time, spread over the sweep; they run once more. At most 24. Default: none.
     #[arg(long, value_name = "N", requires = "page", value_parser = clap::value_parser!(u32).range(1..=24))]
     traces: Option<u32>,
+    /// Members K, K + N, ... alone; their journal in the directory is for --join. Default: all members.
+    #[arg(long, value_name = "K/N", conflicts_with_all = ["page", "join"])]
+    part: Option<SweepPart>,
+    /// Write the table of the parts that --part left in the directory.
+    #[arg(long, conflicts_with_all = ["threads", "restart"])]
+    join: bool,
     /// Discard the runs that an earlier start left in the directory.
     #[arg(long)]
     restart: bool,
@@ -100,10 +108,16 @@ fn run(arguments: &Arguments) -> Result<(Report, PathBuf), Refusal> {
     let study = Study::new(document.clone(), &sweep, &overrides);
     let study = study.map_err(|error| refused(&error, &document))?;
     let out = arguments.out();
+    let &Arguments { part, threads, restart: anew, .. } = arguments;
     let files = ["table.csv", "table.parquet", PAGE, "sweep.journal"];
-    let _folder = files::folder(&out, &files)?;
-    let mut bar = Bar::new(study.n_members(), arguments.json);
-    let report = study.run(&out, arguments.threads, arguments.restart, &mut bar);
+    // parts run in one directory at the same time, each in its own journal
+    let _folder = part.is_none().then(|| files::folder(&out, &files)).transpose()?;
+    let n_members = part.map_or(study.n_members(), |part| part.members(study.n_members()).len());
+    let mut bar = Bar::new(n_members, arguments.json);
+    let report = match arguments.join {
+        true => study.join(&out),
+        false => study.run(&SweepTask { out: &out, threads, anew, part }, &mut bar),
+    };
     bar.0.finish_and_clear();
     let report = report.map_err(|error| not_run(&error, &out))?;
     if arguments.page {
@@ -147,6 +161,12 @@ fn not_run(error: &SweepError, out: &Path) -> Refusal {
     let place = out.display();
     match error {
         SweepError::Write(error) => Refusal::lost(error),
+        SweepError::Parts(error) => {
+            let refusal =
+                Refusal::new("parts-refused", format!("`{place}`: {error}"), error.hint());
+            // what is finished is kept
+            if matches!(error, PartsError::Unfinished(_)) { refusal.stopped() } else { refusal }
+        }
         SweepError::Interrupted(_) => {
             Refusal::interrupted(error, "the same command continues with the others")
         }
@@ -161,7 +181,7 @@ fn not_run(error: &SweepError, out: &Path) -> Refusal {
 fn write_results(report: &Report, out: &Path, arguments: &Arguments) -> ExitCode {
     let text = match arguments.json {
         true => json(report, arguments),
-        false => text(report, out, arguments.page),
+        false => text(report, out, arguments),
     };
     let is_run = report.resumed < report.members;
     let asked = arguments.threads.filter(|_| is_run).map_or(0, NonZeroUsize::get);
@@ -196,10 +216,11 @@ fn json(report: &Report, arguments: &Arguments) -> String {
     .to_string()
 }
 
-fn text(report: &Report, out: &Path, has_page: bool) -> String {
-    let mut text =
-        format!("{} of {} completed\n", report.completed, counted(report.members, "member"));
-    if report.resumed > 0 {
+fn text(report: &Report, out: &Path, arguments: &Arguments) -> String {
+    let part = arguments.part.map(|part| format!("part {part}: ")).unwrap_or_default();
+    let members = counted(report.members, "member");
+    let mut text = format!("{part}{} of {members} completed\n", report.completed);
+    if report.resumed > 0 && !arguments.join {
         text += &format!("  {} finished by an earlier start\n", counted(report.resumed, "member"));
     }
     for (code, (count, first, message)) in &report.failures {
@@ -217,9 +238,16 @@ fn text(report: &Report, out: &Path, has_page: bool) -> String {
         );
     }
     let tables = report.tables.iter().filter_map(|path| path.file_name()?.to_str());
-    let names: Vec<_> = tables.chain(has_page.then_some(PAGE)).collect();
+    let names: Vec<_> = tables.chain(arguments.page.then_some(PAGE)).collect();
     if !names.is_empty() {
         text += &format!("wrote {} to {}\n", names.join(" and "), out.display());
+    }
+    if arguments.part.is_some() {
+        let (scene, sweep) = (arguments.scene.display(), arguments.sweep.display());
+        text += &format!(
+            "the table of all parts: mbs sweep {scene} {sweep} --join --out {}\n",
+            out.display()
+        );
     }
     text
 }

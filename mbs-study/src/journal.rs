@@ -41,7 +41,7 @@ pub enum JournalError {
     /// It has the results of another sweep, say, as the first text calls it; the second says what has changed.
     Other([&'static str; 2]),
     /// The file of the first name is no journal of what the second says.
-    NotAJournal([&'static str; 2]),
+    NotAJournal(String, &'static str),
     /// Another process is writing it; of what it is.
     Busy(&'static str),
     /// What it is of was interrupted: it has what was finished before.
@@ -62,11 +62,11 @@ impl Head {
         self.cells.join(",") + "\n"
     }
 
-    /// Is a journal with this first line ours?
-    fn check(&self, line: &str) -> Result<(), JournalError> {
+    /// Is the journal of this name, with this first line, ours?
+    fn check(&self, name: &str, line: &str) -> Result<(), JournalError> {
         let found: Vec<&str> = line.split(',').collect();
         if found.len() != self.cells.len() || found[0] != self.kind.title {
-            return Err(self.not_ours());
+            return Err(self.not_ours(name));
         }
         let what = |i: usize| match i {
             1 => "the version of mbs",
@@ -78,9 +78,36 @@ impl Head {
         }
     }
 
-    fn not_ours(&self) -> JournalError {
-        JournalError::NotAJournal([self.kind.file, self.kind.of[0]])
+    fn not_ours(&self, name: &str) -> JournalError {
+        JournalError::NotAJournal(name.to_owned(), self.kind.of[0])
     }
+
+    /// The whole lines behind a head that is ours; nothing where the head itself was torn, which is then begun again.
+    fn lines(&self, name: &str, bytes: &[u8]) -> Result<Option<Lines>, JournalError> {
+        let whole = bytes.iter().rposition(|&byte| byte == b'\n').map_or(0, |end| end + 1);
+        let text = String::from_utf8_lossy(&bytes[..whole]);
+        match text.split_once('\n') {
+            Some((first, rest)) => {
+                self.check(name, first)?;
+                Ok(Some(Lines { cells: read_lines(rest), bytes: whole }))
+            }
+            None if self.line().as_bytes().starts_with(bytes) => Ok(None),
+            None => Err(self.not_ours(name)),
+        }
+    }
+}
+
+/// The whole lines of a journal.
+struct Lines {
+    cells: Vec<Vec<String>>,
+    /// Where they end.
+    bytes: usize,
+}
+
+/// The lines that are whole in a journal that is only read.
+pub(crate) fn read(out: &Path, name: &str, head: &Head) -> Result<Vec<Vec<String>>, JournalError> {
+    let lines = head.lines(name, &std::fs::read(out.join(name))?)?;
+    Ok(lines.map(|lines| lines.cells).unwrap_or_default())
 }
 
 impl Journal {
@@ -90,7 +117,16 @@ impl Journal {
         head: &Head,
         anew: bool,
     ) -> Result<(Self, Vec<Vec<String>>), JournalError> {
-        let path = out.join(head.kind.file);
+        Self::open_as((out, head.kind.file), head, anew)
+    }
+
+    /// The same of a journal with another name.
+    pub(crate) fn open_as(
+        (out, name): (&Path, &str),
+        head: &Head,
+        anew: bool,
+    ) -> Result<(Self, Vec<Vec<String>>), JournalError> {
+        let path = out.join(name);
         let mut options = OpenOptions::new();
         let mut file = options.read(true).write(true).create(true).truncate(false).open(path)?;
         // a file system without locks has none to lose
@@ -101,23 +137,13 @@ impl Journal {
         if !anew {
             file.read_to_end(&mut bytes)?;
         }
-        let whole = bytes.iter().rposition(|&byte| byte == b'\n').map_or(0, |end| end + 1);
-        // a head that was torn is begun again, anything else is not ours to overwrite
-        if whole == 0 && !head.line().as_bytes().starts_with(&bytes) {
-            return Err(head.not_ours());
-        }
-        let text = String::from_utf8_lossy(&bytes[..whole]);
-        let mut lines = Vec::new();
-        if let Some((first, rest)) = text.split_once('\n') {
-            head.check(first)?;
-            lines = read_lines(rest);
-        }
-        file.set_len(whole as u64)?;
+        let lines = head.lines(name, &bytes)?;
+        file.set_len(lines.as_ref().map_or(0, |lines| lines.bytes as u64))?;
         file.seek(SeekFrom::End(0))?;
-        if whole == 0 {
+        if lines.is_none() {
             file.write_all(head.line().as_bytes())?;
         }
-        Ok((Self { file }, lines))
+        Ok((Self { file }, lines.map(|lines| lines.cells).unwrap_or_default()))
     }
 
     /// Appends a line, in one write.
@@ -151,7 +177,7 @@ impl JournalError {
     pub fn hint(&self) -> &'static str {
         match self {
             Self::Other(_) => "give another directory with --out, or begin anew with --restart",
-            Self::NotAJournal(_) => "give another directory with --out, or remove the file",
+            Self::NotAJournal(..) => "give another directory with --out, or remove the file",
             Self::Busy(_) => "wait for it, or give another directory with --out",
             Self::Interrupted => {
                 "start it again to continue: what is finished is kept in the directory"
@@ -167,7 +193,7 @@ impl Display for JournalError {
             Self::Other([of, what]) => {
                 write!(f, "the directory has the results of {of}: {what} has changed")
             }
-            Self::NotAJournal([file, of]) => {
+            Self::NotAJournal(file, of) => {
                 write!(f, "`{file}` in the directory is not the journal of {of}")
             }
             Self::Busy(of) => write!(f, "another process is running {of} in the directory"),

@@ -184,6 +184,76 @@ fn a_process_that_is_killed_loses_no_finished_member() {
 }
 
 #[test]
+fn parts_make_the_table_of_one_run_and_those_that_lack_are_named() {
+    let out = scratch("parts");
+    let (_, whole) = table(&out, MASSES, &[]);
+    // seven parts of twelve members
+    for of in [1, 2, 7] {
+        let parts = out.join(format!("of-{of}"));
+        let part = |k: usize| format!("{k}/{of}");
+        let place = plain(parts.clone());
+        let base = [
+            &scene("double-pendulum"),
+            &plain(out.join("sweep.toml")),
+            "--duration",
+            "1",
+            "--out",
+            &place,
+        ];
+        let run = |more: &[&str]| sweep(&[&base, more].concat());
+        // all but the first at the same time, as schedulers start them
+        std::thread::scope(|scope| {
+            let all: Vec<_> =
+                (2..=of).map(|k| scope.spawn(move || (k, run(&["--part", &part(k)])))).collect();
+            for (k, output) in all.into_iter().map(|thread| thread.join().expect("no panic")) {
+                assert_eq!(status(&output), 0, "{k}: {output:?}");
+            }
+        });
+        let lacks = run(&["--join"]);
+        let told = String::from_utf8_lossy(&lacks.stderr).into_owned();
+        let (code, why) = if of == 1 { (1, "there are no parts") } else { (2, "part 1/") };
+        assert_eq!(status(&lacks), code, "{told}");
+        assert!(told.contains(why), "{told}");
+        let first = run(&["--part", &part(1)]);
+        assert!(String::from_utf8_lossy(&first.stdout).contains("--join"), "{first:?}");
+        let joined = json(&run(&["--join", "--json"]));
+        assert_eq!((&joined["members"], &joined["completed"]), (&12.into(), &12.into()));
+        assert_eq!(rows(&parts), whole, "{of} parts");
+    }
+    for (wrong, why) in
+        [(["--part", "3/2"], "write K/N"), (["--join", "--restart"], "cannot be used")]
+    {
+        assert!(refusal(MASSES, &wrong).contains(why), "{wrong:?}");
+    }
+}
+
+#[test]
+fn the_recipes_for_parts_run_as_they_are_written() {
+    let text = include_str!("../../../docs/SWEEPS.md");
+    let out = scratch("recipes");
+    let [double, program] = [scene("double-pendulum"), plain(env!("CARGO_BIN_EXE_mbs").into())];
+    std::fs::copy(double, out.join("scene.toml")).expect("the scratch directory is ours");
+    std::fs::write(out.join("sweep.toml"), MASSES).expect("the scratch directory is ours");
+    let shell = |line: &str| {
+        let line = line.replace("mbs sweep", &format!("{program} sweep --duration 1"));
+        let output =
+            std::process::Command::new("sh").args(["-c", &line]).current_dir(&out).output();
+        let output = output.expect("there is a shell");
+        assert!(output.status.success(), "{line}: {output:?}");
+    };
+    let line = |start: &str| text.lines().find(|line| line.starts_with(start)).expect("a recipe");
+    shell(line("seq 4 | xargs"));
+    shell(line("mbs sweep scene.toml sweep.toml --join"));
+    assert_eq!(rows(&out.join("out")).len(), 13);
+    // an array of jobs has the same line with its own number
+    let array = line("mbs sweep scene.toml sweep.toml --part $SLURM");
+    std::fs::remove_dir_all(out.join("out")).expect("it is there");
+    shell(&format!("for SLURM_ARRAY_TASK_ID in 1 2 3 4; do {}; done", array.replace("/40", "/4")));
+    shell(line("mbs sweep scene.toml sweep.toml --join"));
+    assert_eq!(rows(&out.join("out")).len(), 13);
+}
+
+#[test]
 fn another_sweep_in_the_same_directory_is_refused_until_restart() {
     let out = scratch("other");
     table(&out, MASSES, &[]);

@@ -3,15 +3,18 @@
 //! A [`Study`] is a scene with its sweep, checked; [`Study::run`] runs the members that the journal of a directory lacks, and
 //! writes the table when all are there.
 
+mod join;
 mod member;
 #[cfg(feature = "parquet")]
 mod parquet;
+mod parts;
 mod table;
 #[cfg(test)]
 mod tests;
 
 pub use crate::journal::JournalError;
 pub use member::Row;
+pub use parts::{PartsError, SweepPart};
 pub use table::{Columns, Failures};
 
 use crate::journal::{Head, Journal, Kind};
@@ -72,6 +75,8 @@ pub enum SweepError {
     Journal(JournalError),
     /// A file cannot be written.
     Write(WriteError),
+    /// Parts that cannot be joined.
+    Parts(PartsError),
     /// It was interrupted after this many of its members, which are in the journal.
     Interrupted([usize; 2]),
 }
@@ -99,6 +104,22 @@ pub struct Report {
     pub tables: Vec<PathBuf>,
     /// Why a table could not be written; the journal has all members.
     pub lost: Option<WriteError>,
+}
+
+/// The rows of members, from 0, as texts.
+type Rows = BTreeMap<usize, Vec<String>>;
+
+/// Which members run, where and how.
+#[derive(Debug, Clone, Copy)]
+pub struct SweepTask<'a> {
+    /// The directory of journal and table.
+    pub out: &'a Path,
+    /// Threads; left out: all processors.
+    pub threads: Option<NonZeroUsize>,
+    /// Is an earlier journal thrown away, whatever its sweep?
+    pub anew: bool,
+    /// The members of this part alone, without a table; left out: all.
+    pub part: Option<SweepPart>,
 }
 
 /// Called as members finish; does nothing by default.
@@ -189,22 +210,15 @@ impl Study {
         member::rows(&self.scene, &self.sweep, &self.overrides, index)
     }
 
-    /// Runs the members that are not in the journal of `out` over threads (left out: all processors), and writes the table.
-    /// With `anew` an earlier journal is thrown away, whatever its sweep.
+    /// Runs the members that are not in the journal of the directory over threads, and writes the table; of a part no table.
     ///
     /// Rows do not depend on the number of threads, but for their CPU time. A finished member is in the journal before the
     /// next result is looked at: killing the process loses the members under way.
     ///
     /// # Errors
     /// No threads; a journal of another scene, sweep or version, or in use; a directory that cannot be written; an interruption.
-    pub fn run(
-        &self,
-        out: &Path,
-        threads: Option<NonZeroUsize>,
-        anew: bool,
-        watch: &mut impl Watch,
-    ) -> Result<Report, SweepError> {
-        self.run_jobs(out, threads, anew, watch, |i| self.member(i))
+    pub fn run(&self, task: &SweepTask<'_>, watch: &mut impl Watch) -> Result<Report, SweepError> {
+        self.run_jobs(task, watch, |i| self.member(i))
     }
 
     /// Runs all members over threads (left out: all processors), without files; rows in the order of the members.
@@ -234,26 +248,32 @@ impl Study {
     /// [`Self::run`] with what a member is.
     fn run_jobs(
         &self,
-        out: &Path,
-        threads: Option<NonZeroUsize>,
-        anew: bool,
+        task: &SweepTask<'_>,
         watch: &mut impl Watch,
         job: impl Fn(usize) -> Row + Sync,
     ) -> Result<Report, SweepError> {
-        let clock = Instant::now();
+        let (clock, out) = (Instant::now(), task.out);
         let lost = |error, name: &str| {
             SweepError::Write(WriteError { path: out.join(name), bytes: 0, error })
         };
         std::fs::create_dir_all(out).map_err(|error| lost(error, ""))?;
-        let (mut journal, lines) = Journal::open(out, &self.head, anew)?;
+        let file = task.part.map_or_else(|| KIND.file.to_owned(), SweepPart::file);
+        let (mut journal, lines) = Journal::open_as((out, &file), &self.head, task.anew)?;
         let mut rows = whole_rows(lines, self.columns.len(), self.n_members());
+        if let Some(part) = task.part {
+            part.check(rows.keys())?;
+        }
         let resumed = rows.len();
-        let todo: Vec<usize> = (0..self.n_members()).filter(|i| !rows.contains_key(i)).collect();
-        let ensemble = self.ensemble(threads, todo.len()).map_err(SweepError::Threads)?;
+        let members: Vec<usize> = match task.part {
+            Some(part) => part.members(self.n_members()).collect(),
+            None => (0..self.n_members()).collect(),
+        };
+        let todo: Vec<usize> = members.iter().copied().filter(|i| !rows.contains_key(i)).collect();
+        let ensemble = self.ensemble(task.threads, todo.len()).map_err(SweepError::Threads)?;
         let mut failed = rows.values().filter(|row| !self.columns.is_completed(row)).count();
         let mut cpu_seconds = 0.0;
         let mut written = Ok(());
-        watch.finished(rows.len(), failed, self.n_members());
+        watch.finished(rows.len(), failed, members.len());
         ensemble.run(&todo, job, |i, row: Result<Row, Panicked>| {
             // what was cut short is no result
             if self.overrides.interrupt.is_set() {
@@ -268,29 +288,40 @@ impl Study {
             }
             failed += usize::from(row.failure.is_some());
             rows.insert(i, cells);
-            watch.finished(rows.len(), failed, self.n_members());
+            watch.finished(rows.len(), failed, members.len());
             ControlFlow::Continue(())
         });
-        written.map_err(|error| lost(error, KIND.file))?;
-        if rows.len() < self.n_members() && self.overrides.interrupt.is_set() {
-            return Err(SweepError::Interrupted([rows.len(), self.n_members()]));
+        written.map_err(|error| lost(error, &file))?;
+        if rows.len() < members.len() && self.overrides.interrupt.is_set() {
+            return Err(SweepError::Interrupted([rows.len(), members.len()]));
         }
-        let (tables, lost) = match self.write(out, &rows) {
+        let tables = if task.part.is_some() { Ok(Vec::new()) } else { self.write(out, &rows) };
+        Ok(self.report((rows, resumed), (ensemble.threads().get(), clock, cpu_seconds), tables))
+    }
+
+    /// How it went, with all rows.
+    fn report(
+        &self,
+        (rows, resumed): (Rows, usize),
+        (threads, begun, cpu_seconds): (usize, Instant, f64),
+        tables: Result<Vec<PathBuf>, WriteError>,
+    ) -> Report {
+        let (tables, lost) = match tables {
             Ok(tables) => (tables, None),
             Err(error) => (Vec::new(), Some(error)),
         };
-        Ok(Report {
+        Report {
             members: rows.len(),
-            completed: rows.len() - failed,
+            completed: rows.values().filter(|row| self.columns.is_completed(row)).count(),
             resumed,
             failures: self.columns.failures(rows.values()),
-            threads: ensemble.threads().get(),
-            wall_seconds: clock.elapsed().as_secs_f64(),
+            threads,
+            wall_seconds: begun.elapsed().as_secs_f64(),
             cpu_seconds,
             rows: rows.into_values().collect(),
             tables,
             lost,
-        })
+        }
     }
 
     /// The row of a member that panicked.
@@ -300,11 +331,7 @@ impl Study {
     }
 
     /// Writes the tables: what stands in their place is always whole.
-    fn write(
-        &self,
-        out: &Path,
-        rows: &BTreeMap<usize, Vec<String>>,
-    ) -> Result<Vec<PathBuf>, WriteError> {
+    fn write(&self, out: &Path, rows: &Rows) -> Result<Vec<PathBuf>, WriteError> {
         let put = |name: &str, bytes: std::io::Result<Vec<u8>>| {
             let path = out.join(name);
             let failed = |error| WriteError { path: path.clone(), bytes: 0, error };
@@ -327,16 +354,18 @@ impl Study {
 }
 
 /// Rows by member: those that have all their cells; others are of members that run again.
-fn whole_rows(
-    lines: Vec<Vec<String>>,
-    n_cells: usize,
-    n_members: usize,
-) -> BTreeMap<usize, Vec<String>> {
+fn whole_rows(lines: Vec<Vec<String>>, n_cells: usize, n_members: usize) -> Rows {
     let rows = lines.into_iter().filter_map(|cells| {
         let member = cells.first()?.parse::<usize>().ok()?.checked_sub(1)?;
         (cells.len() == n_cells && member < n_members).then_some((member, cells))
     });
     rows.collect()
+}
+
+impl From<PartsError> for SweepError {
+    fn from(error: PartsError) -> Self {
+        Self::Parts(error)
+    }
 }
 
 impl From<JournalError> for SweepError {
@@ -367,6 +396,7 @@ impl Display for SweepError {
             Self::Threads(error) => write!(f, "{error}"),
             Self::Journal(error) => write!(f, "{error}"),
             Self::Write(error) => write!(f, "{error}"),
+            Self::Parts(error) => write!(f, "{error}"),
             Self::Interrupted([done, members]) => write!(
                 f,
                 "interrupted by a signal: {done} of {members} members are finished and kept"
