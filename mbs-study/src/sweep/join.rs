@@ -27,7 +27,8 @@ impl Study {
             return Err(PartsError::Counts(first, other).into());
         }
         let (mut rows, mut unfinished) = (Rows::new(), Vec::new());
-        for number in 1..=first.of {
+        // parts beyond the members have none, and need not have run
+        for number in 1..=first.of.min(self.n_members()) {
             let part = SweepPart { number, ..first };
             let n = part.members(self.n_members()).len();
             let own = self.rows_of(out, part)?;

@@ -131,6 +131,14 @@ fn parts_are_joined_to_the_table_of_one_run_and_what_lacks_is_named() {
         assert!(lacks.starts_with(&format!("part 1/{of} lacks 1 of ")), "{lacks}");
         std::fs::remove_dir_all(&out).expect("it is there");
     }
+    // parts without members need not have run
+    let out = scratch("many");
+    for number in 1..=6 {
+        let part = Some(format!("{number}/1000000000000").parse().expect("a part"));
+        study.run_jobs(&SweepTask { part, ..all(&out) }, &mut (), job).expect("it is ours");
+    }
+    assert_eq!(study.join(&out).expect("all members are there").rows, report.rows);
+    std::fs::remove_dir_all(&out).expect("it is there");
     std::fs::remove_dir_all(&whole).expect("it is there");
 }
 
