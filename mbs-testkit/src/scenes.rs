@@ -76,3 +76,26 @@ pub fn file_in<T: Real>(name: &str) -> Scene<T> {
 pub fn empty(name: &str, dimension: Dimension, gravity: Option<[f64; 3]>) -> Scene<f64> {
     Scene { gravity, ..Scene::empty(name, dimension, 1.0) }
 }
+
+/// The text of a planar four-bar that is drawn along x: its crank, coupler and rocker with these centres, its joints O, A, C and B at these
+/// places. O and B are on the ground, C is between coupler and rocker.
+pub fn flat_four_bar(head: &str, centers: [f64; 3], places: [f64; 4]) -> String {
+    let bars = ["crank", "coupler", "rocker"].into_iter().zip(centers).map(|(name, center)| {
+        format!(
+            "[[body]]\nname = \"{name}\"\nmass = 1.0\ncenter = [{center}, 0.0]\ninertia = 0.1\n"
+        )
+    });
+    let ends = [
+        ("O", ["ground", "crank"]),
+        ("A", ["crank", "coupler"]),
+        ("C", ["coupler", "rocker"]),
+        ("B", ["ground", "rocker"]),
+    ];
+    let joints = ends.into_iter().zip(places).map(|((name, bodies), at)| {
+        format!(
+            "[[joint]]\nname = \"{name}\"\nkind = \"revolute\"\nbodies = {bodies:?}\nat = [{at}, 0.0]\n"
+        )
+    });
+    let parts: Vec<String> = bars.chain(joints).collect();
+    format!("[scene]\ndimension = 2\nduration = 0.1\n{head}{}", parts.concat())
+}

@@ -225,23 +225,8 @@ fn states_that_no_joint_can_have_are_refused_with_the_nearest_name() {
 
 #[test]
 fn a_folded_four_bar_follows_the_joint_that_is_given_and_a_base_is_said_once() {
-    let bar = |name: &str, center: f64| {
-        format!(
-            "[[body]]\nname = \"{name}\"\nmass = 1.0\ncenter = [{center}, 0.0]\ninertia = 0.1\n"
-        )
-    };
-    let joint = |name: &str, bodies: &str, at: f64| {
-        format!(
-            "[[joint]]\nname = \"{name}\"\nkind = \"revolute\"\nbodies = {bodies}\nat = [{at}, 0.0]\n"
-        )
-    };
-    let folded = "[scene]\ndimension = 2\nduration = 0.1\n".to_owned()
-        + &(bar("crank", 0.5) + &bar("coupler", 0.5) + &bar("rocker", 0.3))
-        + &joint("O", "[\"ground\", \"crank\"]", 0.0)
-        + &joint("A", "[\"crank\", \"coupler\"]", 1.0)
-        // the coupler's end lies on the crank's pivot
-        + &joint("C", "[\"coupler\", \"rocker\"]", 0.0)
-        + &joint("B", "[\"ground\", \"rocker\"]", 0.6);
+    // the coupler's end lies on the crank's pivot
+    let folded = mbs_testkit::scenes::flat_four_bar("", [0.5, 0.5, 0.3], [0.0, 1.0, 0.0, 0.6]);
     let scene = file("folded.toml");
     std::fs::write(&scene, folded).expect("a folder");
     let scene = scene.to_str().expect("UTF-8");

@@ -260,20 +260,17 @@ impl Study {
         let file = task.part.map_or_else(|| KIND.file.to_owned(), SweepPart::file);
         let (mut journal, lines) = Journal::open_as((out, &file), &self.head, task.anew)?;
         let mut rows = whole_rows(lines, self.columns.len(), self.n_members());
-        if let Some(part) = task.part {
-            part.check(rows.keys())?;
-        }
+        let part = task.part.unwrap_or(SweepPart::WHOLE);
+        part.check(rows.keys())?;
         let resumed = rows.len();
-        let members: Vec<usize> = match task.part {
-            Some(part) => part.members(self.n_members()).collect(),
-            None => (0..self.n_members()).collect(),
-        };
-        let todo: Vec<usize> = members.iter().copied().filter(|i| !rows.contains_key(i)).collect();
+        let members = part.members(self.n_members());
+        let n_members = members.len();
+        let todo: Vec<usize> = members.filter(|i| !rows.contains_key(i)).collect();
         let ensemble = self.ensemble(task.threads, todo.len()).map_err(SweepError::Threads)?;
         let mut failed = rows.values().filter(|row| !self.columns.is_completed(row)).count();
         let mut cpu_seconds = 0.0;
         let mut written = Ok(());
-        watch.finished(rows.len(), failed, members.len());
+        watch.finished(rows.len(), failed, n_members);
         ensemble.run(&todo, job, |i, row: Result<Row, Panicked>| {
             // what was cut short is no result
             if self.overrides.interrupt.is_set() {
@@ -288,12 +285,12 @@ impl Study {
             }
             failed += usize::from(row.failure.is_some());
             rows.insert(i, cells);
-            watch.finished(rows.len(), failed, members.len());
+            watch.finished(rows.len(), failed, n_members);
             ControlFlow::Continue(())
         });
         written.map_err(|error| lost(error, &file))?;
-        if rows.len() < members.len() && self.overrides.interrupt.is_set() {
-            return Err(SweepError::Interrupted([rows.len(), members.len()]));
+        if rows.len() < n_members && self.overrides.interrupt.is_set() {
+            return Err(SweepError::Interrupted([rows.len(), n_members]));
         }
         let tables = if task.part.is_some() { Ok(Vec::new()) } else { self.write(out, &rows) };
         Ok(self.report((rows, resumed), (ensemble.threads().get(), clock, cpu_seconds), tables))

@@ -25,6 +25,9 @@ pub struct SweepPart {
 }
 
 impl SweepPart {
+    /// All members.
+    pub(super) const WHOLE: Self = Self { of: 1, number: 1 };
+
     /// Its members of so many, from 0.
     pub fn members(self, n: usize) -> impl ExactSizeIterator<Item = usize> {
         (self.number - 1..n).step_by(self.of)

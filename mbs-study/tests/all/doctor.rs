@@ -112,33 +112,18 @@ fn sound_random_mechanisms_have_no_finding_about_their_joints() {
 
 #[test]
 fn a_flat_parallelogram_that_one_held_value_leads_away_may_fold() {
-    let bar = |name: &str, center: f64| {
-        format!(
-            "[[body]]\nname = \"{name}\"\nmass = 1.0\ncenter = [{center}, 0.0]\ninertia = 0.1\n"
-        )
-    };
-    let joint = |name: &str, bodies: &str, at: f64| {
-        format!(
-            "[[joint]]\nname = \"{name}\"\nkind = \"revolute\"\nbodies = {bodies}\nat = [{at}, 0.0]\n"
-        )
-    };
-    let flat = [
-        "[scene]\nname = \"flat\"\ndimension = 2\nduration = 0.1\ngravity = [0.0, -9.8]\n"
-            .to_owned(),
-        bar("crank", 0.5) + &bar("coupler", 2.0) + &bar("rocker", 2.5),
-        joint("O", "[\"ground\", \"crank\"]", 0.0) + &joint("A", "[\"crank\", \"coupler\"]", 1.0),
-        joint("C", "[\"coupler\", \"rocker\"]", 3.0) + &joint("B", "[\"ground\", \"rocker\"]", 2.0),
-        "[[initial]]\njoint = \"O\"\nvalue = 0.5\n".to_owned(),
-    ];
+    let head = "name = \"flat\"\ngravity = [0.0, -9.8]\n";
+    let drawn = mbs_testkit::scenes::flat_four_bar(head, [0.5, 2.0, 2.5], [0.0, 1.0, 3.0, 2.0]);
+    let flat = drawn + "[[initial]]\njoint = \"O\"\nvalue = 0.5\n";
     let still = Effort { positions: 0, ..LITTLE };
-    let c = checkup(&mbs_testkit::scene(&flat.concat()), &still);
+    let c = checkup(&mbs_testkit::scene(&flat), &still);
     let told = finding(&c, "singular-reference");
     assert_eq!((told.severity, &told.joints[..]), (Severity::Doubt, &[0, 1, 2, 3][..]));
     let held = "[[initial]]\njoint = \"B\"\nvalue = 0.5\n".to_owned();
     // a guide holds its joint, too
     let guided = "[[guide]]\njoint = \"B\"\ntable = [[0.0, 0.5], [1.0, 0.6]]\n".to_owned();
     for second in [held, guided] {
-        let c = checkup(&mbs_testkit::scene(&(flat.concat() + &second)), &still);
+        let c = checkup(&mbs_testkit::scene(&(flat.clone() + &second)), &still);
         assert!(!codes(&c).contains(&"singular-reference"), "{second}: {:?}", c.findings);
     }
 }
