@@ -1,5 +1,6 @@
 //! `mbs run --open` and `--watch`.
 
+use crate::line;
 use crate::refusal::Refusal;
 use crate::say::warn;
 use clap::Args;
@@ -72,11 +73,10 @@ pub(crate) fn watch(scene: &Path, others: &[&Path], out: Option<&Path>) -> ExitC
     let mut is_open = false;
     loop {
         let seen = times(scene, others);
-        let words = std::env::args_os().skip(1);
-        let words = words.filter(|word| word != "--watch" && !(is_open && word == "--open"));
-        let program = std::env::current_exe().unwrap_or_else(|_| PathBuf::from("mbs"));
+        let words = line::words();
+        let words = words.filter(|word| *word != "--watch" && !(is_open && *word == "--open"));
         let default = out.is_none().then_some(["--out", OUT]);
-        match Command::new(program).args(words).args(default.into_iter().flatten()).status() {
+        match line::again().args(words).args(default.into_iter().flatten()).status() {
             Ok(status) => is_open |= status.success(),
             Err(error) => {
                 let message = format!("cannot start: {}", crate::say::plain(&error));

@@ -97,7 +97,7 @@ pub fn available() -> NonZeroUsize {
 
 impl Panicked {
     /// Takes the words of a panic; those of [`panic!`] are texts.
-    fn new(payload: Box<dyn Any + Send>) -> Self {
+    pub(crate) fn new(payload: Box<dyn Any + Send>) -> Self {
         let text = payload.downcast_ref::<&str>().map(|text| (*text).to_owned());
         let text = text.or_else(|| payload.downcast_ref::<String>().cloned());
         Self(text.unwrap_or_else(|| "no message".to_owned()))

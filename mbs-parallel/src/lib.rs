@@ -1,8 +1,10 @@
 #![doc = include_str!("../README.md")]
 
+mod beside;
 pub mod ensemble;
 pub mod team;
 
+pub use beside::beside;
 pub use team::{Pool, ThreadTeam, Threads};
 
 /// Most threads of a team: those beyond the processors wait for each other.

@@ -188,6 +188,6 @@ pub fn sweep(m: &Mechanism, sweep: &Sweep) -> Result<SweepResult, SimulationErro
     }
     let file = SceneFile::parse(&sweep.text, "sweep")?;
     let study = Study::new(m.to_file()?, &file, &sweep.method)?;
-    let rows = study.rows(sweep.threads)?;
+    let rows = study.rows(sweep.threads, &mut ())?;
     Ok(SweepResult { columns: study.columns().clone(), rows })
 }

@@ -57,7 +57,8 @@ pub use document::{run_document, run_document_kept};
 pub use equilibrium::{Search, equilibrium_start, find_equilibrium};
 pub use front::tree::{
     AccelerationDerivatives, EffortDerivatives, FrameMotion, FrameTarget, InverseKinematics,
-    InverseKinematicsEnd, Matrix, TotalMomentum, Tree, TreeError, TreeErrorKind, TreeRange,
+    InverseKinematicsEnd, Matrix, Rollout, RolloutEnd, TotalMomentum, Tree, TreeError,
+    TreeErrorKind, TreeRange,
 };
 pub use front::{
     Body, BodyMotion, Components, ContactEvent, Coordinates, Coupling, Effect, Energies,

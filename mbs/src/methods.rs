@@ -287,7 +287,7 @@ fn tree<T: Real, S: Space<T>, const D: usize>(request: Request<'_, T, D>) -> Bui
 /// Error of a step by extrapolation where none is given, in units of rounding [-]: 2e-10 in double precision, 5e-26 in pairs.
 pub(crate) const ROUNDINGS: f64 = 1e6;
 
-fn tree_options<T: Real>(demands: &Demands<T>) -> mbs_recursive::Options<T> {
+pub(crate) fn tree_options<T: Real>(demands: &Demands<T>) -> mbs_recursive::Options<T> {
     let first_step = Some(demands.step);
     let mut options = mbs_recursive::Options { first_step, ..mbs_recursive::Options::default() };
     if !demands.integrator.is_of_first_order() {
@@ -308,7 +308,7 @@ fn tree_options<T: Real>(demands: &Demands<T>) -> mbs_recursive::Options<T> {
     options
 }
 
-fn tree_step<T: Real, S: Space<T>>(integrator: IntegratorKind) -> TreeStep<T, S> {
+pub(crate) fn tree_step<T: Real, S: Space<T>>(integrator: IntegratorKind) -> TreeStep<T, S> {
     match integrator {
         IntegratorKind::Rk4 => mbs_recursive::rk4_step,
         IntegratorKind::Rk54 => mbs_recursive::rk54_step,

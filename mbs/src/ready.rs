@@ -6,8 +6,9 @@ use crate::stop::StopError;
 use crate::tilt;
 use mbs_core::model::{Model, State};
 use mbs_core::natural::NaturalModel;
+use mbs_core::rigid::RigidMotion;
 use mbs_core::scene::Scene;
-use mbs_core::start::{Assembled, assemble};
+use mbs_core::start::{Assembled, assemble, start_at};
 use mbs_core::{Cliques, Real};
 use mbs_linear::Equilibrium;
 use mbs_sparse::Multifrontal;
@@ -59,6 +60,21 @@ impl<T: Real, const D: usize> AssembledScene<T, D> {
         let analyse = mbs_sparse::Options::default();
         let mut solver = Multifrontal::analyse(&model, analyse);
         let start = assemble(scene, &model, |p| Multifrontal::analyse(p, analyse), &mut solver);
+        let start = start.map_err(|error| StopError::Start(error).or_law(model.codes()))?;
+        Ok(Self { start, model, solver, rank: None })
+    }
+
+    /// Builds the model of a scene whose bodies move as `motions` say at time `t`: see [`start_at`].
+    ///
+    /// # Errors
+    /// [`StopError::Start`] where there is no model, or no accelerations.
+    pub(crate) fn placed(
+        scene: &Scene<T>,
+        (t, motions): (T, &[RigidMotion<T>]),
+    ) -> Result<Self, StopError> {
+        let model = NaturalModel::new(scene).map_err(|e| StopError::Start(e.into()))?;
+        let mut solver = Multifrontal::analyse(&model, mbs_sparse::Options::default());
+        let start = start_at((scene, &model), &mut solver, (t, motions));
         let start = start.map_err(|error| StopError::Start(error).or_law(model.codes()))?;
         Ok(Self { start, model, solver, rank: None })
     }

@@ -1,5 +1,6 @@
 //! Why a run stopped, in words and with names.
 
+mod gap;
 mod linear;
 mod step;
 

@@ -3,13 +3,15 @@
 use super::accelerations::accelerations;
 use super::error::AssemblyError;
 use super::hold::StartRow;
+use super::positions::{given_turns, remember_given};
 use super::problem::Problem;
 use super::sweeps::Assembly;
 use crate::Real;
 use crate::algebra::norm_inf;
 use crate::blocks::SpdSolver;
-use crate::model::State;
+use crate::model::{Model, State};
 use crate::natural::NaturalModel;
+use crate::rigid::RigidMotion;
 use crate::scene::Scene;
 
 /// A consistent state, and what was done to get it.
@@ -77,4 +79,28 @@ pub fn restart<T: Real, const D: usize, S: SpdSolver<T>>(
     let velocity = norm_inf(&assembly.rows);
     let mut terms = assembly.problem.terms;
     Ok([position, velocity, accelerations(model, solver, state, &mut terms)?])
+}
+
+/// The state of a scene whose bodies move as `motions` say at time `t`, which meets the constraints: velocities and positions are as they are
+/// given, accelerations and multipliers follow. Angles begin nearest to the scene's initial values.
+///
+/// # Errors
+/// [`AssemblyError`] where no accelerations are found.
+pub fn start_at<T: Real, const D: usize>(
+    (scene, model): (&Scene<T>, &NaturalModel<T, D>),
+    solver: &mut impl SpdSolver<T>,
+    (t, motions): (T, &[RigidMotion<T>]),
+) -> Result<Assembled<T>, AssemblyError> {
+    let mut state = State { t, ..State::at_rest(model) };
+    remember_given(scene, model, &given_turns(scene, model), &mut state);
+    let mut terms = model.terms();
+    let reference = state.q.clone();
+    model.take_motions(motions, &mut terms, &mut state);
+    let acceleration = accelerations(model, solver, &mut state, &mut terms)?;
+    let mut rates = terms.phi_t.clone();
+    model.multiply_jacobian(&terms, &state.v, &mut rates);
+    rates.iter_mut().zip(&terms.phi_t).for_each(|(rate, &phi_t)| *rate += phi_t);
+    let residual = [norm_inf(&terms.phi), norm_inf(&rates), acceleration];
+    let change = reference.iter().zip(&state.q).fold(T::ZERO, |c, (&r, &q)| c.max((q - r).abs()));
+    Ok(Assembled { state, change, residual_before: residual[0], residual, stages: 0 })
 }

@@ -25,7 +25,7 @@ mod velocities;
 mod weak;
 
 pub use accelerations::accelerations;
-pub use assemble::{Assembled, assemble, restart};
+pub use assemble::{Assembled, assemble, restart, start_at};
 pub use error::AssemblyError;
 pub use moved_mass::moved_mass;
 pub use problem::Problem;

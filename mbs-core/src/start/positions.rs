@@ -112,20 +112,7 @@ impl<T: Real, S: SpdSolver<T>, const D: usize> Assembly<'_, T, S, D> {
 
     /// Angles of effects are counted as those of outputs are: from what is held, else within half a turn of the reference.
     pub(super) fn count_turns(&mut self, scene: &Scene<T>, s: &mut State<T>) {
-        let model = self.problem.model;
-        let starts = start_values(scene);
-        // A scene that has a model has actions.
-        let actions = Actions::new(scene).map(|actions| actions.list).unwrap_or_default();
-        for (effect, action) in actions {
-            let Action::Angle { joint, number, .. } = action else { continue };
-            let start = starts[joint].get(number);
-            if let (Some(place), Some(&start)) = (model.memory_of_effect(effect), start) {
-                s.memory[place] = start;
-            }
-        }
-        for &(place, angle) in &self.turns {
-            s.memory[place] = angle;
-        }
+        remember_given(scene, self.problem.model, &self.turns, s);
         self.remember(s);
     }
 
@@ -346,7 +333,7 @@ impl<T: Real, S: SpdSolver<T>, const D: usize> Assembly<'_, T, S, D> {
 }
 
 /// The places of the angles that couplings remember and a scene gives, with these angles.
-fn given_turns<T: Real, const D: usize>(
+pub(super) fn given_turns<T: Real, const D: usize>(
     scene: &Scene<T>,
     model: &NaturalModel<T, D>,
 ) -> Vec<(usize, T)> {
@@ -363,4 +350,26 @@ enum Stop {
     Jump(AssemblyError),
     /// What is held contradicts itself or the joints here.
     Gap(AssemblyError),
+}
+
+/// The angles that a state remembers begin with those that the scene gives: `turns` are those of couplings.
+pub(super) fn remember_given<T: Real, const D: usize>(
+    scene: &Scene<T>,
+    model: &NaturalModel<T, D>,
+    turns: &[(usize, T)],
+    s: &mut State<T>,
+) {
+    let starts = start_values(scene);
+    // A scene that has a model has actions.
+    let actions = Actions::new(scene).map(|actions| actions.list).unwrap_or_default();
+    for (effect, action) in actions {
+        let Action::Angle { joint, number, .. } = action else { continue };
+        let start = starts[joint].get(number);
+        if let (Some(place), Some(&start)) = (model.memory_of_effect(effect), start) {
+            s.memory[place] = start;
+        }
+    }
+    for &(place, angle) in turns {
+        s.memory[place] = angle;
+    }
 }

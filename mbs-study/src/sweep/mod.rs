@@ -3,6 +3,7 @@
 //! A [`Study`] is a scene with its sweep, checked; [`Study::run`] runs the members that the journal of a directory lacks, and
 //! writes the table when all are there.
 
+mod collection;
 mod join;
 mod member;
 #[cfg(feature = "parquet")]
@@ -13,11 +14,12 @@ mod table;
 mod tests;
 
 pub use crate::journal::JournalError;
+pub use collection::Collection;
 pub use member::Row;
 pub use parts::{PartsError, SweepPart};
 pub use table::{Columns, Failures};
 
-use crate::journal::{Head, Journal, Kind};
+use crate::journal::{Head, Kind};
 use core::fmt::{self, Display, Formatter};
 use core::num::NonZeroUsize;
 use core::ops::ControlFlow;
@@ -221,18 +223,29 @@ impl Study {
         self.run_jobs(task, watch, |i| self.member(i))
     }
 
-    /// Runs all members over threads (left out: all processors), without files; rows in the order of the members.
+    /// Runs all members over threads (left out: all processors), without files; rows in the order of the members. Where it is interrupted, rows
+    /// are missing.
     ///
     /// # Errors
     /// The system gives no threads.
-    pub fn rows(&self, threads: Option<NonZeroUsize>) -> Result<Vec<Row>, EnsembleError> {
+    pub fn rows(
+        &self,
+        threads: Option<NonZeroUsize>,
+        watch: &mut impl Watch,
+    ) -> Result<Vec<Row>, EnsembleError> {
         let all: Vec<usize> = (0..self.n_members()).collect();
-        let mut rows = BTreeMap::new();
+        let (mut rows, mut failed) = (BTreeMap::new(), 0);
         self.ensemble(threads, all.len())?.run(
             &all,
             |i| self.member(i),
             |i, row| {
-                rows.insert(i, row.unwrap_or_else(|panic| self.panicked(i, &panic)));
+                if self.overrides.interrupt.is_set() {
+                    return ControlFlow::Break(());
+                }
+                let row = row.unwrap_or_else(|panic| self.panicked(i, &panic));
+                failed += usize::from(row.failure.is_some());
+                rows.insert(i, row);
+                watch.finished(rows.len(), failed, all.len());
                 ControlFlow::Continue(())
             },
         );
@@ -252,48 +265,44 @@ impl Study {
         watch: &mut impl Watch,
         job: impl Fn(usize) -> Row + Sync,
     ) -> Result<Report, SweepError> {
-        let (clock, out) = (Instant::now(), task.out);
-        let lost = |error, name: &str| {
-            SweepError::Write(WriteError { path: out.join(name), bytes: 0, error })
-        };
-        std::fs::create_dir_all(out).map_err(|error| lost(error, ""))?;
-        let file = task.part.map_or_else(|| KIND.file.to_owned(), SweepPart::file);
-        let (mut journal, lines) = Journal::open_as((out, &file), &self.head, task.anew)?;
-        let mut rows = whole_rows(lines, self.columns.len(), self.n_members());
+        let mut collection = self.collect_part(task.out, task.anew, task.part)?;
         let part = task.part.unwrap_or(SweepPart::WHOLE);
-        part.check(rows.keys())?;
-        let resumed = rows.len();
         let members = part.members(self.n_members());
         let n_members = members.len();
-        let todo: Vec<usize> = members.filter(|i| !rows.contains_key(i)).collect();
+        let todo: Vec<usize> = members.filter(|i| !collection.rows.contains_key(i)).collect();
         let ensemble = self.ensemble(task.threads, todo.len()).map_err(SweepError::Threads)?;
-        let mut failed = rows.values().filter(|row| !self.columns.is_completed(row)).count();
-        let mut cpu_seconds = 0.0;
-        let mut written = Ok(());
-        watch.finished(rows.len(), failed, n_members);
+        let is_failed = |row: &&Vec<String>| !self.columns.is_completed(row);
+        let mut failed = collection.rows.values().filter(is_failed).count();
+        let mut taken = Ok(());
+        watch.finished(collection.rows.len(), failed, n_members);
         ensemble.run(&todo, job, |i, row: Result<Row, Panicked>| {
             // what was cut short is no result
             if self.overrides.interrupt.is_set() {
                 return ControlFlow::Break(());
             }
             let row = row.unwrap_or_else(|panic| self.panicked(i, &panic));
-            cpu_seconds += row.cpu_seconds;
-            let cells = self.columns.cells(&row);
-            written = journal.append(&cells);
-            if written.is_err() {
+            taken = self.take(&mut collection, self.columns.cells(&row));
+            if taken.is_err() {
                 return ControlFlow::Break(());
             }
             failed += usize::from(row.failure.is_some());
-            rows.insert(i, cells);
-            watch.finished(rows.len(), failed, n_members);
+            watch.finished(collection.rows.len(), failed, n_members);
             ControlFlow::Continue(())
         });
-        written.map_err(|error| lost(error, &file))?;
-        if rows.len() < n_members && self.overrides.interrupt.is_set() {
-            return Err(SweepError::Interrupted([rows.len(), n_members]));
+        taken?;
+        let done = collection.rows.len();
+        if done < n_members && self.overrides.interrupt.is_set() {
+            return Err(SweepError::Interrupted([done, n_members]));
         }
-        let tables = if task.part.is_some() { Ok(Vec::new()) } else { self.write(out, &rows) };
-        Ok(self.report((rows, resumed), (ensemble.threads().get(), clock, cpu_seconds), tables))
+        Ok(self.report_of(collection, ensemble.threads(), task.part.is_none()))
+    }
+
+    /// The row of a member that no machine brought back: it ended the process of whoever ran it.
+    #[must_use]
+    pub fn lost(&self, index: usize) -> Row {
+        let values = self.sweep.values(index).map(str::to_owned).collect();
+        let message = "the processes that ran this member ended before it did";
+        Row::failed(index, values, "worker-lost", message)
     }
 
     /// How it went, with all rows.

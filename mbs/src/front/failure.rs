@@ -68,8 +68,9 @@ impl SimulationError {
         self
     }
 
-    /// A stop at a time [s].
-    pub(crate) fn stopped(error: StopError, time: f64, names: &Names) -> Self {
+    /// A stop at a time [s], with the names of the scene.
+    #[must_use]
+    pub fn stopped(error: StopError, time: f64, names: &Names) -> Self {
         let report = error.report(time, names);
         let mut found = Self::new(error.code(), report.message, report.hint);
         (found.0.time, found.0.joint, found.0.body) = (Some(time), report.joint, report.body);

@@ -9,14 +9,17 @@ use crate::checkpoint::CheckpointError;
 use crate::checkpoint::tape::{Eye, Pen, Tape, holds};
 use crate::driver::{StepObserver, Stretch, drive};
 use crate::precision::SceneWork;
+use crate::ready::AssembledScene;
 use crate::settings::{ResolvedMethod, exact};
 use crate::simulation::Simulation;
 use crate::stop::StopError;
 use core::fmt::Debug;
 use core::ops::ControlFlow;
 use mbs_core::Real;
+use mbs_core::algebra::Vector;
 use mbs_core::control::Accepted;
 use mbs_core::outputs::{Contacts, Instant};
+use mbs_core::rigid::RigidMotion;
 use mbs_core::scene::{InitialCondition, InitialTarget, JointId, Scene, Start};
 use mbs_core::step::InputError;
 use std::sync::{Arc, Mutex, PoisonError};
@@ -45,6 +48,13 @@ pub(crate) trait Inner: Sink + Debug + Send + Sync {
         states: Option<&[(JointId, Coordinates, Coordinates)]>,
         t: f64,
     ) -> Result<(), StopError>;
+    /// Starts anew where the bodies move as these motions say, which meet the constraints, at the present time. Angles are those next to the
+    /// values of these joints.
+    fn place(
+        &mut self,
+        states: &[(JointId, Coordinates, Coordinates)],
+        motions: &[RigidMotion<f64>],
+    ) -> Result<(), StopError>;
     fn save(&self) -> Result<Vec<u8>, CheckpointError>;
     fn restore(&mut self, bytes: &[u8]) -> Result<(), CheckpointError>;
 }
@@ -62,10 +72,26 @@ struct Typed<T: Real, const D: usize> {
 impl<T: Real, const D: usize> Typed<T, D> {
     fn new(scene: Scene<T>, settings: &ResolvedMethod) -> Result<Self, StopError> {
         let simulation = Simulation::new(&scene, settings)?;
+        Self::of(scene, simulation, settings)
+    }
+
+    fn of(
+        scene: Scene<T>,
+        simulation: Simulation<T, D>,
+        settings: &ResolvedMethod,
+    ) -> Result<Self, StopError> {
         let readings = Readings::new(&scene, &simulation)?;
         let seen = Seen::new(Arc::new(scene), simulation, readings);
         let clock = StepClock::default();
         Ok(Self { seen, settings: settings.clone(), clock, contacts: None })
+    }
+
+    /// Continues as another one of the same mechanism; the scene's own conditions are those of a later reset.
+    fn take(&mut self, fresh: Self) {
+        let (own, contacts) = (self.seen.scene.clone(), self.contacts.take());
+        *self = fresh;
+        (self.seen.scene, self.contacts) = (own, contacts);
+        self.rewatch();
     }
 
     /// Forgets contacts so far: the state is another one than that after the last step.
@@ -162,16 +188,7 @@ impl<T: Real, const D: usize> Inner for Typed<T, D> {
         t: f64,
     ) -> Result<(), StopError> {
         let own = &self.seen.scene;
-        let mut scene = Scene::clone(own);
-        if let Some(states) = states {
-            let numbers = |from: &Coordinates| from.iter().map(|x| T::from_f64(*x)).collect();
-            let condition = |(joint, values, rates): &(JointId, Coordinates, Coordinates)| {
-                let (joint, value, rate) = (*joint, Some(numbers(values)), Some(numbers(rates)));
-                InitialCondition { target: InitialTarget::Joint { joint, value, rate } }
-            };
-            scene.initials = states.iter().map(condition).collect();
-            scene.start = Start::Initial;
-        }
+        let scene = states.map_or_else(|| Scene::clone(own), |states| started(own, states));
         let mut fresh = Self::new(scene, &self.settings)?;
         let t = exact(own, t);
         if t != T::ZERO {
@@ -181,11 +198,20 @@ impl<T: Real, const D: usize> Inner for Typed<T, D> {
             simulation.resume().map_err(|error| simulation.explain(error))?;
             fresh.seen.readings = Mutex::new(Readings::new(own, simulation)?);
         }
-        // the scene's own conditions are those of a later reset
-        fresh.seen.scene = own.clone();
-        fresh.contacts = self.contacts.take();
-        *self = fresh;
-        self.rewatch();
+        self.take(fresh);
+        Ok(())
+    }
+
+    fn place(
+        &mut self,
+        states: &[(JointId, Coordinates, Coordinates)],
+        motions: &[RigidMotion<f64>],
+    ) -> Result<(), StopError> {
+        let scene = started(&self.seen.scene, states);
+        let motions: Vec<_> = motions.iter().map(in_scalar).collect();
+        let ready = AssembledScene::placed(&scene, (self.seen.simulation.state().t, &motions))?;
+        let simulation = Simulation::of(&scene, &self.settings, ready)?;
+        self.take(Self::of(scene, simulation, &self.settings)?);
         Ok(())
     }
 
@@ -212,6 +238,31 @@ impl<T: Real, const D: usize> Inner for Typed<T, D> {
         (self.seen.readings, self.clock) = (Mutex::new(readings), clock);
         self.rewatch();
         Ok(())
+    }
+}
+
+/// A scene that starts with these coordinates and rates of joints.
+fn started<T: Real>(own: &Scene<T>, states: &[(JointId, Coordinates, Coordinates)]) -> Scene<T> {
+    let numbers = |from: &Coordinates| from.iter().map(|x| T::from_f64(*x)).collect();
+    let condition = |(joint, values, rates): &(JointId, Coordinates, Coordinates)| {
+        let (joint, value, rate) = (*joint, Some(numbers(values)), Some(numbers(rates)));
+        InitialCondition { target: InitialTarget::Joint { joint, value, rate } }
+    };
+    let initials = states.iter().map(condition).collect();
+    Scene { initials, start: Start::Initial, ..own.clone() }
+}
+
+/// A motion of a body in a scalar.
+fn in_scalar<T: Real>(from: &RigidMotion<f64>) -> RigidMotion<T> {
+    let vector = |x: &Vector<f64, 3>| x.map(T::from_f64);
+    RigidMotion {
+        origin: vector(&from.origin),
+        position: vector(&from.position),
+        rotation: from.rotation.map(T::from_f64),
+        omega: vector(&from.omega),
+        velocity: vector(&from.velocity),
+        angular_acceleration: vector(&from.angular_acceleration),
+        acceleration: vector(&from.acceleration),
     }
 }
 

@@ -1,6 +1,7 @@
 //! A mechanism: its scene in decimal numbers, and the file that it came from.
 
 use super::function::{Function, FunctionId, OutputFunction};
+use super::inputs::{InputInfo, Inputs};
 use super::part::sealed::Id as _;
 use super::{Id, Part, PathError, SceneError, UnknownName};
 use crate::settings::Method;
@@ -279,6 +280,14 @@ impl Mechanism {
         let fresh = Self::of_file(file).map_err(PathError::Refused)?;
         *self = Self { functions: core::mem::take(&mut self.functions), ..fresh };
         Ok(self)
+    }
+
+    /// Inputs that can be set between steps, in the order of effects, guides, couplings, then signals.
+    ///
+    /// # Errors
+    /// As [`check`](Self::check).
+    pub fn inputs(&self) -> Result<Vec<InputInfo>, SceneError> {
+        Ok(Inputs::new(&self.resolve_scene()?).list().to_vec())
     }
 
     /// Everything that can be wrong before a model is built.

@@ -11,6 +11,7 @@ mod mechanism;
 mod part;
 mod read;
 mod readings;
+mod relative;
 mod seen;
 mod simulate;
 mod simulation;

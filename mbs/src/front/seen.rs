@@ -143,7 +143,8 @@ where
         let motion = |b| in_doubles(&model.motion(&self.scene, b, state));
         let motions: Vec<_> = (0..self.scene.bodies.len()).map(motion).collect();
         let applied: Vec<f64> = state.applied.iter().map(|x| x.to_f64()).collect();
-        tree.follow_motions((state.t.to_f64(), &applied), &motions)
+        let signals: Vec<_> = state.signals.iter().map(|x| x.map(|x| x.to_f64())).collect();
+        tree.follow_motions((state.t.to_f64(), &applied, &signals), &motions)
     }
 
     fn sizes(&self) -> Sizes {

@@ -97,6 +97,12 @@ impl Simulation {
         self.inner.step(Some(dt), None).map_err(|error| self.stopped(error))
     }
 
+    /// Length of the steps that the method asks for [s].
+    #[must_use]
+    pub fn step_length(&self) -> f64 {
+        self.inner.length()
+    }
+
     /// Advances to `time` [s] by steps of the method's length, the last one shorter where they do not fit; at once where the method controls
     /// their length.
     ///
@@ -183,6 +189,17 @@ impl Simulation {
         self.inputs.list()
     }
 
+    /// The present values of all inputs, in the order of [`inputs`](Self::inputs).
+    #[must_use]
+    pub fn input_values(&self) -> &[f64] {
+        self.inputs.values()
+    }
+
+    /// Writes all inputs into what was started anew.
+    pub(super) fn renew_inputs(&mut self) -> Result<(), SimulationError> {
+        self.inputs.renew(&mut *self.inner)
+    }
+
     /// The first input of an effect; those of a vector follow it.
     ///
     /// # Errors
@@ -240,7 +257,7 @@ impl Simulation {
         }
         let started = self.inner.start(Some(joints), self.time());
         started.map_err(|error| self.stopped(error))?;
-        self.inputs.renew(&mut *self.inner)
+        self.renew_inputs()
     }
 
     /// Each joint once, with all its coordinates or none, and its rates likewise, finite.

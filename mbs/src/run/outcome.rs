@@ -68,6 +68,14 @@ impl Outcome {
         &self.table
     }
 
+    /// Names and units of the components of the rows, as the columns of `run.csv` have them.
+    #[must_use]
+    pub fn columns(&self) -> [Vec<String>; 2] {
+        let components = self.channels.iter().flat_map(|channel| &channel.components);
+        let units = components.map(|component| component.unit.to_string()).collect();
+        [self.channels.iter().flat_map(Channel::columns).collect(), units]
+    }
+
     /// The channels of the rows.
     pub(crate) fn channels(&self) -> &[Channel] {
         &self.channels

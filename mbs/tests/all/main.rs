@@ -38,6 +38,7 @@ mod readings;
 mod realtime;
 mod reference;
 mod relations;
+mod relative;
 mod rolling;
 mod ropes;
 mod rotors;

@@ -33,7 +33,7 @@ impl Tree {
     ) -> Result<&EffortDerivatives, TreeError> {
         checked("accelerations", accelerations, self.v.len())?;
         self.open("derivatives of efforts")?;
-        self.accelerations(Some(accelerations));
+        self.place_accelerations(Some(accelerations));
         let to = &mut self.of_effort;
         let mut slopes = slopes_in([&mut to.q, &mut to.v, &mut to.acceleration]);
         with!(&mut self.inner, t => {

@@ -75,7 +75,7 @@ impl Tree {
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn bias_forces(&mut self) -> &[f64] {
-        self.accelerations(None);
+        self.place_accelerations(None);
         self.efforts(EffortTerms::WithoutEffects)
     }
 
@@ -122,7 +122,7 @@ impl Tree {
     pub fn inverse_dynamics(&mut self, accelerations: &[f64]) -> Result<&[f64], TreeError> {
         checked("accelerations", accelerations, self.v.len())?;
         if self.loops.rows == 0 {
-            self.accelerations(Some(accelerations));
+            self.place_accelerations(Some(accelerations));
             return Ok(self.efforts(EffortTerms::WithoutEffects));
         }
         self.accelerate(None)?;
@@ -223,8 +223,8 @@ impl Tree {
     }
 
     /// The motions of the bodies at v̇ = 0.
-    pub(super) fn motions(&mut self) -> &[RigidMotion<f64>] {
-        self.accelerations(None);
+    pub(in crate::front) fn motions(&mut self) -> &[RigidMotion<f64>] {
+        self.place_accelerations(None);
         with!(&mut self.inner, tree => {
             tree.model.write_motions(&tree.state, &mut tree.workspace, &mut tree.motions);
             &tree.motions
@@ -242,7 +242,7 @@ impl Tree {
     }
 
     /// Sets the accelerations of the state: those given, or v̇ = 0.
-    pub(super) fn accelerations(&mut self, own: Option<&[f64]>) {
+    pub(super) fn place_accelerations(&mut self, own: Option<&[f64]>) {
         let state = self.inner.state();
         let (own, velocities) = (own.unwrap_or(&self.zero), [&self.v[..], &state.v]);
         self.layout.accelerations_inward(velocities, (own, &mut state.a));

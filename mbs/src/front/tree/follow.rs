@@ -2,10 +2,14 @@
 
 use super::{Tree, TreeError};
 use crate::front::View;
+use crate::front::values::Coordinates;
+use core::f64::consts::TAU;
+use core::ops::Range;
+use mbs_core::scene::JointId;
 
 impl Tree {
-    /// Takes time, coordinates and velocities of a simulation of the same mechanism, whatever its formulation. Angles are those
-    /// within half a turn of the tree's own, so that turns are counted from call to call.
+    /// Takes time, coordinates, velocities, inputs and signals of a simulation of the same mechanism, whatever its formulation. Turns of
+    /// joints are those of the simulation.
     ///
     /// # Errors
     /// [`TreeErrorKind::Length`](super::TreeErrorKind::Length) for a simulation of another number of bodies.
@@ -21,6 +25,29 @@ impl Tree {
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn follow<'a>(&mut self, at: impl Into<View<'a>>) -> Result<(), TreeError> {
-        at.into().seen().follow(self)
+        let at = at.into();
+        at.seen().follow(self)?;
+        self.count_turns(|joint| at.values(joint));
+        Ok(())
+    }
+
+    /// Makes angles those within half a turn of the joints' own.
+    fn count_turns(&mut self, values: impl Fn(JointId) -> Coordinates) {
+        for (joint, at) in self.layout.numbers() {
+            for (q, value) in self.q[at].iter_mut().zip(values(joint).iter()) {
+                // slides differ by rounding alone
+                *q += TAU * ((value - *q) / TAU).round();
+            }
+        }
+        self.layout.coordinates_inward(&self.q, &mut self.inner.state().z);
+    }
+
+    /// The coordinates of the joints that are numbers by themselves, each with its joint.
+    pub(in crate::front) fn joint_states(&self) -> Vec<(JointId, Coordinates, Coordinates)> {
+        let state = |(joint, at): (JointId, Range<usize>)| {
+            let values = Coordinates::new(self.q[at].iter().copied());
+            (joint, values, Coordinates::default())
+        };
+        self.layout.numbers().map(state).collect()
     }
 }

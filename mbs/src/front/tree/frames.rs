@@ -54,7 +54,7 @@ impl Tree {
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn jacobian_rate_at(&mut self, body: BodyId, at: [f64; 3]) -> &Matrix {
-        self.accelerations(None);
+        self.place_accelerations(None);
         self.jacobian.resize_rows(6);
         let to = &mut self.jacobian.data;
         with!(&mut self.inner, t => {

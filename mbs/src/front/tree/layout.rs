@@ -13,7 +13,7 @@
 
 use super::{TreeError, TreeErrorKind};
 use mbs_core::algebra::{Matrix, Vector, cross, rotation_vector};
-use mbs_core::scene::Scene;
+use mbs_core::scene::{JointId, Scene};
 use mbs_recursive::own::LinkFreedoms;
 use mbs_recursive::space::{Numbers, Space};
 use mbs_recursive::{JointLinks, TreeModel};
@@ -239,6 +239,16 @@ impl Layout {
         let first = own.next()?.own.clone();
         let last = own.next_back().map_or(&first, |place| &place.own).clone();
         Some(TreeRange { q: first.q.start..last.q.end, v: first.v.start..last.v.end })
+    }
+
+    /// Where in q the numbers of each joint stand that are its angles and slides; quaternions are none.
+    pub(super) fn numbers(&self) -> impl Iterator<Item = (JointId, Range<usize>)> + '_ {
+        let mut joints: Vec<usize> = self.places.iter().filter_map(|place| place.of.0).collect();
+        joints.dedup();
+        joints.into_iter().filter_map(|joint| {
+            let TreeRange { q, v } = self.range(joint)?;
+            (q.len() == v.len()).then(|| (JointId::new(joint), q))
+        })
     }
 
     /// Where the numbers of a free body stand.

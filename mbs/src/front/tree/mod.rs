@@ -1,6 +1,7 @@
 //! [`Tree`]: a mechanism in relative coordinates, at any position and velocity.
 
 mod derivatives;
+mod driven;
 mod dynamics;
 mod error;
 mod follow;
@@ -10,19 +11,23 @@ mod inverse_kinematics;
 mod layout;
 mod manifold;
 mod places;
+mod rollout;
 mod values;
 
 pub use error::{TreeError, TreeErrorKind};
 pub use inverse_kinematics::{FrameTarget, InverseKinematics, InverseKinematicsEnd};
 pub use layout::TreeRange;
 pub use places::{FrameMotion, TotalMomentum};
+pub use rollout::{Rollout, RolloutEnd};
 pub use values::{AccelerationDerivatives, EffortDerivatives, Matrix};
 
+use super::inputs::{InputInfo, Inputs};
 use crate::names::Names;
 use crate::typed;
 use inner::{Inner, with};
 use layout::Layout;
 use mbs_core::cluster::mass_properties;
+use mbs_core::model::State;
 use mbs_core::rigid::RigidMotion;
 use mbs_core::scene::{BodyId, JointId, Scene};
 
@@ -37,7 +42,8 @@ type Weighted = (BodyId, [f64; 3], f64);
 ///
 /// M is [`mass_matrix`](Self::mass_matrix), g [`gravity_forces`](Self::gravity_forces), c + g [`bias_forces`](Self::bias_forces),
 /// τ the efforts along the joints, J [`loop_jacobian`](Self::loop_jacobian). These are the bodies, the joints and gravity alone:
-/// springs, motors, friction and all other effects are left out. What they do is a part of τ.
+/// springs, motors, friction and all other effects are left out. What they do is a part of τ. [`accelerations`](Self::accelerations) and
+/// [`rollout`](Self::rollout) have them all.
 ///
 /// **Coordinates.** Every joint that closes no loop and is not guided has numbers in q and v, in the order of the scene; where they
 /// stand is [`coordinates_of`](Self::coordinates_of). Bodies that no joint holds come last, each as a free joint of its centre of
@@ -83,6 +89,9 @@ pub struct Tree {
     columns: Vec<f64>,
     by_effort: AccelerationDerivatives,
     of_effort: EffortDerivatives,
+    input_list: Vec<InputInfo>,
+    /// Where each input stands in a state.
+    input_places: Vec<usize>,
 }
 
 impl Tree {
@@ -107,7 +116,11 @@ impl Tree {
         };
         // squares are as large as that from the first call that asks for them
         let square = || Matrix::zeros(0, n);
+        let input_list = Inputs::new(scene).list().to_vec();
+        let prescribed = with!(&inner, tree => tree.model.prescribed());
         Ok(Self {
+            input_places: driven::input_places(&input_list, prescribed),
+            input_list,
             shares: (0..scene.bodies.len()).map(share).collect(),
             total,
             scene: scene.clone(),
@@ -182,26 +195,29 @@ impl Tree {
         let (model, state) = (simulation.model(), simulation.state());
         let motions: Vec<_> =
             (0..self.scene.bodies.len()).map(|b| model.motion(&self.scene, b, state)).collect();
-        self.follow_motions((state.t, &state.applied), &motions)
+        let State { t, applied, signals, .. } = state;
+        self.follow_motions((*t, applied, signals), &motions)
     }
 
-    /// The same of the motions of the scene's bodies, at a time with these inputs applied.
+    /// The same of the motions of the scene's bodies, at a time with these inputs applied and these signals.
     pub(crate) fn follow_motions(
         &mut self,
-        (t, inputs): (f64, &[f64]),
+        (t, inputs, signals): (f64, &[f64], &[[f64; 2]]),
         motions: &[RigidMotion<f64>],
     ) -> Result<(), TreeError> {
-        let n_inputs = self.inner.state().applied.len();
+        let state = self.inner.state();
         let sizes = [
             ("motions", self.scene.bodies.len(), motions.len()),
-            ("inputs", n_inputs, inputs.len()),
+            ("inputs", state.applied.len(), inputs.len()),
+            ("signals", state.signals.len(), signals.len()),
         ];
         if let Some((what, expected, found)) = sizes.into_iter().find(|size| size.1 != size.2) {
             return Err(TreeErrorKind::Length(what, expected, found).into());
         }
         with!(&mut self.inner, tree => {
-            // Inputs of guides: those of effects act nowhere here.
             tree.state.applied.copy_from_slice(inputs);
+            tree.state.inputs.copy_from_slice(inputs);
+            tree.state.signals.copy_from_slice(signals);
             tree.state.t = t;
             tree.model.read_motions(&self.scene, motions, &mut tree.state);
         });

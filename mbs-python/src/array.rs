@@ -1,0 +1,160 @@
+//! Arrays in and out: one state or many in one call.
+
+use crate::error::usage;
+use numpy::{IntoPyArray, PyArrayDyn, PyArrayMethods, PyReadonlyArrayDyn, PyUntypedArrayMethods};
+use pyo3::exceptions::PyTypeError;
+use pyo3::prelude::*;
+use pyo3::sync::PyOnceLock;
+
+/// Numbers of an argument, in the order of rows.
+#[derive(Debug)]
+pub(crate) struct Numbers<'py> {
+    array: PyReadonlyArrayDyn<'py, f64>,
+}
+
+impl<'py> Numbers<'py> {
+    /// Takes an argument: doubles in the order of rows as they are; anything else is converted once, or refused where `strict`.
+    pub(crate) fn new(value: &Bound<'py, PyAny>, name: &str, strict: bool) -> PyResult<Self> {
+        if let Ok(array) = value.cast::<PyArrayDyn<f64>>()
+            && array.is_c_contiguous()
+        {
+            return Ok(Self { array: array.readonly() });
+        }
+        if strict {
+            let message = format!("{name} is no array of float64 in the order of rows (C)");
+            return Err(PyTypeError::new_err(message));
+        }
+        let converted = converted(value).map_err(|error| {
+            let message = format!("{name} is no array of numbers: {}", error.value(value.py()));
+            usage(value.py(), "wrong-type", &message, "give numbers", name)
+        })?;
+        Ok(Self { array: converted.readonly() })
+    }
+
+    pub(crate) fn shape(&self) -> &[usize] {
+        self.array.shape()
+    }
+
+    pub(crate) fn slice(&self) -> &[f64] {
+        // a converted array is contiguous, and so is one that is taken as it is
+        self.array.as_slice().unwrap_or_default()
+    }
+
+    /// The numbers of an argument with exactly `n` of them.
+    pub(crate) fn row(value: &Bound<'py, PyAny>, name: &str, n: usize) -> PyResult<Vec<f64>> {
+        let numbers = Self::new(value, name, false)?;
+        if numbers.shape() != [n] {
+            return Err(wrong_shape(value.py(), name, numbers.shape(), &format!("({n},)")));
+        }
+        Ok(numbers.slice().to_vec())
+    }
+}
+
+/// The argument as doubles in the order of rows.
+fn converted<'py>(value: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
+    static CONVERT: PyOnceLock<Py<PyAny>> = PyOnceLock::new();
+    let py = value.py();
+    let convert = CONVERT.get_or_try_init(py, || {
+        let array = py.import("numpy")?.getattr("asarray")?;
+        Ok::<_, PyErr>(array.unbind())
+    })?;
+    let options = pyo3::types::PyDict::new(py);
+    options.set_item("order", "C")?;
+    let array = convert.bind(py).call((value, numpy::dtype::<f64>(py)), Some(&options))?;
+    Ok(array.cast_into::<PyArrayDyn<f64>>()?)
+}
+
+/// A refusal of a shape.
+pub(crate) fn wrong_shape(py: Python<'_>, name: &str, found: &[usize], expected: &str) -> PyErr {
+    let found: Vec<String> = found.iter().map(usize::to_string).collect();
+    let found = match &found[..] {
+        [one] => format!("({one},)"),
+        all => format!("({})", all.join(", ")),
+    };
+    let message = format!("{name} has the shape {found}, and {expected} is expected");
+    let hint = "`nq`, `nv` and `nu` of the mechanism are the numbers of a state";
+    usage(py, "wrong-shape", &message, hint, name)
+}
+
+/// Arguments of one state or of k states each.
+#[derive(Debug)]
+pub(crate) struct States<'py> {
+    arguments: Vec<(Numbers<'py>, usize, bool)>,
+    /// How many; nothing: one, without a dimension of its own.
+    k: Option<usize>,
+}
+
+impl<'py> States<'py> {
+    /// Takes arguments with their names and numbers of a state.
+    pub(crate) fn new(
+        arguments: &[(&Bound<'py, PyAny>, &str, usize)],
+        strict: bool,
+    ) -> PyResult<Self> {
+        let (mut taken, mut k) = (Vec::new(), None);
+        for (value, name, n) in arguments {
+            let numbers = Numbers::new(value, name, strict)?;
+            let many = match *numbers.shape() {
+                [found] if found == *n => None,
+                [rows, found] if found == *n => Some(rows),
+                _ => {
+                    let expected = format!("({n},) or (k, {n})");
+                    return Err(wrong_shape(value.py(), name, numbers.shape(), &expected));
+                }
+            };
+            if let (Some(rows), Some(before)) = (many, k)
+                && rows != before
+            {
+                let expected = format!("({before}, {n})");
+                return Err(wrong_shape(value.py(), name, numbers.shape(), &expected));
+            }
+            k = many.or(k);
+            taken.push((numbers, *n, many.is_some()));
+        }
+        Ok(Self { arguments: taken, k })
+    }
+
+    /// Number of states.
+    pub(crate) fn len(&self) -> usize {
+        self.k.unwrap_or(1)
+    }
+
+    /// Is there a dimension of states?
+    pub(crate) fn k(&self) -> Option<usize> {
+        self.k
+    }
+
+    /// All arguments, to be read without the interpreter.
+    pub(crate) fn rows(&self) -> Rows<'_> {
+        Rows(self.arguments.iter().map(|(x, n, many)| (x.slice(), *n, *many)).collect())
+    }
+}
+
+/// The numbers of some states.
+#[derive(Debug)]
+pub(crate) struct Rows<'a>(Vec<(&'a [f64], usize, bool)>);
+
+impl Rows<'_> {
+    /// Argument `i` of state `k`.
+    pub(crate) fn get(&self, i: usize, k: usize) -> &[f64] {
+        let (numbers, n, many) = self.0[i];
+        if many { &numbers[k * n..][..n] } else { numbers }
+    }
+}
+
+/// An array of a shape that owns its numbers.
+pub(crate) fn array<'py>(
+    py: Python<'py>,
+    data: Vec<f64>,
+    shape: &[usize],
+) -> PyResult<Bound<'py, PyAny>> {
+    let array = data.into_pyarray(py);
+    if shape.len() == 1 {
+        return Ok(array.into_any());
+    }
+    Ok(array.reshape(shape.to_vec())?.into_any())
+}
+
+/// An array of numbers in a row.
+pub(crate) fn vector<'py>(py: Python<'py>, data: &[f64]) -> Bound<'py, PyAny> {
+    numpy::PyArray1::from_slice(py, data).into_any()
+}

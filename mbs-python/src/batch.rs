@@ -1,0 +1,170 @@
+//! Rollouts: motions from many starts over threads.
+
+use crate::array::{Numbers, States, array, wrong_shape};
+use crate::error::{Class, exception, fields, guarded, internal, raised, usage};
+use crate::mechanism::Mechanism;
+use crate::values;
+use core::num::NonZeroUsize;
+use core::ops::ControlFlow;
+use mbs::parallel::ensemble::Ensemble;
+use mbs::{IntegratorKind, Rollout, RolloutEnd, Tree};
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+use std::collections::BTreeMap;
+use std::sync::{Arc, Mutex, PoisonError};
+
+/// Pools of threads of this process by their number: a fork has none of its parent's threads.
+static POOLS: Mutex<BTreeMap<(u32, usize), Arc<Ensemble>>> = Mutex::new(BTreeMap::new());
+
+/// The pool of so many threads; zero: one for each processor.
+fn pool(py: Python<'_>, threads: usize) -> PyResult<Arc<Ensemble>> {
+    let threads = NonZeroUsize::new(threads).unwrap_or_else(mbs::parallel::ensemble::available);
+    let mut pools = POOLS.lock().unwrap_or_else(PoisonError::into_inner);
+    let key = (std::process::id(), threads.get());
+    if let Some(pool) = pools.get(&key) {
+        return Ok(pool.clone());
+    }
+    let made = Ensemble::new(Some(threads));
+    let made = Arc::new(made.map_err(|error| raised(py, &error.into(), Class::Usage))?);
+    pools.insert(key, made.clone());
+    Ok(made)
+}
+
+/// The inputs of a batch: none, one row, a row for each step, or rows for each start.
+fn inputs<'py>(
+    u: Option<&Bound<'py, PyAny>>,
+    (k, nu): (usize, usize),
+    steps: Option<usize>,
+) -> PyResult<(Option<Numbers<'py>>, usize, bool)> {
+    let Some(u) = u else {
+        let Some(steps) = steps else {
+            // nothing says how many
+            return Err(pyo3::exceptions::PyTypeError::new_err("give u, or steps"));
+        };
+        return Ok((None, steps, false));
+    };
+    let numbers = Numbers::new(u, "u", false)?;
+    let (found, many) = match *numbers.shape() {
+        [rows, n] if n == nu => (rows, false),
+        [starts, rows, n] if n == nu && starts == k => (rows, true),
+        _ => {
+            let expected = format!("(steps, {nu}) or ({k}, steps, {nu})");
+            return Err(wrong_shape(u.py(), "u", numbers.shape(), &expected));
+        }
+    };
+    if let Some(steps) = steps
+        && steps != found
+    {
+        let message = format!("u is of {found} steps, and steps is {steps}");
+        return Err(usage(u.py(), "wrong-shape", &message, "leave steps out", "steps"));
+    }
+    Ok((Some(numbers), found, many))
+}
+
+#[pymethods]
+impl Mechanism {
+    /// Motions from k starts by equal steps of `dt` [s], with all effects; `u` (k, steps, nu), or (steps, nu) for all, is held over each step.
+    /// The numbers do not depend on the number of threads; 0: all processors.
+    #[pyo3(signature = (q, v, u = None, dt = 1e-3, *, steps = None, threads = 0, integrator = "rk4"))]
+    #[allow(clippy::too_many_arguments, reason = "they are keywords of Python")]
+    fn rollout<'py>(
+        &self,
+        py: Python<'py>,
+        q: &Bound<'py, PyAny>,
+        v: &Bound<'py, PyAny>,
+        u: Option<&Bound<'py, PyAny>>,
+        dt: f64,
+        steps: Option<usize>,
+        threads: usize,
+        integrator: &str,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let kind =
+            IntegratorKind::ALL.into_iter().find(|kind| kind.name() == integrator).ok_or_else(
+                || crate::error::unknown_name(py, "integrator", integrator, &mbs::INTEGRATORS),
+            )?;
+        let first = self.first(py)?;
+        let (nq, nv) = (first.coordinates().len(), first.velocities().len());
+        let states = States::new(&[(q, "q", nq), (v, "v", nv)], false)?;
+        let k = states.len();
+        let nu = self.shared.inputs.len();
+        let (u, n_steps, many) = inputs(u, (k, nu), steps)?;
+        let of_all = u.as_ref().map_or(&[][..], Numbers::slice);
+        let rows = states.rows();
+        let task = |i: usize| Rollout {
+            q: rows.get(0, i),
+            v: rows.get(1, i),
+            inputs: if many { &of_all[i * n_steps * nu..][..n_steps * nu] } else { of_all },
+            step: dt,
+            n_steps,
+            integrator: kind,
+        };
+        let sizes = [(n_steps + 1) * nq, (n_steps + 1) * nv];
+        let mut all = sizes.map(|n| vec![f64::NAN; n * k]);
+        let ends = guarded(py, || self.motions(py, (k, threads), sizes, &mut all, &task))?;
+        let ok: Vec<bool> = ends.iter().map(Option::is_none).collect();
+        let errors = PyDict::new(py);
+        for (i, end) in ends.iter().enumerate().filter_map(|(i, end)| Some((i, end.as_ref()?))) {
+            let class = if end.steps == 0 { Class::Start } else { Class::Stop };
+            errors.set_item(i, exception(py, class, &fields(&end.error)).value(py))?;
+        }
+        let [all_q, all_v] = all;
+        let all_q = array(py, all_q, &[k, n_steps + 1, nq])?;
+        let all_v = array(py, all_v, &[k, n_steps + 1, nv])?;
+        let ok = numpy::PyArray1::from_vec(py, ok);
+        values::make(py, "Rollout", (all_q, all_v, ok, errors))
+    }
+}
+
+impl Mechanism {
+    /// Makes the motions; ends of those that ended early.
+    fn motions<'a>(
+        &self,
+        py: Python<'_>,
+        (k, threads): (usize, usize),
+        [n_q, n_v]: [usize; 2],
+        [all_q, all_v]: &mut [Vec<f64>; 2],
+        task: &(impl Fn(usize) -> Rollout<'a> + Sync),
+    ) -> PyResult<Vec<Option<RolloutEnd>>> {
+        let one = |tree: &mut Tree, i: usize, q: &mut [f64], v: &mut [f64]| {
+            tree.rollout(&task(i), q, v).err()
+        };
+        if threads == 1 || k <= 1 {
+            return self.with_tree(py, |tree| {
+                py.detach(|| {
+                    let parts =
+                        all_q.chunks_exact_mut(n_q.max(1)).zip(all_v.chunks_exact_mut(n_v.max(1)));
+                    parts.enumerate().map(|(i, (q, v))| one(tree, i, q, v)).collect()
+                })
+            });
+        }
+        let (pool, first) = (pool(py, threads)?, self.first(py)?);
+        let trees: Mutex<Vec<Tree>> = Mutex::new(Vec::new());
+        let jobs: Vec<usize> = (0..k).collect();
+        let mut ends: Vec<Option<RolloutEnd>> = Vec::new();
+        ends.resize_with(k, || None);
+        let mut panicked = None;
+        py.detach(|| {
+            let job = |i: usize| {
+                let spare = || trees.lock().unwrap_or_else(PoisonError::into_inner);
+                let tree = spare().pop();
+                let mut tree = tree.unwrap_or_else(|| first.clone());
+                let (mut q, mut v) = (vec![0.0; n_q], vec![0.0; n_v]);
+                let end = one(&mut tree, i, &mut q, &mut v);
+                spare().push(tree);
+                (q, v, end)
+            };
+            pool.run(&jobs, job, |i, done| {
+                match done {
+                    Ok((q, v, end)) => {
+                        all_q[n_q * i..][..n_q].copy_from_slice(&q);
+                        all_v[n_v * i..][..n_v].copy_from_slice(&v);
+                        ends[i] = end;
+                    }
+                    Err(panic) => panicked = Some(panic.message().to_owned()),
+                }
+                ControlFlow::Continue(())
+            });
+        });
+        panicked.map_or(Ok(ends), |message| Err(internal(py, &message)))
+    }
+}

@@ -1,0 +1,466 @@
+//! What a mechanism has at a state, or at many.
+
+use crate::array::{Numbers, States, array, vector, wrong_shape};
+use crate::error::{Class, guarded, raised, unknown_name, usage};
+use crate::mechanism::{Mechanism, pose};
+use crate::simulation::point;
+use crate::values;
+use mbs::{FrameTarget, InverseKinematicsEnd, Matrix, Tree, TreeError};
+use pyo3::prelude::*;
+use pyo3::types::{PyDict, PyTuple};
+
+/// Arguments by name, each with its numbers of a state.
+type Arguments<'a, 'py> = [(&'a Bound<'py, PyAny>, &'a str, usize)];
+
+impl Mechanism {
+    /// Numbers in q and in v.
+    fn sizes(&self, py: Python<'_>) -> PyResult<[usize; 2]> {
+        let first = self.first(py)?;
+        Ok([first.coordinates().len(), first.velocities().len()])
+    }
+
+    /// Computes `n` numbers of each state; `shape` is that of one of them.
+    fn each<'py>(
+        &self,
+        py: Python<'py>,
+        (arguments, strict): (&Arguments<'_, 'py>, bool),
+        shape: &[usize],
+        one: impl Fn(&mut Tree, &dyn Fn(usize) -> Vec<f64>, &mut [f64]) -> Result<(), TreeError> + Sync,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let states = States::new(arguments, strict)?;
+        let n: usize = shape.iter().product();
+        let mut out = vec![0.0; n * states.len()];
+        let rows = states.rows();
+        let count = states.len();
+        let work = |tree: &mut Tree, out: &mut [f64]| -> Result<(), (usize, TreeError)> {
+            for k in 0..count {
+                let get = |i: usize| rows.get(i, k).to_vec();
+                one(tree, &get, &mut out[n * k..][..n]).map_err(|error| (k, error))?;
+            }
+            Ok(())
+        };
+        let done = guarded(py, || {
+            if count == 1 {
+                return self.with_tree(py, |tree| work(tree, &mut out));
+            }
+            self.with_tree(py, |tree| py.detach(|| work(tree, &mut out)))
+        })?;
+        if let Err((k, error)) = done {
+            let error = error.into();
+            let raised = raised(py, &error, Class::Stop);
+            if states.k().is_some() {
+                raised.value(py).setattr("argument", format!("state {k}"))?;
+            }
+            return Err(raised);
+        }
+        let many: Vec<usize> = states.k().into_iter().chain(shape.iter().copied()).collect();
+        array(py, out, &many)
+    }
+}
+
+fn copy(matrix: &Matrix, out: &mut [f64]) {
+    out.copy_from_slice(&matrix.data);
+}
+
+#[pymethods]
+impl Mechanism {
+    /// Accelerations (nv,) under all effects and inputs `u` (nu,), at rest signals. All arguments are of one state, or of k states.
+    #[pyo3(signature = (q, v, u = None, *, time = 0.0, strict = false))]
+    fn accelerations<'py>(
+        &self,
+        py: Python<'py>,
+        q: &Bound<'py, PyAny>,
+        v: &Bound<'py, PyAny>,
+        u: Option<&Bound<'py, PyAny>>,
+        time: f64,
+        strict: bool,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let ([nq, nv], nu) = (self.sizes(py)?, self.shared.inputs.len());
+        let mut arguments = vec![(q, "q", nq), (v, "v", nv)];
+        arguments.extend(u.map(|u| (u, "u", nu)));
+        let has_inputs = u.is_some();
+        self.each(py, (&arguments, strict), &[nv], |tree, get, out| {
+            tree.set_time(time);
+            tree.set(&get(0), &get(1))?;
+            if has_inputs {
+                tree.set_inputs(&get(2))?;
+            }
+            out.copy_from_slice(tree.accelerations()?);
+            Ok(())
+        })
+    }
+
+    /// Accelerations (nv,) under efforts along v and gravity alone, loops closed.
+    #[pyo3(signature = (q, v, effort, *, strict = false))]
+    fn forward_dynamics<'py>(
+        &self,
+        py: Python<'py>,
+        q: &Bound<'py, PyAny>,
+        v: &Bound<'py, PyAny>,
+        effort: &Bound<'py, PyAny>,
+        strict: bool,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let [nq, nv] = self.sizes(py)?;
+        let arguments = [(q, "q", nq), (v, "v", nv), (effort, "effort", nv)];
+        self.each(py, (&arguments, strict), &[nv], |tree, get, out| {
+            tree.set(&get(0), &get(1))?;
+            out.copy_from_slice(tree.forward_dynamics(&get(2))?);
+            Ok(())
+        })
+    }
+
+    /// Efforts (nv,) that make accelerations `a`: M a + bias.
+    #[pyo3(signature = (q, v, a, *, strict = false))]
+    fn inverse_dynamics<'py>(
+        &self,
+        py: Python<'py>,
+        q: &Bound<'py, PyAny>,
+        v: &Bound<'py, PyAny>,
+        a: &Bound<'py, PyAny>,
+        strict: bool,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let [nq, nv] = self.sizes(py)?;
+        let arguments = [(q, "q", nq), (v, "v", nv), (a, "a", nv)];
+        self.each(py, (&arguments, strict), &[nv], |tree, get, out| {
+            tree.set(&get(0), &get(1))?;
+            out.copy_from_slice(tree.inverse_dynamics(&get(2))?);
+            Ok(())
+        })
+    }
+
+    /// Mass matrix (nv, nv), loops open.
+    #[pyo3(signature = (q, *, strict = false))]
+    fn mass_matrix<'py>(
+        &self,
+        py: Python<'py>,
+        q: &Bound<'py, PyAny>,
+        strict: bool,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let [nq, nv] = self.sizes(py)?;
+        self.each(py, (&[(q, "q", nq)], strict), &[nv, nv], |tree, get, out| {
+            tree.set(&get(0), &vec![0.0; nv])?;
+            copy(tree.mass_matrix(), out);
+            Ok(())
+        })
+    }
+
+    /// Efforts (nv,) that keep all velocities as they are: centrifugal and Coriolis forces, and gravity.
+    #[pyo3(signature = (q, v, *, strict = false))]
+    fn bias<'py>(
+        &self,
+        py: Python<'py>,
+        q: &Bound<'py, PyAny>,
+        v: &Bound<'py, PyAny>,
+        strict: bool,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let [nq, nv] = self.sizes(py)?;
+        self.each(py, (&[(q, "q", nq), (v, "v", nv)], strict), &[nv], |tree, get, out| {
+            tree.set(&get(0), &get(1))?;
+            out.copy_from_slice(tree.bias_forces());
+            Ok(())
+        })
+    }
+
+    /// Efforts (nv,) that hold the mechanism at rest against gravity.
+    #[pyo3(signature = (q, *, strict = false))]
+    fn gravity<'py>(
+        &self,
+        py: Python<'py>,
+        q: &Bound<'py, PyAny>,
+        strict: bool,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let [nq, nv] = self.sizes(py)?;
+        self.each(py, (&[(q, "q", nq)], strict), &[nv], |tree, get, out| {
+            tree.set(&get(0), &vec![0.0; nv])?;
+            out.copy_from_slice(tree.gravity_forces());
+            Ok(())
+        })
+    }
+
+    /// Jacobian (6, nv) of a body's point, which is at `at` in the reference configuration: linear, then angular, global axes.
+    #[pyo3(signature = (body, at, q, *, strict = false))]
+    fn jacobian<'py>(
+        &self,
+        py: Python<'py>,
+        body: &str,
+        at: &Bound<'py, PyAny>,
+        q: &Bound<'py, PyAny>,
+        strict: bool,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let ([nq, nv], body, at) = (self.sizes(py)?, self.body(py, body)?, point(at)?);
+        self.each(py, (&[(q, "q", nq)], strict), &[6, nv], |tree, get, out| {
+            tree.set(&get(0), &vec![0.0; nv])?;
+            copy(tree.jacobian_at(body, at), out);
+            Ok(())
+        })
+    }
+
+    /// Jacobian (rows, nv) of the joints that close loops.
+    #[pyo3(signature = (q, *, strict = false))]
+    fn loop_jacobian<'py>(
+        &self,
+        py: Python<'py>,
+        q: &Bound<'py, PyAny>,
+        strict: bool,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let [nq, nv] = self.sizes(py)?;
+        let rows = self.with_tree(py, |tree| tree.loop_jacobian().rows)?;
+        self.each(py, (&[(q, "q", nq)], strict), &[rows, nv], |tree, get, out| {
+            tree.set(&get(0), &vec![0.0; nv])?;
+            copy(tree.loop_jacobian(), out);
+            Ok(())
+        })
+    }
+
+    /// Kinetic energy, and potential energy of gravity, constant forces and springs [J].
+    fn energies<'py>(
+        &self,
+        py: Python<'py>,
+        q: &Bound<'py, PyAny>,
+        v: &Bound<'py, PyAny>,
+    ) -> PyResult<Bound<'py, PyTuple>> {
+        let [nq, nv] = self.sizes(py)?;
+        let both =
+            self.each(py, (&[(q, "q", nq), (v, "v", nv)], false), &[2], |tree, get, out| {
+                tree.set(&get(0), &get(1))?;
+                out.copy_from_slice(&tree.energies());
+                Ok(())
+            })?;
+        let columns = both.getattr("T")?;
+        PyTuple::new(py, [columns.get_item(0)?, columns.get_item(1)?])
+    }
+
+    /// Linear momentum [kg m/s], and angular momentum about the centre of mass [kg m^2/s], (3,) each.
+    fn momentum<'py>(
+        &self,
+        py: Python<'py>,
+        q: &Bound<'py, PyAny>,
+        v: &Bound<'py, PyAny>,
+    ) -> PyResult<Bound<'py, PyTuple>> {
+        let [nq, nv] = self.sizes(py)?;
+        let all =
+            self.each(py, (&[(q, "q", nq), (v, "v", nv)], false), &[2, 3], |tree, get, out| {
+                tree.set(&get(0), &get(1))?;
+                let momentum = tree.momentum();
+                out[..3].copy_from_slice(&momentum.linear);
+                out[3..].copy_from_slice(&momentum.angular);
+                Ok(())
+            })?;
+        let first = |i: usize| {
+            let ellipsis = py.import("builtins")?.getattr("Ellipsis")?;
+            all.get_item((ellipsis, i, pyo3::types::PySlice::full(py)))
+        };
+        PyTuple::new(py, [first(0)?, first(1)?])
+    }
+
+    /// Centre of mass (3,) of a body, and its rotation (3, 3) from the reference configuration.
+    fn pose<'py>(
+        &self,
+        py: Python<'py>,
+        body: &str,
+        q: &Bound<'py, PyAny>,
+    ) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyAny>)> {
+        let (body, q) = (self.body(py, body)?, self.coordinates_of(q)?);
+        let at_rest = vec![0.0; self.sizes(py)?[1]];
+        let found = self.with_tree(py, |tree| {
+            tree.set(&q, &at_rest)?;
+            Ok::<_, TreeError>(tree.pose(body))
+        })?;
+        pose(py, &found.map_err(|error| raised(py, &error.into(), Class::Usage))?)
+    }
+
+    /// Centre of mass (3,) of all bodies.
+    #[pyo3(signature = (q))]
+    fn center_of_mass<'py>(
+        &self,
+        py: Python<'py>,
+        q: &Bound<'py, PyAny>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let [nq, nv] = self.sizes(py)?;
+        self.each(py, (&[(q, "q", nq)], false), &[3], |tree, get, out| {
+            tree.set(&get(0), &vec![0.0; nv])?;
+            out.copy_from_slice(&tree.center_of_mass().position);
+            Ok(())
+        })
+    }
+
+    /// A frame at a state: position (3,), rotation (3, 3), velocity (3,), angular_velocity (3,), in global axes.
+    #[pyo3(signature = (name, q, v = None))]
+    fn frame<'py>(
+        &self,
+        py: Python<'py>,
+        name: &str,
+        q: &Bound<'py, PyAny>,
+        v: Option<&Bound<'py, PyAny>>,
+    ) -> PyResult<Bound<'py, PyDict>> {
+        let q = self.coordinates_of(q)?;
+        let n = self.sizes(py)?[1];
+        let v = v.map_or_else(|| Ok(vec![0.0; n]), |v| Numbers::row(v, "v", n))?;
+        let found = self.with_tree(py, |tree| {
+            tree.set(&q, &v)?;
+            Ok::<_, TreeError>(tree.frame(name).ok())
+        })?;
+        let found = found.map_err(|error| raised(py, &error.into(), Class::Usage))?;
+        let Some(frame) = found else { return Err(self.no_frame(py, name)) };
+        let dict = PyDict::new(py);
+        dict.set_item("position", vector(py, &frame.position))?;
+        let rotation = frame.rotation.iter().flatten().copied().collect();
+        dict.set_item("rotation", array(py, rotation, &[3, 3])?)?;
+        dict.set_item("velocity", vector(py, &frame.velocity))?;
+        dict.set_item("angular_velocity", vector(py, &frame.angular_velocity))?;
+        Ok(dict)
+    }
+
+    /// Derivatives of `forward_dynamics` by q, v and effort, (nv, nv) each. Those by q are by moves along v.
+    fn forward_derivatives<'py>(
+        &self,
+        py: Python<'py>,
+        q: &Bound<'py, PyAny>,
+        v: &Bound<'py, PyAny>,
+        effort: &Bound<'py, PyAny>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let [nq, nv] = self.sizes(py)?;
+        let arguments = [(q, "q", nq), (v, "v", nv), (effort, "effort", nv)];
+        let all = self.each(py, (&arguments, false), &[3, nv, nv], |tree, get, out| {
+            tree.set(&get(0), &get(1))?;
+            let d = tree.forward_dynamics_derivatives(&get(2))?;
+            let parts = [&d.q, &d.v, &d.effort];
+            out.chunks_exact_mut((nv * nv).max(1)).zip(parts).for_each(|(to, from)| copy(from, to));
+            Ok(())
+        })?;
+        derivatives(&all)
+    }
+
+    /// Derivatives of `inverse_dynamics` by q, v and a, (nv, nv) each. Those by q are by moves along v.
+    fn inverse_derivatives<'py>(
+        &self,
+        py: Python<'py>,
+        q: &Bound<'py, PyAny>,
+        v: &Bound<'py, PyAny>,
+        a: &Bound<'py, PyAny>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let [nq, nv] = self.sizes(py)?;
+        let arguments = [(q, "q", nq), (v, "v", nv), (a, "a", nv)];
+        let all = self.each(py, (&arguments, false), &[3, nv, nv], |tree, get, out| {
+            tree.set(&get(0), &get(1))?;
+            let d = tree.inverse_dynamics_derivatives(&get(2))?;
+            let parts = [&d.q, &d.v, &d.acceleration];
+            out.chunks_exact_mut((nv * nv).max(1)).zip(parts).for_each(|(to, from)| copy(from, to));
+            Ok(())
+        })?;
+        derivatives(&all)
+    }
+
+    /// q moved by `step` (nv,) along the velocities.
+    fn integrate<'py>(
+        &self,
+        py: Python<'py>,
+        q: &Bound<'py, PyAny>,
+        step: &Bound<'py, PyAny>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let [nq, nv] = self.sizes(py)?;
+        self.each(py, (&[(q, "q", nq), (step, "step", nv)], false), &[nq], |tree, get, out| {
+            tree.integrate(&get(0), &get(1), out)
+        })
+    }
+
+    /// The step (nv,) that moves q0 to q1; rotations by the shorter way.
+    fn difference<'py>(
+        &self,
+        py: Python<'py>,
+        q0: &Bound<'py, PyAny>,
+        q1: &Bound<'py, PyAny>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let [nq, nv] = self.sizes(py)?;
+        self.each(py, (&[(q0, "q0", nq), (q1, "q1", nq)], false), &[nv], |tree, get, out| {
+            tree.difference(&get(0), &get(1), out)
+        })
+    }
+
+    /// Coordinates (nq,) in which a frame, or the centre of mass of a body by its name, is at a position (3,) with a rotation (3, 3), from `q`
+    /// on. What is left out is free; loops stay closed.
+    #[pyo3(signature = (frame, q = None, *, position = None, rotation = None))]
+    fn inverse_kinematics<'py>(
+        &self,
+        py: Python<'py>,
+        frame: &str,
+        q: Option<&Bound<'py, PyAny>>,
+        position: Option<&Bound<'py, PyAny>>,
+        rotation: Option<&Bound<'py, PyAny>>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let first = self.first(py)?;
+        let (body, at) = first.frame_place(frame).map_err(|_| self.no_frame(py, frame))?;
+        let start =
+            q.map_or_else(|| Ok(first.coordinates().to_vec()), |q| self.coordinates_of(q))?;
+        let reference = self.with_tree(py, |tree| tree.frame(frame).map(|frame| frame.rotation))?;
+        let reference = reference.map_err(|_| self.no_frame(py, frame))?;
+        let position = position.map(|x| Numbers::row(x, "position", 3)).transpose()?;
+        let rotation = rotation.map(rows).transpose()?;
+        let target = FrameTarget {
+            position: position.map(|x| [x[0], x[1], x[2]]),
+            // of the body, from the reference configuration
+            rotation: rotation.map(|rows| product(&rows, &reference)),
+        };
+        let at_rest = vec![0.0; first.velocities().len()];
+        let found = self.with_tree(py, |tree| {
+            py.detach(|| {
+                tree.set(&start, &at_rest)?;
+                let found = tree.inverse_kinematics(body, at, &target)?;
+                Ok::<_, TreeError>((found, tree.coordinates().to_vec()))
+            })
+        })?;
+        let (found, q) = found.map_err(|error| raised(py, &error.into(), Class::Usage))?;
+        if found.end != InverseKinematicsEnd::Reached {
+            let (distance, angle) = (found.distance, found.angle);
+            let message = format!(
+                "`{frame}` stays {distance:.3e} m and {angle:.3e} rad away from its target"
+            );
+            let hint = "give a target within reach, or begin from another q";
+            return Err(usage(py, "not-reached", &message, hint, frame));
+        }
+        Ok(vector(py, &q))
+    }
+}
+
+/// Three rows of three numbers.
+fn rows(value: &Bound<'_, PyAny>) -> PyResult<[[f64; 3]; 3]> {
+    let numbers = Numbers::new(value, "rotation", false)?;
+    match (numbers.shape(), numbers.slice()) {
+        ([3, 3], &[a, b, c, d, e, f, g, h, i]) => Ok([[a, b, c], [d, e, f], [g, h, i]]),
+        (shape, _) => Err(wrong_shape(value.py(), "rotation", shape, "(3, 3)")),
+    }
+}
+
+/// a bᵀ.
+fn product(a: &[[f64; 3]; 3], b: &[[f64; 3]; 3]) -> [[f64; 3]; 3] {
+    core::array::from_fn(|i| {
+        core::array::from_fn(|j| a[i].iter().zip(&b[j]).map(|(x, y)| x * y).sum())
+    })
+}
+
+impl Mechanism {
+    /// Refuses the name of a frame.
+    fn no_frame(&self, py: Python<'_>, name: &str) -> PyErr {
+        let scene = &self.shared.scene;
+        let frames = scene.frames.iter().map(|frame| frame.name.as_str());
+        let known: Vec<&str> =
+            frames.chain(scene.bodies.iter().map(|body| body.name.as_str())).collect();
+        unknown_name(py, "frame", name, &known)
+    }
+
+    /// One state's coordinates.
+    pub(crate) fn coordinates_of(&self, q: &Bound<'_, PyAny>) -> PyResult<Vec<f64>> {
+        Numbers::row(q, "q", self.sizes(q.py())?[0])
+    }
+}
+
+/// The three parts of derivatives, of one state or of many.
+fn derivatives<'py>(all: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
+    let py = all.py();
+    let full = || pyo3::types::PySlice::full(py);
+    let part = |i: usize| {
+        let ellipsis = py.import("builtins")?.getattr("Ellipsis")?;
+        all.get_item((ellipsis, i, full(), full()))
+    };
+    values::make(py, "Derivatives", (part(0)?, part(1)?, part(2)?))
+}

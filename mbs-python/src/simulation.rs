@@ -1,0 +1,490 @@
+//! `Simulation`: a mechanism in motion.
+
+use crate::array::{Numbers, array, vector, wrong_shape};
+use crate::error::{Class, Fields, exception, guarded, raised, unknown_name, usage};
+use crate::mechanism::{Mechanism, pair, pose};
+use crate::watch::{Reached, silent, whole};
+use crate::{settings, values};
+use mbs::{ContactEvent, EffectKind, InputId, Method, SimulationError, Snapshot, Tree};
+use numpy::{PyArray1, PyArrayMethods};
+use pyo3::prelude::*;
+use pyo3::types::{PyBytes, PyDict, PyTuple};
+use std::sync::atomic::AtomicBool;
+use std::sync::{Arc, Mutex, MutexGuard, TryLockError};
+
+/// A mechanism in motion. One thread at a time: a second one gets a BusyError.
+#[pyclass(frozen, module = "multibody")]
+#[derive(Debug)]
+pub(crate) struct Simulation {
+    mechanism: Py<Mechanism>,
+    settings: Py<PyDict>,
+    flag: Arc<AtomicBool>,
+    moving: Mutex<Moving>,
+}
+
+/// What moves.
+#[derive(Debug)]
+struct Moving {
+    simulation: mbs::Simulation,
+    /// Where it is in relative coordinates, from the first time that it is asked for.
+    tree: Option<Tree>,
+    /// Is the tree where the simulation is?
+    is_followed: bool,
+}
+
+/// Steps in one call beyond which interrupts are heard [-]: shorter calls end by themselves.
+const LONG: usize = 1000;
+
+impl Simulation {
+    /// The simulation of a mechanism at its start.
+    pub(crate) fn new(
+        mechanism: &Bound<'_, Mechanism>,
+        method: Method,
+        settings: Py<PyDict>,
+    ) -> PyResult<Self> {
+        let py = mechanism.py();
+        let (method, flag) = settings::interruptible(method);
+        let simulation = guarded(py, || mechanism.get().simulation(py, &method))?;
+        let moving = Moving { simulation, tree: None, is_followed: false };
+        let mechanism = mechanism.clone().unbind();
+        Ok(Self { mechanism, settings, flag, moving: Mutex::new(moving) })
+    }
+
+    /// What moves, where no other thread has it.
+    fn moving(&self, py: Python<'_>) -> PyResult<MutexGuard<'_, Moving>> {
+        match self.moving.try_lock() {
+            Ok(moving) => Ok(moving),
+            // a panic is told; what it left is the state before the step
+            Err(TryLockError::Poisoned(poisoned)) => Ok(poisoned.into_inner()),
+            Err(TryLockError::WouldBlock) => {
+                let fields = Fields {
+                    code: "busy".to_owned(),
+                    message: "another thread uses this simulation".to_owned(),
+                    hint: "give each thread a `copy()` of its own".to_owned(),
+                    ..Fields::default()
+                };
+                Err(exception(py, Class::Busy, &fields))
+            }
+        }
+    }
+
+    fn this(&self) -> &Mechanism {
+        self.mechanism.get()
+    }
+
+    /// Something read of it in relative coordinates.
+    fn relative<R>(
+        &self,
+        py: Python<'_>,
+        read: impl FnOnce(&mut Tree) -> Result<R, SimulationError>,
+    ) -> PyResult<R> {
+        let mut moving = self.moving(py)?;
+        let Moving { simulation, tree, is_followed } = &mut *moving;
+        let tree = match tree {
+            Some(tree) => tree,
+            None => tree.insert(self.this().first(py)?.clone()),
+        };
+        if !*is_followed {
+            let followed = tree.follow(&*simulation);
+            followed.map_err(|error| raised(py, &error.into(), Class::Stop))?;
+            *is_followed = true;
+        }
+        read(tree).map_err(|error| raised(py, &error, Class::Stop))
+    }
+
+    /// Advances by some steps.
+    fn advance(
+        &self,
+        py: Python<'_>,
+        n: usize,
+        advance: impl FnOnce(&mut mbs::Simulation) -> Result<(), SimulationError> + Send,
+    ) -> PyResult<()> {
+        let mut moving = self.moving(py)?;
+        moving.is_followed = false;
+        let simulation = &mut moving.simulation;
+        let done = if n > LONG {
+            whole(py, &self.flag, &silent(&Reached::default()), || advance(simulation))?
+        } else if n > 1 {
+            guarded(py, || Ok(py.detach(|| advance(simulation))))?
+        } else {
+            guarded(py, || Ok(advance(simulation)))?
+        };
+        done.map_err(|error| raised(py, &error, Class::Stop))
+    }
+}
+
+/// Inputs of a call: nothing, one row that is held, or a row for each of n steps.
+fn inputs(u: Option<&Bound<'_, PyAny>>, nu: usize, n: Option<usize>) -> PyResult<Vec<f64>> {
+    let Some(u) = u else { return Ok(Vec::new()) };
+    let numbers = Numbers::new(u, "u", false)?;
+    let fits = match *numbers.shape() {
+        [found] => found == nu,
+        [rows, found] => found == nu && n == Some(rows),
+        _ => false,
+    };
+    if !fits {
+        let rows = n.map_or_else(String::new, |n| format!(" or ({n}, {nu})"));
+        return Err(wrong_shape(u.py(), "u", numbers.shape(), &format!("({nu},){rows}")));
+    }
+    Ok(numbers.slice().to_vec())
+}
+
+#[pymethods]
+impl Simulation {
+    /// The mechanism.
+    #[getter]
+    fn mechanism(&self, py: Python<'_>) -> Py<Mechanism> {
+        self.mechanism.clone_ref(py)
+    }
+
+    /// Time [s].
+    #[getter]
+    fn time(&self, py: Python<'_>) -> PyResult<f64> {
+        Ok(self.moving(py)?.simulation.time())
+    }
+
+    /// Coordinates (nq,): a copy.
+    #[getter]
+    fn q<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        self.relative(py, |tree| Ok(vector(py, tree.coordinates())))
+    }
+
+    /// Velocities (nv,): a copy.
+    #[getter]
+    fn v<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        self.relative(py, |tree| Ok(vector(py, tree.velocities())))
+    }
+
+    /// Accelerations (nv,) at this state, under all effects and the inputs of the last step.
+    #[getter]
+    fn a<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        self.relative(py, |tree| Ok(vector(py, tree.accelerations()?)))
+    }
+
+    /// Inputs (nu,): a copy. Set, they hold from the next step on.
+    #[getter]
+    fn u<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        Ok(vector(py, self.moving(py)?.simulation.input_values()))
+    }
+
+    #[setter]
+    fn set_u(&self, py: Python<'_>, values: &Bound<'_, PyAny>) -> PyResult<()> {
+        let all = inputs(Some(values), self.this().shared.inputs.len(), None)?;
+        let set = self.moving(py)?.simulation.set_inputs(&all);
+        set.map_err(|error| raised(py, &error, Class::Usage))
+    }
+
+    /// Contacts that began or ended since `watch_events`, a thousand at most.
+    #[getter]
+    fn events<'py>(&self, py: Python<'py>) -> PyResult<Vec<Bound<'py, PyAny>>> {
+        let moving = self.moving(py)?;
+        let effects = &self.this().shared.scene.effects;
+        let event = |event: ContactEvent| {
+            let effect = &effects[event.effect.index()];
+            let is_limit = matches!(effect.kind, EffectKind::Limit { .. });
+            let end = is_limit.then(|| ["lower", "upper"][event.end.min(1)]);
+            values::make(py, "Event", (event.time, &effect.name, event.is_made, end))
+        };
+        moving.simulation.events().map(event).collect()
+    }
+
+    /// Lists contacts anew from now on.
+    fn watch_events(&self, py: Python<'_>) -> PyResult<()> {
+        let done = self.moving(py)?.simulation.clear_events();
+        done.map_err(|error| raised(py, &error, Class::Stop))
+    }
+
+    /// One step of `dt` [s], else of the method's step. `u` (nu,) holds from now on.
+    #[pyo3(signature = (dt = None, u = None))]
+    fn step(&self, py: Python<'_>, dt: Option<f64>, u: Option<&Bound<'_, PyAny>>) -> PyResult<()> {
+        let all = inputs(u, self.this().shared.inputs.len(), None)?;
+        self.advance(py, 1, |simulation| {
+            if !all.is_empty() {
+                simulation.set_inputs(&all)?;
+            }
+            let dt = dt.unwrap_or_else(|| simulation.step_length());
+            simulation.step(dt).map(|_| ())
+        })
+    }
+
+    /// `n` steps of `dt` [s] without Python in between. `u` is (nu,), which holds, or (n, nu), a row for each step.
+    #[pyo3(signature = (dt, n, u = None))]
+    fn steps(
+        &self,
+        py: Python<'_>,
+        dt: Option<f64>,
+        n: usize,
+        u: Option<&Bound<'_, PyAny>>,
+    ) -> PyResult<()> {
+        let nu = self.this().shared.inputs.len();
+        let all = inputs(u, nu, Some(n))?;
+        let flag = self.flag.clone();
+        self.advance(py, n, |simulation| {
+            let dt = dt.unwrap_or_else(|| simulation.step_length());
+            for k in 0..n {
+                if nu > 0
+                    && let Some(row) = all.get(nu * k..nu * (k + 1))
+                {
+                    simulation.set_inputs(row)?;
+                }
+                simulation.step(dt)?;
+                if flag.load(std::sync::atomic::Ordering::Relaxed) {
+                    break;
+                }
+            }
+            Ok(())
+        })
+    }
+
+    /// Steps to a time [s]; the last step is shorter where they do not fit.
+    fn run_until(&self, py: Python<'_>, time: f64) -> PyResult<()> {
+        let n = {
+            let moving = self.moving(py)?;
+            (time - moving.simulation.time()) / moving.simulation.step_length()
+        };
+        #[allow(
+            clippy::cast_possible_truncation,
+            clippy::cast_sign_loss,
+            reason = "more steps than a number holds are many"
+        )]
+        self.advance(py, n.ceil().max(2.0) as usize, |simulation| {
+            simulation.advance_to(time).map(|_| ())
+        })
+    }
+
+    /// Sets an input, by name or place, from the next step on.
+    fn set_input(&self, py: Python<'_>, name: &Bound<'_, PyAny>, value: f64) -> PyResult<()> {
+        let place = self.this().input(name)?;
+        let set = self.moving(py)?.simulation.set_input(InputId::new(place), value);
+        set.map_err(|error| raised(py, &error, Class::Usage))
+    }
+
+    /// All outputs, in the order of the mechanism's `outputs`. `out` (n,) takes them where it is given.
+    #[pyo3(signature = (out = None))]
+    fn outputs<'py>(
+        &self,
+        py: Python<'py>,
+        out: Option<Bound<'py, PyAny>>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let moving = self.moving(py)?;
+        let n = moving.simulation.n_outputs();
+        let wrong = || {
+            let message = format!("out is no writable array of {n} float64");
+            usage(py, "wrong-shape", &message, "make it by numpy.empty", "out")
+        };
+        let failed = |error: SimulationError| raised(py, &error, Class::Stop);
+        let Some(out) = out else {
+            let mut row = vec![0.0; n];
+            moving.simulation.write_outputs(&mut row).map_err(failed)?;
+            return Ok(vector(py, &row));
+        };
+        {
+            let array = out.cast::<PyArray1<f64>>().map_err(|_| wrong())?;
+            let mut array = array.try_readwrite().map_err(|_| wrong())?;
+            let row = array.as_slice_mut().map_err(|_| wrong())?;
+            if row.len() != n {
+                return Err(wrong());
+            }
+            moving.simulation.write_outputs(row).map_err(failed)?;
+        }
+        Ok(out)
+    }
+
+    /// The components of an output of the scene, or the number of a column.
+    fn output<'py>(&self, py: Python<'py>, name: &str) -> PyResult<Bound<'py, PyAny>> {
+        let shared = &self.this().shared;
+        let of = |column: &str| {
+            column == name || column.strip_prefix(name).is_some_and(|rest| rest.starts_with('.'))
+        };
+        let places: Vec<usize> =
+            (0..shared.columns.len()).filter(|&i| of(&shared.columns[i][0])).collect();
+        if places.is_empty() {
+            let known: Vec<&str> = shared.columns.iter().map(|[name, _]| name.as_str()).collect();
+            return Err(unknown_name(py, "output", name, &known));
+        }
+        let moving = self.moving(py)?;
+        let mut row = vec![0.0; moving.simulation.n_outputs()];
+        let written = moving.simulation.write_outputs(&mut row);
+        written.map_err(|error| raised(py, &error, Class::Stop))?;
+        let values: Vec<f64> = places.into_iter().filter_map(|i| row.get(i).copied()).collect();
+        Ok(vector(py, &values))
+    }
+
+    /// The first coordinate of a joint from the reference configuration, turns counted [rad, m].
+    fn value(&self, py: Python<'_>, joint: &str) -> PyResult<f64> {
+        let id = self.this().joint(py, joint)?;
+        let values = self.moving(py)?.simulation.values(id);
+        values.first().copied().ok_or_else(|| {
+            usage(py, "no-coordinates", "the joint has no coordinates", "ask for another", joint)
+        })
+    }
+
+    /// All coordinates of a joint [rad, m].
+    fn values<'py>(&self, py: Python<'py>, joint: &str) -> PyResult<Bound<'py, PyAny>> {
+        let joint = self.this().joint(py, joint)?;
+        Ok(vector(py, &self.moving(py)?.simulation.values(joint)))
+    }
+
+    /// Their rates; of a ball the relative angular velocity in global axes.
+    fn rates<'py>(&self, py: Python<'py>, joint: &str) -> PyResult<Bound<'py, PyAny>> {
+        let joint = self.this().joint(py, joint)?;
+        Ok(vector(py, &self.moving(py)?.simulation.rates(joint)))
+    }
+
+    /// Force [N] and moment [N m] of the first body of a joint on the second, at its place on the second.
+    fn reaction<'py>(
+        &self,
+        py: Python<'py>,
+        joint: &str,
+    ) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyAny>)> {
+        let joint = self.this().joint(py, joint)?;
+        let wrench = self.moving(py)?.simulation.reaction(joint);
+        let wrench = wrench.map_err(|error| raised(py, &error, Class::Stop))?;
+        Ok(pair(py, [wrench.force, wrench.moment]))
+    }
+
+    /// Force [N] and moment [N m] of an effect.
+    fn effect_force<'py>(
+        &self,
+        py: Python<'py>,
+        effect: &str,
+    ) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyAny>)> {
+        let effect = self.this().effect(py, effect)?;
+        let wrench = self.moving(py)?.simulation.effect_force(effect);
+        let wrench = wrench.map_err(|error| raised(py, &error, Class::Stop))?;
+        Ok(pair(py, [wrench.force, wrench.moment]))
+    }
+
+    /// Centre of mass (3,) of a body, and its rotation (3, 3) from the reference configuration.
+    fn pose<'py>(
+        &self,
+        py: Python<'py>,
+        body: &str,
+    ) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyAny>)> {
+        let body = self.this().body(py, body)?;
+        pose(py, &self.moving(py)?.simulation.pose(body))
+    }
+
+    /// Position, velocity and acceleration (3, 3) of a point of a body, which is at `at` in the reference configuration.
+    fn point<'py>(
+        &self,
+        py: Python<'py>,
+        body: &str,
+        at: &Bound<'_, PyAny>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let body = self.this().body(py, body)?;
+        let at = point(at)?;
+        let point = self.moving(py)?.simulation.point(body, at);
+        let rows = [point.position, point.velocity, point.acceleration];
+        array(py, rows.into_iter().flatten().collect(), &[3, 3])
+    }
+
+    /// Kinetic energy, potential energy, and work of dampers, guides and inputs since the start [J].
+    fn energies(&self, py: Python<'_>) -> PyResult<(f64, f64, f64)> {
+        let energies = self.moving(py)?.simulation.energies();
+        Ok((energies.kinetic, energies.potential, energies.work))
+    }
+
+    /// Puts the mechanism into a state; loops are closed. Gives the largest change of a coordinate [rad, m].
+    fn set_state(
+        &self,
+        py: Python<'_>,
+        q: &Bound<'_, PyAny>,
+        v: &Bound<'_, PyAny>,
+    ) -> PyResult<f64> {
+        let first = self.this().first(py)?;
+        let q = Numbers::row(q, "q", first.coordinates().len())?;
+        let v = Numbers::row(v, "v", first.velocities().len())?;
+        let mut moving = self.moving(py)?;
+        let Moving { simulation, tree, is_followed } = &mut *moving;
+        let tree = match tree {
+            Some(tree) => tree,
+            None => tree.insert(first.clone()),
+        };
+        *is_followed = false;
+        let moved = guarded(py, || Ok(py.detach(|| simulation.set_coordinates(tree, &q, &v))))?;
+        moved.map_err(|error| raised(py, &error, Class::Start))
+    }
+
+    /// Starts anew at time zero, with the inputs of the mechanism.
+    fn reset(&self, py: Python<'_>) -> PyResult<()> {
+        let mut moving = self.moving(py)?;
+        moving.is_followed = false;
+        moving.tree = None;
+        let done = moving.simulation.reset();
+        done.map_err(|error| raised(py, &error, Class::Start))
+    }
+
+    /// Another simulation in the same state.
+    fn copy(&self, py: Python<'_>) -> PyResult<Self> {
+        let simulation = self.moving(py)?.simulation.clone();
+        let moving = Moving { simulation, tree: None, is_followed: false };
+        Ok(Self {
+            mechanism: self.mechanism.clone_ref(py),
+            settings: self.settings.clone_ref(py),
+            flag: self.flag.clone(),
+            moving: Mutex::new(moving),
+        })
+    }
+
+    fn __copy__(&self, py: Python<'_>) -> PyResult<Self> {
+        self.copy(py)
+    }
+
+    fn __deepcopy__(&self, py: Python<'_>, _memo: &Bound<'_, PyAny>) -> PyResult<Self> {
+        self.copy(py)
+    }
+
+    /// All that the next steps depend on, as bytes.
+    fn save<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyBytes>> {
+        let snapshot = self.moving(py)?.simulation.save();
+        let snapshot = snapshot.map_err(|error| raised(py, &error, Class::Usage))?;
+        Ok(PyBytes::new(py, &snapshot.to_bytes()))
+    }
+
+    /// Returns to what `save` gave: the next steps have the same bits.
+    fn restore(&self, py: Python<'_>, data: &[u8]) -> PyResult<()> {
+        let mut moving = self.moving(py)?;
+        moving.is_followed = false;
+        let done =
+            Snapshot::from_bytes(data).and_then(|snapshot| moving.simulation.restore(&snapshot));
+        done.map_err(|error| raised(py, &error, Class::Usage))
+    }
+
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyTuple>> {
+        let (py, this) = (slf.py(), slf.get());
+        let restore = py.import("multibody._multibody")?.getattr("_restore_simulation")?;
+        let mechanism = this.mechanism.clone_ref(py);
+        let settings = this.settings.clone_ref(py);
+        (restore, (mechanism, settings, this.save(py)?)).into_pyobject(py)
+    }
+
+    fn __repr__(&self, py: Python<'_>) -> PyResult<String> {
+        let time = self.time(py)?;
+        Ok(format!("<Simulation of `{}` at {time} s>", self.this().shared.scene.name))
+    }
+}
+
+/// A simulation from what was pickled.
+#[pyfunction]
+pub(crate) fn _restore_simulation(
+    py: Python<'_>,
+    mechanism: &Bound<'_, Mechanism>,
+    settings: &Bound<'_, PyDict>,
+    data: &[u8],
+) -> PyResult<Simulation> {
+    let (method, _) = settings::method(settings)?;
+    let simulation = Simulation::new(mechanism, method, settings.clone().unbind())?;
+    simulation.restore(py, data)?;
+    Ok(simulation)
+}
+
+/// A point or vector of three numbers; of two in the plane.
+pub(crate) fn point(at: &Bound<'_, PyAny>) -> PyResult<[f64; 3]> {
+    let numbers = Numbers::new(at, "at", false)?;
+    match *numbers.slice() {
+        [x, y] if numbers.shape().len() == 1 => Ok([x, y, 0.0]),
+        [x, y, z] if numbers.shape().len() == 1 => Ok([x, y, z]),
+        _ => Err(wrong_shape(at.py(), "at", numbers.shape(), "(3,), in the plane (2,)")),
+    }
+}

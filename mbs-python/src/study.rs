@@ -1,0 +1,213 @@
+//! Analyses and studies: equilibrium, modes, linear system, doctor, explanation, comparison.
+
+use crate::error::{Class, guarded, raised, unknown_name, usage};
+use crate::mechanism::Mechanism;
+use crate::watch::{Progress, Reached, silent, whole};
+use crate::{settings, value, values};
+use mbs::core::scene::Entry;
+use mbs::{
+    EquilibriumOptions, FormulationKind, Interrupt, Method, Place, Precision, ResolvedMethod,
+    Search, SimulationError,
+};
+use mbs_study::compare::{self, Earlier, Request};
+use mbs_study::doctor::{Effort, examine, to_json};
+use mbs_study::explain;
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+use serde_json::Value;
+use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
+
+/// Timings of a run in a quick comparison.
+const QUICK_REPEATS: u32 = 2;
+/// CPU time of all runs of a quick comparison, roughly [s].
+const QUICK_BUDGET: f64 = 5.0;
+
+/// How a search goes.
+fn search(py: Python<'_>, name: &str) -> PyResult<Search> {
+    match name {
+        "down" => Ok(Search::Down),
+        "near" => Ok(Search::Near),
+        _ => Err(unknown_name(py, "search", name, &["down", "near"])),
+    }
+}
+
+/// About which state.
+fn place(py: Python<'_>, name: &str) -> PyResult<Place> {
+    let place = Place::ALL.into_iter().find(|place| place.name() == name);
+    place.ok_or_else(|| unknown_name(py, "state", name, &Place::NAMES))
+}
+
+/// What a comparison reports.
+struct Watched<'a>(&'a Reached);
+
+impl compare::Watch for Watched<'_> {
+    fn doing(&mut self, share: f64, _what: &str) {
+        self.0.set(share, 1.0);
+    }
+}
+
+/// A part of a JSON object.
+fn part<'py>(py: Python<'py>, object: &Value, key: &str) -> PyResult<Bound<'py, PyAny>> {
+    value::object(py, object.get(key).unwrap_or(&Value::Null))
+}
+
+impl Mechanism {
+    fn settings(
+        &self,
+        py: Python<'_>,
+        given: Option<&Bound<'_, PyDict>>,
+    ) -> PyResult<(Method, ResolvedMethod, Arc<AtomicBool>)> {
+        let none = PyDict::new(py);
+        let (method, _) = settings::method(given.unwrap_or(&none))?;
+        let (method, flag) = settings::interruptible(method);
+        let settings = ResolvedMethod::new(&self.shared.scene, &method);
+        let settings = settings.map_err(|e| raised(py, &SimulationError::from(e), Class::Usage))?;
+        Ok((method, settings, flag))
+    }
+}
+
+#[pymethods]
+impl Mechanism {
+    /// The static equilibrium: downhill to a stable one, or the one `near` the reference configuration.
+    #[pyo3(signature = (search = "down"))]
+    fn equilibrium<'py>(&self, py: Python<'py>, search: &str) -> PyResult<Bound<'py, PyAny>> {
+        let options = EquilibriumOptions { search: self::search(py, search)? };
+        let found = guarded(py, || {
+            Ok(py.detach(|| {
+                let found = mbs::equilibrium(&self.shared.mechanism, &options)?;
+                let mut there = self.shared.mechanism.clone();
+                let simulation = there.start_from(&found).simulate(&Method::default())?;
+                Ok((found, simulation))
+            }))
+        })?;
+        let (found, simulation) = found.map_err(|error| raised(py, &error, Class::Start))?;
+        let object = found.to_json();
+        let state = self.state_of(py, &simulation)?;
+        let is_stable = found.unstable.map(|n| n == 0);
+        let [joints, reactions, outputs] =
+            ["joints", "reactions", "outputs"].map(|key| part(py, &object, key));
+        let summary = value::object(py, &object)?;
+        values::make(py, "Equilibrium", (state, is_stable, joints?, reactions?, outputs?, summary))
+    }
+
+    /// What is wrong or doubtful, with remedies, the worst first.
+    #[pyo3(signature = (**settings))]
+    fn doctor<'py>(
+        &self,
+        py: Python<'py>,
+        settings: Option<&Bound<'py, PyDict>>,
+    ) -> PyResult<Vec<Bound<'py, PyAny>>> {
+        let (_, resolved, flag) = self.settings(py, settings)?;
+        let shared = &self.shared;
+        let line = |entry: Entry, key: &str| {
+            let (file, place) = shared.file.place(entry, key);
+            Some(((file != shared.file.file()).then(|| file.to_owned()), place.line))
+        };
+        let reached = Reached::default();
+        let object = whole(py, &flag, &silent(&reached), || {
+            let checkup = examine(&shared.scene, &resolved, &Effort::default());
+            to_json(&checkup.with_unused_parameters(&shared.file.unused_parameters()), &line)
+        })?;
+        let findings =
+            object.get("findings").and_then(Value::as_array).cloned().unwrap_or_default();
+        let finding = |finding: &Value| {
+            let text = |key: &str| finding.get(key).and_then(Value::as_str).unwrap_or_default();
+            let (code, severity) = (text("code"), text("severity"));
+            let fields =
+                (code, severity, text("message"), text("remedy"), value::object(py, finding)?);
+            values::make(py, "Finding", fields)
+        };
+        findings.iter().map(finding).collect()
+    }
+
+    /// What the mechanism simulates, what it does not, and the measured cost of each effect: the object of `mbs explain --json`.
+    #[pyo3(signature = (**settings))]
+    fn explain<'py>(
+        &self,
+        py: Python<'py>,
+        settings: Option<&Bound<'py, PyDict>>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let (_, resolved, flag) = self.settings(py, settings)?;
+        let (file, scene) = (&self.shared.file, &self.shared.scene);
+        let reached = Reached::default();
+        let explained = whole(py, &flag, &silent(&reached), || {
+            explain::explain_document((file, scene), &resolved, &explain::Effort::default())
+        })?;
+        let explained =
+            explained.map_err(|e| raised(py, &SimulationError::from(e), Class::Usage))?;
+        let Some(explained) = explained else {
+            let hint = "leave precision out, or give f32";
+            let message = "an explanation is made in f64 or f32";
+            return Err(usage(py, "settings-refused", message, hint, "precision"));
+        };
+        json(py, &explained.to_json())
+    }
+
+    /// Time and error of formulations, integrators and steps, against a reference that is not under test: the object of `mbs compare --json`.
+    /// `quick` takes about 5 s. `progress` is called with the part that is done and 1.
+    #[pyo3(signature = (methods = None, steps = None, *, duration = None, errors = None, quick = true, progress = None))]
+    #[allow(clippy::too_many_arguments, reason = "they are keywords of Python")]
+    fn compare<'py>(
+        &self,
+        py: Python<'py>,
+        methods: Option<Vec<String>>,
+        steps: Option<Vec<f64>>,
+        duration: Option<f64>,
+        errors: Option<Vec<f64>>,
+        quick: bool,
+        progress: Option<&Bound<'py, PyAny>>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let kinds = methods.unwrap_or_default().into_iter().map(|name| {
+            FormulationKind::of_name(&name)
+                .ok_or_else(|| unknown_name(py, "formulation", &name, &mbs::FORMULATIONS[1..]))
+        });
+        let flag = Arc::new(AtomicBool::new(false));
+        let plain = Request::default();
+        let request = Request {
+            formulations: kinds.collect::<PyResult<_>>()?,
+            precisions: if quick { vec![Precision::F64] } else { Vec::new() },
+            steps: steps.unwrap_or_default(),
+            errors: errors.unwrap_or_else(|| plain.errors.clone()),
+            duration,
+            repeats: if quick { QUICK_REPEATS } else { plain.repeats },
+            budget: if quick { QUICK_BUDGET } else { plain.budget },
+            maps: !quick,
+            interrupt: Interrupt::new(flag.clone()),
+            ..plain
+        };
+        let reached = Reached::default();
+        let progress = Progress { call: progress, counts: false, reached: &reached };
+        let file = &self.shared.file;
+        let compared = whole(py, &flag, &progress, || {
+            let none = (None, Earlier::default());
+            compare::compare(file, &request, None, none, &mut Watched(&reached))
+        })?;
+        let compared = compared.map_err(|e| raised(py, &SimulationError::from(e), Class::Start))?;
+        json(py, &compared.to_json())
+    }
+}
+
+/// The object of a text of JSON.
+fn json<'py>(py: Python<'py>, text: &str) -> PyResult<Bound<'py, PyAny>> {
+    let object: Value = serde_json::from_str(text)
+        .map_err(|error| crate::error::internal(py, &error.to_string()))?;
+    value::object(py, &object)
+}
+
+/// Modes about a state, with how the shapes are found.
+#[pymethods]
+impl Mechanism {
+    #[pyo3(name = "_modes", signature = (at = "equilibrium"))]
+    fn modes_of<'py>(&self, py: Python<'py>, at: &str) -> PyResult<Bound<'py, PyAny>> {
+        let place = place(py, at)?;
+        let found = guarded(py, || {
+            Ok(py.detach(|| mbs::Modes::new(&self.shared.scene, place, Search::Down)))
+        })?;
+        let found = found.map_err(|error| {
+            let names = mbs::Names::new(&self.shared.scene);
+            raised(py, &SimulationError::stopped(error, 0.0, &names), Class::Start)
+        })?;
+        value::object(py, &found.to_json())
+    }
+}

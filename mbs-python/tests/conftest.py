@@ -1,0 +1,22 @@
+"""What the tests share."""
+
+import importlib
+import os
+from pathlib import Path
+from types import ModuleType
+
+import pytest
+
+SCENES = Path(__file__).resolve().parents[2] / "scenes"
+
+
+def scene(name: str) -> Path:
+    """The path of a scene of the repository."""
+    return SCENES / f"{name}.toml"
+
+
+def needs(name: str) -> ModuleType:
+    """A module that a test needs: without it the test is skipped, or fails where MBS_STRICT is 1."""
+    if os.environ.get("MBS_STRICT") == "1":
+        return importlib.import_module(name)
+    return pytest.importorskip(name)  # type: ignore[no-any-return]

@@ -1,0 +1,102 @@
+//! Rows of a sweep as they come, from threads or from other machines, each in the journal at once.
+
+use super::{KIND, Report, Rows, Study, SweepError, SweepPart, whole_rows};
+use crate::journal::Journal;
+use core::num::NonZeroUsize;
+use mbs::folder::WriteError;
+use std::io;
+use std::path::{Path, PathBuf};
+use std::time::Instant;
+
+/// The rows of a sweep that are there: those of an earlier start, and those taken since.
+#[derive(Debug)]
+pub struct Collection {
+    /// The directory, the name of the journal in it, and the journal; without a directory rows are lost with the process.
+    kept: Option<(PathBuf, String, Journal)>,
+    pub(super) rows: Rows,
+    pub(super) resumed: usize,
+    begun: Instant,
+    cpu_seconds: f64,
+}
+
+impl Study {
+    /// Rows in a directory, that an earlier start may have left unfinished: its journal is locked until the collection is dropped. Without a
+    /// directory they are in memory alone. `anew` throws an earlier journal away.
+    ///
+    /// # Errors
+    /// A journal of another scene, sweep or version, or in use; a directory that cannot be written.
+    pub fn collect(&self, out: Option<&Path>, anew: bool) -> Result<Collection, SweepError> {
+        match out {
+            Some(out) => self.collect_part(out, anew, None),
+            None => Ok(Collection {
+                kept: None,
+                rows: Rows::new(),
+                resumed: 0,
+                begun: Instant::now(),
+                cpu_seconds: 0.0,
+            }),
+        }
+    }
+
+    /// The same of a part.
+    pub(super) fn collect_part(
+        &self,
+        out: &Path,
+        anew: bool,
+        part: Option<SweepPart>,
+    ) -> Result<Collection, SweepError> {
+        let begun = Instant::now();
+        std::fs::create_dir_all(out).map_err(|error| {
+            SweepError::Write(WriteError { path: out.join(""), bytes: 0, error })
+        })?;
+        let file = part.map_or_else(|| KIND.file.to_owned(), SweepPart::file);
+        let (journal, lines) = Journal::open_as((out, &file), &self.head, anew)?;
+        let rows = whole_rows(lines, self.columns.len(), self.n_members());
+        part.unwrap_or(SweepPart::WHOLE).check(rows.keys())?;
+        let resumed = rows.len();
+        let kept = Some((out.to_owned(), file, journal));
+        Ok(Collection { kept, rows, resumed, begun, cpu_seconds: 0.0 })
+    }
+
+    /// Takes a row of cells, as [`Columns::cells`](super::Columns::cells) gives them; it is in the journal then.
+    ///
+    /// # Errors
+    /// A row of another sweep; a journal that cannot be written.
+    pub fn take(&self, to: &mut Collection, cells: Vec<String>) -> Result<(), SweepError> {
+        let member = cells.first().and_then(|cell| cell.parse::<usize>().ok());
+        let member = member.and_then(|member| member.checked_sub(1));
+        let member = member.filter(|m| *m < self.n_members() && cells.len() == self.columns.len());
+        let Some(member) = member else {
+            let error = io::Error::new(io::ErrorKind::InvalidData, "a row of another sweep");
+            return Err(SweepError::Write(WriteError { path: PathBuf::new(), bytes: 0, error }));
+        };
+        if let Some((out, file, journal)) = &mut to.kept {
+            journal.append(&cells).map_err(|error| {
+                SweepError::Write(WriteError { path: out.join(file), bytes: 0, error })
+            })?;
+        }
+        let cpu = cells.last().and_then(|cell| cell.parse::<f64>().ok());
+        to.cpu_seconds += cpu.unwrap_or_default();
+        to.rows.insert(member, cells);
+        Ok(())
+    }
+
+    /// How it went; with `has_table` and a directory the table is written.
+    #[must_use]
+    pub fn report_of(&self, from: Collection, threads: NonZeroUsize, has_table: bool) -> Report {
+        let tables = match &from.kept {
+            Some((out, ..)) if has_table => self.write(out, &from.rows),
+            _ => Ok(Vec::new()),
+        };
+        let spent = (threads.get(), from.begun, from.cpu_seconds);
+        self.report((from.rows, from.resumed), spent, tables)
+    }
+}
+
+impl Collection {
+    /// Members of so many that have no row, from 0.
+    #[must_use]
+    pub fn missing(&self, n: usize) -> Vec<usize> {
+        (0..n).filter(|member| !self.rows.contains_key(member)).collect()
+    }
+}
