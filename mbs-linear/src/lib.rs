@@ -26,7 +26,7 @@ pub use mbs_core::saddle::Saddle;
 pub use mbs_core::step::OptionError;
 pub use near::equilibrium_near;
 pub use options::{LinearOptions, Options};
-pub use ports::{LinearPorts, Measure, Ports, linearise_ports};
+pub use ports::{LinearPorts, OutputMeasure, Ports, linearise_ports};
 pub use signal_matrices::LinearSignals;
 pub use signals::rest_signals;
 pub use svd::{Svd, singular_values};

@@ -19,14 +19,14 @@ use mbs_core::model::{Model, State};
 use mbs_core::{Real, SymmetricSolver};
 
 /// Measures outputs at a state: q, v, a, multipliers (`reaction`), measured angles, signals and inputs are those of one instant.
-pub type Measure<'a, T> = dyn FnMut(&State<T>) -> Result<Vec<T>, LinearError> + 'a;
+pub type OutputMeasure<'a, T> = dyn FnMut(&State<T>) -> Result<Vec<T>, LinearError> + 'a;
 
 /// Inputs and outputs that are asked for.
 pub struct Ports<'a, T> {
     /// The place of each input among [`State::inputs`]: see [`Prescribed`](mbs_core::inputs::Prescribed).
     pub inputs: &'a [usize],
     /// Measures the outputs; always as many numbers.
-    pub outputs: &'a mut Measure<'a, T>,
+    pub outputs: &'a mut OutputMeasure<'a, T>,
 }
 
 impl<T> fmt::Debug for Ports<'_, T> {
@@ -98,7 +98,7 @@ pub fn linearise_ports<'a, T: Real, M: Model<T>, S: SymmetricSolver<T>>(
 
 /// What measures, and the state that it is shown.
 pub(crate) struct Watch<'a, T> {
-    measure: &'a mut Measure<'a, T>,
+    measure: &'a mut OutputMeasure<'a, T>,
     state: State<T>,
 }
 

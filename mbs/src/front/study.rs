@@ -190,7 +190,7 @@ pub fn modes(m: &Mechanism, at: &StaticEquilibrium) -> Result<Modes, SimulationE
 /// m.set_gravity([0.0, -9.81]);
 /// let bob = m.add(Body::planar([0.0, -0.5], 2.0, 0.0));
 /// let pivot = m.add(Joint::revolute([GROUND, bob], [0.0, 0.0]).named("pivot"));
-/// m.add(Effect::torque(pivot, Signal::input([0.0])).named("motor"));
+/// m.add(Effect::torque(pivot, Signal::input(0.0)).named("motor"));
 /// let system = linearize(&m, &LinearizeOptions::default(), None, None)?;
 /// assert_eq!(system.states, ["pivot", "pivot.rate"]);
 /// assert_eq!((&*system.inputs, &*system.outputs), (&["motor".to_owned()][..], &["pivot".to_owned()][..]));

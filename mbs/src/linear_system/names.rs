@@ -5,10 +5,9 @@ use crate::front::UnknownName;
 use crate::front::inputs::{InputInfo, InputOwner, Inputs};
 use crate::record::Channel;
 use mbs_core::feedback::FeedbackOperation;
-use mbs_core::inputs::SignalGraph;
 use mbs_core::model::Model;
 use mbs_core::natural::NaturalModel;
-use mbs_core::scene::{Motion, Output, Scene, SignalId};
+use mbs_core::scene::{Output, Scene};
 
 /// The inputs that are asked for, and their places among those of a state.
 pub(super) struct InputPlaces {
@@ -29,7 +28,7 @@ impl InputPlaces {
             None => list.iter().collect(),
             Some(asked) => asked.iter().map(|name| named(list, name)).collect::<Result<_, _>>()?,
         };
-        let places = all.iter().map(|info| place(scene, model, info));
+        let places = all.iter().map(|info| place(model, info));
         let places = places.collect::<Result<_, _>>()?;
         Ok(Self { places, names: all.into_iter().map(|info| info.name.clone()).collect() })
     }
@@ -44,7 +43,6 @@ fn named<'a>(list: &'a [InputInfo], name: &str) -> Result<&'a InputInfo, Unknown
 }
 
 fn place<const D: usize>(
-    scene: &Scene<f64>,
     model: &NaturalModel<f64, D>,
     info: &InputInfo,
 ) -> Result<usize, SimulationError> {
@@ -54,14 +52,8 @@ fn place<const D: usize>(
         InputOwner::Guide(guide) | InputOwner::Coupling { sum: guide, .. } => {
             prescribed.guide_input(guide.index()).map(|range| range.start)
         }
-        InputOwner::Signal(signal) => {
-            if moves_guide(scene, signal) {
-                let message = format!("input `{}` moves a guide by its value alone", info.name);
-                let hint = "leave it out, or make the motion of the guide an input: value, rate and acceleration then are three";
-                return Err(SimulationError::new("input-refused", message, hint));
-            }
-            prescribed.signal_input(signal.index())
-        }
+        // no guide follows it: a scene whose guide does is refused, as inputs jump
+        InputOwner::Signal(signal) => prescribed.signal_input(signal.index()),
     };
     first.map(|first| first + info.component).map_err(|error| {
         let message =
@@ -69,22 +61,6 @@ fn place<const D: usize>(
         let hint = "leave it out, or linearise about the start or the moving state";
         SimulationError::new("input-refused", message, hint).with_cause(error)
     })
-}
-
-/// Does a guide or the sum of a coupling follow this signal? Its rate then is none of the inputs.
-fn moves_guide(scene: &Scene<f64>, signal: SignalId) -> bool {
-    let mut reached = vec![false; scene.signals.len()];
-    // signals refer to each other without circles: as many passes as there are signals reach all
-    for _ in &scene.signals {
-        for (i, (kind, _)) in SignalGraph::new(&scene.signals).kinds().enumerate() {
-            reached[i] |= i == signal.index()
-                || kind.operands().iter().any(|of| reached.get(of.index()) == Some(&true));
-        }
-    }
-    let of_guides = scene.guides.iter().map(|guide| &guide.law);
-    let of_sums = scene.couplings.iter().filter_map(|coupling| coupling.motion.as_ref());
-    let mut motions = of_guides.chain(of_sums);
-    motions.any(|law| matches!(law, Motion::Signal(of) if reached.get(of.index()) == Some(&true)))
 }
 
 /// Names of the states of signals, in their order.

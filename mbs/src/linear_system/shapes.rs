@@ -49,7 +49,7 @@ impl LinearSystem {
     /// for x in [1.0, 2.0] {
     ///     let mass = m.add(Body::planar([x, 0.0], 1.0, 0.1));
     ///     m.add(Joint::prismatic([GROUND, mass], [x, 0.0]).along([1.0, 0.0]));
-    ///     m.add(Effect::spring_damper([before, mass], [[x - 1.0, 0.0], [x, 0.0]], 100.0, 0.0));
+    ///     m.add(Effect::spring_damper([(before, [x - 1.0, 0.0]), (mass, [x, 0.0])], 100.0, 0.0, 1.0));
     ///     before = mass;
     /// }
     /// let shapes = linearize(&m, &LinearizeOptions::default(), None, None)?.shapes()?;
@@ -117,9 +117,13 @@ impl LinearSystem {
                 break;
             }
         }
-        let main =
-            found.iter().fold([0.0; 2], |most, &x| if size(x) > size(most) { x } else { most });
-        found.into_iter().map(|x| quotient(x, main)).collect()
+        let bigger =
+            |best: usize, i: usize| if size(found[i]) > size(found[best]) { i } else { best };
+        let main = (0..n).fold(0, bigger);
+        let by = found[main];
+        found.iter_mut().for_each(|x| *x = quotient(*x, by));
+        found[main] = [1.0, 0.0];
+        found
     }
 }
 
