@@ -114,6 +114,11 @@ pub enum LinearError {
     },
     /// A force became infinite or not a number.
     NotFinite,
+    /// An output is infinite or not a number at the state or next to it.
+    Output {
+        /// Its number among what is measured.
+        output: usize,
+    },
     /// Bodies that roll are in motion: more places are free than velocities, and they drift from each other.
     Rolls,
 }
@@ -145,6 +150,10 @@ impl core::fmt::Display for LinearError {
             Self::NotFinite => {
                 write!(f, "a force became infinite or not a number; check the data of the effects")
             }
+            Self::Output { output } => write!(
+                f,
+                "number {output} of what is measured is infinite or not a number; leave it out"
+            ),
         }
     }
 }

@@ -16,6 +16,7 @@
 
 use crate::error::LinearError;
 use crate::options::LinearOptions;
+use crate::ports::Watch;
 use crate::signal_matrices::LinearSignals;
 use crate::tangent_coordinates::TangentCoordinates;
 use crate::workspace::Workspace;
@@ -110,28 +111,13 @@ const STALLED: f64 = 1e3;
 /// [`LinearError`] when the state is not closed, stands next to a singular position, or lacks inertia.
 pub fn linearise<T: Real, M: Model<T>, S: SymmetricSolver<T>>(
     model: &M,
-    (instant, options): (Instant, &LinearOptions<T>),
+    how: (Instant, &LinearOptions<T>),
     s: &State<T>,
     w: &mut Workspace<T, S>,
 ) -> Result<Linear<T>, LinearError> {
-    options.validate()?;
-    let is_moving = s.v.iter().any(|v| !v.is_zero());
-    if model.has_velocity_rows() && is_moving {
-        return Err(LinearError::Rolls);
-    }
-    let mut field = Field::new(model, instant, s, w)?;
-    let f = field.tangent.n_freedoms();
-    let acceleration = field.at_rest_of(&s.v)?;
-    let turning = norm_inf(&field.w.terms.phi_bias);
-    let reach = options.step;
-    let [stiffness, mut rates] = field.by_places(reach)?;
-    field.return_to(&s.q)?;
-    let [damping, by_speeds] = field.by_speeds(reach)?;
-    rates.extend(by_speeds);
-    let signals = field.signals(reach, rates)?;
-    let noise = field.noise(&stiffness, reach);
-    let basis = field.tangent.basis;
-    Ok(Linear { n_freedoms: f, stiffness, damping, basis, acceleration, turning, noise, signals })
+    let mut field = Field::checked(model, how, s, w)?;
+    let (linear, _) = field.linear(how.1.step)?;
+    Ok(Linear { basis: field.tangent.basis, ..linear })
 }
 
 /// (8 (f(h) - f(-h)) - (f(2h) - f(-2h))) / 12 h
@@ -149,13 +135,28 @@ pub(crate) fn difference<T: Real>(
 pub(crate) struct Field<'a, T, M, S> {
     pub(crate) model: &'a M,
     pub(crate) w: &'a mut Workspace<T, S>,
-    start: &'a State<T>,
+    pub(crate) start: &'a State<T>,
     pub(crate) tangent: TangentCoordinates<T>,
     /// Position and velocity at hand, extended.
     pub(crate) q: Vec<T>,
-    v: Vec<T>,
+    pub(crate) v: Vec<T>,
+    /// Accelerations, extended, and multipliers as last evaluated.
+    pub(crate) a: Vec<T>,
+    pub(crate) lambda: Vec<T>,
     /// Largest acceleration that a force would give alone, in sizes of coordinates [1/s^2].
-    lively: T,
+    pub(crate) lively: T,
+    /// What is measured at each state; nothing where no outputs are asked for.
+    pub(crate) watch: Option<Watch<'a, T>>,
+}
+
+/// Slopes by coordinates or by velocities; matrices are stored column by column.
+pub(crate) struct Slopes<T> {
+    /// Of -z''.
+    pub(crate) forces: Vec<T>,
+    /// Of the rates x' of the states of signals.
+    signals: Vec<T>,
+    /// Of the outputs.
+    outputs: Vec<T>,
 }
 
 impl<'a, T: Real, M: Model<T>, S: SymmetricSolver<T>> Field<'a, T, M, S> {
@@ -202,7 +203,9 @@ impl<'a, T: Real, M: Model<T>, S: SymmetricSolver<T>> Field<'a, T, M, S> {
             unknown: u32::try_from(unknown).unwrap_or(u32::MAX),
         })?;
         let (q, v) = (s.q.clone(), s.v.clone());
-        let mut field = Self { model, w, start: s, tangent, q, v, lively: T::ZERO };
+        let (a, lambda) = (Vec::new(), Vec::new());
+        let (lively, watch) = (T::ZERO, None);
+        let mut field = Self { model, w, start: s, tangent, q, v, a, lambda, lively, watch };
         // The sizes of the rows come with the factor.
         field.factor()?;
         field.close()?;
@@ -210,8 +213,42 @@ impl<'a, T: Real, M: Model<T>, S: SymmetricSolver<T>> Field<'a, T, M, S> {
         Ok(field)
     }
 
-    /// -dz''/dz, and dx'/dz of the states x of signals, by differences that move coordinates by `reach` of their sizes.
-    pub(crate) fn by_places(&mut self, reach: T) -> Result<[Vec<T>; 2], LinearError> {
+    /// A field whose options and motion were checked.
+    pub(crate) fn checked(
+        model: &'a M,
+        (instant, options): (Instant, &LinearOptions<T>),
+        s: &'a State<T>,
+        w: &'a mut Workspace<T, S>,
+    ) -> Result<Self, LinearError> {
+        options.validate()?;
+        let is_moving = s.v.iter().any(|v| !v.is_zero());
+        if model.has_velocity_rows() && is_moving {
+            return Err(LinearError::Rolls);
+        }
+        Self::new(model, instant, s, w)
+    }
+
+    /// The linearised motion but for its basis, with the values of the outputs and their slopes by z, z' and x.
+    pub(crate) fn linear(&mut self, reach: T) -> Result<(Linear<T>, [Vec<T>; 2]), LinearError> {
+        let (f, start) = (self.tangent.n_freedoms(), self.start);
+        let acceleration = self.at_rest_of(&start.v)?;
+        let values = self.measured()?;
+        let turning = norm_inf(&self.w.terms.phi_bias);
+        let by_places = self.by_places(reach)?;
+        self.return_to(&start.q)?;
+        let by_speeds = self.by_speeds(reach)?;
+        let rates = [by_places.signals, by_speeds.signals].concat();
+        let (signals, by_signals) = self.signals(reach, rates)?;
+        let (stiffness, damping, basis) = (by_places.forces, by_speeds.forces, Vec::new());
+        let noise = self.noise(&stiffness, reach);
+        let n_freedoms = f;
+        let linear =
+            Linear { n_freedoms, stiffness, damping, basis, acceleration, turning, noise, signals };
+        Ok((linear, [values, [by_places.outputs, by_speeds.outputs, by_signals].concat()]))
+    }
+
+    /// Slopes by z, by differences that move coordinates by `reach` of their sizes.
+    pub(crate) fn by_places(&mut self, reach: T) -> Result<Slopes<T>, LinearError> {
         let mut change = vec![T::ZERO; self.tangent.n_freedoms()];
         self.by_each(reach, |field, j, z| {
             change[j] = z;
@@ -221,30 +258,38 @@ impl<'a, T: Real, M: Model<T>, S: SymmetricSolver<T>> Field<'a, T, M, S> {
         })
     }
 
-    /// -dz''/dz', and dx'/dz', by differences of velocities.
-    fn by_speeds(&mut self, reach: T) -> Result<[Vec<T>; 2], LinearError> {
+    /// Slopes by z', by differences of velocities.
+    fn by_speeds(&mut self, reach: T) -> Result<Slopes<T>, LinearError> {
         self.by_each(reach, Self::hurried)
     }
 
-    /// Slopes of -z'' and of x' by what `accelerations` are given of each freedom.
+    /// Slopes by what `accelerations` are given of each freedom.
     fn by_each(
         &mut self,
         reach: T,
         mut accelerations: impl FnMut(&mut Self, usize, T) -> Result<Vec<T>, LinearError>,
-    ) -> Result<[Vec<T>; 2], LinearError> {
-        let f = self.tangent.n_freedoms();
-        let [mut own, mut of_signals] = [Vec::with_capacity(f * f), Vec::new()];
+    ) -> Result<Slopes<T>, LinearError> {
+        let (f, n) = (self.tangent.n_freedoms(), self.model.n_signal_states());
+        let [mut forces, mut signals, mut outputs] =
+            [Vec::with_capacity(f * f), Vec::new(), Vec::new()];
         for j in 0..f {
             let h = reach / self.w.extent(self.tangent.direction(j));
-            let mut slope = difference(h, |z| {
-                let mut answer = accelerations(self, j, z)?;
-                answer.extend(self.signal_rates());
-                Ok(answer)
+            let slope = difference(h, |z| {
+                let answer = accelerations(self, j, z)?;
+                self.with_the_rest(answer)
             })?;
-            of_signals.extend(slope.split_off(f));
-            own.extend(slope.into_iter().map(|x| -x));
+            forces.extend(slope[..f].iter().map(|&x| -x));
+            signals.extend_from_slice(&slope[f..f + n]);
+            outputs.extend_from_slice(&slope[f + n..]);
         }
-        Ok([own, of_signals])
+        Ok(Slopes { forces, signals, outputs })
+    }
+
+    /// Accelerations, the rates of the states of signals, and the outputs, as last evaluated.
+    pub(crate) fn with_the_rest(&mut self, mut answer: Vec<T>) -> Result<Vec<T>, LinearError> {
+        answer.extend(self.signal_rates());
+        answer.extend(self.measured()?);
+        Ok(answer)
     }
 
     /// Rounding to be expected in a stiffness that was found so [1/s^2].
@@ -259,7 +304,7 @@ impl<'a, T: Real, M: Model<T>, S: SymmetricSolver<T>> Field<'a, T, M, S> {
     }
 
     /// Back to the position of the state, for velocities to be changed there.
-    fn return_to(&mut self, q: &[T]) -> Result<(), LinearError> {
+    pub(crate) fn return_to(&mut self, q: &[T]) -> Result<(), LinearError> {
         self.q.copy_from_slice(q);
         self.close()?;
         self.factor()
@@ -317,7 +362,7 @@ impl<'a, T: Real, M: Model<T>, S: SymmetricSolver<T>> Field<'a, T, M, S> {
     }
 
     /// Moves `q` onto the constraints without changing z; the terms are those of `q` then.
-    fn close(&mut self) -> Result<(), LinearError> {
+    pub(crate) fn close(&mut self) -> Result<(), LinearError> {
         let n = self.w.n;
         let floor = (T::ONE + self.w.extent(&self.q[..n])) * T::EPSILON;
         let mut last = None;
@@ -338,7 +383,7 @@ impl<'a, T: Real, M: Model<T>, S: SymmetricSolver<T>> Field<'a, T, M, S> {
         Err(LinearError::NotClosed { violation: violation.to_f64() })
     }
 
-    fn factor(&mut self) -> Result<(), LinearError> {
+    pub(crate) fn factor(&mut self) -> Result<(), LinearError> {
         let result = self.w.factor(self.model, T::ZERO, (&[], &[]));
         result.map_err(|error| LinearError::NoInertia { unknown: error.unknown })
     }
@@ -400,6 +445,8 @@ impl<'a, T: Real, M: Model<T>, S: SymmetricSolver<T>> Field<'a, T, M, S> {
         if !(open <= self.lively.max(self.w.extent(&a[..n])) * T::EPSILON.sqrt()) {
             return Err(LinearError::NotSettled { left: left.to_f64() });
         }
-        Ok(self.tangent.reduce(&a[..n]))
+        let answer = self.tangent.reduce(&a[..n]);
+        (self.a, self.lambda) = (a, lambda);
+        Ok(answer)
     }
 }

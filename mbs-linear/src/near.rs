@@ -73,7 +73,7 @@ fn newton<T: Real, M: Model<T>, S: SymmetricSolver<T>>(
     let acceleration = field.at_rest_of(&s.v).map_err(failed)?;
     let (q, mut memory) = (field.q.clone(), s.memory.clone());
     let reach = LinearOptions::default().step;
-    let [stiffness, _] = field.by_places(reach).map_err(failed)?;
+    let stiffness = field.by_places(reach).map_err(failed)?.forces;
     let noise = field.noise(&stiffness, reach);
     let matrix = Pivoted::new(acceleration.len(), stiffness, noise * T::from_f64(NOISE));
     let mut way = matrix.solve(&acceleration);

@@ -16,28 +16,30 @@ use mbs_core::model::{Model, State};
 use mbs_core::{Real, SymmetricSolver};
 
 impl<T: Real, M: Model<T>, S: SymmetricSolver<T>> Field<'_, T, M, S> {
-    /// The part of signals with their `rates` by coordinates and velocities: by differences that move states by `reach` of their sizes.
+    /// The part of signals with their `rates` by coordinates and velocities, and the slopes of outputs by them: by differences that move
+    /// states by `reach` of their sizes.
     pub(crate) fn signals(
         &mut self,
         reach: T,
         rates: Vec<T>,
-    ) -> Result<LinearSignals<T>, LinearError> {
+    ) -> Result<(LinearSignals<T>, Vec<T>), LinearError> {
         let (f, n) = (self.tangent.n_freedoms(), self.model.n_signal_states());
         let mut all = LinearSignals { n, forces: Vec::new(), rates };
+        let mut outputs = Vec::new();
         for k in 0..n {
             let x = self.w.terms.signal_starts[k][0];
             let answer = difference(reach * (T::ONE + x.abs()), |dx| {
                 self.w.terms.signal_starts[k][0] = x + dx;
-                let mut answer = self.acceleration_at_start()?;
-                answer.extend(self.signal_rates());
-                Ok(answer)
+                let answer = self.acceleration_at_start()?;
+                self.with_the_rest(answer)
             });
             self.w.terms.signal_starts[k][0] = x;
             let answer = answer?;
             all.forces.extend_from_slice(&answer[..f]);
-            all.rates.extend_from_slice(&answer[f..]);
+            all.rates.extend_from_slice(&answer[f..f + n]);
+            outputs.extend_from_slice(&answer[f + n..]);
         }
-        Ok(all)
+        Ok((all, outputs))
     }
 
     /// x' as last evaluated.

@@ -16,12 +16,14 @@ mod friction;
 mod front;
 mod interrupt;
 mod joint_limits;
+mod linear_system;
 mod methods;
 mod modes;
 mod motion;
 mod named;
 mod names;
 mod one_way;
+mod placed;
 mod precision;
 mod ready;
 pub mod realtime;
@@ -66,9 +68,10 @@ pub use front::{
     InputOwner, InputTableError, Joint, Mechanism, NamedSignal, Observer, Output, OutputFunction,
     Part, PathError, PointMotion, Pose, Rolling, Run, RunInputs, RunResult, SceneError, Simulation,
     SimulationError, Sizes, Snapshot, StepReport, Table, UnknownName, View, Wrench, equilibrium,
-    modes, run, run_with, with_inputs,
+    linearize, modes, run, run_with, with_inputs,
 };
 pub use interrupt::Interrupt;
+pub use linear_system::{LinearSystem, LinearizeOptions, ModeShape};
 pub use mbs_core::formulation::{Formulation, SwitchError};
 pub use mbs_core::laws::code::{BodyLaw, Force, ForceLaw, Measured, MeasuredBody};
 pub use mbs_core::laws::relation::Relation;

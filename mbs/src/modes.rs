@@ -4,13 +4,13 @@
 //! lambda = -zeta omega_0 +- i omega_0 sqrt(1 - zeta^2):   omega_0 = |lambda|,  zeta = -Re lambda / |lambda|
 //! ```
 
-use crate::equilibrium::{Search, find_equilibrium, workspace};
-use crate::ready::AssembledScene;
-use crate::rest::{LeftOut, at_rest, left_out, left_out_json};
+use crate::equilibrium::{Search, workspace};
+use crate::placed::PlacedScene;
+use crate::rest::{LeftOut, left_out_json};
 use crate::stop::StopError;
 use core::f64::consts::TAU;
 use mbs_core::scene::{Dimension, Scene};
-use mbs_linear::{Equilibrium, Instant, Linear, LinearOptions, Matrix, linearise, singular_values};
+use mbs_linear::{Equilibrium, Linear, LinearOptions, Matrix, linearise, singular_values};
 use serde_json::{Value, json};
 
 crate::named! {
@@ -101,28 +101,15 @@ impl Modes {
         place: Place,
         search: Search,
     ) -> Result<Self, StopError> {
-        let left_out = if place == Place::Initial { Vec::new() } else { left_out(scene) };
-        let (AssembledScene { model, start, .. }, found) = match place {
-            Place::Equilibrium => {
-                let still = at_rest(scene);
-                let mut ready = AssembledScene::<f64, D>::assembled(&still)?;
-                let found = find_equilibrium(&still, &ready.model, search, &mut ready.start.state)?;
-                (ready, Some(found))
-            }
-            Place::Initial => (AssembledScene::assembled(scene)?, None),
-            Place::Moving => {
-                let (ready, found) = AssembledScene::settled(scene, search)?;
-                (ready, Some(found))
-            }
-        };
-        let is_at_rest = place == Place::Equilibrium;
-        let instant = if is_at_rest { Instant::Rest } else { Instant::Motion };
+        let PlacedScene { scene, ready, found, left_out, instant } =
+            PlacedScene::<D>::new(scene, place, search)?;
+        let (model, state) = (&ready.model, &ready.start.state);
         let how = (instant, &LinearOptions::default());
-        let linear = linearise(&model, how, &start.state, &mut workspace(&model))
+        let linear = linearise(model, how, state, &mut workspace(model))
             .map_err(|error| StopError::Linear(error).or_law(model.codes()))?;
         let acceleration = linear.acceleration.iter().fold(0.0, |a: f64, x| a.max(x.abs()));
         Ok(Self {
-            scene: scene.name.clone(),
+            scene: scene.name,
             place,
             found,
             left_out,
@@ -180,7 +167,12 @@ pub(crate) fn eigenvalues(linear: &Linear<f64>) -> Result<Vec<Mode>, StopError> 
         return Ok(Vec::new());
     }
     let values = mbs_linear::eigenvalues(n, &a).ok_or(StopError::Eigenvalues)?;
-    let zero = (NOISE * linear.noise).sqrt();
+    Ok(slowest_first(&values, linear.noise))
+}
+
+/// Conjugate eigenvalues once, from the slowest to the fastest, with the rounding of their squares [1/s^2].
+pub(crate) fn slowest_first(values: &[[f64; 2]], noise: f64) -> Vec<Mode> {
+    let zero = (NOISE * noise).sqrt();
     let mut modes: Vec<Mode> = values
         .iter()
         .filter(|[_, imaginary]| *imaginary >= 0.0)
@@ -194,7 +186,7 @@ pub(crate) fn eigenvalues(linear: &Linear<f64>) -> Result<Vec<Mode>, StopError> 
         let size = |m: &Mode| m.undamped_frequency();
         size(a).total_cmp(&size(b)).then(a.real.total_cmp(&b.real))
     });
-    Ok(modes)
+    modes
 }
 
 /// Directions without stiffness [-]: in which an equilibrium may stand anywhere.

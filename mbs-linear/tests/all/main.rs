@@ -4,3 +4,4 @@ mod common;
 
 mod equilibrium;
 mod modes;
+mod ports;

@@ -1,6 +1,6 @@
 //! Why a simulation was refused or stopped.
 
-use super::error::{Error, PathError, SceneError};
+use super::error::{Error, PathError, SceneError, UnknownName};
 use super::tree::TreeError;
 use crate::checkpoint::CheckpointError;
 use crate::names::Names;
@@ -178,7 +178,7 @@ macro_rules! from {
     )*};
 }
 
-from!(SceneError, TreeError, ReadError, WriteError, PathError);
+from!(SceneError, TreeError, ReadError, WriteError, PathError, UnknownName);
 
 impl From<EnsembleError> for SimulationError {
     fn from(error: EnsembleError) -> Self {

@@ -72,13 +72,13 @@ pub struct InputInfo {
 
 /// The inputs of a simulation with their present values.
 #[derive(Debug, Clone)]
-pub(super) struct Inputs {
+pub(crate) struct Inputs {
     list: Arc<[InputInfo]>,
     values: Vec<f64>,
 }
 
 impl Inputs {
-    pub(super) fn new(scene: &Scene<f64>) -> Self {
+    pub(crate) fn new(scene: &Scene<f64>) -> Self {
         let mut list = Vec::new();
         for (e, effect) in scene.effects.iter().enumerate().filter(|(_, effect)| effect.enabled) {
             let Some((Signal::Input(start), n, unit)) = signal(&effect.kind, scene.dimension)
@@ -133,7 +133,7 @@ impl Inputs {
         Self { list: list.into(), values }
     }
 
-    pub(super) fn list(&self) -> &[InputInfo] {
+    pub(crate) fn list(&self) -> &[InputInfo] {
         &self.list
     }
 

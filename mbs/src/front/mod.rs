@@ -6,7 +6,7 @@ mod failure;
 mod function;
 mod inner;
 mod input_table;
-mod inputs;
+pub(crate) mod inputs;
 mod mechanism;
 mod part;
 mod read;
@@ -31,7 +31,7 @@ pub use inputs::{InputId, InputInfo, InputOwner};
 pub use mechanism::Mechanism;
 pub use part::{Id, Part};
 pub use simulation::{Simulation, Snapshot};
-pub use study::{EquilibriumOptions, Run, RunResult, equilibrium, modes, run, run_with};
+pub use study::{EquilibriumOptions, Run, RunResult, equilibrium, linearize, modes, run, run_with};
 pub use table::Table;
 pub use values::{
     BodyMotion, Components, ContactEvent, Coordinates, Energies, PointMotion, Pose, Sizes,

@@ -7,6 +7,7 @@ use super::mechanism::Mechanism;
 use super::table::Table;
 use super::view::{Observed, Observer, Sight};
 use crate::equilibrium::Search;
+use crate::linear_system::{LinearSystem, LinearizeOptions};
 use crate::modes::{Modes, Place};
 use crate::names::Names;
 use crate::precision::SceneWork;
@@ -170,4 +171,38 @@ pub fn modes(m: &Mechanism, at: &StaticEquilibrium) -> Result<Modes, SimulationE
     let scene = m.resolve_scene()?;
     let found = Modes::new(&scene, Place::Equilibrium, at.search);
     found.map_err(|error| SimulationError::stopped(error, 0.0, &Names::new(&scene)))
+}
+
+/// The linear motion of this mechanism about a state, with inputs and outputs by name; `None`: all of them. Outputs that are code are left
+/// out.
+///
+/// An input is named as [`Simulation::inputs`](crate::Simulation::inputs) lists it, and an output as its column in a run, or without the
+/// component for all of a vector.
+///
+/// # Errors
+/// [`SimulationError`] for an unknown name, an input that has no derivative there, and where the motion cannot be linearised.
+///
+/// # Examples
+/// A pendulum of 2 kg at 0.5 m, with a torque on its pivot:
+/// ```
+/// use mbs::{Body, Effect, GROUND, Joint, LinearizeOptions, Mechanism, Signal, linearize};
+/// let mut m = Mechanism::planar("pendulum");
+/// m.set_gravity([0.0, -9.81]);
+/// let bob = m.add(Body::planar([0.0, -0.5], 2.0, 0.0));
+/// let pivot = m.add(Joint::revolute([GROUND, bob], [0.0, 0.0]).named("pivot"));
+/// m.add(Effect::torque(pivot, Signal::input(0.0)).named("motor"));
+/// let system = linearize(&m, &LinearizeOptions::default(), None, None)?;
+/// assert_eq!(system.states, ["pivot", "pivot.rate"]);
+/// assert_eq!((&*system.inputs, &*system.outputs), (&["motor".to_owned()][..], &["pivot".to_owned()][..]));
+/// // x'' = -g/l x + u / (m l^2)
+/// assert!((system.a[(1, 0)] + 9.81 / 0.5).abs() < 1e-8 && (system.b[(1, 0)] - 2.0).abs() < 1e-8);
+/// # Ok::<(), mbs::SimulationError>(())
+/// ```
+pub fn linearize(
+    m: &Mechanism,
+    options: &LinearizeOptions,
+    inputs: Option<&[&str]>,
+    outputs: Option<&[&str]>,
+) -> Result<LinearSystem, SimulationError> {
+    LinearSystem::new(&m.resolve_scene()?, options, inputs, outputs)
 }

@@ -28,6 +28,7 @@ mod inputs;
 mod invariants;
 mod joint_limits;
 mod kinds;
+mod linear_system;
 mod modes;
 mod observers;
 mod oracle;

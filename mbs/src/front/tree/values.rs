@@ -2,7 +2,7 @@
 
 use crate::front::values::PointMotion;
 use mbs_core::algebra::Vector;
-use std::ops::Index;
+use std::ops::{Index, IndexMut};
 
 /// A dense matrix, row by row.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -16,7 +16,7 @@ pub struct Matrix {
 }
 
 impl Matrix {
-    pub(super) fn zeros(rows: usize, columns: usize) -> Self {
+    pub(crate) fn zeros(rows: usize, columns: usize) -> Self {
         Self { rows, columns, data: vec![0.0; rows * columns] }
     }
 
@@ -39,6 +39,12 @@ impl Index<(usize, usize)> for Matrix {
     type Output = f64;
     fn index(&self, (i, j): (usize, usize)) -> &f64 {
         &self.row(i)[j]
+    }
+}
+
+impl IndexMut<(usize, usize)> for Matrix {
+    fn index_mut(&mut self, (i, j): (usize, usize)) -> &mut f64 {
+        &mut self.data[i * self.columns..][..self.columns][j]
     }
 }
 

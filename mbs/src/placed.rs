@@ -1,0 +1,49 @@
+//! A scene at the state that it is linearised about.
+
+use crate::equilibrium::{Search, find_equilibrium};
+use crate::modes::Place;
+use crate::ready::AssembledScene;
+use crate::rest::{LeftOut, at_rest, left_out};
+use crate::stop::StopError;
+use mbs_core::scene::Scene;
+use mbs_linear::{Equilibrium, Instant};
+
+/// A scene with its model and the state of a place.
+pub(crate) struct PlacedScene<const D: usize> {
+    /// The scene; in an equilibrium without what only motion makes.
+    pub(crate) scene: Scene<f64>,
+    /// Its model, whose start is at the place.
+    pub(crate) ready: AssembledScene<f64, D>,
+    /// The equilibrium, if that is the place.
+    pub(crate) found: Option<Equilibrium<f64>>,
+    /// What is left out, of the equilibrium too.
+    pub(crate) left_out: Vec<LeftOut>,
+    /// What guides do there.
+    pub(crate) instant: Instant,
+}
+
+impl<const D: usize> PlacedScene<D> {
+    /// Assembles a scene, and seeks its equilibrium if that is the place.
+    ///
+    /// # Errors
+    /// [`StopError`] when there is no model, consistent start or equilibrium.
+    pub(crate) fn new(scene: &Scene<f64>, place: Place, search: Search) -> Result<Self, StopError> {
+        let left_out = if place == Place::Initial { Vec::new() } else { left_out(scene) };
+        let (scene, ready, found) = match place {
+            Place::Equilibrium => {
+                let still = at_rest(scene);
+                let mut ready = AssembledScene::<f64, D>::assembled(&still)?;
+                let found = find_equilibrium(&still, &ready.model, search, &mut ready.start.state)?;
+                (still, ready, Some(found))
+            }
+            Place::Initial => (scene.clone(), AssembledScene::assembled(scene)?, None),
+            Place::Moving => {
+                let (ready, found) = AssembledScene::settled(scene, search)?;
+                (scene.clone(), ready, Some(found))
+            }
+        };
+        let is_at_rest = place == Place::Equilibrium;
+        let instant = if is_at_rest { Instant::Rest } else { Instant::Motion };
+        Ok(Self { scene, ready, found, left_out, instant })
+    }
+}
