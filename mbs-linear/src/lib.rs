@@ -15,6 +15,7 @@ mod signal_matrices;
 mod signals;
 mod svd;
 mod tangent_coordinates;
+mod watch;
 mod workspace;
 
 pub use eigen::eigenvalues;
@@ -26,8 +27,9 @@ pub use mbs_core::saddle::Saddle;
 pub use mbs_core::step::OptionError;
 pub use near::equilibrium_near;
 pub use options::{LinearOptions, Options};
-pub use ports::{LinearPorts, OutputMeasure, Ports, linearise_ports};
+pub use ports::{LinearPorts, Ports, linearise_ports};
 pub use signal_matrices::LinearSignals;
 pub use signals::rest_signals;
 pub use svd::{Svd, singular_values};
+pub use watch::OutputMeasure;
 pub use workspace::Workspace;

@@ -16,9 +16,9 @@
 
 use crate::error::LinearError;
 use crate::options::LinearOptions;
-use crate::ports::Watch;
 use crate::signal_matrices::LinearSignals;
 use crate::tangent_coordinates::TangentCoordinates;
+use crate::watch::Watch;
 use crate::workspace::Workspace;
 use alloc::vec;
 use alloc::vec::Vec;
@@ -283,6 +283,13 @@ impl<'a, T: Real, M: Model<T>, S: SymmetricSolver<T>> Field<'a, T, M, S> {
             outputs.extend_from_slice(&slope[f + n..]);
         }
         Ok(Slopes { forces, signals, outputs })
+    }
+
+    /// The outputs at the state as last evaluated; none where nothing measures.
+    fn measured(&mut self) -> Result<Vec<T>, LinearError> {
+        let motion = [&self.q[..], &self.v, &self.a, &self.lambda];
+        let at = (self.model, &self.w.terms);
+        self.watch.as_mut().map_or(Ok(Vec::new()), |watch| watch.outputs(at, motion))
     }
 
     /// Accelerations, the rates of the states of signals, and the outputs, as last evaluated.

@@ -11,15 +11,13 @@
 use crate::error::LinearError;
 use crate::linearise::{Field, Instant, Linear, difference};
 use crate::options::LinearOptions;
+use crate::watch::{OutputMeasure, Watch};
 use crate::workspace::Workspace;
 use alloc::vec;
 use alloc::vec::Vec;
 use core::fmt;
 use mbs_core::model::{Model, State};
 use mbs_core::{Real, SymmetricSolver};
-
-/// Measures outputs at a state: q, v, a, multipliers (`reaction`), measured angles, signals and inputs are those of one instant.
-pub type OutputMeasure<'a, T> = dyn FnMut(&State<T>) -> Result<Vec<T>, LinearError> + 'a;
 
 /// Inputs and outputs that are asked for.
 pub struct Ports<'a, T> {
@@ -86,9 +84,7 @@ pub fn linearise_ports<'a, T: Real, M: Model<T>, S: SymmetricSolver<T>>(
 ) -> Result<(Linear<T>, LinearPorts<T>), LinearError> {
     let (places, reach) = (ports.inputs, how.1.step);
     let mut field = Field::checked(model, how, s, w)?;
-    let mut state = s.clone();
-    state.q_low.fill(T::ZERO);
-    field.watch = Some(Watch { measure: ports.outputs, state });
+    field.watch = Some(Watch::new(ports.outputs, s));
     let (linear, [values, outputs]) = field.linear(reach)?;
     let [forces, feedthrough] = field.by_inputs(how.0, places, reach)?;
     let n_inputs = places.len();
@@ -96,35 +92,10 @@ pub fn linearise_ports<'a, T: Real, M: Model<T>, S: SymmetricSolver<T>>(
     Ok((linear, LinearPorts { n_inputs, values, forces, outputs, feedthrough }))
 }
 
-/// What measures, and the state that it is shown.
-pub(crate) struct Watch<'a, T> {
-    measure: &'a mut OutputMeasure<'a, T>,
-    state: State<T>,
-}
-
 /// Largest factor by which the difference of an input grows, where it hardly moves the mechanism [-]. Chosen, not tuned.
 const MOST_GROWTH: f64 = 1e4;
 
 impl<T: Real, M: Model<T>, S: SymmetricSolver<T>> Field<'_, T, M, S> {
-    /// The outputs at the state as last evaluated; none where nothing measures.
-    pub(crate) fn measured(&mut self) -> Result<Vec<T>, LinearError> {
-        let Some(Watch { measure, state: s }) = &mut self.watch else { return Ok(Vec::new()) };
-        let terms = &self.w.terms;
-        s.q.copy_from_slice(&self.q);
-        s.v.copy_from_slice(&self.v);
-        for a in [&mut s.a, &mut s.a_aux] {
-            a.copy_from_slice(&self.a);
-        }
-        for lambda in [&mut s.lambda, &mut s.lambda_previous, &mut s.reaction] {
-            lambda.copy_from_slice(&self.lambda);
-        }
-        s.phi.copy_from_slice(&terms.phi);
-        s.signals.copy_from_slice(&terms.signals);
-        self.model.remember(&s.q, terms, &mut s.memory);
-        s.power = self.model.power(&s.q, &s.v, &s.reaction, terms);
-        measure(s)
-    }
-
     /// Slopes of (z'', x') and of the outputs by the inputs at these places.
     fn by_inputs(
         &mut self,
@@ -176,8 +147,7 @@ impl<T: Real> Driven<'_, T> {
         s.inputs[self.place] += change;
         let value = s.inputs[self.place];
         if let Some(watch) = &mut field.watch {
-            watch.state.inputs[self.place] = value;
-            watch.state.applied[self.place] = value;
+            watch.set_input(self.place, value);
         }
         field.model.set_inputs(s.t, &s, &mut field.w.terms);
         self.changed = [false; 3];

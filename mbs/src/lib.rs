@@ -83,8 +83,9 @@ pub use mbs_core::scene::{
 };
 pub use mbs_scene::{ReadError, WriteError};
 pub use methods::{FORMULATIONS, FormulationKind, PenaltyUse, Row};
-pub use modes::{Mode, Modes, Place};
+pub use modes::{Mode, Modes};
 pub use names::Names;
+pub use placed::Place;
 pub use precision::PrecisionError;
 pub use rest::LeftOut;
 pub use run::Outcome;

@@ -5,25 +5,13 @@
 //! ```
 
 use crate::equilibrium::{Search, workspace};
-use crate::placed::PlacedScene;
+use crate::placed::{Place, PlacedScene};
 use crate::rest::{LeftOut, left_out_json};
 use crate::stop::StopError;
 use core::f64::consts::TAU;
 use mbs_core::scene::{Dimension, Scene};
 use mbs_linear::{Equilibrium, Linear, LinearOptions, Matrix, linearise, singular_values};
 use serde_json::{Value, json};
-
-crate::named! {
-    /// About which state.
-    pub enum Place {
-        /// The static equilibrium near the start, at rest.
-        Equilibrium = "equilibrium",
-        /// The start as assembled, with its velocities and the guides' rates.
-        Initial = "initial",
-        /// The positions of the static equilibrium with the scene's initial velocities: a vehicle that drives straight.
-        Moving = "moving",
-    }
-}
 
 /// An eigenvalue, or a pair of conjugate ones.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -1,12 +1,23 @@
 //! A scene at the state that it is linearised about.
 
 use crate::equilibrium::{Search, find_equilibrium};
-use crate::modes::Place;
 use crate::ready::AssembledScene;
 use crate::rest::{LeftOut, at_rest, left_out};
 use crate::stop::StopError;
 use mbs_core::scene::Scene;
 use mbs_linear::{Equilibrium, Instant};
+
+crate::named! {
+    /// About which state.
+    pub enum Place {
+        /// The static equilibrium near the start, at rest.
+        Equilibrium = "equilibrium",
+        /// The start as assembled, with its velocities and the guides' rates.
+        Initial = "initial",
+        /// The positions of the static equilibrium with the scene's initial velocities: a vehicle that drives straight.
+        Moving = "moving",
+    }
+}
 
 /// A scene with its model and the state of a place.
 pub(crate) struct PlacedScene<const D: usize> {
