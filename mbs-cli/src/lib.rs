@@ -153,7 +153,7 @@ fn command_line() -> clap::Command {
     ))
 }
 
-/// Runs the command, once in a process. `program` is how it was started: a file, or an interpreter with what it was given. The exit status: 0
+/// Runs the command. `program` is how it was started: a file, or an interpreter with what it was given. The exit status: 0
 /// done, 1 refused, 2 stopped early or not written, 3 not in this build.
 pub fn run(
     program: impl IntoIterator<Item = OsString>,
@@ -167,7 +167,7 @@ pub fn run(
 
 fn go() -> ExitCode {
     signals::outlive_limits();
-    let words = std::iter::once(OsString::from("mbs")).chain(line::words().cloned());
+    let words = std::iter::once(OsString::from("mbs")).chain(line::words());
     let cli = match command_line()
         .try_get_matches_from(words)
         .and_then(|matches| Cli::from_arg_matches(&matches))

@@ -2,32 +2,31 @@
 
 use std::ffi::OsString;
 use std::process::Command;
-use std::sync::OnceLock;
+use std::sync::{PoisonError, RwLock};
 
 /// How the program was started, and its words.
-#[derive(Debug)]
-struct Line {
-    program: Vec<OsString>,
-    words: Vec<OsString>,
+static LINE: RwLock<[Vec<OsString>; 2]> = RwLock::new([Vec::new(), Vec::new()]);
+
+fn line() -> [Vec<OsString>; 2] {
+    LINE.read().unwrap_or_else(PoisonError::into_inner).clone()
 }
 
-static LINE: OnceLock<Line> = OnceLock::new();
-
-/// Notes the command line, once in a process.
+/// Notes the command line.
 pub(crate) fn note(program: Vec<OsString>, words: Vec<OsString>) {
-    // a second one is that of a test
-    let _ = LINE.set(Line { program, words });
+    *LINE.write().unwrap_or_else(PoisonError::into_inner) = [program, words];
 }
 
 /// The words behind the program.
-pub(crate) fn words() -> impl Iterator<Item = &'static OsString> {
-    LINE.get().into_iter().flat_map(|line| &line.words)
+pub(crate) fn words() -> impl Iterator<Item = OsString> {
+    let [_, words] = line();
+    words.into_iter()
 }
 
 /// The program again, without words: this file, or the interpreter that it runs in.
 pub(crate) fn again() -> Command {
-    match LINE.get().map(|line| &line.program[..]) {
-        Some([interpreter, first @ ..]) if !first.is_empty() => {
+    let [program, _] = line();
+    match &program[..] {
+        [interpreter, first @ ..] if !first.is_empty() => {
             let mut command = Command::new(interpreter);
             command.args(first);
             command

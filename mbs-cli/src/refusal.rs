@@ -154,7 +154,7 @@ impl Refusal {
 
 /// Is one JSON object asked for? Where arguments are refused they are known as words alone.
 fn wants_json() -> bool {
-    crate::line::words().take_while(|word| *word != "--").any(|word| word == "--json")
+    crate::line::words().take_while(|word| word != "--").any(|word| word == "--json")
 }
 
 impl From<&PrecisionError> for Refusal {

@@ -17,6 +17,7 @@ impl<'py> Numbers<'py> {
     pub(crate) fn new(value: &Bound<'py, PyAny>, name: &str, strict: bool) -> PyResult<Self> {
         if let Ok(array) = value.cast::<PyArrayDyn<f64>>()
             && array.is_c_contiguous()
+            && is_aligned(array)
         {
             return Ok(Self { array: array.readonly() });
         }
@@ -50,6 +51,11 @@ impl<'py> Numbers<'py> {
     }
 }
 
+/// Do its numbers stand where numbers may?
+fn is_aligned(array: &Bound<'_, PyArrayDyn<f64>>) -> bool {
+    array.data().is_aligned()
+}
+
 /// The argument as doubles in the order of rows.
 fn converted<'py>(value: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
     static CONVERT: PyOnceLock<Py<PyAny>> = PyOnceLock::new();
@@ -61,7 +67,11 @@ fn converted<'py>(value: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyArrayDyn<f
     let options = pyo3::types::PyDict::new(py);
     options.set_item("order", "C")?;
     let array = convert.bind(py).call((value, numpy::dtype::<f64>(py)), Some(&options))?;
-    Ok(array.cast_into::<PyArrayDyn<f64>>()?)
+    let array = array.cast_into::<PyArrayDyn<f64>>()?;
+    if is_aligned(&array) {
+        return Ok(array);
+    }
+    Ok(array.call_method0("copy")?.cast_into::<PyArrayDyn<f64>>()?)
 }
 
 /// A refusal of a shape.

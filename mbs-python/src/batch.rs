@@ -4,13 +4,15 @@ use crate::array::{Numbers, States, array, wrong_shape};
 use crate::error::{Class, exception, fields, guarded, internal, raised, usage};
 use crate::mechanism::Mechanism;
 use crate::values;
+use crate::watch::{Reached, silent, whole};
 use core::num::NonZeroUsize;
 use core::ops::ControlFlow;
 use mbs::parallel::ensemble::Ensemble;
-use mbs::{IntegratorKind, Rollout, RolloutEnd, Tree};
+use mbs::{IntegratorKind, Interrupt, Rollout, RolloutEnd, Tree};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use std::collections::BTreeMap;
+use std::sync::atomic::AtomicBool;
 use std::sync::{Arc, Mutex, PoisonError};
 
 /// Pools of threads of this process by their number: a fork has none of its parent's threads.
@@ -90,6 +92,8 @@ impl Mechanism {
         let (u, n_steps, many) = inputs(u, (k, nu), steps)?;
         let of_all = u.as_ref().map_or(&[][..], Numbers::slice);
         let rows = states.rows();
+        let flag = Arc::new(AtomicBool::new(false));
+        let interrupt = Interrupt::new(flag.clone());
         let task = |i: usize| Rollout {
             q: rows.get(0, i),
             v: rows.get(1, i),
@@ -97,10 +101,18 @@ impl Mechanism {
             step: dt,
             n_steps,
             integrator: kind,
+            interrupt: Some(&interrupt),
         };
         let sizes = [(n_steps + 1) * nq, (n_steps + 1) * nv];
         let mut all = sizes.map(|n| vec![f64::NAN; n * k]);
-        let ends = guarded(py, || self.motions(py, (k, threads), sizes, &mut all, &task))?;
+        let pool = if threads == 1 || k <= 1 { None } else { Some(pool(py, threads)?) };
+        let batch = Batch { first, k, sizes, pool };
+        let ends = if k.saturating_mul(n_steps) > LONG {
+            whole(py, &flag, &silent(&Reached::default()), || batch.motions(&mut all, &task))?
+        } else {
+            guarded(py, || Ok(py.detach(|| batch.motions(&mut all, &task))))?
+        };
+        let ends = ends.map_err(|message| internal(py, &message))?;
         let ok: Vec<bool> = ends.iter().map(Option::is_none).collect();
         let errors = PyDict::new(py);
         for (i, end) in ends.iter().enumerate().filter_map(|(i, end)| Some((i, end.as_ref()?))) {
@@ -115,56 +127,65 @@ impl Mechanism {
     }
 }
 
-impl Mechanism {
-    /// Makes the motions; ends of those that ended early.
+/// Steps in one call beyond which interrupts are heard [-]: shorter calls end by themselves.
+const LONG: usize = 10_000;
+
+/// Motions to be made.
+struct Batch<'a> {
+    first: &'a Tree,
+    k: usize,
+    /// Numbers of a motion in q and in v.
+    sizes: [usize; 2],
+    /// Threads; without any the caller's own.
+    pool: Option<Arc<Ensemble>>,
+}
+
+/// Why each motion ended early, where it did; else the message of a panic.
+type Ends = Result<Vec<Option<RolloutEnd>>, String>;
+
+impl Batch<'_> {
     fn motions<'a>(
         &self,
-        py: Python<'_>,
-        (k, threads): (usize, usize),
-        [n_q, n_v]: [usize; 2],
         [all_q, all_v]: &mut [Vec<f64>; 2],
         task: &(impl Fn(usize) -> Rollout<'a> + Sync),
-    ) -> PyResult<Vec<Option<RolloutEnd>>> {
+    ) -> Ends {
+        let [n_q, n_v] = self.sizes;
         let one = |tree: &mut Tree, i: usize, q: &mut [f64], v: &mut [f64]| {
             tree.rollout(&task(i), q, v).err()
         };
-        if threads == 1 || k <= 1 {
-            return self.with_tree(py, |tree| {
-                py.detach(|| {
-                    let parts =
-                        all_q.chunks_exact_mut(n_q.max(1)).zip(all_v.chunks_exact_mut(n_v.max(1)));
-                    parts.enumerate().map(|(i, (q, v))| one(tree, i, q, v)).collect()
-                })
-            });
-        }
-        let (pool, first) = (pool(py, threads)?, self.first(py)?);
-        let trees: Mutex<Vec<Tree>> = Mutex::new(Vec::new());
-        let jobs: Vec<usize> = (0..k).collect();
-        let mut ends: Vec<Option<RolloutEnd>> = Vec::new();
-        ends.resize_with(k, || None);
-        let mut panicked = None;
-        py.detach(|| {
-            let job = |i: usize| {
-                let spare = || trees.lock().unwrap_or_else(PoisonError::into_inner);
-                let tree = spare().pop();
-                let mut tree = tree.unwrap_or_else(|| first.clone());
-                let (mut q, mut v) = (vec![0.0; n_q], vec![0.0; n_v]);
-                let end = one(&mut tree, i, &mut q, &mut v);
-                spare().push(tree);
-                (q, v, end)
+        let Some(pool) = &self.pool else {
+            let mut tree = self.first.clone();
+            let each = |i: usize| {
+                let (q, v) = (&mut all_q[n_q * i..][..n_q], &mut all_v[n_v * i..][..n_v]);
+                one(&mut tree, i, q, v)
             };
-            pool.run(&jobs, job, |i, done| {
-                match done {
-                    Ok((q, v, end)) => {
-                        all_q[n_q * i..][..n_q].copy_from_slice(&q);
-                        all_v[n_v * i..][..n_v].copy_from_slice(&v);
-                        ends[i] = end;
-                    }
-                    Err(panic) => panicked = Some(panic.message().to_owned()),
+            return Ok((0..self.k).map(each).collect());
+        };
+        let trees: Mutex<Vec<Tree>> = Mutex::new(Vec::new());
+        let jobs: Vec<usize> = (0..self.k).collect();
+        let mut ends: Vec<Option<RolloutEnd>> = Vec::new();
+        ends.resize_with(self.k, || None);
+        let mut panicked = None;
+        let job = |i: usize| {
+            let spare = || trees.lock().unwrap_or_else(PoisonError::into_inner);
+            let tree = spare().pop();
+            let mut tree = tree.unwrap_or_else(|| self.first.clone());
+            let (mut q, mut v) = (vec![0.0; n_q], vec![0.0; n_v]);
+            let end = one(&mut tree, i, &mut q, &mut v);
+            spare().push(tree);
+            (q, v, end)
+        };
+        pool.run(&jobs, job, |i, done| {
+            match done {
+                Ok((q, v, end)) => {
+                    all_q[n_q * i..][..n_q].copy_from_slice(&q);
+                    all_v[n_v * i..][..n_v].copy_from_slice(&v);
+                    ends[i] = end;
                 }
-                ControlFlow::Continue(())
-            });
+                Err(panic) => panicked = Some(panic.message().to_owned()),
+            }
+            ControlFlow::Continue(())
         });
-        panicked.map_or(Ok(ends), |message| Err(internal(py, &message)))
+        panicked.map_or(Ok(ends), Err)
     }
 }

@@ -1,13 +1,14 @@
 //! Analyses and studies: equilibrium, modes, linear system, doctor, explanation, comparison.
 
+use crate::array::{Numbers, array};
 use crate::error::{Class, guarded, raised, unknown_name, usage};
 use crate::mechanism::Mechanism;
 use crate::watch::{Progress, Reached, silent, whole};
 use crate::{settings, value, values};
 use mbs::core::scene::Entry;
 use mbs::{
-    EquilibriumOptions, FormulationKind, Interrupt, Method, Place, Precision, ResolvedMethod,
-    Search, SimulationError,
+    EquilibriumOptions, FormulationKind, Interrupt, LinearSystem, LinearizeOptions, Matrix, Method,
+    Place, Precision, ResolvedMethod, Search, SimulationError,
 };
 use mbs_study::compare::{self, Earlier, Request};
 use mbs_study::doctor::{Effort, examine, to_json};
@@ -181,7 +182,9 @@ impl Mechanism {
         let file = &self.shared.file;
         let compared = whole(py, &flag, &progress, || {
             let none = (None, Earlier::default());
-            compare::compare(file, &request, None, none, &mut Watched(&reached))
+            let compared = compare::compare(file, &request, None, none, &mut Watched(&reached));
+            reached.set(1.0, 1.0);
+            compared
         })?;
         let compared = compared.map_err(|e| raised(py, &SimulationError::from(e), Class::Start))?;
         json(py, &compared.to_json())
@@ -195,19 +198,111 @@ fn json<'py>(py: Python<'py>, text: &str) -> PyResult<Bound<'py, PyAny>> {
     value::object(py, &object)
 }
 
-/// Modes about a state, with how the shapes are found.
+/// What a linear system is about: a place by its name, an equilibrium, or a state.
+enum At {
+    Place(Place),
+    State(Vec<f64>, Vec<f64>),
+}
+
+impl Mechanism {
+    fn at(&self, at: Option<&Bound<'_, PyAny>>) -> PyResult<At> {
+        let Some(at) = at else { return Ok(At::Place(Place::Equilibrium)) };
+        if let Ok(name) = at.extract::<String>() {
+            return Ok(At::Place(place(at.py(), &name)?));
+        }
+        // of an equilibrium its state
+        let state = if at.hasattr("state")? { at.getattr("state")? } else { at.clone() };
+        let wrong = |_| {
+            let hint = "give a name, an equilibrium, or (q, v)";
+            usage(at.py(), "wrong-type", "at is no state", hint, "at")
+        };
+        let (q, v): (Bound<'_, PyAny>, Bound<'_, PyAny>) = state.extract().map_err(wrong)?;
+        let first = self.first(at.py())?;
+        let q = Numbers::row(&q, "q", first.coordinates().len())?;
+        Ok(At::State(q, Numbers::row(&v, "v", first.velocities().len())?))
+    }
+
+    fn linear(
+        &self,
+        py: Python<'_>,
+        at: &At,
+        [inputs, outputs]: [Option<Vec<String>>; 2],
+    ) -> PyResult<LinearSystem> {
+        let [inputs, outputs] = [&inputs, &outputs].map(|names| {
+            names.as_ref().map(|names| names.iter().map(String::as_str).collect::<Vec<_>>())
+        });
+        let (inputs, outputs) = (inputs.as_deref(), outputs.as_deref());
+        let mechanism = &self.shared.mechanism;
+        let made = guarded(py, || match at {
+            At::Place(place) => {
+                let options = LinearizeOptions { place: *place, ..LinearizeOptions::default() };
+                Ok(py.detach(|| mbs::linearize(mechanism, &options, inputs, outputs)))
+            }
+            At::State(q, v) => self.with_tree(py, |tree| {
+                py.detach(|| mbs::linearize_at(mechanism, (tree, q, v), inputs, outputs))
+            }),
+        })?;
+        made.map_err(|error| raised(py, &error, Class::Start))
+    }
+}
+
+fn matrix<'py>(py: Python<'py>, matrix: &Matrix) -> PyResult<Bound<'py, PyAny>> {
+    array(py, matrix.data.clone(), &[matrix.rows, matrix.columns])
+}
+
 #[pymethods]
 impl Mechanism {
-    #[pyo3(name = "_modes", signature = (at = "equilibrium"))]
-    fn modes_of<'py>(&self, py: Python<'py>, at: &str) -> PyResult<Bound<'py, PyAny>> {
-        let place = place(py, at)?;
-        let found = guarded(py, || {
-            Ok(py.detach(|| mbs::Modes::new(&self.shared.scene, place, Search::Down)))
-        })?;
-        let found = found.map_err(|error| {
-            let names = mbs::Names::new(&self.shared.scene);
-            raised(py, &SimulationError::stopped(error, 0.0, &names), Class::Start)
-        })?;
-        value::object(py, &found.to_json())
+    /// dx/dt = A x + B u, y = C x + D u about a state: `"equilibrium"`, `"initial"`, `"moving"`, what `equilibrium()` gives, or (q, v). The
+    /// states x are independent coordinates and their rates, then the states of signals.
+    #[pyo3(signature = (at = None, inputs = None, outputs = None))]
+    fn linearize<'py>(
+        &self,
+        py: Python<'py>,
+        at: Option<&Bound<'py, PyAny>>,
+        inputs: Option<Vec<String>>,
+        outputs: Option<Vec<String>>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let at = self.at(at)?;
+        let s = self.linear(py, &at, [inputs, outputs])?;
+        let [a, b, c, d] = [&s.a, &s.b, &s.c, &s.d].map(|m| matrix(py, m));
+        values::make(py, "Linear", (a?, b?, c?, d?, s.states, s.inputs, s.outputs))
+    }
+
+    /// Eigenvalues of the motion about a state, with frequencies, damping ratios and shapes, from the slowest to the fastest.
+    #[pyo3(signature = (at = None))]
+    fn modes<'py>(
+        &self,
+        py: Python<'py>,
+        at: Option<&Bound<'py, PyAny>>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let at = self.at(at)?;
+        let none = || Some(Vec::new());
+        let system = self.linear(py, &at, [none(), none()])?;
+        let shapes = guarded(py, || Ok(py.detach(|| system.shapes())))?;
+        let shapes = shapes.map_err(|error| raised(py, &error, Class::Start))?;
+        let pairs = shapes.iter().flat_map(|shape| &shape.states).flatten().copied();
+        let (n, m) = (shapes.len(), system.states.len());
+        let pairs = array(py, pairs.collect(), &[n, 2 * m])?;
+        let complex = |pairs: Bound<'py, PyAny>| pairs.call_method1("view", ("complex128",));
+        let modes = || shapes.iter().map(|shape| &shape.mode);
+        let values = modes().flat_map(|mode| [mode.real, mode.imaginary]).collect();
+        let eigenvalues = complex(array(py, values, &[2 * n])?)?;
+        let frequencies = array(py, modes().map(mbs::Mode::frequency).collect(), &[n])?;
+        let damping = modes().map(|mode| mode.damping_ratio().unwrap_or(f64::NAN)).collect();
+        let damping = array(py, damping, &[n])?;
+        let summary = match at {
+            At::Place(place) => {
+                let found = mbs::Modes::new(&self.shared.scene, place, Search::Down);
+                let names = mbs::Names::new(&self.shared.scene);
+                let found = found.map_err(|error| {
+                    raised(py, &SimulationError::stopped(error, 0.0, &names), Class::Start)
+                })?;
+                value::object(py, &found.to_json())?
+            }
+            At::State(..) => PyDict::new(py).into_any(),
+        };
+        let shapes = complex(pairs)?;
+        let fields = (eigenvalues, frequencies, damping, shapes, system.states, summary);
+        values::make(py, "Modes", fields)
     }
 }

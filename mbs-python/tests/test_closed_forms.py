@@ -1,12 +1,13 @@
 """Motions with a closed form."""
 
 import math
+from typing import Any
 
 import multibody as mbs
 import numpy as np
 from conftest import needs, scene
 
-FINE = {"formulation": "recursive", "integrator": "rk853", "tolerance": 1e-13}
+FINE: dict[str, Any] = {"formulation": "recursive", "integrator": "rk853", "tolerance": 1e-13}
 """A Runge-Kutta method of order 8, so that what is left is the rounding of some thousand operations."""
 EXACT = 1e-10
 """Error of rk853 at a tolerance of 1e-13 over ten seconds: below a thousand steps of it."""

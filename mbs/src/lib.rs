@@ -68,7 +68,7 @@ pub use front::{
     InputOwner, InputTableError, Joint, Mechanism, NamedSignal, Observer, Output, OutputFunction,
     Part, PathError, PointMotion, Pose, Rolling, Run, RunInputs, RunResult, SceneError, Simulation,
     SimulationError, Sizes, Snapshot, StepReport, Table, UnknownName, View, Wrench, equilibrium,
-    linearize, modes, run, run_with, with_inputs,
+    linearize, linearize_at, modes, run, run_with, with_inputs,
 };
 pub use interrupt::Interrupt;
 pub use linear_system::{LinearSystem, LinearizeOptions, ModeShape};

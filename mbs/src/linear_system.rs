@@ -24,6 +24,7 @@ use crate::names::Names;
 use crate::placed::{Place, PlacedScene};
 use crate::rest::LeftOut;
 use crate::stop::StopError;
+use mbs_core::rigid::RigidMotion;
 use mbs_core::scene::{Dimension, Scene};
 use mbs_linear::{Equilibrium, Linear, LinearError, LinearOptions, LinearPorts};
 use mbs_linear::{Ports, linearise_ports};
@@ -60,8 +61,8 @@ impl Default for LinearizeOptions {
 pub struct LinearSystem {
     /// Name of the scene.
     pub scene: String,
-    /// About which state.
-    pub place: Place,
+    /// About which state; of one that was given nothing.
+    pub place: Option<Place>,
     /// The equilibrium, if that is the place.
     pub found: Option<Equilibrium<f64>>,
     /// What is left out, of the equilibrium too.
@@ -105,27 +106,61 @@ impl LinearSystem {
         inputs: Option<&[&str]>,
         outputs: Option<&[&str]>,
     ) -> Result<Self, SimulationError> {
-        let asked = Asked { options, inputs, outputs };
+        let LinearizeOptions { place, search } = *options;
+        let asked = Asked { place: Some(place), inputs, outputs };
+        let stopped = |error| SimulationError::stopped(error, 0.0, &Names::new(scene));
         match scene.dimension {
-            Dimension::Planar => asked.system::<2>(scene),
-            Dimension::Spatial => asked.system::<3>(scene),
+            Dimension::Planar => {
+                let placed = PlacedScene::<2>::new(scene, place, search);
+                asked.system(scene, &placed.map_err(stopped)?)
+            }
+            Dimension::Spatial => {
+                let placed = PlacedScene::<3>::new(scene, place, search);
+                asked.system(scene, &placed.map_err(stopped)?)
+            }
+        }
+    }
+
+    /// Linearises a scene whose bodies move as `motions` say, which meet the constraints; angles are next to the scene's initial values.
+    ///
+    /// # Errors
+    /// As for [`linearize_at`](crate::linearize_at).
+    pub(crate) fn at(
+        scene: &Scene<f64>,
+        motions: &[RigidMotion<f64>],
+        inputs: Option<&[&str]>,
+        outputs: Option<&[&str]>,
+    ) -> Result<Self, SimulationError> {
+        let asked = Asked { place: None, inputs, outputs };
+        let stopped = |error| SimulationError::stopped(error, 0.0, &Names::new(scene));
+        match scene.dimension {
+            Dimension::Planar => {
+                let placed = PlacedScene::<2>::given(scene, motions);
+                asked.system(scene, &placed.map_err(stopped)?)
+            }
+            Dimension::Spatial => {
+                let placed = PlacedScene::<3>::given(scene, motions);
+                asked.system(scene, &placed.map_err(stopped)?)
+            }
         }
     }
 }
 
 /// What is asked for.
 struct Asked<'a> {
-    options: &'a LinearizeOptions,
+    place: Option<Place>,
     inputs: Option<&'a [&'a str]>,
     outputs: Option<&'a [&'a str]>,
 }
 
 impl Asked<'_> {
-    fn system<const D: usize>(&self, scene: &Scene<f64>) -> Result<LinearSystem, SimulationError> {
+    fn system<const D: usize>(
+        &self,
+        scene: &Scene<f64>,
+        placed: &PlacedScene<D>,
+    ) -> Result<LinearSystem, SimulationError> {
         let stopped = |error| SimulationError::stopped(error, 0.0, &Names::new(scene));
         let columns = OutputColumns::new(scene, self.outputs)?;
-        let LinearizeOptions { place, search } = *self.options;
-        let placed = PlacedScene::<D>::new(scene, place, search).map_err(stopped)?;
         let (model, state) = (&placed.ready.model, &placed.ready.start.state);
         let inputs = InputPlaces::new(scene, model, self.inputs)?;
         let mut measured = Measured::new(&placed.scene, model, &columns).map_err(stopped)?;
@@ -147,9 +182,9 @@ impl Asked<'_> {
         state_values.extend(state.signals[..linear.signals.n].iter().map(|[value, _]| *value));
         Ok(LinearSystem {
             scene: scene.name.clone(),
-            place,
+            place: self.place,
             found: placed.found,
-            left_out: placed.left_out,
+            left_out: placed.left_out.clone(),
             states: layout.state_names(&chosen, names::signal_states(scene, model)),
             input_values: inputs.places.iter().map(|&place| state.inputs[place]).collect(),
             inputs: inputs.names,

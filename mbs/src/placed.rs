@@ -4,6 +4,7 @@ use crate::equilibrium::{Search, find_equilibrium};
 use crate::ready::AssembledScene;
 use crate::rest::{LeftOut, at_rest, left_out};
 use crate::stop::StopError;
+use mbs_core::rigid::RigidMotion;
 use mbs_core::scene::Scene;
 use mbs_linear::{Equilibrium, Instant};
 
@@ -56,5 +57,18 @@ impl<const D: usize> PlacedScene<D> {
         let is_at_rest = place == Place::Equilibrium;
         let instant = if is_at_rest { Instant::Rest } else { Instant::Motion };
         Ok(Self { scene, ready, found, left_out, instant })
+    }
+
+    /// A scene whose bodies move as `motions` say, which meet the constraints. Guides are where they begin, and move as they do there.
+    ///
+    /// # Errors
+    /// [`StopError`] when there is no model, or no accelerations.
+    pub(crate) fn given(
+        scene: &Scene<f64>,
+        motions: &[RigidMotion<f64>],
+    ) -> Result<Self, StopError> {
+        let ready = AssembledScene::placed(scene, (0.0, motions))?;
+        let (found, left_out, instant) = (None, Vec::new(), Instant::Motion);
+        Ok(Self { scene: scene.clone(), ready, found, left_out, instant })
     }
 }

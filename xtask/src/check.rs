@@ -7,6 +7,7 @@ use crate::package;
 use crate::pages;
 use crate::pick;
 use crate::process::{self, cargo, run};
+use crate::python;
 use crate::summary::{LeftOut, Outcome, Summary};
 use std::process::{Command, ExitCode, Stdio};
 
@@ -125,7 +126,11 @@ const THEN: [&[Listed]; 2] = [
         ("documentation", documentation::check, IfQuick::Skipped),
         ("counts", counts, IfQuick::Skipped),
     ],
-    &[("check-nostd", nostd::check, IfQuick::Runs), ("pick", pick::check, IfQuick::Runs)],
+    &[
+        ("check-nostd", nostd::check, IfQuick::Runs),
+        ("pick", pick::check, IfQuick::Runs),
+        ("python", python::check, IfQuick::Skipped),
+    ],
 ];
 
 fn checks(is_quick: bool, summary: &mut Summary) {
@@ -158,6 +163,7 @@ fn long(summary: &mut Summary) {
         ("peers", &["peers", "--quick"]),
     ];
     summary.check("packages", package::check);
+    summary.check("notebooks", python::notebooks);
     for (name, words) in jobs {
         let job = || passed(Command::new(std::env::current_exe().unwrap_or_default()).args(words));
         summary.check(name, job);

@@ -13,6 +13,7 @@ pub mod pages;
 pub mod pick;
 pub mod pictures;
 pub mod process;
+pub mod python;
 pub mod races;
 pub mod simulate;
 pub mod summary;

@@ -4,7 +4,7 @@ use clap::error::ErrorKind::InvalidSubcommand;
 use clap::{CommandFactory, Parser, Subcommand};
 use std::ffi::OsString;
 use std::process::ExitCode;
-use xtask::{bundle, check, nostd, package, pick, pictures, process, races, simulate};
+use xtask::{bundle, check, nostd, package, pick, pictures, process, python, races, simulate};
 
 /// The jobs of `lab`.
 const LAB: &str = "Jobs that measure, each with its own --help; they are compiled when one is asked for: bench, choice, counts, estimate, fuzz, gauntlet, peers, profile, report, steps, tables";
@@ -36,21 +36,23 @@ enum Job {
         #[arg(trailing_var_arg = true, allow_hyphen_values = true, value_name = "ARGS")]
         args: Vec<OsString>,
     },
-    /// Every check, also behind one that fails: format, lints, tests, fuzz, pages, documentation, features, pick, check-nostd, counts
+    /// Every check, also behind one that fails: format, lints, tests, fuzz, pages, documentation, features, pick, check-nostd, counts, python
     #[command(alias = "ci")]
     Test {
-        /// Skip lints, fuzz, pages, documentation and counts
+        /// Skip lints, fuzz, pages, documentation, counts and the Python package
         #[arg(long)]
         quick: bool,
         /// Fail where a check cannot run for want of a tool
         #[arg(long)]
         strict: bool,
-        /// Then the jobs that take hours: packages, races, the whole gauntlet, long fuzzing, choice, report, peers
+        /// Then the jobs that take hours: packages, races, the whole gauntlet, long fuzzing, choice, report, peers, notebooks
         #[arg(long, conflicts_with = "quick")]
         long: bool,
     },
     /// Build and run each package of examples/pick: mbs-core and one formulation alone
     Pick,
+    /// Build the wheel of the Python package, and test it in a clean virtual environment
+    Python,
     /// Package every crate, and build the packages on each other
     Package,
     /// Watch the lock-free team of mbs-parallel for data races, under ThreadSanitizer
@@ -77,6 +79,7 @@ fn main() -> ExitCode {
             check::test(check::Scope { is_quick: quick, is_strict: strict, is_long: long })
         }
         Job::Pick => pick::pick(),
+        Job::Python => python::python(),
         Job::Package => package::package(),
         Job::Races => races::races(),
         Job::Bundle => bundle::bundle(),

@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
 __all__ = [
+    "Builder",
     "BusyError",
     "Derivatives",
     "Equilibrium",
@@ -42,9 +43,27 @@ __all__ = [
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Runs the command `mbs` with these arguments, else with those of the process, and gives its exit status."""
+    import signal
     import sys
 
     from ._multibody import command
 
     words = sys.argv[1:] if arguments is None else list(arguments)
-    return command([sys.executable, "-m", "multibody"], words)
+    try:
+        # the command hears of Ctrl-C by itself
+        before = signal.signal(signal.SIGINT, signal.SIG_DFL)
+    except ValueError:
+        # this is no main thread, and has no signals
+        return command([sys.executable, "-m", "multibody"], words)
+    try:
+        return command([sys.executable, "-m", "multibody"], words)
+    finally:
+        signal.signal(signal.SIGINT, before)
+
+
+def __getattr__(name: str) -> object:
+    if name == "Builder":
+        from .builder import Builder
+
+        return Builder
+    raise AttributeError(f"module `multibody` has no attribute `{name}`")

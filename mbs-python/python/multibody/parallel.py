@@ -89,6 +89,7 @@ def sweep(job: Sweep, client: object, journal: str | None, progress: Callable[[i
     missing = collection.missing()
     done = job.n_members - len(missing)
     report = _throttled(progress, job.n_members)
+    report(done)
     for member, row in _rows(_engine(client, job, _run_members), missing, list):
         collection.take(job.lost(member) if row is None else row)
         done += 1
@@ -145,7 +146,7 @@ def _run_starts(shared: tuple[Any, ...], arrays: list[Any]) -> list[tuple[Any, .
     return [(*each, errors.get(i)) for i, each in enumerate(zip(q, v, ok))]
 
 
-def _timed(work: Work[Any], shared: Any, packed: Any) -> tuple[Sequence[Any], float]:
+def _timed(work: Work, shared: Any, packed: Any) -> tuple[Sequence[Any], float]:
     began = time.perf_counter()
     rows = work(shared, packed)
     return rows, time.perf_counter() - began

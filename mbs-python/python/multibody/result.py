@@ -60,7 +60,11 @@ class Result(Mapping[str, Any]):
         try:
             return self._data[self._places[name]]  # type: ignore[no-any-return]
         except KeyError:
-            raise _Unknown(name, self.columns) from None
+            from ._multibody import nearest_name
+
+            hint = nearest_name(name, self.columns)
+            message = f"there is no output `{name}`"
+            raise UnknownOutput(message, code="unknown-name", hint=hint, argument=name) from None
 
     def __iter__(self) -> Iterator[str]:
         return iter(self.columns)
@@ -118,15 +122,5 @@ class Result(Mapping[str, Any]):
         return {**self.__dict__, "_record": None}
 
 
-class _Unknown(UsageError, KeyError):
-    """A column that is not there."""
-
-    def __init__(self, name: str, columns: list[str], **fields: Any) -> None:
-        from ._multibody import nearest_name
-
-        fields = {"hint": nearest_name(name, columns), "argument": name, **fields}
-        fields.pop("code", None)
-        super().__init__(f"there is no output `{name}`", code="unknown-name", **fields)
-
-    def __reduce__(self) -> tuple[Any, ...]:
-        return _Unknown, (self.argument, [])
+class UnknownOutput(UsageError, KeyError):
+    """An output that is not there."""

@@ -117,7 +117,7 @@ class Table:
 
     def frame(self) -> dict[str, Any]:
         """Columns by name, in order: `pandas.DataFrame(table.frame())`. Codes and messages are lists of texts."""
-        texts = ("completed", "code", "message")
+        texts = ("completed", "error", "message")
         places = {name: i for i, name in enumerate(self.columns) if name in texts}
         return {n: [row[places[n]] for row in self.rows] if n in places else self[n] for n in self.columns}
 
@@ -135,7 +135,7 @@ class Table:
     @property
     def failures(self) -> dict[int, tuple[str, str]]:
         """Members, from 1, that were not completed: code and message."""
-        done, code, message = (self.columns.index(name) for name in ("completed", "code", "message"))
+        done, code, message = (self.columns.index(name) for name in ("completed", "error", "message"))
         return {int(row[0]): (row[code], row[message]) for row in self.rows if row[done] != "true"}
 
 

@@ -34,8 +34,12 @@ impl Serialize for Value<'_> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         match &self.0.node {
             Node::Text(text) => serializer.serialize_str(text),
-            Node::Number(text) => match Number::from_decimal(text) {
-                Some(x) if Number::from(x.to_f64()) == x => serializer.serialize_f64(x.to_f64()),
+            Node::Number(text) => match (text.parse::<i64>(), Number::from_decimal(text)) {
+                // a count or a dimension is no float
+                (Ok(whole), _) => serializer.serialize_i64(whole),
+                (_, Some(x)) if Number::from(x.to_f64()) == x => {
+                    serializer.serialize_f64(x.to_f64())
+                }
                 _ => {
                     let mut map = serializer.serialize_map(Some(1))?;
                     map.serialize_entry(DECIMAL, text)?;

@@ -38,6 +38,8 @@ pub(crate) trait Inner: Sink + Debug + Send + Sync {
     /// A time as its clock shows it [s], and the rounding of its numbers, relative.
     fn rounded(&self, time: f64) -> (f64, f64);
     fn is_controlled(&self) -> bool;
+    /// Is it to end, by a flag that somebody sets?
+    fn is_interrupted(&self) -> bool;
     /// Advances by `dt` [s], or by what is left; `to` is the time at the end where that is known.
     fn step(&mut self, dt: Option<f64>, to: Option<f64>) -> Result<StepReport, StopError>;
     /// Does a joint follow a guide?
@@ -150,6 +152,10 @@ impl<T: Real, const D: usize> Inner for Typed<T, D> {
         self.settings.step_max
     }
 
+    fn is_interrupted(&self) -> bool {
+        self.settings.interrupt.is_set()
+    }
+
     fn step(&mut self, dt: Option<f64>, to: Option<f64>) -> Result<StepReport, StopError> {
         let Self { seen: Seen { scene, simulation, readings }, settings, clock, contacts } = self;
         let (now, to) = (simulation.state().t, to.map(|to| exact::<T>(scene, to)));
@@ -242,7 +248,10 @@ impl<T: Real, const D: usize> Inner for Typed<T, D> {
 }
 
 /// A scene that starts with these coordinates and rates of joints.
-fn started<T: Real>(own: &Scene<T>, states: &[(JointId, Coordinates, Coordinates)]) -> Scene<T> {
+pub(super) fn started<T: Real>(
+    own: &Scene<T>,
+    states: &[(JointId, Coordinates, Coordinates)],
+) -> Scene<T> {
     let numbers = |from: &Coordinates| from.iter().map(|x| T::from_f64(*x)).collect();
     let condition = |(joint, values, rates): &(JointId, Coordinates, Coordinates)| {
         let (joint, value, rate) = (*joint, Some(numbers(values)), Some(numbers(rates)));

@@ -31,7 +31,9 @@ pub use inputs::{InputId, InputInfo, InputOwner};
 pub use mechanism::Mechanism;
 pub use part::{Id, Part};
 pub use simulation::{Simulation, Snapshot};
-pub use study::{EquilibriumOptions, Run, RunResult, equilibrium, linearize, modes, run, run_with};
+pub use study::{
+    EquilibriumOptions, Run, RunResult, equilibrium, linearize, linearize_at, modes, run, run_with,
+};
 pub use table::Table;
 pub use values::{
     BodyMotion, Components, ContactEvent, Coordinates, Energies, PointMotion, Pose, Sizes,

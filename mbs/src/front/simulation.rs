@@ -140,6 +140,9 @@ impl Simulation {
             if is_last {
                 return Ok(sum);
             }
+            if self.inner.is_interrupted() {
+                return Err(self.stopped(StopError::Interrupted));
+            }
         }
     }
 

@@ -2,9 +2,11 @@
 
 use super::failure::SimulationError;
 use super::function::{Function, FunctionColumns};
+use super::inner::started;
 use super::inputs::Inputs;
 use super::mechanism::Mechanism;
 use super::table::Table;
+use super::tree::Tree;
 use super::view::{Observed, Observer, Sight};
 use crate::equilibrium::Search;
 use crate::linear_system::{LinearSystem, LinearizeOptions};
@@ -206,4 +208,35 @@ pub fn linearize(
     outputs: Option<&[&str]>,
 ) -> Result<LinearSystem, SimulationError> {
     LinearSystem::new(&m.resolve_scene()?, options, inputs, outputs)
+}
+
+/// [`linearize`] about coordinates and velocities of a tree of the mechanism, at time zero with the inputs as they begin. Loops are closed
+/// first; the tree is at the state then.
+///
+/// # Errors
+/// As for [`linearize`], and those of [`Tree::set`] and [`Tree::make_consistent`].
+///
+/// # Examples
+/// ```
+/// use mbs::{Body, GROUND, Joint, Mechanism, linearize_at};
+/// let mut m = Mechanism::planar("pendulum");
+/// m.set_gravity([0.0, -9.81]);
+/// let bob = m.add(Body::planar([0.0, -1.0], 1.0, 0.0));
+/// m.add(Joint::revolute([GROUND, bob], [0.0, 0.0]));
+/// // upside down
+/// let system = linearize_at(&m, (&mut m.tree()?, &[core::f64::consts::PI], &[0.0]), None, None)?;
+/// assert!((system.a[(1, 0)] - 9.81).abs() < 1e-8);
+/// # Ok::<(), mbs::SimulationError>(())
+/// ```
+pub fn linearize_at(
+    m: &Mechanism,
+    (tree, q, v): (&mut Tree, &[f64], &[f64]),
+    inputs: Option<&[&str]>,
+    outputs: Option<&[&str]>,
+) -> Result<LinearSystem, SimulationError> {
+    tree.reset();
+    tree.set(q, v)?;
+    tree.make_consistent()?;
+    let scene = started(&m.resolve_scene()?, &tree.joint_states());
+    LinearSystem::at(&scene, tree.motions(), inputs, outputs)
 }

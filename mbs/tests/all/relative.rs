@@ -156,7 +156,15 @@ fn a_rollout_is_the_simulation_in_relative_coordinates() {
         let inputs: Vec<f64> =
             (0..n_inputs * n_steps).map(|_| random.vector(1, 1, 1.0)[0]).collect();
         for integrator in [IntegratorKind::Rk4, IntegratorKind::Trapezoidal] {
-            let task = Rollout { q: &q, v: &v, inputs: &inputs, step: 1e-3, n_steps, integrator };
+            let task = Rollout {
+                q: &q,
+                v: &v,
+                inputs: &inputs,
+                step: 1e-3,
+                n_steps,
+                integrator,
+                interrupt: None,
+            };
             let mut rows = [vec![0.0; q.len() * 51], vec![0.0; v.len() * 51]];
             let [to_q, to_v] = &mut rows;
             tree.rollout(&task, to_q, to_v).unwrap_or_else(|end| panic!("{name}: {}", end.error));
@@ -181,6 +189,7 @@ fn a_rollout_that_fails_says_when_and_leaves_no_numbers_behind() {
         step: 1e-3,
         n_steps: 10,
         integrator,
+        interrupt: None,
     };
     let end = tree.rollout(&task, &mut q, &mut v).expect_err("no motion");
     assert!(end.error.hint().is_some(), "{}", end.error);

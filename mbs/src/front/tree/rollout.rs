@@ -4,8 +4,10 @@ use super::inner::{Inner, Typed, with};
 use super::{Tree, checked};
 use crate::choice::IntegratorKind;
 use crate::front::failure::SimulationError;
+use crate::interrupt::Interrupt;
 use crate::methods::{Demands, tree_options, tree_step};
 use crate::names::Names;
+use crate::stop::StopError;
 use mbs_core::step::StepError;
 use mbs_recursive::space::Space;
 use mbs_recursive::{TreeModel, TreeState};
@@ -25,6 +27,8 @@ pub struct Rollout<'a> {
     pub n_steps: usize,
     /// Integrator.
     pub integrator: IntegratorKind,
+    /// What ends it from outside.
+    pub interrupt: Option<&'a Interrupt>,
 }
 
 /// Why a motion ended early, and after how many steps.
@@ -69,7 +73,8 @@ impl Tree {
     /// let mut tree = mbs::Mechanism::read(path)?.tree()?;
     /// let (mut q, mut v) = ([0.0; 2 * 1001], [0.0; 2 * 1001]);
     /// let integrator = IntegratorKind::Rk4;
-    /// let task = Rollout { q: &[0.0; 2], v: &[0.0; 2], inputs: &[], step: 1e-3, n_steps: 1000, integrator };
+    /// let (q0, v0, interrupt) = ([0.0; 2], [0.0; 2], None);
+    /// let task = Rollout { q: &q0, v: &v0, inputs: &[], step: 1e-3, n_steps: 1000, integrator, interrupt };
     /// tree.rollout(&task, &mut q, &mut v).map_err(|end| end.error)?;
     /// // two rods of 1 m and 1 kg, let go level
     /// assert!((q[2000] - -2.77849).abs() < 1e-4);
@@ -90,6 +95,11 @@ impl Tree {
         self.begin(task).map_err(at(0))?;
         self.keep((q_rows, v_rows), 0);
         for k in 0..task.n_steps {
+            if task.interrupt.is_some_and(Interrupt::is_set) {
+                let time = self.inner.state().t;
+                let error = SimulationError::stopped(StopError::Interrupted, time, &self.names);
+                return Err(RolloutEnd { steps: k, error });
+            }
             self.step(task, k).map_err(at(k))?;
             self.keep((q_rows, v_rows), k + 1);
         }

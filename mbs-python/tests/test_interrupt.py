@@ -1,0 +1,84 @@
+"""Ctrl-C ends a run, a comparison and a sweep at once."""
+
+import signal
+import time
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+import multibody as mbs
+import pytest
+from conftest import scene
+
+PROMPT = 0.3
+"""Longest time from the signal to the exception [s]: 0.1 s on an idle machine, tripled for a busy one."""
+AFTER = 0.2
+"""When the signal comes [s]."""
+
+
+@contextmanager
+def interrupted() -> Iterator[None]:
+    """The body gets a KeyboardInterrupt in time."""
+    before = signal.signal(signal.SIGALRM, lambda *_: signal.raise_signal(signal.SIGINT))
+    signal.setitimer(signal.ITIMER_REAL, AFTER)
+    began = time.monotonic()
+    try:
+        with pytest.raises(KeyboardInterrupt):
+            yield
+        assert time.monotonic() - began < AFTER + PROMPT
+    finally:
+        signal.setitimer(signal.ITIMER_REAL, 0)
+        signal.signal(signal.SIGALRM, before)
+
+
+def pendulum() -> mbs.Mechanism:
+    return mbs.Mechanism(scene("double-pendulum"))
+
+
+SWEEP = {"vary": [{"path": "body.upper.mass", "from": 1.0, "to": 2.0, "count": 10000}]}
+LONG: dict[str, Callable[[], object]] = {
+    "run": lambda: pendulum().run(1e4),
+    "run with progress": lambda: pendulum().run(1e4, progress=lambda t, end: None),
+    "run of a large scene": lambda: mbs.Mechanism(scene("iltis-bump-5")).run(1e4),
+    "steps": lambda: pendulum().simulate().steps(1e-3, 10**7),
+    "run_until": lambda: pendulum().simulate().run_until(1e4),
+    "rollout": lambda: pendulum().rollout([[0.0, 0.0]] * 64, [[0.0, 0.0]] * 64, steps=10**5, threads=1),
+    "compare": lambda: pendulum().compare(duration=1e3),
+    "sweep": lambda: pendulum().sweep(SWEEP, threads=2),
+    "doctor": lambda: [mbs.Mechanism(scene("hexapod")).doctor() for _ in range(1000)],
+}
+
+
+@pytest.mark.parametrize("name", LONG)
+def test_an_interrupt_is_prompt(name: str) -> None:
+    with interrupted():
+        LONG[name]()
+
+
+def test_a_simulation_that_was_interrupted_goes_on() -> None:
+    simulation = pendulum().simulate()
+    with interrupted():
+        simulation.steps(1e-3, 10**7)
+    time_ = simulation.time
+    assert time_ > 0.0
+    simulation.step(1e-3)
+    assert simulation.time == pytest.approx(time_ + 1e-3)
+
+
+def test_an_interrupted_sweep_resumes_from_its_journal(tmp_path: Path) -> None:
+    spec = {"vary": [{"path": "body.upper.mass", "from": 1.0, "to": 2.0, "count": 60}]}
+    with interrupted():
+        pendulum().sweep(spec, journal=tmp_path, threads=1, duration=5.0)
+    counts: list[int] = []
+    table = pendulum().sweep(spec, journal=tmp_path, threads=1, duration=5.0, progress=lambda done, n: counts.append(done))
+    assert counts[0] > 0
+    assert len(table) == 60
+    assert not table.failures
+
+
+def test_a_progress_that_raises_ends_the_run() -> None:
+    def refuse(t: float, end: float) -> None:
+        raise ZeroDivisionError
+
+    with pytest.raises(ZeroDivisionError):
+        pendulum().run(1e4, progress=refuse)

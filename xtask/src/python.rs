@@ -1,0 +1,126 @@
+//! `cargo xtask python`: the wheel of the Python package, and its tests in a clean virtual environment.
+
+use crate::process::{self, output, run};
+use crate::summary::{self, LeftOut, Outcome};
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::{Command, ExitCode};
+
+/// Oldest Python that the package is for.
+const OLDEST: [u32; 2] = [3, 11];
+
+/// Runs the check by itself.
+pub fn python() -> ExitCode {
+    summary::ended("python", check())
+}
+
+/// Builds the wheel, as the tests of the workspace are built, and tests it with what the package works with.
+///
+/// # Errors
+///
+/// What failed first.
+pub(crate) fn check() -> Result<Outcome, String> {
+    let Some(python) = interpreter() else {
+        let [major, minor] = OLDEST;
+        return Ok(Outcome::LeftOut(LeftOut {
+            why: format!("no Python of version {major}.{minor} or later with venv is installed"),
+            remedy: "On Debian, as root: `apt-get install python3 python3-venv`.".to_owned(),
+        }));
+    };
+    let place = place();
+    let wheel = wheel(&python, &place)?;
+    let tests = environment(&python, &place.join("tested"))?;
+    pip(&tests, &["--requirement", "mbs-python/tests/requirements.txt"])?;
+    pip(&tests, &["--no-deps", "--force-reinstall", &wheel.display().to_string()])?;
+    let folder = process::root().join("mbs-python");
+    let pytest = ["-m", "pytest", "--quiet", "-p", "no:cacheprovider"];
+    run(in_environment(&tests).args(pytest).current_dir(&folder))?;
+    for example in examples(&folder.join("examples"))? {
+        run(in_environment(&tests).arg(&example).current_dir(&folder))?;
+    }
+    let size = fs::metadata(&wheel).map_err(|e| format!("{}: {e}", wheel.display()))?.len();
+    Ok(Outcome::Passed(format!("a wheel of {} MB without optimisation", size / 1_000_000)))
+}
+
+/// Runs the notebooks, whose code is that of the examples.
+///
+/// # Errors
+///
+/// The first one that fails.
+pub(crate) fn notebooks() -> Result<Outcome, String> {
+    let tests = place().join("tested");
+    pip(&tests, &["nbclient", "nbformat", "ipykernel", "matplotlib"])?;
+    let folder = process::root().join("mbs-python");
+    run(in_environment(&tests).args(["tools/notebooks.py", "--run"]).current_dir(folder))?;
+    Ok(Outcome::Passed(String::new()))
+}
+
+/// The folder of wheels and environments.
+fn place() -> PathBuf {
+    process::target_dir().join("python")
+}
+
+/// A Python that is young enough and makes environments.
+fn interpreter() -> Option<String> {
+    let [major, minor] = OLDEST;
+    let question =
+        format!("import sys, venv, ensurepip; sys.exit(sys.version_info < ({major}, {minor}))");
+    let names = ["python3", "python3.13", "python3.12", "python3.11", "python"];
+    let fits = |name: &&str| output(Command::new(name).args(["-c", &question])).is_some();
+    names.into_iter().find(fits).map(str::to_owned)
+}
+
+/// A clean environment.
+fn environment(python: &str, at: &Path) -> Result<PathBuf, String> {
+    run(Command::new(python).args(["-m", "venv", "--clear"]).arg(at))?;
+    Ok(at.to_owned())
+}
+
+/// The Python of an environment; a test that lacks what it works with fails in it.
+fn in_environment(at: &Path) -> Command {
+    let bin = at.join(if cfg!(windows) { "Scripts" } else { "bin" });
+    let mut command = Command::new(bin.join("python"));
+    command.env("VIRTUAL_ENV", at).env("MBS_STRICT", "1").env_remove("PYTHONPATH");
+    command
+}
+
+fn pip(at: &Path, words: &[&str]) -> Result<(), String> {
+    let install = ["-m", "pip", "install", "--quiet", "--disable-pip-version-check"];
+    run(in_environment(at).args(install).args(words).current_dir(process::root()))
+}
+
+/// Builds the wheel with the features of the workspace's tests: what these have compiled is not compiled again.
+fn wheel(python: &str, place: &Path) -> Result<PathBuf, String> {
+    let tools = environment(python, &place.join("tools"))?;
+    pip(&tools, &["--requirement", "mbs-python/tools/requirements.txt"])?;
+    let wheels = place.join("wheels");
+    let _ = fs::remove_dir_all(&wheels);
+    let build = [
+        "-m",
+        "maturin",
+        "build",
+        "--quiet",
+        "--profile",
+        "dev",
+        "--features",
+        "as-tested",
+        "--out",
+    ];
+    run(in_environment(&tools)
+        .args(build)
+        .arg(&wheels)
+        .env("CARGO_TARGET_DIR", process::target_dir())
+        .current_dir(process::root().join("mbs-python")))?;
+    let entries = fs::read_dir(&wheels).map_err(|e| format!("{}: {e}", wheels.display()))?;
+    let wheel = entries.flatten().map(|entry| entry.path()).next();
+    wheel.ok_or_else(|| "maturin built no wheel".to_owned())
+}
+
+/// The programs of a folder, in order.
+fn examples(folder: &Path) -> Result<Vec<PathBuf>, String> {
+    let entries = fs::read_dir(folder).map_err(|e| format!("{}: {e}", folder.display()))?;
+    let is_program = |path: &PathBuf| path.extension().is_some_and(|ending| ending == "py");
+    let mut all: Vec<_> = entries.flatten().map(|entry| entry.path()).filter(is_program).collect();
+    all.sort();
+    if all.is_empty() { Err("mbs-python/examples holds no program".to_owned()) } else { Ok(all) }
+}
