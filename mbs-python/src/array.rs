@@ -168,3 +168,13 @@ pub(crate) fn array<'py>(
 pub(crate) fn vector<'py>(py: Python<'py>, data: &[f64]) -> Bound<'py, PyAny> {
     numpy::PyArray1::from_slice(py, data).into_any()
 }
+
+/// A point or vector of three numbers; of two in the plane.
+pub(crate) fn point(at: &Bound<'_, PyAny>) -> PyResult<[f64; 3]> {
+    let numbers = Numbers::new(at, "at", false)?;
+    match *numbers.slice() {
+        [x, y] if numbers.shape().len() == 1 => Ok([x, y, 0.0]),
+        [x, y, z] if numbers.shape().len() == 1 => Ok([x, y, z]),
+        _ => Err(wrong_shape(at.py(), "at", numbers.shape(), "(3,), in the plane (2,)")),
+    }
+}

@@ -4,6 +4,7 @@ mod array;
 mod batch;
 mod error;
 mod mechanism;
+mod readings;
 mod robot;
 mod run;
 mod settings;

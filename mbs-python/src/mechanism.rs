@@ -2,8 +2,8 @@
 
 use crate::array::{array, vector};
 use crate::error::{Class, guarded, raised, unknown_name, unread, usage};
+use crate::value;
 use crate::values;
-use crate::{settings, value};
 use mbs::core::scene::{Output, Scene};
 use mbs::record::Channel;
 use mbs::scene_file::SceneFile;
@@ -34,7 +34,7 @@ pub(crate) struct Shared {
     dof: OnceLock<usize>,
     /// At rest in the reference configuration.
     first: OnceLock<Tree>,
-    /// Those that nobody uses.
+    /// Those that are not in use.
     trees: Mutex<Vec<Tree>>,
 }
 
@@ -70,7 +70,7 @@ impl Mechanism {
         Ok(self.shared.first.get_or_init(|| first))
     }
 
-    /// Works with a tree that nobody else uses, at time zero with the inputs as they begin.
+    /// Works with a tree of its own, at time zero with the inputs as they begin.
     pub(crate) fn with_tree<R>(
         &self,
         py: Python<'_>,
@@ -397,18 +397,6 @@ impl Mechanism {
     fn initial<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         let simulation = self.simulation(py, &Method::default())?;
         self.state_of(py, &simulation)
-    }
-
-    /// A simulation at its start. None leaves a setting to the scene; its default is index-3 with steps of 1 ms.
-    #[pyo3(signature = (**settings))]
-    fn simulate(
-        slf: &Bound<'_, Self>,
-        settings: Option<&Bound<'_, PyDict>>,
-    ) -> PyResult<crate::simulation::Simulation> {
-        let py = slf.py();
-        let given = settings.map_or_else(|| Ok(PyDict::new(py)), |settings| settings.copy())?;
-        let (method, _) = settings::method(&given)?;
-        crate::simulation::Simulation::new(slf, method, given.unbind())
     }
 
     fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyTuple>> {

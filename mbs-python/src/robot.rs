@@ -1,9 +1,8 @@
 //! What a mechanism has at a state, or at many.
 
-use crate::array::{Numbers, States, array, vector, wrong_shape};
+use crate::array::{Numbers, States, array, point, vector, wrong_shape};
 use crate::error::{Class, guarded, raised, unknown_name, usage};
 use crate::mechanism::{Mechanism, pose};
-use crate::simulation::point;
 use crate::values;
 use mbs::{FrameTarget, InverseKinematicsEnd, Matrix, Tree, TreeError};
 use pyo3::prelude::*;
@@ -25,17 +24,20 @@ impl Mechanism {
         py: Python<'py>,
         (arguments, strict): (&Arguments<'_, 'py>, bool),
         shape: &[usize],
-        one: impl Fn(&mut Tree, &dyn Fn(usize) -> Vec<f64>, &mut [f64]) -> Result<(), TreeError> + Sync,
+        one: impl Fn(&mut Tree, [&[f64]; 3], &mut [f64]) -> Result<(), TreeError> + Sync,
     ) -> PyResult<Bound<'py, PyAny>> {
         let states = States::new(arguments, strict)?;
         let n: usize = shape.iter().product();
         let mut out = vec![0.0; n * states.len()];
         let rows = states.rows();
         let count = states.len();
-        let work = |tree: &mut Tree, out: &mut [f64]| -> Result<(), (usize, TreeError)> {
+        let n_arguments = arguments.len();
+        let work = |tree: &mut Tree, out: &mut [f64]| -> Result<(), Box<(usize, TreeError)>> {
             for k in 0..count {
-                let get = |i: usize| rows.get(i, k).to_vec();
-                one(tree, &get, &mut out[n * k..][..n]).map_err(|error| (k, error))?;
+                let argument = |i: usize| if i < n_arguments { rows.get(i, k) } else { &[] };
+                let given = [argument(0), argument(1), argument(2)];
+                let to = &mut out[n * k..][..n];
+                one(tree, given, to).map_err(|error| Box::new((k, error)))?;
             }
             Ok(())
         };
@@ -45,7 +47,8 @@ impl Mechanism {
             }
             self.with_tree(py, |tree| py.detach(|| work(tree, &mut out)))
         })?;
-        if let Err((k, error)) = done {
+        if let Err(failed) = done {
+            let (k, error) = *failed;
             let error = error.into();
             let raised = raised(py, &error, Class::Stop);
             if states.k().is_some() {
@@ -66,6 +69,7 @@ fn copy(matrix: &Matrix, out: &mut [f64]) {
 impl Mechanism {
     /// Accelerations (nv,) under all effects and inputs `u` (nu,), at rest signals. All arguments are of one state, or of k states.
     #[pyo3(signature = (q, v, u = None, *, time = 0.0, strict = false))]
+    #[allow(clippy::too_many_arguments, reason = "they are keywords of Python")]
     fn accelerations<'py>(
         &self,
         py: Python<'py>,
@@ -79,11 +83,11 @@ impl Mechanism {
         let mut arguments = vec![(q, "q", nq), (v, "v", nv)];
         arguments.extend(u.map(|u| (u, "u", nu)));
         let has_inputs = u.is_some();
-        self.each(py, (&arguments, strict), &[nv], |tree, get, out| {
+        self.each(py, (&arguments, strict), &[nv], |tree, x, out| {
             tree.set_time(time);
-            tree.set(&get(0), &get(1))?;
+            tree.set(x[0], x[1])?;
             if has_inputs {
-                tree.set_inputs(&get(2))?;
+                tree.set_inputs(x[2])?;
             }
             out.copy_from_slice(tree.accelerations()?);
             Ok(())
@@ -102,9 +106,9 @@ impl Mechanism {
     ) -> PyResult<Bound<'py, PyAny>> {
         let [nq, nv] = self.sizes(py)?;
         let arguments = [(q, "q", nq), (v, "v", nv), (effort, "effort", nv)];
-        self.each(py, (&arguments, strict), &[nv], |tree, get, out| {
-            tree.set(&get(0), &get(1))?;
-            out.copy_from_slice(tree.forward_dynamics(&get(2))?);
+        self.each(py, (&arguments, strict), &[nv], |tree, x, out| {
+            tree.set(x[0], x[1])?;
+            out.copy_from_slice(tree.forward_dynamics(x[2])?);
             Ok(())
         })
     }
@@ -121,9 +125,9 @@ impl Mechanism {
     ) -> PyResult<Bound<'py, PyAny>> {
         let [nq, nv] = self.sizes(py)?;
         let arguments = [(q, "q", nq), (v, "v", nv), (a, "a", nv)];
-        self.each(py, (&arguments, strict), &[nv], |tree, get, out| {
-            tree.set(&get(0), &get(1))?;
-            out.copy_from_slice(tree.inverse_dynamics(&get(2))?);
+        self.each(py, (&arguments, strict), &[nv], |tree, x, out| {
+            tree.set(x[0], x[1])?;
+            out.copy_from_slice(tree.inverse_dynamics(x[2])?);
             Ok(())
         })
     }
@@ -137,8 +141,9 @@ impl Mechanism {
         strict: bool,
     ) -> PyResult<Bound<'py, PyAny>> {
         let [nq, nv] = self.sizes(py)?;
-        self.each(py, (&[(q, "q", nq)], strict), &[nv, nv], |tree, get, out| {
-            tree.set(&get(0), &vec![0.0; nv])?;
+        let at_rest = vec![0.0; nv];
+        self.each(py, (&[(q, "q", nq)], strict), &[nv, nv], |tree, x, out| {
+            tree.set(x[0], &at_rest)?;
             copy(tree.mass_matrix(), out);
             Ok(())
         })
@@ -154,8 +159,8 @@ impl Mechanism {
         strict: bool,
     ) -> PyResult<Bound<'py, PyAny>> {
         let [nq, nv] = self.sizes(py)?;
-        self.each(py, (&[(q, "q", nq), (v, "v", nv)], strict), &[nv], |tree, get, out| {
-            tree.set(&get(0), &get(1))?;
+        self.each(py, (&[(q, "q", nq), (v, "v", nv)], strict), &[nv], |tree, x, out| {
+            tree.set(x[0], x[1])?;
             out.copy_from_slice(tree.bias_forces());
             Ok(())
         })
@@ -170,8 +175,9 @@ impl Mechanism {
         strict: bool,
     ) -> PyResult<Bound<'py, PyAny>> {
         let [nq, nv] = self.sizes(py)?;
-        self.each(py, (&[(q, "q", nq)], strict), &[nv], |tree, get, out| {
-            tree.set(&get(0), &vec![0.0; nv])?;
+        let at_rest = vec![0.0; nv];
+        self.each(py, (&[(q, "q", nq)], strict), &[nv], |tree, x, out| {
+            tree.set(x[0], &at_rest)?;
             out.copy_from_slice(tree.gravity_forces());
             Ok(())
         })
@@ -188,8 +194,9 @@ impl Mechanism {
         strict: bool,
     ) -> PyResult<Bound<'py, PyAny>> {
         let ([nq, nv], body, at) = (self.sizes(py)?, self.body(py, body)?, point(at)?);
-        self.each(py, (&[(q, "q", nq)], strict), &[6, nv], |tree, get, out| {
-            tree.set(&get(0), &vec![0.0; nv])?;
+        let at_rest = vec![0.0; nv];
+        self.each(py, (&[(q, "q", nq)], strict), &[6, nv], |tree, x, out| {
+            tree.set(x[0], &at_rest)?;
             copy(tree.jacobian_at(body, at), out);
             Ok(())
         })
@@ -205,8 +212,9 @@ impl Mechanism {
     ) -> PyResult<Bound<'py, PyAny>> {
         let [nq, nv] = self.sizes(py)?;
         let rows = self.with_tree(py, |tree| tree.loop_jacobian().rows)?;
-        self.each(py, (&[(q, "q", nq)], strict), &[rows, nv], |tree, get, out| {
-            tree.set(&get(0), &vec![0.0; nv])?;
+        let at_rest = vec![0.0; nv];
+        self.each(py, (&[(q, "q", nq)], strict), &[rows, nv], |tree, x, out| {
+            tree.set(x[0], &at_rest)?;
             copy(tree.loop_jacobian(), out);
             Ok(())
         })
@@ -221,8 +229,8 @@ impl Mechanism {
     ) -> PyResult<Bound<'py, PyTuple>> {
         let [nq, nv] = self.sizes(py)?;
         let both =
-            self.each(py, (&[(q, "q", nq), (v, "v", nv)], false), &[2], |tree, get, out| {
-                tree.set(&get(0), &get(1))?;
+            self.each(py, (&[(q, "q", nq), (v, "v", nv)], false), &[2], |tree, x, out| {
+                tree.set(x[0], x[1])?;
                 out.copy_from_slice(&tree.energies());
                 Ok(())
             })?;
@@ -239,8 +247,8 @@ impl Mechanism {
     ) -> PyResult<Bound<'py, PyTuple>> {
         let [nq, nv] = self.sizes(py)?;
         let all =
-            self.each(py, (&[(q, "q", nq), (v, "v", nv)], false), &[2, 3], |tree, get, out| {
-                tree.set(&get(0), &get(1))?;
+            self.each(py, (&[(q, "q", nq), (v, "v", nv)], false), &[2, 3], |tree, x, out| {
+                tree.set(x[0], x[1])?;
                 let momentum = tree.momentum();
                 out[..3].copy_from_slice(&momentum.linear);
                 out[3..].copy_from_slice(&momentum.angular);
@@ -277,8 +285,9 @@ impl Mechanism {
         q: &Bound<'py, PyAny>,
     ) -> PyResult<Bound<'py, PyAny>> {
         let [nq, nv] = self.sizes(py)?;
-        self.each(py, (&[(q, "q", nq)], false), &[3], |tree, get, out| {
-            tree.set(&get(0), &vec![0.0; nv])?;
+        let at_rest = vec![0.0; nv];
+        self.each(py, (&[(q, "q", nq)], false), &[3], |tree, x, out| {
+            tree.set(x[0], &at_rest)?;
             out.copy_from_slice(&tree.center_of_mass().position);
             Ok(())
         })
@@ -321,9 +330,9 @@ impl Mechanism {
     ) -> PyResult<Bound<'py, PyAny>> {
         let [nq, nv] = self.sizes(py)?;
         let arguments = [(q, "q", nq), (v, "v", nv), (effort, "effort", nv)];
-        let all = self.each(py, (&arguments, false), &[3, nv, nv], |tree, get, out| {
-            tree.set(&get(0), &get(1))?;
-            let d = tree.forward_dynamics_derivatives(&get(2))?;
+        let all = self.each(py, (&arguments, false), &[3, nv, nv], |tree, x, out| {
+            tree.set(x[0], x[1])?;
+            let d = tree.forward_dynamics_derivatives(x[2])?;
             let parts = [&d.q, &d.v, &d.effort];
             out.chunks_exact_mut((nv * nv).max(1)).zip(parts).for_each(|(to, from)| copy(from, to));
             Ok(())
@@ -341,9 +350,9 @@ impl Mechanism {
     ) -> PyResult<Bound<'py, PyAny>> {
         let [nq, nv] = self.sizes(py)?;
         let arguments = [(q, "q", nq), (v, "v", nv), (a, "a", nv)];
-        let all = self.each(py, (&arguments, false), &[3, nv, nv], |tree, get, out| {
-            tree.set(&get(0), &get(1))?;
-            let d = tree.inverse_dynamics_derivatives(&get(2))?;
+        let all = self.each(py, (&arguments, false), &[3, nv, nv], |tree, x, out| {
+            tree.set(x[0], x[1])?;
+            let d = tree.inverse_dynamics_derivatives(x[2])?;
             let parts = [&d.q, &d.v, &d.acceleration];
             out.chunks_exact_mut((nv * nv).max(1)).zip(parts).for_each(|(to, from)| copy(from, to));
             Ok(())
@@ -359,8 +368,8 @@ impl Mechanism {
         step: &Bound<'py, PyAny>,
     ) -> PyResult<Bound<'py, PyAny>> {
         let [nq, nv] = self.sizes(py)?;
-        self.each(py, (&[(q, "q", nq), (step, "step", nv)], false), &[nq], |tree, get, out| {
-            tree.integrate(&get(0), &get(1), out)
+        self.each(py, (&[(q, "q", nq), (step, "step", nv)], false), &[nq], |tree, x, out| {
+            tree.integrate(x[0], x[1], out)
         })
     }
 
@@ -372,8 +381,8 @@ impl Mechanism {
         q1: &Bound<'py, PyAny>,
     ) -> PyResult<Bound<'py, PyAny>> {
         let [nq, nv] = self.sizes(py)?;
-        self.each(py, (&[(q0, "q0", nq), (q1, "q1", nq)], false), &[nv], |tree, get, out| {
-            tree.difference(&get(0), &get(1), out)
+        self.each(py, (&[(q0, "q0", nq), (q1, "q1", nq)], false), &[nv], |tree, x, out| {
+            tree.difference(x[0], x[1], out)
         })
     }
 

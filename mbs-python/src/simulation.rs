@@ -1,8 +1,8 @@
 //! `Simulation`: a mechanism in motion.
 
-use crate::array::{Numbers, array, vector, wrong_shape};
-use crate::error::{Class, Fields, exception, guarded, raised, unknown_name, usage};
-use crate::mechanism::{Mechanism, pair, pose};
+use crate::array::{Numbers, vector, wrong_shape};
+use crate::error::{Class, Fields, exception, guarded, raised, usage};
+use crate::mechanism::Mechanism;
 use crate::watch::{Reached, silent, whole};
 use crate::{settings, values};
 use mbs::{ContactEvent, EffectKind, InputId, Method, SimulationError, Snapshot, Tree};
@@ -24,8 +24,8 @@ pub(crate) struct Simulation {
 
 /// What moves.
 #[derive(Debug)]
-struct Moving {
-    simulation: mbs::Simulation,
+pub(crate) struct Moving {
+    pub(crate) simulation: mbs::Simulation,
     /// Where it is in relative coordinates, from the first time that it is asked for.
     tree: Option<Tree>,
     /// Is the tree where the simulation is?
@@ -51,10 +51,10 @@ impl Simulation {
     }
 
     /// What moves, where no other thread has it.
-    fn moving(&self, py: Python<'_>) -> PyResult<MutexGuard<'_, Moving>> {
+    pub(crate) fn moving(&self, py: Python<'_>) -> PyResult<MutexGuard<'_, Moving>> {
         match self.moving.try_lock() {
             Ok(moving) => Ok(moving),
-            // a panic is told; what it left is the state before the step
+            // what a panic left is the state before the step
             Err(TryLockError::Poisoned(poisoned)) => Ok(poisoned.into_inner()),
             Err(TryLockError::WouldBlock) => {
                 let fields = Fields {
@@ -68,7 +68,7 @@ impl Simulation {
         }
     }
 
-    fn this(&self) -> &Mechanism {
+    pub(crate) fn this(&self) -> &Mechanism {
         self.mechanism.get()
     }
 
@@ -290,101 +290,6 @@ impl Simulation {
         Ok(out)
     }
 
-    /// The components of an output of the scene, or the number of a column.
-    fn output<'py>(&self, py: Python<'py>, name: &str) -> PyResult<Bound<'py, PyAny>> {
-        let shared = &self.this().shared;
-        let of = |column: &str| {
-            column == name || column.strip_prefix(name).is_some_and(|rest| rest.starts_with('.'))
-        };
-        let places: Vec<usize> =
-            (0..shared.columns.len()).filter(|&i| of(&shared.columns[i][0])).collect();
-        if places.is_empty() {
-            let known: Vec<&str> = shared.columns.iter().map(|[name, _]| name.as_str()).collect();
-            return Err(unknown_name(py, "output", name, &known));
-        }
-        let moving = self.moving(py)?;
-        let mut row = vec![0.0; moving.simulation.n_outputs()];
-        let written = moving.simulation.write_outputs(&mut row);
-        written.map_err(|error| raised(py, &error, Class::Stop))?;
-        let values: Vec<f64> = places.into_iter().filter_map(|i| row.get(i).copied()).collect();
-        Ok(vector(py, &values))
-    }
-
-    /// The first coordinate of a joint from the reference configuration, turns counted [rad, m].
-    fn value(&self, py: Python<'_>, joint: &str) -> PyResult<f64> {
-        let id = self.this().joint(py, joint)?;
-        let values = self.moving(py)?.simulation.values(id);
-        values.first().copied().ok_or_else(|| {
-            usage(py, "no-coordinates", "the joint has no coordinates", "ask for another", joint)
-        })
-    }
-
-    /// All coordinates of a joint [rad, m].
-    fn values<'py>(&self, py: Python<'py>, joint: &str) -> PyResult<Bound<'py, PyAny>> {
-        let joint = self.this().joint(py, joint)?;
-        Ok(vector(py, &self.moving(py)?.simulation.values(joint)))
-    }
-
-    /// Their rates; of a ball the relative angular velocity in global axes.
-    fn rates<'py>(&self, py: Python<'py>, joint: &str) -> PyResult<Bound<'py, PyAny>> {
-        let joint = self.this().joint(py, joint)?;
-        Ok(vector(py, &self.moving(py)?.simulation.rates(joint)))
-    }
-
-    /// Force [N] and moment [N m] of the first body of a joint on the second, at its place on the second.
-    fn reaction<'py>(
-        &self,
-        py: Python<'py>,
-        joint: &str,
-    ) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyAny>)> {
-        let joint = self.this().joint(py, joint)?;
-        let wrench = self.moving(py)?.simulation.reaction(joint);
-        let wrench = wrench.map_err(|error| raised(py, &error, Class::Stop))?;
-        Ok(pair(py, [wrench.force, wrench.moment]))
-    }
-
-    /// Force [N] and moment [N m] of an effect.
-    fn effect_force<'py>(
-        &self,
-        py: Python<'py>,
-        effect: &str,
-    ) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyAny>)> {
-        let effect = self.this().effect(py, effect)?;
-        let wrench = self.moving(py)?.simulation.effect_force(effect);
-        let wrench = wrench.map_err(|error| raised(py, &error, Class::Stop))?;
-        Ok(pair(py, [wrench.force, wrench.moment]))
-    }
-
-    /// Centre of mass (3,) of a body, and its rotation (3, 3) from the reference configuration.
-    fn pose<'py>(
-        &self,
-        py: Python<'py>,
-        body: &str,
-    ) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyAny>)> {
-        let body = self.this().body(py, body)?;
-        pose(py, &self.moving(py)?.simulation.pose(body))
-    }
-
-    /// Position, velocity and acceleration (3, 3) of a point of a body, which is at `at` in the reference configuration.
-    fn point<'py>(
-        &self,
-        py: Python<'py>,
-        body: &str,
-        at: &Bound<'_, PyAny>,
-    ) -> PyResult<Bound<'py, PyAny>> {
-        let body = self.this().body(py, body)?;
-        let at = point(at)?;
-        let point = self.moving(py)?.simulation.point(body, at);
-        let rows = [point.position, point.velocity, point.acceleration];
-        array(py, rows.into_iter().flatten().collect(), &[3, 3])
-    }
-
-    /// Kinetic energy, potential energy, and work of dampers, guides and inputs since the start [J].
-    fn energies(&self, py: Python<'_>) -> PyResult<(f64, f64, f64)> {
-        let energies = self.moving(py)?.simulation.energies();
-        Ok((energies.kinetic, energies.potential, energies.work))
-    }
-
     /// Puts the mechanism into a state; loops are closed. Gives the largest change of a coordinate [rad, m].
     fn set_state(
         &self,
@@ -403,7 +308,10 @@ impl Simulation {
         };
         *is_followed = false;
         let moved = guarded(py, || Ok(py.detach(|| simulation.set_coordinates(tree, &q, &v))))?;
-        moved.map_err(|error| raised(py, &error, Class::Start))
+        let moved = moved.map_err(|error| raised(py, &error, Class::Start))?;
+        // the tree stands where the simulation is, to the last bit
+        *is_followed = true;
+        Ok(moved)
     }
 
     /// Starts anew at time zero, with the inputs of the mechanism.
@@ -479,12 +387,17 @@ pub(crate) fn _restore_simulation(
     Ok(simulation)
 }
 
-/// A point or vector of three numbers; of two in the plane.
-pub(crate) fn point(at: &Bound<'_, PyAny>) -> PyResult<[f64; 3]> {
-    let numbers = Numbers::new(at, "at", false)?;
-    match *numbers.slice() {
-        [x, y] if numbers.shape().len() == 1 => Ok([x, y, 0.0]),
-        [x, y, z] if numbers.shape().len() == 1 => Ok([x, y, z]),
-        _ => Err(wrong_shape(at.py(), "at", numbers.shape(), "(3,), in the plane (2,)")),
+#[pymethods]
+impl Mechanism {
+    /// A simulation at its start. None leaves a setting to the scene; its default is index-3 with steps of 1 ms.
+    #[pyo3(signature = (**settings))]
+    fn simulate(
+        slf: &Bound<'_, Self>,
+        settings: Option<&Bound<'_, PyDict>>,
+    ) -> PyResult<Simulation> {
+        let py = slf.py();
+        let given = settings.map_or_else(|| Ok(PyDict::new(py)), |settings| settings.copy())?;
+        let (method, _) = settings::method(&given)?;
+        Simulation::new(slf, method, given.unbind())
     }
 }

@@ -222,6 +222,7 @@ impl Mechanism {
     /// Runs the mechanism with all values of a sweep: the path of a file, its text, or a dict. `journal` is a directory in which a killed sweep
     /// continues. `client` is a client of Dask, or "ray": members then run there. Threads 0: all processors.
     #[pyo3(signature = (spec, *, threads = 0, client = None, journal = None, progress = None, **settings))]
+    #[allow(clippy::too_many_arguments, reason = "they are keywords of Python")]
     fn sweep<'py>(
         slf: &Bound<'py, Self>,
         spec: &Bound<'py, PyAny>,

@@ -26,7 +26,7 @@ impl Reached {
     }
 }
 
-/// What is reported while work goes on.
+/// What is reported during work.
 #[derive(Debug)]
 pub(crate) struct Progress<'a, 'py> {
     /// Called with how far it is, at most ten times a second, and at its end.

@@ -2,30 +2,30 @@
 
 import signal
 import time
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from collections.abc import Callable
 from pathlib import Path
 
 import multibody as mbs
 import pytest
 from conftest import scene
 
-PROMPT = 0.3
-"""Longest time from the signal to the exception [s]: 0.1 s on an idle machine, tripled for a busy one."""
+PROMPT = 0.1
+"""Longest time from the signal to the exception [s]."""
+TRIES = 3
+"""Tries to be prompt, on a machine that does other things too."""
 AFTER = 0.2
 """When the signal comes [s]."""
 
 
-@contextmanager
-def interrupted() -> Iterator[None]:
-    """The body gets a KeyboardInterrupt in time."""
+def delay(work: Callable[[], object]) -> float:
+    """Interrupts work. Returns the time from the signal to the exception [s]."""
     before = signal.signal(signal.SIGALRM, lambda *_: signal.raise_signal(signal.SIGINT))
     signal.setitimer(signal.ITIMER_REAL, AFTER)
     began = time.monotonic()
     try:
         with pytest.raises(KeyboardInterrupt):
-            yield
-        assert time.monotonic() - began < AFTER + PROMPT
+            work()
+        return time.monotonic() - began - AFTER
     finally:
         signal.setitimer(signal.ITIMER_REAL, 0)
         signal.signal(signal.SIGALRM, before)
@@ -51,14 +51,12 @@ LONG: dict[str, Callable[[], object]] = {
 
 @pytest.mark.parametrize("name", LONG)
 def test_an_interrupt_is_prompt(name: str) -> None:
-    with interrupted():
-        LONG[name]()
+    assert any(delay(LONG[name]) < PROMPT for _ in range(TRIES))
 
 
 def test_a_simulation_that_was_interrupted_goes_on() -> None:
     simulation = pendulum().simulate()
-    with interrupted():
-        simulation.steps(1e-3, 10**7)
+    delay(lambda: simulation.steps(1e-3, 10**7))
     time_ = simulation.time
     assert time_ > 0.0
     simulation.step(1e-3)
@@ -67,8 +65,7 @@ def test_a_simulation_that_was_interrupted_goes_on() -> None:
 
 def test_an_interrupted_sweep_resumes_from_its_journal(tmp_path: Path) -> None:
     spec = {"vary": [{"path": "body.upper.mass", "from": 1.0, "to": 2.0, "count": 60}]}
-    with interrupted():
-        pendulum().sweep(spec, journal=tmp_path, threads=1, duration=5.0)
+    delay(lambda: pendulum().sweep(spec, journal=tmp_path, threads=1, duration=5.0))
     counts: list[int] = []
     table = pendulum().sweep(spec, journal=tmp_path, threads=1, duration=5.0, progress=lambda done, n: counts.append(done))
     assert counts[0] > 0

@@ -208,6 +208,10 @@ def test_a_rollout_over_workers_has_its_bits(cluster: Cluster) -> None:
     assert here.q.tobytes() == there.q.tobytes()
     assert here.v.tobytes() == there.v.tobytes()
     assert here.ok.tolist() == there.ok.tolist()
+    for_all = parallel.rollout(mechanism, q, v[0], u[0], 1e-3, client=cluster.client)
+    assert for_all.q.tobytes() == mechanism.rollout(q, np.tile(v[0], (50, 1)), u[0], 1e-3).q.tobytes()
+    with pytest.raises(mbs.UsageError, match="u has the shape"):
+        parallel.rollout(mechanism, q, v, u[:, :, :2], 1e-3, client=cluster.client)
     assert {i: str(error) for i, error in here.errors.items()} == {i: str(error) for i, error in there.errors.items()}
 
 

@@ -89,6 +89,7 @@ def test_the_import_is_quick() -> None:
 
 
 def test_no_optional_package_is_imported() -> None:
-    code = "import sys, multibody, multibody.parallel; print([n for n in ('ray', 'dask', 'distributed', 'gymnasium', 'scipy') if n in sys.modules])"
+    optional = "ray", "dask", "distributed", "gymnasium", "scipy"
+    code = f"import sys, multibody, multibody.parallel; print([n for n in {optional} if n in sys.modules])"
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert done.stdout.strip() == "[]"

@@ -108,24 +108,28 @@ def rollout(
     steps: int | None = None,
     integrator: Literal["rk4", "trapezoidal"] = "rk4",
 ) -> Rollout:
-    """`Mechanism.rollout` over the workers: q (k, nq), v (k, nv) and u (k, steps, nu)."""
+    """`Mechanism.rollout` over the workers: q (k, nq), v (k, nv), and u (k, steps, nu), or (steps, nu) for all."""
     import numpy as np
 
     from . import Rollout
 
-    starts = np.asarray(q, dtype=np.float64), np.asarray(v, dtype=np.float64), None if u is None else np.asarray(u, dtype=np.float64)
-    if starts[0].ndim != 2:
-        raise UsageError("`q` has no axis of starts", code="wrong-shape", argument="q", hint="give q the shape (k, nq)")
-    k, n = len(starts[0]), steps if starts[2] is None else starts[2].shape[1]
+    places, n = np.asarray(q, dtype=np.float64), steps
+    if places.ndim != 2:
+        raise UsageError("q has no axis of starts", code="wrong-shape", argument="q", hint="give q the shape (k, nq)")
+    k, nq, nv = len(places), mechanism.nq, mechanism.nv
+    starts = [places, _for_each(v, "v", (k, nv))]
+    if u is not None:
+        n = np.atleast_2d(u).shape[-2]
+        starts.append(_for_each(u, "u", (k, n, mechanism.nu)))
     if n is None:
-        raise UsageError("neither `u` nor `steps` is there", code="missing", argument="steps", hint="give the number of steps")
-    qs, vs = np.full((k, n + 1, mechanism.nq), np.nan), np.full((k, n + 1, mechanism.nv), np.nan)
+        raise TypeError("give u, or steps")
+    qs, vs = np.full((k, n + 1, nq), np.nan), np.full((k, n + 1, nv), np.nan)
     ok, errors = np.zeros(k, dtype=np.bool_), dict[int, MbsError]()
 
     def pack(chunk: Chunk) -> Any:
-        return [None if array is None else array[chunk] for array in starts]
+        return [array[chunk] for array in starts]
 
-    shared = mechanism, dt, steps, integrator
+    shared = mechanism, {"dt": dt, "steps": steps, "threads": 1, "integrator": integrator}
     for start, row in _rows(_engine(client, shared, _run_starts), list(range(k)), pack):
         if row is None:
             errors[start] = MbsError("workers died while they ran this start", code="worker-lost")
@@ -140,10 +144,21 @@ def _run_members(job: Sweep, members: Chunk) -> list[list[str]]:
     return job.run(members)
 
 
-def _run_starts(shared: tuple[Any, ...], arrays: list[Any]) -> list[tuple[Any, ...]]:
-    mechanism, dt, steps, integrator = shared
-    q, v, ok, errors = mechanism.rollout(*arrays, dt, steps=steps, threads=1, integrator=integrator)
+def _run_starts(shared: tuple[Any, dict[str, Any]], starts: list[Any]) -> list[tuple[Any, ...]]:
+    mechanism, settings = shared
+    q, v, ok, errors = mechanism.rollout(*starts, **settings)
     return [(*each, errors.get(i)) for i, each in enumerate(zip(q, v, ok))]
+
+
+def _for_each(value: ArrayLike, name: str, shape: tuple[int, ...]) -> Any:
+    """An argument with an axis of starts."""
+    import numpy as np
+
+    array = np.asarray(value, dtype=np.float64)
+    if array.shape not in (shape, shape[1:]):
+        message = f"{name} has the shape {array.shape}, and {shape[1:]} or {shape} is expected"
+        raise UsageError(message, code="wrong-shape", argument=name, hint="the first axis is that of the starts")
+    return np.broadcast_to(array, shape)
 
 
 def _timed(work: Work, shared: Any, packed: Any) -> tuple[Sequence[Any], float]:

@@ -3,6 +3,7 @@
 
 use super::member::MemberValues;
 use super::*;
+use crate::journal::Journal;
 
 const SCENE: &str = r#"
 [scene]

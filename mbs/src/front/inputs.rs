@@ -2,6 +2,7 @@
 
 use super::failure::SimulationError;
 use mbs_core::effects::{Form, Value};
+use mbs_core::inputs::Prescribed;
 use mbs_core::scene::{
     Coupling, CouplingId, Dimension, EffectId, EffectKind, Freedom, GuideId, Motion, Scene, Signal,
     SignalId, SignalKind,
@@ -135,6 +136,22 @@ impl Inputs {
 
     pub(crate) fn list(&self) -> &[InputInfo] {
         &self.list
+    }
+
+    /// Where each of them stands among the inputs of a state.
+    pub(super) fn places(&self, prescribed: &Prescribed<f64>) -> Vec<usize> {
+        let place = |info: &InputInfo| {
+            let first = match info.owner {
+                InputOwner::Effect(effect) => prescribed.input(effect.index()).map(|at| at.start),
+                InputOwner::Guide(guide) | InputOwner::Coupling { sum: guide, .. } => {
+                    prescribed.guide_input(guide.index()).map(|at| at.start)
+                }
+                InputOwner::Signal(signal) => prescribed.signal_input(signal.index()),
+            };
+            // the list is made of the same scene
+            first.unwrap_or_default() + info.component
+        };
+        self.list.iter().map(place).collect()
     }
 
     pub(super) fn values(&self) -> &[f64] {

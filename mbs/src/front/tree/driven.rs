@@ -2,25 +2,8 @@
 
 use super::inner::{Inner, Typed, with};
 use super::{Tree, TreeError, TreeErrorKind, checked};
-use crate::front::inputs::{InputInfo, InputOwner};
-use mbs_core::inputs::Prescribed;
+use crate::front::inputs::InputInfo;
 use mbs_recursive::Options;
-
-/// Where each input stands among the inputs of a state.
-pub(super) fn input_places(list: &[InputInfo], prescribed: &Prescribed<f64>) -> Vec<usize> {
-    let place = |info: &InputInfo| {
-        let first = match info.owner {
-            InputOwner::Effect(effect) => prescribed.input(effect.index()).map(|at| at.start),
-            InputOwner::Guide(guide) | InputOwner::Coupling { sum: guide, .. } => {
-                prescribed.guide_input(guide.index()).map(|at| at.start)
-            }
-            InputOwner::Signal(signal) => prescribed.signal_input(signal.index()),
-        };
-        // the list is made of the same scene
-        first.unwrap_or_default() + info.component
-    };
-    list.iter().map(place).collect()
-}
 
 impl Tree {
     /// Inputs that can be set, in the order of effects, guides, couplings, then signals.

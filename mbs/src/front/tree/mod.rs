@@ -116,11 +116,11 @@ impl Tree {
         };
         // squares are as large as that from the first call that asks for them
         let square = || Matrix::zeros(0, n);
-        let input_list = Inputs::new(scene).list().to_vec();
+        let inputs = Inputs::new(scene);
         let prescribed = with!(&inner, tree => tree.model.prescribed());
         Ok(Self {
-            input_places: driven::input_places(&input_list, prescribed),
-            input_list,
+            input_places: inputs.places(prescribed),
+            input_list: inputs.list().to_vec(),
             shares: (0..scene.bodies.len()).map(share).collect(),
             total,
             scene: scene.clone(),
