@@ -66,8 +66,9 @@ fn inputs<'py>(
 #[pymethods]
 impl Mechanism {
     /// Motions from k starts by equal steps of `dt` [s], with all effects; `u` (k, steps, nu), or (steps, nu) for all, is held over each step.
-    /// The numbers do not depend on the number of threads; 0: all processors.
-    #[pyo3(signature = (q, v, u = None, dt = 1e-3, *, steps = None, threads = 0, integrator = "rk4"))]
+    /// The numbers do not depend on the number of threads; 0: all processors. `client` is a client of Dask, or "ray": starts then go there in
+    /// chunks.
+    #[pyo3(signature = (q, v, u = None, dt = 1e-3, *, steps = None, threads = 0, client = None, integrator = "rk4"))]
     #[allow(clippy::too_many_arguments, reason = "they are keywords of Python")]
     fn rollout<'py>(
         &self,
@@ -78,8 +79,17 @@ impl Mechanism {
         dt: f64,
         steps: Option<usize>,
         threads: usize,
+        client: Option<&Bound<'py, PyAny>>,
         integrator: &str,
     ) -> PyResult<Bound<'py, PyAny>> {
+        if let Some(client) = client {
+            let words = PyDict::new(py);
+            words.set_item("client", client)?;
+            words.set_item("steps", steps)?;
+            words.set_item("integrator", integrator)?;
+            let rollout = py.import("multibody.parallel")?.getattr("rollout")?;
+            return rollout.call((self.clone(), q, v, u, dt), Some(&words));
+        }
         let kind =
             IntegratorKind::ALL.into_iter().find(|kind| kind.name() == integrator).ok_or_else(
                 || crate::error::unknown_name(py, "integrator", integrator, &mbs::INTEGRATORS),

@@ -67,7 +67,7 @@ fn copy(matrix: &Matrix, out: &mut [f64]) {
 
 #[pymethods]
 impl Mechanism {
-    /// Accelerations (nv,) under all effects and inputs `u` (nu,), at rest signals. All arguments are of one state, or of k states.
+    /// Accelerations (nv,) under all effects and inputs `u` (nu,), signals as they begin. All arguments are of one state, or of k states.
     #[pyo3(signature = (q, v, u = None, *, time = 0.0, strict = false))]
     #[allow(clippy::too_many_arguments, reason = "they are keywords of Python")]
     fn accelerations<'py>(

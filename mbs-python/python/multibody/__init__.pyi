@@ -124,47 +124,72 @@ class Mechanism:
 
     def __init__(self, source: Source) -> None: ...
     @staticmethod
-    def build(name: str, dimension: Literal[2, 3] = 3) -> Builder: ...
+    def build(name: str, dimension: Literal[2, 3] = 3) -> Builder:
+        """A builder of a scene: its parts are added by calls, and `done()` gives the mechanism."""
     @property
-    def name(self) -> str: ...
+    def name(self) -> str:
+        """The scene's name."""
     @property
-    def dimension(self) -> int: ...
+    def dimension(self) -> int:
+        """2 or 3."""
     @property
-    def bodies(self) -> list[str]: ...
+    def bodies(self) -> list[str]:
+        """Names of the bodies."""
     @property
-    def joints(self) -> list[str]: ...
+    def joints(self) -> list[str]:
+        """Names of the joints."""
     @property
-    def effects(self) -> list[str]: ...
+    def effects(self) -> list[str]:
+        """Names of the effects."""
     @property
-    def inputs(self) -> list[str]: ...
+    def inputs(self) -> list[str]:
+        """Names of the inputs, in the order of `u`."""
     @property
-    def input_units(self) -> dict[str, str]: ...
+    def input_units(self) -> dict[str, str]:
+        """Units of the inputs."""
     @property
-    def outputs(self) -> list[str]: ...
+    def outputs(self) -> list[str]:
+        """Names of the outputs: the columns of runs, without magnitudes."""
     @property
-    def output_units(self) -> dict[str, str]: ...
+    def output_units(self) -> dict[str, str]:
+        """Units of the outputs."""
     @property
-    def frames(self) -> list[str]: ...
+    def frames(self) -> list[str]:
+        """Names of the frames."""
     @property
-    def nq(self) -> int: ...
+    def nq(self) -> int:
+        """Numbers in q."""
     @property
-    def nv(self) -> int: ...
+    def nv(self) -> int:
+        """Numbers in v."""
     @property
-    def nu(self) -> int: ...
+    def nu(self) -> int:
+        """Number of inputs."""
     @property
-    def dof(self) -> int: ...
+    def dof(self) -> int:
+        """Freedoms at the start: loops and guides take some of v."""
     @property
-    def duration(self) -> float: ...
+    def duration(self) -> float:
+        """Length of a run that the scene asks for [s]."""
     @property
-    def text(self) -> str: ...
-    def to_dict(self) -> dict[str, Any]: ...
-    def coordinates(self, joint: str) -> tuple[slice, slice]: ...
-    def get(self, path: str) -> float: ...
-    def replace(self, values: Mapping[str, float] | None = None, **paths: float) -> Mechanism: ...
-    def reference(self) -> State: ...
-    def initial(self) -> State: ...
-    def explain(self) -> dict[str, Any]: ...
-    def doctor(self) -> list[Finding]: ...
+    def text(self) -> str:
+        """The text of the scene."""
+    def to_dict(self) -> dict[str, Any]:
+        """The scene as a dict."""
+    def coordinates(self, joint: str) -> tuple[slice, slice]:
+        """Where the numbers of a joint stand in q and in v. A joint that closes a loop, or is guided, has none: UsageError."""
+    def get(self, path: str) -> float:
+        """A number of the scene by its path: `body.upper.mass`."""
+    def replace(self, values: Mapping[str, float] | None = None, **paths: float) -> Mechanism:
+        """The mechanism with other numbers, by their paths: `m.replace({"body.upper.mass": 2.0})`."""
+    def reference(self) -> State:
+        """The reference configuration at rest."""
+    def initial(self) -> State:
+        """The state in which runs begin."""
+    def explain(self) -> dict[str, Any]:
+        """What the mechanism simulates, what it does not, and the measured cost of each effect: the object of `mbs explain --json`."""
+    def doctor(self) -> list[Finding]:
+        """What is wrong or doubtful, with remedies, the worst first."""
     def run(
         self,
         duration: float | None = None,
@@ -178,7 +203,10 @@ class Mechanism:
         progress: Callable[[float, float], object] | None = None,
         threads: int = 1,
         **settings: Any,
-    ) -> Result: ...
+    ) -> Result:
+        """Runs the mechanism, as `mbs run` does. None leaves a setting to the scene; `error` chooses the method by a pilot. `inputs` is
+        `{"t": times, NAME: values}`. `progress` is called with time and duration [s], at most ten times a second. A run that stops early is
+        a result with `error`. Ctrl-C raises KeyboardInterrupt, whose `result` has what was recorded."""
     def simulate(
         self,
         *,
@@ -188,30 +216,50 @@ class Mechanism:
         precision: Literal["f64", "f32", "dd"] | None = None,
         threads: int = 1,
         **settings: Any,
-    ) -> Simulation: ...
-    def equilibrium(self, search: Literal["down", "near"] = "down") -> Equilibrium: ...
-    def modes(self, at: Literal["equilibrium", "initial", "moving"] = "equilibrium") -> Modes: ...
+    ) -> Simulation:
+        """A simulation at its start. None leaves a setting to the scene; its default is index-3 with steps of 1 ms."""
+    def equilibrium(self, search: Literal["down", "near"] = "down") -> Equilibrium:
+        """The static equilibrium: downhill to a stable one, or the one `near` the reference configuration."""
+    def modes(self, at: StateLike = "equilibrium") -> Modes:
+        """Eigenvalues of the motion about a state, with frequencies, damping ratios and shapes, from the slowest to the fastest."""
     def linearize(
         self,
         at: StateLike = "equilibrium",
         inputs: Sequence[str] | None = None,
         outputs: Sequence[str] | None = None,
-    ) -> Linear: ...
-    def accelerations(self, q: ArrayLike, v: ArrayLike, u: ArrayLike | None = None, *, time: float = 0.0, strict: bool = False) -> Array: ...
-    def forward_dynamics(self, q: ArrayLike, v: ArrayLike, effort: ArrayLike, *, strict: bool = False) -> Array: ...
-    def inverse_dynamics(self, q: ArrayLike, v: ArrayLike, a: ArrayLike, *, strict: bool = False) -> Array: ...
-    def mass_matrix(self, q: ArrayLike, *, strict: bool = False) -> Array: ...
-    def bias(self, q: ArrayLike, v: ArrayLike, *, strict: bool = False) -> Array: ...
-    def gravity(self, q: ArrayLike, *, strict: bool = False) -> Array: ...
-    def jacobian(self, body: str, at: ArrayLike, q: ArrayLike, *, strict: bool = False) -> Array: ...
-    def loop_jacobian(self, q: ArrayLike, *, strict: bool = False) -> Array: ...
-    def energies(self, q: ArrayLike, v: ArrayLike) -> tuple[Any, Any]: ...
-    def momentum(self, q: ArrayLike, v: ArrayLike) -> tuple[Array, Array]: ...
-    def pose(self, body: str, q: ArrayLike) -> tuple[Array, Array]: ...
-    def frame(self, name: str, q: ArrayLike, v: ArrayLike | None = None) -> dict[str, Array]: ...
-    def center_of_mass(self, q: ArrayLike) -> Array: ...
-    def forward_derivatives(self, q: ArrayLike, v: ArrayLike, effort: ArrayLike) -> Derivatives: ...
-    def inverse_derivatives(self, q: ArrayLike, v: ArrayLike, a: ArrayLike) -> Derivatives: ...
+    ) -> Linear:
+        """dx/dt = A x + B u, y = C x + D u about a state: `"equilibrium"`, `"initial"`, `"moving"`, what `equilibrium()` gives, or (q, v).
+        The states x are independent coordinates and their rates, then the states of signals."""
+    def accelerations(self, q: ArrayLike, v: ArrayLike, u: ArrayLike | None = None, *, time: float = 0.0, strict: bool = False) -> Array:
+        """Accelerations (nv,) under all effects and inputs `u` (nu,), at rest signals. All arguments are of one state, or of k states."""
+    def forward_dynamics(self, q: ArrayLike, v: ArrayLike, effort: ArrayLike, *, strict: bool = False) -> Array:
+        """Accelerations (nv,) under efforts along v and gravity alone, loops closed."""
+    def inverse_dynamics(self, q: ArrayLike, v: ArrayLike, a: ArrayLike, *, strict: bool = False) -> Array:
+        """Efforts (nv,) that make accelerations `a`: M a + bias."""
+    def mass_matrix(self, q: ArrayLike, *, strict: bool = False) -> Array:
+        """Mass matrix (nv, nv), loops open."""
+    def bias(self, q: ArrayLike, v: ArrayLike, *, strict: bool = False) -> Array:
+        """Efforts (nv,) that keep all velocities as they are: centrifugal and Coriolis forces, and gravity."""
+    def gravity(self, q: ArrayLike, *, strict: bool = False) -> Array:
+        """Efforts (nv,) that hold the mechanism at rest against gravity."""
+    def jacobian(self, body: str, at: ArrayLike, q: ArrayLike, *, strict: bool = False) -> Array:
+        """Jacobian (6, nv) of a body's point, which is at `at` in the reference configuration: linear, then angular, global axes."""
+    def loop_jacobian(self, q: ArrayLike, *, strict: bool = False) -> Array:
+        """Jacobian (rows, nv) of the joints that close loops."""
+    def energies(self, q: ArrayLike, v: ArrayLike) -> tuple[Any, Any]:
+        """Kinetic energy, and potential energy of gravity, constant forces and springs [J]."""
+    def momentum(self, q: ArrayLike, v: ArrayLike) -> tuple[Array, Array]:
+        """Linear momentum [kg m/s], and angular momentum about the centre of mass [kg m^2/s], (3,) each."""
+    def pose(self, body: str, q: ArrayLike) -> tuple[Array, Array]:
+        """Centre of mass (3,) of a body, and its rotation (3, 3) from the reference configuration."""
+    def frame(self, name: str, q: ArrayLike, v: ArrayLike | None = None) -> dict[str, Array]:
+        """A frame at a state: position (3,), rotation (3, 3), velocity (3,), angular_velocity (3,), in global axes."""
+    def center_of_mass(self, q: ArrayLike) -> Array:
+        """Centre of mass (3,) of all bodies."""
+    def forward_derivatives(self, q: ArrayLike, v: ArrayLike, effort: ArrayLike) -> Derivatives:
+        """Derivatives of `forward_dynamics` by q, v and effort, (nv, nv) each. Those by q are by moves along v."""
+    def inverse_derivatives(self, q: ArrayLike, v: ArrayLike, a: ArrayLike) -> Derivatives:
+        """Derivatives of `inverse_dynamics` by q, v and a, (nv, nv) each. Those by q are by moves along v."""
     def inverse_kinematics(
         self,
         frame: str,
@@ -219,9 +267,13 @@ class Mechanism:
         *,
         position: ArrayLike | None = None,
         rotation: ArrayLike | None = None,
-    ) -> Array: ...
-    def integrate(self, q: ArrayLike, step: ArrayLike) -> Array: ...
-    def difference(self, q0: ArrayLike, q1: ArrayLike) -> Array: ...
+    ) -> Array:
+        """Coordinates (nq,) in which a frame, or the centre of mass of a body by its name, is at a position (3,) with a rotation (3, 3),
+        from `q` on. What is left out is free; loops stay closed."""
+    def integrate(self, q: ArrayLike, step: ArrayLike) -> Array:
+        """q moved by `step` (nv,) along the velocities."""
+    def difference(self, q0: ArrayLike, q1: ArrayLike) -> Array:
+        """The step (nv,) that moves q0 to q1; rotations by the shorter way."""
     def rollout(
         self,
         q: ArrayLike,
@@ -231,8 +283,11 @@ class Mechanism:
         *,
         steps: int | None = None,
         threads: int = 0,
-        integrator: Literal["rk4", "trapezoidal"] = "rk4",
-    ) -> Rollout: ...
+        client: Any = None,
+        integrator: str = "rk4",
+    ) -> Rollout:
+        """Motions from k starts by equal steps of `dt` [s], with all effects; `u` (k, steps, nu), or (steps, nu) for all, is held over each
+        step. The numbers do not depend on the number of threads; 0: all processors."""
     def compare(
         self,
         methods: Sequence[str] | None = None,
@@ -242,7 +297,9 @@ class Mechanism:
         errors: Sequence[float] | None = None,
         quick: bool = True,
         progress: Callable[[float, float], object] | None = None,
-    ) -> dict[str, Any]: ...
+    ) -> dict[str, Any]:
+        """Time and error of formulations, integrators and steps, against a reference that is not under test: the object of `mbs compare
+        --json`. `quick` takes about 5 s. `progress` is called with the part that is done and 1."""
     def sweep(
         self,
         spec: str | PathLike[str] | Mapping[str, Any],
@@ -252,7 +309,9 @@ class Mechanism:
         journal: str | PathLike[str] | None = None,
         progress: Callable[[int, int], object] | None = None,
         **settings: Any,
-    ) -> Table: ...
+    ) -> Table:
+        """Runs the mechanism with all values of a sweep: the path of a file, its text, or a dict. `journal` is a directory in which a
+        killed sweep continues. `client` is a client of Dask, or "ray": members then run there. Threads 0: all processors."""
     def __copy__(self) -> Mechanism: ...
     def __eq__(self, other: object) -> bool: ...
     def __hash__(self) -> int: ...
@@ -269,41 +328,68 @@ class Simulation:
     """A mechanism in motion. One thread at a time: a second one gets a BusyError."""
 
     @property
-    def mechanism(self) -> Mechanism: ...
+    def mechanism(self) -> Mechanism:
+        """The mechanism."""
     @property
-    def time(self) -> float: ...
+    def time(self) -> float:
+        """Time [s]."""
     @property
-    def q(self) -> Array: ...
+    def q(self) -> Array:
+        """Coordinates (nq,): a copy."""
     @property
-    def v(self) -> Array: ...
+    def v(self) -> Array:
+        """Velocities (nv,): a copy."""
     @property
-    def a(self) -> Array: ...
+    def a(self) -> Array:
+        """Accelerations (nv,) at this state, under all effects and the inputs of the last step."""
     @property
-    def u(self) -> Array: ...
+    def u(self) -> Array:
+        """Inputs (nu,): a copy. Set, they hold from the next step on."""
     @u.setter
     def u(self, values: ArrayLike) -> None: ...
     @property
-    def events(self) -> list[Event]: ...
-    def step(self, dt: float | None = None, u: ArrayLike | None = None) -> None: ...
-    def steps(self, dt: float, n: int, u: ArrayLike | None = None) -> None: ...
-    def run_until(self, time: float) -> None: ...
-    def set_input(self, name: str | int, value: float) -> None: ...
-    def outputs(self, out: Array | None = None) -> Array: ...
-    def output(self, name: str) -> Array: ...
-    def value(self, joint: str) -> float: ...
-    def values(self, joint: str) -> Array: ...
-    def rates(self, joint: str) -> Array: ...
-    def reaction(self, joint: str) -> tuple[Array, Array]: ...
-    def effect_force(self, effect: str) -> tuple[Array, Array]: ...
-    def pose(self, body: str) -> tuple[Array, Array]: ...
-    def point(self, body: str, at: ArrayLike) -> tuple[Array, Array, Array]: ...
-    def energies(self) -> tuple[float, float, float]: ...
-    def set_state(self, q: ArrayLike, v: ArrayLike) -> float: ...
-    def reset(self) -> None: ...
-    def watch_events(self) -> None: ...
-    def copy(self) -> Simulation: ...
-    def save(self) -> bytes: ...
-    def restore(self, data: bytes) -> None: ...
+    def events(self) -> list[Event]:
+        """Contacts that began or ended since `watch_events`, a thousand at most."""
+    def step(self, dt: float | None = None, u: ArrayLike | None = None) -> None:
+        """One step of `dt` [s], else of the method's step. `u` (nu,) holds from now on."""
+    def steps(self, dt: float, n: int, u: ArrayLike | None = None) -> None:
+        """`n` steps of `dt` [s] without Python in between. `u` is (nu,), which holds, or (n, nu), a row for each step."""
+    def run_until(self, time: float) -> None:
+        """Steps to a time [s]; the last step is shorter where they do not fit."""
+    def set_input(self, name: str | int, value: float) -> None:
+        """Sets an input, by name or place, from the next step on."""
+    def outputs(self, out: Array | None = None) -> Array:
+        """All outputs, in the order of the mechanism's `outputs`. `out` (n,) takes them where it is given."""
+    def output(self, name: str) -> Array:
+        """The components of an output of the scene, or the number of a column."""
+    def value(self, joint: str) -> float:
+        """The first coordinate of a joint from the reference configuration, turns counted [rad, m]."""
+    def values(self, joint: str) -> Array:
+        """All coordinates of a joint [rad, m]."""
+    def rates(self, joint: str) -> Array:
+        """Their rates; of a ball the relative angular velocity in global axes."""
+    def reaction(self, joint: str) -> tuple[Array, Array]:
+        """Force [N] and moment [N m] of the first body of a joint on the second, at its place on the second."""
+    def effect_force(self, effect: str) -> tuple[Array, Array]:
+        """Force [N] and moment [N m] of an effect."""
+    def pose(self, body: str) -> tuple[Array, Array]:
+        """Centre of mass (3,) of a body, and its rotation (3, 3) from the reference configuration."""
+    def point(self, body: str, at: ArrayLike) -> tuple[Array, Array, Array]:
+        """Position, velocity and acceleration (3, 3) of a point of a body, which is at `at` in the reference configuration."""
+    def energies(self) -> tuple[float, float, float]:
+        """Kinetic energy, potential energy, and work of dampers, guides and inputs since the start [J]."""
+    def set_state(self, q: ArrayLike, v: ArrayLike) -> float:
+        """Puts the mechanism into a state; loops are closed. Gives the largest change of a coordinate [rad, m]."""
+    def reset(self) -> None:
+        """Starts anew at time zero, with the inputs of the mechanism."""
+    def watch_events(self) -> None:
+        """Lists contacts anew from now on."""
+    def copy(self) -> Simulation:
+        """Another simulation in the same state."""
+    def save(self) -> bytes:
+        """All that the next steps depend on, as bytes."""
+    def restore(self, data: bytes) -> None:
+        """Returns to what `save` gave: the next steps have the same bits."""
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Runs the command `mbs`."""

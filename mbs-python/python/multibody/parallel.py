@@ -12,7 +12,7 @@ from collections import deque
 from collections.abc import Callable, Iterator, Sequence
 from importlib import import_module
 from itertools import islice
-from typing import TYPE_CHECKING, Any, Literal, NamedTuple, Protocol
+from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
 
 from .errors import MbsError, UsageError
 
@@ -106,7 +106,7 @@ def rollout(
     *,
     client: object,
     steps: int | None = None,
-    integrator: Literal["rk4", "trapezoidal"] = "rk4",
+    integrator: str = "rk4",
 ) -> Rollout:
     """`Mechanism.rollout` over the workers: q (k, nq), v (k, nv), and u (k, steps, nu), or (steps, nu) for all."""
     import numpy as np
