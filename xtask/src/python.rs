@@ -35,9 +35,6 @@ pub(crate) fn check() -> Result<Outcome, String> {
     let folder = process::root().join("mbs-python");
     let pytest = ["-m", "pytest", "--quiet", "-p", "no:cacheprovider"];
     run(in_environment(&tests).args(pytest).current_dir(&folder))?;
-    for example in examples(&folder.join("examples"))? {
-        run(in_environment(&tests).arg(&example).current_dir(&folder))?;
-    }
     let size = fs::metadata(&wheel).map_err(|e| format!("{}: {e}", wheel.display()))?.len();
     Ok(Outcome::Passed(format!("a wheel of {} MB without optimisation", size / 1_000_000)))
 }
@@ -117,11 +114,29 @@ fn wheel(python: &str, place: &Path) -> Result<PathBuf, String> {
     wheel.ok_or_else(|| "maturin built no wheel".to_owned())
 }
 
-/// The programs of a folder, in order.
-fn examples(folder: &Path) -> Result<Vec<PathBuf>, String> {
-    let entries = fs::read_dir(folder).map_err(|e| format!("{}: {e}", folder.display()))?;
-    let is_program = |path: &PathBuf| path.extension().is_some_and(|ending| ending == "py");
-    let mut all: Vec<_> = entries.flatten().map(|entry| entry.path()).filter(is_program).collect();
-    all.sort();
-    if all.is_empty() { Err("mbs-python/examples holds no program".to_owned()) } else { Ok(all) }
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::process::cargo;
+    use std::collections::BTreeSet;
+
+    /// Packages with their features, as cargo would build them.
+    fn built(words: &[&str]) -> BTreeSet<String> {
+        let mut tree = cargo();
+        tree.args(["tree", "--offline", "--prefix", "none", "--format", "{p} [{f}]"]).args(words);
+        let text = output(tree.current_dir(process::root())).expect("cargo knows its packages");
+        text.lines().map(|line| line.trim_end_matches(" (*)").to_owned()).collect()
+    }
+
+    #[test]
+    fn the_wheel_has_the_features_of_the_tests_so_that_nothing_is_compiled_twice() {
+        let wheel =
+            ["--package", "mbs-python", "--features", "as-tested", "--edges", "normal,build"];
+        let tests = built(&["--workspace", "--edges", "normal,build,dev"]);
+        let others: Vec<_> = built(&wheel)
+            .into_iter()
+            .filter(|package| !package.starts_with("mbs-python ") && !tests.contains(package))
+            .collect();
+        assert!(others.is_empty(), "name the features of the tests in `as-tested`: {others:?}");
+    }
 }

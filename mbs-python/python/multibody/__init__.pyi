@@ -231,7 +231,8 @@ class Mechanism:
         """dx/dt = A x + B u, y = C x + D u about a state: `"equilibrium"`, `"initial"`, `"moving"`, what `equilibrium()` gives, or (q, v).
         The states x are independent coordinates and their rates, then the states of signals."""
     def accelerations(self, q: ArrayLike, v: ArrayLike, u: ArrayLike | None = None, *, time: float = 0.0, strict: bool = False) -> Array:
-        """Accelerations (nv,) under all effects and inputs `u` (nu,), at rest signals. All arguments are of one state, or of k states."""
+        """Accelerations (nv,) under all effects and inputs `u` (nu,), signals as they begin. All arguments are of one state, or of k
+        states."""
     def forward_dynamics(self, q: ArrayLike, v: ArrayLike, effort: ArrayLike, *, strict: bool = False) -> Array:
         """Accelerations (nv,) under efforts along v and gravity alone, loops closed."""
     def inverse_dynamics(self, q: ArrayLike, v: ArrayLike, a: ArrayLike, *, strict: bool = False) -> Array:
@@ -287,7 +288,8 @@ class Mechanism:
         integrator: str = "rk4",
     ) -> Rollout:
         """Motions from k starts by equal steps of `dt` [s], with all effects; `u` (k, steps, nu), or (steps, nu) for all, is held over each
-        step. The numbers do not depend on the number of threads; 0: all processors."""
+        step. The numbers do not depend on the number of threads; 0: all processors. `client` is a client of Dask, or "ray": starts then go
+        there in chunks."""
     def compare(
         self,
         methods: Sequence[str] | None = None,
