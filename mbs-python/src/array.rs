@@ -1,25 +1,26 @@
 //! Arrays in and out: one state or many in one call.
 
 use crate::error::usage;
-use numpy::{IntoPyArray, PyArrayDyn, PyArrayMethods, PyReadonlyArrayDyn, PyUntypedArrayMethods};
+use numpy::{IntoPyArray, PyArrayDyn, PyArrayMethods, PyUntypedArrayMethods};
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 use pyo3::sync::PyOnceLock;
 
-/// Numbers of an argument, in the order of rows.
+/// Numbers of an argument, in the order of rows: a copy, since another thread may write into the array while these are used.
 #[derive(Debug)]
-pub(crate) struct Numbers<'py> {
-    array: PyReadonlyArrayDyn<'py, f64>,
+pub(crate) struct Numbers {
+    data: Vec<f64>,
+    shape: Vec<usize>,
 }
 
-impl<'py> Numbers<'py> {
-    /// Takes an argument: doubles in the order of rows as they are; anything else is converted once, or refused where `strict`.
-    pub(crate) fn new(value: &Bound<'py, PyAny>, name: &str, strict: bool) -> PyResult<Self> {
+impl Numbers {
+    /// Takes an argument: doubles in the order of rows as they are; anything else is converted, or refused where `strict`.
+    pub(crate) fn new(value: &Bound<'_, PyAny>, name: &str, strict: bool) -> PyResult<Self> {
         if let Ok(array) = value.cast::<PyArrayDyn<f64>>()
             && array.is_c_contiguous()
             && is_aligned(array)
         {
-            return Ok(Self { array: array.readonly() });
+            return Self::copied(array);
         }
         if strict {
             let message = format!("{name} is no array of float64 in the order of rows (C)");
@@ -29,20 +30,23 @@ impl<'py> Numbers<'py> {
             let message = format!("{name} is no array of numbers: {}", error.value(value.py()));
             usage(value.py(), "wrong-type", &message, "give numbers", name)
         })?;
-        Ok(Self { array: converted.readonly() })
+        Self::copied(&converted)
+    }
+
+    fn copied(array: &Bound<'_, PyArrayDyn<f64>>) -> PyResult<Self> {
+        Ok(Self { data: array.to_vec()?, shape: array.shape().to_vec() })
     }
 
     pub(crate) fn shape(&self) -> &[usize] {
-        self.array.shape()
+        &self.shape
     }
 
     pub(crate) fn slice(&self) -> &[f64] {
-        // a converted array is contiguous, and so is one that is taken as it is
-        self.array.as_slice().unwrap_or_default()
+        &self.data
     }
 
     /// The numbers of an argument with exactly `n` of them.
-    pub(crate) fn row(value: &Bound<'py, PyAny>, name: &str, n: usize) -> PyResult<Vec<f64>> {
+    pub(crate) fn row(value: &Bound<'_, PyAny>, name: &str, n: usize) -> PyResult<Vec<f64>> {
         let numbers = Self::new(value, name, false)?;
         if numbers.shape() != [n] {
             return Err(wrong_shape(value.py(), name, numbers.shape(), &format!("({n},)")));
@@ -88,16 +92,16 @@ pub(crate) fn wrong_shape(py: Python<'_>, name: &str, found: &[usize], expected:
 
 /// Arguments of one state or of k states each.
 #[derive(Debug)]
-pub(crate) struct States<'py> {
-    arguments: Vec<(Numbers<'py>, usize, bool)>,
+pub(crate) struct States {
+    arguments: Vec<(Numbers, usize, bool)>,
     /// How many; nothing: one, without a dimension of its own.
     k: Option<usize>,
 }
 
-impl<'py> States<'py> {
+impl States {
     /// Takes arguments with their names and numbers of a state.
     pub(crate) fn new(
-        arguments: &[(&Bound<'py, PyAny>, &str, usize)],
+        arguments: &[(&Bound<'_, PyAny>, &str, usize)],
         strict: bool,
     ) -> PyResult<Self> {
         let (mut taken, mut k) = (Vec::new(), None);

@@ -33,11 +33,11 @@ fn pool(py: Python<'_>, threads: usize) -> PyResult<Arc<Ensemble>> {
 }
 
 /// The inputs of a batch: none, one row, a row for each step, or rows for each start.
-fn inputs<'py>(
-    u: Option<&Bound<'py, PyAny>>,
+fn inputs(
+    u: Option<&Bound<'_, PyAny>>,
     (k, nu): (usize, usize),
     steps: Option<usize>,
-) -> PyResult<(Option<Numbers<'py>>, usize, bool)> {
+) -> PyResult<(Option<Numbers>, usize, bool)> {
     let Some(u) = u else {
         let Some(steps) = steps else {
             // nothing says how many
