@@ -31,6 +31,8 @@ impl Simulation {
         q: &[f64],
         v: &[f64],
     ) -> Result<f64, SimulationError> {
+        // signals begin anew in both
+        tree.reset();
         tree.set_time(self.time());
         tree.set_inputs(self.input_values())?;
         tree.set(q, v)?;
