@@ -63,6 +63,19 @@ fn inputs(
     Ok((Some(numbers), found, many))
 }
 
+/// Room for k motions, in q and in v, with the numbers of each; nothing where there is none.
+fn rooms(k: usize, n_steps: usize, [n_q, n_v]: [usize; 2]) -> Option<([usize; 2], [Vec<f64>; 2])> {
+    let size = |n: usize| n_steps.checked_add(1)?.checked_mul(n);
+    let room = |n: usize| {
+        let (n, mut rows) = (n.checked_mul(k)?, Vec::new());
+        rows.try_reserve_exact(n).ok()?;
+        rows.resize(n, f64::NAN);
+        Some(rows)
+    };
+    let (q, v) = (size(n_q)?, size(n_v)?);
+    Some(([q, v], [room(q)?, room(v)?]))
+}
+
 #[pymethods]
 impl Mechanism {
     /// Motions from k starts by equal steps of `dt` [s], with all effects; `u` (k, steps, nu), or (steps, nu) for all, is held over each step.
@@ -113,8 +126,10 @@ impl Mechanism {
             integrator: kind,
             interrupt: Some(&interrupt),
         };
-        let sizes = [(n_steps + 1) * nq, (n_steps + 1) * nv];
-        let mut all = sizes.map(|n| vec![f64::NAN; n * k]);
+        let Some((sizes, mut all)) = rooms(k, n_steps, [nq, nv]) else {
+            let message = format!("{k} motions of {n_steps} steps have no room in memory");
+            return Err(usage(py, "too-large", &message, "ask for fewer at a time", "steps"));
+        };
         let pool = if threads == 1 || k <= 1 { None } else { Some(pool(py, threads)?) };
         let batch = Batch { first, k, sizes, pool };
         let ends = if k.saturating_mul(n_steps) > LONG {

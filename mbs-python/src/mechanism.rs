@@ -422,7 +422,12 @@ impl Mechanism {
     }
 
     fn __hash__(&self) -> u64 {
-        mbs::inside::fingerprint(self.shared.file.whole_text().as_bytes())
+        // equal mechanisms may have other texts
+        let scene = &self.shared.scene;
+        let names = scene.bodies.iter().map(|body| &body.name);
+        let names = names.chain(scene.joints.iter().map(|joint| &joint.name));
+        let text = names.fold(scene.name.clone(), |text, name| text + "\n" + name);
+        mbs::inside::fingerprint(text.as_bytes())
     }
 
     fn __repr__(&self) -> String {

@@ -96,14 +96,14 @@ impl Simulation {
     fn advance(
         &self,
         py: Python<'_>,
-        n: usize,
+        (n, flag): (usize, &AtomicBool),
         advance: impl FnOnce(&mut mbs::Simulation) -> Result<(), SimulationError> + Send,
     ) -> PyResult<()> {
         let mut moving = self.moving(py)?;
         moving.is_followed = false;
         let simulation = &mut moving.simulation;
         let done = if n > LONG {
-            whole(py, &self.flag, &silent(&Reached::default()), || advance(simulation))?
+            whole(py, flag, &silent(&Reached::default()), || advance(simulation))?
         } else if n > 1 {
             guarded(py, || Ok(py.detach(|| advance(simulation))))?
         } else {
@@ -198,7 +198,7 @@ impl Simulation {
     #[pyo3(signature = (dt = None, u = None))]
     fn step(&self, py: Python<'_>, dt: Option<f64>, u: Option<&Bound<'_, PyAny>>) -> PyResult<()> {
         let all = inputs(u, self.this().shared.inputs.len(), None)?;
-        self.advance(py, 1, |simulation| {
+        self.advance(py, (1, &self.flag), |simulation| {
             if !all.is_empty() {
                 simulation.set_inputs(&all)?;
             }
@@ -218,8 +218,8 @@ impl Simulation {
     ) -> PyResult<()> {
         let nu = self.this().shared.inputs.len();
         let all = inputs(u, nu, Some(n))?;
-        let flag = self.flag.clone();
-        self.advance(py, n, |simulation| {
+        let flag = AtomicBool::new(false);
+        self.advance(py, (n, &flag), |simulation| {
             let dt = dt.unwrap_or_else(|| simulation.step_length());
             for k in 0..n {
                 if nu > 0
@@ -247,7 +247,7 @@ impl Simulation {
             clippy::cast_sign_loss,
             reason = "more steps than a number holds are many"
         )]
-        self.advance(py, n.ceil().max(2.0) as usize, |simulation| {
+        self.advance(py, (n.ceil().max(2.0) as usize, &self.flag), |simulation| {
             simulation.advance_to(time).map(|_| ())
         })
     }

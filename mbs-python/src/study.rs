@@ -85,6 +85,9 @@ impl Mechanism {
         let (found, simulation) = found.map_err(|error| raised(py, &error, Class::Start))?;
         let object = found.to_json();
         let state = self.state_of(py, &simulation)?;
+        // the scene's initial velocities are no part of it
+        let at_rest = state.getattr("v")?.call_method1("__mul__", (0.0,))?;
+        let state = values::make(py, "State", (state.getattr("q")?, at_rest))?;
         let is_stable = found.unstable.map(|n| n == 0);
         let [joints, reactions, outputs] =
             ["joints", "reactions", "outputs"].map(|key| part(py, &object, key));
@@ -210,13 +213,14 @@ impl Mechanism {
         if let Ok(name) = at.extract::<String>() {
             return Ok(At::Place(place(at.py(), &name)?));
         }
-        // of an equilibrium its state
-        let state = if at.hasattr("state")? { at.getattr("state")? } else { at.clone() };
+        if at.hasattr("is_stable")? {
+            return Ok(At::Place(Place::Equilibrium));
+        }
         let wrong = |_| {
             let hint = "give a name, an equilibrium, or (q, v)";
             usage(at.py(), "wrong-type", "at is no state", hint, "at")
         };
-        let (q, v): (Bound<'_, PyAny>, Bound<'_, PyAny>) = state.extract().map_err(wrong)?;
+        let (q, v): (Bound<'_, PyAny>, Bound<'_, PyAny>) = at.extract().map_err(wrong)?;
         let first = self.first(at.py())?;
         let q = Numbers::row(&q, "q", first.coordinates().len())?;
         Ok(At::State(q, Numbers::row(&v, "v", first.velocities().len())?))

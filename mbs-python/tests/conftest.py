@@ -2,6 +2,7 @@
 
 import importlib
 import os
+import signal
 from pathlib import Path
 from types import ModuleType
 
@@ -20,3 +21,7 @@ def needs(name: str) -> ModuleType:
     if os.environ.get("MBS_STRICT") == "1":
         return importlib.import_module(name)
     return pytest.importorskip(name)  # type: ignore[no-any-return]
+
+
+# a shell that starts this in the background has Ctrl-C ignored, and Python leaves it so
+signal.signal(signal.SIGINT, signal.default_int_handler)
