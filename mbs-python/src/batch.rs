@@ -20,7 +20,8 @@ static POOLS: Mutex<BTreeMap<(u32, usize), Arc<Ensemble>>> = Mutex::new(BTreeMap
 
 /// The pool of so many threads; zero: one for each processor.
 fn pool(py: Python<'_>, threads: usize) -> PyResult<Arc<Ensemble>> {
-    let threads = NonZeroUsize::new(threads).unwrap_or_else(mbs::parallel::ensemble::available);
+    let threads = NonZeroUsize::new(threads.min(mbs::parallel::most_threads()));
+    let threads = threads.unwrap_or_else(mbs::parallel::ensemble::available);
     let mut pools = POOLS.lock().unwrap_or_else(PoisonError::into_inner);
     let key = (std::process::id(), threads.get());
     if let Some(pool) = pools.get(&key) {

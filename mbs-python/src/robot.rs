@@ -4,7 +4,7 @@ use crate::array::{Numbers, States, array, point, vector, wrong_shape};
 use crate::error::{Class, guarded, raised, unknown_name, usage};
 use crate::mechanism::{Mechanism, pose};
 use crate::values;
-use mbs::{FrameTarget, InverseKinematicsEnd, Matrix, Tree, TreeError};
+use mbs::{FrameTarget, InverseKinematicsEnd, Matrix, Tree, TreeError, TreeErrorKind};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple};
 
@@ -37,7 +37,8 @@ impl Mechanism {
                 let argument = |i: usize| if i < n_arguments { rows.get(i, k) } else { &[] };
                 let given = [argument(0), argument(1), argument(2)];
                 let to = &mut out[n * k..][..n];
-                one(tree, given, to).map_err(|error| Box::new((k, error)))?;
+                let done = one(tree, given, &mut *to).and_then(|()| finite(to));
+                done.map_err(|error| Box::new((k, error)))?;
             }
             Ok(())
         };
@@ -58,6 +59,14 @@ impl Mechanism {
         }
         let many: Vec<usize> = states.k().into_iter().chain(shape.iter().copied()).collect();
         array(py, out, &many)
+    }
+}
+
+/// Refuses an answer that has overflowed.
+fn finite(answer: &[f64]) -> Result<(), TreeError> {
+    match answer.iter().position(|x| !x.is_finite()) {
+        Some(place) => Err(TreeErrorKind::NotFinite("the answer", place).into()),
+        None => Ok(()),
     }
 }
 
