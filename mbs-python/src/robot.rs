@@ -337,16 +337,10 @@ impl Mechanism {
         v: &Bound<'py, PyAny>,
         effort: &Bound<'py, PyAny>,
     ) -> PyResult<Bound<'py, PyAny>> {
-        let [nq, nv] = self.sizes(py)?;
-        let arguments = [(q, "q", nq), (v, "v", nv), (effort, "effort", nv)];
-        let all = self.each(py, (&arguments, false), &[3, nv, nv], |tree, x, out| {
-            tree.set(x[0], x[1])?;
-            let d = tree.forward_dynamics_derivatives(x[2])?;
-            let parts = [&d.q, &d.v, &d.effort];
-            out.chunks_exact_mut((nv * nv).max(1)).zip(parts).for_each(|(to, from)| copy(from, to));
-            Ok(())
-        })?;
-        derivatives(&all)
+        self.derivatives(py, [q, v, effort], "effort", |tree, x| {
+            let d = tree.forward_dynamics_derivatives(x)?;
+            Ok([&d.q, &d.v, &d.effort])
+        })
     }
 
     /// Derivatives of `inverse_dynamics` by q, v and a, (nv, nv) each. Those by q are by moves along v.
@@ -357,16 +351,10 @@ impl Mechanism {
         v: &Bound<'py, PyAny>,
         a: &Bound<'py, PyAny>,
     ) -> PyResult<Bound<'py, PyAny>> {
-        let [nq, nv] = self.sizes(py)?;
-        let arguments = [(q, "q", nq), (v, "v", nv), (a, "a", nv)];
-        let all = self.each(py, (&arguments, false), &[3, nv, nv], |tree, x, out| {
-            tree.set(x[0], x[1])?;
-            let d = tree.inverse_dynamics_derivatives(x[2])?;
-            let parts = [&d.q, &d.v, &d.acceleration];
-            out.chunks_exact_mut((nv * nv).max(1)).zip(parts).for_each(|(to, from)| copy(from, to));
-            Ok(())
-        })?;
-        derivatives(&all)
+        self.derivatives(py, [q, v, a], "a", |tree, x| {
+            let d = tree.inverse_dynamics_derivatives(x)?;
+            Ok([&d.q, &d.v, &d.acceleration])
+        })
     }
 
     /// q moved by `step` (nv,) along the velocities.
@@ -457,6 +445,25 @@ fn product(a: &[[f64; 3]; 3], b: &[[f64; 3]; 3]) -> [[f64; 3]; 3] {
 }
 
 impl Mechanism {
+    /// The three derivatives of one kind of dynamics, of one state or of many.
+    fn derivatives<'py>(
+        &self,
+        py: Python<'py>,
+        [q, v, third]: [&Bound<'py, PyAny>; 3],
+        name: &str,
+        of: for<'t> fn(&'t mut Tree, &[f64]) -> Result<[&'t Matrix; 3], TreeError>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let [nq, nv] = self.sizes(py)?;
+        let arguments = [(q, "q", nq), (v, "v", nv), (third, name, nv)];
+        let all = self.each(py, (&arguments, false), &[3, nv, nv], |tree, x, out| {
+            tree.set(x[0], x[1])?;
+            let parts = of(tree, x[2])?;
+            out.chunks_exact_mut((nv * nv).max(1)).zip(parts).for_each(|(to, from)| copy(from, to));
+            Ok(())
+        })?;
+        derivatives(&all)
+    }
+
     /// Refuses the name of a frame.
     fn no_frame(&self, py: Python<'_>, name: &str) -> PyErr {
         let scene = &self.shared.scene;
