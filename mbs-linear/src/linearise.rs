@@ -93,6 +93,13 @@ impl<T: Real> Linear<T> {
 const SWEEPS: u32 = 60;
 /// Largest move that closes the constraints, relative to a difference [-]: their curvature takes some 1e-4.
 const CURVED: f64 = 0.1;
+/// The same at which a difference gets shorter, in its reach [-]: 0.001 at the default. The modes of a chain of 60 links
+/// then have nine digits, and five at ten times this.
+const FLAT: f64 = 10.0;
+/// Largest part by which such a difference gets shorter at once [-]. Chosen, not tuned.
+const SHORTER: f64 = 1.0 / 64.0;
+/// Most lengths that are tried [-]. Chosen, not tuned.
+const LENGTHS: u32 = 4;
 /// Move that is rounding, in units of rounding of the coordinates [-]. Chosen, not tuned.
 const ROUNDED: f64 = 16.0;
 /// Rounding of accelerations, in units of rounding of their terms [-]. Chosen, not tuned.
@@ -102,9 +109,10 @@ const STALLED: f64 = 1e3;
 
 /// Linearises about the consistent state `s`. Time and measured angles are constant.
 ///
-/// At a kink of a force (a contact that begins, a damper with two branches at rest) the mean of both sides is given.
+/// At a kink of a force (a contact that begins, a damper with two branches at rest) the mean of both sides is given, next to one something
+/// between. Differences are shorter where the constraints curve within them, as those of a long chain do.
 ///
-/// Cost: 4 f + 1 factorisations and 8 f evaluations for f freedoms, 4 more for each state of a signal, and n^3 operations for the dense
+/// Cost: 4 f + 1 factorisations and 9 f evaluations for f freedoms, 4 more for each state of a signal, and n^3 operations for the dense
 /// split; allocates.
 ///
 /// # Errors
@@ -145,6 +153,8 @@ pub(crate) struct Field<'a, T, M, S> {
     pub(crate) lambda: Vec<T>,
     /// Largest acceleration that a force would give alone, in sizes of coordinates [1/s^2].
     pub(crate) lively: T,
+    /// Shortest difference by coordinates and velocities, in sizes of coordinates [-].
+    shortest: T,
     /// What is measured at each state; nothing where no outputs are asked for.
     pub(crate) watch: Option<Watch<'a, T>>,
 }
@@ -156,7 +166,7 @@ pub(crate) struct Slopes<T> {
     /// Of the rates x' of the states of signals.
     signals: Vec<T>,
     /// Of the outputs.
-    outputs: Vec<T>,
+    pub(crate) outputs: Vec<T>,
 }
 
 impl<'a, T: Real, M: Model<T>, S: SymmetricSolver<T>> Field<'a, T, M, S> {
@@ -204,8 +214,9 @@ impl<'a, T: Real, M: Model<T>, S: SymmetricSolver<T>> Field<'a, T, M, S> {
         })?;
         let (q, v) = (s.q.clone(), s.v.clone());
         let (a, lambda) = (Vec::new(), Vec::new());
-        let (lively, watch) = (T::ZERO, None);
-        let mut field = Self { model, w, start: s, tangent, q, v, a, lambda, lively, watch };
+        let (lively, shortest, watch) = (T::ZERO, T::ONE, None);
+        let mut field =
+            Self { model, w, start: s, tangent, q, v, a, lambda, lively, shortest, watch };
         // The sizes of the rows come with the factor.
         field.factor()?;
         field.close()?;
@@ -240,7 +251,7 @@ impl<'a, T: Real, M: Model<T>, S: SymmetricSolver<T>> Field<'a, T, M, S> {
         let rates = [by_places.signals, by_speeds.signals].concat();
         let (signals, by_signals) = self.signals(reach, rates)?;
         let (stiffness, damping, basis) = (by_places.forces, by_speeds.forces, Vec::new());
-        let noise = self.noise(&stiffness, reach);
+        let noise = self.noise(&stiffness);
         let n_freedoms = f;
         let linear =
             Linear { n_freedoms, stiffness, damping, basis, acceleration, turning, noise, signals };
@@ -250,7 +261,7 @@ impl<'a, T: Real, M: Model<T>, S: SymmetricSolver<T>> Field<'a, T, M, S> {
     /// Slopes by z, by differences that move coordinates by `reach` of their sizes.
     pub(crate) fn by_places(&mut self, reach: T) -> Result<Slopes<T>, LinearError> {
         let mut change = vec![T::ZERO; self.tangent.n_freedoms()];
-        self.by_each(reach, |field, j, z| {
+        self.by_each(reach, Self::flat, |field, j, z| {
             change[j] = z;
             let accelerations = field.displaced(&change);
             change[j] = T::ZERO;
@@ -260,20 +271,23 @@ impl<'a, T: Real, M: Model<T>, S: SymmetricSolver<T>> Field<'a, T, M, S> {
 
     /// Slopes by z', by differences of velocities.
     fn by_speeds(&mut self, reach: T) -> Result<Slopes<T>, LinearError> {
-        self.by_each(reach, Self::hurried)
+        self.by_each(reach, |_, _, h| Ok(h), Self::hurried)
     }
 
-    /// Slopes by what `accelerations` are given of each freedom.
+    /// Slopes by what `accelerations` are given of each freedom; `lengths` are those of differences, given the longest one.
     fn by_each(
         &mut self,
         reach: T,
+        mut lengths: impl FnMut(&mut Self, usize, T) -> Result<T, LinearError>,
         mut accelerations: impl FnMut(&mut Self, usize, T) -> Result<Vec<T>, LinearError>,
     ) -> Result<Slopes<T>, LinearError> {
         let (f, n) = (self.tangent.n_freedoms(), self.model.n_signal_states());
         let [mut forces, mut signals, mut outputs] =
             [Vec::with_capacity(f * f), Vec::new(), Vec::new()];
         for j in 0..f {
-            let h = reach / self.w.extent(self.tangent.direction(j));
+            let extent = self.w.extent(self.tangent.direction(j));
+            let h = lengths(self, j, reach / extent)?;
+            self.shortest = self.shortest.min(h * extent);
             let slope = difference(h, |z| {
                 let answer = accelerations(self, j, z)?;
                 self.with_the_rest(answer)
@@ -300,8 +314,30 @@ impl<'a, T: Real, M: Model<T>, S: SymmetricSolver<T>> Field<'a, T, M, S> {
     }
 
     /// Rounding to be expected in a stiffness that was found so [1/s^2].
-    pub(crate) fn noise(&self, stiffness: &[T], reach: T) -> T {
-        T::EPSILON * T::from_f64(NOISE) * (norm_inf(stiffness) + self.lively / reach)
+    pub(crate) fn noise(&self, stiffness: &[T]) -> T {
+        T::EPSILON * T::from_f64(NOISE) * (norm_inf(stiffness) + self.lively / self.shortest)
+    }
+
+    /// A difference of a freedom within which the constraints are flat, no longer than `h`.
+    fn flat(&mut self, freedom: usize, mut h: T) -> Result<T, LinearError> {
+        let reach = h * self.w.extent(self.tangent.direction(freedom));
+        let flat = (reach * T::from_f64(FLAT)).min(T::from_f64(CURVED));
+        let mut last = None;
+        let mut change = vec![T::ZERO; self.tangent.n_freedoms()];
+        for _ in 0..LENGTHS {
+            change[freedom] = T::TWO * h;
+            let [way, bend, _] = self.shifted(&change)?;
+            let bend = bend / way;
+            if bend <= flat {
+                return Ok(h);
+            }
+            if last.is_some_and(|last| bend > last * T::HALF) {
+                break;
+            }
+            last = Some(bend);
+            h *= (flat / bend * T::HALF).max(T::from_f64(SHORTER));
+        }
+        Err(LinearError::Singular { freedom })
     }
 
     /// z'' at the state itself, with the velocity `v`.
@@ -332,10 +368,9 @@ impl<'a, T: Real, M: Model<T>, S: SymmetricSolver<T>> Field<'a, T, M, S> {
         self.w.extent(&way)
     }
 
-    /// z'' with z changed.
-    pub(crate) fn displaced(&mut self, change: &[T]) -> Result<Vec<T>, LinearError> {
+    /// Changes z and closes the constraints: how far coordinates moved in all, how far to close, and what of this is rounding, in their sizes.
+    fn shifted(&mut self, change: &[T]) -> Result<[T; 3], LinearError> {
         self.q.copy_from_slice(&self.start.q);
-        self.v.copy_from_slice(&self.start.v);
         for (j, &z) in change.iter().enumerate() {
             for (q, &b) in self.q.iter_mut().zip(self.tangent.direction(j)) {
                 *q += b * z;
@@ -344,15 +379,21 @@ impl<'a, T: Real, M: Model<T>, S: SymmetricSolver<T>> Field<'a, T, M, S> {
         let n = self.w.n;
         let open = self.q.clone();
         self.close()?;
-        // Of second order in z, unless a row is next to being dependent.
-        let extent = |field: &Self, from: &[T]| {
-            let way: Vec<T> = field.q[..n].iter().zip(from).map(|(&q, &from)| q - from).collect();
-            field.w.extent(&way)
+        let extent = |from: &[T]| {
+            let way: Vec<T> = self.q[..n].iter().zip(from).map(|(&q, &from)| q - from).collect();
+            self.w.extent(&way)
         };
-        let freedom = change.iter().position(|&z| z != T::ZERO).unwrap_or(0);
         let rounding = (T::ONE + self.w.extent(&self.q[..n])) * T::EPSILON;
-        let least = rounding * T::from_f64(ROUNDED);
-        if extent(self, &open) > least + extent(self, &self.start.q) * T::from_f64(CURVED) {
+        Ok([extent(&self.start.q), extent(&open), rounding * T::from_f64(ROUNDED)])
+    }
+
+    /// z'' with z changed.
+    pub(crate) fn displaced(&mut self, change: &[T]) -> Result<Vec<T>, LinearError> {
+        let [way, bend, least] = self.shifted(change)?;
+        self.v.copy_from_slice(&self.start.v);
+        // Of second order in z, unless a row is next to being dependent.
+        if bend > least + way * T::from_f64(CURVED) {
+            let freedom = change.iter().position(|&z| z != T::ZERO).unwrap_or(0);
             return Err(LinearError::Singular { freedom });
         }
         self.factor()?;

@@ -25,7 +25,15 @@ pub struct Ports<'a, T> {
     pub inputs: &'a [usize],
     /// Measures the outputs; always as many numbers.
     pub outputs: &'a mut OutputMeasure<'a, T>,
+    /// Coordinates x in place of z: of dy/dz, p x f, it makes dx/dz, f x f, both column by column; nothing where no x determine z. Without
+    /// it they are z.
+    ///
+    /// Slopes are then differences along x themselves: what a change of one x does small is not the difference of large ones by z.
+    pub coordinates: Option<&'a mut CoordinateChoice<'a, T>>,
 }
+
+/// Chooses coordinates by the slopes of outputs: see [`Ports::coordinates`].
+pub type CoordinateChoice<'a, T> = dyn FnMut(&[T]) -> Option<Vec<T>> + 'a;
 
 impl<T> fmt::Debug for Ports<'_, T> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
@@ -64,13 +72,15 @@ impl<T: Real> LinearPorts<T> {
 
 /// Linearises as [`linearise`](crate::linearise()) does, with inputs and outputs.
 ///
+/// With [`coordinates`](Ports::coordinates) z stands for what they choose, in all that is given; inertia is then no unit matrix.
+///
 /// At [`Instant::Rest`] rates and accelerations of guides are zero at the state, and derivatives by them are taken about zero.
 ///
 /// Cost: that of [`linearise`](crate::linearise()) with a measurement at each evaluation, 6 evaluations for each input, and 5
-/// factorisations for one that moves a guide; allocates.
+/// factorisations for one that moves a guide; 4 f factorisations more where coordinates are chosen; allocates.
 ///
 /// # Errors
-/// As [`linearise`](crate::linearise()), and what `ports.outputs` answers with. A guide whose value cannot be changed, as joints hold its
+/// As [`linearise`](crate::linearise()), and what `ports.outputs` answers with; [`LinearError::Singular`] where no coordinates are chosen. A guide whose value cannot be changed, as joints hold its
 /// coordinate too, is [`LinearError::NotClosed`].
 ///
 /// # Panics
@@ -85,6 +95,11 @@ pub fn linearise_ports<'a, T: Real, M: Model<T>, S: SymmetricSolver<T>>(
     let (places, reach) = (ports.inputs, how.1.step);
     let mut field = Field::checked(model, how, s, w)?;
     field.watch = Some(Watch::new(ports.outputs, s));
+    if let Some(choose) = ports.coordinates {
+        let slopes = field.by_places(reach)?.outputs;
+        field.tangent.choose(choose(&slopes).ok_or(LinearError::Singular { freedom: 0 })?);
+        field.return_to(&s.q)?;
+    }
     let (linear, [values, outputs]) = field.linear(reach)?;
     let [forces, feedthrough] = field.by_inputs(how.0, places, reach)?;
     let n_inputs = places.len();

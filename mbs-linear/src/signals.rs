@@ -6,8 +6,9 @@
 
 use crate::error::{EquilibriumError, LinearError};
 use crate::linearise::{Field, Instant, Linear, difference, linearise};
-use crate::near::{Pivoted, equilibrium_near, failed};
+use crate::near::{equilibrium_near, failed};
 use crate::options::{LinearOptions, Options};
+use crate::pivoted::Pivoted;
 use crate::signal_matrices::LinearSignals;
 use crate::workspace::Workspace;
 use alloc::vec::Vec;

@@ -12,6 +12,7 @@
 //!
 //! With the inertia a unit matrix the stiffness of conservative forces is symmetric and eigenvalues are well conditioned.
 
+use crate::pivoted::Pivoted;
 use alloc::vec;
 use alloc::vec::Vec;
 use mbs_core::Real;
@@ -33,6 +34,8 @@ pub(crate) struct TangentCoordinates<T> {
     sizes: Vec<T>,
     /// S B, n x f.
     pub(crate) basis: Vec<T>,
+    /// dx/dz, f x f, of coordinates x that stand for z; then the basis is S B (dx/dz)^-1.
+    chosen: Option<Vec<T>>,
 }
 
 /// Inertia of a column that has none, relative to the largest [-]: what rounding leaves of it. Chosen, not tuned.
@@ -79,7 +82,23 @@ impl<T: Real> TangentCoordinates<T> {
         for column in basis.chunks_exact_mut(n.max(1)) {
             column.copy_from_slice(&scaled(column));
         }
-        Ok(Self { n, rows, lengths, q, r, l, sizes: sizes.to_vec(), basis })
+        let (sizes, chosen) = (sizes.to_vec(), None);
+        Ok(Self { n, rows, lengths, q, r, l, sizes, basis, chosen })
+    }
+
+    /// Takes coordinates x in place of z, by dx/dz, f x f, which is regular.
+    pub(crate) fn choose(&mut self, slopes: Vec<T>) {
+        let (n, f) = (self.n, self.n_freedoms());
+        let matrix = Pivoted::new(f, slopes.clone(), T::ZERO);
+        let (mut unit, mut basis) = (vec![T::ZERO; f], vec![T::ZERO; n * f]);
+        for (j, to) in basis.chunks_exact_mut(n.max(1)).enumerate() {
+            unit[j] = T::ONE;
+            for (k, z) in matrix.solve(&unit).into_iter().enumerate() {
+                to.iter_mut().zip(self.direction(k)).for_each(|(to, &b)| *to += b * z);
+            }
+            unit[j] = T::ZERO;
+        }
+        (self.basis, self.chosen) = (basis, Some(slopes));
     }
 
     /// Number of freedoms f.
@@ -107,12 +126,18 @@ impl<T: Real> TangentCoordinates<T> {
         }
     }
 
-    /// z of a vector q of n: L^T Q2^T S^-1 q.
+    /// z of a vector q of n: L^T Q2^T S^-1 q; x where it was chosen.
     pub(crate) fn reduce(&self, q: &[T]) -> Vec<T> {
         let (rank, f) = (self.rows.len(), self.n_freedoms());
         let x: Vec<T> = q.iter().zip(&self.sizes).map(|(&q, &size)| q / size).collect();
         let e: Vec<T> = (0..f).map(|j| dot(column(&self.q, self.n, rank + j), &x)).collect();
-        (0..f).map(|j| (j..f).fold(T::ZERO, |sum, i| sum + self.l[j * f + i] * e[i])).collect()
+        let z = (0..f).map(|j| (j..f).fold(T::ZERO, |sum, i| sum + self.l[j * f + i] * e[i]));
+        let Some(slopes) = &self.chosen else { return z.collect() };
+        let mut x = vec![T::ZERO; f];
+        for (z, slopes) in z.zip(slopes.chunks_exact(f.max(1))) {
+            x.iter_mut().zip(slopes).for_each(|(x, &slope)| *x += slope * z);
+        }
+        x
     }
 
     /// Direction of one freedom: a column of S B.

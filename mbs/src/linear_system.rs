@@ -6,7 +6,7 @@
 //! A = R S^-1,   B = W - A T,   C = P S^-1,   D = Q - C T
 //! ```
 //!
-//! w are tangent coordinates, their rates and the states of signals. S, T, R, W, P and Q are differences of what is measured at states
+//! w are coordinates, their rates and the states of signals: x but for rotations, whose rates are angular velocities. S, T, R, W, P and Q are differences of what is measured at states
 //! next to it (`mbs_linear::linearise_ports`). T is not zero where a guide is an input: the joints that it moves are states as well.
 
 mod measured;
@@ -164,19 +164,31 @@ impl Asked<'_> {
         let (model, state) = (&placed.ready.model, &placed.ready.start.state);
         let inputs = InputPlaces::new(scene, model, self.inputs)?;
         let mut measured = Measured::new(&placed.scene, model, &columns).map_err(stopped)?;
+        let (layout, mut chosen) = (measured.layout.clone(), Vec::new());
         let mut measure = |s: &_| measured.write(s);
-        let ports = Ports { inputs: &inputs.places, outputs: &mut measure };
+        let mut choose = |slopes: &[f64]| {
+            let slopes = layout.slopes(slopes);
+            chosen = states::choose(&slopes, layout.n_of_joints)?;
+            let columns = 0..chosen.len();
+            Some(
+                columns
+                    .flat_map(|j| chosen.iter().map(|&i| slopes[i][j]).collect::<Vec<_>>())
+                    .collect(),
+            )
+        };
+        let ports =
+            Ports { inputs: &inputs.places, outputs: &mut measure, coordinates: Some(&mut choose) };
         let how = (placed.instant, &LinearOptions::default());
         let found = linearise_ports(model, how, state, &mut workspace(model), ports);
         let (linear, ports) = found.map_err(|error| {
-            let stop = measured.stop.take().unwrap_or(StopError::Linear(error));
+            let of_output = matches!(error, LinearError::Output { .. });
+            let stop = measured.stop.take().filter(|_| of_output);
+            let stop = stop.unwrap_or(StopError::Linear(error));
             stopped(stop.or_law(model.codes()))
         })?;
-        let (parts, layout) = (Parts { linear: &linear, ports: &ports }, &measured.layout);
-        let chosen = states::choose(&parts.slopes(layout), layout.n_of_joints);
+        let parts = Parts { linear: &linear, ports: &ports };
         let singular = || stopped(StopError::Linear(LinearError::Singular { freedom: 0 }));
-        let chosen = chosen.ok_or_else(singular)?;
-        let [a, b, c, d] = parts.matrices(layout, &chosen).ok_or_else(singular)?;
+        let [a, b, c, d] = parts.matrices(&layout, &chosen).ok_or_else(singular)?;
         let at = |place: usize| ports.values[place];
         let mut state_values: Vec<f64> = layout.state_rows(&chosen).map(at).collect();
         state_values.extend(state.signals[..linear.signals.n].iter().map(|[value, _]| *value));
@@ -214,13 +226,6 @@ impl Parts<'_> {
         let [by_states, by_inputs] = [&self.ports.outputs, &self.ports.feedthrough];
         [(self.linear.order(), by_states), (self.ports.n_inputs, by_inputs)]
             .map(|(n, from)| matrix(rows.len(), n, |i, j| from[j * all + rows[i]]))
-    }
-
-    /// How coordinates that may be states change with z, a row for each.
-    fn slopes(&self, layout: &Layout) -> Vec<Vec<f64>> {
-        let f = self.linear.n_freedoms;
-        let [by_states, _] = self.of(layout.coordinate_rows());
-        (0..by_states.rows).map(|i| by_states.row(i)[..f].to_vec()).collect()
     }
 
     /// A, B, C and D; nothing where the coordinates do not determine the motion.

@@ -13,7 +13,7 @@ crate::named! {
     pub enum Place {
         /// The static equilibrium near the start, at rest.
         Equilibrium = "equilibrium",
-        /// The start as assembled, with its velocities and the guides' rates.
+        /// The start of runs, with its velocities and the guides' rates.
         Initial = "initial",
         /// The positions of the static equilibrium with the scene's initial velocities: a vehicle that drives straight.
         Moving = "moving",
@@ -48,7 +48,7 @@ impl<const D: usize> PlacedScene<D> {
                 let found = find_equilibrium(&still, &ready.model, search, &mut ready.start.state)?;
                 (still, ready, Some(found))
             }
-            Place::Initial => (scene.clone(), AssembledScene::assembled(scene)?, None),
+            Place::Initial => (scene.clone(), AssembledScene::new(scene)?, None),
             Place::Moving => {
                 let (ready, found) = AssembledScene::settled(scene, search)?;
                 (scene.clone(), ready, Some(found))

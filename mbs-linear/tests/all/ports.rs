@@ -21,7 +21,7 @@ fn linearised<const D: usize>(
     measure: impl Fn(&State<f64>) -> Vec<f64>,
 ) -> (Linear<f64>, LinearPorts<f64>) {
     let mut outputs = |s: &State<f64>| Ok(measure(s));
-    let ports = Ports { inputs, outputs: &mut outputs };
+    let ports = Ports { inputs, outputs: &mut outputs, coordinates: None };
     let how = (instant, &LinearOptions::default());
     linearise_ports(&case.model, how, &case.state, &mut case.w, ports).expect("regular")
 }

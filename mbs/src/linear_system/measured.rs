@@ -13,6 +13,7 @@ use mbs_linear::LinearError;
 const WAY: f64 = 1e-3;
 
 /// Where the numbers of a measurement are: outputs; then coordinates, rates, derivatives of the coordinates, and accelerations.
+#[derive(Debug, Clone)]
 pub(super) struct Layout {
     /// Which of the measured components are outputs, in their order, and how many there are.
     outputs: Vec<usize>,
@@ -34,9 +35,12 @@ impl Layout {
         self.outputs.iter().copied()
     }
 
-    /// All coordinates.
-    pub(super) fn coordinate_rows(&self) -> impl Iterator<Item = usize> {
-        (0..self.names.len()).map(self.part(0))
+    /// How coordinates that may be states change with each freedom, a row for each, of what all that is measured changes by, freedom by
+    /// freedom.
+    pub(super) fn slopes(&self, of_all: &[f64]) -> Vec<Vec<f64>> {
+        let all = self.n_measured + 4 * self.names.len();
+        let rows = (0..self.names.len()).map(self.part(0));
+        rows.map(|row| of_all.chunks_exact(all.max(1)).map(|of| of[row]).collect()).collect()
     }
 
     /// Coordinates that are states, then their rates.

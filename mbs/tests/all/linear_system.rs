@@ -3,9 +3,9 @@
 use crate::common;
 
 use mbs::{
-    Body, Effect, Error as _, GROUND, Guide, InitialCondition, Joint, JointId, LinearSystem,
-    LinearizeOptions, Matrix, Mechanism, Method, Modes, Motion, Number, Output, Place, Search,
-    Signal, linearize,
+    Body, Effect, EquilibriumOptions, Error as _, GROUND, Guide, InitialCondition, Joint, JointId,
+    LinearSystem, LinearizeOptions, Matrix, Mechanism, Method, Modes, Motion, Number, Output,
+    Place, Search, Signal, equilibrium, linearize,
 };
 
 /// Differences of fourth order leave rounding alone, 1e-11 of these numbers; an equilibrium is found to 1e-10 rad.
@@ -131,6 +131,57 @@ fn a_four_bar_in_motion_is_the_pendulum_that_its_cranks_are() {
         assert_entries("C", &system.c, &[tip[0], tip[1], tip[0], tip[1]]);
         assert_entries("D", &system.d, &[&[0.0]; 4].map(|row: &[f64; 1]| &row[..]));
     }
+}
+
+#[test]
+fn a_long_chain_keeps_its_digits_in_relative_angles() {
+    let (n, g) = (40, 9.81);
+    let mut m = Mechanism::planar("chain");
+    m.set_gravity([0.0, -g]);
+    let mut before = GROUND;
+    for i in 0..n {
+        let top = -(i as f64);
+        let link = m.add(Body::rod([0.0, top], [0.0, top - 1.0], 1.0));
+        m.add(Joint::revolute([before, link], [0.0, top]));
+        before = link;
+    }
+    let system = about(&m, Place::Initial);
+    assert!(
+        system.states[..n].iter().enumerate().all(|(i, name)| *name == format!("joint-{}", i + 1))
+    );
+    // about the upper end of rod i: it carries what hangs below, and the relative angles up to it turn it
+    let below = |i: usize| (n - 1 - i) as f64;
+    let mass = |i: usize, k: usize| below(i.max(k)) + if i == k { 1.0 / 3.0 } else { 0.5 };
+    for j in 0..n {
+        let turns = (0..n).scan(0.0, |turn, i| {
+            *turn += system.a[(n + i, j)];
+            Some(*turn)
+        });
+        let turns: Vec<f64> = turns.collect();
+        for i in 0..n {
+            let weight = if j <= i { g * (below(i) + 0.5) } else { 0.0 };
+            let moments = turns.iter().enumerate().map(|(k, turn)| mass(i, k) * turn);
+            let left = (weight + moments.sum::<f64>()).abs();
+            // one unit of angle against the weight of the whole
+            assert!(left < SAME * g * n as f64, "{i}, {j}: {left} N m");
+        }
+    }
+}
+
+#[test]
+fn a_scene_that_starts_settled_is_linearised_there_as_its_start() {
+    let mut m = Mechanism::planar("pendulum");
+    m.set_gravity([0.0, -9.81]);
+    let bob = m.add(Body::planar([1.0, 0.0], 2.0, 0.0));
+    let pivot = m.add(Joint::revolute([GROUND, bob], [0.0, 0.0]).named("pivot"));
+    let level = about(&m, Place::Initial);
+    assert_entries("A", &level.a, &[&[0.0, 1.0], &[0.0, 0.0]]);
+    m.add(InitialCondition::joint(pivot, Some(vec![(-1.0).into()]), None));
+    let rest = equilibrium(&m, &EquilibriumOptions::default()).expect("it hangs");
+    m.start_from(&rest);
+    let settled = about(&m, Place::Initial);
+    assert_entries("A", &settled.a, &[&[0.0, 1.0], &[-9.81, 0.0]]);
+    assert!((settled.state_values[0] + core::f64::consts::FRAC_PI_2).abs() < SAME);
 }
 
 #[test]
