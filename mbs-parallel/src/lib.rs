@@ -4,7 +4,7 @@ mod beside;
 pub mod ensemble;
 pub mod team;
 
-pub use beside::beside;
+pub use beside::{apart, beside};
 pub use team::{Pool, ThreadTeam, Threads};
 
 /// Most threads of a team: those beyond the processors wait for each other.

@@ -1,6 +1,7 @@
 //! What the channels of a run read: measures, and reactions and effects where an output asks for them.
 
 use crate::checkpoint::tape::{Tape, Walked, holds};
+use crate::once::{find, once};
 use crate::simulation::Simulation;
 use crate::stop::StopError;
 use mbs_core::Real;
@@ -21,6 +22,20 @@ pub struct Channels<T: Real, const D: usize> {
     ends: [usize; 2],
     /// Where the components of each output end.
     outputs: Vec<usize>,
+    write_at: Write<T, D>,
+}
+
+type New<T, const D: usize> =
+    fn(&Scene<T>, &NaturalModel<T, D>) -> Result<Channels<T, D>, StopError>;
+type Write<T, const D: usize> =
+    fn(&mut Channels<T, D>, &State<T>, &mut [T]) -> Result<(), StopError>;
+once!(NEW: New = new);
+
+fn new<T: Real, const D: usize>(
+    scene: &Scene<T>,
+    model: &NaturalModel<T, D>,
+) -> Result<Channels<T, D>, StopError> {
+    Channels::new_here(scene, model)
 }
 
 impl<T: Real, const D: usize> Channels<T, D> {
@@ -29,6 +44,10 @@ impl<T: Real, const D: usize> Channels<T, D> {
     /// # Errors
     /// [`StopError`] for an output that cannot be measured.
     pub fn new(scene: &Scene<T>, model: &NaturalModel<T, D>) -> Result<Self, StopError> {
+        find::<New<T, D>>(NEW)?(scene, model)
+    }
+
+    fn new_here(scene: &Scene<T>, model: &NaturalModel<T, D>) -> Result<Self, StopError> {
         let measures = Measures::new(scene, model).map_err(|e| StopError::Start(e.into()))?;
         let forces = Forces::new(scene, model).map_err(StopError::Reaction)?;
         let asked = scene.outputs.iter().filter(|o| o.quantity.row().needs_reactions);
@@ -50,7 +69,8 @@ impl<T: Real, const D: usize> Channels<T, D> {
         let not_unique = Vec::with_capacity(asked.len());
         let forces = Some(forces);
         let ends = [n_joints, n_both];
-        Ok(Self { measures, forces, not_unique, asked, ends, outputs })
+        let write_at = Self::write_here;
+        Ok(Self { measures, forces, not_unique, asked, ends, outputs, write_at })
     }
 
     /// Exchanges what forces are made of: the same scene with other effects has others.
@@ -95,6 +115,10 @@ impl<T: Real, const D: usize> Channels<T, D> {
     /// # Errors
     /// [`StopError::Output`] for one that is not finite, as the acceleration of a point beyond all measure.
     pub(crate) fn write_at(&mut self, state: &State<T>, out: &mut [T]) -> Result<(), StopError> {
+        (self.write_at)(self, state, out)
+    }
+
+    fn write_here(&mut self, state: &State<T>, out: &mut [T]) -> Result<(), StopError> {
         self.forces.iter_mut().for_each(|forces| forces.update(state));
         if let Some(reactions) = self.forces.as_ref().and_then(Forces::reactions) {
             for &asked in &self.asked {

@@ -20,14 +20,16 @@ pub(crate) fn workspace<T: Real, const D: usize>(
     Workspace::new(model, solver)
 }
 
-/// How an equilibrium is sought.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum Search {
-    /// Down from the start, to one that is stable.
-    #[default]
-    Down,
-    /// By Newton's method from the start, to the one nearby, stable or not.
-    Near,
+crate::named! {
+    /// How an equilibrium is sought.
+    #[derive(Default)]
+    pub enum Search {
+        /// Down from the start, to one that is stable.
+        #[default]
+        Down = "down",
+        /// By Newton's method from the start, to the one nearby, stable or not.
+        Near = "near",
+    }
 }
 
 impl Search {

@@ -22,6 +22,7 @@ mod modes;
 mod motion;
 mod named;
 mod names;
+mod once;
 mod one_way;
 mod placed;
 mod precision;

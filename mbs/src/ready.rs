@@ -1,6 +1,7 @@
 //! What every way to simulate a scene begins from.
 
 use crate::equilibrium::{Search, equilibrium_start};
+use crate::once::{find, once};
 use crate::rest::without_rates;
 use crate::stop::StopError;
 use crate::tilt;
@@ -23,7 +24,15 @@ pub struct AssembledScene<T: Real, const D: usize> {
     /// Its start.
     pub start: Assembled<T>,
     rank: Option<usize>,
+    rank_of: Rank<T, D>,
 }
+
+type Assemble<T, const D: usize> = fn(&Scene<T>) -> Result<AssembledScene<T, D>, StopError>;
+type Settle<T, const D: usize> =
+    fn(&Scene<T>, Search) -> Result<(AssembledScene<T, D>, Equilibrium<T>), StopError>;
+type Rank<T, const D: usize> = fn(&NaturalModel<T, D>, &State<T>) -> usize;
+once!(ASSEMBLE: Assemble = assemble_scene);
+once!(SETTLE: Settle = settle_scene);
 
 impl<T: Real, const D: usize> AssembledScene<T, D> {
     /// Builds the model of a scene and assembles it; it settles where the scene asks for it.
@@ -42,10 +51,7 @@ impl<T: Real, const D: usize> AssembledScene<T, D> {
     /// # Errors
     /// As for [`new`](Self::new).
     pub fn settled(scene: &Scene<T>, search: Search) -> Result<(Self, Equilibrium<T>), StopError> {
-        let mut ready = Self::assembled(&without_rates(scene.clone()))?;
-        let Self { model, solver, start, .. } = &mut ready;
-        let found = equilibrium_start(scene, model, search, solver, start)?;
-        Ok((ready, found))
+        find::<Settle<T, D>>(SETTLE)?(scene, search)
     }
 
     /// Builds the model of a scene and assembles it, no more.
@@ -53,15 +59,7 @@ impl<T: Real, const D: usize> AssembledScene<T, D> {
     /// # Errors
     /// [`StopError::Start`] when there is no model or no consistent start, [`StopError::AlmostDependent`] for an axis that is off.
     pub fn assembled(scene: &Scene<T>) -> Result<Self, StopError> {
-        let model = NaturalModel::new(scene).map_err(|e| StopError::Start(e.into()))?;
-        if let Some(tilt) = tilt::almost_dependent::<T, D>(scene) {
-            return Err(StopError::AlmostDependent(tilt));
-        }
-        let analyse = mbs_sparse::Options::default();
-        let mut solver = Multifrontal::analyse(&model, analyse);
-        let start = assemble(scene, &model, |p| Multifrontal::analyse(p, analyse), &mut solver);
-        let start = start.map_err(|error| StopError::Start(error).or_law(model.codes()))?;
-        Ok(Self { start, model, solver, rank: None })
+        find::<Assemble<T, D>>(ASSEMBLE)?(scene)
     }
 
     /// Builds the model of a scene whose bodies move as `motions` say at time `t`: see [`start_at`].
@@ -76,15 +74,39 @@ impl<T: Real, const D: usize> AssembledScene<T, D> {
         let mut solver = Multifrontal::analyse(&model, mbs_sparse::Options::default());
         let start = start_at((scene, &model), &mut solver, (t, motions));
         let start = start.map_err(|error| StopError::Start(error).or_law(model.codes()))?;
-        Ok(Self { start, model, solver, rank: None })
+        Ok(Self { start, model, solver, rank: None, rank_of: rank })
     }
 
     /// Coordinates, constraints, and their rank at the start, which is found once.
     pub fn sizes(&mut self) -> [usize; 3] {
-        let Self { model, start, rank: known, .. } = self;
-        let rank = *known.get_or_insert_with(|| rank(model, &start.state));
+        let Self { model, start, rank: known, rank_of, .. } = self;
+        let rank = *known.get_or_insert_with(|| rank_of(model, &start.state));
         [model.n_unknowns(), model.n_constraints(), rank]
     }
+}
+
+fn assemble_scene<T: Real, const D: usize>(
+    scene: &Scene<T>,
+) -> Result<AssembledScene<T, D>, StopError> {
+    let model = NaturalModel::new(scene).map_err(|e| StopError::Start(e.into()))?;
+    if let Some(tilt) = tilt::almost_dependent::<T, D>(scene) {
+        return Err(StopError::AlmostDependent(tilt));
+    }
+    let analyse = mbs_sparse::Options::default();
+    let mut solver = Multifrontal::analyse(&model, analyse);
+    let start = assemble(scene, &model, |p| Multifrontal::analyse(p, analyse), &mut solver);
+    let start = start.map_err(|error| StopError::Start(error).or_law(model.codes()))?;
+    Ok(AssembledScene { start, model, solver, rank: None, rank_of: rank })
+}
+
+fn settle_scene<T: Real, const D: usize>(
+    scene: &Scene<T>,
+    search: Search,
+) -> Result<(AssembledScene<T, D>, Equilibrium<T>), StopError> {
+    let mut ready = assemble_scene(&without_rates(scene.clone()))?;
+    let AssembledScene { model, solver, start, .. } = &mut ready;
+    let found = equilibrium_start(scene, model, search, solver, start)?;
+    Ok((ready, found))
 }
 
 /// Rank of the constraints at a state.

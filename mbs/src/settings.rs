@@ -163,6 +163,18 @@ pub enum SettingsError {
 }
 
 impl SettingsError {
+    /// The key of the setting that it is about, where that is one.
+    #[must_use]
+    pub fn key(&self) -> Option<&str> {
+        match self {
+            Self::NotBuilt { key, .. } | Self::NotPositive { key, .. } => Some(key),
+            Self::NotInBuild(_) => Some("precision"),
+            Self::NotTogether { option, .. } => option.split(' ').next(),
+            Self::TooManySteps { .. } | Self::StepTooLong { .. } => Some("step"),
+            Self::LimitOrder(_) | Self::Scene(_) => None,
+        }
+    }
+
     /// What to do about it.
     #[must_use]
     pub fn hint(&self) -> String {

@@ -5,6 +5,7 @@ mod carry;
 use crate::checkpoint::{SimulationSnapshot, inputs};
 use crate::control::Control;
 use crate::methods::{Demands, Request};
+use crate::once::{find, once};
 use crate::ready::AssembledScene;
 use crate::settings::ResolvedMethod;
 use crate::signal_ends::SignalEnds;
@@ -37,7 +38,13 @@ pub struct Simulation<T: Real, const D: usize> {
     /// Of methods that control their steps within those of a run.
     ends: Option<SignalEnds<T>>,
     invariant: Invariant,
+    advance: Advance<T, D>,
 }
+
+type Build<T, const D: usize> =
+    fn(&Scene<T>, &ResolvedMethod, AssembledScene<T, D>) -> Result<Simulation<T, D>, StopError>;
+type Advance<T, const D: usize> = fn(&mut Simulation<T, D>, T) -> Result<Accepted<T>, StepError>;
+once!(BUILD: Build = build);
 
 impl<T: Real, const D: usize> Simulation<T, D> {
     /// Builds the model of a scene, assembles it, and allocates everything a step needs.
@@ -51,6 +58,14 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     /// The same of a scene that is ready.
     #[doc(hidden)]
     pub fn of(
+        scene: &Scene<T>,
+        settings: &ResolvedMethod,
+        ready: AssembledScene<T, D>,
+    ) -> Result<Self, StopError> {
+        find::<Build<T, D>>(BUILD)?(scene, settings, ready)
+    }
+
+    fn build(
         scene: &Scene<T>,
         settings: &ResolvedMethod,
         mut ready: AssembledScene<T, D>,
@@ -89,8 +104,17 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             control,
             ends,
             invariant,
+            advance: Self::advance_here,
         })
     }
+}
+
+fn build<T: Real, const D: usize>(
+    scene: &Scene<T>,
+    settings: &ResolvedMethod,
+    ready: AssembledScene<T, D>,
+) -> Result<Simulation<T, D>, StopError> {
+    Simulation::build(scene, settings, ready)
 }
 
 impl<T: Real, const D: usize> Simulation<T, D> {
@@ -99,6 +123,10 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     /// # Errors
     /// [`StepError`]; the state is then unchanged.
     pub fn advance(&mut self, rest: T) -> Result<Accepted<T>, StepError> {
+        (self.advance)(self, rest)
+    }
+
+    fn advance_here(&mut self, rest: T) -> Result<Accepted<T>, StepError> {
         self.formulation.codes(&self.model).forget();
         let made = self.advance_by(rest);
         let failed = self.formulation.codes(&self.model).failed();

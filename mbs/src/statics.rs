@@ -123,6 +123,7 @@ impl StaticEquilibrium {
             "scene": self.scene,
             "completed": true,
             "error": null,
+            "search": self.search.name(),
             "coordinates": coordinates,
             "constraints": constraints,
             "constraint_rank": rank,

@@ -52,6 +52,8 @@ pub enum StopError {
     Eigenvalues,
     /// The operating system did not give that many threads.
     NoThreads(usize),
+    /// This build has no steps in the scalar of the scene.
+    NotBuilt,
     /// The run was asked to end, and has ended after a step.
     Interrupted,
     /// An observer stopped the run.
@@ -163,6 +165,7 @@ impl StopError {
             | Self::Linear(_)
             | Self::Eigenvalues
             | Self::NoThreads(_)
+            | Self::NotBuilt
             | Self::Observer { .. }
             | Self::Interrupted => return None,
         };
@@ -214,6 +217,7 @@ impl StopError {
             Self::Linear(_) => "no-linearisation",
             Self::Eigenvalues => "no-eigenvalues",
             Self::NoThreads(_) => "no-threads",
+            Self::NotBuilt => "precision-not-built",
             Self::Interrupted => INTERRUPTED,
             Self::Observer { code, .. } => code,
         }
@@ -261,7 +265,7 @@ impl StopError {
                 "let the integral measure what it drives, or take it out"
             }
             Self::Equilibrium(EquilibriumError::NotNear, _) => {
-                "start nearer to it with [[initial]] values, or leave --near out: the search then goes down to a stable one"
+                "start nearer to it with [[initial]] values, or without `near`: the search then goes down to a stable one"
             }
             Self::Equilibrium(..) => "start nearer to the equilibrium with [[initial]] values",
             Self::Linear(LinearError::NotClosed { .. } | LinearError::Singular { .. }) => {
@@ -273,9 +277,8 @@ impl StopError {
             Self::Linear(LinearError::Rolls) => "linearise about a rest, such as the equilibrium",
             Self::Linear(_) | Self::Eigenvalues => "check the data of the effects",
             Self::NoThreads(_) => "ask for fewer threads",
-            Self::Interrupted => {
-                "computed rows are kept; a run begun with --checkpoint SECONDS continues with --resume"
-            }
+            Self::NotBuilt => "build with the feature of the precision, which is on by default",
+            Self::Interrupted => "rows are kept; a run with `checkpoint` continues by `resume`",
             Self::Observer { .. } => "change what the observer of the run reads or sets",
             Self::Output { .. } => {
                 "measure a point nearer to the body, try a smaller step, or leave the output out"
@@ -284,7 +287,7 @@ impl StopError {
                 "use the trapezoidal rule, radau5 or rk54; or give the friction a larger regularisation, or the run smaller steps"
             }
             Self::Energy { .. } => {
-                "try a smaller step, and where stiff springs or dampers act `--formulation recursive --integrator radau5`; if it always \
+                "try a smaller step, and where stiff springs or dampers act formulation recursive with integrator radau5; if it always \
                  stops here, the mechanism locks, or cannot follow its guides: end the run or the guide before"
             }
         }
@@ -318,7 +321,8 @@ impl StopError {
             | Self::Eigenvalues
             | Self::Interrupted
             | Self::Observer { .. }
-            | Self::NoThreads(_) => None,
+            | Self::NoThreads(_)
+            | Self::NotBuilt => None,
         }
     }
 
@@ -374,6 +378,7 @@ impl core::fmt::Display for StopError {
             Self::Linear(error) => write_linear(error, f),
             Self::Eigenvalues => write!(f, "the iteration for the eigenvalues did not converge"),
             Self::NoThreads(n) => write!(f, "the system gives no {n} threads"),
+            Self::NotBuilt => write!(f, "this build has no steps in the scalar of the scene"),
             Self::Interrupted => write!(f, "interrupted by a signal"),
             Self::Observer { message, .. } => f.write_str(message),
             Self::Output { .. } => {

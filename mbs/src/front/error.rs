@@ -63,6 +63,14 @@ impl Display for UnknownName {
     }
 }
 
+impl UnknownName {
+    /// What it would be the name of: `output`.
+    #[must_use]
+    pub fn kind(&self) -> &'static str {
+        self.word
+    }
+}
+
 impl core::error::Error for UnknownName {}
 
 impl Error for UnknownName {

@@ -8,6 +8,7 @@ use super::values::{Coordinates, StepReport};
 use crate::checkpoint::CheckpointError;
 use crate::checkpoint::tape::{Eye, Pen, Tape, holds};
 use crate::driver::{StepObserver, Stretch, drive};
+use crate::interrupt::Interrupt;
 use crate::precision::SceneWork;
 use crate::ready::AssembledScene;
 use crate::settings::{ResolvedMethod, exact};
@@ -40,6 +41,7 @@ pub(crate) trait Inner: Sink + Debug + Send + Sync {
     fn is_controlled(&self) -> bool;
     /// Is it to end, by a flag that somebody sets?
     fn is_interrupted(&self) -> bool;
+    fn set_interrupt(&mut self, interrupt: Interrupt);
     /// Advances by `dt` [s], or by what is left; `to` is the time at the end where that is known.
     fn step(&mut self, dt: Option<f64>, to: Option<f64>) -> Result<StepReport, StopError>;
     /// Does a joint follow a guide?
@@ -154,6 +156,10 @@ impl<T: Real, const D: usize> Inner for Typed<T, D> {
 
     fn is_interrupted(&self) -> bool {
         self.settings.interrupt.is_set()
+    }
+
+    fn set_interrupt(&mut self, interrupt: Interrupt) {
+        self.settings.interrupt = interrupt;
     }
 
     fn step(&mut self, dt: Option<f64>, to: Option<f64>) -> Result<StepReport, StopError> {

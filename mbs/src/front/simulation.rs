@@ -8,6 +8,8 @@ use super::seen::Read;
 use super::values::{ContactEvent, Coordinates, StepReport};
 use super::view::View;
 use crate::checkpoint::CheckpointError;
+use crate::fingerprint::fingerprint;
+use crate::interrupt::Interrupt;
 use crate::names::Names;
 use crate::settings::length::SAME_LENGTH;
 use crate::stop::StopError;
@@ -95,6 +97,17 @@ impl Simulation {
             ));
         }
         self.inner.step(Some(dt), None).map_err(|error| self.stopped(error))
+    }
+
+    /// Does the method choose the length of its steps?
+    #[must_use]
+    pub fn is_controlled(&self) -> bool {
+        self.inner.is_controlled()
+    }
+
+    /// What ends [`advance_to`](Self::advance_to), and calls that make several steps of a controlled length, from now on. Copies share it with what they are copies of until they get their own.
+    pub fn set_interrupt(&mut self, interrupt: Interrupt) {
+        self.inner.set_interrupt(interrupt);
     }
 
     /// Length of the steps that the method asks for [s].
@@ -325,7 +338,7 @@ pub struct Snapshot {
 }
 
 /// First bytes of a snapshot, with the number of its form.
-const MAGIC: &[u8; 10] = b"mbs-snap\x01\x00";
+const MAGIC: &[u8; 10] = b"mbs-snap\x02\x00";
 
 impl Snapshot {
     /// As bytes, for a file: the checkpoint in it knows its mechanism, method and version.
@@ -335,15 +348,20 @@ impl Snapshot {
         bytes.extend((self.inputs.len() as u64).to_le_bytes());
         bytes.extend(self.inputs.iter().flat_map(|x| x.to_le_bytes()));
         bytes.extend_from_slice(&self.bytes);
+        bytes.extend(fingerprint(&bytes).to_le_bytes());
         bytes
     }
 
     /// From the bytes of [`to_bytes`](Self::to_bytes); what is in them is checked by [`Simulation::restore`].
     ///
     /// # Errors
-    /// Bytes that are no snapshot.
+    /// Bytes that are no snapshot, or not all of it as they were.
     pub fn from_bytes(bytes: &[u8]) -> Result<Self, SimulationError> {
         let parts = || {
+            let (bytes, sum) = bytes.split_last_chunk::<8>()?;
+            if fingerprint(bytes) != u64::from_le_bytes(*sum) {
+                return None;
+            }
             let (count, rest) = bytes.strip_prefix(MAGIC)?.split_first_chunk::<8>()?;
             let n = usize::try_from(u64::from_le_bytes(*count)).ok()?;
             let (inputs, bytes) = rest.split_at_checked(n.checked_mul(8)?)?;

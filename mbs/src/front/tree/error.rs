@@ -73,12 +73,12 @@ impl TreeError {
             Kind::NoTree(reason) => ("no-tree", reason.hint(), reason.to_string()),
             Kind::NoAccelerations(reason) => (
                 "no-accelerations",
-                "leave this position, in which loops are singular; check that q and v close them: `follow` a simulation there",
+                "leave this position, in which loops are singular; check that q and v close them, as those of a simulation do",
                 format!("no accelerations follow from the efforts: {reason}"),
             ),
             Kind::OpenLoops(reason) => (
                 "open-loops",
-                "begin from a position in which the loops are closed: `follow` a simulation there",
+                "begin from a position in which the loops are closed, such as that of a simulation",
                 format!("the loops cannot be closed from this position: {reason}"),
             ),
             Kind::Loops(what) => (

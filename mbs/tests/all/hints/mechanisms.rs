@@ -227,7 +227,7 @@ fn stops() -> Vec<Row> {
         row(
             PLANAR,
             &[("duration = 0.02", "duration = 5.0"), ("step = 1e-3", "step = 0.3")],
-            ["the energy is off by", "`--formulation recursive --integrator radau5`"],
+            ["the energy is off by", "formulation recursive with integrator radau5"],
             &[("step = 0.3", "step = 0.3\nformulation = \"recursive\"\nintegrator = \"radau5\"")],
         ),
         row(
