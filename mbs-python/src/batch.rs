@@ -1,7 +1,7 @@
 //! Rollouts: motions from many starts over threads.
 
-use crate::array::{Numbers, States, array, wrong_shape};
-use crate::error::{Class, exception, fields, guarded, internal, raised, usage};
+use crate::array::{Numbers, States, array, count, wrong_shape};
+use crate::error::{Class, exception, fields, guarded, internal, raised, unknown_name, usage};
 use crate::mechanism::Mechanism;
 use crate::values;
 use crate::watch::{Reached, silent, whole};
@@ -9,44 +9,55 @@ use core::num::NonZeroUsize;
 use core::ops::ControlFlow;
 use mbs::parallel::ensemble::Ensemble;
 use mbs::{IntegratorKind, Interrupt, Rollout, RolloutEnd, Tree};
+use numpy::PyArray1;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
-use std::collections::BTreeMap;
 use std::sync::atomic::AtomicBool;
 use std::sync::{Arc, Mutex, PoisonError};
 
-/// Pools of threads of this process by their number: a fork has none of its parent's threads.
-static POOLS: Mutex<BTreeMap<(u32, usize), Arc<Ensemble>>> = Mutex::new(BTreeMap::new());
+/// The last pool of threads, and its process: a fork has none of its parent's threads.
+static POOL: Mutex<Option<(u32, Arc<Ensemble>)>> = Mutex::new(None);
 
 /// The pool of so many threads; zero: one for each processor.
 fn pool(py: Python<'_>, threads: usize) -> PyResult<Arc<Ensemble>> {
     let threads = NonZeroUsize::new(threads.min(mbs::parallel::most_threads()));
     let threads = threads.unwrap_or_else(mbs::parallel::ensemble::available);
-    let mut pools = POOLS.lock().unwrap_or_else(PoisonError::into_inner);
-    let key = (std::process::id(), threads.get());
-    if let Some(pool) = pools.get(&key) {
+    let this = std::process::id();
+    let last = || POOL.lock().unwrap_or_else(PoisonError::into_inner);
+    if let Some((process, pool)) = &*last()
+        && *process == this
+        && pool.threads() == threads
+    {
         return Ok(pool.clone());
     }
     let made = Ensemble::new(Some(threads));
     let made = Arc::new(made.map_err(|error| raised(py, &error.into(), Class::Usage))?);
-    pools.insert(key, made.clone());
+    let before = last().replace((this, made.clone()));
+    if let Some((process, pool)) = before
+        && process != this
+    {
+        // its threads are the parent's: to end them here would wait for ever
+        core::mem::forget(pool);
+    }
     Ok(made)
 }
 
 /// The inputs of a batch: none, one row, a row for each step, or rows for each start.
 fn inputs(
+    py: Python<'_>,
     u: Option<&Bound<'_, PyAny>>,
     (k, nu): (usize, usize),
     steps: Option<usize>,
 ) -> PyResult<(Option<Numbers>, usize, bool)> {
     let Some(u) = u else {
         let Some(steps) = steps else {
-            // nothing says how many
-            return Err(pyo3::exceptions::PyTypeError::new_err("give u, or steps"));
+            let message = "nothing says how many steps are to be made";
+            return Err(usage(py, "no-count", message, "give u, or steps", "steps"));
         };
         return Ok((None, steps, false));
     };
     let numbers = Numbers::new(u, "u", false)?;
+    numbers.check_finite(py, "u")?;
     let (found, many) = match *numbers.shape() {
         [rows, n] if n == nu => (rows, false),
         [starts, rows, n] if n == nu && starts == k => (rows, true),
@@ -91,29 +102,34 @@ impl Mechanism {
         v: &Bound<'py, PyAny>,
         u: Option<&Bound<'py, PyAny>>,
         dt: f64,
-        steps: Option<usize>,
-        threads: usize,
+        steps: Option<i64>,
+        threads: i64,
         client: Option<&Bound<'py, PyAny>>,
         integrator: &str,
     ) -> PyResult<Bound<'py, PyAny>> {
+        let threads = count(py, "threads", threads)?;
+        let steps = steps.map(|steps| count(py, "steps", steps)).transpose()?;
+        if !(dt > 0.0 && dt.is_finite()) {
+            let message = format!("dt is {dt} s");
+            return Err(usage(py, "bad-step", &message, "give a number larger than zero", "dt"));
+        }
+        let kind = kind(py, integrator)?;
+        let first = self.first(py)?;
+        let (nq, nv) = (first.coordinates().len(), first.velocities().len());
+        let states = States::new(&[(q, "q", nq), (v, "v", nv)], false)?;
+        states.check_finite(py, &["q", "v"])?;
+        let k = states.len();
+        let nu = self.shared.inputs.len();
+        let given = u;
+        let (u, n_steps, many) = inputs(py, u, (k, nu), steps)?;
         if let Some(client) = client {
             let words = PyDict::new(py);
             words.set_item("client", client)?;
             words.set_item("steps", steps)?;
             words.set_item("integrator", integrator)?;
             let rollout = py.import("multibody.parallel")?.getattr("rollout")?;
-            return rollout.call((self.clone(), q, v, u, dt), Some(&words));
+            return rollout.call((self.clone(), q, v, given, dt), Some(&words));
         }
-        let kind =
-            IntegratorKind::ALL.into_iter().find(|kind| kind.name() == integrator).ok_or_else(
-                || crate::error::unknown_name(py, "integrator", integrator, &mbs::INTEGRATORS),
-            )?;
-        let first = self.first(py)?;
-        let (nq, nv) = (first.coordinates().len(), first.velocities().len());
-        let states = States::new(&[(q, "q", nq), (v, "v", nv)], false)?;
-        let k = states.len();
-        let nu = self.shared.inputs.len();
-        let (u, n_steps, many) = inputs(u, (k, nu), steps)?;
         let of_all = u.as_ref().map_or(&[][..], Numbers::slice);
         let rows = states.rows();
         let flag = Arc::new(AtomicBool::new(false));
@@ -132,29 +148,44 @@ impl Mechanism {
             return Err(usage(py, "too-large", &message, "ask for fewer at a time", "steps"));
         };
         let pool = if threads == 1 || k <= 1 { None } else { Some(pool(py, threads)?) };
-        let batch = Batch { first, k, sizes, pool };
+        let batch = Batch { first, k, sizes, pool, interrupt: &interrupt };
         let ends = if k.saturating_mul(n_steps) > LONG {
             whole(py, &flag, &silent(&Reached::default()), || batch.motions(&mut all, &task))?
         } else {
             guarded(py, || Ok(py.detach(|| batch.motions(&mut all, &task))))?
         };
-        let ends = ends.map_err(|message| internal(py, &message))?;
-        let ok: Vec<bool> = ends.iter().map(Option::is_none).collect();
-        let errors = PyDict::new(py);
-        for (i, end) in ends.iter().enumerate().filter_map(|(i, end)| Some((i, end.as_ref()?))) {
-            let class = if end.steps == 0 { Class::Start } else { Class::Stop };
-            errors.set_item(i, exception(py, class, &fields(&end.error)).value(py))?;
-        }
+        let (errors, ok) = errors(py, &ends.map_err(|message| internal(py, &message))?)?;
         let [all_q, all_v] = all;
         let all_q = array(py, all_q, &[k, n_steps + 1, nq])?;
         let all_v = array(py, all_v, &[k, n_steps + 1, nv])?;
-        let ok = numpy::PyArray1::from_vec(py, ok);
         values::make(py, "Rollout", (all_q, all_v, ok, errors))
     }
 }
 
+/// The integrator of a name.
+fn kind(py: Python<'_>, name: &str) -> PyResult<IntegratorKind> {
+    let kind = IntegratorKind::ALL.into_iter().find(|kind| kind.name() == name);
+    kind.ok_or_else(|| {
+        let named = ("integrator", name);
+        unknown_name(py, ["integrator", "integrators"], named, &mbs::INTEGRATORS)
+    })
+}
+
+/// The errors of motions by their places, and which of them came to their ends.
+fn errors<'py>(
+    py: Python<'py>,
+    ends: &[Option<RolloutEnd>],
+) -> PyResult<(Bound<'py, PyDict>, Bound<'py, PyArray1<bool>>)> {
+    let errors = PyDict::new(py);
+    for (i, end) in ends.iter().enumerate().filter_map(|(i, end)| Some((i, end.as_ref()?))) {
+        let class = if end.steps.is_some() { Class::Stop } else { Class::Start };
+        errors.set_item(i, exception(py, class, &fields(&end.error)).value(py))?;
+    }
+    Ok((errors, PyArray1::from_vec(py, ends.iter().map(Option::is_none).collect())))
+}
+
 /// Steps in one call beyond which interrupts are heard [-]: shorter calls end by themselves.
-const LONG: usize = 10_000;
+const LONG: usize = 100;
 
 /// Motions to be made.
 struct Batch<'a> {
@@ -164,6 +195,7 @@ struct Batch<'a> {
     sizes: [usize; 2],
     /// Threads; without any the caller's own.
     pool: Option<Arc<Ensemble>>,
+    interrupt: &'a Interrupt,
 }
 
 /// Why each motion ended early, where it did; else the message of a panic.
@@ -177,7 +209,8 @@ impl Batch<'_> {
     ) -> Ends {
         let [n_q, n_v] = self.sizes;
         let one = |tree: &mut Tree, i: usize, q: &mut [f64], v: &mut [f64]| {
-            tree.rollout(&task(i), q, v).err()
+            // behind an interrupt the rest is not asked for
+            (!self.interrupt.is_set()).then(|| tree.rollout(&task(i), q, v).err()).flatten()
         };
         let Some(pool) = &self.pool else {
             let mut tree = self.first.clone();

@@ -1,7 +1,7 @@
 //! Errors of the libraries as exceptions of Python.
 
 use mbs::scene_file::{Place, ReadError};
-use mbs::{Error, InputTableError, SimulationError, StopError};
+use mbs::{Error, InputTableError, SettingsError, SimulationError, StopError, UnknownName};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -85,15 +85,15 @@ pub(crate) fn usage(
     exception(py, Class::Usage, &fields)
 }
 
-/// A name that is not there; the hint proposes the nearest one.
+/// A name that is not there, of an argument; the hint proposes the nearest one. `kinds` are what is named, one of them and several.
 pub(crate) fn unknown_name<S: AsRef<str>>(
     py: Python<'_>,
-    what: &str,
-    name: &str,
+    [kind, kinds]: [&str; 2],
+    (argument, name): (&str, &str),
     known: &[S],
 ) -> PyErr {
-    let hint = mbs::scene_file::nearest_name(name, known, &format!("{what}s"));
-    usage(py, "unknown-name", &format!("there is no {what} `{name}`"), &hint, name)
+    let hint = mbs::scene_file::nearest_name(name, known, kinds);
+    usage(py, "unknown-name", &format!("there is no {kind} `{name}`"), &hint, argument)
 }
 
 /// Codes of texts that are refused.
@@ -112,8 +112,21 @@ pub(crate) fn raised(py: Python<'_>, error: &SimulationError, class: Class) -> P
     exception(py, class_of(error, class), &fields(error))
 }
 
+/// An error of the front door about the first argument that has its code; those of steps and starts are of `class`.
+pub(crate) fn refused(
+    py: Python<'_>,
+    error: &SimulationError,
+    class: Class,
+    arguments: &[(&str, &str)],
+) -> PyErr {
+    let found = arguments.iter().find(|(code, _)| *code == error.code());
+    let mut fields = fields(error);
+    fields.argument = found.map(|(_, argument)| (*argument).to_owned()).or(fields.argument);
+    exception(py, class_of(error, class), &fields)
+}
+
 /// The class of an error.
-fn class_of(error: &SimulationError, class: Class) -> Class {
+pub(crate) fn class_of(error: &SimulationError, class: Class) -> Class {
     let code = error.code();
     if OF_TEXTS.contains(&code) {
         return Class::Scene;
@@ -128,6 +141,8 @@ pub(crate) fn fields(error: &SimulationError) -> Fields {
     let read = error.cause::<ReadError>();
     let gap = error.cause::<StopError>().and_then(StopError::gap);
     let file = || read.map(|read| read.file().to_owned()).unwrap_or_default();
+    let of_settings = error.cause::<SettingsError>().and_then(SettingsError::key);
+    let of_names = error.cause::<UnknownName>().map(|unknown| format!("{}s", unknown.kind()));
     let text = error.to_string();
     let message = text.split("\nhint: ").next().unwrap_or_default();
     Fields {
@@ -139,7 +154,7 @@ pub(crate) fn fields(error: &SimulationError) -> Fields {
         body: error.body().map(str::to_owned),
         place: error.place().map(|place| (file(), place)),
         gap,
-        ..Fields::default()
+        argument: of_settings.map(str::to_owned).or(of_names),
     }
 }
 

@@ -2,6 +2,7 @@
 
 mod array;
 mod batch;
+mod each;
 mod error;
 mod mechanism;
 mod readings;

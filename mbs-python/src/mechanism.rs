@@ -1,7 +1,7 @@
 //! `Mechanism`: a checked scene, immutable and shared.
 
-use crate::array::{array, vector};
-use crate::error::{Class, guarded, raised, unknown_name, unread, usage};
+use crate::array::{Numbers, array, count, vector, wrong_shape};
+use crate::error::{Class, guarded, raised, refused, unknown_name, unread, usage};
 use crate::value;
 use crate::values;
 use mbs::core::scene::{Output, Scene};
@@ -65,7 +65,7 @@ impl Mechanism {
         if let Some(first) = self.shared.first.get() {
             return Ok(first);
         }
-        let built = self.shared.mechanism.tree();
+        let built = guarded(py, || Ok(self.shared.mechanism.tree()))?;
         let first = built.map_err(|error| raised(py, &error, Class::Start))?;
         Ok(self.shared.first.get_or_init(|| first))
     }
@@ -81,7 +81,7 @@ impl Mechanism {
         let spare = trees().pop();
         let mut tree = spare.unwrap_or_else(|| first.clone());
         tree.reset();
-        let done = work(&mut tree);
+        let done = guarded(py, || Ok(work(&mut tree)))?;
         trees().push(tree);
         Ok(done)
     }
@@ -100,7 +100,7 @@ impl Mechanism {
         let place = joints.iter().position(|joint| joint.name == name);
         place.map(JointId::new).ok_or_else(|| {
             let known: Vec<&str> = joints.iter().map(|joint| joint.name.as_str()).collect();
-            unknown_name(py, "joint", name, &known)
+            unknown_name(py, ["joint", "joints"], ("joint", name), &known)
         })
     }
 
@@ -112,7 +112,7 @@ impl Mechanism {
         let place = bodies.iter().position(|body| body.name == name);
         place.map(BodyId::new).ok_or_else(|| {
             let known: Vec<&str> = bodies.iter().map(|body| body.name.as_str()).collect();
-            unknown_name(py, "body", name, &known)
+            unknown_name(py, ["body", "bodies"], ("body", name), &known)
         })
     }
 
@@ -121,7 +121,7 @@ impl Mechanism {
         let place = effects.iter().position(|effect| effect.name == name);
         place.map(EffectId::new).ok_or_else(|| {
             let known: Vec<&str> = effects.iter().map(|effect| effect.name.as_str()).collect();
-            unknown_name(py, "effect", name, &known)
+            unknown_name(py, ["effect", "effects"], ("effect", name), &known)
         })
     }
 
@@ -133,20 +133,20 @@ impl Mechanism {
             let place = list.iter().position(|info| info.name == name);
             return place.ok_or_else(|| {
                 let known: Vec<&str> = list.iter().map(|info| info.name.as_str()).collect();
-                unknown_name(py, "input", &name, &known)
+                unknown_name(py, ["input", "inputs"], ("name", &name), &known)
             });
         }
-        let place: usize = input.extract()?;
+        let place = count(py, "name", input.extract()?)?;
         if place < list.len() {
             return Ok(place);
         }
         let message = format!("input {place} of {}", list.len());
-        Err(usage(py, "unknown-name", &message, "inputs count from 0", "input"))
+        Err(usage(py, "unknown-name", &message, "inputs count from 0", "name"))
     }
 
     /// The simulation of settings.
     pub(crate) fn simulation(&self, py: Python<'_>, method: &Method) -> PyResult<mbs::Simulation> {
-        let built = py.detach(|| self.shared.mechanism.simulate(method));
+        let built = guarded(py, || Ok(py.detach(|| self.shared.mechanism.simulate(method))))?;
         built.map_err(|error| raised(py, &error, Class::Start))
     }
 
@@ -171,7 +171,7 @@ fn read(source: &Bound<'_, PyAny>) -> PyResult<(SceneFile, Option<PathBuf>)> {
     let refused = |error| unread(py, &error);
     let text = match source.cast::<PyString>() {
         Ok(text) => Some(text.to_string()).filter(|text| text.contains('\n')),
-        Err(_) if source.hasattr("keys")? => Some(value::json(source)?),
+        Err(_) if source.hasattr("keys")? => Some(value::json(source, "source")?),
         Err(_) => None,
     };
     if let Some(text) = text {
@@ -194,6 +194,10 @@ fn read(source: &Bound<'_, PyAny>) -> PyResult<(SceneFile, Option<PathBuf>)> {
     let folder = folder.and_then(|folder| std::path::absolute(&folder).ok().or(Some(folder)));
     Ok((py.detach(|| models::read(&path)).map_err(refused)?, folder))
 }
+
+/// Codes of joints without coordinates.
+const OF_JOINTS: [(&str, &str); 3] =
+    [("cut-joint", "joint"), ("guided-joint", "joint"), ("no-coordinates", "joint")];
 
 /// Names of parts.
 macro_rules! names {
@@ -347,7 +351,7 @@ impl Mechanism {
             },
         };
         let TreeRange { q, v, .. } =
-            range.map_err(|error| raised(py, &error.into(), Class::Usage))?;
+            range.map_err(|error| refused(py, &error.into(), Class::Usage, &OF_JOINTS))?;
         let slice = |range: core::ops::Range<usize>| {
             PySlice::new(py, range.start.cast_signed(), range.end.cast_signed(), 1)
         };
@@ -357,7 +361,8 @@ impl Mechanism {
     /// A number of the scene by its path: `body.upper.mass`.
     fn get(&self, py: Python<'_>, path: &str) -> PyResult<f64> {
         let found = self.shared.mechanism.get(path);
-        found.map_err(|error| raised(py, &error.into(), Class::Usage))
+        let of_path = [("unknown-path", "path")];
+        found.map_err(|error| refused(py, &error.into(), Class::Usage, &of_path))
     }
 
     /// The mechanism with other numbers, by their paths: `m.replace({"body.upper.mass": 2.0})`.
@@ -370,16 +375,20 @@ impl Mechanism {
     ) -> PyResult<Self> {
         let mut all = Vec::new();
         for given in [values, paths.map(|paths| paths.as_any())].into_iter().flatten() {
-            for item in given.call_method0("items")?.try_iter()? {
-                let (path, value): (String, f64) = item?.extract()?;
-                all.push((path, value));
+            for (path, value) in value::items(given, "values", "give numbers by their paths")? {
+                let number = Numbers::new(&value, &path, false)?;
+                if !number.shape().is_empty() {
+                    return Err(wrong_shape(py, &path, number.shape(), "()"));
+                }
+                all.extend(number.slice().iter().map(|x| (path.clone(), *x)));
             }
         }
         guarded(py, || {
             let mut mechanism = self.shared.mechanism.clone();
             for (path, value) in all {
                 let set = mechanism.set(&path, value);
-                set.map_err(|error| raised(py, &error.into(), Class::Usage))?;
+                let of_values = [("unknown-path", "values"), ("not-finite", "values")];
+                set.map_err(|error| refused(py, &error.into(), Class::Usage, &of_values))?;
             }
             let file = mechanism.to_file();
             let file = file.map_err(|error| raised(py, &error.into(), Class::Usage))?;

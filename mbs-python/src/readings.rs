@@ -1,6 +1,6 @@
 //! What is read of a simulation by name: outputs, joints, bodies, forces.
 
-use crate::array::{array, point, vector};
+use crate::array::{array, vector};
 use crate::error::{Class, raised, unknown_name, usage};
 use crate::mechanism::{pair, pose};
 use crate::simulation::Simulation;
@@ -18,7 +18,7 @@ impl Simulation {
             (0..shared.columns.len()).filter(|&i| of(&shared.columns[i][0])).collect();
         if places.is_empty() {
             let known: Vec<&str> = shared.columns.iter().map(|[name, _]| name.as_str()).collect();
-            return Err(unknown_name(py, "output", name, &known));
+            return Err(unknown_name(py, ["output", "outputs"], ("name", name), &known));
         }
         let moving = self.moving(py)?;
         let mut row = vec![0.0; moving.simulation.n_outputs()];
@@ -33,7 +33,7 @@ impl Simulation {
         let id = self.this().joint(py, joint)?;
         let values = self.moving(py)?.simulation.values(id);
         values.first().copied().ok_or_else(|| {
-            usage(py, "no-coordinates", "the joint has no coordinates", "ask for another", joint)
+            usage(py, "no-coordinates", "the joint has no coordinates", "ask for another", "joint")
         })
     }
 
@@ -91,7 +91,7 @@ impl Simulation {
         at: &Bound<'_, PyAny>,
     ) -> PyResult<Bound<'py, PyAny>> {
         let body = self.this().body(py, body)?;
-        let at = point(at)?;
+        let at = self.this().point(at)?;
         let point = self.moving(py)?.simulation.point(body, at);
         let rows = [point.position, point.velocity, point.acceleration];
         array(py, rows.into_iter().flatten().collect(), &[3, 3])

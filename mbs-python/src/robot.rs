@@ -1,74 +1,12 @@
 //! What a mechanism has at a state, or at many.
 
-use crate::array::{Numbers, States, array, point, vector, wrong_shape};
-use crate::error::{Class, guarded, raised, unknown_name, usage};
+use crate::array::{Numbers, array, point, vector, wrong_shape};
+use crate::error::{Class, raised, unknown_name, usage};
 use crate::mechanism::{Mechanism, pose};
 use crate::values;
-use mbs::{FrameTarget, InverseKinematicsEnd, Matrix, Tree, TreeError, TreeErrorKind};
+use mbs::{FrameTarget, InverseKinematicsEnd, Matrix, Tree, TreeError};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple};
-
-/// Arguments by name, each with its numbers of a state.
-type Arguments<'a, 'py> = [(&'a Bound<'py, PyAny>, &'a str, usize)];
-
-impl Mechanism {
-    /// Numbers in q and in v.
-    fn sizes(&self, py: Python<'_>) -> PyResult<[usize; 2]> {
-        let first = self.first(py)?;
-        Ok([first.coordinates().len(), first.velocities().len()])
-    }
-
-    /// Computes `n` numbers of each state; `shape` is that of one of them.
-    fn each<'py>(
-        &self,
-        py: Python<'py>,
-        (arguments, strict): (&Arguments<'_, 'py>, bool),
-        shape: &[usize],
-        one: impl Fn(&mut Tree, [&[f64]; 3], &mut [f64]) -> Result<(), TreeError> + Sync,
-    ) -> PyResult<Bound<'py, PyAny>> {
-        let states = States::new(arguments, strict)?;
-        let n: usize = shape.iter().product();
-        let mut out = vec![0.0; n * states.len()];
-        let rows = states.rows();
-        let count = states.len();
-        let n_arguments = arguments.len();
-        let work = |tree: &mut Tree, out: &mut [f64]| -> Result<(), Box<(usize, TreeError)>> {
-            for k in 0..count {
-                let argument = |i: usize| if i < n_arguments { rows.get(i, k) } else { &[] };
-                let given = [argument(0), argument(1), argument(2)];
-                let to = &mut out[n * k..][..n];
-                let done = one(tree, given, &mut *to).and_then(|()| finite(to));
-                done.map_err(|error| Box::new((k, error)))?;
-            }
-            Ok(())
-        };
-        let done = guarded(py, || {
-            if count == 1 {
-                return self.with_tree(py, |tree| work(tree, &mut out));
-            }
-            self.with_tree(py, |tree| py.detach(|| work(tree, &mut out)))
-        })?;
-        if let Err(failed) = done {
-            let (k, error) = *failed;
-            let error = error.into();
-            let raised = raised(py, &error, Class::Stop);
-            if states.k().is_some() {
-                raised.value(py).setattr("argument", format!("state {k}"))?;
-            }
-            return Err(raised);
-        }
-        let many: Vec<usize> = states.k().into_iter().chain(shape.iter().copied()).collect();
-        array(py, out, &many)
-    }
-}
-
-/// Refuses an answer that has overflowed.
-fn finite(answer: &[f64]) -> Result<(), TreeError> {
-    match answer.iter().position(|x| !x.is_finite()) {
-        Some(place) => Err(TreeErrorKind::NotFinite("the answer", place).into()),
-        None => Ok(()),
-    }
-}
 
 fn copy(matrix: &Matrix, out: &mut [f64]) {
     out.copy_from_slice(&matrix.data);
@@ -89,6 +27,10 @@ impl Mechanism {
         strict: bool,
     ) -> PyResult<Bound<'py, PyAny>> {
         let ([nq, nv], nu) = (self.sizes(py)?, self.shared.inputs.len());
+        if !time.is_finite() {
+            let message = format!("time is {time}");
+            return Err(usage(py, "not-finite", &message, "give a finite number", "time"));
+        }
         let mut arguments = vec![(q, "q", nq), (v, "v", nv)];
         arguments.extend(u.map(|u| (u, "u", nu)));
         let has_inputs = u.is_some();
@@ -202,7 +144,7 @@ impl Mechanism {
         q: &Bound<'py, PyAny>,
         strict: bool,
     ) -> PyResult<Bound<'py, PyAny>> {
-        let ([nq, nv], body, at) = (self.sizes(py)?, self.body(py, body)?, point(at)?);
+        let ([nq, nv], body, at) = (self.sizes(py)?, self.body(py, body)?, self.point(at)?);
         let at_rest = vec![0.0; nv];
         self.each(py, (&[(q, "q", nq)], strict), &[6, nv], |tree, x, out| {
             tree.set(x[0], &at_rest)?;
@@ -319,7 +261,7 @@ impl Mechanism {
             Ok::<_, TreeError>(tree.frame(name).ok())
         })?;
         let found = found.map_err(|error| raised(py, &error.into(), Class::Usage))?;
-        let Some(frame) = found else { return Err(self.no_frame(py, name)) };
+        let Some(frame) = found else { return Err(self.no_frame(py, ("name", name))) };
         let dict = PyDict::new(py);
         dict.set_item("position", vector(py, &frame.position))?;
         let rotation = frame.rotation.iter().flatten().copied().collect();
@@ -395,11 +337,12 @@ impl Mechanism {
         rotation: Option<&Bound<'py, PyAny>>,
     ) -> PyResult<Bound<'py, PyAny>> {
         let first = self.first(py)?;
-        let (body, at) = first.frame_place(frame).map_err(|_| self.no_frame(py, frame))?;
+        let (body, at) =
+            first.frame_place(frame).map_err(|_| self.no_frame(py, ("frame", frame)))?;
         let start =
             q.map_or_else(|| Ok(first.coordinates().to_vec()), |q| self.coordinates_of(q))?;
         let reference = self.with_tree(py, |tree| tree.frame(frame).map(|frame| frame.rotation))?;
-        let reference = reference.map_err(|_| self.no_frame(py, frame))?;
+        let reference = reference.map_err(|_| self.no_frame(py, ("frame", frame)))?;
         let position = position.map(|x| Numbers::row(x, "position", 3)).transpose()?;
         let rotation = rotation.map(rows).transpose()?;
         let target = FrameTarget {
@@ -417,12 +360,13 @@ impl Mechanism {
         })?;
         let (found, q) = found.map_err(|error| raised(py, &error.into(), Class::Usage))?;
         if found.end != InverseKinematicsEnd::Reached {
-            let (distance, angle) = (found.distance, found.angle);
+            // zero without a sign
+            let (distance, angle) = (found.distance + 0.0, found.angle + 0.0);
             let message = format!(
                 "`{frame}` stays {distance:.3e} m and {angle:.3e} rad away from its target"
             );
             let hint = "give a target within reach, or begin from another q";
-            return Err(usage(py, "not-reached", &message, hint, frame));
+            return Err(usage(py, "not-reached", &message, hint, "position"));
         }
         Ok(vector(py, &q))
     }
@@ -465,12 +409,17 @@ impl Mechanism {
     }
 
     /// Refuses the name of a frame.
-    fn no_frame(&self, py: Python<'_>, name: &str) -> PyErr {
+    fn no_frame(&self, py: Python<'_>, of: (&str, &str)) -> PyErr {
         let scene = &self.shared.scene;
         let frames = scene.frames.iter().map(|frame| frame.name.as_str());
         let known: Vec<&str> =
             frames.chain(scene.bodies.iter().map(|body| body.name.as_str())).collect();
-        unknown_name(py, "frame", name, &known)
+        unknown_name(py, ["frame", "frames"], of, &known)
+    }
+
+    /// A point of a body in the reference configuration.
+    pub(crate) fn point(&self, at: &Bound<'_, PyAny>) -> PyResult<[f64; 3]> {
+        point(at, self.shared.scene.dimension.count())
     }
 
     /// One state's coordinates.

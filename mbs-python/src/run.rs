@@ -1,6 +1,6 @@
 //! Runs, as `mbs run` makes them.
 
-use crate::error::{Class, exception, no_inputs, raised, unread, usage};
+use crate::error::{Class, exception, guarded, no_inputs, raised, unread, usage};
 use crate::mechanism::Mechanism;
 use crate::watch::{Progress, Reached, watched};
 use crate::{settings, value};
@@ -23,8 +23,8 @@ pub(crate) struct Record(RunRecord);
 #[pymethods]
 impl Record {
     /// The page: HTML that stands alone.
-    fn page(&self, py: Python<'_>) -> String {
-        py.detach(|| mbs_report::page(&self.0))
+    fn page(&self, py: Python<'_>) -> PyResult<String> {
+        guarded(py, || Ok(py.detach(|| mbs_report::page(&self.0))))
     }
 }
 
@@ -78,8 +78,8 @@ fn go(
 fn table(inputs: &Bound<'_, PyAny>) -> PyResult<String> {
     let py = inputs.py();
     let (mut names, mut columns) = (Vec::new(), Vec::new());
-    for item in inputs.call_method0("items")?.try_iter()? {
-        let (name, values): (String, Bound<'_, PyAny>) = item?.extract()?;
+    let hint = "give {\"t\": times, NAME: values, ..}";
+    for (name, values) in value::items(inputs, "inputs", hint)? {
         let numbers = crate::array::Numbers::new(&values, &name, false)?;
         if numbers.shape().len() != 1 {
             return Err(crate::array::wrong_shape(py, &name, numbers.shape(), "(rows,)"));
@@ -89,7 +89,6 @@ fn table(inputs: &Bound<'_, PyAny>) -> PyResult<String> {
         columns.insert(place, numbers.slice().to_vec());
     }
     if names.first().is_none_or(|name| name != "t") {
-        let hint = "give {\"t\": times, NAME: values, ..}";
         return Err(usage(py, "inputs-refused", "inputs have no times `t`", hint, "inputs"));
     }
     let n = columns[0].len();

@@ -2,6 +2,7 @@
 
 use crate::error::{unknown_name, usage};
 use mbs::{Interrupt, Method};
+use pyo3::exceptions::{PyOverflowError, PyTypeError};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use std::sync::Arc;
@@ -35,13 +36,16 @@ pub(crate) fn method(settings: &Bound<'_, PyDict>) -> PyResult<(Method, bool)> {
             if NAMES.contains(&&*name) {
                 continue;
             }
-            return Err(unknown_name(value.py(), "setting", &name, &NAMES));
+            return Err(unknown(value.py(), &name));
         }
         set(&mut method, &mut estimate, (&name, &value)).map_err(|error| {
-            if error.is_instance_of::<pyo3::exceptions::PyTypeError>(value.py()) {
+            let py = value.py();
+            if error.is_instance_of::<PyTypeError>(py)
+                || error.is_instance_of::<PyOverflowError>(py)
+            {
                 let message = format!("{name} cannot be {value}");
                 let hint = "settings are numbers, and names of methods texts";
-                return usage(value.py(), "settings-refused", &message, hint, &name);
+                return usage(py, "settings-refused", &message, hint, &name);
             }
             error
         })?;
@@ -70,9 +74,13 @@ fn set(
         "threads" => method.threads = Some(value.extract()?),
         "tolerance" => method.tolerance = Some(value.extract()?),
         "estimate" => *estimate = value.extract()?,
-        _ => return Err(unknown_name(value.py(), "setting", name, &NAMES)),
+        _ => return Err(unknown(value.py(), name)),
     }
     Ok(())
+}
+
+fn unknown(py: Python<'_>, name: &str) -> PyErr {
+    unknown_name(py, ["setting", "settings"], (name, name), &NAMES)
 }
 
 /// The method, ended by a flag.

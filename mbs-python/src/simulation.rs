@@ -1,15 +1,16 @@
 //! `Simulation`: a mechanism in motion.
 
-use crate::array::{Numbers, vector, wrong_shape};
-use crate::error::{Class, Fields, exception, guarded, raised, usage};
+use crate::array::{Numbers, count, vector, wrong_shape};
+use crate::error::{Class, Fields, exception, guarded, raised, refused, usage};
 use crate::mechanism::Mechanism;
-use crate::watch::{Reached, silent, whole};
+use crate::watch::{Ear, Reached, silent, whole};
 use crate::{settings, values};
-use mbs::{ContactEvent, EffectKind, InputId, Method, SimulationError, Snapshot, Tree};
+use mbs::{ContactEvent, EffectKind, InputId, Interrupt, Method, SimulationError, Snapshot, Tree};
 use numpy::{PyArray1, PyArrayMethods};
+use pyo3::exceptions::PyKeyboardInterrupt;
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict, PyTuple};
-use std::sync::atomic::AtomicBool;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, TryLockError};
 
 /// A mechanism in motion. One thread at a time: a second one gets a BusyError.
@@ -33,7 +34,13 @@ pub(crate) struct Moving {
 }
 
 /// Steps in one call beyond which interrupts are heard [-]: shorter calls end by themselves.
-const LONG: usize = 1000;
+const LONG: f64 = 100.0;
+
+/// Are steps of the method's length over this time so many, or does the method choose their lengths?
+fn is_long(simulation: &mbs::Simulation, time: f64) -> bool {
+    let n = time / simulation.step_length();
+    n > LONG || simulation.is_controlled() && n > 1.0
+}
 
 impl Simulation {
     /// The simulation of a mechanism at its start.
@@ -44,7 +51,7 @@ impl Simulation {
     ) -> PyResult<Self> {
         let py = mechanism.py();
         let (method, flag) = settings::interruptible(method);
-        let simulation = guarded(py, || mechanism.get().simulation(py, &method))?;
+        let simulation = mechanism.get().simulation(py, &method)?;
         let moving = Moving { simulation, tree: None, is_followed: false };
         let mechanism = mechanism.clone().unbind();
         Ok(Self { mechanism, settings, flag, moving: Mutex::new(moving) })
@@ -85,32 +92,30 @@ impl Simulation {
             None => tree.insert(self.this().first(py)?.clone()),
         };
         if !*is_followed {
-            let followed = tree.follow(&*simulation);
+            let followed = guarded(py, || Ok(tree.follow(&*simulation)))?;
             followed.map_err(|error| raised(py, &error.into(), Class::Stop))?;
             *is_followed = true;
         }
-        read(tree).map_err(|error| raised(py, &error, Class::Stop))
+        let read = guarded(py, || Ok(read(tree)))?;
+        read.map_err(|error| raised(py, &error, Class::Stop))
     }
 
-    /// Advances by some steps.
-    fn advance(
+    /// Advances what moves, where no other thread has it.
+    fn advance<R>(
         &self,
         py: Python<'_>,
-        (n, flag): (usize, &AtomicBool),
-        advance: impl FnOnce(&mut mbs::Simulation) -> Result<(), SimulationError> + Send,
-    ) -> PyResult<()> {
+        advance: impl FnOnce(&mut mbs::Simulation) -> PyResult<R>,
+    ) -> PyResult<R> {
         let mut moving = self.moving(py)?;
         moving.is_followed = false;
-        let simulation = &mut moving.simulation;
-        let done = if n > LONG {
-            whole(py, flag, &silent(&Reached::default()), || advance(simulation))?
-        } else if n > 1 {
-            guarded(py, || Ok(py.detach(|| advance(simulation))))?
-        } else {
-            guarded(py, || Ok(advance(simulation)))?
-        };
-        done.map_err(|error| raised(py, &error, Class::Stop))
+        guarded(py, || advance(&mut moving.simulation))
     }
+}
+
+/// A step that is refused or fails.
+fn stopped(py: Python<'_>, error: &SimulationError) -> PyErr {
+    let arguments = [("bad-step", "dt"), ("input-refused", "u")];
+    refused(py, error, Class::Stop, &arguments)
 }
 
 /// Inputs of a call: nothing, one row that is held, or a row for each of n steps.
@@ -126,7 +131,7 @@ fn inputs(u: Option<&Bound<'_, PyAny>>, nu: usize, n: Option<usize>) -> PyResult
         let rows = n.map_or_else(String::new, |n| format!(" or ({n}, {nu})"));
         return Err(wrong_shape(u.py(), "u", numbers.shape(), &format!("({nu},){rows}")));
     }
-    Ok(numbers.slice().to_vec())
+    Ok(numbers.into_data())
 }
 
 #[pymethods]
@@ -171,7 +176,7 @@ impl Simulation {
     fn set_u(&self, py: Python<'_>, values: &Bound<'_, PyAny>) -> PyResult<()> {
         let all = inputs(Some(values), self.this().shared.inputs.len(), None)?;
         let set = self.moving(py)?.simulation.set_inputs(&all);
-        set.map_err(|error| raised(py, &error, Class::Usage))
+        set.map_err(|error| refused(py, &error, Class::Usage, &[("input-refused", "u")]))
     }
 
     /// Contacts that began or ended since `watch_events`, a thousand at most.
@@ -198,12 +203,18 @@ impl Simulation {
     #[pyo3(signature = (dt = None, u = None))]
     fn step(&self, py: Python<'_>, dt: Option<f64>, u: Option<&Bound<'_, PyAny>>) -> PyResult<()> {
         let all = inputs(u, self.this().shared.inputs.len(), None)?;
-        self.advance(py, (1, &self.flag), |simulation| {
-            if !all.is_empty() {
-                simulation.set_inputs(&all)?;
-            }
+        self.advance(py, |simulation| {
+            let set = if all.is_empty() { Ok(()) } else { simulation.set_inputs(&all) };
             let dt = dt.unwrap_or_else(|| simulation.step_length());
-            simulation.step(dt).map(|_| ())
+            let step = |simulation: &mut mbs::Simulation| simulation.step(dt);
+            let made = match set {
+                Ok(()) if simulation.is_controlled() && is_long(simulation, dt) => {
+                    whole(py, &self.flag, &silent(&Reached::default()), || step(simulation))?
+                }
+                Ok(()) => step(simulation),
+                Err(error) => Err(error),
+            };
+            made.map(|_| ()).map_err(|error| stopped(py, &error))
         })
     }
 
@@ -213,42 +224,55 @@ impl Simulation {
         &self,
         py: Python<'_>,
         dt: Option<f64>,
-        n: usize,
+        n: i64,
         u: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<()> {
-        let nu = self.this().shared.inputs.len();
+        let (n, nu) = (count(py, "n", n)?, self.this().shared.inputs.len());
         let all = inputs(u, nu, Some(n))?;
-        let flag = AtomicBool::new(false);
-        self.advance(py, (n, &flag), |simulation| {
+        self.advance(py, |simulation| {
             let dt = dt.unwrap_or_else(|| simulation.step_length());
-            for k in 0..n {
+            let step = |simulation: &mut mbs::Simulation, k: usize| {
                 if nu > 0
                     && let Some(row) = all.get(nu * k..nu * (k + 1))
                 {
                     simulation.set_inputs(row)?;
                 }
-                simulation.step(dt)?;
-                if flag.load(std::sync::atomic::Ordering::Relaxed) {
-                    break;
+                simulation.step(dt)
+            };
+            let go = |simulation: &mut mbs::Simulation, heard: &mut dyn FnMut() -> PyResult<()>| {
+                for k in 0..n {
+                    step(simulation, k)
+                        .map_err(|error| Python::attach(|py| stopped(py, &error)))?;
+                    heard()?;
                 }
+                Ok(())
+            };
+            if simulation.is_controlled() && is_long(simulation, dt) {
+                // a step is many; what is raised behind the flag is the interrupt itself
+                let heard = || match self.flag.load(Ordering::Relaxed) {
+                    true => Err(PyKeyboardInterrupt::new_err(())),
+                    false => Ok(()),
+                };
+                let work = || go(simulation, &mut { heard });
+                return whole(py, &self.flag, &silent(&Reached::default()), work)?;
             }
-            Ok(())
+            py.detach(|| {
+                let mut ear = Ear::new();
+                go(simulation, &mut || ear.turn())
+            })
         })
     }
 
     /// Steps to a time [s]; the last step is shorter where they do not fit.
     fn run_until(&self, py: Python<'_>, time: f64) -> PyResult<()> {
-        let n = {
-            let moving = self.moving(py)?;
-            (time - moving.simulation.time()) / moving.simulation.step_length()
-        };
-        #[allow(
-            clippy::cast_possible_truncation,
-            clippy::cast_sign_loss,
-            reason = "more steps than a number holds are many"
-        )]
-        self.advance(py, (n.ceil().max(2.0) as usize, &self.flag), |simulation| {
-            simulation.advance_to(time).map(|_| ())
+        let go = |simulation: &mut mbs::Simulation| simulation.advance_to(time).map(|_| ());
+        self.advance(py, |simulation| {
+            let done = if is_long(simulation, time - simulation.time()) {
+                whole(py, &self.flag, &silent(&Reached::default()), || go(simulation))?
+            } else {
+                py.detach(|| go(simulation))
+            };
+            done.map_err(|error| refused(py, &error, Class::Stop, &[("bad-step", "time")]))
         })
     }
 
@@ -256,7 +280,7 @@ impl Simulation {
     fn set_input(&self, py: Python<'_>, name: &Bound<'_, PyAny>, value: f64) -> PyResult<()> {
         let place = self.this().input(name)?;
         let set = self.moving(py)?.simulation.set_input(InputId::new(place), value);
-        set.map_err(|error| raised(py, &error, Class::Usage))
+        set.map_err(|error| refused(py, &error, Class::Usage, &[("input-refused", "value")]))
     }
 
     /// All outputs, in the order of the mechanism's `outputs`. `out` (n,) takes them where it is given.
@@ -275,7 +299,7 @@ impl Simulation {
         let failed = |error: SimulationError| raised(py, &error, Class::Stop);
         let Some(out) = out else {
             let mut row = vec![0.0; n];
-            moving.simulation.write_outputs(&mut row).map_err(failed)?;
+            guarded(py, || moving.simulation.write_outputs(&mut row).map_err(failed))?;
             return Ok(vector(py, &row));
         };
         {
@@ -285,7 +309,7 @@ impl Simulation {
             if row.len() != n {
                 return Err(wrong());
             }
-            moving.simulation.write_outputs(row).map_err(failed)?;
+            guarded(py, || moving.simulation.write_outputs(row).map_err(failed))?;
         }
         Ok(out)
     }
@@ -319,18 +343,20 @@ impl Simulation {
         let mut moving = self.moving(py)?;
         moving.is_followed = false;
         moving.tree = None;
-        let done = moving.simulation.reset();
+        let done = guarded(py, || Ok(moving.simulation.reset()))?;
         done.map_err(|error| raised(py, &error, Class::Start))
     }
 
     /// Another simulation in the same state.
     fn copy(&self, py: Python<'_>) -> PyResult<Self> {
-        let simulation = self.moving(py)?.simulation.clone();
+        let mut simulation = self.moving(py)?.simulation.clone();
+        let flag = Arc::new(AtomicBool::new(false));
+        simulation.set_interrupt(Interrupt::new(flag.clone()));
         let moving = Moving { simulation, tree: None, is_followed: false };
         Ok(Self {
             mechanism: self.mechanism.clone_ref(py),
             settings: self.settings.clone_ref(py),
-            flag: self.flag.clone(),
+            flag,
             moving: Mutex::new(moving),
         })
     }
@@ -354,8 +380,8 @@ impl Simulation {
     fn restore(&self, py: Python<'_>, data: &[u8]) -> PyResult<()> {
         let mut moving = self.moving(py)?;
         moving.is_followed = false;
-        let done =
-            Snapshot::from_bytes(data).and_then(|snapshot| moving.simulation.restore(&snapshot));
+        let restore = |snapshot| moving.simulation.restore(&snapshot);
+        let done = guarded(py, || Ok(Snapshot::from_bytes(data).and_then(restore)))?;
         done.map_err(|error| raised(py, &error, Class::Usage))
     }
 

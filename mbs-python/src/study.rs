@@ -1,9 +1,9 @@
 //! Analyses and studies: equilibrium, modes, linear system, doctor, explanation, comparison.
 
 use crate::array::{Numbers, array};
-use crate::error::{Class, guarded, raised, unknown_name, usage};
+use crate::error::{Class, raised, unknown_name, usage};
 use crate::mechanism::Mechanism;
-use crate::watch::{Progress, Reached, silent, whole};
+use crate::watch::{Progress, Reached, left, silent, whole};
 use crate::{settings, value, values};
 use mbs::core::scene::Entry;
 use mbs::{
@@ -26,17 +26,15 @@ const QUICK_BUDGET: f64 = 5.0;
 
 /// How a search goes.
 fn search(py: Python<'_>, name: &str) -> PyResult<Search> {
-    match name {
-        "down" => Ok(Search::Down),
-        "near" => Ok(Search::Near),
-        _ => Err(unknown_name(py, "search", name, &["down", "near"])),
-    }
+    let search = Search::ALL.into_iter().find(|search| search.name() == name);
+    let unknown = || unknown_name(py, ["search", "searches"], ("search", name), &Search::NAMES);
+    search.ok_or_else(unknown)
 }
 
 /// About which state.
 fn place(py: Python<'_>, name: &str) -> PyResult<Place> {
     let place = Place::ALL.into_iter().find(|place| place.name() == name);
-    place.ok_or_else(|| unknown_name(py, "state", name, &Place::NAMES))
+    place.ok_or_else(|| unknown_name(py, ["state", "states"], ("at", name), &Place::NAMES))
 }
 
 /// What a comparison reports.
@@ -74,13 +72,11 @@ impl Mechanism {
     #[pyo3(signature = (search = "down"))]
     fn equilibrium<'py>(&self, py: Python<'py>, search: &str) -> PyResult<Bound<'py, PyAny>> {
         let options = EquilibriumOptions { search: self::search(py, search)? };
-        let found = guarded(py, || {
-            Ok(py.detach(|| {
-                let found = mbs::equilibrium(&self.shared.mechanism, &options)?;
-                let mut there = self.shared.mechanism.clone();
-                let simulation = there.start_from(&found).simulate(&Method::default())?;
-                Ok((found, simulation))
-            }))
+        let mut mechanism = self.shared.mechanism.clone();
+        let found = left(py, move || {
+            let found = mbs::equilibrium(&mechanism, &options)?;
+            let simulation = mechanism.start_from(&found).simulate(&Method::default())?;
+            Ok((found, simulation))
         })?;
         let (found, simulation) = found.map_err(|error| raised(py, &error, Class::Start))?;
         let object = found.to_json();
@@ -162,10 +158,15 @@ impl Mechanism {
         quick: bool,
         progress: Option<&Bound<'py, PyAny>>,
     ) -> PyResult<Bound<'py, PyAny>> {
+        let known = &mbs::FORMULATIONS[1..];
         let kinds = methods.unwrap_or_default().into_iter().map(|name| {
-            FormulationKind::of_name(&name)
-                .ok_or_else(|| unknown_name(py, "formulation", &name, &mbs::FORMULATIONS[1..]))
+            let unknown =
+                || unknown_name(py, ["formulation", "formulations"], ("methods", &name), known);
+            FormulationKind::of_name(&name).ok_or_else(unknown)
         });
+        for (argument, numbers) in [("steps", &steps), ("errors", &errors)] {
+            positive(py, argument, numbers.as_deref().unwrap_or_default())?;
+        }
         let flag = Arc::new(AtomicBool::new(false));
         let plain = Request::default();
         let request = Request {
@@ -194,6 +195,15 @@ impl Mechanism {
     }
 }
 
+/// Refuses an argument with a number that is not larger than zero, or infinite.
+fn positive(py: Python<'_>, argument: &str, numbers: &[f64]) -> PyResult<()> {
+    let Some(wrong) = numbers.iter().find(|x| !(**x > 0.0 && x.is_finite())) else {
+        return Ok(());
+    };
+    let message = format!("{argument} has {wrong}");
+    Err(usage(py, "settings-refused", &message, "give numbers larger than zero", argument))
+}
+
 /// The object of a text of JSON.
 fn json<'py>(py: Python<'py>, text: &str) -> PyResult<Bound<'py, PyAny>> {
     let object: Value = serde_json::from_str(text)
@@ -201,20 +211,25 @@ fn json<'py>(py: Python<'py>, text: &str) -> PyResult<Bound<'py, PyAny>> {
     value::object(py, &object)
 }
 
-/// What a linear system is about: a place by its name, an equilibrium, or a state.
+/// What a linear system is about: a place, with how an equilibrium is sought, or a state.
 enum At {
-    Place(Place),
+    Place(Place, Search),
     State(Vec<f64>, Vec<f64>),
 }
 
+/// Names of inputs and of outputs; without them all.
+type Ports = [Option<Vec<String>>; 2];
+
 impl Mechanism {
     fn at(&self, at: Option<&Bound<'_, PyAny>>) -> PyResult<At> {
-        let Some(at) = at else { return Ok(At::Place(Place::Equilibrium)) };
+        let Some(at) = at else { return Ok(At::Place(Place::Equilibrium, Search::Down)) };
         if let Ok(name) = at.extract::<String>() {
-            return Ok(At::Place(place(at.py(), &name)?));
+            return Ok(At::Place(place(at.py(), &name)?, Search::Down));
         }
         if at.hasattr("is_stable")? {
-            return Ok(At::Place(Place::Equilibrium));
+            // it is sought again, as it was found
+            let name: String = at.getattr("summary")?.get_item("search")?.extract()?;
+            return Ok(At::Place(Place::Equilibrium, search(at.py(), &name)?));
         }
         let wrong = |_| {
             let hint = "give a name, an equilibrium, or (q, v)";
@@ -226,25 +241,33 @@ impl Mechanism {
         Ok(At::State(q, Numbers::row(&v, "v", first.velocities().len())?))
     }
 
-    fn linear(
+    /// Something of a linear system.
+    fn linear<R: Send + 'static>(
         &self,
         py: Python<'_>,
-        at: &At,
-        [inputs, outputs]: [Option<Vec<String>>; 2],
-    ) -> PyResult<LinearSystem> {
-        let [inputs, outputs] = [&inputs, &outputs].map(|names| {
-            names.as_ref().map(|names| names.iter().map(String::as_str).collect::<Vec<_>>())
-        });
-        let (inputs, outputs) = (inputs.as_deref(), outputs.as_deref());
-        let mechanism = &self.shared.mechanism;
-        let made = guarded(py, || match at {
-            At::Place(place) => {
-                let options = LinearizeOptions { place: *place, ..LinearizeOptions::default() };
-                Ok(py.detach(|| mbs::linearize(mechanism, &options, inputs, outputs)))
+        (at, names): (At, Ports),
+        then: impl FnOnce(LinearSystem, Option<(Place, Search)>) -> Result<R, SimulationError>
+        + Send
+        + 'static,
+    ) -> PyResult<R> {
+        let (shared, mut tree) = (self.shared.clone(), self.first(py)?.clone());
+        let made = left(py, move || {
+            let [inputs, outputs] = names.each_ref().map(|names| {
+                names.as_ref().map(|names| names.iter().map(String::as_str).collect::<Vec<_>>())
+            });
+            let (inputs, outputs) = (inputs.as_deref(), outputs.as_deref());
+            let mechanism = &shared.mechanism;
+            match at {
+                At::Place(place, search) => {
+                    let options = LinearizeOptions { place, search };
+                    let system = mbs::linearize(mechanism, &options, inputs, outputs)?;
+                    then(system, Some((place, search)))
+                }
+                At::State(q, v) => {
+                    let state = (&mut tree, &q[..], &v[..]);
+                    then(mbs::linearize_at(mechanism, state, inputs, outputs)?, None)
+                }
             }
-            At::State(q, v) => self.with_tree(py, |tree| {
-                py.detach(|| mbs::linearize_at(mechanism, (tree, q, v), inputs, outputs))
-            }),
         })?;
         made.map_err(|error| raised(py, &error, Class::Start))
     }
@@ -267,7 +290,7 @@ impl Mechanism {
         outputs: Option<Vec<String>>,
     ) -> PyResult<Bound<'py, PyAny>> {
         let at = self.at(at)?;
-        let s = self.linear(py, &at, [inputs, outputs])?;
+        let s = self.linear(py, (at, [inputs, outputs]), |system, _| Ok(system))?;
         let [a, b, c, d] = [&s.a, &s.b, &s.c, &s.d].map(|m| matrix(py, m));
         values::make(py, "Linear", (a?, b?, c?, d?, s.states, s.inputs, s.outputs))
     }
@@ -280,12 +303,16 @@ impl Mechanism {
         at: Option<&Bound<'py, PyAny>>,
     ) -> PyResult<Bound<'py, PyAny>> {
         let at = self.at(at)?;
-        let none = || Some(Vec::new());
-        let system = self.linear(py, &at, [none(), none()])?;
-        let shapes = guarded(py, || Ok(py.detach(|| system.shapes())))?;
-        let shapes = shapes.map_err(|error| raised(py, &error, Class::Start))?;
+        let (none, shared) = (|| Some(Vec::new()), self.shared.clone());
+        let found = self.linear(py, (at, [none(), none()]), move |system, at| {
+            let scene = &shared.scene;
+            let stopped = |error| SimulationError::stopped(error, 0.0, &mbs::Names::new(scene));
+            let named = at.map(|(place, search)| mbs::Modes::new(scene, place, search));
+            Ok((system.shapes()?, system.states, named.transpose().map_err(stopped)?))
+        })?;
+        let (shapes, states, named) = found;
         let pairs = shapes.iter().flat_map(|shape| &shape.states).flatten().copied();
-        let (n, m) = (shapes.len(), system.states.len());
+        let (n, m) = (shapes.len(), states.len());
         let pairs = array(py, pairs.collect(), &[n, 2 * m])?;
         let complex = |pairs: Bound<'py, PyAny>| pairs.call_method1("view", ("complex128",));
         let modes = || shapes.iter().map(|shape| &shape.mode);
@@ -294,19 +321,12 @@ impl Mechanism {
         let frequencies = array(py, modes().map(mbs::Mode::frequency).collect(), &[n])?;
         let damping = modes().map(|mode| mode.damping_ratio().unwrap_or(f64::NAN)).collect();
         let damping = array(py, damping, &[n])?;
-        let summary = match at {
-            At::Place(place) => {
-                let found = mbs::Modes::new(&self.shared.scene, place, Search::Down);
-                let names = mbs::Names::new(&self.shared.scene);
-                let found = found.map_err(|error| {
-                    raised(py, &SimulationError::stopped(error, 0.0, &names), Class::Start)
-                })?;
-                value::object(py, &found.to_json())?
-            }
-            At::State(..) => PyDict::new(py).into_any(),
+        let summary = match named {
+            Some(named) => value::object(py, &named.to_json())?,
+            None => PyDict::new(py).into_any(),
         };
         let shapes = complex(pairs)?;
-        let fields = (eigenvalues, frequencies, damping, shapes, system.states, summary);
+        let fields = (eigenvalues, frequencies, damping, shapes, states, summary);
         values::make(py, "Modes", fields)
     }
 }

@@ -1,5 +1,6 @@
 //! Sweeps: many runs with varied numbers, here or on other machines.
 
+use crate::array::count;
 use crate::error::{Class, Fields, exception, guarded, raised, unread, usage};
 use crate::mechanism::Mechanism;
 use crate::watch::{Progress, Reached, whole};
@@ -46,18 +47,19 @@ fn refused(py: Python<'_>, error: StudyError) -> PyErr {
 
 /// A sweep that could not be made.
 fn failed(py: Python<'_>, error: &SweepError) -> PyErr {
-    let (code, hint) = match error {
-        SweepError::Threads(_) => ("settings-refused", "give fewer threads"),
-        SweepError::Journal(_) => ("journal-refused", "give another directory"),
-        SweepError::Write(_) => ("out-unwritable", "give a directory that can be written"),
-        SweepError::Interrupted(_) => ("interrupted", "the same call continues it"),
-        _ => ("parts-refused", "join the parts of one sweep"),
+    let journal = Some("journal");
+    let (code, hint, argument) = match error {
+        SweepError::Threads(_) => ("settings-refused", "give fewer threads", Some("threads")),
+        SweepError::Journal(_) => ("journal-refused", "give another directory", journal),
+        SweepError::Write(_) => ("out-unwritable", "give a directory that can be written", journal),
+        SweepError::Interrupted(_) => ("interrupted", "the same call continues it", None),
+        _ => ("parts-refused", "join the parts of one sweep", journal),
     };
     let fields = Fields {
         code: code.to_owned(),
         message: error.to_string(),
         hint: hint.to_owned(),
-        argument: Some("journal".to_owned()),
+        argument: argument.map(str::to_owned),
         ..Fields::default()
     };
     exception(py, Class::Usage, &fields)
@@ -226,18 +228,22 @@ impl Mechanism {
     fn sweep<'py>(
         slf: &Bound<'py, Self>,
         spec: &Bound<'py, PyAny>,
-        threads: usize,
+        threads: i64,
         client: Option<&Bound<'py, PyAny>>,
         journal: Option<PathBuf>,
         progress: Option<&Bound<'py, PyAny>>,
         settings: Option<&Bound<'py, PyDict>>,
     ) -> PyResult<Bound<'py, PyAny>> {
         let py = slf.py();
+        let threads = count(py, "threads", threads)?;
         let text = match spec.cast::<PyString>() {
             Ok(text) if text.to_string().contains('\n') => text.to_string(),
-            Err(_) if spec.hasattr("keys")? => value::json(spec)?,
+            Err(_) if spec.hasattr("keys")? => value::json(spec, "spec")?,
             _ => {
-                let path: PathBuf = spec.extract()?;
+                let path: PathBuf = spec.extract().map_err(|_| {
+                    let message = format!("a sweep is made of no {}", spec.get_type());
+                    usage(py, "wrong-type", &message, "give a path, a text, or a dict", "spec")
+                })?;
                 let file = SceneFile::read(&path).map_err(|error| unread(py, &error))?;
                 file.text().to_owned()
             }

@@ -1,5 +1,6 @@
 //! Values of JSON as objects of Python, and back to the text of a scene.
 
+use crate::error::usage;
 use pyo3::IntoPyObjectExt;
 use pyo3::prelude::*;
 use pyo3::sync::PyOnceLock;
@@ -30,12 +31,30 @@ pub(crate) fn object<'py>(py: Python<'py>, value: &Value) -> PyResult<Bound<'py,
     }
 }
 
-/// The text of JSON of an object of Python; numbers and arrays of numpy are taken too.
-pub(crate) fn json(value: &Bound<'_, PyAny>) -> PyResult<String> {
+/// What a dict has by name; an argument that is none is refused.
+pub(crate) fn items<'py>(
+    dict: &Bound<'py, PyAny>,
+    argument: &str,
+    hint: &str,
+) -> PyResult<Vec<(String, Bound<'py, PyAny>)>> {
+    let py = dict.py();
+    let wrong = || {
+        let message = format!("{argument} is no dict, but {}", dict.get_type());
+        usage(py, "wrong-type", &message, hint, argument)
+    };
+    if !dict.hasattr("items")? {
+        return Err(wrong());
+    }
+    let item = |item: PyResult<Bound<'py, PyAny>>| item?.extract().map_err(|_| wrong());
+    dict.call_method0("items")?.try_iter()?.map(item).collect()
+}
+
+/// The text of JSON of an argument; numbers and arrays of numpy are taken too.
+pub(crate) fn json(value: &Bound<'_, PyAny>, argument: &str) -> PyResult<String> {
     static DUMPS: PyOnceLock<Py<PyAny>> = PyOnceLock::new();
     let py = value.py();
     let dumps = DUMPS.get_or_try_init(py, || {
         Ok::<_, PyErr>(py.import("multibody.values")?.getattr("dumps")?.unbind())
     })?;
-    dumps.bind(py).call1((value,))?.extract()
+    dumps.bind(py).call1((value, argument))?.extract()
 }

@@ -1,10 +1,12 @@
 //! Long work: on a thread of its own, without the interpreter, while this one hears of interrupts and reports progress.
 
 use crate::error::internal;
+use core::ops::ControlFlow;
 use core::time::Duration;
-use mbs_parallel::beside;
+use mbs_parallel::{apart, beside};
 use pyo3::prelude::*;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+use std::time::Instant;
 
 /// Time between two looks [s]: an interrupt is to be heard within 0.1 s.
 const PERIOD: Duration = Duration::from_millis(50);
@@ -103,6 +105,65 @@ pub(crate) fn whole<R: Send>(
     match watched(py, flag, progress, work)? {
         (done, None) => Ok(done),
         (_, Some(error)) => Err(error),
+    }
+}
+
+/// Does some work that looks at no flag: an interrupt leaves it to itself.
+pub(crate) fn left<R: Send + 'static>(
+    py: Python<'_>,
+    work: impl FnOnce() -> R + Send + 'static,
+) -> PyResult<R> {
+    let mut raised = None;
+    let done = py.detach(|| {
+        apart(work, PERIOD, || match Python::attach(|py| py.check_signals()) {
+            Ok(()) => ControlFlow::Continue(()),
+            Err(error) => {
+                raised = Some(error);
+                ControlFlow::Break(())
+            }
+        })
+    });
+    let done = done.map_err(|panic| internal(py, panic.message()))?;
+    done.ok_or_else(|| raised.unwrap_or_else(|| internal(py, "it was left without a reason")))
+}
+
+/// Hears of interrupts in a loop without the interpreter.
+#[derive(Debug)]
+pub(crate) struct Ear {
+    looked: Instant,
+    heard: Instant,
+    /// Turns from one look at the clock to the next, and those that are left of them.
+    stride: u32,
+    left: u32,
+}
+
+/// Time from one look at the clock to the next [s]: some looks to a period.
+const PACE: Duration = Duration::from_millis(10);
+/// Most turns from one look to the next [-]: a look then costs a turn less than a nanosecond, and turns may get slower by far.
+const MOST_TURNS: u32 = 64;
+
+impl Ear {
+    pub(crate) fn new() -> Self {
+        let now = Instant::now();
+        Self { looked: now, heard: now, stride: 1, left: 1 }
+    }
+
+    /// Between two turns of the loop; an error is an interrupt, which ends it.
+    pub(crate) fn turn(&mut self) -> PyResult<()> {
+        self.left -= 1;
+        if self.left > 0 {
+            return Ok(());
+        }
+        let now = Instant::now();
+        let is_early = now - self.looked < PACE;
+        self.stride =
+            if is_early { (2 * self.stride).min(MOST_TURNS) } else { self.stride.div_ceil(2) };
+        (self.looked, self.left) = (now, self.stride);
+        if now - self.heard < PERIOD {
+            return Ok(());
+        }
+        self.heard = now;
+        Python::attach(|py| py.check_signals())
     }
 }
 

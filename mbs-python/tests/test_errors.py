@@ -120,11 +120,6 @@ def test_a_run_that_stops_on_its_way_keeps_its_rows() -> None:
     assert np.isfinite(result.array).all()
 
 
-def test_a_rollout_needs_inputs_or_steps() -> None:
-    with pytest.raises(TypeError, match="steps"):
-        pendulum().rollout([[0, 0]], [[0, 0]])
-
-
 def test_a_start_that_cannot_assemble_is_a_result_of_a_run() -> None:
     result = mbs.Mechanism(unclosed()).run()
     assert isinstance(result.error, mbs.StartError)

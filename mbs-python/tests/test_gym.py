@@ -99,6 +99,20 @@ def test_an_unknown_input_is_refused() -> None:
         MechanismEnv(cart_pole(), **settings(action={"pull": (0.0, 1.0)}))
 
 
+@pytest.mark.parametrize(("argument", "value"), [("substeps", 0), ("outputs", []), ("action", ["push"])])
+def test_a_wrong_argument_is_named(argument: str, value: Any) -> None:
+    with pytest.raises(mbs.UsageError) as caught:
+        MechanismEnv(cart_pole(), **settings(**{argument: value}))
+    assert caught.value.argument == argument
+
+
+@pytest.mark.parametrize("argument", ["num_envs", "threads"])
+def test_a_vector_has_members_and_threads(argument: str) -> None:
+    with pytest.raises(mbs.UsageError) as caught:
+        MechanismVectorEnv(cart_pole(), **{"num_envs": 1, argument: 0}, **settings())
+    assert caught.value.argument == argument
+
+
 @pytest.mark.parametrize("threads", [1, 2])
 def test_a_vector_of_environments_is_each_of_them(threads: int) -> None:
     mechanism = cart_pole()

@@ -1,11 +1,13 @@
 """Ctrl-C ends a run, a comparison and a sweep at once."""
 
 import signal
+import threading
 import time
 from collections.abc import Callable
 from pathlib import Path
 
 import multibody as mbs
+import numpy as np
 import pytest
 from conftest import scene
 
@@ -35,6 +37,17 @@ def pendulum() -> mbs.Mechanism:
     return mbs.Mechanism(scene("double-pendulum"))
 
 
+def chain(n: int) -> mbs.Mechanism:
+    b = mbs.Mechanism.build("chain", dimension=2)
+    b.duration(1.0)
+    before = b.ground
+    for i in range(n):
+        link = b.body(f"link-{i}", mass=1.0, rod={"from": [0, -i], "to": [0, -i - 1]})
+        b.joint(f"joint-{i}", "revolute", [before, link], at=[0, -i])
+        before = link
+    return b.done()
+
+
 SWEEP = {"vary": [{"path": "body.upper.mass", "from": 1.0, "to": 2.0, "count": 10000}]}
 LONG: dict[str, Callable[[], object]] = {
     "run": lambda: pendulum().run(1e4),
@@ -43,6 +56,10 @@ LONG: dict[str, Callable[[], object]] = {
     "steps": lambda: pendulum().simulate().steps(1e-3, 10**7),
     "run_until": lambda: pendulum().simulate().run_until(1e4),
     "rollout": lambda: pendulum().rollout([[0.0, 0.0]] * 64, [[0.0, 0.0]] * 64, steps=10**5, threads=1),
+    "many states": lambda: pendulum().accelerations(np.zeros((3 * 10**6, 2)), np.zeros((3 * 10**6, 2))),
+    "a step of a method that chooses its own": lambda: pendulum().simulate(formulation="recursive", integrator="rk54").step(1e5),
+    "run_until of such a method": lambda: pendulum().simulate(formulation="recursive", integrator="rk54").run_until(1e5),
+    "steps of such a method": lambda: pendulum().simulate(formulation="recursive", integrator="rk54").steps(1e5, 2),
     "compare": lambda: pendulum().compare(duration=1e3),
     "sweep": lambda: pendulum().sweep(SWEEP, threads=2),
     "doctor": lambda: [mbs.Mechanism(scene("hexapod")).doctor() for _ in range(1000)],
@@ -63,6 +80,17 @@ def test_a_simulation_that_was_interrupted_goes_on() -> None:
     assert simulation.time == pytest.approx(time_ + 1e-3)
 
 
+def test_an_interrupt_ends_no_copy() -> None:
+    simulation = pendulum().simulate()
+    copy = simulation.copy()
+    end = 400.0
+    runs = threading.Thread(target=copy.run_until, args=(end,))
+    runs.start()
+    delay(lambda: simulation.run_until(1e5))
+    runs.join()
+    assert copy.time == end
+
+
 def test_an_interrupted_sweep_resumes_from_its_journal(tmp_path: Path) -> None:
     spec = {"vary": [{"path": "body.upper.mass", "from": 1.0, "to": 2.0, "count": 60}]}
     delay(lambda: pendulum().sweep(spec, journal=tmp_path, threads=1, duration=5.0))
@@ -79,3 +107,9 @@ def test_a_progress_that_raises_ends_the_run() -> None:
 
     with pytest.raises(ZeroDivisionError):
         pendulum().run(1e4, progress=refuse)
+
+
+# the last one: what is left to itself goes on for a second or two
+def test_an_interrupt_leaves_what_looks_at_no_flag() -> None:
+    mechanism = chain(70)
+    assert any(delay(lambda: mechanism.modes("initial")) < PROMPT for _ in range(TRIES))

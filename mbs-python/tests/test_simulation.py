@@ -56,6 +56,14 @@ def test_a_saved_state_comes_back_with_its_bits(name: str) -> None:
     assert bits(other) == after
 
 
+def test_a_saved_state_that_changed_on_its_way_is_refused() -> None:
+    data = bytearray(moved("double-pendulum").save())
+    data[-20] ^= 1
+    with pytest.raises(mbs.UsageError) as caught:
+        moved("double-pendulum").restore(bytes(data))
+    assert caught.value.code == "checkpoint-refused"
+
+
 def test_a_state_of_another_mechanism_is_refused() -> None:
     with pytest.raises(mbs.UsageError):
         moved("spinning-top").restore(moved("servo-arm").save())

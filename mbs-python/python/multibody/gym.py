@@ -50,6 +50,13 @@ class MechanismEnv(gymnasium.Env[Array, Array]):
         max_steps: int | None = None,
         **settings: Any,
     ) -> None:
+        _check_count("substeps", substeps)
+        if not isinstance(action, Mapping):
+            hint = "give {NAME: (least, largest)}"
+            raise UsageError("action is no dict", code="wrong-type", argument="action", hint=hint)
+        if outputs is not None and len(outputs) == 0:
+            hint = "name an output, or leave outputs out"
+            raise UsageError("outputs has no name", code="wrong-shape", argument="outputs", hint=hint)
         self.mechanism = mechanism
         self._simulation = mechanism.simulate(step=dt / substeps, **settings)
         self._step, self._substeps = dt / substeps, substeps
@@ -123,6 +130,8 @@ class MechanismVectorEnv(gymnasium.vector.VectorEnv[Array, Array, NDArray[Any]])
     render_mode = None
 
     def __init__(self, mechanism: Mechanism, num_envs: int, *, threads: int = 1, **settings: Any) -> None:
+        _check_count("num_envs", num_envs)
+        _check_count("threads", threads)
         self.envs = [MechanismEnv(mechanism, **settings) for _ in range(num_envs)]
         self.num_envs = num_envs
         self.single_action_space = self.envs[0].action_space
@@ -171,6 +180,11 @@ class MechanismVectorEnv(gymnasium.vector.VectorEnv[Array, Array, NDArray[Any]])
             seen, info = self.envs[i].reset()
             return seen, 0.0, False, False, info
         return self.envs[i]._outcome()
+
+
+def _check_count(name: str, number: int) -> None:
+    if number < 1:
+        raise UsageError(f"{name} is {number}", code="no-count", argument=name, hint="give a whole number, one or more")
 
 
 def _place(mechanism: Mechanism, name: str) -> int:

@@ -64,7 +64,7 @@ class Result(Mapping[str, Any]):
 
             hint = nearest_name(name, self.columns)
             message = f"there is no output `{name}`"
-            raise UnknownOutput(message, code="unknown-name", hint=hint, argument=name) from None
+            raise UnknownOutput(message, code="unknown-name", hint=hint, argument="name") from None
 
     def __iter__(self) -> Iterator[str]:
         return iter(self.columns)

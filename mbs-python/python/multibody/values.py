@@ -111,7 +111,7 @@ class Table:
             from ._multibody import nearest_name
 
             hint = nearest_name(name, self.columns)
-            raise UsageError(f"there is no column `{name}`", code="unknown-name", hint=hint, argument=name)
+            raise UsageError(f"there is no column `{name}`", code="unknown-name", hint=hint, argument="name")
         place = self.columns.index(name)
         return np.array([_number(row[place]) for row in self.rows])
 
@@ -146,13 +146,13 @@ def _number(text: str) -> float:
         return float("nan")
 
 
-def dumps(value: Any) -> str:
-    """The text of JSON of a value; numbers and arrays of numpy are taken too."""
+def dumps(value: Any, argument: str) -> str:
+    """The text of JSON of an argument; numbers and arrays of numpy are taken too."""
     try:
         return json.dumps(value, default=_plain, allow_nan=False)
     except (TypeError, ValueError) as error:
         hint = "write texts, finite numbers, lists and dicts"
-        raise UsageError(f"the dict is no scene: {error}", code="wrong-type", hint=hint, argument="source") from None
+        raise UsageError(f"the dict cannot be written: {error}", code="wrong-type", hint=hint, argument=argument) from None
 
 
 def _plain(value: Any) -> Any:

@@ -34,8 +34,8 @@ pub struct Rollout<'a> {
 /// Why a motion ended early, and after how many steps.
 #[derive(Debug)]
 pub struct RolloutEnd {
-    /// Steps that were made.
-    pub steps: usize,
+    /// Steps that were made; nothing where it could not begin.
+    pub steps: Option<usize>,
     /// Why no more.
     pub error: SimulationError,
 }
@@ -92,15 +92,15 @@ impl Tree {
         q_rows.fill(f64::NAN);
         v_rows.fill(f64::NAN);
         let at = |steps| move |error| RolloutEnd { steps, error };
-        self.begin(task).map_err(at(0))?;
+        self.begin(task).map_err(at(None))?;
         self.keep((q_rows, v_rows), 0);
         for k in 0..task.n_steps {
             if task.interrupt.is_some_and(Interrupt::is_set) {
                 let time = self.inner.state().t;
                 let error = SimulationError::stopped(StopError::Interrupted, time, &self.names);
-                return Err(RolloutEnd { steps: k, error });
+                return Err(RolloutEnd { steps: Some(k), error });
             }
-            self.step(task, k).map_err(at(k))?;
+            self.step(task, k).map_err(at(Some(k)))?;
             self.keep((q_rows, v_rows), k + 1);
         }
         Ok(())
