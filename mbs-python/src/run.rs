@@ -5,7 +5,7 @@ use crate::mechanism::Mechanism;
 use crate::watch::{Progress, Reached, watched};
 use crate::{settings, value};
 use mbs::core::scene::Scene;
-use mbs::record::{Provenance, RunRecord};
+use mbs::record::Provenance;
 use mbs::scene_file::SceneFile;
 use mbs::{Method, Names, Outcome, ResolvedMethod, SimulationError, run_document};
 use mbs_study::auto::{Goal, PlanError, Processor, plan, run_plan};
@@ -15,16 +15,20 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use std::fmt::Write;
 
-/// What a page of a run shows.
+/// A run, of which a page can be made.
 #[pyclass(frozen, module = "multibody._multibody")]
 #[derive(Debug)]
-pub(crate) struct Record(RunRecord);
+pub(crate) struct Record {
+    outcome: Outcome,
+    provenance: Provenance,
+}
 
 #[pymethods]
 impl Record {
     /// The page: HTML that stands alone.
     fn page(&self, py: Python<'_>) -> PyResult<String> {
-        guarded(py, || Ok(py.detach(|| mbs_report::page(&self.0))))
+        let page = || mbs_report::page(&self.outcome.record(self.provenance.clone()));
+        guarded(py, || Ok(py.detach(page)))
     }
 }
 
@@ -112,7 +116,7 @@ fn table(inputs: &Bound<'_, PyAny>) -> PyResult<String> {
 /// A result of Python.
 fn result<'py>(
     py: Python<'py>,
-    outcome: &Outcome,
+    outcome: Outcome,
     settings: &ResolvedMethod,
     scene: &Scene<f64>,
     again: (&Bound<'py, Mechanism>, &Bound<'py, PyDict>),
@@ -143,14 +147,15 @@ fn result<'py>(
         version: env!("CARGO_PKG_VERSION").to_owned(),
         ..Provenance::default()
     };
-    let record = Record(outcome.record(provenance));
+    let notes = outcome.notes().to_vec();
+    let record = Record { outcome, provenance };
     let fields = (
         t.into_pyarray(py),
         data,
         columns,
         units,
         value::object(py, &summary)?,
-        outcome.notes().to_vec(),
+        notes,
         error,
         record,
         again,
@@ -198,7 +203,7 @@ impl Mechanism {
         })?;
         match done {
             Ok((outcome, settings)) => {
-                let result = result(py, &outcome, &settings, scene, (slf, &given))?;
+                let result = result(py, outcome, &settings, scene, (slf, &given))?;
                 match raised_by {
                     Some(error) => {
                         error.value(py).setattr("result", result)?;
