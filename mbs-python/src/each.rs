@@ -35,21 +35,19 @@ impl Mechanism {
             let given = [argument(0), argument(1), argument(2)];
             one(tree, given, &mut *to).and_then(|()| finite(to))
         };
-        let done = {
-            let all = |tree: &mut Tree, out: &mut [f64]| {
-                let mut ear = Ear::new();
-                for k in 0..count {
-                    let to = &mut out[n * k..][..n];
-                    work(tree, k, to).map_err(|error| Ended::Refused(k, Box::new(error)))?;
-                    ear.turn().map_err(Ended::Interrupted)?;
-                }
-                Ok(())
-            };
-            self.with_tree(py, |tree| match count {
-                1 => work(tree, 0, &mut out).map_err(|error| Ended::Refused(0, Box::new(error))),
-                _ => py.detach(|| all(tree, &mut out)),
-            })
-        }?;
+        let all = |tree: &mut Tree, out: &mut [f64]| {
+            let mut ear = Ear::new();
+            for k in 0..count {
+                let to = &mut out[n * k..][..n];
+                work(tree, k, to).map_err(|error| Ended::Refused(k, Box::new(error)))?;
+                ear.turn().map_err(Ended::Interrupted)?;
+            }
+            Ok(())
+        };
+        let done = self.with_tree(py, |tree| match count {
+            1 => work(tree, 0, &mut out).map_err(|error| Ended::Refused(0, Box::new(error))),
+            _ => py.detach(|| all(tree, &mut out)),
+        })?;
         match done {
             Ok(()) => (),
             Err(Ended::Interrupted(error)) => return Err(error),

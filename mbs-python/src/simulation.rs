@@ -206,12 +206,11 @@ impl Simulation {
         self.advance(py, |simulation| {
             let set = if all.is_empty() { Ok(()) } else { simulation.set_inputs(&all) };
             let dt = dt.unwrap_or_else(|| simulation.step_length());
-            let step = |simulation: &mut mbs::Simulation| simulation.step(dt);
             let made = match set {
                 Ok(()) if simulation.is_controlled() && is_long(simulation, dt) => {
-                    whole(py, &self.flag, &silent(&Reached::default()), || step(simulation))?
+                    whole(py, &self.flag, &silent(&Reached::default()), || simulation.step(dt))?
                 }
-                Ok(()) => step(simulation),
+                Ok(()) => simulation.step(dt),
                 Err(error) => Err(error),
             };
             made.map(|_| ()).map_err(|error| stopped(py, &error))
