@@ -38,9 +38,11 @@ pub mod scene;
 pub mod start;
 pub mod step;
 
+#[cfg(feature = "instances")]
+pub use mbs_math::instances;
 pub use mbs_math::{
     Alone, BlockSource, Cliques, FactorError, Real, SpdSolver, SymmetricSolver, Team,
 };
-pub use mbs_math::{algebra, blocks, ode, real, team};
+pub use mbs_math::{algebra, blocks, ode, once, real, team};
 #[cfg(feature = "alloc")]
 pub use mbs_math::{dense, refined};

@@ -10,6 +10,7 @@ pub mod blocks;
 pub mod dense;
 pub mod entry;
 pub mod ode;
+pub mod once;
 pub mod real;
 #[cfg(feature = "alloc")]
 pub mod refined;

@@ -54,6 +54,8 @@ pub trait Real:
     const EPSILON: Self;
     /// Half a turn [rad].
     const PI: Self;
+    /// Whether the crates that own large functions have compiled them for this scalar, where they are asked to: see [`once`](crate::once).
+    const HAS_INSTANCES: bool = false;
 
     /// The nearest number to `x`.
     fn from_f64(x: f64) -> Self;
@@ -122,6 +124,7 @@ impl Real for f64 {
     const TWO: Self = 2.0;
     const EPSILON: Self = Self::EPSILON;
     const PI: Self = core::f64::consts::PI;
+    const HAS_INSTANCES: bool = true;
 
     #[inline]
     fn from_f64(x: f64) -> Self {
@@ -159,6 +162,7 @@ impl Real for f32 {
     const TWO: Self = 2.0;
     const EPSILON: Self = Self::EPSILON;
     const PI: Self = core::f32::consts::PI;
+    const HAS_INSTANCES: bool = cfg!(feature = "f32");
 
     #[inline]
     #[allow(clippy::cast_possible_truncation, reason = "rounding to f32 is what is asked for")]

@@ -85,6 +85,14 @@ pub struct TreeModel<T: Real, S: Space<T>> {
     pub(crate) owner_of_link: Vec<Owner>,
 }
 
+#[cfg(feature = "instances")]
+type New<T, S> = fn(&Scene<T>) -> Result<TreeModel<T, S>, TreeError>;
+#[cfg(feature = "instances")]
+mbs_core::instances!(
+    NEW: New<T, S> = TreeModel::<T, S>::build,
+    { type S = crate::Planar; } { type S = crate::Spatial; }
+);
+
 impl<T: Real, S: Space<T>> TreeModel<T, S> {
     /// Makes the tree of a scene that passed its check.
     ///
@@ -96,6 +104,14 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
     /// # Errors
     /// [`TreeError`] names the body or joint.
     pub fn new(scene: &Scene<T>) -> Result<Self, TreeError> {
+        #[cfg(feature = "instances")]
+        if T::HAS_INSTANCES {
+            return mbs_core::once::found::<New<T, S>>(NEW)(scene);
+        }
+        Self::build(scene)
+    }
+
+    fn build(scene: &Scene<T>) -> Result<Self, TreeError> {
         if scene.dimension.count() != S::DIMENSION {
             return Err(TreeError::Dimension);
         }

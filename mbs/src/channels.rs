@@ -1,14 +1,14 @@
 //! What the channels of a run read: measures, and reactions and effects where an output asks for them.
 
 use crate::checkpoint::tape::{Tape, Walked, holds};
-use crate::once::{find, once};
 use crate::simulation::Simulation;
 use crate::stop::StopError;
-use mbs_core::Real;
 use mbs_core::model::State;
 use mbs_core::natural::NaturalModel;
+use mbs_core::once::find;
 use mbs_core::outputs::{Forces, Measures, Target};
 use mbs_core::scene::Scene;
+use mbs_core::{Real, instances};
 
 /// Measures and forces of a scene.
 #[derive(Debug, Clone)]
@@ -29,14 +29,7 @@ type New<T, const D: usize> =
     fn(&Scene<T>, &NaturalModel<T, D>) -> Result<Channels<T, D>, StopError>;
 type Write<T, const D: usize> =
     fn(&mut Channels<T, D>, &State<T>, &mut [T]) -> Result<(), StopError>;
-once!(NEW: New = new);
-
-fn new<T: Real, const D: usize>(
-    scene: &Scene<T>,
-    model: &NaturalModel<T, D>,
-) -> Result<Channels<T, D>, StopError> {
-    Channels::new_here(scene, model)
-}
+instances!(NEW: New<T, D> = Channels::<T, D>::new_here);
 
 impl<T: Real, const D: usize> Channels<T, D> {
     /// Those of a scene.
@@ -44,7 +37,7 @@ impl<T: Real, const D: usize> Channels<T, D> {
     /// # Errors
     /// [`StopError`] for an output that cannot be measured.
     pub fn new(scene: &Scene<T>, model: &NaturalModel<T, D>) -> Result<Self, StopError> {
-        find::<New<T, D>>(NEW)?(scene, model)
+        find::<New<T, D>>(NEW).ok_or(StopError::NotBuilt)?(scene, model)
     }
 
     fn new_here(scene: &Scene<T>, model: &NaturalModel<T, D>) -> Result<Self, StopError> {

@@ -22,7 +22,6 @@ mod modes;
 mod motion;
 mod named;
 mod names;
-mod once;
 mod one_way;
 mod placed;
 mod precision;

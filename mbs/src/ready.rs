@@ -1,16 +1,16 @@
 //! What every way to simulate a scene begins from.
 
 use crate::equilibrium::{Search, equilibrium_start};
-use crate::once::{find, once};
 use crate::rest::without_rates;
 use crate::stop::StopError;
 use crate::tilt;
 use mbs_core::model::{Model, State};
 use mbs_core::natural::NaturalModel;
+use mbs_core::once::find;
 use mbs_core::rigid::RigidMotion;
 use mbs_core::scene::Scene;
 use mbs_core::start::{Assembled, assemble, start_at};
-use mbs_core::{Cliques, Real};
+use mbs_core::{Cliques, Real, instances};
 use mbs_linear::Equilibrium;
 use mbs_sparse::Multifrontal;
 
@@ -31,8 +31,8 @@ type Assemble<T, const D: usize> = fn(&Scene<T>) -> Result<AssembledScene<T, D>,
 type Settle<T, const D: usize> =
     fn(&Scene<T>, Search) -> Result<(AssembledScene<T, D>, Equilibrium<T>), StopError>;
 type Rank<T, const D: usize> = fn(&NaturalModel<T, D>, &State<T>) -> usize;
-once!(ASSEMBLE: Assemble = assemble_scene);
-once!(SETTLE: Settle = settle_scene);
+instances!(ASSEMBLE: Assemble<T, D> = assemble_scene::<T, D>);
+instances!(SETTLE: Settle<T, D> = settle_scene::<T, D>);
 
 impl<T: Real, const D: usize> AssembledScene<T, D> {
     /// Builds the model of a scene and assembles it; it settles where the scene asks for it.
@@ -51,7 +51,7 @@ impl<T: Real, const D: usize> AssembledScene<T, D> {
     /// # Errors
     /// As for [`new`](Self::new).
     pub fn settled(scene: &Scene<T>, search: Search) -> Result<(Self, Equilibrium<T>), StopError> {
-        find::<Settle<T, D>>(SETTLE)?(scene, search)
+        find::<Settle<T, D>>(SETTLE).ok_or(StopError::NotBuilt)?(scene, search)
     }
 
     /// Builds the model of a scene and assembles it, no more.
@@ -59,7 +59,7 @@ impl<T: Real, const D: usize> AssembledScene<T, D> {
     /// # Errors
     /// [`StopError::Start`] when there is no model or no consistent start, [`StopError::AlmostDependent`] for an axis that is off.
     pub fn assembled(scene: &Scene<T>) -> Result<Self, StopError> {
-        find::<Assemble<T, D>>(ASSEMBLE)?(scene)
+        find::<Assemble<T, D>>(ASSEMBLE).ok_or(StopError::NotBuilt)?(scene)
     }
 
     /// Builds the model of a scene whose bodies move as `motions` say at time `t`: see [`start_at`].

@@ -20,8 +20,9 @@ use crate::simulation::Simulation;
 use crate::stop::StopError;
 use crate::words::{few_threads, notes, stop_text, summary_rows};
 use core::time::Duration;
-use mbs_core::Real;
+use mbs_core::once::found;
 use mbs_core::scene::Scene;
+use mbs_core::{Real, instances};
 pub(crate) use record::Columns;
 use record::{Record, RunCheckpoints};
 use summary::{contact, energy_summary, method_used, not_started, plain_summary};
@@ -39,6 +40,22 @@ pub fn run<T: Real, const D: usize>(
 
 /// [`run`], with all rows and pictures, or with the last row and no picture.
 pub fn run_keeping<T: Real, const D: usize>(
+    scene: &Scene<T>,
+    settings: &ResolvedMethod,
+    observer: &mut dyn StepObserver<T, D>,
+    keep: RecordRows,
+) -> Outcome {
+    if T::HAS_INSTANCES {
+        return found::<RunKeeping<T, D>>(RUN_KEEPING)(scene, settings, observer, keep);
+    }
+    run_here(scene, settings, observer, keep)
+}
+
+type RunKeeping<T, const D: usize> =
+    fn(&Scene<T>, &ResolvedMethod, &mut dyn StepObserver<T, D>, RecordRows) -> Outcome;
+instances!(RUN_KEEPING: RunKeeping<T, D> = run_here::<T, D>);
+
+fn run_here<T: Real, const D: usize>(
     scene: &Scene<T>,
     settings: &ResolvedMethod,
     observer: &mut dyn StepObserver<T, D>,

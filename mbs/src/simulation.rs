@@ -5,21 +5,21 @@ mod carry;
 use crate::checkpoint::{SimulationSnapshot, inputs};
 use crate::control::Control;
 use crate::methods::{Demands, Request};
-use crate::once::{find, once};
 use crate::ready::AssembledScene;
 use crate::settings::ResolvedMethod;
 use crate::signal_ends::SignalEnds;
 use crate::stop::StopError;
-use mbs_core::Real;
 use mbs_core::control::{Accepted, Invariant, Limit, TrialStep};
 use mbs_core::effects::{Field, Value};
 use mbs_core::formulation::{Formulation, energies};
 use mbs_core::inputs::SignalGraph;
 use mbs_core::model::{Model, Owner, State};
 use mbs_core::natural::NaturalModel;
+use mbs_core::once::find;
 use mbs_core::scene::{EffectKind, Scene, Signal};
 use mbs_core::start::Assembled;
 use mbs_core::step::{InputError, Step, StepError, check_lines, largest};
+use mbs_core::{Real, instances};
 
 /// A scene ready to step, in D dimensions and scalar T.
 ///
@@ -44,7 +44,7 @@ pub struct Simulation<T: Real, const D: usize> {
 type Build<T, const D: usize> =
     fn(&Scene<T>, &ResolvedMethod, AssembledScene<T, D>) -> Result<Simulation<T, D>, StopError>;
 type Advance<T, const D: usize> = fn(&mut Simulation<T, D>, T) -> Result<Accepted<T>, StepError>;
-once!(BUILD: Build = build);
+instances!(BUILD: Build<T, D> = Simulation::<T, D>::build);
 
 impl<T: Real, const D: usize> Simulation<T, D> {
     /// Builds the model of a scene, assembles it, and allocates everything a step needs.
@@ -62,7 +62,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         settings: &ResolvedMethod,
         ready: AssembledScene<T, D>,
     ) -> Result<Self, StopError> {
-        find::<Build<T, D>>(BUILD)?(scene, settings, ready)
+        find::<Build<T, D>>(BUILD).ok_or(StopError::NotBuilt)?(scene, settings, ready)
     }
 
     fn build(
@@ -107,14 +107,6 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             advance: Self::advance_here,
         })
     }
-}
-
-fn build<T: Real, const D: usize>(
-    scene: &Scene<T>,
-    settings: &ResolvedMethod,
-    ready: AssembledScene<T, D>,
-) -> Result<Simulation<T, D>, StopError> {
-    Simulation::build(scene, settings, ready)
 }
 
 impl<T: Real, const D: usize> Simulation<T, D> {

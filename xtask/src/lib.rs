@@ -7,6 +7,7 @@ pub mod command;
 pub mod debian;
 mod documentation;
 pub mod effects;
+pub mod lines;
 pub mod nostd;
 pub mod package;
 pub mod pages;

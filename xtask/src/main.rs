@@ -4,7 +4,9 @@ use clap::error::ErrorKind::InvalidSubcommand;
 use clap::{CommandFactory, Parser, Subcommand};
 use std::ffi::OsString;
 use std::process::ExitCode;
-use xtask::{bundle, check, nostd, package, pick, pictures, process, python, races, simulate};
+use xtask::{
+    bundle, check, lines, nostd, package, pick, pictures, process, python, races, simulate,
+};
 
 /// The jobs of `lab`.
 const LAB: &str = "Jobs that measure, each with its own --help; they are compiled when one is asked for: bench, choice, counts, estimate, fuzz, gauntlet, peers, profile, report, steps, tables";
@@ -72,6 +74,9 @@ enum Job {
 }
 
 fn main() -> ExitCode {
+    if let Some(end) = lines::as_compiler() {
+        return end;
+    }
     match Cli::parse().job {
         Job::Simulate { args } => simulate::simulate(&args),
         Job::Mbs { args } => simulate::mbs(&args),

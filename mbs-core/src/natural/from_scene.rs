@@ -9,12 +9,25 @@ use crate::actions::Actions;
 use crate::scene::Scene;
 use crate::scene::align::aligned;
 
+#[cfg(feature = "instances")]
+type New<T, const D: usize> = fn(&Scene<T>) -> Result<NaturalModel<T, D>, ModelError>;
+#[cfg(feature = "instances")]
+mbs_math::instances!(NEW: New<T, D> = NaturalModel::<T, D>::build);
+
 impl<T: Real, const D: usize> NaturalModel<T, D> {
     /// Builds the smallest natural-coordinate model of a scene.
     ///
     /// # Errors
     /// [`ModelError`] when the scene's dimension is not D, or a body's data leave a point undefined.
     pub fn new(scene: &Scene<T>) -> Result<Self, ModelError> {
+        #[cfg(feature = "instances")]
+        if T::HAS_INSTANCES {
+            return mbs_math::once::found::<New<T, D>>(NEW)(scene);
+        }
+        Self::build(scene)
+    }
+
+    fn build(scene: &Scene<T>) -> Result<Self, ModelError> {
         if scene.dimension.count() != D {
             return Err(ModelError::Dimension);
         }

@@ -10,13 +10,22 @@ use crate::Real;
 use crate::effects::EffectKind;
 use crate::scene::{Entry, Number, Scene, SceneError, SceneFault};
 use crate::start::moved_mass;
+use alloc::vec::Vec;
 
 /// Time in which a stop takes up a motion [s]: some steps of 1 to 5 ms, and short beside the motions of machines.
 const STOPPING_TIME: f64 = 0.02;
 
-/// Computes what `source` leaves open in its enabled effects.
+/// A stop that leaves numbers open: its effect, and the numbers that it leaves open.
+struct OpenStop {
+    effect: usize,
+    stiffness: Option<f64>,
+    damping: Option<f64>,
+}
+
+/// Computes what `source` leaves open in its enabled effects; in `f64`, and so the same number in every precision.
 ///
-/// Cost: nothing without such effects; else for each joint coordinate that has one, a dense factorisation of the scene's coordinates.
+/// Cost: nothing without such effects; else a copy of the scene, and for each joint coordinate that has one a dense factorisation of the
+/// scene's coordinates.
 ///
 /// # Errors
 /// [`SceneFault::NoMovedMass`] with the effect.
@@ -24,26 +33,43 @@ pub(super) fn fill<T: Real>(
     source: &Scene<Number>,
     scene: &mut Scene<T>,
 ) -> Result<(), SceneError> {
+    for stop in stops(source)? {
+        let EffectKind::Limit(limit) = &mut scene.effects[stop.effect].kind else { continue };
+        if let Some(stiffness) = stop.stiffness {
+            limit.stiffness = T::from_f64(stiffness);
+        }
+        if let Some(damping) = stop.damping {
+            limit.damping = T::from_f64(damping);
+        }
+    }
+    Ok(())
+}
+
+/// The stops that leave numbers open, in the order of the effects.
+fn stops(source: &Scene<Number>) -> Result<Vec<OpenStop>, SceneError> {
+    let mut scene = None;
+    let mut stops = Vec::new();
     for (i, effect) in source.effects.iter().enumerate().filter(|(_, effect)| effect.enabled) {
         let EffectKind::Limit(limit) = &effect.kind else { continue };
         let is_open = [limit.stiffness.is_open(), limit.damping.is_open()];
         if !is_open.contains(&true) {
             continue;
         }
-        let kind = scene.joints[limit.joint].kind;
-        let number = kind.coordinate_or_default(limit.coordinate, scene.dimension);
+        if scene.is_none() {
+            scene = Some(source.map(&mut Number::value::<f64>)?);
+        }
+        let Some(scene) = &scene else { continue };
+        let kind = source.joints[limit.joint].kind;
+        let number = kind.coordinate_or_default(limit.coordinate, source.dimension);
         let mass = number.and_then(|number| moved_mass(scene, (limit.joint, number)));
         let field = if is_open[0] { "stiffness" } else { "damping" };
         let fault = SceneFault::NoMovedMass;
         let mass = mass.ok_or(SceneError { entry: Entry::Effect(i), field, fault })?;
-        let EffectKind::Limit(filled) = &mut scene.effects[i].kind else { continue };
-        let tau = T::from_f64(STOPPING_TIME);
-        if is_open[0] {
-            filled.stiffness = mass / (tau * tau);
-        }
-        if is_open[1] {
-            filled.damping = T::TWO * mass / tau;
-        }
+        stops.push(OpenStop {
+            effect: i,
+            stiffness: is_open[0].then(|| mass / (STOPPING_TIME * STOPPING_TIME)),
+            damping: is_open[1].then(|| 2.0 * mass / STOPPING_TIME),
+        });
     }
-    Ok(())
+    Ok(stops)
 }

@@ -9,6 +9,11 @@ use crate::scene::{
 };
 use alloc::vec::Vec;
 
+#[cfg(feature = "instances")]
+type Resolve<T> = fn(&Scene<Number>) -> Result<Scene<T>, SceneError>;
+#[cfg(feature = "instances")]
+mbs_math::instances!(RESOLVE: Resolve<T> = Scene::resolve_here::<T>, {});
+
 impl Scene<Number> {
     /// The scene in the precision `T`, checked: every number is the one of `T` nearest to its decimal text.
     ///
@@ -18,6 +23,14 @@ impl Scene<Number> {
     /// What [`Scene::check`] refuses; [`SceneFault::NoMovedMass`] for a stiffness that does not follow from the scene; [`SceneFault::InCode`] for an effect that is a law in code, which has a precision of its own. In
     /// space [`SceneFault::WrongCount`] for a vector that was given by two numbers.
     pub fn resolve<T: Real>(&self) -> Result<Scene<T>, SceneError> {
+        #[cfg(feature = "instances")]
+        if T::HAS_INSTANCES {
+            return mbs_math::once::found::<Resolve<T>>(RESOLVE)(self);
+        }
+        self.resolve_here()
+    }
+
+    fn resolve_here<T: Real>(&self) -> Result<Scene<T>, SceneError> {
         let is_spatial = self.dimension == Dimension::Spatial;
         let (mut has_two, not_a_number) = (false, T::from_f64(f64::NAN));
         let mut scene = self.map(&mut |x: &Number| {
@@ -58,7 +71,7 @@ fn rows<T, U, const N: usize>(x: &[[T; N]], f: &mut impl FnMut(&T) -> U) -> Vec<
 
 impl<T: Clone> Scene<T> {
     /// The scene with other numbers; refused where an effect is a law in code.
-    fn map<U>(&self, f: &mut impl FnMut(&T) -> U) -> Result<Scene<U>, SceneError> {
+    pub(super) fn map<U>(&self, f: &mut impl FnMut(&T) -> U) -> Result<Scene<U>, SceneError> {
         let effect = |(i, effect): (usize, &Effect<T>), f: &mut dyn FnMut(&T) -> U| {
             let refused =
                 SceneError { entry: Entry::Effect(i), field: "kind", fault: SceneFault::InCode };

@@ -9,7 +9,6 @@
 use super::hold::StartRow;
 use super::problem::Problem;
 use super::sweeps::Assembly;
-use crate::Real;
 use crate::dense::Dense;
 use crate::model::{Model, State};
 use crate::natural::NaturalModel;
@@ -25,25 +24,24 @@ use alloc::vec::Vec;
 ///
 /// Cost: a model of the scene, and a dense factorisation of its coordinates, (12 bodies)^3/3 products in space.
 #[must_use]
-pub fn moved_mass<T: Real>(scene: &Scene<T>, of: (JointId, usize)) -> Option<T> {
+pub fn moved_mass(scene: &Scene<f64>, of: (JointId, usize)) -> Option<f64> {
     let moving = moving(scene, of);
     let mass = match scene.dimension {
-        Dimension::Planar => twice_energy::<T, 2>(&moving),
-        Dimension::Spatial => twice_energy::<T, 3>(&moving),
+        Dimension::Planar => twice_energy::<2>(&moving),
+        Dimension::Spatial => twice_energy::<3>(&moving),
     };
-    mass.filter(|mass| *mass > T::ZERO && mass.is_finite())
+    mass.filter(|mass| *mass > 0.0 && mass.is_finite())
 }
 
 /// The scene without forces and start values, but with its rotors, at rest but for one coordinate, whose rate is one.
-fn moving<T: Real>(scene: &Scene<T>, (joint, number): (JointId, usize)) -> Scene<T> {
-    let guide = |guide: &Guide<T>| Guide { law: Motion::Input([T::ZERO; 3]), ..guide.clone() };
-    let held =
-        |coupling: &Coupling<T>| Coupling { value: T::ZERO, motion: None, ..coupling.clone() };
+fn moving(scene: &Scene<f64>, (joint, number): (JointId, usize)) -> Scene<f64> {
+    let guide = |guide: &Guide<f64>| Guide { law: Motion::Input([0.0; 3]), ..guide.clone() };
+    let held = |coupling: &Coupling<f64>| Coupling { value: 0.0, motion: None, ..coupling.clone() };
     let of = CouplingMeasure::Coordinate { joint, number };
-    let terms = vec![CouplingTerm { factor: T::ONE, of, curve: None }];
-    let motion = Some(Motion::Ramp { rate: T::ONE });
-    let rate_of_one = Coupling { motion, ..Coupling::sum(terms, T::ZERO) };
-    let is_rotor = |effect: &&Effect<T>| matches!(effect.kind, EffectKind::Rotor(_));
+    let terms = vec![CouplingTerm { factor: 1.0, of, curve: None }];
+    let motion = Some(Motion::Ramp { rate: 1.0 });
+    let rate_of_one = Coupling { motion, ..Coupling::sum(terms, 0.0) };
+    let is_rotor = |effect: &&Effect<f64>| matches!(effect.kind, EffectKind::Rotor(_));
     let rotors = scene.effects.iter().filter(is_rotor);
     Scene {
         bodies: scene.bodies.clone(),
@@ -54,17 +52,17 @@ fn moving<T: Real>(scene: &Scene<T>, (joint, number): (JointId, usize)) -> Scene
         gravity: None,
         signals: Vec::new(),
         effects: rotors.cloned().collect(),
-        ..Scene::empty("", scene.dimension, T::ONE)
+        ..Scene::empty("", scene.dimension, 1.0)
     }
 }
 
-fn twice_energy<T: Real, const D: usize>(scene: &Scene<T>) -> Option<T> {
-    let model = NaturalModel::<T, D>::new(scene).ok()?;
+fn twice_energy<const D: usize>(scene: &Scene<f64>) -> Option<f64> {
+    let model = NaturalModel::<f64, D>::new(scene).ok()?;
     let mut state = State::at_rest(&model);
     let problem = Problem::new(&model, StartRow::all(scene, &model));
     let solver = Dense::new(&problem);
     let mut assembly = Assembly::new(problem, solver, &state);
-    assembly.drive(&state.q, T::ONE);
+    assembly.drive(&state.q, 1.0);
     assembly.velocities(&mut state).ok()?;
-    Some(T::TWO * model.kinetic_energy(&state.v))
+    Some(2.0 * model.kinetic_energy(&state.v))
 }

@@ -12,6 +12,7 @@ impl Real for DoubleDouble {
     const TWO: Self = Self::from_f64(2.0);
     const EPSILON: Self = Self::EPSILON;
     const PI: Self = Self::PI;
+    const HAS_INSTANCES: bool = cfg!(feature = "dd");
 
     #[inline]
     fn from_f64(x: f64) -> Self {

@@ -1,0 +1,3 @@
+//! placeholder
+mod wrapper;
+pub use wrapper::as_compiler;
