@@ -28,7 +28,8 @@ pub fn found<F: Copy + 'static>(table: &Table) -> F {
 
 /// Makes a table of a generic function, for `f64`, and for `f32` and `dd` where the crate has these features.
 ///
-/// `T` names the scalar; the last argument lists what else varies. Without it, `D` is the plane and space.
+/// `T` names the scalar; the last argument lists what else varies. Without it, `D` is the plane and space. A table that begins with `f64` has
+/// no other scalar.
 ///
 /// ```
 /// use mbs_math::{Real, instances, once};
@@ -46,6 +47,18 @@ pub fn found<F: Copy + 'static>(table: &Table) -> F {
 macro_rules! instances {
     ($table:ident: $kind:ty = $function:expr) => {
         $crate::instances!($table: $kind = $function, { const D: usize = 2; } { const D: usize = 3; });
+    };
+    (f64 $table:ident: $kind:ty = $function:expr) => {
+        static $table: &$crate::once::Table = &[
+            &{
+                const D: usize = 2;
+                $function as $kind
+            },
+            &{
+                const D: usize = 3;
+                $function as $kind
+            },
+        ];
     };
     ($table:ident: $kind:ty = $function:expr, $({ $($item:item)* })+) => {
         static $table: &$crate::once::Table = &[$(

@@ -2,9 +2,10 @@
 
 use crate::record::{Channel, OutputChange};
 use crate::run::Outcome;
-use mbs_core::Real;
 use mbs_core::cluster::scene_length;
+use mbs_core::once::found;
 use mbs_core::scene::Scene;
+use mbs_core::{Real, instances};
 
 /// Change of an output that is rounding or tolerance of the iteration, relative to the size of its unit [-]. Chosen, not tuned.
 const ROUNDING: f64 = 1e-9;
@@ -28,9 +29,23 @@ struct Part {
     floor: f64,
 }
 
+type New<T> = for<'a> fn(&Scene<T>, &'a Outcome) -> OutputRanges<'a>;
+instances!(NEW: New<T> = ranges::<T>, {});
+
+fn ranges<'a, T: Real>(scene: &Scene<T>, run: &'a Outcome) -> OutputRanges<'a> {
+    OutputRanges::of(scene, run)
+}
+
 impl<'a> OutputRanges<'a> {
     /// Those of a run.
     pub fn new<T: Real>(scene: &Scene<T>, run: &'a Outcome) -> Self {
+        if T::HAS_INSTANCES {
+            return found::<New<T>>(NEW)(scene, run);
+        }
+        Self::of(scene, run)
+    }
+
+    fn of<T: Real>(scene: &Scene<T>, run: &'a Outcome) -> Self {
         let mut parts: Vec<Part> = Vec::new();
         let mut column = 0;
         for channel in &Channel::of_scene(scene) {

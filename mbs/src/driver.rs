@@ -5,9 +5,10 @@ use crate::precision::is_finer;
 use crate::simulation::Simulation;
 use crate::stop::StopError;
 use core::ops::{ControlFlow, Deref};
-use mbs_core::Real;
 use mbs_core::control::Accepted;
+use mbs_core::once::found;
 use mbs_core::step::{InputError, Step, StepError, StepReport};
+use mbs_core::{Real, instances};
 
 /// Time that is no step at the end of a stretch, in units of rounding of the time [-]. Chosen, not tuned.
 const ROUNDINGS: f64 = 32.0;
@@ -173,7 +174,7 @@ pub fn continue_if(yes: bool) -> ControlFlow<()> {
 }
 
 /// What the loop steps: a simulation, or several in turn of which one is shown.
-pub trait Plant<T: Real, const D: usize> {
+pub(crate) trait Plant<T: Real, const D: usize> {
     /// The simulation that steps.
     fn stepped(&mut self) -> &mut Simulation<T, D>;
 
@@ -253,7 +254,7 @@ pub(crate) fn multiple<T: Real>(t: (T, f64), k: u64, h: (T, f64)) -> T {
 ///
 /// # Errors
 /// Why it stopped.
-pub fn drive<T: Real, const D: usize>(
+pub(crate) fn drive<T: Real, const D: usize>(
     plant: &mut impl Plant<T, D>,
     stretches: impl IntoIterator<Item = Stretch<T>>,
     interrupt: &Interrupt,
@@ -271,6 +272,40 @@ pub fn drive<T: Real, const D: usize>(
     }
     observer.end(plant.shown(), None);
     Ok(())
+}
+
+/// [`drive`] of a simulation, for who steps it as a part of something larger: it is compiled here.
+///
+/// # Errors
+/// Why it stopped.
+pub fn drive_simulation<T: Real, const D: usize>(
+    simulation: &mut Simulation<T, D>,
+    stretches: impl IntoIterator<Item = Stretch<T>>,
+    interrupt: &Interrupt,
+    observer: &mut dyn StepObserver<T, D>,
+) -> Result<(), StopError> {
+    let stretches = &mut stretches.into_iter();
+    if T::HAS_INSTANCES {
+        return found::<Drive<T, D>>(DRIVE)(simulation, stretches, interrupt, observer);
+    }
+    drive_here(simulation, stretches, interrupt, observer)
+}
+
+type Drive<T, const D: usize> = fn(
+    &mut Simulation<T, D>,
+    &mut dyn Iterator<Item = Stretch<T>>,
+    &Interrupt,
+    &mut dyn StepObserver<T, D>,
+) -> Result<(), StopError>;
+instances!(DRIVE: Drive<T, D> = drive_here::<T, D>);
+
+fn drive_here<T: Real, const D: usize>(
+    simulation: &mut Simulation<T, D>,
+    stretches: &mut dyn Iterator<Item = Stretch<T>>,
+    interrupt: &Interrupt,
+    observer: &mut dyn StepObserver<T, D>,
+) -> Result<(), StopError> {
+    drive(simulation, stretches, interrupt, observer)
 }
 
 /// What is left of a stretch of this length up to `to` [s] that is no step: it is near the rounding of the time.

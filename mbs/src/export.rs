@@ -4,11 +4,16 @@ use crate::settings::ResolvedMethod;
 use crate::simulation::Simulation;
 use crate::stop::StopError;
 use mbs_core::effects::Value as EffectValue;
+use mbs_core::once::found;
 use mbs_core::scene::{CouplingMeasure, CouplingTerm, Dimension, Effect, Scene, SignalKind};
-use mbs_nostd::LoadError;
+use mbs_core::{Real, instances};
 use mbs_nostd::export::{Collected, MovingSignal, bytes, source};
 use mbs_nostd::format::Axes;
-use mbs_recursive::{Planar, Spatial, StartError, TreeModel};
+use mbs_nostd::operation_bound::{Operations, step as step_bound};
+use mbs_nostd::{Bounds, LoadError};
+use mbs_recursive::link::LinkKind;
+use mbs_recursive::space::Space;
+use mbs_recursive::{Planar, Spatial, StartError, TreeModel, TreeState};
 use serde_json::Value;
 
 /// A scene as tables.
@@ -150,6 +155,31 @@ fn in_space<S: Axes<f64>, const D: usize>(
     })?;
     let bytes = bytes(&model, is_single).ok_or_else(in_code)?;
     Ok(Exported { rust, bytes })
+}
+
+/// Operations of a step of a tree on a controller; `None` where it is not written for one.
+///
+/// Cost: that of the tables, and linear in them.
+#[must_use]
+pub fn operation_bound<T: Real, S: Space<T>>(tree: &TreeModel<T, S>) -> Option<Operations> {
+    if T::HAS_INSTANCES {
+        return found::<OperationBound<T, S>>(OPERATION_BOUND)(tree);
+    }
+    bound_here(tree)
+}
+
+type OperationBound<T, S> = fn(&TreeModel<T, S>) -> Option<Operations>;
+instances!(
+    OPERATION_BOUND: OperationBound<T, S> = bound_here::<T, S>,
+    { type S = Planar; } { type S = Spatial; }
+);
+
+fn bound_here<T: Real, S: Space<T>>(tree: &TreeModel<T, S>) -> Option<Operations> {
+    // controllers have no guided rotation vectors
+    let is_exported = tree.mechanism().links.iter().all(|link| link.kind != LinkKind::GuidedBall);
+    let rest = TreeState::at_rest(tree);
+    let collected = Collected::new(tree, &rest, &[]).ok().filter(|_| is_exported)?;
+    Some(step_bound(&collected.model(), Bounds::default()))
 }
 
 /// The name of the first joint whose rotation vector is guided.

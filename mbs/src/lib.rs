@@ -1,5 +1,6 @@
 #![doc = include_str!("../README.md")]
 
+mod at_state;
 mod changes;
 mod channels;
 mod checkpoint;
@@ -37,6 +38,7 @@ mod signal_ends;
 mod simulation;
 mod sizes;
 mod statics;
+mod stiffness;
 mod stop;
 mod tally;
 mod tilt;
@@ -98,18 +100,20 @@ pub use tilt::AlmostDependent;
 /// What the studies of mbs-study share with this crate; no part of its interface.
 #[doc(hidden)]
 pub mod inside {
+    pub use crate::at_state::{Gradient, gradients, poses};
     pub use crate::changes::OutputRanges;
     pub use crate::channels::Channels;
-    pub use crate::driver::{Fixed, Stretch, continue_if, drive};
+    pub use crate::driver::{Fixed, Stretch, continue_if, drive_simulation as drive};
     pub use crate::energy_alarm::Alarm;
     pub use crate::fingerprint::fingerprint;
     pub use crate::precision::{ReadScene, SceneWork, in_space, not_built_hint};
     pub use crate::ready::AssembledScene;
-    pub use crate::ready::rank;
+    pub use crate::ready::constraint_rank as rank;
     pub use crate::recorder::RecordRows;
     pub use crate::run::{run_keeping, step};
     pub use crate::settings::DEFAULT_STEP;
     pub use crate::settings::length::{SAME_LENGTH, is_too_long, too_long};
+    pub use crate::stiffness::shortest_period;
     pub use crate::tilt::notes;
 }
 

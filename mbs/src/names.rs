@@ -1,11 +1,12 @@
 //! Names of what errors are about.
 
 use core::fmt::Display;
-use mbs_core::Real;
 use mbs_core::effects::Value;
 use mbs_core::model::Owner;
+use mbs_core::once::found;
 use mbs_core::scene::{BodyId, CouplingMeasure, CouplingTerm, Effect, Scene};
 use mbs_core::step::StepError;
+use mbs_core::{Real, instances};
 
 /// Names of bodies and joints, and which joint holds which body: what errors need to speak.
 #[derive(Debug, Clone)]
@@ -24,9 +25,19 @@ pub struct Names {
     joint_of_body: Vec<Option<usize>>,
 }
 
+type New<T> = fn(&Scene<T>) -> Names;
+instances!(NEW: New<T> = Names::of_scene::<T>, {});
+
 impl Names {
     /// Takes the names of a scene.
     pub fn new<T: Real>(scene: &Scene<T>) -> Self {
+        if T::HAS_INSTANCES {
+            return found::<New<T>>(NEW)(scene);
+        }
+        Self::of_scene(scene)
+    }
+
+    fn of_scene<T: Real>(scene: &Scene<T>) -> Self {
         let mut joint_of_body = vec![None; scene.bodies.len()];
         for (j, joint) in scene.joints.iter().enumerate() {
             for body in joint.bodies {

@@ -6,7 +6,7 @@ use crate::stop::StopError;
 use crate::tilt;
 use mbs_core::model::{Model, State};
 use mbs_core::natural::NaturalModel;
-use mbs_core::once::find;
+use mbs_core::once::{find, found};
 use mbs_core::rigid::RigidMotion;
 use mbs_core::scene::Scene;
 use mbs_core::start::{Assembled, assemble, start_at};
@@ -15,7 +15,7 @@ use mbs_linear::Equilibrium;
 use mbs_sparse::Multifrontal;
 
 /// A model, its solver, and its consistent start.
-#[derive(Debug, Clone)]
+#[derive(Debug)]
 pub struct AssembledScene<T: Real, const D: usize> {
     /// Its model in natural coordinates.
     pub model: NaturalModel<T, D>,
@@ -24,7 +24,26 @@ pub struct AssembledScene<T: Real, const D: usize> {
     /// Its start.
     pub start: Assembled<T>,
     rank: Option<usize>,
-    rank_of: Rank<T, D>,
+    parts: Parts<T, D>,
+}
+
+/// Functions that are compiled here, for who has an assembled scene.
+#[derive(Debug, Clone, Copy)]
+struct Parts<T: Real, const D: usize> {
+    rank: Rank<T, D>,
+    clone: fn(&AssembledScene<T, D>) -> AssembledScene<T, D>,
+}
+
+impl<T: Real, const D: usize> Parts<T, D> {
+    fn new() -> Self {
+        Self { rank, clone: AssembledScene::clone_here }
+    }
+}
+
+impl<T: Real, const D: usize> Clone for AssembledScene<T, D> {
+    fn clone(&self) -> Self {
+        (self.parts.clone)(self)
+    }
 }
 
 type Assemble<T, const D: usize> = fn(&Scene<T>) -> Result<AssembledScene<T, D>, StopError>;
@@ -74,14 +93,20 @@ impl<T: Real, const D: usize> AssembledScene<T, D> {
         let mut solver = Multifrontal::analyse(&model, mbs_sparse::Options::default());
         let start = start_at((scene, &model), &mut solver, (t, motions));
         let start = start.map_err(|error| StopError::Start(error).or_law(model.codes()))?;
-        Ok(Self { start, model, solver, rank: None, rank_of: rank })
+        Ok(Self { start, model, solver, rank: None, parts: Parts::new() })
     }
 
     /// Coordinates, constraints, and their rank at the start, which is found once.
     pub fn sizes(&mut self) -> [usize; 3] {
-        let Self { model, start, rank: known, rank_of, .. } = self;
-        let rank = *known.get_or_insert_with(|| rank_of(model, &start.state));
+        let Self { model, start, rank: known, parts, .. } = self;
+        let rank = *known.get_or_insert_with(|| (parts.rank)(model, &start.state));
         [model.n_unknowns(), model.n_constraints(), rank]
+    }
+
+    fn clone_here(&self) -> Self {
+        let Self { model, solver, start, rank, parts } = self;
+        let (model, solver, start) = (model.clone(), solver.clone(), start.clone());
+        Self { model, solver, start, rank: *rank, parts: *parts }
     }
 }
 
@@ -96,7 +121,7 @@ fn assemble_scene<T: Real, const D: usize>(
     let mut solver = Multifrontal::analyse(&model, analyse);
     let start = assemble(scene, &model, |p| Multifrontal::analyse(p, analyse), &mut solver);
     let start = start.map_err(|error| StopError::Start(error).or_law(model.codes()))?;
-    Ok(AssembledScene { start, model, solver, rank: None, rank_of: rank })
+    Ok(AssembledScene { start, model, solver, rank: None, parts: Parts::new() })
 }
 
 fn settle_scene<T: Real, const D: usize>(
@@ -109,8 +134,15 @@ fn settle_scene<T: Real, const D: usize>(
     Ok((ready, found))
 }
 
+/// [`rank`] in `f64`, compiled here.
+pub fn constraint_rank<const D: usize>(model: &NaturalModel<f64, D>, state: &State<f64>) -> usize {
+    found::<Rank<f64, D>>(RANK)(model, state)
+}
+
+instances!(f64 RANK: Rank<f64, D> = rank::<f64, D>);
+
 /// Rank of the constraints at a state.
-pub fn rank<T: Real, const D: usize>(model: &NaturalModel<T, D>, state: &State<T>) -> usize {
+pub(crate) fn rank<T: Real, const D: usize>(model: &NaturalModel<T, D>, state: &State<T>) -> usize {
     let mut terms = model.terms();
     model.set_inputs(state.t, state, &mut terms);
     model.evaluate(&state.q, &mut terms);

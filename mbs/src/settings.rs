@@ -10,9 +10,10 @@ use crate::methods::{FORMULATIONS, FormulationKind, PenaltyUse};
 use crate::precision::is_finer;
 use crate::precision::{PrecisionError, not_built_hint};
 use crate::record::PilotReport;
-use mbs_core::Real;
 use mbs_core::control::EnergyRule;
+use mbs_core::once::found;
 use mbs_core::scene::{Scene, SceneError, SolverTable};
+use mbs_core::{Real, instances};
 use mbs_scene::format::significant;
 
 /// Most steps of a run [-]: at a microsecond each they take eleven days.
@@ -242,12 +243,22 @@ impl core::fmt::Display for SettingsError {
 
 impl core::error::Error for SettingsError {}
 
+type New<T> = fn(&Scene<T>, &Method) -> Result<ResolvedMethod, SettingsError>;
+instances!(NEW: New<T> = ResolvedMethod::of::<T>, {});
+
 impl ResolvedMethod {
     /// Decides from a scene and overrides.
     ///
     /// # Errors
     /// [`SettingsError`] for what is not built or out of range.
     pub fn new<T: Real>(scene: &Scene<T>, overrides: &Method) -> Result<Self, SettingsError> {
+        if T::HAS_INSTANCES {
+            return found::<New<T>>(NEW)(scene, overrides);
+        }
+        Self::of(scene, overrides)
+    }
+
+    fn of<T: Real>(scene: &Scene<T>, overrides: &Method) -> Result<Self, SettingsError> {
         let solver = &scene.solver;
         let (asked, formulation, integrator) = method(solver, overrides)?;
         let (_, precision) =

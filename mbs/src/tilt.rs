@@ -2,10 +2,11 @@
 
 use mbs_core::model::{Model, State};
 use mbs_core::natural::NaturalModel;
+use mbs_core::once::found;
 use mbs_core::scene::Scene;
 use mbs_core::scene::align::{DOUBTFUL, MEANT, Tilt, align, tilts};
 use mbs_core::start::constraint_rank;
-use mbs_core::{Cliques, Real};
+use mbs_core::{Cliques, Real, instances};
 use mbs_scene::format::few;
 
 /// An axis whose tilt alone holds what would move without it.
@@ -39,6 +40,16 @@ impl core::fmt::Display for AlmostDependent {
 
 /// What is said of the axes that are taken as parallel, or as across each other, though they are off by a little.
 pub fn notes<T: Real>(scene: &Scene<T>) -> Vec<(usize, String)> {
+    if T::HAS_INSTANCES {
+        return found::<Notes<T>>(NOTES)(scene);
+    }
+    notes_here(scene)
+}
+
+type Notes<T> = fn(&Scene<T>) -> Vec<(usize, String)>;
+instances!(NOTES: Notes<T> = notes_here::<T>, {});
+
+fn notes_here<T: Real>(scene: &Scene<T>) -> Vec<(usize, String)> {
     let note = |tilt: &Tilt<T>| {
         let [joint, other] = [tilt.joint, tilt.other].map(|j| &scene.joints[j].name);
         let angle = few(tilt.angle.to_f64());

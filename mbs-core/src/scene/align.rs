@@ -89,6 +89,19 @@ pub fn tilts<T: Real>(scene: &Scene<T>, most: T) -> Vec<Tilt<T>> {
 /// The scene with axes as they are meant: see [`MEANT`].
 #[must_use]
 pub fn aligned<T: Real>(scene: &Scene<T>) -> Cow<'_, Scene<T>> {
+    #[cfg(feature = "instances")]
+    if T::HAS_INSTANCES {
+        return mbs_math::once::found::<Aligned<T>>(ALIGNED)(scene);
+    }
+    aligned_here(scene)
+}
+
+#[cfg(feature = "instances")]
+type Aligned<T> = for<'a> fn(&'a Scene<T>) -> Cow<'a, Scene<T>>;
+#[cfg(feature = "instances")]
+mbs_math::instances!(ALIGNED: Aligned<T> = aligned_here::<T>, {});
+
+fn aligned_here<T: Real>(scene: &Scene<T>) -> Cow<'_, Scene<T>> {
     let tilts = tilts(scene, T::from_f64(MEANT));
     if tilts.is_empty() { Cow::Borrowed(scene) } else { Cow::Owned(align(scene, &tilts)) }
 }

@@ -1,6 +1,7 @@
 //! What the examinations share: how much may be looked at, the start, and why a run stopped.
 
 use mbs::inside::AssembledScene;
+use mbs::inside::poses;
 use mbs::{Names, StopError};
 use mbs_core::model::State;
 use mbs_core::natural::NaturalModel;
@@ -47,7 +48,7 @@ pub(super) fn places<const D: usize>(
     model: &NaturalModel<f64, D>,
     state: &State<f64>,
 ) -> Vec<RigidMotion<f64>> {
-    (0..scene.bodies.len()).map(|b| model.motion(scene, b, state)).collect()
+    poses(scene, model, state)
 }
 
 /// Assembles, and settles where the scene asks for it.

@@ -8,11 +8,11 @@
 
 use super::finding::{Finding, Severity, Topic};
 use crate::redundancy::Rank;
+use mbs::inside::gradients;
 use mbs_core::Cliques;
 use mbs_core::model::{Model, Owner, State};
 use mbs_core::natural::NaturalModel;
 use mbs_core::scene::{Entry, Scene};
-use mbs_linear::Matrix;
 
 /// Part of a gradient that others do not give, relative to it, below which it follows from them [-]: rounding of the rank's basis. Chosen,
 /// not tuned.
@@ -32,7 +32,10 @@ pub(super) fn findings<const D: usize>(
     if scene.couplings.is_empty() && scene.rollings.is_empty() {
         return Some(0);
     }
-    let (joints, couplings) = rows(model, state)?;
+    if model.n_constraints() * model.n_unknowns() > LARGEST {
+        return None;
+    }
+    let (joints, couplings) = gradients(model, state);
     let free = Rank::of(&joints)?.free;
     let mut taken: Vec<(Owner, Vec<f64>)> = Vec::new();
     for (owner, gradient) in couplings {
@@ -99,47 +102,4 @@ fn follows(scene: &Scene<f64>, owner: Owner, others: &[Owner], is_exact: bool) -
 
 fn norm(x: &[f64]) -> f64 {
     x.iter().map(|x| x * x).sum::<f64>().sqrt()
-}
-
-/// A coupling or a contact that rolls, and the gradient of a row of it.
-type Gradient = (Owner, Vec<f64>);
-
-/// The rows of joints and bodies, and the gradients of the others.
-fn rows<const D: usize>(
-    model: &NaturalModel<f64, D>,
-    state: &State<f64>,
-) -> Option<(Matrix, Vec<Gradient>)> {
-    let (m, n) = (model.n_constraints(), model.n_unknowns());
-    if m * n > LARGEST {
-        return None;
-    }
-    let mut terms = model.terms();
-    model.set_inputs(state.t, state, &mut terms);
-    model.evaluate(&state.q, &mut terms);
-    let (mut joints, mut couplings) = (Vec::new(), Vec::new());
-    for element in 0..model.n_elements() {
-        let clique = model.clique(element);
-        let range = model.rows(element);
-        let mut local = vec![0.0; clique.len() * range.len()];
-        model.write_jacobian(&terms, element, &mut local);
-        for (row, local) in range.zip(local.chunks_exact(clique.len().max(1))) {
-            let mut gradient = vec![0.0; n];
-            for (&u, &g) in clique.iter().zip(local) {
-                gradient[u as usize] = g;
-            }
-            match model.owner_of_row(row) {
-                owner @ (Owner::Coupling(_) | Owner::Rolling(_)) => {
-                    couplings.push((owner, gradient));
-                }
-                _ => joints.push(gradient),
-            }
-        }
-    }
-    couplings.sort_by_key(|(owner, _)| match owner {
-        Owner::Coupling(number) => (0, *number),
-        Owner::Rolling(number) => (1, *number),
-        _ => (2, 0),
-    });
-    let matrix = Matrix::from_fn(joints.len(), n, |i, j| joints[i][j]);
-    Some((matrix, couplings))
 }

@@ -1,9 +1,10 @@
 //! A second look at the motion of a run: the same scene by another method, compared at some of the run's rows.
 
-use super::stiffness::shortest_period;
 use crate::auto::Clock;
 use core::ops::ControlFlow;
-use mbs::inside::{Alarm, AssembledScene, Channels, Stretch, continue_if, drive};
+use mbs::inside::{
+    Alarm, AssembledScene, Channels, Stretch, continue_if, drive, poses, shortest_period,
+};
 use mbs::typed::{Simulation, StepObserver};
 use mbs::{Interrupt, Names, ResolvedMethod, StopError};
 use mbs_core::scene::Scene;
@@ -212,9 +213,8 @@ impl<const D: usize> Eye<'_, D> {
         let (model, state) = (self.simulation.model(), self.simulation.state());
         let step = (self.look.step_at)(t);
         let mut largest: f64 = 0.0;
-        for body in 0..self.look.scene.bodies.len() {
-            let omega = model.motion(self.look.scene, body, state).omega;
-            let rate = omega.iter().fold(0.0, |sum: f64, x| sum.hypot(*x));
+        for (body, pose) in poses(self.look.scene, model, state).iter().enumerate() {
+            let rate = pose.omega.iter().fold(0.0, |sum: f64, x| sum.hypot(*x));
             largest = largest.max(rate);
             if rate * step > most.turn.0 {
                 most.turn = (rate * step, body);

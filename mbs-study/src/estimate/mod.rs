@@ -14,7 +14,6 @@
 
 mod differences;
 mod look;
-mod stiffness;
 
 use crate::auto::Clock;
 use crate::compare::results::output_scales;

@@ -8,11 +8,8 @@ use mbs::{FormulationKind, IntegratorKind, Names, ResolvedMethod, StopError};
 use mbs_core::Real;
 use mbs_core::natural::NaturalModel;
 use mbs_core::scene::{BodyId, Dimension, Inertia, JointKind, Motion, Scene};
-use mbs_nostd::export::Collected;
-use mbs_nostd::{Bounds, operation_bound};
-use mbs_recursive::link::LinkKind;
 use mbs_recursive::space::Space;
-use mbs_recursive::{Planar, Spatial, TreeModel, TreeState};
+use mbs_recursive::{Planar, Spatial, TreeModel};
 
 /// Takes stock of a scene.
 pub(super) fn simulated<T: Real, const D: usize>(
@@ -54,20 +51,13 @@ fn relative<T: Real, S: Space<T>>(scene: &Scene<T>, sizes: Sizes) -> Result<Rela
     let tree = TreeModel::<T, S>::new(scene).map_err(StopError::tree)?;
     let cut_joints: Vec<_> =
         tree.cut_joints().map(|joint| scene.joints[joint].name.clone()).collect();
-    let rest = TreeState::at_rest(&tree);
-    // controllers have no guided rotation vectors
-    let is_exported = tree.mechanism().links.iter().all(|link| link.kind != LinkKind::GuidedBall);
-    let collected = Collected::new(&tree, &rest, &[]).ok().filter(|_| is_exported);
-    let controller = collected.map(|collected| {
-        let bound = operation_bound::step(&collected.model(), Bounds::default());
-        ControllerStep {
-            products: bound.products,
-            sums: bound.sums,
-            quotients: bound.quotients,
-            roots: bound.roots,
-            turns: bound.turns,
-            instructions: [false, true].map(|is_double| bound.instructions(is_double)),
-        }
+    let controller = mbs::export::operation_bound(&tree).map(|bound| ControllerStep {
+        products: bound.products,
+        sums: bound.sums,
+        quotients: bound.quotients,
+        roots: bound.roots,
+        turns: bound.turns,
+        instructions: [false, true].map(|is_double| bound.instructions(is_double)),
     });
     Ok(Relative { sizes, loops: cut_joints.len(), cut_joints, controller })
 }

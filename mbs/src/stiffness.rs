@@ -8,9 +8,10 @@
 //! Dampers and the motion have no part in it, nor has gravity.
 
 use core::f64::consts::TAU;
-use mbs_core::SpdSolver;
 use mbs_core::model::{Load, Model, State, System, Tangent};
 use mbs_core::natural::NaturalModel;
+use mbs_core::once::found;
+use mbs_core::{SpdSolver, instances};
 use mbs_sparse::Multifrontal;
 
 /// Iterations of the power method [-]: the root of the eigenvalue is then met to some per cent, unless others are close, which give the same.
@@ -25,7 +26,19 @@ const NOISE: f64 = 1e-9;
 /// The period of the stiffest force [s]; nothing where no force grows with a displacement.
 ///
 /// Cost: a factorisation, and as many evaluations of the forces and solutions as there are iterations; allocates.
-pub(super) fn shortest_period<const D: usize>(
+pub fn shortest_period<const D: usize>(
+    model: &NaturalModel<f64, D>,
+    solver: &mut Multifrontal<f64>,
+    state: &State<f64>,
+) -> Option<f64> {
+    found::<Period<D>>(PERIOD)(model, solver, state)
+}
+
+type Period<const D: usize> =
+    fn(&NaturalModel<f64, D>, &mut Multifrontal<f64>, &State<f64>) -> Option<f64>;
+instances!(f64 PERIOD: Period<D> = period::<D>);
+
+fn period<const D: usize>(
     model: &NaturalModel<f64, D>,
     solver: &mut Multifrontal<f64>,
     state: &State<f64>,
