@@ -1,48 +1,16 @@
 #![doc = include_str!("../README.md")]
 
-mod at_state;
-mod changes;
-mod channels;
-mod checkpoint;
-mod choice;
-mod control;
-mod document;
-mod driver;
-mod energy_alarm;
-mod equilibrium;
-pub mod export;
-mod fingerprint;
-pub mod folder;
-mod friction;
 mod front;
-mod interrupt;
-mod joint_limits;
-mod linear_system;
-mod methods;
-mod modes;
-mod motion;
-mod named;
-mod names;
-mod one_way;
-mod placed;
-mod precision;
-mod ready;
-pub mod realtime;
-pub mod record;
-mod recorder;
-mod rest;
 pub mod results;
-mod run;
-mod settings;
-mod signal_ends;
-mod simulation;
-mod sizes;
-mod statics;
-mod stiffness;
-mod stop;
-mod tally;
-mod tilt;
-pub mod words;
+
+use mbs_steps::{
+    checkpoint, choice, document, equilibrium, erased, fingerprint, interrupt, linear_system,
+    methods, modes, names, placed, precision, rest, run, settings, sizes, statics, stop, tilt,
+    tree,
+};
+#[doc(hidden)]
+pub use mbs_steps::named;
+pub use mbs_steps::{export, folder, realtime, record, typed, words};
 
 pub use mbs_augmented as augmented;
 pub use mbs_classical as classical;
@@ -59,11 +27,6 @@ pub use checkpoint::{Checkpoint, CheckpointError, CheckpointWriter, FILE as CHEC
 pub use choice::{INTEGRATORS, IntegratorKind, PRECISIONS, Precision, STEP_RULES, StepRule};
 pub use document::{run_document, run_document_kept};
 pub use equilibrium::{Search, equilibrium_start, find_equilibrium};
-pub use front::tree::{
-    AccelerationDerivatives, EffortDerivatives, FrameMotion, FrameTarget, InverseKinematics,
-    InverseKinematicsEnd, Matrix, Rollout, RolloutEnd, TotalMomentum, Tree, TreeError,
-    TreeErrorKind, TreeRange,
-};
 pub use front::{
     Body, BodyMotion, Components, ContactEvent, Coordinates, Coupling, Effect, Energies,
     EquilibriumOptions, Error, FunctionId, Guide, Id, InitialCondition, InputId, InputInfo,
@@ -84,6 +47,11 @@ pub use mbs_core::scene::{
     SignalId, SignalKind, TableEnds, Vector3,
 };
 pub use mbs_scene::{ReadError, WriteError};
+pub use mbs_steps::tree::{
+    AccelerationDerivatives, EffortDerivatives, FrameMotion, FrameTarget, InverseKinematics,
+    InverseKinematicsEnd, Matrix, Rollout, RolloutEnd, TotalMomentum, Tree, TreeError,
+    TreeErrorKind, TreeRange,
+};
 pub use methods::{FORMULATIONS, FormulationKind, PenaltyUse, Row};
 pub use modes::{Mode, Modes};
 pub use names::Names;
@@ -100,28 +68,21 @@ pub use tilt::AlmostDependent;
 /// What the studies of mbs-study share with this crate; no part of its interface.
 #[doc(hidden)]
 pub mod inside {
-    pub use crate::at_state::{Gradient, gradients, poses};
-    pub use crate::changes::OutputRanges;
-    pub use crate::channels::Channels;
-    pub use crate::driver::{Fixed, Stretch, continue_if, drive_simulation as drive};
-    pub use crate::energy_alarm::Alarm;
-    pub use crate::fingerprint::fingerprint;
-    pub use crate::precision::{ReadScene, SceneWork, in_space, not_built_hint};
-    pub use crate::ready::AssembledScene;
-    pub use crate::ready::constraint_rank as rank;
-    pub use crate::recorder::RecordRows;
-    pub use crate::run::{run_keeping, step};
-    pub use crate::settings::DEFAULT_STEP;
-    pub use crate::settings::length::{SAME_LENGTH, is_too_long, too_long};
-    pub use crate::stiffness::shortest_period;
-    pub use crate::tilt::notes;
-}
-
-/// A scene in one scalar and dimension: for those who write generic code.
-pub mod typed {
-    pub use crate::driver::{StepInputs, StepObserver};
-    pub use crate::run::{run, run_kept};
-    pub use crate::simulation::Simulation;
+    pub use mbs_steps::at_state::{Gradient, gradients, poses};
+    pub use mbs_steps::changes::OutputRanges;
+    pub use mbs_steps::channels::Channels;
+    pub use mbs_steps::driver::{Fixed, Stretch, continue_if, drive_simulation as drive};
+    pub use mbs_steps::energy_alarm::Alarm;
+    pub use mbs_steps::fingerprint::fingerprint;
+    pub use mbs_steps::precision::{ReadScene, SceneWork, in_space, not_built_hint};
+    pub use mbs_steps::ready::AssembledScene;
+    pub use mbs_steps::ready::constraint_rank as rank;
+    pub use mbs_steps::recorder::RecordRows;
+    pub use mbs_steps::run::{run_keeping, step};
+    pub use mbs_steps::settings::DEFAULT_STEP;
+    pub use mbs_steps::settings::length::{SAME_LENGTH, is_too_long, too_long};
+    pub use mbs_steps::stiffness::shortest_period;
+    pub use mbs_steps::tilt::notes;
 }
 
 #[doc = include_str!("../TASKS.md")]

@@ -1,32 +1,22 @@
 //! The front door: a mechanism as a list of named parts, in code or from a file.
 
-mod clock;
-mod error;
-mod failure;
-mod function;
-mod inner;
-mod input_table;
-pub(crate) mod inputs;
 mod mechanism;
 mod part;
-mod read;
-mod readings;
 mod relative;
-mod seen;
 mod simulate;
 mod simulation;
 mod study;
 mod table;
 #[cfg(test)]
 mod tests;
-pub(crate) mod tree;
-mod values;
-mod view;
 
+use crate::erased::{error, failure, function, inner, inputs, seen, values, view, watched};
+use crate::tree;
+
+pub use crate::erased::input_table::{InputTableError, with_inputs};
 pub use error::{Error, PathError, SceneError, UnknownName};
 pub use failure::SimulationError;
 pub use function::{FunctionId, OutputFunction};
-pub use input_table::{InputTableError, with_inputs};
 pub use inputs::{InputId, InputInfo, InputOwner};
 pub use mechanism::Mechanism;
 pub use part::{Id, Part};

@@ -1,7 +1,7 @@
 //! From a mechanism to what moves: its simulation, its tree, and what a study of it runs.
 
 use super::failure::SimulationError;
-use super::inner::Built;
+use super::inner::built;
 use super::inputs::Inputs;
 use super::mechanism::Mechanism;
 use super::simulation::Simulation;
@@ -23,7 +23,7 @@ impl Mechanism {
     pub fn simulate(&self, method: &Method) -> Result<Simulation, SimulationError> {
         let (read, settings, scene) = self.prepared(method)?;
         let names = Names::new(&scene);
-        let inner = read.work(Built(&settings));
+        let inner = built(&read, &settings);
         let inner = inner.map_err(|error| SimulationError::stopped(error, 0.0, &names))?;
         Ok(Simulation::of(inner, Inputs::new(&scene), names, self.functions()))
     }

@@ -371,3 +371,5 @@ impl Snapshot {
         parts().ok_or_else(|| CheckpointError::NotACheckpoint.into())
     }
 }
+
+mbs_steps::readings!(Simulation);

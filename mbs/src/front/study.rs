@@ -1,26 +1,22 @@
 //! Studies of a mechanism: what needs a model or a whole run of it, each with a typed result.
 
 use super::failure::SimulationError;
-use super::function::{Function, FunctionColumns};
 use super::inner::started;
 use super::inputs::Inputs;
 use super::mechanism::Mechanism;
 use super::table::Table;
 use super::tree::Tree;
-use super::view::{Observed, Observer, Sight};
+use super::view::Observer;
+use super::watched::Watched;
 use crate::equilibrium::Search;
 use crate::linear_system::{LinearSystem, LinearizeOptions};
 use crate::modes::Modes;
 use crate::names::Names;
 use crate::placed::Place;
-use crate::precision::SceneWork;
 use crate::record::RunSummary;
-use crate::run::{Outcome, run_columns};
-use crate::settings::{Method, ResolvedMethod};
+use crate::run::Outcome;
+use crate::settings::Method;
 use crate::statics::StaticEquilibrium;
-use crate::typed;
-use mbs_core::Real;
-use mbs_core::scene::Scene;
 
 /// What is asked of a run: a method, how long, and what else.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -105,7 +101,7 @@ pub fn run_with(
     let inputs = Inputs::new(&scene);
     let functions = m.functions();
     let watched = Watched { settings: &settings, names: &names, inputs, observers, functions };
-    let outcome = read.work(watched);
+    let outcome = watched.run(&read);
     let Outcome { summary, error, .. } = &outcome;
     let stop = error.clone().map(|e| SimulationError::stopped(e, summary.end_time, &names));
     Ok(RunResult {
@@ -114,36 +110,6 @@ pub fn run_with(
         summary: outcome.summary.clone(),
         notes: outcome.notes().to_vec(),
     })
-}
-
-/// A run before observers.
-struct Watched<'a, 'b> {
-    settings: &'a ResolvedMethod,
-    names: &'a Names,
-    inputs: Inputs,
-    observers: &'a mut [&'b mut dyn Observer],
-    functions: &'a [Function],
-}
-
-impl SceneWork for Watched<'_, '_> {
-    type Done = Outcome;
-
-    fn done<T: Real, const D: usize>(self, scene: &Scene<T>) -> Outcome {
-        let Self { settings, names, inputs, observers, functions } = self;
-        let sight = || Sight::<T, D>::new(scene, names);
-        let mut observed;
-        let observer: &mut dyn typed::StepObserver<T, D> = if observers.is_empty() {
-            &mut ()
-        } else {
-            observed = Observed::new(sight(), inputs, observers);
-            &mut observed
-        };
-        if functions.is_empty() {
-            return typed::run(scene, settings, observer);
-        }
-        let mut columns = FunctionColumns { sight: sight(), functions };
-        run_columns(scene, settings, observer, &mut columns)
-    }
 }
 
 /// How an equilibrium is searched.

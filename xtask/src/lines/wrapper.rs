@@ -5,7 +5,7 @@
 
 use crate::process;
 use std::env;
-use std::ffi::{OsStr, OsString};
+use std::ffi::OsString;
 use std::fs;
 use std::io::{BufRead, BufReader};
 use std::path::{Path, PathBuf};
@@ -113,7 +113,7 @@ mod tests {
     use super::*;
 
     fn words(text: &str) -> Vec<OsString> {
-        text.split_whitespace().map(|word| OsStr::new(word).to_owned()).collect()
+        text.split_whitespace().map(|word| OsString::from(word)).collect()
     }
 
     #[test]

@@ -1,0 +1,152 @@
+//! What the channels of a run read: measures, and reactions and effects where an output asks for them.
+
+use crate::checkpoint::tape::{Tape, Walked, holds};
+use crate::simulation::Simulation;
+use crate::stop::StopError;
+use mbs_core::model::State;
+use mbs_core::natural::NaturalModel;
+use mbs_core::once::find;
+use mbs_core::outputs::{Forces, Measures, Target};
+use mbs_core::scene::Scene;
+use mbs_core::{Real, instances};
+
+/// Measures and forces of a scene.
+#[derive(Debug, Clone)]
+pub struct Channels<T: Real, const D: usize> {
+    measures: Measures<T, D>,
+    forces: Option<Forces<T, D>>,
+    /// What has a reaction, an effort or a force that is an output and was not unique at some row: joints, then couplings, then rollings.
+    not_unique: Vec<usize>,
+    asked: Vec<usize>,
+    /// Number of joints, and of joints and couplings.
+    ends: [usize; 2],
+    /// Where the components of each output end.
+    outputs: Vec<usize>,
+    write_at: Write<T, D>,
+}
+
+type New<T, const D: usize> =
+    fn(&Scene<T>, &NaturalModel<T, D>) -> Result<Channels<T, D>, StopError>;
+type Write<T, const D: usize> =
+    fn(&mut Channels<T, D>, &State<T>, &mut [T]) -> Result<(), StopError>;
+instances!(NEW: New<T, D> = Channels::<T, D>::new_here);
+
+impl<T: Real, const D: usize> Channels<T, D> {
+    /// Those of a scene.
+    ///
+    /// # Errors
+    /// [`StopError`] for an output that cannot be measured.
+    pub fn new(scene: &Scene<T>, model: &NaturalModel<T, D>) -> Result<Self, StopError> {
+        find::<New<T, D>>(NEW).ok_or(StopError::NotBuilt)?(scene, model)
+    }
+
+    fn new_here(scene: &Scene<T>, model: &NaturalModel<T, D>) -> Result<Self, StopError> {
+        let measures = Measures::new(scene, model).map_err(|e| StopError::Start(e.into()))?;
+        let forces = Forces::new(scene, model).map_err(StopError::Reaction)?;
+        let asked = scene.outputs.iter().filter(|o| o.quantity.row().needs_reactions);
+        let n_joints = scene.joints.len();
+        let n_both = n_joints + scene.couplings.len();
+        let asked: Vec<usize> = asked
+            .filter_map(|o| match o.quantity.target() {
+                Target::Joint(joint) => Some(joint.index()),
+                Target::Coupling(coupling) => Some(n_joints + coupling.index()),
+                Target::Rolling(rolling) => Some(n_both + rolling.index()),
+                _ => None,
+            })
+            .collect();
+        let outputs = measures.lengths().scan(0, |end, length| {
+            *end += length;
+            Some(*end)
+        });
+        let outputs = outputs.collect();
+        let not_unique = Vec::with_capacity(asked.len());
+        let forces = Some(forces);
+        let ends = [n_joints, n_both];
+        let write_at = Self::write_here;
+        Ok(Self { measures, forces, not_unique, asked, ends, outputs, write_at })
+    }
+
+    /// Exchanges what forces are made of: the same scene with other effects has others.
+    pub fn exchange(&mut self, forces: &mut Option<Forces<T, D>>) {
+        core::mem::swap(&mut self.forces, forces);
+    }
+
+    /// Writes what is remembered of them, or reads it back.
+    pub fn walk(&mut self, tape: &mut impl Tape) -> Walked {
+        tape.reals(self.measures.memory_mut())?;
+        let asked = &self.asked;
+        tape.list(&mut self.not_unique, 8, |tape, joint| {
+            tape.index(joint, usize::MAX)?;
+            holds(asked.contains(joint))
+        })
+    }
+
+    /// Follows angles at every step, so that no turn is lost.
+    ///
+    /// # Errors
+    /// [`StopError::Step`] with the joint whose turns are not known.
+    pub fn track(&mut self, simulation: &Simulation<T, D>) -> Result<(), StopError> {
+        let state = simulation.state();
+        if simulation.has_own_coordinates() {
+            self.measures.track_with(state, |joint, number| simulation.coordinate(joint, number));
+            return Ok(());
+        }
+        self.measures.track(state).map_err(|error| simulation.explain(error))
+    }
+
+    /// All components at the state of a simulation.
+    ///
+    /// # Errors
+    /// As [`write_at`](Self::write_at).
+    pub fn write(&mut self, now: &Simulation<T, D>, out: &mut [T]) -> Result<(), StopError> {
+        self.measures.set_invariant_error(T::from_f64(now.invariant().error()));
+        self.write_at(now.state(), out)
+    }
+
+    /// All components at a state of no simulation.
+    ///
+    /// # Errors
+    /// [`StopError::Output`] for one that is not finite, as the acceleration of a point beyond all measure.
+    pub fn write_at(&mut self, state: &State<T>, out: &mut [T]) -> Result<(), StopError> {
+        (self.write_at)(self, state, out)
+    }
+
+    fn write_here(&mut self, state: &State<T>, out: &mut [T]) -> Result<(), StopError> {
+        self.forces.iter_mut().for_each(|forces| forces.update(state));
+        if let Some(reactions) = self.forces.as_ref().and_then(Forces::reactions) {
+            for &asked in &self.asked {
+                let [n_joints, n_both] = self.ends;
+                let is_unique = match asked {
+                    joint if joint < n_joints => reactions.is_unique(joint),
+                    coupling if coupling < n_both => {
+                        reactions.is_effort_unique(coupling - n_joints)
+                    }
+                    rolling => reactions.is_rolling_unique(rolling - n_both),
+                };
+                if !is_unique && !self.not_unique.contains(&asked) {
+                    self.not_unique.push(asked);
+                }
+            }
+        }
+        // A state that was tracked before: its turns are known.
+        let _ = self.measures.write(state, self.forces.as_ref(), out);
+        let Some(bad) = out.iter().position(|x| !x.to_f64().is_finite()) else { return Ok(()) };
+        Err(StopError::Output { output: self.outputs.partition_point(|end| *end <= bad) })
+    }
+
+    /// Number of components of each channel.
+    pub fn lengths(&self) -> impl Iterator<Item = usize> + '_ {
+        self.measures.lengths()
+    }
+
+    /// Names of what has a reaction, an effort or a force that was not unique.
+    pub fn not_unique(&self, scene: &Scene<T>) -> Vec<String> {
+        let [n_joints, n_both] = self.ends;
+        let name = |&i: &usize| match i {
+            joint if joint < n_joints => scene.joints[joint].name.clone(),
+            coupling if coupling < n_both => scene.couplings[coupling - n_joints].name.clone(),
+            rolling => scene.rollings[rolling - n_both].name.clone(),
+        };
+        self.not_unique.iter().map(name).collect()
+    }
+}

@@ -1,0 +1,214 @@
+//! One walk over what is kept, that writes it or reads it back: little-endian numbers, lists after their lengths.
+//!
+//! Whatever the bytes, reading ends in an error at worst. A list is never longer than the bytes that are left allow, a number of the
+//! mechanics is finite, and a count has room to grow.
+
+use super::CheckpointError;
+use crate::precision::is_finer;
+use core::time::Duration;
+use mbs_core::Real;
+
+/// What a walk comes to.
+pub type Walked = Result<(), CheckpointError>;
+
+/// Largest count that a file may have: it has room to grow.
+const MAX_U64: u64 = 1 << 60;
+/// Largest count of 32 bits that a file may have: it has room to grow.
+const MAX_U32: u32 = 1 << 30;
+
+/// Bytes that are written or read.
+pub trait Tape: Sized {
+    /// Writes these bytes, or replaces them by those that were written.
+    fn bytes(&mut self, bytes: &mut [u8]) -> Walked;
+
+    /// Bytes that are left to be read; nothing where they are written.
+    fn left(&self) -> Option<usize>;
+
+    /// A count.
+    fn count(&mut self, x: &mut u64) -> Walked {
+        let mut bytes = x.to_le_bytes();
+        self.bytes(&mut bytes)?;
+        *x = u64::from_le_bytes(bytes);
+        holds(*x <= MAX_U64)
+    }
+
+    /// A number of 64 bits that may be any.
+    fn word(&mut self, x: &mut u64) -> Walked {
+        let mut bytes = x.to_le_bytes();
+        self.bytes(&mut bytes)?;
+        *x = u64::from_le_bytes(bytes);
+        Ok(())
+    }
+
+    /// A small count.
+    fn small(&mut self, x: &mut u32) -> Walked {
+        let mut bytes = x.to_le_bytes();
+        self.bytes(&mut bytes)?;
+        *x = u32::from_le_bytes(bytes);
+        holds(*x <= MAX_U32)
+    }
+
+    /// An index below a limit.
+    fn index(&mut self, x: &mut usize, below: usize) -> Walked {
+        let mut count = *x as u64;
+        self.count(&mut count)?;
+        *x = usize::try_from(count).map_err(|_| CheckpointError::Misfit)?;
+        holds(*x < below)
+    }
+
+    /// Yes or no.
+    fn flag(&mut self, x: &mut bool) -> Walked {
+        let mut byte = [u8::from(*x)];
+        self.bytes(&mut byte)?;
+        *x = byte == [1];
+        holds(byte[0] <= 1)
+    }
+
+    /// A number that may be any, infinite ones and NaN among them.
+    fn float(&mut self, x: &mut f64) -> Walked {
+        let mut bits = x.to_bits();
+        self.word(&mut bits)?;
+        *x = f64::from_bits(bits);
+        Ok(())
+    }
+
+    /// Several of them.
+    fn floats(&mut self, x: &mut [f64]) -> Walked {
+        x.iter_mut().try_for_each(|x| self.float(x))
+    }
+
+    /// A number of the mechanics, to the last bit.
+    fn real<T: Real>(&mut self, x: &mut T) -> Walked {
+        let [mut near, mut rest] = x.parts();
+        self.float(&mut near)?;
+        if is_finer::<T>() {
+            self.float(&mut rest)?;
+        }
+        *x = T::from_parts([near, rest]);
+        holds(self.left().is_none() || x.is_finite())
+    }
+
+    /// As many of them as there are places.
+    fn reals<T: Real>(&mut self, x: &mut [T]) -> Walked {
+        self.places(x, Self::real)
+    }
+
+    /// A length of time.
+    fn duration(&mut self, x: &mut Duration) -> Walked {
+        let mut nanoseconds = u64::try_from(x.as_nanos()).unwrap_or(MAX_U64).min(MAX_U64);
+        self.count(&mut nanoseconds)?;
+        *x = Duration::from_nanos(nanoseconds);
+        Ok(())
+    }
+
+    /// As many things as there are places.
+    fn places<E>(
+        &mut self,
+        x: &mut [E],
+        mut each: impl FnMut(&mut Self, &mut E) -> Walked,
+    ) -> Walked {
+        let mut n = x.len() as u64;
+        self.count(&mut n)?;
+        holds(n == x.len() as u64)?;
+        x.iter_mut().try_for_each(|x| each(self, x))
+    }
+
+    /// A list of things that take at least `size` bytes each.
+    fn list<E: Default>(
+        &mut self,
+        list: &mut Vec<E>,
+        size: usize,
+        mut each: impl FnMut(&mut Self, &mut E) -> Walked,
+    ) -> Walked {
+        let mut n = list.len() as u64;
+        self.count(&mut n)?;
+        if let Some(left) = self.left() {
+            holds(n <= (left / size) as u64)?;
+            list.clear();
+            list.resize_with(usize::try_from(n).unwrap_or(0), E::default);
+        }
+        list.iter_mut().try_for_each(|x| each(self, x))
+    }
+
+    /// Something, or nothing.
+    fn option<E: Default>(
+        &mut self,
+        x: &mut Option<E>,
+        each: impl FnOnce(&mut Self, &mut E) -> Walked,
+    ) -> Walked {
+        let mut is_some = x.is_some();
+        self.flag(&mut is_some)?;
+        if self.left().is_some() {
+            *x = is_some.then(E::default);
+        }
+        x.as_mut().map_or(Ok(()), |x| each(self, x))
+    }
+
+    /// A text.
+    fn text(&mut self, text: &mut String) -> Walked {
+        let mut bytes = core::mem::take(text).into_bytes();
+        self.list(&mut bytes, 1, |tape, byte| tape.bytes(core::slice::from_mut(byte)))?;
+        *text = String::from_utf8(bytes).map_err(|_| CheckpointError::Misfit)?;
+        Ok(())
+    }
+
+    /// One of some words, or none.
+    fn word_of(&mut self, x: &mut Option<&'static str>, words: &[&'static str]) -> Walked {
+        let mut place = x.and_then(|x| words.iter().position(|w| *w == x)).unwrap_or(words.len());
+        self.index(&mut place, words.len() + 1)?;
+        *x = words.get(place).copied();
+        Ok(())
+    }
+}
+
+/// What does not hold is a misfit.
+pub fn holds(does: bool) -> Walked {
+    if does { Ok(()) } else { Err(CheckpointError::Misfit) }
+}
+
+/// Writes into memory.
+#[derive(Debug, Default)]
+pub struct Pen(pub Vec<u8>);
+
+impl Tape for Pen {
+    fn bytes(&mut self, bytes: &mut [u8]) -> Walked {
+        self.0.extend_from_slice(bytes);
+        Ok(())
+    }
+
+    fn left(&self) -> Option<usize> {
+        None
+    }
+}
+
+/// Reads from memory.
+#[derive(Debug)]
+pub struct Eye<'a>(pub &'a [u8]);
+
+impl Tape for Eye<'_> {
+    fn bytes(&mut self, bytes: &mut [u8]) -> Walked {
+        let (head, rest) = self.0.split_at_checked(bytes.len()).ok_or(CheckpointError::Misfit)?;
+        bytes.copy_from_slice(head);
+        self.0 = rest;
+        Ok(())
+    }
+
+    fn left(&self) -> Option<usize> {
+        Some(self.0.len())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_list_is_never_longer_than_what_is_left() {
+        let mut pen = Pen::default();
+        pen.count(&mut (1 << 59)).expect("a count");
+        pen.bytes(&mut [0; 64]).expect("memory");
+        let mut list: Vec<f64> = Vec::new();
+        let read = Eye(&pen.0).list(&mut list, 8, Tape::float);
+        assert!(read.is_err() && list.capacity() == 0);
+    }
+}

@@ -1,0 +1,60 @@
+//! The time of a simulation that is stepped by hand: sums of many steps drift, multiples do not.
+
+use crate::checkpoint::tape::{Tape, Walked};
+use crate::driver::multiple;
+use mbs_core::Real;
+
+/// A row of equal steps.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct StepClock<T> {
+    /// Time at which the row begins [s].
+    origin: T,
+    /// Length of its steps [s], as asked for and in the digits of the run.
+    dt: (f64, T),
+    count: u64,
+    /// Time at its end [s].
+    end: T,
+}
+
+impl<T: Real> StepClock<T> {
+    /// The time after one more step of `dt` [s] from `now`.
+    pub fn advance(&mut self, now: T, dt: (f64, T)) -> T {
+        if self.dt.0.to_bits() != dt.0.to_bits() || self.end != now {
+            *self = Self { origin: now, dt, count: 0, end: now };
+        }
+        self.count += 1;
+        self.end =
+            multiple((self.origin, self.origin.to_f64()), self.count, (self.dt.1, self.dt.0));
+        self.end
+    }
+
+    /// Writes it, or reads it back.
+    pub fn walk(&mut self, tape: &mut impl Tape) -> Walked {
+        tape.real(&mut self.origin)?;
+        tape.float(&mut self.dt.0)?;
+        tape.real(&mut self.dt.1)?;
+        tape.count(&mut self.count)?;
+        tape.real(&mut self.end)
+    }
+
+    /// The end of the row is known to be this time [s].
+    pub fn land(&mut self, at: T) {
+        self.end = at;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_thousand_steps_of_a_millisecond_end_at_a_second() {
+        let (mut clock, mut t) = (StepClock::default(), 0.0_f64);
+        for _ in 0..1000 {
+            t = clock.advance(t, (1e-3, 1e-3));
+        }
+        assert_eq!(t.to_bits(), 1f64.to_bits());
+        t = clock.advance(t, (0.5, 0.5));
+        assert_eq!(t.to_bits(), 1.5f64.to_bits());
+    }
+}

@@ -1,0 +1,19 @@
+//! A simulation without its scalar and dimension, and what is read of it by name.
+
+pub mod clock;
+pub mod error;
+pub mod failure;
+pub mod function;
+pub mod inner;
+pub mod input_table;
+pub mod inputs;
+pub mod read;
+pub mod readings;
+pub mod seen;
+pub mod values;
+pub mod view;
+pub mod watched;
+
+pub use error::{Error, PathError, SceneError, UnknownName};
+pub use failure::SimulationError;
+pub use view::View;

@@ -1,0 +1,199 @@
+//! Readings of a simulation: computed at the first call after a step, and kept until the next.
+
+use super::values::{Coordinates, Wrench};
+use crate::channels::Channels;
+use crate::checkpoint::tape::{Tape, Walked};
+use crate::simulation::Simulation;
+use crate::stop::StopError;
+use core::ops::Range;
+use mbs_core::Real;
+use mbs_core::algebra::Vector;
+use mbs_core::outputs::{EffectWrenches, Reactions};
+use mbs_core::scene::{JointId, Output, Quantity, Scene};
+
+/// Joint coordinates with their turns, outputs and reactions.
+#[derive(Debug, Clone)]
+pub struct Readings<T: Real, const D: usize> {
+    joints: Group<T, D>,
+    rates: Group<T, D>,
+    /// Of a scene that names none they are the joints'.
+    outputs: Option<Group<T, D>>,
+    /// Made where one is asked for; whether they are those of the present state.
+    reactions: Option<(Box<Reactions<T, D>>, bool)>,
+    /// Made where one is asked for.
+    effects: Option<Box<EffectWrenches<T, D>>>,
+}
+
+/// Channels that are read together.
+#[derive(Debug, Clone)]
+struct Group<T: Real, const D: usize> {
+    channels: Channels<T, D>,
+    row: Vec<T>,
+    /// Where the components of each channel are.
+    places: Vec<Range<usize>>,
+    is_present: bool,
+}
+
+impl<T: Real, const D: usize> Group<T, D> {
+    /// Of these outputs alone.
+    fn new(
+        scene: &Scene<T>,
+        outputs: Vec<Output<T>>,
+        simulation: &Simulation<T, D>,
+    ) -> Result<Self, StopError> {
+        let scene = Scene { outputs, ..scene.clone() };
+        let mut channels = Channels::new(&scene, simulation.model())?;
+        channels.track(simulation)?;
+        let mut end = 0;
+        let places = channels.lengths().map(|n| {
+            end += n;
+            end - n..end
+        });
+        let places: Vec<_> = places.collect();
+        Ok(Self { channels, row: vec![T::ZERO; end], places, is_present: false })
+    }
+
+    /// Makes the row that of the present state.
+    fn update(&mut self, now: &Simulation<T, D>) -> Result<(), StopError> {
+        if !self.is_present {
+            self.channels.write(now, &mut self.row)?;
+            self.is_present = true;
+        }
+        Ok(())
+    }
+
+    /// The components of a channel, and whether all of the row are finite.
+    fn of(
+        &mut self,
+        channel: usize,
+        now: &Simulation<T, D>,
+    ) -> (Coordinates, Result<(), StopError>) {
+        let written = self.update(now);
+        let place = self.places.get(channel).cloned().unwrap_or_default();
+        (Coordinates::new(self.row[place].iter().map(|x| x.to_f64())), written)
+    }
+}
+
+impl<T: Real, const D: usize> Readings<T, D> {
+    /// Prepares the readings of a simulation at its start.
+    pub fn new(scene: &Scene<T>, simulation: &Simulation<T, D>) -> Result<Self, StopError> {
+        let of_joints = |quantity: fn(JointId) -> Quantity<T>| {
+            Group::new(
+                scene,
+                (0..scene.joints.len()).map(JointId::new).map(quantity).map(Output::new).collect(),
+                simulation,
+            )
+        };
+        let outputs = scene.outputs.iter().map(|o| Output { magnitude: false, ..o.clone() });
+        let outputs: Vec<_> = outputs.collect();
+        let outputs = (!outputs.is_empty()).then(|| Group::new(scene, outputs, simulation));
+        Ok(Self {
+            joints: of_joints(|joint| Quantity::JointValue { joint })?,
+            rates: of_joints(|joint| Quantity::JointRate { joint })?,
+            outputs: outputs.transpose()?,
+            reactions: None,
+            effects: None,
+        })
+    }
+
+    /// Follows angles over a step, so that no turn is lost.
+    pub fn follow(&mut self, simulation: &Simulation<T, D>) -> Result<(), StopError> {
+        self.stale();
+        self.joints.channels.track(simulation)?;
+        self.outputs.as_mut().map_or(Ok(()), |outputs| outputs.channels.track(simulation))
+    }
+
+    fn outputs(&mut self) -> &mut Group<T, D> {
+        self.outputs.as_mut().unwrap_or(&mut self.joints)
+    }
+
+    /// What was read is no longer that of the present state.
+    pub fn stale(&mut self) {
+        for group in [&mut self.joints, &mut self.rates].into_iter().chain(&mut self.outputs) {
+            group.is_present = false;
+        }
+        if let Some((_, is_present)) = &mut self.reactions {
+            *is_present = false;
+        }
+    }
+
+    /// Coordinates of a joint; what is not finite is seen as that.
+    pub fn values(&mut self, joint: usize, now: &Simulation<T, D>) -> Coordinates {
+        self.joints.of(joint, now).0
+    }
+
+    pub fn rates(&mut self, joint: usize, now: &Simulation<T, D>) -> Coordinates {
+        self.rates.of(joint, now).0
+    }
+
+    pub fn output(
+        &mut self,
+        output: usize,
+        now: &Simulation<T, D>,
+    ) -> Result<Coordinates, StopError> {
+        let (output, written) = self.outputs().of(output, now);
+        written.map(|()| output)
+    }
+
+    /// Number of components of all outputs.
+    pub fn n_components(&self) -> usize {
+        self.outputs.as_ref().unwrap_or(&self.joints).row.len()
+    }
+
+    /// Writes the components of all outputs, in their order.
+    pub fn write(&mut self, now: &Simulation<T, D>, out: &mut [f64]) -> Result<(), StopError> {
+        let outputs = self.outputs();
+        let written = outputs.update(now);
+        out.iter_mut().zip(&outputs.row).for_each(|(to, x)| *to = x.to_f64());
+        written
+    }
+
+    /// What the first body of a joint does to the second, at the joint's place on the second body.
+    pub fn reaction(
+        &mut self,
+        joint: usize,
+        (scene, simulation): (&Scene<T>, &Simulation<T, D>),
+    ) -> Result<Wrench, StopError> {
+        if self.reactions.is_none() {
+            let reactions =
+                Reactions::new(scene, simulation.model()).map_err(StopError::Reaction)?;
+            self.reactions = Some((Box::new(reactions), false));
+        }
+        let Some((reactions, is_present)) = &mut self.reactions else {
+            return Ok(Wrench::default());
+        };
+        if !*is_present {
+            reactions.update(simulation.state());
+            *is_present = true;
+        }
+        let [a, b, c, d, e, f] = reactions.reaction(joint).map(Real::to_f64);
+        Ok(match D {
+            2 => Wrench { force: [a, b, 0.0], moment: [0.0, 0.0, c] },
+            _ => Wrench { force: [a, b, c], moment: [d, e, f] },
+        })
+    }
+
+    /// What an effect exerts.
+    pub fn effect(
+        &mut self,
+        effect: usize,
+        (scene, simulation): (&Scene<T>, &Simulation<T, D>),
+    ) -> Result<Wrench, StopError> {
+        let wrenches = match &mut self.effects {
+            Some(wrenches) => wrenches,
+            None => {
+                let made = EffectWrenches::new(scene, simulation.model());
+                self.effects.insert(Box::new(made.map_err(|e| StopError::Start(e.into()))?))
+            }
+        };
+        let wrench = wrenches.of(effect, simulation.state());
+        let numbers = |x: Vector<T, 3>| [x[0], x[1], x[2]].map(Real::to_f64);
+        Ok(Wrench { force: numbers(wrench.force), moment: numbers(wrench.moment) })
+    }
+
+    /// Writes the turns that are remembered, or reads them back.
+    pub fn walk(&mut self, tape: &mut impl Tape) -> Walked {
+        self.joints.channels.walk(tape)?;
+        self.outputs.as_mut().map_or(Ok(()), |outputs| outputs.channels.walk(tape))
+    }
+}

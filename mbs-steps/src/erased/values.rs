@@ -1,0 +1,265 @@
+//! What a simulation is read by: plain arrays, in SI units and global axes.
+
+use core::fmt::{self, Debug, Formatter};
+use core::ops::Deref;
+use mbs_core::Real;
+use mbs_core::algebra::Matrix;
+use mbs_core::control::Accepted;
+pub use mbs_core::laws::code::Wrench;
+use mbs_core::outputs::Instant;
+use mbs_core::scene::EffectId;
+
+/// Coordinates of a joint, at most six [rad, m].
+#[derive(Clone, Copy, PartialEq, Default)]
+pub struct Coordinates {
+    values: [f64; 6],
+    count: usize,
+}
+
+impl Coordinates {
+    /// This many of the given numbers, six at most.
+    pub fn new(from: impl IntoIterator<Item = f64>) -> Self {
+        let mut coordinates = Self::default();
+        for (to, value) in coordinates.values.iter_mut().zip(from) {
+            *to = value;
+            coordinates.count += 1;
+        }
+        coordinates
+    }
+}
+
+impl Debug for Coordinates {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        (**self).fmt(f)
+    }
+}
+
+/// More than six numbers are refused by the compiler.
+impl<const N: usize> From<[f64; N]> for Coordinates {
+    fn from(values: [f64; N]) -> Self {
+        const { assert!(N <= 6, "a joint has six coordinates at most") }
+        Self::new(values)
+    }
+}
+
+impl From<f64> for Coordinates {
+    fn from(value: f64) -> Self {
+        Self::new([value])
+    }
+}
+
+impl Deref for Coordinates {
+    type Target = [f64];
+
+    fn deref(&self) -> &[f64] {
+        &self.values[..self.count]
+    }
+}
+
+/// Components of an output, at most six.
+pub type Components = Coordinates;
+
+/// Where a body is.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
+pub struct Pose {
+    /// Centre of mass [m].
+    pub position: [f64; 3],
+    /// Rotation from the reference configuration, by rows: the columns are the present directions of what were the global axes.
+    pub rotation: [[f64; 3]; 3],
+}
+
+/// A matrix by rows.
+pub fn rows<T: Real>(matrix: &Matrix<T, 3>) -> [[f64; 3]; 3] {
+    core::array::from_fn(|i| core::array::from_fn(|j| matrix[(i, j)].to_f64()))
+}
+
+impl Default for Pose {
+    fn default() -> Self {
+        let rotation = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+        Self { position: [0.0; 3], rotation }
+    }
+}
+
+impl Pose {
+    /// The rotation as a unit quaternion [w, x, y, z] with w >= 0.
+    #[must_use]
+    pub fn quaternion(&self) -> [f64; 4] {
+        let r = &self.rotation;
+        // Shepperd: from the largest of the four, so that nothing is divided by a small number
+        let trace = r[0][0] + r[1][1] + r[2][2];
+        let squares = [trace, r[0][0], r[1][1], r[2][2]];
+        let largest = (0..4).max_by(|&a, &b| squares[a].total_cmp(&squares[b])).unwrap_or(0);
+        let mut q = match largest {
+            0 => [1.0 + trace, r[2][1] - r[1][2], r[0][2] - r[2][0], r[1][0] - r[0][1]],
+            1 => {
+                let x = 1.0 + 2.0 * r[0][0] - trace;
+                [r[2][1] - r[1][2], x, r[0][1] + r[1][0], r[0][2] + r[2][0]]
+            }
+            2 => {
+                let y = 1.0 + 2.0 * r[1][1] - trace;
+                [r[0][2] - r[2][0], r[0][1] + r[1][0], y, r[1][2] + r[2][1]]
+            }
+            _ => {
+                let z = 1.0 + 2.0 * r[2][2] - trace;
+                [r[1][0] - r[0][1], r[0][2] + r[2][0], r[1][2] + r[2][1], z]
+            }
+        };
+        let norm = q.iter().map(|x| x * x).sum::<f64>().sqrt();
+        let sign = if q[0] < 0.0 { -norm } else { norm };
+        q.iter_mut().for_each(|x| *x /= sign);
+        q
+    }
+}
+
+/// How a body moves.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[non_exhaustive]
+pub struct BodyMotion {
+    /// Velocity of the centre of mass [m/s].
+    pub velocity: [f64; 3],
+    /// Its acceleration [m/s^2].
+    pub acceleration: [f64; 3],
+    /// Angular velocity [rad/s].
+    pub angular_velocity: [f64; 3],
+    /// Angular acceleration [rad/s^2].
+    pub angular_acceleration: [f64; 3],
+}
+
+/// Where a material point is and how it moves.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
+pub struct PointMotion {
+    /// Position [m].
+    pub position: [f64; 3],
+    /// Velocity [m/s].
+    pub velocity: [f64; 3],
+    /// Acceleration [m/s^2].
+    pub acceleration: [f64; 3],
+}
+
+/// A contact of a one-sided effect that begins or ends.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
+pub struct ContactEvent {
+    /// When [s].
+    pub time: f64,
+    /// The bumper, limit or tire.
+    pub effect: EffectId,
+    /// Of a limit 0 at its lower end, 1 at its upper one; 0 else.
+    pub end: usize,
+    /// Does it begin?
+    pub is_made: bool,
+}
+
+impl ContactEvent {
+    pub fn of(instant: &Instant) -> Self {
+        let &Instant { t: time, effect, end, makes: is_made } = instant;
+        Self { time, effect: EffectId::new(effect), end, is_made }
+    }
+}
+
+/// Energies of a mechanism [J].
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
+pub struct Energies {
+    /// Kinetic energy.
+    pub kinetic: f64,
+    /// Potential energy: of gravity and springs.
+    pub potential: f64,
+    /// Work of dampers, guides and inputs since the start.
+    pub work: f64,
+}
+
+/// Sizes of the model that steps.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct Sizes {
+    /// Coordinates.
+    pub coordinates: usize,
+    /// Constraint equations.
+    pub constraints: usize,
+    /// Their rank at the start.
+    pub rank: usize,
+}
+
+impl Sizes {
+    /// Degrees of freedom.
+    #[must_use]
+    pub fn freedoms(&self) -> usize {
+        self.coordinates - self.rank
+    }
+}
+
+/// What the steps of a call did.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[non_exhaustive]
+pub struct StepReport {
+    /// Steps that were made.
+    pub steps: u64,
+    /// Iterations of Newton's method; evaluations of the accelerations in relative coordinates.
+    pub iterations: u64,
+    /// Factorisations.
+    pub factorizations: u64,
+    /// Steps that the step control rejected.
+    pub rejected: u64,
+    /// Largest violation of positions, velocities and accelerations after a step [m, m/s, m/s^2].
+    pub violation: [f64; 3],
+}
+
+impl StepReport {
+    /// With one accepted step more.
+    pub fn add<T: Real>(&mut self, accepted: &Accepted<T>) {
+        let report = &accepted.attempt.report;
+        self.steps += u64::from(report.steps);
+        self.iterations += u64::from(report.iterations);
+        self.factorizations += u64::from(report.factorizations);
+        self.rejected += u64::from(report.rejected);
+        self.join(report.violation.map(Real::to_f64));
+    }
+
+    /// With the steps of another call.
+    pub fn join_report(&mut self, other: &Self) {
+        self.steps += other.steps;
+        self.iterations += other.iterations;
+        self.factorizations += other.factorizations;
+        self.rejected += other.rejected;
+        self.join(other.violation);
+    }
+
+    fn join(&mut self, violation: [f64; 3]) {
+        for (most, x) in self.violation.iter_mut().zip(violation) {
+            *most = most.max(x);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_quaternion_turns_axes_as_its_rotation_does() {
+        // half turns about each axis are where a quaternion is found from another component
+        for (x, y, z) in [(0.3, -0.2, 0.9), (3.1, 0.0, 0.0), (0.0, 3.1, 0.1), (0.1, 0.0, -3.1)] {
+            let angle = f64::hypot(f64::hypot(x, y), z);
+            let n = [x / angle, y / angle, z / angle];
+            let (s, c) = angle.sin_cos();
+            let cross = [[0.0, -n[2], n[1]], [n[2], 0.0, -n[0]], [-n[1], n[0], 0.0]];
+            let rotation = core::array::from_fn(|i| {
+                core::array::from_fn(|j| {
+                    let same = if i == j { c } else { 0.0 };
+                    same + s * cross[i][j] + (1.0 - c) * n[i] * n[j]
+                })
+            });
+            let q = Pose { position: [0.0; 3], rotation }.quaternion();
+            let half = 0.5 * angle;
+            let sign = half.cos().signum();
+            let right = [half.cos(), n[0] * half.sin(), n[1] * half.sin(), n[2] * half.sin()];
+            for (a, b) in q.iter().zip(right) {
+                // eight roundings of numbers of order one
+                assert!((a - sign * b).abs() < 1e-15, "{q:?} for {right:?}");
+            }
+        }
+    }
+}

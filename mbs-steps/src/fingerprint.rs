@@ -1,0 +1,56 @@
+//! Numbers by which changed data are known: FNV-1a of 64 bits, the same on every machine.
+
+use core::fmt;
+
+/// The hash of nothing: FNV-1a's offset basis of 64 bits.
+const BASIS: u64 = 0xcbf2_9ce4_8422_2325;
+/// The factor of a byte: FNV-1a's prime of 64 bits.
+const PRIME: u64 = 0x0100_0000_01b3;
+
+/// What was written so far, as a number.
+#[derive(Debug, Clone, Copy)]
+pub struct Fingerprint(u64);
+
+impl Fingerprint {
+    /// Of nothing.
+    pub fn new() -> Self {
+        Self(BASIS)
+    }
+
+    /// More bytes.
+    pub fn add(&mut self, bytes: &[u8]) {
+        let step = |hash: u64, &byte: &u8| (hash ^ u64::from(byte)).wrapping_mul(PRIME);
+        self.0 = bytes.iter().fold(self.0, step);
+    }
+
+    /// The number.
+    pub fn get(self) -> u64 {
+        self.0
+    }
+}
+
+impl fmt::Write for Fingerprint {
+    fn write_str(&mut self, text: &str) -> fmt::Result {
+        self.add(text.as_bytes());
+        Ok(())
+    }
+}
+
+/// Of some bytes.
+pub fn fingerprint(bytes: &[u8]) -> u64 {
+    let mut all = Fingerprint::new();
+    all.add(bytes);
+    all.get()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn it_is_that_of_the_published_test_vectors() {
+        assert_eq!(fingerprint(b""), 0xcbf2_9ce4_8422_2325);
+        assert_eq!(fingerprint(b"a"), 0xaf63_dc4c_8601_ec8c);
+        assert_eq!(fingerprint(b"foobar"), 0x8594_4171_f739_67e8);
+    }
+}

@@ -1,0 +1,106 @@
+//! Friction that the steps of an explicit method pass over.
+//!
+//! ```text
+//! |r| <= |a| h   and   |a| h > 3 e        r, a rate and acceleration of the joint or the sum, h the step, e the regularisation
+//! ```
+//!
+//! The acceleration would then carry the rate through rest within a step, and far beyond the rates at which friction rises. A rate that changes
+//! its sign does so for a step or two. One that friction throws back does so step after step, and what holds by friction creeps at a
+//! rate that is none of the law's. Implicit methods, and those that control their error, follow the rise.
+
+use crate::choice::IntegratorKind;
+use crate::settings::ResolvedMethod;
+use crate::simulation::Simulation;
+use crate::stop::StopError;
+use mbs_core::Real;
+use mbs_core::model::State;
+use mbs_core::natural::NaturalModel;
+use mbs_core::outputs::CoordinateMotion;
+use mbs_core::scene::{CouplingTerm, Effect, EffectKind, JointId, Scene};
+
+/// Largest change of the rate in a step, in units of the regularisation [-]: where friction holds, the explicit method of order four is stable
+/// up to 2.8.
+const MAX_CHANGE: f64 = 3.0;
+
+/// Friction of a joint, or of a sum of joint coordinates.
+#[derive(Debug, Clone)]
+struct Friction<T: Real, const D: usize> {
+    effect: usize,
+    /// The coordinates with their factors.
+    terms: Vec<(T, CoordinateMotion<T, D>)>,
+    regularisation: f64,
+}
+
+/// The coordinates of a law with a rise, and its regularisation; what has lengths or curves is not watched.
+type Watched<T, const D: usize> = Option<(Vec<(T, CoordinateMotion<T, D>)>, T)>;
+
+fn watched<T: Real, const D: usize>(
+    scene: &Scene<T>,
+    model: &NaturalModel<T, D>,
+    kind: &EffectKind<T>,
+) -> Watched<T, D> {
+    let motion = |joint: JointId, number| {
+        CoordinateMotion::new(scene, model, (&scene.joints[joint], number))
+    };
+    let (terms, levels, regularisation) = match kind {
+        EffectKind::Friction(law) => {
+            let terms = motion(law.joint, law.coordinate).map(|of| vec![(T::ONE, of)]);
+            (terms, [law.coulomb, law.r#static], law.regularisation)
+        }
+        EffectKind::SumFriction(law) => {
+            let term = |term: &CouplingTerm<T>| {
+                let (joint, number) = term.of.coordinate().filter(|_| term.curve.is_none())?;
+                Some((term.factor, motion(joint, Some(number))?))
+            };
+            let terms = law.terms.iter().map(term).collect();
+            (terms, [law.coulomb, law.r#static], law.regularisation)
+        }
+        _ => return None,
+    };
+    // What is viscous alone rises nowhere.
+    let has_rise = levels[0].max(levels[1]) > T::ZERO;
+    terms.filter(|_| has_rise).map(|terms| (terms, regularisation))
+}
+
+impl<T: Real, const D: usize> Friction<T, D> {
+    /// Rate and acceleration of what it is of.
+    fn motion(&self, state: &State<T>) -> [T; 2] {
+        self.terms.iter().fold([T::ZERO; 2], |[rate, acceleration], (factor, of)| {
+            let [r, a] = of.at(state);
+            [rate + *factor * r, acceleration + *factor * a]
+        })
+    }
+}
+
+/// The frictions of a run by explicit steps of fixed length.
+#[derive(Debug, Clone)]
+pub struct Frictions<T: Real, const D: usize> {
+    all: Vec<Friction<T, D>>,
+    /// Length of a step [s].
+    step: f64,
+}
+
+impl<T: Real, const D: usize> Frictions<T, D> {
+    /// Those of a scene; none where the method of the settings follows them.
+    pub fn new(scene: &Scene<T>, settings: &ResolvedMethod, model: &NaturalModel<T, D>) -> Self {
+        let is_explicit = settings.integrator == IntegratorKind::Rk4;
+        let friction = |(effect, e): (usize, &Effect<T>)| {
+            let (terms, regularisation) = watched(scene, model, &e.kind).filter(|_| e.enabled)?;
+            Some(Friction { effect, terms, regularisation: regularisation.to_f64() })
+        };
+        let all = scene.effects.iter().enumerate().filter_map(friction);
+        Self { all: if is_explicit { all.collect() } else { Vec::new() }, step: settings.step }
+    }
+
+    /// The first one that the last step has passed over.
+    pub fn passed(&self, simulation: &Simulation<T, D>) -> Option<StopError> {
+        let is_passed = |friction: &&Friction<T, D>| {
+            let [rate, acceleration] = friction.motion(simulation.state()).map(Real::to_f64);
+            let change = acceleration.abs() * self.step;
+            change > MAX_CHANGE * friction.regularisation && rate.abs() <= change
+        };
+        let Friction { effect, regularisation, .. } = self.all.iter().find(is_passed)?;
+        let (effect, regularisation) = (*effect, *regularisation);
+        Some(StopError::Friction { effect, regularisation, step: self.step })
+    }
+}

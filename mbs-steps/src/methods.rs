@@ -1,0 +1,349 @@
+//! The formulations that a run may take, one row for each: its name, what it can do, and how it is built.
+//!
+//! What differs from one formulation to another is said here or in the formulation's crate, and nowhere else.
+
+use crate::choice::IntegratorKind;
+use crate::stop::StopError;
+use mbs_augmented::{Augmented, Form, IndexChange, Penalty};
+use mbs_classical::Classical;
+use mbs_core::Real;
+use mbs_core::formulation::Formulation;
+use mbs_core::model::State;
+use mbs_core::natural::{ModelError, NaturalModel};
+use mbs_core::scene::Scene;
+use mbs_core::start::AssemblyError;
+use mbs_core::step::OptionError;
+use mbs_parallel::{Threads, most_threads};
+use mbs_recursive::space::Space;
+use mbs_recursive::{Closure, Planar, Spatial, StartError, Tree, TreeModel, TreeStep};
+use mbs_sparse::{Indefinite, Multifrontal};
+use mbs_statespace::StateSpace;
+
+/// What a formulation is called, and what it can do.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Row {
+    /// Its name in scenes and on the command line.
+    pub name: &'static str,
+    /// What it is.
+    pub sentence: &'static str,
+    /// What a penalty means to it.
+    pub penalty: PenaltyUse,
+    /// Do threads share the work of its steps?
+    pub threads: bool,
+    /// Does it step relative coordinates? Integrators for systems of first order run in these alone.
+    pub relative: bool,
+    /// Does the energy rule choose the length of its steps unless another is named, since its index follows the length?
+    pub energy_rule: bool,
+    /// Does it take rows that repeat each other?
+    pub redundant: bool,
+    /// May effects be left out while it runs?
+    pub switches: bool,
+    /// Its place among those that a reference is made and checked by; nothing: it serves for none.
+    pub reference: Option<u8>,
+}
+
+/// What a penalty means to a formulation.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum PenaltyUse {
+    /// It has none.
+    None,
+    /// The caller may give one; a scene's is meant for others.
+    OfCaller,
+    /// It is that of scenes, in this unit.
+    OfScene(&'static str),
+}
+
+/// A row that most are like.
+const ROW: Row = Row {
+    name: "",
+    sentence: "",
+    penalty: PenaltyUse::OfCaller,
+    threads: false,
+    relative: false,
+    energy_rule: false,
+    redundant: true,
+    switches: false,
+    reference: None,
+};
+
+/// What is asked of a formulation.
+#[derive(Debug, Clone, Copy)]
+pub struct Demands<T> {
+    pub integrator: IntegratorKind,
+    pub penalty: Option<f64>,
+    pub tolerance: Option<f64>,
+    pub threads: usize,
+    /// The step of the run, or the first one [s].
+    pub step: T,
+}
+
+/// What a formulation is built from.
+#[derive(Debug)]
+pub struct Request<'a, T: Real, const D: usize> {
+    pub scene: &'a Scene<T>,
+    pub demands: Demands<T>,
+    pub model: &'a NaturalModel<T, D>,
+    /// Analysed for the model's cliques.
+    pub solver: Multifrontal<T>,
+    /// The start.
+    pub state: &'a mut State<T>,
+}
+
+type Built<T, const D: usize> = Result<Box<dyn Formulation<T, D>>, StopError>;
+
+macro_rules! formulations {
+    ($($kind:ident = $name:literal, $sentence:literal, $build:path, { $($field:ident: $value:expr),* };)*) => {
+        /// A formulation that can run.
+        #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+        pub enum FormulationKind {
+            $(#[doc = $sentence] $kind,)*
+        }
+
+        /// Formulations that are built, by their names in scenes and on the command line.
+        pub const FORMULATIONS: [&str; FormulationKind::ALL.len() + 1] = ["auto", $($name),*];
+
+        impl FormulationKind {
+            /// All of them, in the order of [`FORMULATIONS`] after `auto`.
+            pub const ALL: [Self; [$($name),*].len()] = [$(Self::$kind),*];
+
+            /// Its name and what it can do.
+            #[must_use]
+            pub fn row(self) -> Row {
+                match self {
+                    $(Self::$kind => Row { name: $name, sentence: $sentence, $($field: $value,)* ..ROW },)*
+                }
+            }
+
+            /// Builds it.
+            pub fn build<T: Real, const D: usize>(self, request: Request<'_, T, D>) -> Built<T, D> {
+                match self {
+                    $(Self::$kind => $build(request),)*
+                }
+            }
+        }
+    };
+}
+
+formulations! {
+    Index1 = "index-1", "Index-1 augmented Lagrangian.", index1,
+        { penalty: PenaltyUse::OfScene("kg"), threads: true, switches: true, reference: Some(4) };
+    Index3 = "index-3", "Index-3 augmented Lagrangian.", index3,
+        { penalty: PenaltyUse::OfScene("N/m"), threads: true, switches: true, reference: Some(1) };
+    MultiIndex = "multi-index", "Augmented Lagrangian in index-3 for long steps and in index-1 for short ones.", multi_index,
+        { penalty: PenaltyUse::OfScene("N/m"), threads: true, switches: true, energy_rule: true };
+    Classical = "classical", "Index-3 classical Lagrangian.", classical,
+        { threads: true, redundant: false, reference: Some(3) };
+    StateSpace = "state-space", "State space: independent coordinates by a null-space basis.", state_space,
+        { penalty: PenaltyUse::None, reference: Some(2) };
+    Recursive = "recursive", "Fully recursive, relative coordinates.", recursive,
+        { relative: true, switches: true, reference: Some(0) };
+}
+
+impl FormulationKind {
+    /// The one that runs where nothing else is asked for, and that others are compared with.
+    pub const DEFAULT: Self = Self::Index3;
+    /// The one in relative coordinates.
+    pub const RELATIVE: Self = Self::Recursive;
+
+    /// Its name.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        self.row().name
+    }
+
+    /// That of a name.
+    #[must_use]
+    pub fn of_name(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|f| f.name() == name)
+    }
+
+    /// All of them in the order of tables: the default first.
+    pub fn listed() -> impl Iterator<Item = Self> {
+        let others = Self::ALL.into_iter().filter(|f| *f != Self::DEFAULT);
+        core::iter::once(Self::DEFAULT).chain(others)
+    }
+
+    /// Those that a reference is made and checked by, the best first.
+    #[must_use]
+    pub fn references() -> Vec<Self> {
+        let mut all: Vec<Self> = Self::listed().filter(|f| f.row().reference.is_some()).collect();
+        all.sort_by_key(|f| f.row().reference);
+        all
+    }
+
+    /// The names of those that can do something, such as `index-3, index-1 or recursive`.
+    pub fn names(can: impl Fn(&Row) -> bool, last: &str) -> String {
+        let names: Vec<_> = Self::listed().map(Self::row).filter(can).map(|row| row.name).collect();
+        match &names[..] {
+            [others @ .., end] if !others.is_empty() => {
+                format!("{} {last} {end}", others.join(", "))
+            }
+            _ => names.concat(),
+        }
+    }
+
+    /// The unit of a scene's penalty, where that is meant for it.
+    #[must_use]
+    pub fn scene_penalty(self) -> Option<&'static str> {
+        match self.row().penalty {
+            PenaltyUse::OfScene(unit) => Some(unit),
+            PenaltyUse::None | PenaltyUse::OfCaller => None,
+        }
+    }
+
+    /// Does it run with this integrator?
+    #[must_use]
+    pub fn runs_with(self, integrator: IntegratorKind) -> bool {
+        self.row().relative || !integrator.is_of_first_order()
+    }
+}
+
+fn index1<T: Real, const D: usize>(request: Request<'_, T, D>) -> Built<T, D> {
+    let penalty = request.demands.penalty;
+    let options = augmented_options(mbs_augmented::Options::index1(), &request.demands, penalty);
+    augmented(Form::Index1(options), request)
+}
+
+fn index3<T: Real, const D: usize>(request: Request<'_, T, D>) -> Built<T, D> {
+    augmented(Form::Index3(options_of_index3(&request.demands)), request)
+}
+
+fn multi_index<T: Real, const D: usize>(request: Request<'_, T, D>) -> Built<T, D> {
+    // One number cannot be kg and N/m: it is that of index-3.
+    let one = augmented_options(mbs_augmented::Options::index1(), &request.demands, None);
+    let three = options_of_index3(&request.demands);
+    augmented(Form::MultiIndex(IndexChange::new(one, three)), request)
+}
+
+fn options_of_index3<T: Real>(demands: &Demands<T>) -> mbs_augmented::Options<T> {
+    augmented_options(mbs_augmented::Options::index3(), demands, demands.penalty)
+}
+
+fn augmented_options<T: Real>(
+    mut options: mbs_augmented::Options<T>,
+    demands: &Demands<T>,
+    penalty: Option<f64>,
+) -> mbs_augmented::Options<T> {
+    options.integrator = demands.integrator.coefficients();
+    if let Some(alpha) = penalty {
+        options.penalty = Penalty::Fixed(T::from_f64(alpha));
+        options.adaptive_penalty = false;
+    }
+    if let Some(tolerance) = demands.tolerance {
+        (options.tolerance, options.truncation_share) = (T::from_f64(tolerance), T::ZERO);
+    }
+    options
+}
+
+fn augmented<T: Real, const D: usize>(form: Form<T>, request: Request<'_, T, D>) -> Built<T, D> {
+    let Request { demands, model, solver, .. } = request;
+    let team = team(&demands, solver.n_branches())?;
+    let solver = solver.with_team(team.clone());
+    boxed(Augmented::new(model, form, solver, team))
+}
+
+fn classical<T: Real, const D: usize>(request: Request<'_, T, D>) -> Built<T, D> {
+    let Request { demands, model, .. } = request;
+    let mut options = mbs_classical::Options {
+        integrator: demands.integrator.coefficients(),
+        ..mbs_classical::Options::index3()
+    };
+    if let Some(alpha) = demands.penalty {
+        options.regularisation = Some(T::ONE / T::from_f64(alpha));
+    }
+    if let Some(tolerance) = demands.tolerance {
+        options.tolerance = T::from_f64(tolerance);
+    }
+    let saddle = mbs_classical::Saddle::new(model);
+    let solver = Indefinite::analyse(&saddle, mbs_sparse::Options::default());
+    let team = team(&demands, solver.n_branches())?;
+    let solver = solver.with_team(team.clone());
+    boxed(Classical::new(model, options, solver, team))
+}
+
+fn state_space<T: Real, const D: usize>(request: Request<'_, T, D>) -> Built<T, D> {
+    let mut options = mbs_statespace::Options {
+        integrator: request.demands.integrator.coefficients(),
+        ..mbs_statespace::Options::default()
+    };
+    if let Some(tolerance) = request.demands.tolerance {
+        options.tolerance = T::from_f64(tolerance);
+    }
+    boxed(StateSpace::new(request.model, options, request.state))
+}
+
+fn recursive<T: Real, const D: usize>(request: Request<'_, T, D>) -> Built<T, D> {
+    if const { D == 2 } { tree::<T, Planar, D>(request) } else { tree::<T, Spatial, D>(request) }
+}
+
+fn tree<T: Real, S: Space<T>, const D: usize>(request: Request<'_, T, D>) -> Built<T, D> {
+    let Request { scene, demands, model: natural, state, .. } = request;
+    let model = TreeModel::<T, S>::new(scene).map_err(StopError::tree)?;
+    let start = model.start(scene, natural, state).map_err(|e| not_started(e, &model))?;
+    let method = (tree_options(&demands), tree_step(demands.integrator));
+    boxed(Tree::new(scene, (model, start), method, (natural, state)))
+}
+
+/// Error of a step by extrapolation where none is given, in units of rounding [-]: 2e-10 in double precision, 5e-26 in pairs.
+pub const ROUNDINGS: f64 = 1e6;
+
+pub fn tree_options<T: Real>(demands: &Demands<T>) -> mbs_recursive::Options<T> {
+    let first_step = Some(demands.step);
+    let mut options = mbs_recursive::Options { first_step, ..mbs_recursive::Options::default() };
+    if !demands.integrator.is_of_first_order() {
+        options.integrator = demands.integrator.coefficients();
+    }
+    if let Some(alpha) = demands.penalty {
+        let alpha = T::from_f64(alpha);
+        options.closure = Closure::Report { alpha, omega: T::from_f64(10.0), mu: T::ONE };
+    }
+    if demands.integrator == IntegratorKind::Extrapolation {
+        // Orders this high are chosen for digits.
+        options.error = T::EPSILON * T::from_f64(ROUNDINGS);
+    }
+    if let Some(tolerance) = demands.tolerance {
+        options.tolerance = T::from_f64(tolerance);
+        options.error = options.tolerance;
+    }
+    options
+}
+
+pub fn tree_step<T: Real, S: Space<T>>(integrator: IntegratorKind) -> TreeStep<T, S> {
+    match integrator {
+        IntegratorKind::Rk4 => mbs_recursive::rk4_step,
+        IntegratorKind::Rk54 => mbs_recursive::rk54_step,
+        IntegratorKind::Rk853 => mbs_recursive::rk853_step,
+        IntegratorKind::Extrapolation => mbs_recursive::extrapolated_step,
+        IntegratorKind::Radau5 => mbs_recursive::radau5_step,
+        IntegratorKind::Trapezoidal
+        | IntegratorKind::Newmark
+        | IntegratorKind::GeneralisedAlpha
+        | IntegratorKind::Hht => mbs_recursive::step,
+    }
+}
+
+/// Why the tree has no start, with the names' places.
+fn not_started<T: Real, S: Space<T>>(error: StartError, model: &TreeModel<T, S>) -> StopError {
+    match error {
+        StartError::Tree(error) => StopError::tree(error),
+        StartError::Step(error) => {
+            StopError::step(error, |u| model.owner_of_unknown(u), |row| model.owner_of_row(row))
+        }
+        _ => StopError::Start(AssemblyError::Model(ModelError::Dimension)),
+    }
+}
+
+fn boxed<T: Real, const D: usize>(
+    built: Result<impl Formulation<T, D> + 'static, OptionError>,
+) -> Built<T, D> {
+    match built {
+        Ok(formulation) => Ok(Box::new(formulation)),
+        Err(error) => Err(StopError::Step(error.into(), None)),
+    }
+}
+
+/// The threads that are asked for, up to the number of branches of a step: threads wait awake for their turn.
+fn team<T>(demands: &Demands<T>, branches: usize) -> Result<Threads, StopError> {
+    let n = demands.threads.min(most_threads()).min(branches.max(1));
+    Threads::new(n).map_err(|_| StopError::NoThreads(n))
+}

@@ -1,0 +1,110 @@
+//! The motion of a run as it goes: the poses of all bodies at up to 600 instants.
+
+mod drawing;
+mod joints;
+mod lines;
+mod pose;
+mod principal;
+mod road;
+mod shapes;
+mod written;
+
+pub use pose::frame;
+
+use crate::checkpoint::tape::{Tape, Walked, holds};
+use crate::record::{DrawnBody, N_POSE, RecordedMotion};
+use drawing::Drawing;
+use mbs_core::Real;
+use mbs_core::natural::NaturalModel;
+use mbs_core::scene::{Dimension, Scene};
+use pose::BodyPose;
+
+/// Most pictures kept of a run [-]: ten seconds at sixty a second.
+const MAX_PICTURES: f64 = 600.0;
+/// Time by which a picture may be early, relative to the interval of two [-]: times are rounded. Chosen, not tuned.
+const EARLY: f64 = 1e-6;
+/// Most numbers in all pictures [-]: eighty megabytes. Scenes of some thousand bodies get fewer pictures.
+const MAX_NUMBERS: f64 = 1e7;
+
+/// What the poses are read of, and the motion that they fill.
+#[derive(Debug)]
+pub struct MotionRecorder<T: Real, const D: usize> {
+    poses: Vec<BodyPose<T, D>>,
+    motion: RecordedMotion,
+    /// Time between pictures, and of the next one [s].
+    every: f64,
+    next: f64,
+}
+
+impl<T: Real, const D: usize> MotionRecorder<T, D> {
+    /// Lays out what is drawn in a run of the given duration [s].
+    pub fn new(scene: &Scene<T>, model: &NaturalModel<T, D>, duration: f64) -> Self {
+        let up = scene.gravity.map_or([0.0; 3], |g| g.map(|x| -x.to_f64()));
+        let drawing = Drawing { scene, length: model.length().to_f64() };
+        let mut motion = RecordedMotion {
+            dimension: D,
+            up: if scene.dimension == Dimension::Spatial { up } else { [0.0; 3] },
+            length: drawing.length,
+            bodies: scene.bodies.iter().map(|b| body(&b.name, b.mass)).collect(),
+            traces: drawing.traces(),
+            forces: drawing.forces(),
+            ..RecordedMotion::default()
+        };
+        drawing.add_bodies(&mut motion);
+        drawing.add_joints(&mut motion);
+        drawing.add_lines(&mut motion);
+        let n = (scene.bodies.len() * N_POSE).max(1);
+        #[allow(clippy::cast_precision_loss, reason = "numbers of bodies are far below 2^53")]
+        let pictures = (MAX_NUMBERS / n as f64).clamp(1.0, MAX_PICTURES);
+        let poses = (0..scene.bodies.len()).map(|b| BodyPose::new(scene, model, b)).collect();
+        Self { poses, motion, every: duration / pictures, next: 0.0 }
+    }
+
+    /// Makes room for all pictures of a run, so that none is allocated when it is taken.
+    pub fn reserve(&mut self, duration: f64) {
+        #[allow(
+            clippy::cast_possible_truncation,
+            clippy::cast_sign_loss,
+            reason = "at most the number of pictures"
+        )]
+        let n = (duration / self.every).clamp(0.0, MAX_PICTURES) as usize + 3;
+        self.motion.poses.reserve(n * self.poses.len() * N_POSE);
+        self.motion.times.reserve(n);
+    }
+
+    /// Writes the pictures so far, or reads them back.
+    pub fn walk(&mut self, tape: &mut impl Tape) -> Walked {
+        tape.float(&mut self.next)?;
+        tape.list(&mut self.motion.times, 8, Tape::float)?;
+        tape.list(&mut self.motion.poses, 8, Tape::float)?;
+        holds(self.motion.times.len() * self.poses.len() * N_POSE == self.motion.poses.len())
+    }
+
+    /// Takes a picture where one is due.
+    pub fn offer(&mut self, t: f64, q: &[T], is_last: bool) {
+        if !(t >= self.next || is_last) {
+            return;
+        }
+        let n = self.poses.len() * N_POSE;
+        for pose in &self.poses {
+            let before = self.motion.poses.len().checked_sub(n);
+            let before = before.map(|at| core::array::from_fn(|i| self.motion.poses[at + 3 + i]));
+            let place = pose.place(q);
+            self.motion.poses.extend(place);
+            self.motion.poses.extend(pose.quaternion(q, before));
+        }
+        self.motion.times.push(t);
+        self.next = ((t / self.every + EARLY).floor() + 1.0 - EARLY) * self.every;
+    }
+
+    /// The motion, with the road under its way.
+    pub fn finish(self, scene: &Scene<T>) -> RecordedMotion {
+        let mut motion = self.motion;
+        motion.road = road::under(scene, &motion);
+        motion
+    }
+}
+
+fn body<T: Real>(name: &str, mass: T) -> DrawnBody {
+    DrawnBody { name: name.to_owned(), mass: mass.to_f64() }
+}

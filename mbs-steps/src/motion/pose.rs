@@ -1,0 +1,166 @@
+//! The pose of a body from natural coordinates: three of its directions, made orthogonal, as a quaternion.
+
+use mbs_core::Real;
+use mbs_core::natural::{Affine, NaturalModel};
+use mbs_core::scene::{BodyId, Inertia, Scene};
+
+/// What a pose is read of.
+#[derive(Debug)]
+pub(super) struct BodyPose<T: Real, const D: usize> {
+    center: Affine<T, D>,
+    turn: Turn<T, D>,
+}
+
+/// How a body's turn is read.
+#[derive(Debug)]
+enum Turn<T: Real, const D: usize> {
+    /// It has none: a point.
+    None,
+    /// The images of the global x and y axes of the reference configuration; in the plane of x alone.
+    Axes([Affine<T, D>; 2]),
+    /// A rod that carries no spin: its ends, and its direction in the reference configuration. The smallest turn counts.
+    Line([Affine<T, D>; 2], [f64; 3]),
+}
+
+impl<T: Real, const D: usize> BodyPose<T, D> {
+    pub(super) fn new(scene: &Scene<T>, model: &NaturalModel<T, D>, body: usize) -> Self {
+        let data = &scene.bodies[body];
+        let id = BodyId::Body(body);
+        let unit = |i: usize| core::array::from_fn(|k| if k == i { T::ONE } else { T::ZERO });
+        let turn = match data.inertia {
+            Inertia::Point => Turn::None,
+            Inertia::Rod { from, to } if !model.has_full_rotation(id) => {
+                let along = [0, 1, 2].map(|i| (to[i] - from[i]).to_f64());
+                Turn::Line([from, to].map(|end| model.point(id, end)), unit_of(along))
+            }
+            _ if !model.has_full_rotation(id) => Turn::None,
+            _ => Turn::Axes([0, 1].map(|i| model.direction(id, unit(i)))),
+        };
+        Self { center: model.point(id, data.center), turn }
+    }
+
+    /// Where the centre of mass is [m].
+    pub(super) fn place(&self, q: &[T]) -> [f64; 3] {
+        numbers(&self.center, q)
+    }
+
+    /// The turn since the reference configuration; of its two signs the one nearer to `before`.
+    pub(super) fn quaternion(&self, q: &[T], before: Option<[f64; 4]>) -> [f64; 4] {
+        let turn = match &self.turn {
+            Turn::None => [1.0, 0.0, 0.0, 0.0],
+            Turn::Axes([x, y]) => {
+                // in the plane y follows from x
+                let x = unit_of(numbers(x, q));
+                let y = if D == 2 { [-x[1], x[0], 0.0] } else { numbers(y, q) };
+                let z = unit_of(cross(x, y));
+                of_axes([x, cross(z, x), z])
+            }
+            Turn::Line([from, to], reference) => {
+                let (from, to) = (numbers(from, q), numbers(to, q));
+                smallest(*reference, unit_of([0, 1, 2].map(|i| to[i] - from[i])))
+            }
+        };
+        let is_turned = before.is_some_and(|b| (0..4).map(|i| b[i] * turn[i]).sum::<f64>() < 0.0);
+        if is_turned { turn.map(|x| -x) } else { turn }
+    }
+}
+
+/// A place or direction in three numbers.
+fn numbers<T: Real, const D: usize>(x: &Affine<T, D>, q: &[T]) -> [f64; 3] {
+    let x = x.value(q);
+    core::array::from_fn(|i| if i < D { x[i].to_f64() } else { 0.0 })
+}
+
+pub(super) fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
+    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+}
+
+pub(super) fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
+    (0..3).map(|i| a[i] * b[i]).sum()
+}
+
+/// The direction of a vector; +z where it has none.
+pub(super) fn unit_of(a: [f64; 3]) -> [f64; 3] {
+    let length = dot(a, a).sqrt();
+    if length > 0.0 { a.map(|x| x / length) } else { [0.0, 0.0, 1.0] }
+}
+
+/// Unit axes, of which the first is the first and the second lies in the plane of both.
+pub fn frame([first, second]: [[f64; 3]; 2]) -> [[f64; 3]; 3] {
+    let x = unit_of(first);
+    let along = dot(x, second);
+    let y = unit_of([0, 1, 2].map(|i| second[i] - along * x[i]));
+    [x, y, cross(x, y)]
+}
+
+/// The quaternion of a rotation matrix with these columns, by its largest number.
+pub(super) fn of_axes([x, y, z]: [[f64; 3]; 3]) -> [f64; 4] {
+    let squares = [
+        1.0 + x[0] + y[1] + z[2],
+        1.0 + x[0] - y[1] - z[2],
+        1.0 - x[0] + y[1] - z[2],
+        1.0 - x[0] - y[1] + z[2],
+    ];
+    let largest = (0..4).fold(0, |a, b| if squares[b] > squares[a] { b } else { a });
+    let s = 2.0 * squares[largest].sqrt();
+    let (a, b, c) = ((y[2] - z[1]) / s, (z[0] - x[2]) / s, (x[1] - y[0]) / s);
+    let (d, e, f) = ((x[1] + y[0]) / s, (z[0] + x[2]) / s, (y[2] + z[1]) / s);
+    match largest {
+        0 => [s / 4.0, a, b, c],
+        1 => [a, s / 4.0, d, e],
+        2 => [b, d, s / 4.0, f],
+        _ => [c, e, f, s / 4.0],
+    }
+}
+
+/// The smallest turn that carries one direction to another.
+fn smallest(from: [f64; 3], to: [f64; 3]) -> [f64; 4] {
+    let w = 1.0 + dot(from, to);
+    if w < 1e-12 {
+        // half a turn, about any axis across
+        let other = if from[0].abs() < 0.5 { [1.0, 0.0, 0.0] } else { [0.0, 1.0, 0.0] };
+        let axis = unit_of(cross(from, other));
+        return [0.0, axis[0], axis[1], axis[2]];
+    }
+    let [x, y, z] = cross(from, to);
+    let size = (w * w + x * x + y * y + z * z).sqrt();
+    [w, x, y, z].map(|x| x / size)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Rounding of a few operations [-].
+    const ROUNDING: f64 = 1e-14;
+
+    #[test]
+    fn a_quaternion_of_axes_turns_the_axes_to_themselves() {
+        for q in [
+            [1.0, 0.0, 0.0, 0.0],
+            [0.5, 0.5, -0.5, 0.5],
+            [0.1, 0.7, 0.1, 0.7],
+            [0.0, 0.0, 0.6, 0.8],
+        ] {
+            let size = q.iter().map(|x: &f64| x * x).sum::<f64>().sqrt();
+            let [w, x, y, z] = q.map(|x| x / size);
+            let columns = [
+                [1.0 - 2.0 * (y * y + z * z), 2.0 * (x * y + w * z), 2.0 * (x * z - w * y)],
+                [2.0 * (x * y - w * z), 1.0 - 2.0 * (x * x + z * z), 2.0 * (y * z + w * x)],
+                [2.0 * (x * z + w * y), 2.0 * (y * z - w * x), 1.0 - 2.0 * (x * x + y * y)],
+            ];
+            let found = of_axes(columns);
+            let same = (0..4).map(|i| found[i] * [w, x, y, z][i]).sum::<f64>().abs();
+            assert!((same - 1.0).abs() < ROUNDING, "{found:?}");
+        }
+    }
+
+    #[test]
+    fn the_smallest_turn_has_its_axis_across_both_directions_and_exists_for_half_a_turn() {
+        let [w, x, y, z] = smallest([1.0, 0.0, 0.0], [0.0, 1.0, 0.0]);
+        let root = 0.5_f64.sqrt();
+        assert!((w - root).abs() + x.abs() + y.abs() + (z - root).abs() < ROUNDING);
+        let half = smallest([1.0, 0.0, 0.0], [-1.0, 0.0, 0.0]);
+        assert!(half[0].abs() + half[1].abs() < ROUNDING);
+    }
+}

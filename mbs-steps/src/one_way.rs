@@ -1,0 +1,122 @@
+//! Contacts that roll and would lift off, and ropes that would go slack: their rows hold both ways, and a run notes where they had to.
+
+use crate::checkpoint::tape::{Tape, Walked};
+use crate::simulation::Simulation;
+use mbs_core::Real;
+use mbs_core::natural::NaturalModel;
+use mbs_core::outputs::Reactions;
+use mbs_core::scene::{CouplingKind, CouplingMeasure, CouplingTerm, Scene};
+use mbs_scene::format::{few, significant};
+
+/// Force the wrong way that is noted, relative to the largest of the row so far [-]: more than steps leave of a force.
+const NOTED: f64 = 1e-6;
+/// Acceleration of all masses below whose force a row is at rest [m/s^2]: rounding of a scene without gravity.
+const AT_REST: f64 = 1e-9;
+
+/// What holds both ways.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Row {
+    /// The contact of `scene.rollings` with this number.
+    Contact(usize),
+    /// The rope of `scene.couplings` with this number, and the factor of its length.
+    Rope(usize, f64),
+}
+
+impl Row {
+    /// The contacts that roll and the ropes of a scene.
+    fn all<T: Real>(scene: &Scene<T>) -> Vec<Self> {
+        let rollings = scene.rollings.iter().enumerate();
+        let contacts = rollings.filter(|(_, rolling)| rolling.kind.radius().is_some());
+        let ropes = scene.couplings.iter().enumerate().filter_map(|(i, coupling)| {
+            let is_length =
+                |term: &&CouplingTerm<T>| matches!(term.of, CouplingMeasure::Length { .. });
+            let length = coupling.terms.iter().find(is_length)?;
+            (coupling.kind == CouplingKind::Rope).then(|| Self::Rope(i, length.factor.to_f64()))
+        });
+        contacts.map(|(i, _)| Self::Contact(i)).chain(ropes).collect()
+    }
+
+    /// The force with which it holds the wrong way [N]: a contact's pull, a rope's push.
+    fn force<T: Real, const D: usize>(self, reactions: &Reactions<T, D>) -> f64 {
+        match self {
+            Self::Contact(rolling) => -reactions.rolling_push(rolling).to_f64(),
+            Self::Rope(coupling, factor) => factor * reactions.effort(coupling).to_f64(),
+        }
+    }
+}
+
+/// A row that is watched.
+#[derive(Debug, Clone)]
+struct Held {
+    row: Row,
+    /// When it held the wrong way first [s].
+    first: Option<f64>,
+    /// Largest force the wrong way, and largest either way [N].
+    most: f64,
+    largest: f64,
+}
+
+/// Watches the rows of a run that stand for what holds one way.
+#[derive(Debug, Clone)]
+pub struct OneWayWatch<T: Real, const D: usize> {
+    all: Vec<Held>,
+    /// `None`: there are none, or more forces than reactions are made for.
+    reactions: Option<Reactions<T, D>>,
+    /// Force below which a row is at rest [N].
+    rest: f64,
+}
+
+impl<T: Real, const D: usize> OneWayWatch<T, D> {
+    /// Prepares the rows of a scene; without any, nothing is ever measured.
+    pub fn new(scene: &Scene<T>, model: &NaturalModel<T, D>) -> Self {
+        let held = |row| Held { row, first: None, most: 0.0, largest: 0.0 };
+        let all: Vec<_> = Row::all(scene).into_iter().map(held).collect();
+        let reactions = if all.is_empty() { None } else { Reactions::new(scene, model).ok() };
+        let mass: f64 = scene.bodies.iter().map(|body| body.mass.to_f64()).sum();
+        Self { all, reactions, rest: mass * AT_REST }
+    }
+
+    /// Takes a state: that of the start, and that at the end of each step.
+    ///
+    /// Cost: without such rows a comparison; with them all reactions. No allocation.
+    pub fn watch(&mut self, simulation: &Simulation<T, D>) {
+        let Self { all, reactions: Some(reactions), rest } = self else { return };
+        let state = simulation.state();
+        reactions.update(state);
+        for held in all {
+            let force = held.row.force(reactions);
+            held.largest = held.largest.max(force.abs());
+            if force > (NOTED * held.largest).max(*rest) {
+                held.first.get_or_insert(state.t.to_f64());
+                held.most = held.most.max(force);
+            }
+        }
+    }
+
+    /// Writes what is remembered, or reads it back; nothing where nothing rolls and no rope runs.
+    pub fn walk(&mut self, tape: &mut impl Tape) -> Walked {
+        self.all.iter_mut().try_for_each(|held| {
+            tape.option(&mut held.first, Tape::float)?;
+            tape.float(&mut held.most)?;
+            tape.float(&mut held.largest)
+        })
+    }
+
+    /// What a run notes: each row once, with the first time and its largest force the wrong way.
+    pub fn notes(&self, scene: &Scene<T>) -> Vec<String> {
+        let note = |held: &Held| {
+            let (t, most) = (significant(held.first?), few(held.most));
+            Some(match held.row {
+                Row::Contact(i) => format!(
+                    "`{}` pulls on its plane at t = {t} s, by up to {most} N: what may lift off is a `tire`",
+                    scene.rollings[i].name
+                ),
+                Row::Rope(i, _) => format!(
+                    "the rope `{}` pushes at t = {t} s, by up to {most} N: what may go slack is a `spring-damper` with `pulls_only = true`",
+                    scene.couplings[i].name
+                ),
+            })
+        };
+        self.all.iter().filter_map(note).collect()
+    }
+}

@@ -1,0 +1,202 @@
+//! The one place where a precision becomes a scalar: a scene, read in the digits of its run, and the work that is done with it.
+//!
+//! Every step exists once for each scalar and dimension that is named here. `f32` and `dd` are features of this crate, on by default: a
+//! build without them compiles half as much, and refuses what asks for them by [`PrecisionError::NotBuilt`].
+
+use crate::choice::Precision;
+use core::fmt::{self, Display, Formatter};
+use mbs_core::Real;
+#[cfg(feature = "dd")]
+use mbs_core::real::DoubleDouble;
+use mbs_core::scene::{Dimension, Scene};
+use mbs_scene::{ReadError, SceneFile};
+use std::borrow::Cow;
+
+/// What is done with a scene in the digits and the dimensions of its run.
+pub trait SceneWork {
+    /// What comes of it.
+    type Done;
+
+    /// Does it.
+    fn done<T: Real, const D: usize>(self, scene: &Scene<T>) -> Self::Done;
+}
+
+/// What has a scene in every precision.
+pub trait Source {
+    /// Why it has none in one.
+    type Error: From<PrecisionError>;
+
+    /// The scene in the precision `T`.
+    #[cfg_attr(
+        not(any(feature = "f32", feature = "dd")),
+        allow(dead_code, reason = "a build in f64 alone has its scene")
+    )]
+    fn scene_in<T: Real>(&self) -> Result<Scene<T>, Self::Error>;
+}
+
+impl Source for SceneFile {
+    type Error = PrecisionError;
+
+    fn scene_in<T: Real>(&self) -> Result<Scene<T>, PrecisionError> {
+        Ok(self.scene()?)
+    }
+}
+
+/// A scene in one precision.
+#[derive(Debug)]
+pub enum ReadScene<'a> {
+    /// Double precision.
+    F64(Box<Cow<'a, Scene<f64>>>),
+    /// Single precision.
+    #[cfg(feature = "f32")]
+    F32(Box<Scene<f32>>),
+    /// Pairs of doubles.
+    #[cfg(feature = "dd")]
+    DoubleDouble(Box<Scene<DoubleDouble>>),
+}
+
+impl<'a> ReadScene<'a> {
+    /// The scene as it was read in `f64`, or read anew from its document in another precision.
+    ///
+    /// # Errors
+    /// [`PrecisionError`] where it is not built, or the text is no scene in it.
+    pub fn new(
+        (document, scene): (&SceneFile, &'a Scene<f64>),
+        precision: Precision,
+    ) -> Result<Self, PrecisionError> {
+        Self::of(document, Cow::Borrowed(scene), precision)
+    }
+
+    /// The same of any source that has the scene in `f64`.
+    ///
+    /// # Errors
+    /// Those of the source, and a precision that is not built.
+    pub fn of<S: Source>(
+        source: &S,
+        scene: Cow<'a, Scene<f64>>,
+        precision: Precision,
+    ) -> Result<Self, S::Error> {
+        let _ = source;
+        match precision {
+            Precision::F64 => Ok(Self::F64(Box::new(scene))),
+            #[cfg(feature = "f32")]
+            Precision::F32 => Ok(Self::F32(Box::new(source.scene_in()?))),
+            #[cfg(feature = "dd")]
+            Precision::DoubleDouble => Ok(Self::DoubleDouble(Box::new(source.scene_in()?))),
+            #[cfg(not(all(feature = "f32", feature = "dd")))]
+            missing => Err(PrecisionError::NotBuilt(missing).into()),
+        }
+    }
+
+    /// The same for as long as one likes.
+    pub fn into_owned(self) -> ReadScene<'static> {
+        match self {
+            Self::F64(scene) => ReadScene::F64(Box::new(Cow::Owned(scene.into_owned()))),
+            #[cfg(feature = "f32")]
+            Self::F32(scene) => ReadScene::F32(scene),
+            #[cfg(feature = "dd")]
+            Self::DoubleDouble(scene) => ReadScene::DoubleDouble(scene),
+        }
+    }
+
+    /// Does the work in the scene's precision and dimension.
+    pub fn work<W: SceneWork>(&self, work: W) -> W::Done {
+        match self {
+            Self::F64(scene) => in_space(&***scene, work),
+            #[cfg(feature = "f32")]
+            Self::F32(scene) => in_space(&**scene, work),
+            #[cfg(feature = "dd")]
+            Self::DoubleDouble(scene) => in_space(&**scene, work),
+        }
+    }
+
+    /// Does the work in a number of the hardware; nothing in pairs of doubles, for which such work is not compiled.
+    pub fn work_in_hardware<W: SceneWork>(&self, work: W) -> Option<W::Done> {
+        match self {
+            Self::F64(scene) => Some(in_space(&***scene, work)),
+            #[cfg(feature = "f32")]
+            Self::F32(scene) => Some(in_space(&**scene, work)),
+            #[cfg(feature = "dd")]
+            Self::DoubleDouble(_) => None,
+        }
+    }
+}
+
+/// Does the work in the dimension of the scene.
+pub fn in_space<T: Real, W: SceneWork>(scene: &Scene<T>, work: W) -> W::Done {
+    match scene.dimension {
+        Dimension::Planar => work.done::<T, 2>(scene),
+        Dimension::Spatial => work.done::<T, 3>(scene),
+    }
+}
+
+/// Does this scalar have more digits than `f64`?
+pub fn is_finer<T: Real>() -> bool {
+    T::EPSILON.to_f64() < f64::EPSILON
+}
+
+impl Precision {
+    /// Whether this build has the steps of this precision: `f32` and `dd` are features of the crate, on by default.
+    #[must_use]
+    pub const fn is_built(self) -> bool {
+        match self {
+            Self::F32 => cfg!(feature = "f32"),
+            Self::F64 => true,
+            Self::DoubleDouble => cfg!(feature = "dd"),
+        }
+    }
+}
+
+/// A scene cannot be had in the precision of its run.
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub enum PrecisionError {
+    /// The text is no scene in that precision, though it is one in `f64`.
+    Read(Box<ReadError>),
+    /// The build has no steps of that precision.
+    NotBuilt(Precision),
+}
+
+impl PrecisionError {
+    /// The refusal with its place or its hint.
+    #[must_use]
+    pub fn render(&self) -> String {
+        match self {
+            Self::Read(error) => error.render(),
+            Self::NotBuilt(_) => format!("error: {self}\nhint: {}", self.hint()),
+        }
+    }
+
+    /// What to do about it.
+    #[must_use]
+    pub fn hint(&self) -> String {
+        match self {
+            Self::Read(error) => error.hint(),
+            Self::NotBuilt(precision) => not_built_hint(*precision),
+        }
+    }
+}
+
+/// How to get a precision that was left out.
+pub fn not_built_hint(precision: Precision) -> String {
+    format!("build with the feature `{}`, which is on by default", precision.name())
+}
+
+impl From<ReadError> for PrecisionError {
+    fn from(error: ReadError) -> Self {
+        Self::Read(Box::new(error))
+    }
+}
+
+impl Display for PrecisionError {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Read(error) => error.fmt(f),
+            Self::NotBuilt(precision) => {
+                write!(f, "this build has no precision `{}`", precision.name())
+            }
+        }
+    }
+}
+
+impl core::error::Error for PrecisionError {}

@@ -1,0 +1,59 @@
+//! A scene as it is at rest, and what is left out of it.
+
+use mbs_core::Real;
+use mbs_core::inputs::{GuideInput, SignalGraph};
+use mbs_core::scene::{InitialTarget, Motion, Scene};
+use serde_json::{Value, json};
+
+/// What an analysis at rest leaves out of a scene.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct LeftOut {
+    /// Name of the effect.
+    pub effect: String,
+    /// The part of it.
+    pub part: &'static str,
+}
+
+/// A scene as it is at rest at its start: guides hold their values, no velocity is asked for, and what only motion makes is left out.
+/// That is dry friction, drives, and what a tire does when it rolls. Viscous friction stays: it damps small motions. Drag does not, as
+/// it grows with the square of the speed.
+pub fn at_rest<T: Real>(scene: &Scene<T>) -> Scene<T> {
+    let mut still = scene.clone();
+    for effect in &mut still.effects {
+        effect.enabled &= effect.kind.rest(&mut |_| {});
+    }
+    let signals = SignalGraph::new(&scene.signals).values(T::ZERO);
+    for guide in &mut still.guides {
+        let [value, ..] = GuideInput::new(&guide.law).at(T::ZERO, &signals);
+        guide.law = Motion::Input([value, T::ZERO, T::ZERO]);
+    }
+    without_rates(still)
+}
+
+/// A scene whose start asks for no velocity: those of a start need not fit to where a search for an equilibrium begins.
+pub fn without_rates<T: Real>(mut scene: Scene<T>) -> Scene<T> {
+    for initial in &mut scene.initials {
+        match &mut initial.target {
+            InitialTarget::Joint { rate, .. } => *rate = None,
+            InitialTarget::Body { velocity, angular_velocity, .. } => {
+                (*velocity, *angular_velocity) = (None, None);
+            }
+        }
+    }
+    scene
+}
+
+/// What [`at_rest`] leaves out that could act at rest, or on small motions about it.
+pub fn left_out<T: Real>(scene: &Scene<T>) -> Vec<LeftOut> {
+    let mut all = Vec::new();
+    for effect in scene.effects.iter().filter(|effect| effect.enabled) {
+        let mut leave = |part| all.push(LeftOut { effect: effect.name.clone(), part });
+        effect.kind.clone().rest(&mut leave);
+    }
+    all
+}
+
+/// As it stands in JSON.
+pub fn left_out_json(left_out: &[LeftOut]) -> Value {
+    left_out.iter().map(|l| json!({ "effect": l.effect, "part": l.part })).collect()
+}

@@ -1,0 +1,245 @@
+//! A whole run: from a scene to its summary, rows and page.
+
+mod checkpoint;
+mod clock;
+mod outcome;
+mod paced;
+mod record;
+mod summary;
+
+pub use paced::{PacedLevel, PacedSchedule, paced};
+
+use crate::checkpoint::{Checkpoint, CheckpointError, CheckpointWriter, Identity};
+use crate::driver::{StepObserver, Stretch, drive, multiple};
+use crate::names::Names;
+use crate::record::{Channel, ControlSummary, Outputs, RunRecord, RunSummary};
+use crate::recorder::RecordRows;
+use crate::settings::length::SAME_LENGTH;
+use crate::settings::{Lengths, ResolvedMethod};
+use crate::simulation::Simulation;
+use crate::stop::StopError;
+use crate::words::{few_threads, notes, stop_text, summary_rows};
+use core::time::Duration;
+use mbs_core::once::found;
+use mbs_core::scene::Scene;
+use mbs_core::{Real, instances};
+pub use record::Columns;
+use record::{Record, RunCheckpoints};
+use summary::{contact, energy_summary, method_used, not_started, plain_summary};
+
+pub use outcome::Outcome;
+
+/// Runs a checked scene to its end, or to where it stops, before an observer; `&mut ()` is none.
+pub fn run<T: Real, const D: usize>(
+    scene: &Scene<T>,
+    settings: &ResolvedMethod,
+    observer: &mut dyn StepObserver<T, D>,
+) -> Outcome {
+    run_keeping(scene, settings, observer, RecordRows::All)
+}
+
+/// [`run`], with all rows and pictures, or with the last row and no picture.
+pub fn run_keeping<T: Real, const D: usize>(
+    scene: &Scene<T>,
+    settings: &ResolvedMethod,
+    observer: &mut dyn StepObserver<T, D>,
+    keep: RecordRows,
+) -> Outcome {
+    if T::HAS_INSTANCES {
+        return found::<RunKeeping<T, D>>(RUN_KEEPING)(scene, settings, observer, keep);
+    }
+    run_here(scene, settings, observer, keep)
+}
+
+type RunKeeping<T, const D: usize> =
+    fn(&Scene<T>, &ResolvedMethod, &mut dyn StepObserver<T, D>, RecordRows) -> Outcome;
+instances!(RUN_KEEPING: RunKeeping<T, D> = run_here::<T, D>);
+
+fn run_here<T: Real, const D: usize>(
+    scene: &Scene<T>,
+    settings: &ResolvedMethod,
+    observer: &mut dyn StepObserver<T, D>,
+    keep: RecordRows,
+) -> Outcome {
+    match Run::<T, D>::begin(scene, settings, (keep, None)) {
+        Ok(run) => run.complete(observer),
+        Err(outcome) => *outcome,
+    }
+}
+
+/// [`run`], with more columns.
+pub fn run_columns<T: Real, const D: usize>(
+    scene: &Scene<T>,
+    settings: &ResolvedMethod,
+    observer: &mut dyn StepObserver<T, D>,
+    columns: &mut dyn Columns<T, D>,
+) -> Outcome {
+    match Run::<T, D>::begin(scene, settings, (RecordRows::All, Some(columns))) {
+        Ok(run) => run.complete(observer),
+        Err(outcome) => *outcome,
+    }
+}
+
+/// [`run`], from a checkpoint if there is one, and kept while it goes if it is to be.
+///
+/// # Errors
+/// [`CheckpointError`] for a checkpoint of something else.
+pub fn run_kept<T: Real, const D: usize>(
+    scene: &Scene<T>,
+    settings: &ResolvedMethod,
+    observer: &mut dyn StepObserver<T, D>,
+    (from, writer): (Option<&Checkpoint>, Option<&mut CheckpointWriter>),
+) -> Result<Outcome, CheckpointError> {
+    let identity = Identity::new(scene, settings);
+    let mut run = match Run::<T, D>::begin(scene, settings, (RecordRows::All, None)) {
+        Ok(run) => run,
+        Err(outcome) => return Ok(*outcome),
+    };
+    if let Some(checkpoint) = from {
+        run.resume(checkpoint, &identity)?;
+    }
+    run.record.checkpoints = writer.map(|writer| RunCheckpoints { writer, identity });
+    let Run { simulation, record } = &mut run;
+    record.keep(simulation, record.done);
+    Ok(run.complete(observer))
+}
+
+/// Step `k` of a run, from 1: of fixed length, or an interval over which lengths are controlled. The last one ends with the run.
+pub fn step<T: Real>(settings: &ResolvedMethod, lengths: &Lengths<T>, k: u64) -> Stretch<T> {
+    let (h, end) = (settings.step_max, settings.duration);
+    let &Lengths { step_max, duration, .. } = lengths;
+    let at = |k| multiple((T::ZERO, 0.0), k, (step_max, h));
+    let is_last = k == settings.n_steps();
+    #[allow(clippy::cast_precision_loss, reason = "step counts stay far below 2^53")]
+    let (before, count) = ((k - 1) as f64 * h, k as f64);
+    let is_full = !is_last || (end - before - h).abs() <= SAME_LENGTH * h * count;
+    let dt = if is_full { step_max } else { duration - at(k - 1) };
+    let to = if is_last { duration } else { at(k) };
+    Stretch { is_last, ..Stretch::to(to).in_one(Some(dt)) }
+}
+
+/// A simulation and what is recorded of it.
+struct Run<'a, T: Real, const D: usize> {
+    simulation: Simulation<T, D>,
+    record: Record<'a, T, D>,
+}
+
+impl<'a, T: Real, const D: usize> Run<'a, T, D> {
+    /// Builds everything and takes the first row; else the outcome of a run that does not start.
+    fn begin(
+        scene: &'a Scene<T>,
+        settings: &'a ResolvedMethod,
+        (keep, columns): (RecordRows, Option<&'a mut dyn Columns<T, D>>),
+    ) -> Result<Self, Box<Outcome>> {
+        let mut channels = Channel::of_scene(scene);
+        channels.extend(columns.iter().flat_map(|columns| columns.channels()));
+        let mut run = Self::new(scene, settings, channels, (settings.n_steps(), keep))?;
+        run.record.others = columns;
+        run.started()
+    }
+
+    /// Everything that a run needs, for rows after steps or intervals; else how it did not start.
+    fn new(
+        scene: &'a Scene<T>,
+        settings: &'a ResolvedMethod,
+        channels: Vec<Channel>,
+        rows: (u64, RecordRows),
+    ) -> Result<Self, Box<Outcome>> {
+        let simulation = Simulation::<T, D>::new(scene, settings);
+        let started = simulation.and_then(|simulation| {
+            let record = Record::new((scene, settings), &simulation, channels.clone(), rows)?;
+            Ok(Self { simulation, record })
+        });
+        started.map_err(|error| Box::new(not_started(scene, settings, &channels, error)))
+    }
+
+    /// The run with its first row; else the outcome of one that does not start.
+    fn started(mut self) -> Result<Self, Box<Outcome>> {
+        match self.record.start(&self.simulation) {
+            Ok(()) => Ok(self),
+            Err(error) => {
+                let Record { scene, settings, recorder, .. } = &self.record;
+                Err(Box::new(not_started(scene, settings, &recorder.channels, error)))
+            }
+        }
+    }
+
+    /// All steps that are left, to the end or to where the run stops.
+    fn complete(mut self, observer: &mut dyn StepObserver<T, D>) -> Outcome {
+        let Self { simulation, record } = &mut self;
+        let (settings, lengths, done) = (record.settings, record.lengths, record.done);
+        let end = lengths.duration;
+        let is_controlled = simulation.is_controlled();
+        let whole = is_controlled.then(|| Stretch { is_last: true, ..Stretch::to(end) });
+        let n = if is_controlled { 0 } else { settings.n_steps() };
+        let stretches = (done + 1..=n).map(|k| step(settings, &lengths, k)).chain(whole);
+        record.begin();
+        let mut both = (&mut *record, observer);
+        let error = drive(simulation, stretches, &settings.interrupt, &mut both).err();
+        let cpu = self.record.cpu();
+        self.finish(cpu, error)
+    }
+
+    fn finish(self, cpu: Duration, error: Option<StopError>) -> Outcome {
+        let Self { simulation, record: run } = self;
+        let end_time = run.reached;
+        let cpu_seconds = cpu.as_secs_f64();
+        let [coordinates, constraints, constraint_rank] = simulation.sizes();
+        let settings = run.settings;
+        let index_changes = simulation.index().map_or(0, |(_, changes)| u64::from(changes));
+        let control =
+            ControlSummary { rule: settings.rule.name(), index_changes, ..run.counts.control };
+        let summary = RunSummary {
+            method_used: method_used(settings, &run.counts, end_time),
+            steps: run.counts.steps,
+            completed: error.is_none(),
+            error: error.as_ref().map(|e| e.report(end_time, &Names::new(run.scene))),
+            end_time,
+            cpu_seconds,
+            real_time_factor: if cpu_seconds > 0.0 { end_time / cpu_seconds } else { 0.0 },
+            worst_step_seconds: run.counts.worst.as_secs_f64(),
+            iterations: run.counts.iterations,
+            factorizations: run.counts.factorizations,
+            energy: energy_summary(simulation.invariant()),
+            control: simulation.is_controlled().then(|| control.clone()),
+            violation: run.recorder.violation_summary(),
+            realtime: run.realtime,
+            outputs: Outputs(run.recorder.last()),
+            channels: run.recorder.summaries(),
+            digits: run.recorder.last_long().map(Outputs),
+            coordinates,
+            constraints,
+            constraint_rank,
+            dof: coordinates - constraint_rank,
+            not_unique: run.measures.not_unique(run.scene),
+            contacts: run.contacts.instants().iter().map(|i| contact(run.scene, i)).collect(),
+            contacts_left_out: run.contacts.left_out(),
+            ..plain_summary(run.scene, settings)
+        };
+        let steps = run.recorder.step_series(0, control);
+        let motion = run.motion.finish(run.scene);
+        let start = (simulation.start.change.to_f64(), motion.most_moved(run.scene));
+        let mut notes = notes(run.scene, settings, &summary, start);
+        notes.extend([run.limits.notes(run.scene), run.one_way.notes(run.scene)].concat());
+        notes.extend(few_threads(settings.threads, simulation.threads()));
+        let record = RunRecord {
+            scene: run.scene.name.clone(),
+            channels: run.recorder.series(),
+            motion: Some(motion),
+            energy: Some(run.recorder.energy()),
+            violation: Some(run.recorder.violation()),
+            iterations: Some(run.recorder.iterations()),
+            steps: simulation.is_controlled().then(|| steps.clone()),
+            summary: summary_rows(&summary),
+            notes,
+            error: summary.error.as_ref().map(stop_text),
+            choice: settings.choice.as_ref().map(|choice| choice.table()).unwrap_or_default(),
+            ..RunRecord::default()
+        };
+        let long_table = run.recorder.long_table().collect();
+        let table = run.recorder.table().map(|(t, row)| (t, row.to_vec())).collect();
+        let channels = run.recorder.channels.clone();
+        let ranges = run.recorder.ranges().to_vec();
+        Outcome { summary, error, record, channels, table, long_table, ranges, steps }
+    }
+}

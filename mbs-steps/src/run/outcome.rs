@@ -1,0 +1,103 @@
+//! What a run gives: its summary, and what its files are made of.
+
+use crate::checkpoint::{Head, write_rows};
+use crate::record::{Channel, ErrorEstimate, Provenance, RunRecord, RunSummary, StepSeries};
+use crate::stop::StopError;
+use crate::words::summary_rows;
+use mbs_core::real::DoubleDouble;
+use std::io;
+
+/// What a run gives.
+#[derive(Debug)]
+pub struct Outcome {
+    /// The JSON object.
+    pub summary: RunSummary,
+    /// Why it stopped early.
+    pub error: Option<StopError>,
+    pub(super) record: RunRecord,
+    pub(super) channels: Vec<Channel>,
+    pub(super) table: Vec<(f64, Vec<f64>)>,
+    /// The same numbers with all their digits, where there are more than those of `f64`.
+    pub(super) long_table: Vec<Vec<DoubleDouble>>,
+    pub(super) ranges: Vec<[f64; 2]>,
+    pub(super) steps: StepSeries,
+}
+
+impl Outcome {
+    /// Writes the rows as CSV.
+    ///
+    /// # Errors
+    /// Those of the sink.
+    pub fn write_csv(&self, sink: impl io::Write) -> io::Result<()> {
+        let table = self.table.iter().map(|(t, row)| (*t, &row[..]));
+        write_rows((sink, &self.channels), Head::Names, table, self.long_table.iter().cloned())
+    }
+
+    /// The same with the units as the second line.
+    ///
+    /// # Errors
+    /// Those of the sink.
+    pub fn write_csv_with_units(&self, sink: impl io::Write) -> io::Result<()> {
+        let table = self.table.iter().map(|(t, row)| (*t, &row[..]));
+        write_rows((sink, &self.channels), Head::Units, table, self.long_table.iter().cloned())
+    }
+
+    /// Writes the steps as CSV: their lengths, and what came of them.
+    ///
+    /// # Errors
+    /// Those of the sink.
+    pub fn write_steps(&self, sink: impl io::Write) -> io::Result<()> {
+        crate::record::write_steps(sink, &self.steps)
+    }
+
+    /// The steps of the rows.
+    #[must_use]
+    pub fn steps(&self) -> &StepSeries {
+        &self.steps
+    }
+
+    /// What a page of the run shows, with how the run was made.
+    #[must_use]
+    pub fn record(&self, provenance: Provenance) -> RunRecord {
+        RunRecord { provenance, ..self.record.clone() }
+    }
+
+    /// The rows: time and all components of all channels.
+    #[must_use]
+    pub fn rows(&self) -> &[(f64, Vec<f64>)] {
+        &self.table
+    }
+
+    /// Names and units of the components of the rows, as the columns of `run.csv` have them.
+    #[must_use]
+    pub fn columns(&self) -> [Vec<String>; 2] {
+        let components = self.channels.iter().flat_map(|channel| &channel.components);
+        let units = components.map(|component| component.unit.to_string()).collect();
+        [self.channels.iter().flat_map(Channel::columns).collect(), units]
+    }
+
+    /// The channels of the rows.
+    pub fn channels(&self) -> &[Channel] {
+        &self.channels
+    }
+
+    /// Takes an estimate of the errors; warnings become notes.
+    #[doc(hidden)]
+    pub fn take_estimate(&mut self, estimate: ErrorEstimate) {
+        self.record.notes.extend(estimate.warnings.iter().cloned());
+        self.summary.estimate = Some(estimate);
+        self.record.summary = summary_rows(&self.summary);
+    }
+
+    /// Least and largest value of each component of each channel, over the rows; empty when the run did not start.
+    #[must_use]
+    pub fn ranges(&self) -> &[[f64; 2]] {
+        &self.ranges
+    }
+
+    /// What the user should know.
+    #[must_use]
+    pub fn notes(&self) -> &[String] {
+        &self.record.notes
+    }
+}

@@ -1,0 +1,262 @@
+//! A run that keeps up with a clock: each task simulates one period, at a level of a ladder.
+//!
+//! Everything is built before the loop begins. The run's own simulation is level 0. A level without some effects has a simulation
+//! of its own, which takes the state over when the level changes, and shows it to the run's after each step. Outputs are measured
+//! there. The state, the clock of the simulation and the rows are those of simulated time, whatever the clock of the loop does.
+
+use super::record::Record;
+use super::{Outcome, Run};
+use crate::driver::{Fixed, Plant, StepObserver, Stretch, drive, multiple};
+use crate::interrupt::Interrupt;
+use crate::realtime::summary;
+use crate::record::{Channel, Degraded};
+use crate::recorder::RecordRows;
+use crate::settings::ResolvedMethod;
+use crate::settings::length::SAME_LENGTH;
+use crate::simulation::Simulation;
+use crate::stop::StopError;
+use core::ops::ControlFlow;
+use core::time::Duration;
+use mbs_core::Real;
+use mbs_core::control::Accepted;
+use mbs_core::formulation::SwitchError;
+use mbs_core::outputs::Forces;
+use mbs_core::scene::Scene;
+use mbs_core::step::StepError;
+use mbs_realtime::{Clock, Pacer, Task, Work};
+use mbs_scene::Component;
+
+/// The column that says at which level a row was simulated.
+const LEVEL: &str = "realtime-level";
+
+/// How simulated time is cut.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PacedSchedule<T> {
+    /// Length of a period in the precision of the run and in `f64` [s].
+    pub period: (T, f64),
+    /// Periods, the last of which may be shorter.
+    pub periods: u64,
+    /// Steps of a period at level 0; `None`: their lengths are controlled.
+    pub steps: Option<u32>,
+    /// Is the level a column?
+    pub has_level: bool,
+}
+
+/// A level of the ladder.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct PacedLevel {
+    /// Halvings of the number of steps of a period.
+    pub halvings: u32,
+    /// Effects that are off.
+    pub off: Vec<usize>,
+    /// What was measured of it.
+    pub measured: Degraded,
+}
+
+impl PacedLevel {
+    /// Steps of a period.
+    pub fn steps(&self, of: u32) -> u32 {
+        of.div_ceil(1 << self.halvings.min(30)).max(1)
+    }
+
+    /// The scene of this level.
+    pub fn scene<T: Real>(&self, scene: &Scene<T>) -> Scene<T> {
+        let mut scene = scene.clone();
+        for &effect in &self.off {
+            scene.effects[effect].enabled = false;
+        }
+        scene
+    }
+}
+
+/// Runs a scene at the pace of a clock; `rungs` are the levels, the first that of everything.
+///
+/// # Errors
+/// [`SwitchError`] where a level cannot take the state over, with the effect that it was the last to leave out.
+pub fn paced<T: Real, const D: usize>(
+    scene: &Scene<T>,
+    settings: &ResolvedMethod,
+    track: &PacedSchedule<T>,
+    (pacer, rungs): (&mut Pacer, &[PacedLevel]),
+    clock: &mut impl Clock,
+) -> Result<Outcome, (usize, SwitchError)> {
+    let mut channels = Channel::of_scene(scene);
+    if track.has_level {
+        let one = Component { label: String::new(), unit: "level".to_owned() };
+        channels.push(Channel { name: LEVEL.to_owned(), quantity: "level", components: vec![one] });
+    }
+    let mut run =
+        match Run::<T, D>::new(scene, settings, channels, (track.periods, RecordRows::All)) {
+            Ok(run) => run,
+            Err(outcome) => return Ok(*outcome),
+        };
+    run.record.level = track.has_level.then_some(0.0);
+    run.record.periods = Some(track.periods);
+    let levels: Result<Vec<_>, _> =
+        rungs.iter().map(|rung| Level::new(&run, rung, track.steps)).collect();
+    let levels = match levels {
+        Ok(levels) => levels,
+        Err(Unready::Refused(refusal)) => return Err(refusal),
+        Err(Unready::Stopped(error)) => return Ok(run.finish(Duration::ZERO, Some(*error))),
+    };
+    run.record.recorder.reserve(track.periods);
+    run.record.motion.reserve(settings.duration);
+    let Run { simulation, record } = match run.started() {
+        Ok(run) => run,
+        Err(outcome) => return Ok(*outcome),
+    };
+    let ladder = Ladder { simulation, levels, at: 0 };
+    let mut paced = Paced { ladder, record, track: *track };
+    let error = pacer.run(track.periods, clock, &mut paced).err();
+    let report = pacer.report();
+    let Paced { ladder: Ladder { simulation, .. }, mut record, .. } = paced;
+    record.realtime = Some(summary(pacer, track, rungs));
+    Ok(Run { simulation, record }.finish(report.busy, error))
+}
+
+/// Why a level is not there.
+enum Unready {
+    /// It cannot take the state over; the effect that was last left out.
+    Refused((usize, SwitchError)),
+    /// It does not start.
+    Stopped(Box<StopError>),
+}
+
+impl From<StopError> for Unready {
+    fn from(error: StopError) -> Self {
+        Self::Stopped(Box::new(error))
+    }
+}
+
+/// What a level steps, where it is not the run's own simulation.
+struct Level<T: Real, const D: usize> {
+    simulation: Option<Box<Simulation<T, D>>>,
+    /// Of its effects; while it runs, those of the full scene.
+    forces: Option<Forces<T, D>>,
+    /// Steps of a period, where their lengths are fixed.
+    steps: Option<u32>,
+}
+
+impl<T: Real, const D: usize> Level<T, D> {
+    /// Builds what a level needs beside the run.
+    fn new(run: &Run<'_, T, D>, rung: &PacedLevel, steps: Option<u32>) -> Result<Self, Unready> {
+        let steps = steps.map(|steps| rung.steps(steps));
+        let Some(&last) = rung.off.last() else {
+            return Ok(Self { simulation: None, forces: None, steps });
+        };
+        let scene = rung.scene(run.record.scene);
+        let simulation = Simulation::new(&scene, run.record.settings)?;
+        let taken = simulation.takes_over(&run.simulation);
+        taken.map_err(|refusal| Unready::Refused((last, refusal)))?;
+        let forces = Forces::new(&scene, run.simulation.model()).map_err(StopError::Reaction)?;
+        Ok(Self { simulation: Some(Box::new(simulation)), forces: Some(forces), steps })
+    }
+}
+
+/// The run's own simulation, and those of the levels that take turns with it.
+struct Ladder<T: Real, const D: usize> {
+    simulation: Simulation<T, D>,
+    levels: Vec<Level<T, D>>,
+    /// The level that steps.
+    at: usize,
+}
+
+impl<T: Real, const D: usize> Plant<T, D> for Ladder<T, D> {
+    fn stepped(&mut self) -> &mut Simulation<T, D> {
+        self.levels[self.at].simulation.as_deref_mut().unwrap_or(&mut self.simulation)
+    }
+
+    fn shown(&self) -> &Simulation<T, D> {
+        &self.simulation
+    }
+
+    fn advance(&mut self, rest: T) -> Result<Accepted<T>, StepError> {
+        let accepted = self.stepped().advance(rest)?;
+        if let Some(simulation) = &self.levels[self.at].simulation {
+            self.simulation.show(simulation);
+        }
+        Ok(accepted)
+    }
+
+    fn set_time(&mut self, t: T) {
+        self.stepped().set_time(t);
+        self.simulation.set_time(t);
+    }
+}
+
+impl<T: Real, const D: usize> Ladder<T, D> {
+    /// Continues at another level. No allocation.
+    fn change(&mut self, to: usize, record: &mut Record<'_, T, D>) -> Result<(), StopError> {
+        let Self { simulation: own, levels, at } = self;
+        let from = core::mem::replace(at, to);
+        let was_own = levels[from].simulation.is_none();
+        if !was_own {
+            record.measures.exchange(&mut levels[from].forces);
+        }
+        let level = &mut levels[to];
+        match &mut level.simulation {
+            Some(simulation) => {
+                record.measures.exchange(&mut level.forces);
+                simulation.take_over(own).map_err(|error| simulation.explain(error))
+            }
+            None if was_own => Ok(()),
+            None => own.resume().map_err(|error| own.explain(error)),
+        }
+    }
+}
+
+/// A run in the hands of a pacer.
+struct Paced<'a, T: Real, const D: usize> {
+    ladder: Ladder<T, D>,
+    record: Record<'a, T, D>,
+    track: PacedSchedule<T>,
+}
+
+impl<T: Real, const D: usize> Work for Paced<'_, T, D> {
+    type Error = StopError;
+
+    fn step(&mut self, task: Task) -> Result<ControlFlow<()>, StopError> {
+        let Self { ladder, record, .. } = self;
+        if task.level != ladder.at
+            && let Err(stop) = ladder.change(task.level, record)
+        {
+            record.end(&ladder.simulation, Some(&stop));
+            return Err(stop);
+        }
+        #[allow(clippy::cast_precision_loss, reason = "there are few levels")]
+        let level = task.level as f64;
+        record.level = record.level.map(|lowest| lowest.max(level));
+        let stretch = self.period(task.index + 1);
+        self.record.begin_step();
+        let never = Interrupt::default();
+        drive(&mut self.ladder, [stretch], &never, &mut self.record)?;
+        let is_last = task.index + 1 == self.track.periods;
+        if !is_last && self.record.settings.interrupt.is_set() {
+            let stop = StopError::Interrupted;
+            self.record.end(&self.ladder.simulation, Some(&stop));
+            return Err(stop);
+        }
+        Ok(ControlFlow::Continue(()))
+    }
+}
+
+impl<T: Real, const D: usize> Paced<'_, T, D> {
+    /// Period `k` from 1.
+    fn period(&self, k: u64) -> Stretch<T> {
+        let PacedSchedule { period, periods, .. } = self.track;
+        let is_last = k == periods;
+        let at = |k| multiple((T::ZERO, 0.0), k, period);
+        let from = at(k - 1);
+        let to = if is_last { self.record.lengths.duration } else { at(k) };
+        // The length of a whole period is exact; that between two multiples is rounded.
+        let is_whole =
+            !is_last || (to - from - period.0).abs() <= period.0 * T::from_f64(SAME_LENGTH);
+        let whole = if is_whole { period.0 } else { to - from };
+        let fixed = |n: u32| {
+            let h = whole / T::from_f64(f64::from(n));
+            Fixed { n: n.into(), from: (from, from.to_f64()), dt: (h, h.to_f64()) }
+        };
+        let fixed = self.ladder.levels[self.ladder.at].steps.map(fixed);
+        Stretch { fixed, is_last, ..Stretch::to(to) }
+    }
+}

@@ -1,0 +1,420 @@
+//! A scene that can step: model, consistent state and formulation in one place.
+
+mod carry;
+
+use crate::checkpoint::{SimulationSnapshot, inputs};
+use crate::control::Control;
+use crate::methods::{Demands, Request};
+use crate::ready::AssembledScene;
+use crate::settings::ResolvedMethod;
+use crate::signal_ends::SignalEnds;
+use crate::stop::StopError;
+use mbs_core::control::{Accepted, Invariant, Limit, TrialStep};
+use mbs_core::effects::{Field, Value};
+use mbs_core::formulation::{Formulation, energies};
+use mbs_core::inputs::SignalGraph;
+use mbs_core::model::{Model, Owner, State};
+use mbs_core::natural::NaturalModel;
+use mbs_core::once::find;
+use mbs_core::scene::{EffectKind, Scene, Signal};
+use mbs_core::start::Assembled;
+use mbs_core::step::{InputError, Step, StepError, check_lines, largest};
+use mbs_core::{Real, instances};
+
+/// A scene ready to step, in D dimensions and scalar T.
+///
+/// Whatever the formulation, its state is written in natural coordinates too: outputs are measured there. A clone steps to the same bits and
+/// leaves the original as it is; the threads that share the work of a step are shared by both.
+#[derive(Debug, Clone)]
+pub struct Simulation<T: Real, const D: usize> {
+    model: NaturalModel<T, D>,
+    state: State<T>,
+    formulation: Box<dyn Formulation<T, D>>,
+    /// What assembly did; the state in it is the start.
+    pub start: Assembled<T>,
+    sizes: [usize; 3],
+    initial_energy: [f64; 2],
+    control: Option<Box<Control<T, D>>>,
+    /// Of methods that control their steps within those of a run.
+    ends: Option<SignalEnds<T>>,
+    invariant: Invariant,
+    advance: Advance<T, D>,
+}
+
+type Build<T, const D: usize> =
+    fn(&Scene<T>, &ResolvedMethod, AssembledScene<T, D>) -> Result<Simulation<T, D>, StopError>;
+type Advance<T, const D: usize> = fn(&mut Simulation<T, D>, T) -> Result<Accepted<T>, StepError>;
+instances!(BUILD: Build<T, D> = Simulation::<T, D>::build);
+
+impl<T: Real, const D: usize> Simulation<T, D> {
+    /// Builds the model of a scene, assembles it, and allocates everything a step needs.
+    ///
+    /// # Errors
+    /// [`StopError`] when there is no model, no consistent start, or the formulation cannot run the scene.
+    pub fn new(scene: &Scene<T>, settings: &ResolvedMethod) -> Result<Self, StopError> {
+        Self::of(scene, settings, AssembledScene::new(scene)?)
+    }
+
+    /// The same of a scene that is ready.
+    #[doc(hidden)]
+    pub fn of(
+        scene: &Scene<T>,
+        settings: &ResolvedMethod,
+        ready: AssembledScene<T, D>,
+    ) -> Result<Self, StopError> {
+        find::<Build<T, D>>(BUILD).ok_or(StopError::NotBuilt)?(scene, settings, ready)
+    }
+
+    fn build(
+        scene: &Scene<T>,
+        settings: &ResolvedMethod,
+        mut ready: AssembledScene<T, D>,
+    ) -> Result<Self, StopError> {
+        let natural = (!settings.formulation.row().relative).then(|| ready.sizes());
+        let AssembledScene { model, solver, start, .. } = ready;
+        let mut state = start.state.clone();
+        let demands = Demands {
+            integrator: settings.integrator,
+            penalty: settings.penalty,
+            tolerance: settings.tolerance,
+            threads: settings.threads,
+            step: settings.lengths(scene).step,
+        };
+        let request = Request { scene, demands, model: &model, solver, state: &mut state };
+        let formulation = settings.formulation.build(request)?;
+        let sizes = formulation.sizes().or(natural).unwrap_or_default();
+        let [kinetic, potential, _] = energies_at(&*formulation, &model, &state);
+        let control = Control::new(scene, settings, &model, &state);
+        let control = control.map_err(|e| StopError::Start(e.into()))?.map(Box::new);
+        let has_ends = settings.events && settings.integrator.controls_its_step();
+        let ends = has_ends.then(|| SignalEnds::new(&model));
+        let is_damped =
+            scene.effects.iter().any(|effect| effect.enabled && effect.kind.dissipates());
+        let (ground, epsilon) = (ground(scene, settings, &model), T::EPSILON.to_f64());
+        let invariant = Invariant::new([kinetic, potential, 0.0], ground, epsilon);
+        let invariant = invariant.with_dampers(is_damped);
+        let initial_energy = [kinetic, potential];
+        Ok(Self {
+            model,
+            state,
+            formulation,
+            start,
+            sizes,
+            initial_energy,
+            control,
+            ends,
+            invariant,
+            advance: Self::advance_here,
+        })
+    }
+}
+
+impl<T: Real, const D: usize> Simulation<T, D> {
+    /// Makes one step: of `rest` [s] where the length of steps is fixed, of at most that where it is controlled.
+    ///
+    /// # Errors
+    /// [`StepError`]; the state is then unchanged.
+    pub fn advance(&mut self, rest: T) -> Result<Accepted<T>, StepError> {
+        (self.advance)(self, rest)
+    }
+
+    fn advance_here(&mut self, rest: T) -> Result<Accepted<T>, StepError> {
+        self.formulation.codes(&self.model).forget();
+        let made = self.advance_by(rest);
+        let failed = self.formulation.codes(&self.model).failed();
+        if let Some(control) = &mut self.control {
+            control.note(failed, self.state.t);
+        }
+        made.map_err(|error| {
+            let before = || self.control.as_ref()?.failed_before(self.state.t);
+            let is_short = matches!(error, StepError::StepTooSmall { .. });
+            match failed.or_else(|| before().filter(|_| is_short)) {
+                Some(failed) => failed.into(),
+                None => self.collapsing(rest).unwrap_or(error),
+            }
+        })
+    }
+
+    /// That a part of a rope loses its length in a step that failed, where its motion leads there. Of a controlled step, within two of the
+    /// last one's length.
+    fn collapsing(&self, rest: T) -> Option<StepError> {
+        let State { v, a, dt, .. } = &self.state;
+        let h = if *dt > T::ZERO { rest.min(T::TWO * *dt) } else { rest };
+        let way = |(v, a): (&T, &T)| (*v + *a * h * T::HALF) * h;
+        let dq: Vec<T> = v.iter().zip(a).map(way).collect();
+        check_lines(&self.model, &self.state, &dq).err()
+    }
+
+    fn advance_by(&mut self, rest: T) -> Result<Accepted<T>, StepError> {
+        let Self { model, state, formulation, control, ends, invariant, .. } = self;
+        let formulation = &mut **formulation;
+        // Before a formulation prepares its index for the step.
+        let step = Step { dt: rest, length: model.length() }.checked()?;
+        if let Some(control) = control {
+            formulation.take_inputs(model, state)?;
+            return control.step((model, formulation), state, invariant, rest);
+        }
+        let (report, energies) = match ends {
+            Some(ends) => ends.advance((model, formulation), step, state)?,
+            None => formulation.advance(model, step, state)?,
+        };
+        let change = invariant.change(energies);
+        invariant.mark(state.t.to_f64(), energies);
+        let t = state.t;
+        let attempt = TrialStep { report, t, energies, error: 0.0, acceleration_energy: [0.0; 2] };
+        Ok(Accepted {
+            attempt,
+            step: rest,
+            rejected: 0,
+            change,
+            limit: Limit::Largest,
+            is_last: true,
+        })
+    }
+
+    /// Are the lengths of the steps controlled?
+    pub fn is_controlled(&self) -> bool {
+        self.control.is_some()
+    }
+
+    /// The energy invariant, watched over every step so far.
+    pub fn invariant(&self) -> &Invariant {
+        &self.invariant
+    }
+
+    /// The index in which the next step would be made, and the changes of it so far, where a formulation has one.
+    pub fn index(&self) -> Option<(u8, u32)> {
+        self.formulation.index()
+    }
+
+    /// Sets the clock: sums of many steps drift, multiples do not.
+    pub fn set_time(&mut self, t: T) {
+        self.state.t = t;
+        self.formulation.set_time(t);
+    }
+
+    /// Sets the input of `scene.effects[effect]` between two steps: a force, a torque, or what a law of your own asks for. It
+    /// holds until it is set again, and acts in the whole of the next step: acceleration and power at its beginning are those with
+    /// the new input. What a law stores under another input is booked as work.
+    ///
+    /// # Errors
+    /// [`InputError`] where the effect has no input ([`Signal::Input`](mbs_core::scene::Signal::Input)), or where a component is not
+    /// finite. Nothing is set then.
+    pub fn set_input(&mut self, effect: usize, value: [T; 3]) -> Result<(), InputError> {
+        self.model.prescribed().set_input(&mut self.state.inputs, effect, value)
+    }
+
+    /// Sets value, rate and acceleration that `scene.guides[guide]` has at the end of the next step. Where lengths are controlled, the
+    /// first of the steps within the next [`step`](Self::step) takes it over.
+    ///
+    /// # Errors
+    /// [`InputError`] where the guide is no input ([`Motion::Input`](mbs_core::scene::Motion::Input)), or where a component is not
+    /// finite. Nothing is set then.
+    pub fn set_guide(&mut self, guide: usize, motion: [T; 3]) -> Result<(), InputError> {
+        self.model.prescribed().set_guide(&mut self.state.inputs, guide, motion)
+    }
+
+    /// Sets `scene.signals[signal]` between two steps, as [`set_input`](Self::set_input) does.
+    ///
+    /// # Errors
+    /// [`InputError`] where the signal is no input ([`SignalKind::Input`](mbs_core::scene::SignalKind::Input)), or the value not
+    /// finite. Nothing is set then.
+    pub fn set_signal(&mut self, signal: usize, value: T) -> Result<(), InputError> {
+        self.model.prescribed().set_signal(&mut self.state.inputs, signal, value)
+    }
+
+    /// An angle or slide of a joint with its turns, by joint and number, where the formulation's own coordinates have it. A tree has all
+    /// but the joints that it cuts and rotations in space.
+    pub fn coordinate(&self, joint: usize, number: usize) -> Option<T> {
+        self.formulation.coordinate(joint, number)
+    }
+
+    /// Does the formulation step coordinates of its own, those of a tree?
+    pub fn has_own_coordinates(&self) -> bool {
+        self.formulation.terms().is_none()
+    }
+
+    /// The natural-coordinate model: outputs are measured in it.
+    pub fn model(&self) -> &NaturalModel<T, D> {
+        &self.model
+    }
+
+    /// The state in natural coordinates.
+    pub fn state(&self) -> &State<T> {
+        &self.state
+    }
+
+    /// The formulation; its options are changed in its own type.
+    pub fn formulation_mut(&mut self) -> &mut dyn Formulation<T, D> {
+        &mut *self.formulation
+    }
+
+    /// All that the next step continues from.
+    pub fn snapshot(&self) -> SimulationSnapshot<T> {
+        SimulationSnapshot {
+            state: self.state.clone(),
+            formulation: self.formulation.history(),
+            control: self.control.as_ref().map(|control| control.snapshot()),
+            invariant: self.invariant.history(),
+            inputs: inputs(self.model.prescribed(), &self.state.inputs),
+        }
+    }
+
+    /// Restores what was kept; says whether it is of this simulation.
+    pub fn restore_snapshot(&mut self, snapshot: &SimulationSnapshot<T>) -> bool {
+        let SimulationSnapshot {
+            state,
+            formulation,
+            control,
+            invariant,
+            inputs: [courses, guides, signals],
+        } = snapshot;
+        let mut is_ours = match (&mut self.control, control) {
+            (Some(present), Some(control)) => present.restore(control),
+            (present, control) => present.is_none() && control.is_none(),
+        };
+        if !is_ours || self.formulation.set_history(formulation).is_err() {
+            return false;
+        }
+        self.state.copy_from(state);
+        self.invariant.set_history(*invariant);
+        for &(effect, value) in courses {
+            is_ours &= self.set_input(effect, value).is_ok();
+        }
+        for &(guide, motion) in guides {
+            is_ours &= self.set_guide(guide, motion).is_ok();
+        }
+        for &(signal, [value, ..]) in signals {
+            is_ours &= self.set_signal(signal, value).is_ok();
+        }
+        is_ours
+    }
+
+    /// Kinetic energy, potential energy, and work of dampers, guides and courses since the start [J].
+    ///
+    /// Cost: before the first step an evaluation of the model, with its memory.
+    pub fn energies(&self) -> [f64; 3] {
+        energies_at(&*self.formulation, &self.model, &self.state)
+    }
+
+    /// The same, taken anew: what watching the invariant costs in each step.
+    #[doc(hidden)]
+    pub fn watched_energies(&mut self) -> [f64; 3] {
+        self.formulation.watch();
+        self.formulation.energies(&self.model, &self.state)
+    }
+
+    /// The same at the start.
+    pub fn initial_energies(&self) -> [f64; 3] {
+        [self.initial_energy[0], self.initial_energy[1], 0.0]
+    }
+
+    /// Coordinates, constraints and their rank, of the formulation that runs.
+    pub fn sizes(&self) -> [usize; 3] {
+        self.sizes
+    }
+
+    /// Threads that share the work of a step.
+    pub fn threads(&self) -> usize {
+        self.formulation.threads()
+    }
+
+    /// A failed step with the joint or body it is about.
+    pub fn explain(&self, error: StepError) -> StopError {
+        let unknown = |u| self.formulation.owner_of_unknown(&self.model, u);
+        StopError::step(error, unknown, |row| self.formulation.owner_of_row(&self.model, row))
+    }
+
+    /// Whose constraint carries the largest force; where no multipliers are known, whose coordinate accelerates most.
+    pub fn most_loaded(&self) -> Owner {
+        let is_known = self.state.reaction.iter().any(|&x| x != T::ZERO);
+        if is_known {
+            return self.model.owner_of_row(largest(&self.state.reaction) as usize);
+        }
+        let n = mbs_core::Cliques::n_unknowns(&self.model);
+        if n == 0 {
+            // all bodies are welded to the ground
+            return Owner::Body(0);
+        }
+        self.model.owner_of_unknown(largest(&self.state.a[..n]) as usize)
+    }
+}
+
+/// The energies at a state; where no step led to it, the formulation has not evaluated its terms there.
+fn energies_at<T: Real, const D: usize>(
+    formulation: &dyn Formulation<T, D>,
+    model: &NaturalModel<T, D>,
+    state: &State<T>,
+) -> [f64; 3] {
+    match formulation.terms() {
+        Some(_) if state.dt == T::ZERO => {
+            // what is set for the next step does not act yet
+            let mut now = state.clone();
+            now.inputs.clone_from(&state.applied);
+            energies(model, &now, None)
+        }
+        _ => formulation.energies(model, state),
+    }
+}
+
+/// Velocity that is rounding, in units of rounding of places in a step [-]. Chosen, not tuned.
+const ROUNDINGS: f64 = 64.0;
+
+/// The energy that the scene has anyway [J], of which a root of the precision is nothing. It is that of weight and given forces over its
+/// length. To it comes that of a motion of all masses that the run would not show, or that is rounding of places in a step.
+fn ground<T: Real, const D: usize>(
+    scene: &Scene<T>,
+    settings: &ResolvedMethod,
+    model: &NaturalModel<T, D>,
+) -> f64 {
+    let (length, epsilon) = (model.length().to_f64(), T::EPSILON.to_f64().max(f64::EPSILON));
+    let mass: f64 = scene.bodies.iter().map(|body| body.mass.to_f64()).sum();
+    let gravity = scene.gravity.map_or(0.0, |g| size(g));
+    let peaks = peaks(scene, settings.duration);
+    let loads: f64 = scene.effects.iter().map(|effect| given(&effect.kind, length, &peaks)).sum();
+    let slow = epsilon.sqrt() / settings.duration.max(settings.step_max);
+    let rounded = ROUNDINGS * epsilon / settings.step_max;
+    let still = 0.5 * mass * length * length * (slow * slow + rounded * rounded);
+    mass * gravity * length + loads + still / epsilon.sqrt()
+}
+
+/// Largest force or torque that an effect is given, as work over the scene's length or a radian [J].
+fn given<T: Real>(kind: &EffectKind<T>, length: f64, peaks: &[f64]) -> f64 {
+    let largest = |signal: &Signal<T>| match signal {
+        Signal::Constant(value) | Signal::Input(value) => size(*value),
+        Signal::Table(rows) => rows.iter().map(|(_, value)| size(*value)).fold(0.0, f64::max),
+        Signal::Named(of) => {
+            let squares = of.iter().flatten().map(|s| peaks[s.index()] * peaks[s.index()]);
+            squares.sum::<f64>().sqrt()
+        }
+    };
+    let given = |(field, value): (&Field, Value<T>)| match value {
+        // What a law makes of its input is not known.
+        Value::Signal(_) if field.unit.is_empty() => 0.0,
+        Value::Signal(signal) if field.unit == "N" => largest(&signal) * length,
+        Value::Signal(signal) => largest(&signal),
+        _ => 0.0,
+    };
+    kind.row().fields.iter().zip(kind.values()).map(given).sum()
+}
+
+/// Instants at which the signals of a run are looked at [-]. Chosen, not tuned.
+const PEAK_INSTANTS: u32 = 256;
+
+/// The largest value that each signal of a scene has at equal instants of a run, with its inputs as they begin.
+fn peaks<T: Real>(scene: &Scene<T>, duration: f64) -> Vec<f64> {
+    let signals = SignalGraph::new(&scene.signals);
+    let mut peaks = vec![0.0_f64; signals.len()];
+    for i in 0..=if peaks.is_empty() { 0 } else { PEAK_INSTANTS } {
+        let t = duration * f64::from(i) / f64::from(PEAK_INSTANTS);
+        for (peak, [value, ..]) in peaks.iter_mut().zip(signals.values(T::from_f64(t))) {
+            *peak = peak.max(value.to_f64().abs());
+        }
+    }
+    peaks
+}
+
+/// Length of a vector.
+fn size<T: Real>(x: [T; 3]) -> f64 {
+    x.iter().map(|x| x.to_f64() * x.to_f64()).sum::<f64>().sqrt()
+}

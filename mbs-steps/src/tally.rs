@@ -1,0 +1,117 @@
+//! Statistics of the numbers of a run, gathered at every step: constant memory for each number.
+//!
+//! ```text
+//! rms = √(1/T ∫ x² dt),   ∫ x² dt ≈ Σ (tₖ − tₖ₋₁) (xₖ² + xₖ₋₁²)/2
+//! ```
+
+use crate::checkpoint::tape::{Tape, Walked};
+use crate::record::{Channel, ComponentStatistics, Statistics, measured};
+use core::ops::Range;
+use mbs_core::Real;
+
+/// What is gathered of one number.
+#[derive(Debug, Clone, Copy)]
+struct Tally {
+    min: f64,
+    at_min: f64,
+    max: f64,
+    at_max: f64,
+    /// Integral of its square over time.
+    square: f64,
+    last: f64,
+}
+
+impl Tally {
+    const NEW: Self = Self {
+        min: f64::INFINITY,
+        at_min: 0.0,
+        max: f64::NEG_INFINITY,
+        at_max: 0.0,
+        square: 0.0,
+        last: 0.0,
+    };
+
+    /// Takes a value at `t` [s], `dt` after the last one.
+    fn take(&mut self, t: f64, dt: f64, x: f64) {
+        if x < self.min {
+            (self.min, self.at_min) = (x, t);
+        }
+        if x > self.max {
+            (self.max, self.at_max) = (x, t);
+        }
+        self.square += dt * (x * x + self.last * self.last) / 2.0;
+        self.last = x;
+    }
+}
+
+/// Statistics of all numbers of a run.
+#[derive(Debug)]
+pub struct Tallies {
+    /// Of each number, the columns that it is made of: one, or those of a vector whose magnitude it is.
+    columns: Vec<Range<usize>>,
+    /// Those of them that are magnitudes.
+    is_magnitude: Vec<bool>,
+    tallies: Vec<Tally>,
+    /// First and last time [s]; nothing before the first values.
+    times: Option<[f64; 2]>,
+}
+
+impl Tallies {
+    /// For these channels.
+    pub fn new(channels: &[Channel]) -> Self {
+        let (mut columns, mut is_magnitude, mut first) = (Vec::new(), Vec::new(), 0);
+        for channel in channels {
+            for (one, places) in measured(channel) {
+                columns.push(first + places.start..first + places.end);
+                is_magnitude.push(one.is_magnitude);
+            }
+            first += channel.components.len();
+        }
+        Self { tallies: vec![Tally::NEW; columns.len()], columns, is_magnitude, times: None }
+    }
+
+    /// Takes the components of all channels at `t` [s]. No allocation.
+    pub fn take<T: Real>(&mut self, t: f64, values: &[T]) {
+        let [from, last] = self.times.unwrap_or([t, t]);
+        self.times = Some([from, t]);
+        let numbers = self.columns.iter().zip(&self.is_magnitude);
+        for ((columns, is_magnitude), tally) in numbers.zip(&mut self.tallies) {
+            let values = values[columns.clone()].iter().map(|x| x.to_f64());
+            let x = match is_magnitude {
+                true => values.map(|x| x * x).sum::<f64>().sqrt(),
+                false => values.sum(),
+            };
+            tally.take(t, t - last, x);
+        }
+    }
+
+    /// The statistics of each channel; the values of one instant where no time has passed.
+    pub fn of_channels(&self, channels: &[Channel]) -> Vec<Vec<ComponentStatistics>> {
+        let Some([from, to]) = self.times else { return vec![Vec::new(); channels.len()] };
+        let mut tallies = self.tallies.iter();
+        let mut statistics = || {
+            let Tally { min, at_min, max, at_max, square, last } = tallies.next()?;
+            let mean = if to > from { square / (to - from) } else { last * last };
+            let [min, at_min, max, at_max] = [*min, *at_min, *max, *at_max];
+            Some(Statistics { min, at_min, max, at_max, rms: mean.sqrt(), end: *last })
+        };
+        let of_channel = |channel| {
+            let each = measured(channel).into_iter();
+            let each = each.map(|(one, _)| ComponentStatistics {
+                of: statistics().unwrap_or_default(),
+                ..one
+            });
+            each.collect()
+        };
+        channels.iter().map(of_channel).collect()
+    }
+
+    /// Writes all that is gathered so far, or reads it back.
+    pub fn walk(&mut self, tape: &mut impl Tape) -> Walked {
+        tape.option(&mut self.times, |tape, times| tape.floats(times))?;
+        tape.places(&mut self.tallies, |tape, tally| {
+            let Tally { min, at_min, max, at_max, square, last } = tally;
+            [min, at_min, max, at_max, square, last].into_iter().try_for_each(|x| tape.float(x))
+        })
+    }
+}

@@ -1,0 +1,93 @@
+//! Axes that are almost parallel, or almost across each other: what is said of them, and when a scene is refused for them.
+
+use mbs_core::model::{Model, State};
+use mbs_core::natural::NaturalModel;
+use mbs_core::once::found;
+use mbs_core::scene::Scene;
+use mbs_core::scene::align::{DOUBTFUL, MEANT, Tilt, align, tilts};
+use mbs_core::start::constraint_rank;
+use mbs_core::{Cliques, Real, instances};
+use mbs_scene::format::few;
+
+/// An axis whose tilt alone holds what would move without it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct AlmostDependent {
+    /// The joint, and the one whose axis its own is meant to be parallel to, or across.
+    pub joints: [usize; 2],
+    /// By how much it is off [rad].
+    pub angle: f64,
+    /// The unit axis that mends it.
+    pub axis: [f64; 3],
+}
+
+impl AlmostDependent {
+    fn new<T: Real>(tilt: &Tilt<T>) -> Self {
+        let (joints, axis) = ([tilt.joint, tilt.other], tilt.to.map(T::to_f64));
+        Self { joints, angle: tilt.angle.to_f64(), axis }
+    }
+}
+
+impl core::fmt::Display for AlmostDependent {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        let axis = self.axis.map(|x| (x + 0.0).to_string()).join(", ");
+        write!(
+            f,
+            "the axis is off by {} rad, and this alone holds the mechanism: with the axis [{axis}] it moves",
+            few(self.angle)
+        )
+    }
+}
+
+/// What is said of the axes that are taken as parallel, or as across each other, though they are off by a little.
+pub fn notes<T: Real>(scene: &Scene<T>) -> Vec<(usize, String)> {
+    if T::HAS_INSTANCES {
+        return found::<Notes<T>>(NOTES)(scene);
+    }
+    notes_here(scene)
+}
+
+type Notes<T> = fn(&Scene<T>) -> Vec<(usize, String)>;
+instances!(NOTES: Notes<T> = notes_here::<T>, {});
+
+fn notes_here<T: Real>(scene: &Scene<T>) -> Vec<(usize, String)> {
+    let note = |tilt: &Tilt<T>| {
+        let [joint, other] = [tilt.joint, tilt.other].map(|j| &scene.joints[j].name);
+        let angle = few(tilt.angle.to_f64());
+        let text = format!(
+            "the axis of joint `{joint}` is off by {angle} rad from the direction that joint `{other}` gives: it is taken without the tilt"
+        );
+        (tilt.joint, text)
+    };
+    tilts(scene, T::from_f64(MEANT)).iter().map(note).collect()
+}
+
+/// The axis whose tilt, too large to be taken as none, alone holds a mechanism in its reference configuration.
+///
+/// Cost: nothing but the search for tilts where there is none; else the ranks of the constraints for some variants of the scene.
+pub fn almost_dependent<T: Real, const D: usize>(scene: &Scene<T>) -> Option<AlmostDependent> {
+    let mut tilts = tilts(scene, T::from_f64(DOUBTFUL));
+    tilts.retain(|tilt| tilt.angle > T::from_f64(MEANT));
+    if tilts.is_empty() {
+        return None;
+    }
+    let now = freedoms::<T, D>(scene)?;
+    let frees = |tilts: &[Tilt<T>]| {
+        let straight = align(scene, tilts);
+        freedoms::<T, D>(&straight).is_some_and(|freedoms| freedoms > now)
+    };
+    if !frees(&tilts) {
+        return None;
+    }
+    let one = tilts.iter().find(|tilt| frees(&[**tilt])).unwrap_or(&tilts[0]);
+    Some(AlmostDependent::new(one))
+}
+
+/// Freedoms in the reference configuration.
+fn freedoms<T: Real, const D: usize>(scene: &Scene<T>) -> Option<usize> {
+    let model = NaturalModel::<T, D>::new(scene).ok()?;
+    let mut terms = model.terms();
+    let start = State::at_rest(&model);
+    model.set_inputs(start.t, &start, &mut terms);
+    model.evaluate(&start.q, &mut terms);
+    Some(model.n_unknowns() - constraint_rank(&model, &terms))
+}

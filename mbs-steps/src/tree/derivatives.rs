@@ -1,0 +1,122 @@
+//! Derivatives of inverse and forward dynamics of a [`Tree`].
+
+use super::inner::{Inner, with};
+use super::{
+    AccelerationDerivatives, EffortDerivatives, Matrix, Tree, TreeError, TreeErrorKind, checked,
+};
+use crate::stop::StopError;
+use mbs_recursive::own::{EffortSlopes, MovingColumns};
+
+impl Tree {
+    /// Derivatives of [`inverse_dynamics`](Self::inverse_dynamics) at accelerations, without loops.
+    ///
+    /// ∂/∂q is along v, as a step of [`integrate`](Self::integrate): for a ball the turn about an axis of the second body, so it is
+    /// square like the others. Effects are left out, as everywhere here.
+    ///
+    /// Cost: an outward pass, and bodies times depth.
+    ///
+    /// # Errors
+    /// [`TreeErrorKind::Loops`] with the joint that closes a loop; [`TreeErrorKind::Length`], [`TreeErrorKind::NotFinite`].
+    ///
+    /// ```
+    /// # let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes/double-pendulum.toml");
+    /// let mut tree = mbs::Mechanism::read(path)?.tree()?;
+    /// tree.set(&[0.5, 0.0], &[0.0, 0.0])?;
+    /// // at rest only gravity changes: two rods of 1 m and 1 kg, of which the second one hangs on the first
+    /// let slopes = tree.inverse_dynamics_derivatives(&[0.0, 0.0])?;
+    /// assert!((slopes.q[(0, 0)] + 9.81 * (0.5 + 1.5) * 0.5_f64.sin()).abs() < 1e-12);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn inverse_dynamics_derivatives(
+        &mut self,
+        accelerations: &[f64],
+    ) -> Result<&EffortDerivatives, TreeError> {
+        checked("accelerations", accelerations, self.v.len())?;
+        self.open("derivatives of efforts")?;
+        self.place_accelerations(Some(accelerations));
+        let to = &mut self.of_effort;
+        let mut slopes = slopes_in([&mut to.q, &mut to.v, &mut to.acceleration]);
+        with!(&mut self.inner, t => {
+            let moving = t.moving.get_or_insert_with(|| MovingColumns::new(&t.model));
+            let scratch = (&mut t.workspace, moving);
+            t.own.write_effort_slopes(&t.model, &t.state, scratch, &mut slopes);
+        });
+        Ok(&self.of_effort)
+    }
+
+    /// Derivatives of [`forward_dynamics`](Self::forward_dynamics) under efforts, without loops: ∂v̇/∂(q, v) = −M⁻¹ ∂τ/∂(q, v), ∂v̇/∂τ =
+    /// M⁻¹.
+    ///
+    /// ∂/∂q is along v, as in [`inverse_dynamics_derivatives`](Self::inverse_dynamics_derivatives). Efforts stay as they are, in the
+    /// directions of v.
+    ///
+    /// Cost: that of both dynamics and of their derivatives, and n² times depth.
+    ///
+    /// # Errors
+    /// [`TreeErrorKind::Loops`] with the joint that closes a loop; as for [`forward_dynamics`](Self::forward_dynamics).
+    ///
+    /// ```
+    /// # let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes/double-pendulum.toml");
+    /// let mut tree = mbs::Mechanism::read(path)?.tree()?;
+    /// let slopes = tree.forward_dynamics_derivatives(&[0.0, 0.0])?.clone();
+    /// let (one, more) = (tree.forward_dynamics(&[0.0, 0.0])?.to_vec(), tree.forward_dynamics(&[1.0, 0.0])?);
+    /// assert!((more[1] - one[1] - slopes.effort[(1, 0)]).abs() < 1e-12);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn forward_dynamics_derivatives(
+        &mut self,
+        effort: &[f64],
+    ) -> Result<&AccelerationDerivatives, TreeError> {
+        checked("effort", effort, self.v.len())?;
+        self.open("derivatives of accelerations")?;
+        self.accelerate(Some(effort))?;
+        let to = &mut self.by_effort;
+        let mut slopes = slopes_in([&mut to.q, &mut to.v, &mut self.mass]);
+        with!(&mut self.inner, t => {
+            let moving = t.moving.get_or_insert_with(|| MovingColumns::new(&t.model));
+            let scratch = (&mut t.workspace, moving);
+            // the links are accelerated as the scratch has them
+            t.own.write_effort_slopes_here(&t.model, scratch, &mut slopes);
+        });
+        self.factor()?;
+        let (n, to) = (self.v.len(), &mut self.by_effort);
+        to.effort.resize_rows(n);
+        to.effort.data.fill(0.0);
+        to.effort.data.iter_mut().step_by(n + 1).for_each(|x| *x = 1.0);
+        for square in [&mut to.q.data, &mut to.v.data] {
+            square.iter_mut().for_each(|x| *x = -*x);
+        }
+        for square in [&mut to.q.data, &mut to.v.data, &mut to.effort.data] {
+            with!(&mut self.inner, t => t.own.solve(&self.mass.data, square));
+        }
+        Ok(&self.by_effort)
+    }
+
+    /// Replaces the mass matrix by its factors.
+    pub fn factor(&mut self) -> Result<(), TreeError> {
+        let mass = &mut self.mass.data;
+        with!(&mut self.inner, t => t.own.factor(mass).map_err(|link| {
+            let owner = t.model.owner_of_link(link);
+            let reason = StopError::tree(mbs_recursive::TreeError::NoInertia { owner });
+            TreeError::of_model(TreeErrorKind::NoAccelerations, (reason, &self.names))
+        }))
+    }
+
+    /// Refuses what is of open trees alone.
+    pub fn open(&self, what: &'static str) -> Result<(), TreeError> {
+        if self.loops.rows == 0 {
+            return Ok(());
+        }
+        let owner = with!(&self.inner, t => t.model.owner_of_row(0));
+        Err(TreeError::of_owner(TreeErrorKind::Loops(what), (Some(owner), &self.names)))
+    }
+}
+
+/// Where derivatives go, by positions, velocities and accelerations, each as large as its square from now on.
+fn slopes_in(squares: [&mut Matrix; 3]) -> EffortSlopes<'_, f64> {
+    let [q, v, a] = squares.map(|square| {
+        square.resize_rows(square.columns);
+        &mut square.data[..]
+    });
+    EffortSlopes { q, v, a }
+}

@@ -1,0 +1,271 @@
+//! Matrices, efforts and Jacobians of a [`Tree`].
+
+use super::inner::{Inner, Typed, with};
+use super::{Matrix, Tree, TreeError, TreeErrorKind, checked};
+use crate::erased::values::PointMotion;
+use mbs_core::algebra::Vector;
+use mbs_core::rigid::RigidMotion;
+use mbs_core::scene::BodyId;
+use mbs_recursive::EffortTerms;
+
+impl Tree {
+    /// M, n × n and symmetric; loops are open. ½ vᵀ M v is the kinetic energy where no joint is guided.
+    ///
+    /// Cost: bodies times depth, and n².
+    ///
+    /// ```
+    /// # let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes/double-pendulum.toml");
+    /// # let file = mbs::scene_file::SceneFile::parse(&std::fs::read_to_string(path)?, path).unwrap();
+    /// # let mut tree = mbs::Tree::new(&file.scene().unwrap())?;
+    /// // rods of 1 m and 1 kg in a line
+    /// assert!((tree.mass_matrix()[(0, 0)] - 8.0 / 3.0).abs() < 1e-12);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn mass_matrix(&mut self) -> &Matrix {
+        self.mass.resize_rows(self.v.len());
+        let mass = &mut self.mass.data;
+        with!(&mut self.inner, t => {
+            t.own.write_mass_matrix(&t.model, &t.state, &mut t.workspace, mass);
+        });
+        &self.mass
+    }
+
+    /// J, one row for each equation of the joints that close loops, n columns.
+    ///
+    /// ```
+    /// # let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes/four-bar.toml");
+    /// # let file = mbs::scene_file::SceneFile::parse(&std::fs::read_to_string(path)?, path).unwrap();
+    /// # let mut tree = mbs::Tree::new(&file.scene().unwrap())?;
+    /// let rows = tree.loop_jacobian();
+    /// assert_eq!((rows.rows, rows.columns), (2, 3));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn loop_jacobian(&mut self) -> &Matrix {
+        let rows = &mut self.loops.data;
+        with!(&mut self.inner, t => {
+            t.own.write_loop_rows(&t.model, &t.state, &mut t.workspace, rows);
+        });
+        &self.loops
+    }
+
+    /// g: the efforts that hold the mechanism at rest against gravity. A motor that gives them compensates gravity.
+    ///
+    /// ```
+    /// # let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes/double-pendulum.toml");
+    /// # let file = mbs::scene_file::SceneFile::parse(&std::fs::read_to_string(path)?, path).unwrap();
+    /// # let mut tree = mbs::Tree::new(&file.scene().unwrap())?;
+    /// // two rods of 1 m and 1 kg, level
+    /// assert!((tree.gravity_forces()[0] - 9.81 * (0.5 + 1.5)).abs() < 1e-12);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn gravity_forces(&mut self) -> &[f64] {
+        self.efforts(EffortTerms::Gravity)
+    }
+
+    /// c + g: the efforts that keep all velocities as they are, against centrifugal and Coriolis forces, the motion of guided
+    /// joints, and gravity.
+    ///
+    /// ```
+    /// # let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes/double-pendulum.toml");
+    /// # let file = mbs::scene_file::SceneFile::parse(&std::fs::read_to_string(path)?, path).unwrap();
+    /// # let mut tree = mbs::Tree::new(&file.scene().unwrap())?;
+    /// tree.set(&[0.0, 1.0], &[2.0, 0.0])?;
+    /// let gravity = tree.gravity_forces().to_vec();
+    /// assert!((tree.bias_forces()[1] - gravity[1] - 2.0 * 1.0_f64.sin()).abs() < 1e-12);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn bias_forces(&mut self) -> &[f64] {
+        self.place_accelerations(None);
+        self.efforts(EffortTerms::WithoutEffects)
+    }
+
+    /// v̇ under efforts τ along v and gravity, loops closed.
+    ///
+    /// # Errors
+    /// [`TreeErrorKind::Length`], [`TreeErrorKind::NotFinite`]; [`TreeErrorKind::NoAccelerations`] at a singular position.
+    ///
+    /// ```
+    /// # let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes/double-pendulum.toml");
+    /// # let file = mbs::scene_file::SceneFile::parse(&std::fs::read_to_string(path)?, path).unwrap();
+    /// # let mut tree = mbs::Tree::new(&file.scene().unwrap())?;
+    /// let hold = tree.gravity_forces().to_vec();
+    /// assert!(tree.forward_dynamics(&hold)?.iter().all(|a| a.abs() < 1e-12));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn forward_dynamics(&mut self, effort: &[f64]) -> Result<&[f64], TreeError> {
+        checked("effort", effort, self.v.len())?;
+        self.accelerate(Some(effort))?;
+        let state = self.inner.state();
+        let velocities = [&self.v[..], &state.v];
+        self.layout.accelerations_outward(velocities, (&state.a, &mut self.answer));
+        Ok(&self.answer)
+    }
+
+    /// The efforts τ that make accelerations v̇: M v̇ + c + g.
+    ///
+    /// With loops many efforts make the same motion. Those returned are smallest in the norm of M⁻¹: τ = M (v̇ − v̇₀), with v̇₀ what
+    /// [`forward_dynamics`](Self::forward_dynamics) gives without efforts. They are zero for free motion. Accelerations that
+    /// open the loops are changed as little as the masses allow. Others are τ + Jᵀ λ for any λ: the motor of a four-bar
+    /// carries all where λ takes the efforts from the other joints.
+    ///
+    /// # Errors
+    /// As for [`forward_dynamics`](Self::forward_dynamics).
+    ///
+    /// ```
+    /// # let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes/double-pendulum.toml");
+    /// # let file = mbs::scene_file::SceneFile::parse(&std::fs::read_to_string(path)?, path).unwrap();
+    /// # let mut tree = mbs::Tree::new(&file.scene().unwrap())?;
+    /// let falling = tree.forward_dynamics(&[0.0, 0.0])?.to_vec();
+    /// assert!(tree.inverse_dynamics(&falling)?.iter().all(|effort| effort.abs() < 1e-12));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn inverse_dynamics(&mut self, accelerations: &[f64]) -> Result<&[f64], TreeError> {
+        checked("accelerations", accelerations, self.v.len())?;
+        if self.loops.rows == 0 {
+            self.place_accelerations(Some(accelerations));
+            return Ok(self.efforts(EffortTerms::WithoutEffects));
+        }
+        self.accelerate(None)?;
+        let state = self.inner.state();
+        let velocities = [&self.v[..], &state.v];
+        self.layout.accelerations_inward(velocities, (accelerations, &mut self.tree));
+        state.a.iter_mut().zip(&self.tree).for_each(|(a, x)| *a = x - *a);
+        Ok(self.efforts(EffortTerms::Inertia))
+    }
+
+    /// Of the velocity of a body's point, which was at `at` in the reference configuration [m]: 3 × n, global axes. In the plane the third
+    /// row is zero.
+    ///
+    /// ```
+    /// # let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes/double-pendulum.toml");
+    /// # let file = mbs::scene_file::SceneFile::parse(&std::fs::read_to_string(path)?, path).unwrap();
+    /// # let mut tree = mbs::Tree::new(&file.scene().unwrap())?;
+    /// use mbs::core::scene::BodyId;
+    /// let tip = tree.point_jacobian(BodyId::new(1), [2.0, 0.0, 0.0]);
+    /// assert_eq!(tip.row(1), [2.0, 1.0]);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn point_jacobian(&mut self, body: BodyId, at: [f64; 3]) -> &Matrix {
+        self.jacobian(3, body, at)
+    }
+
+    /// Of the velocity of a body's centre of mass (rows 0 to 2) and of its angular velocity (3 to 5): 6 × n, global axes.
+    ///
+    /// ```
+    /// # let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes/double-pendulum.toml");
+    /// # let file = mbs::scene_file::SceneFile::parse(&std::fs::read_to_string(path)?, path).unwrap();
+    /// # let mut tree = mbs::Tree::new(&file.scene().unwrap())?;
+    /// use mbs::core::scene::BodyId;
+    /// let frame = tree.frame_jacobian(BodyId::new(1));
+    /// assert_eq!((frame.row(1), frame.row(5)), (&[1.5, 0.5][..], &[1.0, 1.0][..]));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn frame_jacobian(&mut self, body: BodyId) -> &Matrix {
+        let center = body.index().map_or([0.0; 3], |b| self.shares[b].1);
+        self.jacobian(6, body, center)
+    }
+
+    /// Of the velocity of the centre of mass of all bodies: 3 × n, global axes.
+    ///
+    /// ```
+    /// # let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes/double-pendulum.toml");
+    /// # let file = mbs::scene_file::SceneFile::parse(&std::fs::read_to_string(path)?, path).unwrap();
+    /// # let mut tree = mbs::Tree::new(&file.scene().unwrap())?;
+    /// assert_eq!(tree.center_of_mass_jacobian().row(1), [1.0, 0.25]);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn center_of_mass_jacobian(&mut self) -> &Matrix {
+        self.jacobian.resize_rows(3);
+        let (to, total) = (&mut self.jacobian.data, self.total);
+        with!(&mut self.inner, t => {
+            t.own.write_center_jacobian(&t.model, (&t.state, total), &mut t.workspace, to);
+        });
+        &self.jacobian
+    }
+
+    /// Motion of a body's point, which was at `at` in the reference configuration [m]. The acceleration is that of v̇ = 0, J̇ v: add the
+    /// Jacobian times v̇.
+    ///
+    /// ```
+    /// # let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes/double-pendulum.toml");
+    /// # let file = mbs::scene_file::SceneFile::parse(&std::fs::read_to_string(path)?, path).unwrap();
+    /// # let mut tree = mbs::Tree::new(&file.scene().unwrap())?;
+    /// use mbs::core::scene::BodyId;
+    /// tree.set(&[0.0, 0.0], &[1.0, 0.0])?;
+    /// let tip = tree.point(BodyId::new(1), [2.0, 0.0, 0.0]);
+    /// assert_eq!((tip.velocity, tip.acceleration), ([0.0, 2.0, 0.0], [-2.0, 0.0, 0.0]));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn point(&mut self, body: BodyId, at: [f64; 3]) -> PointMotion {
+        let at_rest = RigidMotion::at_rest(at.into());
+        let motion = body.index().map_or(at_rest, |b| self.motions()[b]);
+        PointMotion::of(motion.point(&at.into()))
+    }
+
+    /// Motion of the centre of mass of all bodies; the acceleration as that of a [`point`](Self::point).
+    ///
+    /// ```
+    /// # let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes/double-pendulum.toml");
+    /// # let file = mbs::scene_file::SceneFile::parse(&std::fs::read_to_string(path)?, path).unwrap();
+    /// # let mut tree = mbs::Tree::new(&file.scene().unwrap())?;
+    /// assert_eq!(tree.center_of_mass().position, [1.0, 0.0, 0.0]);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn center_of_mass(&mut self) -> PointMotion {
+        self.motions();
+        let motions = with!(&self.inner, tree => &tree.motions);
+        let mut sum = [Vector::<f64, 3>::zeros(); 3];
+        for (motion, &(_, center, share)) in motions.iter().zip(&self.shares) {
+            let point = motion.point(&center.into());
+            sum.iter_mut().zip(point).for_each(|(sum, x)| *sum += x * share);
+        }
+        PointMotion::of(sum)
+    }
+
+    /// The motions of the bodies at v̇ = 0.
+    pub fn motions(&mut self) -> &[RigidMotion<f64>] {
+        self.place_accelerations(None);
+        with!(&mut self.inner, tree => {
+            tree.model.write_motions(&tree.state, &mut tree.workspace, &mut tree.motions);
+            &tree.motions
+        })
+    }
+
+    /// Of a point.
+    pub fn jacobian(&mut self, rows: usize, body: BodyId, at: [f64; 3]) -> &Matrix {
+        self.jacobian.resize_rows(rows);
+        let to = &mut self.jacobian.data;
+        with!(&mut self.inner, t => {
+            t.own.write_jacobian(&t.model, (&t.state, body, at), &mut t.workspace, to);
+        });
+        &self.jacobian
+    }
+
+    /// Sets the accelerations of the state: those given, or v̇ = 0.
+    pub fn place_accelerations(&mut self, own: Option<&[f64]>) {
+        let state = self.inner.state();
+        let (own, velocities) = (own.unwrap_or(&self.zero), [&self.v[..], &state.v]);
+        self.layout.accelerations_inward(velocities, (own, &mut state.a));
+    }
+
+    /// Efforts of the state's accelerations.
+    fn efforts(&mut self, terms: EffortTerms) -> &[f64] {
+        let out = &mut self.tree;
+        with!(&mut self.inner, t => t.model.write_efforts((&t.state, terms), &mut t.workspace, out));
+        self.layout.efforts_outward(&self.tree, &mut self.answer);
+        &self.answer
+    }
+
+    /// Accelerations under efforts, into the state.
+    pub fn accelerate(&mut self, effort: Option<&[f64]>) -> Result<(), TreeError> {
+        self.layout.efforts_inward(effort.unwrap_or(&self.zero), &mut self.tree);
+        let (efforts, names) = (&self.tree, &self.names);
+        with!(&mut self.inner, tree => {
+            let Typed { model, state, workspace, .. } = &mut **tree;
+            model.accelerate_under(efforts, state, workspace).map_err(|error| {
+                let reason = (Typed::reason(model, error), names);
+                TreeError::of_model(TreeErrorKind::NoAccelerations, reason)
+            })
+        })
+    }
+}

@@ -1,0 +1,53 @@
+//! A tree at the state of a simulation.
+
+use super::{Tree, TreeError};
+use crate::erased::View;
+use crate::erased::values::Coordinates;
+use core::f64::consts::TAU;
+use core::ops::Range;
+use mbs_core::scene::JointId;
+
+impl Tree {
+    /// Takes time, coordinates, velocities, inputs and signals of a simulation of the same mechanism, whatever its formulation. Turns of
+    /// joints are those of the simulation.
+    ///
+    /// # Errors
+    /// [`TreeErrorKind::Length`](super::TreeErrorKind::Length) for a simulation of another number of bodies.
+    ///
+    /// ```
+    /// use mbs::{Mechanism, Method};
+    /// # let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes/double-pendulum.toml");
+    /// let m = Mechanism::read(path)?;
+    /// let (mut sim, mut tree) = (m.simulate(&Method::default())?, m.tree()?);
+    /// sim.step(1e-3)?;
+    /// tree.follow(&sim)?;
+    /// assert!(tree.velocities()[0] < 0.0);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn follow<'a>(&mut self, at: impl Into<View<'a>>) -> Result<(), TreeError> {
+        let at = at.into();
+        at.seen().follow(self)?;
+        self.count_turns(|joint| at.values(joint));
+        Ok(())
+    }
+
+    /// Makes angles those within half a turn of the joints' own.
+    fn count_turns(&mut self, values: impl Fn(JointId) -> Coordinates) {
+        for (joint, at) in self.layout.numbers() {
+            for (q, value) in self.q[at].iter_mut().zip(values(joint).iter()) {
+                // slides differ by rounding alone
+                *q += TAU * ((value - *q) / TAU).round();
+            }
+        }
+        self.layout.coordinates_inward(&self.q, &mut self.inner.state().z);
+    }
+
+    /// The coordinates of the joints that are numbers by themselves, each with its joint.
+    pub fn joint_states(&self) -> Vec<(JointId, Coordinates, Coordinates)> {
+        let state = |(joint, at): (JointId, Range<usize>)| {
+            let values = Coordinates::new(self.q[at].iter().copied());
+            (joint, values, Coordinates::default())
+        };
+        self.layout.numbers().map(state).collect()
+    }
+}

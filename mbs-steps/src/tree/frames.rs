@@ -1,0 +1,152 @@
+//! Jacobians of named frames of a [`Tree`], their rates, and what resists the motion of a frame.
+
+use super::inner::{Inner, with};
+use super::{Matrix, Tree, TreeError, TreeErrorKind};
+use crate::erased::error::UnknownName;
+use mbs_core::algebra::Matrix as Square;
+use mbs_core::scene::{BodyId, Dimension};
+use mbs_recursive::own::MovingColumns;
+
+/// Least pivot of a mobility whose diagonal is one [-], in units of rounding: below it a direction is held. Chosen, not tuned.
+const ROUNDINGS: f64 = 64.0;
+
+impl Tree {
+    /// The body that carries a `[[frame]]` of the scene, and the frame's origin in the reference configuration [m]; of a body's name its
+    /// centre of mass. Points and Jacobians take both.
+    ///
+    /// # Errors
+    /// [`UnknownName`], which proposes the nearest name.
+    ///
+    /// ```
+    /// # let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes/double-pendulum.toml");
+    /// let tree = mbs::Mechanism::read(path)?.tree()?;
+    /// assert_eq!(tree.frame_place("lower")?, (mbs::BodyId::new(1), [1.5, 0.0, 0.0]));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn frame_place(&self, name: &str) -> Result<(BodyId, [f64; 3]), UnknownName> {
+        self.named(name).map(|frame| (frame.body, frame.at))
+    }
+
+    /// Of the velocity of a point that moves with a body (rows 0 to 2), which was at `at` in the reference configuration [m], and of the
+    /// body's angular velocity (3 to 5): 6 × n, global axes.
+    ///
+    /// ```
+    /// # let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes/double-pendulum.toml");
+    /// let mut tree = mbs::Mechanism::read(path)?.tree()?;
+    /// let (body, at) = tree.frame_place("lower")?;
+    /// let frame = tree.jacobian_at(body, at);
+    /// assert_eq!((frame.row(1), frame.row(5)), (&[1.5, 0.5][..], &[1.0, 1.0][..]));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn jacobian_at(&mut self, body: BodyId, at: [f64; 3]) -> &Matrix {
+        self.jacobian(6, body, at)
+    }
+
+    /// J̇, the rate of [`jacobian_at`](Self::jacobian_at) at the present velocities: J̇ v are the accelerations at v̇ = 0.
+    ///
+    /// ```
+    /// # let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes/double-pendulum.toml");
+    /// let mut tree = mbs::Mechanism::read(path)?.tree()?;
+    /// tree.set(&[0.0, 0.0], &[1.0, 0.0])?;
+    /// let rate = tree.jacobian_rate_at(mbs::BodyId::new(1), [2.0, 0.0, 0.0]);
+    /// // the tip moves on a circle of 2 m
+    /// assert_eq!(rate.row(0), [-2.0, -1.0]);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn jacobian_rate_at(&mut self, body: BodyId, at: [f64; 3]) -> &Matrix {
+        self.place_accelerations(None);
+        self.jacobian.resize_rows(6);
+        let to = &mut self.jacobian.data;
+        with!(&mut self.inner, t => {
+            let moving = t.moving.get_or_insert_with(|| MovingColumns::new(&t.model));
+            let scratch = (&mut t.workspace, moving);
+            t.own.write_jacobian_rate(&t.model, (&t.state, body, at), scratch, to);
+        });
+        &self.jacobian
+    }
+
+    /// J M⁻¹ Jᵀ of a point that moves with a body: the accelerations by which it answers to a force on it and a moment on the body, all
+    /// joints being free to move; 6 × 6 and symmetric, order and axes of [`jacobian_at`](Self::jacobian_at). Directions in which the
+    /// joints cannot move it are zero.
+    ///
+    /// # Errors
+    /// [`TreeErrorKind::Loops`] with the joint that closes a loop; [`TreeErrorKind::NoAccelerations`] where nothing resists a joint.
+    ///
+    /// ```
+    /// # let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes/simple-pendulum.toml");
+    /// let mut tree = mbs::Mechanism::read(path)?.tree()?;
+    /// let (body, at) = tree.frame_place("bob")?;
+    /// let mobility = tree.mobility_at(body, at)?.clone();
+    /// // one joint: a moment about its axis meets its inertia
+    /// let mass = tree.mass_matrix()[(0, 0)];
+    /// assert!((mobility[(5, 5)] - 1.0 / mass).abs() < 1e-12);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn mobility_at(&mut self, body: BodyId, at: [f64; 3]) -> Result<&Matrix, TreeError> {
+        self.open("mobilities")?;
+        self.mass_matrix();
+        self.factor()?;
+        self.jacobian(6, body, at);
+        self.columns.resize(self.jacobian.data.len(), 0.0);
+        let (rows, columns) = (&self.jacobian.data, &mut self.columns);
+        let to = &mut self.frame.data;
+        with!(&mut self.inner, t => t.own.write_mobility(&self.mass.data, 6, (rows, columns), to));
+        Ok(&self.frame)
+    }
+
+    /// Λ = (J M⁻¹ Jᵀ)⁻¹, the operational-space inertia of a point that moves with a body: the forces and moments that it needs for
+    /// accelerations; 6 × 6 and symmetric, order and axes of [`jacobian_at`](Self::jacobian_at). In the plane only rows and columns 0, 1
+    /// and 5 are not zero.
+    ///
+    /// # Errors
+    /// [`TreeErrorKind::Held`] where the joints do not move it in every direction: less than six of them, or a singular position; as for
+    /// [`mobility_at`](Self::mobility_at).
+    ///
+    /// ```
+    /// # let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes/free-body.toml");
+    /// let mut tree = mbs::Mechanism::read(path)?.tree()?;
+    /// // of a body that nothing holds its own mass at its centre
+    /// let (body, at) = tree.frame_place("body")?;
+    /// let inertia = tree.operational_space_inertia_at(body, at)?.clone();
+    /// assert!((inertia[(0, 0)] - tree.mass_matrix()[(0, 0)]).abs() < 1e-12);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn operational_space_inertia_at(
+        &mut self,
+        body: BodyId,
+        at: [f64; 3],
+    ) -> Result<&Matrix, TreeError> {
+        let moves: &[usize] = match self.scene.dimension {
+            Dimension::Planar => &[0, 1, 5],
+            Dimension::Spatial => &[0, 1, 2, 3, 4, 5],
+        };
+        self.mobility_at(body, at)?;
+        let inertia = inverse(&self.frame, moves).ok_or(TreeErrorKind::Held)?;
+        // symmetric: columns are rows
+        self.frame.data.copy_from_slice(inertia.as_slice());
+        Ok(&self.frame)
+    }
+}
+
+/// The inverse of a mobility in some directions, scaled so that lengths and angles weigh alike; none where a direction is held.
+fn inverse(mobility: &Matrix, moves: &[usize]) -> Option<Square<f64, 6>> {
+    let mut scale = [0.0; 6];
+    for &i in moves {
+        scale[i] = 1.0 / mobility[(i, i)].sqrt();
+    }
+    if !scale.iter().all(|x| x.is_finite()) {
+        return None;
+    }
+    // the others are on their own
+    let scaled = Square::<f64, 6>::from_fn(|i, j| match (scale[i] * scale[j], i == j) {
+        (0.0, true) => 1.0,
+        (scale, _) => mobility[(i, j)] * scale,
+    });
+    let factors = scaled.cholesky()?;
+    let least = ROUNDINGS * f64::EPSILON;
+    if !(0..6).all(|i| factors.l_dirty()[(i, i)].powi(2) > least) {
+        return None;
+    }
+    let inverse = factors.inverse();
+    Some(Square::<f64, 6>::from_fn(|i, j| inverse[(i, j)] * scale[i] * scale[j]))
+}

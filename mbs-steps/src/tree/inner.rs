@@ -1,0 +1,77 @@
+//! A tree with its state in the coordinates of its links, in the plane or in space.
+
+use super::layout::Layout;
+use crate::stop::StopError;
+use mbs_core::rigid::RigidMotion;
+use mbs_core::scene::{Dimension, Scene};
+use mbs_core::step::StepError;
+use mbs_recursive::own::{MovingColumns, OwnFreedoms};
+use mbs_recursive::space::Space;
+use mbs_recursive::{Planar, Spatial, TreeModel, TreeState, Workspace};
+
+/// By dimension.
+#[derive(Debug, Clone)]
+pub(super) enum Inner {
+    Planar(Box<Typed<Planar>>),
+    Spatial(Box<Typed<Spatial>>),
+}
+
+/// Model, state and scratch.
+#[derive(Debug, Clone)]
+pub(super) struct Typed<S: Space<f64>> {
+    pub model: TreeModel<f64, S>,
+    pub workspace: Workspace<f64, S>,
+    pub state: TreeState<f64>,
+    pub motions: Vec<RigidMotion<f64>>,
+    pub own: OwnFreedoms<f64, S>,
+    /// From the first call that asks for derivatives.
+    pub moving: Option<MovingColumns<f64>>,
+}
+
+/// Does the same in either dimension.
+macro_rules! with {
+    ($inner:expr, $tree:ident => $done:expr) => {
+        match $inner {
+            Inner::Planar($tree) => $done,
+            Inner::Spatial($tree) => $done,
+        }
+    };
+}
+pub(super) use with;
+
+impl Inner {
+    /// The tree of a scene, at rest in the reference configuration.
+    pub(super) fn new(scene: &Scene<f64>) -> Result<(Self, Layout), StopError> {
+        Ok(match scene.dimension {
+            Dimension::Planar => {
+                let (typed, layout) = Typed::new(scene)?;
+                (Self::Planar(Box::new(typed)), layout)
+            }
+            Dimension::Spatial => {
+                let (typed, layout) = Typed::new(scene)?;
+                (Self::Spatial(Box::new(typed)), layout)
+            }
+        })
+    }
+
+    pub(super) fn state(&mut self) -> &mut TreeState<f64> {
+        with!(self, tree => &mut tree.state)
+    }
+}
+
+impl<S: Space<f64>> Typed<S> {
+    /// Why a step error of the model stops, by what it names.
+    pub(super) fn reason(model: &TreeModel<f64, S>, error: StepError) -> StopError {
+        let freedom = |unknown| model.owner_of_unknown(unknown);
+        StopError::step(error, freedom, |row| model.owner_of_row(row))
+    }
+
+    fn new(scene: &Scene<f64>) -> Result<(Self, Layout), StopError> {
+        let model = TreeModel::new(scene).map_err(StopError::tree)?;
+        let layout = Layout::new(scene, &model);
+        let own = OwnFreedoms::new(&model, &layout.freedoms(model.n_links()));
+        let (workspace, state) = (Workspace::new(&model), TreeState::at_rest(&model));
+        let motions = scene.bodies.iter().map(|b| RigidMotion::at_rest(b.center.into())).collect();
+        Ok((Self { model, workspace, state, motions, own, moving: None }, layout))
+    }
+}

@@ -1,0 +1,329 @@
+//! [`Tree`]: a mechanism in relative coordinates, at any position and velocity.
+
+mod derivatives;
+mod driven;
+mod dynamics;
+mod error;
+mod follow;
+mod frames;
+mod inner;
+mod inverse_kinematics;
+mod layout;
+mod manifold;
+mod places;
+mod rollout;
+mod values;
+
+pub use error::{TreeError, TreeErrorKind};
+pub use inverse_kinematics::{FrameTarget, InverseKinematics, InverseKinematicsEnd};
+pub use layout::TreeRange;
+pub use places::{FrameMotion, TotalMomentum};
+pub use rollout::{Rollout, RolloutEnd};
+pub use values::{AccelerationDerivatives, EffortDerivatives, Matrix};
+
+use crate::erased::inputs::{InputInfo, Inputs};
+use crate::names::Names;
+use crate::typed;
+use inner::{Inner, with};
+use layout::Layout;
+use mbs_core::cluster::mass_properties;
+use mbs_core::model::State;
+use mbs_core::rigid::RigidMotion;
+use mbs_core::scene::{BodyId, JointId, Scene};
+
+/// A point of a body, in the reference configuration, and what it counts.
+type Weighted = (BodyId, [f64; 3], f64);
+
+/// A mechanism in relative coordinates, at any position and velocity.
+///
+/// ```text
+/// M v̇ + c + g = τ + Jᵀ λ,   J v̇ + J̇ v = 0
+/// ```
+///
+/// M is [`mass_matrix`](Self::mass_matrix), g [`gravity_forces`](Self::gravity_forces), c + g [`bias_forces`](Self::bias_forces),
+/// τ the efforts along the joints, J [`loop_jacobian`](Self::loop_jacobian). These are the bodies, the joints and gravity alone:
+/// springs, motors, friction and all other effects are left out. What they do is a part of τ. [`accelerations`](Self::accelerations) and
+/// [`rollout`](Self::rollout) have them all.
+///
+/// **Coordinates.** Every joint that closes no loop and is not guided has numbers in q and v, in the order of the scene; where they
+/// stand is [`coordinates_of`](Self::coordinates_of). Bodies that no joint holds come last, each as a free joint of its centre of
+/// mass. All count from the reference configuration, and are positive as the second body moves against the first.
+///
+/// | joint | q | v |
+/// |---|---|---|
+/// | all but those below | the joint's angles and slides, as its outputs | their rates |
+/// | ball | unit quaternion (w, x, y, z) of the second body against the first | angular velocity, in axes of the second body |
+/// | free, plane | x, y of the second point from the first, in axes of the first body; angle | their rates |
+/// | free, space | x, y, z likewise; quaternion | rates of x, y, z; angular velocity, in axes of the second body |
+///
+/// A unit quaternion is (cos(φ/2), n sin(φ/2)) for a turn φ about n; q and −q are one rotation. Its rate is ½ q (0, ω). Efforts are
+/// conjugate to v: τ·v is power. A thin rod in space that balls alone hold has no spin about its line, and some inertia about it.
+///
+/// **Time.** Only guided joints depend on it: they stand and move as their guides have them at [`time`](Self::set_time), zero at first.
+///
+/// Answers stand in the tree's own buffers until the next call. After the first calls nothing allocates but
+/// [`follow`](Self::follow), and [`coordinates_of`](Self::coordinates_of) where it refuses.
+#[derive(Debug, Clone)]
+pub struct Tree {
+    inner: Inner,
+    layout: Layout,
+    /// Centres of mass, each with its part of all mass.
+    shares: Vec<Weighted>,
+    /// All mass [kg].
+    total: f64,
+    scene: Scene<f64>,
+    names: Names,
+    q: Vec<f64>,
+    v: Vec<f64>,
+    answer: Vec<f64>,
+    /// In the tree's order.
+    tree: Vec<f64>,
+    /// No velocities.
+    zero: Vec<f64>,
+    mass: Matrix,
+    loops: Matrix,
+    jacobian: Matrix,
+    /// Of a frame, 6 × 6.
+    frame: Matrix,
+    /// Columns of a Jacobian.
+    columns: Vec<f64>,
+    by_effort: AccelerationDerivatives,
+    of_effort: EffortDerivatives,
+    input_list: Vec<InputInfo>,
+    /// Where each input stands in a state.
+    input_places: Vec<usize>,
+}
+
+impl Tree {
+    /// The tree of a scene that passed its check, at rest in the reference configuration.
+    ///
+    /// # Errors
+    /// [`TreeErrorKind::NoTree`].
+    #[doc(hidden)]
+    pub fn new(scene: &Scene<f64>) -> Result<Self, TreeError> {
+        let names = Names::new(scene);
+        let made = Inner::new(scene);
+        let (mut inner, mut layout) =
+            made.map_err(|e| TreeError::of_model(TreeErrorKind::NoTree, (e, &names)))?;
+        let rows = with!(&inner, tree => tree.model.n_rows());
+        let [n_q, n] = layout.n;
+        let (mut q, zero) = (vec![0.0; n_q], vec![0.0; n]);
+        layout.coordinates_outward(&inner.state().z, &mut q);
+        let total: f64 = scene.bodies.iter().map(|body| body.mass).sum();
+        let share = |b| {
+            let (mass, center, _) = mass_properties(scene, b);
+            (BodyId::new(b), center.into(), if total > 0.0 { mass / total } else { 0.0 })
+        };
+        // squares are as large as that from the first call that asks for them
+        let square = || Matrix::zeros(0, n);
+        let inputs = Inputs::new(scene);
+        let prescribed = with!(&inner, tree => tree.model.prescribed());
+        Ok(Self {
+            input_places: inputs.places(prescribed),
+            input_list: inputs.list().to_vec(),
+            shares: (0..scene.bodies.len()).map(share).collect(),
+            total,
+            scene: scene.clone(),
+            v: zero.clone(),
+            answer: zero.clone(),
+            tree: zero.clone(),
+            zero,
+            mass: square(),
+            loops: Matrix::zeros(rows, n),
+            jacobian: Matrix::zeros(6, n),
+            frame: Matrix::zeros(6, 6),
+            columns: Vec::new(),
+            by_effort: AccelerationDerivatives { q: square(), v: square(), effort: square() },
+            of_effort: EffortDerivatives { q: square(), v: square(), acceleration: square() },
+            inner,
+            layout,
+            names,
+            q,
+        })
+    }
+
+    /// Sets coordinates and velocities. Quaternions are made unit. Loops are not closed: what is asked then holds for the open ones.
+    ///
+    /// # Errors
+    /// [`TreeError`] for a wrong number of numbers, or one that is not finite; the tree is then unchanged.
+    ///
+    /// ```
+    /// # let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes/double-pendulum.toml");
+    /// # let file = mbs::scene_file::SceneFile::parse(&std::fs::read_to_string(path)?, path).unwrap();
+    /// # let mut tree = mbs::Tree::new(&file.scene().unwrap())?;
+    /// use mbs::Error;
+    /// tree.set(&[0.4, -1.1], &[1.3, -0.7])?;
+    /// assert_eq!(tree.coordinates(), [0.4, -1.1]);
+    /// assert_eq!(tree.set(&[0.4], &[1.3]).unwrap_err().code(), "wrong-length");
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn set(&mut self, q: &[f64], v: &[f64]) -> Result<(), TreeError> {
+        checked("q", q, self.q.len())?;
+        checked("v", v, self.v.len())?;
+        self.layout.normalise(q, &mut self.q)?;
+        self.v.copy_from_slice(v);
+        let state = self.inner.state();
+        self.layout.coordinates_inward(&self.q, &mut state.z);
+        self.layout.velocities_inward(&self.v, &mut state.v);
+        Ok(())
+    }
+
+    /// Sets the time [s] at which guided joints stand.
+    ///
+    /// ```
+    /// # let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes/guided-four-bar.toml");
+    /// # let file = mbs::scene_file::SceneFile::parse(&std::fs::read_to_string(path)?, path).unwrap();
+    /// # let mut tree = mbs::Tree::new(&file.scene().unwrap())?;
+    /// // its crank is guided
+    /// let before = tree.gravity_forces().to_vec();
+    /// tree.set_time(0.25);
+    /// assert_ne!(tree.gravity_forces(), before);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn set_time(&mut self, t: f64) {
+        self.inner.state().t = t;
+    }
+
+    /// Takes time, coordinates and velocities of a simulation in a scalar and dimension.
+    ///
+    /// # Errors
+    /// As for [`follow`](Self::follow).
+    pub fn follow_typed<const D: usize>(
+        &mut self,
+        simulation: &typed::Simulation<f64, D>,
+    ) -> Result<(), TreeError> {
+        let (model, state) = (simulation.model(), simulation.state());
+        let motions: Vec<_> =
+            (0..self.scene.bodies.len()).map(|b| model.motion(&self.scene, b, state)).collect();
+        let State { t, applied, signals, .. } = state;
+        self.follow_motions((*t, applied, signals), &motions)
+    }
+
+    /// The same of the motions of the scene's bodies, at a time with these inputs applied and these signals.
+    pub fn follow_motions(
+        &mut self,
+        (t, inputs, signals): (f64, &[f64], &[[f64; 2]]),
+        motions: &[RigidMotion<f64>],
+    ) -> Result<(), TreeError> {
+        let state = self.inner.state();
+        let sizes = [
+            ("motions", self.scene.bodies.len(), motions.len()),
+            ("inputs", state.applied.len(), inputs.len()),
+            ("signals", state.signals.len(), signals.len()),
+        ];
+        if let Some((what, expected, found)) = sizes.into_iter().find(|size| size.1 != size.2) {
+            return Err(TreeErrorKind::Length(what, expected, found).into());
+        }
+        with!(&mut self.inner, tree => {
+            tree.state.applied.copy_from_slice(inputs);
+            tree.state.inputs.copy_from_slice(inputs);
+            tree.state.signals.copy_from_slice(signals);
+            tree.state.t = t;
+            tree.model.read_motions(&self.scene, motions, &mut tree.state);
+        });
+        let state = self.inner.state();
+        self.layout.coordinates_outward(&state.z, &mut self.q);
+        self.layout.velocities_outward(&state.v, &mut self.v);
+        Ok(())
+    }
+
+    /// Where the numbers of a joint stand in q and v. A weld has none, nor has a ball by which a point mass is part of another body.
+    ///
+    /// # Errors
+    /// [`TreeErrorKind::Cut`], [`TreeErrorKind::Guided`] or [`TreeErrorKind::Idle`] with the joint's name.
+    ///
+    /// ```
+    /// # let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes/four-bar.toml");
+    /// # let file = mbs::scene_file::SceneFile::parse(&std::fs::read_to_string(path)?, path).unwrap();
+    /// # let mut tree = mbs::Tree::new(&file.scene().unwrap())?;
+    /// use mbs::{Error, JointId};
+    /// assert_eq!(tree.coordinates_of(JointId::new(0))?.v, 0..1);
+    /// let cut = tree.coordinates_of(JointId::new(3)).unwrap_err();
+    /// assert_eq!((cut.code(), cut.joint()), ("cut-joint", Some("end-0")));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn coordinates_of(&self, joint: JointId) -> Result<TreeRange, TreeError> {
+        if let Some(range) = self.layout.range(joint.index()) {
+            return Ok(range);
+        }
+        let data = &self.scene.joints[joint];
+        let mut cuts =
+            with!(&self.inner, tree => tree.model.cut_joints().collect::<Vec<_>>()).into_iter();
+        let kind = if self.scene.guides.iter().any(|guide| guide.joint == joint) {
+            TreeErrorKind::Guided
+        } else if cuts.any(|cut| cut == joint.index()) {
+            TreeErrorKind::Cut
+        } else if data.kind.is_rigid() || self.scene.turns_point(data) {
+            return Ok(TreeRange { q: 0..0, v: 0..0 });
+        } else {
+            TreeErrorKind::Idle
+        };
+        Err(TreeError::of_joint(kind, &data.name))
+    }
+
+    /// Where the numbers of a free body stand, whether a free joint names it or none. Of bodies that are welded the first one in the
+    /// scene has them.
+    ///
+    /// ```
+    /// # let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes/free-body.toml");
+    /// # let file = mbs::scene_file::SceneFile::parse(&std::fs::read_to_string(path)?, path).unwrap();
+    /// # let mut tree = mbs::Tree::new(&file.scene().unwrap())?;
+    /// use mbs::core::scene::BodyId;
+    /// let at = tree.free_coordinates_of(BodyId::new(0)).expect("nothing holds it");
+    /// assert_eq!((at.q, at.v), (0..7, 0..6));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    #[must_use]
+    pub fn free_coordinates_of(&self, body: BodyId) -> Option<TreeRange> {
+        let BodyId::Body(body) = body else { return None };
+        self.layout.range_of_free(body)
+    }
+
+    /// q: the coordinates.
+    ///
+    /// ```
+    /// # let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes/double-pendulum.toml");
+    /// # let file = mbs::scene_file::SceneFile::parse(&std::fs::read_to_string(path)?, path).unwrap();
+    /// # let mut tree = mbs::Tree::new(&file.scene().unwrap())?;
+    /// assert_eq!(tree.coordinates(), [0.0, 0.0]);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    #[must_use]
+    pub fn coordinates(&self) -> &[f64] {
+        &self.q
+    }
+
+    /// v: the velocities.
+    ///
+    /// ```
+    /// # let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes/double-pendulum.toml");
+    /// # let file = mbs::scene_file::SceneFile::parse(&std::fs::read_to_string(path)?, path).unwrap();
+    /// # let mut tree = mbs::Tree::new(&file.scene().unwrap())?;
+    /// assert_eq!(tree.velocities(), [0.0, 0.0]);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    #[must_use]
+    pub fn velocities(&self) -> &[f64] {
+        &self.v
+    }
+}
+
+/// Are there as many numbers as expected?
+fn sized(what: &'static str, x: &[f64], expected: usize) -> Result<(), TreeError> {
+    match x.len() {
+        n if n == expected => Ok(()),
+        n => Err(TreeErrorKind::Length(what, expected, n).into()),
+    }
+}
+
+/// # Errors
+/// [`TreeErrorKind::Length`] or [`TreeErrorKind::NotFinite`].
+fn checked(what: &'static str, x: &[f64], expected: usize) -> Result<(), TreeError> {
+    sized(what, x, expected)?;
+    // all of them first, side by side
+    if x.iter().fold(true, |all, x| all & x.is_finite()) {
+        return Ok(());
+    }
+    let bad = x.iter().position(|x| !x.is_finite());
+    bad.map_or(Ok(()), |place| Err(TreeErrorKind::NotFinite(what, place).into()))
+}

@@ -1,0 +1,162 @@
+//! Where bodies and frames of a [`Tree`] are, and their momentum.
+
+use super::Tree;
+use super::inner::{Inner, with};
+use crate::erased::error::UnknownName;
+use crate::erased::values::{Pose, rows};
+use crate::motion::frame;
+use mbs_core::algebra::{Matrix, Vector, cross};
+use mbs_core::cluster::mass_properties;
+use mbs_core::rigid::RigidMotion;
+use mbs_core::scene::BodyId;
+
+/// A frame at an instant, in global axes.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
+pub struct FrameMotion {
+    /// Its origin [m].
+    pub position: [f64; 3],
+    /// Its axes, by rows: the columns are the directions of its x, y and z.
+    pub rotation: [[f64; 3]; 3],
+    /// Velocity of its origin [m/s].
+    pub velocity: [f64; 3],
+    /// Angular velocity [rad/s].
+    pub angular_velocity: [f64; 3],
+}
+
+/// Momentum of all bodies, in global axes.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
+pub struct TotalMomentum {
+    /// Mass times velocity of the centre of mass [kg m/s].
+    pub linear: [f64; 3],
+    /// About the centre of mass [kg m²/s].
+    pub angular: [f64; 3],
+}
+
+/// A frame in the reference configuration.
+#[derive(Debug, Clone, Copy)]
+pub struct Frame {
+    pub body: BodyId,
+    pub at: [f64; 3],
+    axes: Matrix<f64, 3>,
+}
+
+impl Tree {
+    /// Centre of mass of a body, and its rotation from the reference configuration. The ground's is at the origin.
+    ///
+    /// ```
+    /// # let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes/double-pendulum.toml");
+    /// let mut tree = mbs::Mechanism::read(path)?.tree()?;
+    /// tree.set(&[std::f64::consts::FRAC_PI_2, 0.0], &[0.0, 0.0])?;
+    /// assert!((tree.pose(mbs::BodyId::new(1)).position[1] - 1.5).abs() < 1e-12);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn pose(&mut self, body: BodyId) -> Pose {
+        let Some(b) = body.index() else { return Pose::default() };
+        let center = self.shares[b].1;
+        let motion = self.motions()[b];
+        Pose { position: motion.point(&center.into())[0].into(), rotation: rows(&motion.rotation) }
+    }
+
+    /// A `[[frame]]` of the scene by its name; or a body, whose frame is at its centre of mass, with the global axes of the reference
+    /// configuration.
+    ///
+    /// # Errors
+    /// [`UnknownName`], which proposes the nearest name.
+    ///
+    /// ```
+    /// # let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes/double-pendulum.toml");
+    /// let mut tree = mbs::Mechanism::read(path)?.tree()?;
+    /// tree.set(&[0.0, 0.0], &[2.0, 0.0])?;
+    /// let lower = tree.frame("lower")?;
+    /// assert_eq!((lower.velocity, lower.angular_velocity), ([0.0, 3.0, 0.0], [0.0, 0.0, 2.0]));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn frame(&mut self, name: &str) -> Result<FrameMotion, UnknownName> {
+        self.motions();
+        self.named(name).map(|frame| self.moved(frame))
+    }
+
+    /// All frames of the scene, then all bodies, each with its name, as [`frame`](Self::frame) has them.
+    ///
+    /// ```
+    /// # let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes/double-pendulum.toml");
+    /// let mut tree = mbs::Mechanism::read(path)?.tree()?;
+    /// let names: Vec<&str> = tree.frames().map(|(name, _)| name).collect();
+    /// assert_eq!(names, ["upper", "lower"]);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn frames(&mut self) -> impl Iterator<Item = (&str, FrameMotion)> {
+        self.motions();
+        self.placed()
+    }
+
+    /// The frames at the motions that were evaluated last.
+    fn placed(&self) -> impl Iterator<Item = (&str, FrameMotion)> {
+        self.known().map(|(name, frame)| (name, self.moved(frame)))
+    }
+
+    /// A frame at the motions that were evaluated last.
+    fn moved(&self, Frame { body, at, axes }: Frame) -> FrameMotion {
+        let motions = with!(&self.inner, tree => &tree.motions);
+        let at_rest = RigidMotion::at_rest(at.into());
+        let motion = body.index().map_or(at_rest, |b| motions[b]);
+        let [position, velocity, _] = motion.point(&at.into()).map(Into::into);
+        let (rotation, angular_velocity) = (rows(&(motion.rotation * axes)), motion.omega.into());
+        FrameMotion { position, rotation, velocity, angular_velocity }
+    }
+
+    /// All frames of the scene, then all bodies, with their names.
+    fn known(&self) -> impl Iterator<Item = (&str, Frame)> {
+        let own = self.scene.frames.iter().map(|x| {
+            let frame = Frame { body: x.body, at: x.at, axes: axes(x.axes) };
+            (x.name.as_str(), frame)
+        });
+        let bodies = self.scene.bodies.iter().zip(&self.shares).map(|(x, &(body, at, _))| {
+            (x.name.as_str(), Frame { body, at, axes: Matrix::<f64, 3>::identity() })
+        });
+        own.chain(bodies)
+    }
+
+    pub fn named(&self, name: &str) -> Result<Frame, UnknownName> {
+        let found = self.known().find(|(known, _)| *known == name);
+        found.map(|(_, frame)| frame).ok_or_else(|| {
+            let known = self.known().map(|(name, _)| name.to_owned()).collect();
+            UnknownName { word: "frame", name: name.to_owned(), known }
+        })
+    }
+
+    /// Momentum of all bodies.
+    ///
+    /// ```
+    /// # let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes/double-pendulum.toml");
+    /// let mut tree = mbs::Mechanism::read(path)?.tree()?;
+    /// tree.set(&[0.0, 0.0], &[1.0, 0.0])?;
+    /// // a rod of 2 kg and 2 m that turns about its end: m v, and m l²/12
+    /// let momentum = tree.momentum();
+    /// assert!((momentum.linear[1] - 2.0).abs() < 1e-12 && (momentum.angular[2] - 2.0 / 3.0).abs() < 1e-12);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn momentum(&mut self) -> TotalMomentum {
+        let center = Vector::<f64, 3>::from(self.center_of_mass().position);
+        // the motions are those of the centre of mass
+        let motions = with!(&self.inner, tree => &tree.motions);
+        let (mut linear, mut angular) = (Vector::<f64, 3>::zeros(), Vector::<f64, 3>::zeros());
+        for (b, motion) in motions.iter().enumerate() {
+            let (mass, own, inertia) = mass_properties(&self.scene, b);
+            let [at, velocity, _] = motion.point(&own);
+            let inertia = motion.rotation * inertia * motion.rotation.transpose();
+            linear += velocity * mass;
+            angular += inertia * motion.omega + cross(&(at - center), &velocity) * mass;
+        }
+        TotalMomentum { linear: linear.into(), angular: angular.into() }
+    }
+}
+
+/// The axes of a frame as columns; those of the scene where it writes none.
+fn axes(axes: Option<[[f64; 3]; 2]>) -> Matrix<f64, 3> {
+    axes.map_or_else(Matrix::<f64, 3>::identity, |axes| {
+        Matrix::<f64, 3>::from_columns(&frame(axes).map(Vector::<f64, 3>::from))
+    })
+}
