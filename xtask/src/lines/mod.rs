@@ -1,3 +1,177 @@
-//! placeholder
+//! `cargo xtask counts --lines`: how much code LLVM is given, crate by crate, and that large functions are compiled in their owner alone.
+//!
+//! LLVM is nineteen twentieths of a build, and its price is the number of lines that it is given: 45 to 50 s of CPU time a million at level 3,
+//! a sixth of that at level 0. A line is one of a function's body, before any optimisation. Each crate has a bound in docs/PROFILES.md, which
+//! is raised by hand: growth is seen on the day.
+
+mod table;
 mod wrapper;
+
 pub use wrapper::as_compiler;
+
+use crate::process::{cargo, root, run, target_dir};
+use crate::summary::{self, Outcome};
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::PathBuf;
+use std::process::ExitCode;
+use table::Table;
+
+/// What is counted: the features of the command.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Set {
+    /// Of the first command of README.md: `f64` alone.
+    First,
+    /// All precisions.
+    All,
+}
+
+impl Set {
+    const BOTH: [Self; 2] = [Self::First, Self::All];
+
+    fn name(self) -> &'static str {
+        match self {
+            Self::First => "first",
+            Self::All => "all",
+        }
+    }
+}
+
+/// Modules whose functions are large and needed by many, with the crate that owns them.
+const OWNED: [(&str, &str); 4] = [
+    ("mbs_core", "natural"),
+    ("mbs_core", "start"),
+    ("mbs_core", "outputs"),
+    ("mbs_recursive", "tree"),
+];
+
+/// Crates that have functions of those modules in a step, which no table gives.
+const STEPS: [&str; 1] = ["mbs_steps"];
+
+/// Most lines of those modules in any other crate: readings of a field or two, which are smaller than a call through a table.
+const MOST_STRAY: u64 = 9_000;
+
+/// The counts of a crate.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+struct Counts {
+    lines: u64,
+    /// Of each of [`OWNED`].
+    owned: [u64; OWNED.len()],
+}
+
+/// Counts, prints the table, and with `keep` writes the counts into docs/PROFILES.md, whose bounds stay.
+#[allow(clippy::print_stdout, reason = "the table is what this job is for")]
+pub fn lines(keep: bool) -> ExitCode {
+    let counted = count().and_then(|counts| {
+        let mut table = Table::read()?;
+        table.take(&counts);
+        print!("{}", table.text());
+        if keep {
+            table.write()?;
+        }
+        verdict(&counts, &table)
+    });
+    summary::ended("lines", counted.map(Outcome::Passed))
+}
+
+/// The same as a check.
+///
+/// # Errors
+///
+/// Crates above their bounds, and functions that are compiled outside their owner.
+pub(crate) fn check() -> Result<Outcome, String> {
+    let counts = count()?;
+    let mut table = Table::read()?;
+    table.take(&counts);
+    verdict(&counts, &table).map(Outcome::Passed)
+}
+
+/// The counts of each crate of ours in both sets.
+type Counted = [BTreeMap<String, Counts>; 2];
+
+/// Compiles both sets with a compiler that counts.
+fn count() -> Result<Counted, String> {
+    let mut counted = Counted::default();
+    for (set, counts) in Set::BOTH.into_iter().zip(&mut counted) {
+        let folder = folder(set);
+        let mut check = cargo();
+        check.args(["check", "--quiet", "--release", "--locked", "--package", "mbs-cli", "--lib"]);
+        if set == Set::First {
+            check.arg("--no-default-features");
+        }
+        check.arg("--target-dir").arg(target_dir().join("lines").join(set.name()));
+        check.env("RUSTC_WRAPPER", std::env::current_exe().map_err(|e| e.to_string())?);
+        run(check.env(wrapper::FOLDER, &folder).current_dir(root()))?;
+        let entries = fs::read_dir(&folder).map_err(|e| format!("{}: {e}", folder.display()))?;
+        for entry in entries.flatten() {
+            let name = entry.file_name().to_string_lossy().into_owned();
+            if root().join(name.replace('_', "-")).join("Cargo.toml").is_file() {
+                counts.insert(name, wrapper::read(&entry.path())?);
+            }
+        }
+    }
+    Ok(counted)
+}
+
+/// The folder of the counts of a set.
+fn folder(set: Set) -> PathBuf {
+    target_dir().join("lines").join(format!("{}-counts", set.name()))
+}
+
+/// The totals, where all is within its bounds.
+fn verdict(counted: &Counted, table: &Table) -> Result<String, String> {
+    let mut faults = table.faults();
+    for (name, counts) in counted.iter().flatten() {
+        let strays = OWNED.iter().zip(counts.owned);
+        let strays = strays.filter(|((owner, _), _)| owner != name && !STEPS.contains(&&**name));
+        let n: u64 = strays.clone().map(|(_, n)| n).sum();
+        if n > MOST_STRAY {
+            let of: Vec<_> = strays.map(|((o, m), n)| format!("{n} of {o}::{m}")).collect();
+            faults.push(format!(
+                "{name} compiles functions of other crates ({}): {n} lines, {MOST_STRAY} at most. Call them through a table (mbs-math/src/once.rs)",
+                of.join(", ")
+            ));
+        }
+    }
+    if !faults.is_empty() {
+        return Err(faults.join("\n"));
+    }
+    let total = |counts: &BTreeMap<String, Counts>| {
+        let lines: u64 = counts.values().map(|counts| counts.lines).sum();
+        format!("{:.2}", lines as f64 / 1e6)
+    };
+    let [first, all] = counted.each_ref().map(total);
+    Ok(format!("{first} million lines of the first command, {all} million with all precisions"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn counted(name: &str, lines: u64, natural: u64) -> Counted {
+        let counts = Counts { lines, owned: [natural, 0, 0, 0] };
+        [BTreeMap::from([(name.to_owned(), counts)]), BTreeMap::new()]
+    }
+
+    fn judged(counted: &Counted) -> Result<String, String> {
+        let mut table = Table::parse("| mbs-study | 1 | 700 | 1 | 900 |\n").expect("a table");
+        table.take(counted);
+        verdict(counted, &table)
+    }
+
+    #[test]
+    fn a_crate_above_its_bound_or_without_one_fails() {
+        assert!(judged(&counted("mbs_study", 700_000, 0)).is_ok());
+        let error = judged(&counted("mbs_study", 700_001, 0)).expect_err("above");
+        assert!(error.contains("mbs-study") && error.contains("700"), "{error}");
+        let error = judged(&counted("mbs_new", 1, 0)).expect_err("without a bound");
+        assert!(error.contains("mbs-new"), "{error}");
+    }
+
+    #[test]
+    fn functions_outside_their_owner_fail_but_for_those_of_a_step() {
+        let error = judged(&counted("mbs_study", 600_000, MOST_STRAY + 1)).expect_err("a stray");
+        assert!(error.contains("mbs_core::natural"), "{error}");
+        assert!(judged(&counted("mbs_study", 600_000, MOST_STRAY)).is_ok());
+    }
+}

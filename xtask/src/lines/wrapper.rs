@@ -3,7 +3,9 @@
 //! Cargo starts this program in place of rustc where `RUSTC_WRAPPER` names it. What cargo only checks then also makes code, whose lines
 //! are counted and which is taken away again: no machine code is made, so that a count takes a small share of a build.
 
+use super::{Counts, OWNED};
 use crate::process;
+use std::array;
 use std::env;
 use std::ffi::OsString;
 use std::fs;
@@ -83,9 +85,11 @@ fn count(args: &[OsString], crate_name: &str, folder: &Path) -> Result<(), Strin
         .unwrap_or_default();
     let code = Path::new(out).join(format!("{crate_name}{extra}.ll"));
     let failed = |e: std::io::Error| format!("{}: {e}", code.display());
-    let n = lines(&code).map_err(failed)?;
+    let counts = counts(&code).map_err(failed)?;
     fs::create_dir_all(folder).map_err(failed)?;
-    fs::write(folder.join(crate_name), n.to_string()).map_err(failed)?;
+    let numbers = [counts.lines].into_iter().chain(counts.owned);
+    let text: Vec<String> = numbers.map(|n| n.to_string()).collect();
+    fs::write(folder.join(crate_name), text.join(" ")).map_err(failed)?;
     if env::var_os(KEEP).is_some() {
         fs::rename(&code, folder.join(format!("{crate_name}.ll"))).map_err(failed)
     } else {
@@ -93,19 +97,52 @@ fn count(args: &[OsString], crate_name: &str, folder: &Path) -> Result<(), Strin
     }
 }
 
-/// The number of lines of a file.
-fn lines(path: &Path) -> std::io::Result<u64> {
-    let mut file = BufReader::with_capacity(1 << 20, fs::File::open(path)?);
-    let mut n = 0;
-    loop {
-        let bytes = file.fill_buf()?;
-        if bytes.is_empty() {
-            return Ok(n);
+/// The counts that were written for a crate.
+pub(super) fn read(path: &Path) -> Result<Counts, String> {
+    let failed = |why: &str| format!("{}: {why}", path.display());
+    let text = fs::read_to_string(path).map_err(|e| failed(&e.to_string()))?;
+    let numbers: Option<Vec<u64>> = text.split_whitespace().map(|n| n.parse().ok()).collect();
+    match numbers.as_deref().and_then(<[u64]>::split_first) {
+        Some((&lines, owned)) if owned.len() == OWNED.len() => {
+            Ok(Counts { lines, owned: array::from_fn(|i| owned[i]) })
         }
-        n += bytes.iter().filter(|byte| **byte == b'\n').count() as u64;
-        let used = bytes.len();
-        file.consume(used);
+        _ => Err(failed("no counts")),
     }
+}
+
+/// The lines of the functions in a file of LLVM's code.
+fn counts(path: &Path) -> std::io::Result<Counts> {
+    let mut file = BufReader::with_capacity(1 << 20, fs::File::open(path)?);
+    let (mut counts, mut line, mut within) = (Counts::default(), Vec::new(), None);
+    while {
+        line.clear();
+        file.read_until(b'\n', &mut line)? > 0
+    } {
+        if line.starts_with(b"define ") {
+            within = Some(owned(&line));
+        }
+        let Some(of) = within else { continue };
+        counts.lines += 1;
+        if let Some(of) = of {
+            counts.owned[of] += 1;
+        }
+        if line.starts_with(b"}") {
+            within = None;
+        }
+    }
+    Ok(counts)
+}
+
+/// Which of [`OWNED`] the function of a definition belongs to, by its mangled name: the first crate in it, `Cs` with a hash and the name, and
+/// the module behind it.
+fn owned(definition: &[u8]) -> Option<usize> {
+    let name = String::from_utf8_lossy(definition);
+    let (_, name) = name.split_once("@")?;
+    let (_, path) = name.split_once("Cs")?.1.split_once('_')?;
+    OWNED.iter().position(|(owner, module)| {
+        path.strip_prefix(&format!("{}{owner}", owner.len()))
+            .is_some_and(|rest| rest.starts_with(&format!("{}{module}", module.len())))
+    })
 }
 
 #[cfg(test)]
@@ -114,6 +151,16 @@ mod tests {
 
     fn words(text: &str) -> Vec<OsString> {
         text.split_whitespace().map(|word| OsString::from(word)).collect()
+    }
+
+    #[test]
+    fn a_function_belongs_to_the_first_path_of_its_name() {
+        let of = |name: &str| owned(format!("define internal void @{name}(ptr %x) {{").as_bytes());
+        let natural = "_RNvMs_NtNtCs6fU_8mbs_core7natural10from_sceneINtNtB4_5model12NaturalModeldKj2_E5build";
+        assert_eq!(of(natural), Some(0));
+        let dropped = "_RINvNtCs9aB_4core3ptr13drop_in_placeNtNtCs6fU_8mbs_core7natural5modelE";
+        assert_eq!(of(dropped), None);
+        assert_eq!(of("main"), None);
     }
 
     #[test]
