@@ -214,7 +214,7 @@ impl<const D: usize> Eye<'_, D> {
         let mut largest: f64 = 0.0;
         for body in 0..self.look.scene.bodies.len() {
             let omega = model.motion(self.look.scene, body, state).omega;
-            let rate = omega.iter().fold(0.0, |sum: f64, x| sum.hypot(*x));
+            let rate = omega.iter().fold(0.0, |sum: f64, x| libm::hypot(sum, *x));
             largest = largest.max(rate);
             if rate * step > most.turn.0 {
                 most.turn = (rate * step, body);
