@@ -38,10 +38,10 @@ pub(super) fn made(build: &Build<'_>, place: &Path) -> Result<PathBuf, String> {
     let name = format!("mbs-{VERSION}-{}", build.target()?);
     let staged = emptied(&place.join(&name))?;
     packed(&build.folder().join(format!("mbs{EXE_SUFFIX}")), &staged)?;
-    let archive = place.join(format!("{name}.tar.gz"));
-    run(Command::new("tar").arg("-czf").arg(&archive).arg(&name).current_dir(place))?;
+    let archive = format!("{name}.tar.gz");
+    run(Command::new("tar").args(["-czf", &archive, &name]).current_dir(place))?;
     fs::remove_dir_all(&staged).map_err(|e| format!("{}: {e}", staged.display()))?;
-    Ok(archive)
+    Ok(place.join(archive))
 }
 
 /// Puts the command and what comes with it into a folder.
@@ -67,8 +67,10 @@ fn packed(built: &Path, folder: &Path) -> Result<(), String> {
 
 /// Unpacks the archive into a folder and follows the README's example with it; seconds of the example.
 pub(super) fn tried(archive: &Path, folder: &Path) -> Result<f64, String> {
-    run(Command::new("tar").arg("-xzf").arg(archive).current_dir(folder))?;
+    // named without its folder: tar takes what stands before a colon for a machine
     let name = archive.file_name().unwrap_or_default().to_string_lossy();
+    fs::copy(archive, folder.join(&*name)).map_err(|e| format!("{name}: {e}"))?;
+    run(Command::new("tar").args(["-xzf", &name]).current_dir(folder))?;
     let unpacked = folder.join(name.trim_end_matches(".tar.gz"));
     for file in FILES.iter().chain(&["man/mbs.1", "completions/mbs.bash"]) {
         is_filled(&unpacked.join(file))?;
