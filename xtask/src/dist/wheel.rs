@@ -42,7 +42,9 @@ fn audited(wheel: &Path, tools: &Path) -> Result<(), String> {
     let name = wheel.file_name().unwrap_or_default().to_string_lossy();
     let minor = glibc(&name).ok_or_else(|| format!("{name} has no manylinux tag"))?;
     if minor > MAX_GLIBC {
-        return Err(format!("{name} needs a newer glibc than 2.{MAX_GLIBC}"));
+        return Err(format!(
+            "{name} needs a newer glibc than 2.{MAX_GLIBC}: `auditwheel show` names its symbols"
+        ));
     }
     python::pip(tools, &[AUDITWHEEL])?;
     let mut show = python::in_environment(tools);
