@@ -1,5 +1,6 @@
 //! `mbs plot RUN... --out FILE`: channels of one or several runs over each other, as a page, as a picture or as a table.
 
+mod dashes;
 mod figure;
 mod pdf;
 mod picture;

@@ -28,7 +28,7 @@ impl Mode {
     /// |lambda| / 2 pi [Hz].
     #[must_use]
     pub fn undamped_frequency(&self) -> f64 {
-        self.real.hypot(self.imaginary) / TAU
+        libm::hypot(self.real, self.imaginary) / TAU
     }
 
     /// Im lambda / 2 pi [Hz].
@@ -40,13 +40,13 @@ impl Mode {
     /// Does it grow, beyond rounding?
     #[must_use]
     pub fn grows(&self) -> bool {
-        !self.is_neutral && self.real > AXIS * self.real.hypot(self.imaginary)
+        !self.is_neutral && self.real > AXIS * libm::hypot(self.real, self.imaginary)
     }
 
     /// -Re lambda / |lambda| [-]; `None` for a neutral one.
     #[must_use]
     pub fn damping_ratio(&self) -> Option<f64> {
-        (!self.is_neutral).then(|| -self.real / self.real.hypot(self.imaginary))
+        (!self.is_neutral).then(|| -self.real / libm::hypot(self.real, self.imaginary))
     }
 }
 
@@ -167,7 +167,7 @@ pub fn slowest_first(values: &[[f64; 2]], noise: f64) -> Vec<Mode> {
         .map(|&[real, imaginary]| Mode {
             real,
             imaginary,
-            is_neutral: real.hypot(imaginary) <= zero,
+            is_neutral: libm::hypot(real, imaginary) <= zero,
         })
         .collect();
     modes.sort_by(|a, b| {

@@ -5,6 +5,7 @@ pub mod check;
 pub mod child;
 pub mod command;
 pub mod debian;
+pub mod dist;
 mod documentation;
 pub mod effects;
 pub mod lines;

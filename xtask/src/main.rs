@@ -5,7 +5,7 @@ use clap::{CommandFactory, Parser, Subcommand};
 use std::ffi::OsString;
 use std::process::ExitCode;
 use xtask::{
-    bundle, check, lines, nostd, package, pick, pictures, process, python, races, simulate,
+    bundle, check, dist, lines, nostd, package, pick, pictures, process, python, races, simulate,
 };
 
 /// The jobs of `lab`.
@@ -55,6 +55,8 @@ enum Job {
     Pick,
     /// Build the wheel of the Python package, and test it in a clean virtual environment
     Python,
+    /// Make the files of a release in `target/dist`, and try each without a compiler: wheel, archive, sums
+    Dist(dist::Options),
     /// Package every crate, and build the packages on each other
     Package,
     /// Watch the lock-free team of mbs-parallel for data races, under ThreadSanitizer
@@ -85,6 +87,7 @@ fn main() -> ExitCode {
         }
         Job::Pick => pick::pick(),
         Job::Python => python::python(),
+        Job::Dist(options) => dist::dist(&options),
         Job::Package => package::package(),
         Job::Races => races::races(),
         Job::Bundle => bundle::bundle(),

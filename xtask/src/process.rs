@@ -1,5 +1,7 @@
 //! Child processes and places: the repository root, the target folder, cargo; progress and files.
 
+#[cfg(test)]
+use std::collections::BTreeSet;
 use std::env;
 use std::ffi::OsStr;
 use std::fs;
@@ -125,4 +127,14 @@ pub fn write(path: &Path, bytes: &[u8]) -> Result<(), String> {
     written.map_err(|e| format!("cannot write {}: {e}", path.display()))?;
     println!("{}", path.display());
     Ok(())
+}
+
+/// Packages with their features, as cargo builds them for a selection.
+#[cfg(test)]
+pub(crate) fn built_packages(selection: &[&str]) -> BTreeSet<String> {
+    let mut tree = cargo();
+    tree.args(["tree", "--locked", "--prefix", "none", "--format", "{p} [{f}]"]).args(selection);
+    let text = output(tree.current_dir(root())).expect("cargo knows its packages");
+    let lines = text.lines().filter(|line| !line.is_empty());
+    lines.map(|line| line.trim_end_matches(" (*)").to_owned()).collect()
 }

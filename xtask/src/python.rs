@@ -59,7 +59,7 @@ fn place() -> PathBuf {
 }
 
 /// A Python that is young enough and makes environments.
-fn interpreter() -> Option<String> {
+pub(crate) fn interpreter() -> Option<String> {
     let [major, minor] = OLDEST;
     let question =
         format!("import sys, venv, ensurepip; sys.exit(sys.version_info < ({major}, {minor}))");
@@ -69,20 +69,25 @@ fn interpreter() -> Option<String> {
 }
 
 /// A clean environment.
-fn environment(python: &str, at: &Path) -> Result<PathBuf, String> {
+pub(crate) fn environment(python: &str, at: &Path) -> Result<PathBuf, String> {
     run(Command::new(python).args(["-m", "venv", "--clear"]).arg(at))?;
     Ok(at.to_owned())
 }
 
 /// The Python of an environment; a test that lacks what it works with fails in it.
-fn in_environment(at: &Path) -> Command {
+pub(crate) fn in_environment(at: &Path) -> Command {
     let bin = at.join(if cfg!(windows) { "Scripts" } else { "bin" });
     let mut command = Command::new(bin.join("python"));
     command.env("VIRTUAL_ENV", at).env("MBS_STRICT", "1").env_remove("PYTHONPATH");
     command
 }
 
-fn pip(at: &Path, words: &[&str]) -> Result<(), String> {
+/// Installs packages into an environment.
+///
+/// # Errors
+///
+/// What pip came to.
+pub(crate) fn pip(at: &Path, words: &[&str]) -> Result<(), String> {
     let install = ["-m", "pip", "install", "--quiet", "--disable-pip-version-check"];
     run(in_environment(at).args(install).args(words).current_dir(process::root()))
 }
@@ -116,17 +121,7 @@ fn wheel(python: &str, place: &Path) -> Result<PathBuf, String> {
 
 #[cfg(test)]
 mod tests {
-    use super::*;
-    use crate::process::cargo;
-    use std::collections::BTreeSet;
-
-    /// Packages with their features, as cargo would build them.
-    fn built(words: &[&str]) -> BTreeSet<String> {
-        let mut tree = cargo();
-        tree.args(["tree", "--offline", "--prefix", "none", "--format", "{p} [{f}]"]).args(words);
-        let text = output(tree.current_dir(process::root())).expect("cargo knows its packages");
-        text.lines().map(|line| line.trim_end_matches(" (*)").to_owned()).collect()
-    }
+    use crate::process::built_packages as built;
 
     #[test]
     fn the_wheel_has_the_features_of_the_tests_so_that_nothing_is_compiled_twice() {

@@ -1,10 +1,10 @@
 //! The work-precision diagram of a comparison as a picture: CPU time over error, both logarithmic.
 
+use super::dashes::Dashed;
 use super::picture::{COLOURS, Fault, Picture, drawn, number, range};
 use crate::refusal::Refusal;
 use mbs_study::compare::results::{Comparison, MethodRuns};
 use plotters::coord::Shift;
-use plotters::element::DashedPathElement;
 use plotters::prelude::*;
 
 /// Size of the picture, and of the names of the lines at its right [px]. Chosen, not tuned.
@@ -25,7 +25,7 @@ const MARKS: [&[(i32, i32)]; 6] = [
     &[(-5, -5), (5, -5), (-5, 5), (5, 5)],
 ];
 /// Dashes of the formulations: strokes and gaps [px]; the first is solid.
-const DASHES: [(u32, u32); 6] = [(1, 0), (8, 4), (2, 3), (12, 3), (5, 5), (1, 4)];
+const DASHES: [[u32; 2]; 6] = [[1, 0], [8, 4], [2, 3], [12, 3], [5, 5], [1, 4]];
 
 /// How a line looks: numbers of its integrator and its formulation, and whether steps are fixed.
 #[derive(Debug, Clone, Copy)]
@@ -120,13 +120,12 @@ fn draw<B: DrawingBackend>(
         .draw()?;
     for (row, line) in lines.iter().enumerate() {
         let colour = COLOURS[line.look.integrator];
-        let (stroke, gap) = DASHES[line.look.formulation];
-        let path = line.points.iter().copied();
-        if gap == 0 {
-            chart.draw_series(LineSeries::new(path, colour.stroke_width(2)))?;
+        let dashes = DASHES[line.look.formulation];
+        let style = colour.stroke_width(2);
+        if dashes[1] == 0 {
+            chart.draw_series(LineSeries::new(line.points.iter().copied(), style))?;
         } else {
-            let dashed = DashedLineSeries::new(path, stroke, gap, colour.stroke_width(2));
-            chart.draw_series(dashed)?;
+            chart.draw_series([Dashed::new(line.points.clone(), dashes, style)])?;
         }
         for point in &line.points {
             let (fill, edge) = mark(line.look, (0, 0));
@@ -134,11 +133,10 @@ fn draw<B: DrawingBackend>(
         }
         let y = ROW * (2 + i32::try_from(row).unwrap_or(0));
         let key = [(12, y), (40, y)];
-        let style = colour.stroke_width(2);
-        if gap == 0 {
+        if dashes[1] == 0 {
             right.draw(&PathElement::new(key, style))?;
         } else {
-            right.draw(&DashedPathElement::new(key, stroke, gap, style))?;
+            right.draw(&Dashed::new(key.to_vec(), dashes, style))?;
         }
         let (fill, edge) = mark(line.look, (26, y));
         right.draw(&fill)?;

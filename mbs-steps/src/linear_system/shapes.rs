@@ -74,7 +74,7 @@ impl LinearSystem {
         let mut shapes: Vec<ModeShape> = Vec::with_capacity(modes.len());
         for mode in modes {
             let value = [mode.real, mode.imaginary];
-            let apart = |of: &Mode| (of.real - value[0]).hypot(of.imaginary - value[1]);
+            let apart = |of: &Mode| size([of.real - value[0], of.imaginary - value[1]]);
             let equal = shapes.iter().filter(|shape| apart(&shape.mode) <= EQUAL * largest);
             let before: Vec<Vec<Complex>> = equal.map(|shape| shape.states.clone()).collect();
             let states = self.vector(value, largest, &before);

@@ -19,7 +19,7 @@ pub(super) fn quotient(a: Complex, [c, d]: Complex) -> Complex {
 }
 
 pub(super) fn size([a, b]: Complex) -> f64 {
-    a.hypot(b)
+    libm::hypot(a, b)
 }
 
 fn subtract(from: &mut Complex, [a, b]: Complex) {

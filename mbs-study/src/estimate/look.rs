@@ -214,7 +214,7 @@ impl<const D: usize> Eye<'_, D> {
         let step = (self.look.step_at)(t);
         let mut largest: f64 = 0.0;
         for (body, pose) in poses(self.look.scene, model, state).iter().enumerate() {
-            let rate = pose.omega.iter().fold(0.0, |sum: f64, x| sum.hypot(*x));
+            let rate = pose.omega.iter().fold(0.0, |sum: f64, x| libm::hypot(sum, *x));
             largest = largest.max(rate);
             if rate * step > most.turn.0 {
                 most.turn = (rate * step, body);

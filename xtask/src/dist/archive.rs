@@ -1,0 +1,102 @@
+//! The archive of the command: the binary, licences, manual pages, completions.
+
+use super::build::{Build, VERSION};
+use super::trial::{apart, emptied, example, is_filled, quietly};
+use crate::process::{self, cargo, root, run, target_dir};
+use std::env::consts::EXE_SUFFIX;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+/// Shells that have completions.
+const SHELLS: [&str; 5] = ["bash", "elvish", "fish", "powershell", "zsh"];
+
+/// Files of the repository that come with the command.
+const FILES: [&str; 4] = ["LICENSE-APACHE", "LICENSE-MIT", "README.md", "CHANGELOG.md"];
+
+/// How cargo builds the command on the crates that the wheel is built on: with the package of the wheel selected too, features of
+/// dependencies are the same, and nothing is compiled twice.
+pub(super) const SELECTION: [&str; 7] = [
+    "--package",
+    "mbs-cli",
+    "--package",
+    "mbs-python",
+    "--no-default-features",
+    "--features",
+    "mbs-cli/f32,mbs-cli/dd",
+];
+
+/// Builds the command and packs it; the path of the archive.
+pub(super) fn made(build: &Build<'_>, place: &Path) -> Result<PathBuf, String> {
+    let mut command = cargo();
+    command.args(["build", "--locked", "--bin", "mbs", "--profile", build.profile]).args(SELECTION);
+    command.arg("--target-dir").arg(target_dir()).current_dir(root());
+    if let Some(target) = build.target {
+        command.args(["--target", target]);
+    }
+    run(build.strip(&mut command))?;
+    let name = format!("mbs-{VERSION}-{}", build.target()?);
+    let staged = emptied(&place.join(&name))?;
+    packed(&build.folder().join(format!("mbs{EXE_SUFFIX}")), &staged)?;
+    let archive = format!("{name}.tar.gz");
+    run(Command::new("tar").args(["-czf", &archive, &name]).current_dir(place))?;
+    fs::remove_dir_all(&staged).map_err(|e| format!("{}: {e}", staged.display()))?;
+    Ok(place.join(archive))
+}
+
+/// Puts the command and what comes with it into a folder.
+fn packed(built: &Path, folder: &Path) -> Result<(), String> {
+    let copy = |from: &Path| {
+        let to = folder.join(from.file_name().unwrap_or_default());
+        fs::copy(from, to).map(drop).map_err(|e| format!("{}: {e}", from.display()))
+    };
+    copy(built)?;
+    for file in FILES {
+        copy(&root().join(file))?;
+    }
+    quietly(Command::new(built).arg("man").arg(folder.join("man")))?;
+    let completions = folder.join("completions");
+    fs::create_dir(&completions).map_err(|e| format!("{}: {e}", completions.display()))?;
+    for shell in SHELLS {
+        let text = quietly(Command::new(built).args(["completions", shell]))?;
+        let file = completions.join(format!("mbs.{shell}"));
+        fs::write(&file, text).map_err(|e| format!("{}: {e}", file.display()))?;
+    }
+    Ok(())
+}
+
+/// Unpacks the archive into a folder and follows the README's example with it; seconds of the example.
+pub(super) fn tried(archive: &Path, folder: &Path) -> Result<f64, String> {
+    // named without its folder: tar takes what stands before a colon for a machine
+    let name = archive.file_name().unwrap_or_default().to_string_lossy();
+    fs::copy(archive, folder.join(&*name)).map_err(|e| format!("{name}: {e}"))?;
+    run(Command::new("tar").args(["-xzf", &name]).current_dir(folder))?;
+    let unpacked = folder.join(name.trim_end_matches(".tar.gz"));
+    for file in FILES.iter().chain(&["man/mbs.1", "completions/mbs.bash"]) {
+        is_filled(&unpacked.join(file))?;
+    }
+    let mbs = unpacked.join(format!("mbs{EXE_SUFFIX}"));
+    let version = quietly(apart(Command::new(&mbs).arg("--version"), folder))?;
+    if version.trim() != format!("mbs {VERSION}") {
+        return Err(format!("{} says {version}", process::line(&Command::new(&mbs))));
+    }
+    example(&mbs, folder)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::process::built_packages;
+
+    #[test]
+    fn the_command_of_a_release_stands_on_what_the_wheel_stands_on() {
+        let edges = ["--edges", "normal,build"];
+        let command = built_packages(&[&SELECTION[..], &edges].concat());
+        let wheel = built_packages(&[&["--package", "mbs-python"][..], &edges].concat());
+        let others: Vec<&String> = command
+            .difference(&wheel)
+            .filter(|package| !package.starts_with("mbs-python "))
+            .collect();
+        assert!(others.is_empty(), "these are compiled twice: {others:?}");
+    }
+}
