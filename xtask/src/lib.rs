@@ -1,4 +1,4 @@
-//! Jobs of this repository: run a scene, run every check, cross-compile the `no_std` crates; and what the jobs of `lab` share with them.
+//! Jobs of this repository: run a scene, run the tests, run every check, cross-compile the `no_std` crates; and what the jobs of `lab` share with them.
 
 pub mod bundle;
 pub mod check;
@@ -7,6 +7,7 @@ pub mod command;
 pub mod debian;
 mod documentation;
 pub mod effects;
+mod features;
 pub mod nostd;
 pub mod package;
 pub mod pages;
@@ -17,5 +18,7 @@ pub mod python;
 pub mod races;
 pub mod simulate;
 pub mod summary;
+mod tally;
+pub mod test;
 #[cfg(test)]
 mod tidy;

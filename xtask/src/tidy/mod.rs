@@ -45,6 +45,15 @@ fn files(folder: &Path, ending: &str) -> Vec<PathBuf> {
     found
 }
 
+/// The files that declare a module of a name, from the root of the repository.
+pub(crate) fn modules_named(module: &str) -> Vec<String> {
+    let sources = crate_folders().into_iter().flat_map(|folder| files(&folder, "rs"));
+    let ending = format!("{module};");
+    let is_declared =
+        |text: String| text.lines().any(|line| line.contains("mod ") && line.ends_with(&ending));
+    sources.filter(|path| is_declared(read(path))).map(|path| name(&path)).collect()
+}
+
 /// What a folder holds, in order; nothing when it is not there.
 fn entries(folder: &Path) -> Vec<PathBuf> {
     let mut paths: Vec<_> =
