@@ -162,3 +162,23 @@ fn component(subcommand: &str, name: &str, args: &[&str]) -> Result<Outcome, Str
     }
     passed(cargo().args(args))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn contributing_lists_the_checks_in_their_order() {
+        let text = include_str!("../../CONTRIBUTING.md");
+        let numbered = text.lines().filter_map(|line| {
+            let (number, rest) = line.split_once(". `")?;
+            number.parse::<u32>().ok()?;
+            Some(rest.split_once("`: ")?.0)
+        });
+        let names = |list: &[Listed]| list.iter().map(|(name, _)| *name).collect::<Vec<_>>();
+        let beside = BESIDE.iter().flat_map(|list| names(list)).collect();
+        let lists =
+            [names(&BEFORE_THE_TESTS), vec!["tests", "python"], names(&AFTER_THE_TESTS), beside];
+        assert_eq!(numbered.collect::<Vec<_>>(), lists.concat());
+    }
+}
