@@ -3,13 +3,13 @@
 mod front;
 pub mod results;
 
+#[doc(hidden)]
+pub use mbs_steps::named;
 use mbs_steps::{
     checkpoint, choice, document, equilibrium, erased, fingerprint, interrupt, linear_system,
     methods, modes, names, placed, precision, rest, run, settings, sizes, statics, stop, tilt,
     tree,
 };
-#[doc(hidden)]
-pub use mbs_steps::named;
 pub use mbs_steps::{export, folder, realtime, record, typed, words};
 
 pub use mbs_augmented as augmented;

@@ -1,7 +1,9 @@
-//! `cargo xtask test`: every check of this repository.
+//! `cargo xtask check`: every check of this repository.
 
 use crate::debian;
 use crate::documentation;
+use crate::features;
+use crate::lines;
 use crate::nostd;
 use crate::package;
 use crate::pages;
@@ -9,66 +11,14 @@ use crate::pick;
 use crate::process::{self, cargo, run};
 use crate::python;
 use crate::summary::{LeftOut, Outcome, Summary};
+use crate::test::{self, DOCUMENTS, RULES};
 use std::process::{Command, ExitCode, Stdio};
-
-/// Crates with features, and the sets of them that must build on the host.
-const FEATURES: [(&str, &[&str]); 7] = [
-    ("mbs-math", &["", "alloc"]),
-    // Of the effects: laws with tables, laws that share a file, laws of both kinds, and all without scenes.
-    (
-        "mbs-core",
-        &[
-            "",
-            "alloc",
-            "std",
-            "alloc,polynomial",
-            "alloc,limit,friction",
-            "alloc,bushing,bumper",
-            "alloc,tire,speed-hold",
-            "alloc,own-laws,drag",
-            "effects",
-        ],
-    ),
-    // Of the elements: those with rows, those without, and all.
-    (
-        "mbs-recursive",
-        &[
-            "",
-            "couplings,rolling,sums",
-            "couplings,curves",
-            "lines,sums",
-            "rotors,signals",
-            "alloc",
-            "alloc,mbs-core/tire",
-            "alloc,mbs-core/effects",
-        ],
-    ),
-    (
-        "mbs-nostd",
-        &[
-            "",
-            "mbs-core/tire",
-            "mbs-core/polynomial,mbs-core/speed-hold",
-            "mbs-core/effects",
-            "couplings,rotors",
-            "couplings,curves",
-            "rolling",
-            "lines,signals,sums",
-            "elements",
-            "export",
-            "export,mbs-core/effects",
-        ],
-    ),
-    ("mbs", &["", "f32", "dd"]),
-    ("mbs-cli", &["", "f32", "dd"]),
-    ("lab", &["jobs,effects"]),
-];
 
 /// What is left out of the checks, and what is added to them.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Scope {
-    /// Without lints, documentation, fuzz, pages and counts.
-    pub is_quick: bool,
+    /// Without the tests: `cargo xtask test` has run them.
+    pub is_tested: bool,
     /// A check that lacks a tool fails.
     pub is_strict: bool,
     /// The jobs too that take hours.
@@ -76,75 +26,51 @@ pub struct Scope {
 }
 
 /// Runs every check and prints the summary; exit status 1 if one failed.
-pub fn test(scope: Scope) -> ExitCode {
+pub fn check(scope: Scope) -> ExitCode {
     let mut summary = Summary::new(scope.is_strict);
-    checks(scope.is_quick, &mut summary);
+    listed(&BEFORE_THE_TESTS, &mut summary);
+    if scope.is_tested {
+        summary.skip("tests", "--tested");
+        summary.skip("python", "--tested");
+    } else {
+        test::run(&mut summary);
+    }
+    listed(&AFTER_THE_TESTS, &mut summary);
+    summary.beside(BESIDE.map(|list| move |part: &mut Summary| listed(list, part)));
     if scope.is_long {
         long(&mut summary);
     }
-    let result = summary.complete();
-    eprintln!();
-    eprint!("{}", summary.text());
-    match result {
-        Ok(()) => {
-            eprintln!("\nAll checks that ran hold.");
-            ExitCode::SUCCESS
-        }
-        Err(why) => {
-            eprintln!("\n{why}");
-            ExitCode::FAILURE
-        }
-    }
+    summary.end("cargo xtask check")
 }
 
 type Check = fn() -> Result<Outcome, String>;
 
-/// Whether a quick list has a check.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum IfQuick {
-    Runs,
-    Skipped,
-}
+type Listed = (&'static str, Check);
 
-type Listed = (&'static str, Check, IfQuick);
+/// What a mistake while writing fails at, first.
+const BEFORE_THE_TESTS: [Listed; 2] = [("format", format), ("lints", lints)];
 
-/// What is built and run first, in order.
-const BUILT_FIRST: [Listed; 4] = [
-    ("format", format, IfQuick::Runs),
-    ("lints", lints, IfQuick::Skipped),
-    // Before the tests: it leaves a lean `mbs` where later jobs look for the whole one, which the tests build.
-    ("features", features, IfQuick::Runs),
-    ("tests", tests, IfQuick::Runs),
+/// What runs on the build of the tests, on all cores: one after another. `lean` leaves a lean `mbs` where later jobs look for the whole
+/// one; its tests put that back.
+const AFTER_THE_TESTS: [Listed; 3] =
+    [("rules", rules), ("lean", features::lean), ("documents", documents)];
+
+/// Lists beside each other: each alone leaves a core idle half of the time. What they use of the target folder of the tests is built there by
+/// now, with the features of the tests.
+const BESIDE: [&[Listed]; 3] = [
+    &[
+        ("fuzz", fuzz),
+        ("pages", pages::check),
+        ("documentation", documentation::check),
+        ("counts", counts),
+    ],
+    &[("check-nostd", nostd::check), ("pick", pick::check)],
+    &[("features", features::check), ("lines", lines::check)],
 ];
 
-/// Then two lists beside each other: each alone leaves a core idle half of the time. What they use of the target folder of the tests is built
-/// there by now, with the features of the tests.
-const THEN: [&[Listed]; 2] = [
-    &[
-        ("fuzz", fuzz, IfQuick::Skipped),
-        ("pages", pages::check, IfQuick::Skipped),
-        ("documentation", documentation::check, IfQuick::Skipped),
-        ("counts", counts, IfQuick::Skipped),
-    ],
-    &[
-        ("check-nostd", nostd::check, IfQuick::Runs),
-        ("pick", pick::check, IfQuick::Runs),
-        ("python", python::check, IfQuick::Skipped),
-    ],
-];
-
-fn checks(is_quick: bool, summary: &mut Summary) {
-    listed(&BUILT_FIRST, is_quick, summary);
-    summary.beside(THEN.map(|list| move |part: &mut Summary| listed(list, is_quick, part)));
-}
-
-fn listed(list: &[Listed], is_quick: bool, summary: &mut Summary) {
-    for (name, check, if_quick) in list {
-        if is_quick && *if_quick == IfQuick::Skipped {
-            summary.skip(name, "--quick");
-        } else {
-            summary.check(name, check);
-        }
+fn listed(list: &[Listed], summary: &mut Summary) {
+    for (name, check) in list {
+        summary.check(name, check);
     }
 }
 
@@ -188,8 +114,14 @@ fn lints() -> Result<Outcome, String> {
     component("clippy", "clippy", &[&["clippy", "--workspace"], &args[..]].concat())
 }
 
-fn tests() -> Result<Outcome, String> {
-    passed(cargo().args(["test", "--workspace", "--no-fail-fast"]))
+/// The rules for text, edges, dependencies, licences and packages, which are tests of xtask.
+fn rules() -> Result<Outcome, String> {
+    passed(cargo().args(["test", "--workspace", "--quiet", "--lib", RULES]))
+}
+
+/// The commands of the documents, which are a test of the command.
+fn documents() -> Result<Outcome, String> {
+    passed(cargo().args(["test", "--workspace", "--quiet", "--test", "command", DOCUMENTS]))
 }
 
 /// The first texts of fuzzing, the same on every machine that is fast enough: two to six minutes, ten at most.
@@ -232,35 +164,22 @@ fn component(subcommand: &str, name: &str, args: &[&str]) -> Result<Outcome, Str
     passed(cargo().args(args))
 }
 
-/// Checks crates with each of their feature sets alone, with lints where they are installed.
-fn features() -> Result<Outcome, String> {
-    let lints = process::output(cargo().args(["clippy", "--version"])).is_some();
-    for (package, sets) in FEATURES {
-        for set in sets {
-            let mut command = cargo();
-            command.args([if lints { "clippy" } else { "check" }, "--quiet", "--package", package]);
-            command.args(["--no-default-features", "--features", set]);
-            if lints {
-                command.args(["--", "--deny", "warnings"]);
-            }
-            run(command.current_dir(process::root()))?;
-        }
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn contributing_lists_the_checks_in_their_order() {
+        let text = include_str!("../../CONTRIBUTING.md");
+        let numbered = text.lines().filter_map(|line| {
+            let (number, rest) = line.split_once(". `")?;
+            number.parse::<u32>().ok()?;
+            Some(rest.split_once("`: ")?.0)
+        });
+        let names = |list: &[Listed]| list.iter().map(|(name, _)| *name).collect::<Vec<_>>();
+        let beside = BESIDE.iter().flat_map(|list| names(list)).collect();
+        let lists =
+            [names(&BEFORE_THE_TESTS), vec!["tests", "python"], names(&AFTER_THE_TESTS), beside];
+        assert_eq!(numbered.collect::<Vec<_>>(), lists.concat());
     }
-    // The repository's first commands are built so: what asks for more must be known by its exit status. Nothing long runs, and level 0 builds
-    // in a tenth of the time.
-    let lean = ["test", "--quiet", "--package", "mbs-cli", "--no-default-features"];
-    let lean = [&lean[..], &["--test", "command", "lean::"]].concat();
-    run(cargo().args(lean).env("CARGO_PROFILE_DEV_OPT_LEVEL", "0").current_dir(process::root()))?;
-    // What is compared with other programs stands outside the workspace: nothing else would show that it still fits.
-    let ours = ["check", "--quiet", "--locked", "--manifest-path", "lab/peers/ours/Cargo.toml"];
-    run(cargo()
-        .args(ours)
-        .args(["--target-dir", "target/peers/check"])
-        .current_dir(process::root()))?;
-    let names = |sets: &[&str]| {
-        let names = sets.iter().map(|set| if set.is_empty() { "none" } else { set });
-        names.collect::<Vec<_>>().join(", ")
-    };
-    let remarks = FEATURES.map(|(package, sets)| format!("{package} with {}", names(sets)));
-    Ok(Outcome::Passed(remarks.join("; ")))
 }

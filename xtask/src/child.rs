@@ -1,13 +1,16 @@
 //! Programs that are started and waited for, and ended where they take too long.
 
 use crate::process;
-use std::io::Read;
-use std::process::{Command, Output, Stdio};
+use std::io::{BufRead, BufReader, Read};
+use std::process::{Child, Command, Output, Stdio};
+use std::sync::mpsc::{self, Receiver, RecvTimeoutError};
 use std::thread::{self, JoinHandle};
 use std::time::{Duration, Instant};
 
 /// How often a program that may take too long is looked at.
 const PAUSE: Duration = Duration::from_millis(2);
+/// How long a program is silent before it is asked whether it has ended. Chosen, not tuned.
+const SILENCE: Duration = Duration::from_secs(1);
 
 /// Waits for a command; `None` where it was ended after `limit`.
 ///
@@ -54,6 +57,55 @@ pub fn printed(command: &mut Command, limit: Duration) -> Result<String, String>
     Err(format!("`{}`: {status}: {}", process::line(command), errors.trim()))
 }
 
+/// Runs a command and shows its standard output, line by line; each line is also given to `read`.
+///
+/// # Errors
+///
+/// How it ended.
+#[allow(clippy::print_stdout, reason = "the output is the command's")]
+pub(crate) fn shown(command: &mut Command, mut read: impl FnMut(&str)) -> Result<(), String> {
+    let line = process::line(command);
+    let failed = |e: std::io::Error| format!("`{line}`: {e}");
+    let child = command.stdin(Stdio::null()).stdout(Stdio::piped());
+    let mut child = child.spawn().map_err(failed)?;
+    let lines = lines(child.stdout.take());
+    while let Some(line) = next(&lines, &mut child) {
+        println!("{line}");
+        read(&line);
+    }
+    let status = child.wait().map_err(failed)?;
+    if status.success() { Ok(()) } else { Err(format!("`{line}`: {status}")) }
+}
+
+/// The lines of a stream, as they come.
+fn lines(stream: Option<impl Read + Send + 'static>) -> Receiver<String> {
+    let (sender, lines) = mpsc::channel();
+    thread::spawn(move || {
+        let mut stream = stream.map(BufReader::new);
+        let mut bytes = Vec::new();
+        while let Some(Ok(1..)) = stream.as_mut().map(|s| s.read_until(b'\n', &mut bytes)) {
+            let text = String::from_utf8_lossy(&bytes).trim_end().to_owned();
+            if sender.send(text).is_err() {
+                break;
+            }
+            bytes.clear();
+        }
+    });
+    lines
+}
+
+/// The next line; `None` at the end, or where the child has ended and is silent: a program that it left behind may hold the stream.
+fn next(lines: &Receiver<String>, child: &mut Child) -> Option<String> {
+    loop {
+        match lines.recv_timeout(SILENCE) {
+            Ok(line) => return Some(line),
+            Err(RecvTimeoutError::Disconnected) => return None,
+            Err(RecvTimeoutError::Timeout) if matches!(child.try_wait(), Ok(None)) => {}
+            Err(RecvTimeoutError::Timeout) => return lines.try_recv().ok(),
+        }
+    }
+}
+
 /// Reads a stream to its end, so that the child never waits for us.
 fn drain(stream: Option<impl Read + Send + 'static>) -> JoinHandle<Vec<u8>> {
     thread::spawn(move || {
@@ -78,5 +130,18 @@ mod tests {
         assert_eq!(shell("echo line", 20_000), Ok("line\n".to_owned()));
         assert!(shell("echo no >&2; exit 1", 20_000).unwrap_err().ends_with(": no"));
         assert!(shell("exec sleep 20", 30).unwrap_err().contains("took more than 0.03 s"));
+    }
+
+    #[test]
+    fn lines_are_read_as_they_come_and_what_is_left_behind_is_not_waited_for() {
+        let start = Instant::now();
+        let mut lines = Vec::new();
+        let script = "echo one; printf two; sleep 60 & exit 3";
+        let ended =
+            shown(Command::new("sh").args(["-c", script]), |line| lines.push(line.to_owned()));
+        assert!(ended.unwrap_err().ends_with("exit status: 3"));
+        assert_eq!(lines, ["one"]);
+        assert!(start.elapsed() < Duration::from_secs(30));
+        assert!(shown(&mut Command::new("true"), |_| {}).is_ok());
     }
 }

@@ -1,4 +1,4 @@
-//! Jobs of this repository: run a scene, run every check, cross-compile the `no_std` crates; and what the jobs of `lab` share with them.
+//! Jobs of this repository: run a scene, run the tests, run every check, cross-compile the `no_std` crates; and what the jobs of `lab` share with them.
 
 pub mod bundle;
 pub mod check;
@@ -8,6 +8,7 @@ pub mod debian;
 pub mod dist;
 mod documentation;
 pub mod effects;
+mod features;
 pub mod lines;
 pub mod nostd;
 pub mod package;
@@ -19,5 +20,7 @@ pub mod python;
 pub mod races;
 pub mod simulate;
 pub mod summary;
+mod tally;
+pub mod test;
 #[cfg(test)]
 mod tidy;

@@ -6,10 +6,11 @@ use std::ffi::OsString;
 use std::process::ExitCode;
 use xtask::{
     bundle, check, dist, lines, nostd, package, pick, pictures, process, python, races, simulate,
+    test,
 };
 
 /// The jobs of `lab`.
-const LAB: &str = "Jobs that measure, each with its own --help; they are compiled when one is asked for: bench, choice, counts, estimate, fuzz, gauntlet, peers, profile, report, steps, tables";
+const LAB: &str = "Jobs that measure, each with its own --help; they are compiled when one is asked for: bench, choice, estimate, fuzz, gauntlet, peers, profile, report, steps, tables";
 
 /// The command line.
 #[derive(Debug, Parser)]
@@ -38,17 +39,28 @@ enum Job {
         #[arg(trailing_var_arg = true, allow_hyphen_values = true, value_name = "ARGS")]
         args: Vec<OsString>,
     },
-    /// Every check, also behind one that fails: format, lints, tests, fuzz, pages, documentation, features, pick, check-nostd, counts, python
-    #[command(alias = "ci")]
+    /// The tests of every crate, of the command and of the Python package. The last line is `N passed, N failed`
     Test {
-        /// Skip lints, fuzz, pages, documentation, counts and the Python package
+        /// Fail where tests cannot run for want of a tool
         #[arg(long)]
+        strict: bool,
+        /// An option of `check`
+        #[arg(long, hide = true)]
         quick: bool,
+        /// An option of `check`
+        #[arg(long, hide = true)]
+        long: bool,
+    },
+    /// Every check, also behind one that fails: format, lints, tests, python, rules, lean, documents, fuzz, pages, documentation, counts, check-nostd, pick, features, lines
+    Check {
+        /// Without the tests, which `cargo xtask test` has run
+        #[arg(long)]
+        tested: bool,
         /// Fail where a check cannot run for want of a tool
         #[arg(long)]
         strict: bool,
         /// Then the jobs that take hours: packages, races, the whole gauntlet, long fuzzing, choice, report, peers, notebooks
-        #[arg(long, conflicts_with = "quick")]
+        #[arg(long)]
         long: bool,
     },
     /// Build and run each package of examples/pick: mbs-core and one formulation alone
@@ -70,6 +82,15 @@ enum Job {
         /// Words: pictures whose names have one of them. Default: all
         words: Vec<String>,
     },
+    /// Count the instructions of a step under callgrind (a job of `lab`), or the lines of code before optimisation
+    Counts {
+        /// Lines of code that LLVM is given, crate by crate: what a build costs. Fails above the bounds in docs/PROFILES.md
+        #[arg(long)]
+        lines: bool,
+        /// Write the lines into docs/PROFILES.md; bounds are raised by hand
+        #[arg(long, requires = "lines")]
+        keep: bool,
+    },
     /// A job of `lab`, and its words
     #[command(external_subcommand)]
     Lab(Vec<OsString>),
@@ -82,8 +103,17 @@ fn main() -> ExitCode {
     match Cli::parse().job {
         Job::Simulate { args } => simulate::simulate(&args),
         Job::Mbs { args } => simulate::mbs(&args),
-        Job::Test { quick, strict, long } => {
-            check::test(check::Scope { is_quick: quick, is_strict: strict, is_long: long })
+        Job::Test { quick: true, .. } => refused(
+            "test --quick",
+            "`cargo xtask test` runs the tests alone, `cargo xtask check` every check",
+        ),
+        Job::Test { long: true, .. } => refused(
+            "test --long",
+            "`cargo xtask check --long` runs every check, then the long list",
+        ),
+        Job::Test { strict, .. } => test::test(strict),
+        Job::Check { tested, strict, long } => {
+            check::check(check::Scope { is_tested: tested, is_strict: strict, is_long: long })
         }
         Job::Pick => pick::pick(),
         Job::Python => python::python(),
@@ -93,9 +123,20 @@ fn main() -> ExitCode {
         Job::Bundle => bundle::bundle(),
         Job::Pictures { words } => pictures::pictures(&words),
         Job::CheckNostd => nostd::check_nostd(),
+        Job::Counts { lines: true, keep } => lines::lines(keep),
+        Job::Counts { .. } => process::hand_over(process::cargo().args(["lab", "counts"])),
         Job::Lab(words) if words[0].to_str().is_some_and(|job| LAB.contains(job)) => {
             process::hand_over(process::cargo().arg("lab").args(words))
         }
+        Job::Lab(words) if words[0] == "ci" => {
+            refused("ci", "`cargo xtask check` runs every check")
+        }
         Job::Lab(_) => Cli::command().error(InvalidSubcommand, "there is no such job").exit(),
     }
+}
+
+/// Refuses a former word of the command line, with exit status 2.
+fn refused(word: &str, hint: &str) -> ! {
+    let message = format!("there is no `cargo xtask {word}`\n\n  hint: {hint}");
+    Cli::command().error(InvalidSubcommand, message).exit()
 }

@@ -63,8 +63,8 @@ fn packages(folder: &Path) -> Vec<PathBuf> {
     folders
 }
 
-/// A cargo command on a package outside the workspace, with its committed versions; without the network where all of them are
-/// here already.
+/// A cargo command on one package of the workspace `examples/pick`, with its committed versions; without the network where all of
+/// them are here already. Features are those that this package alone asks for.
 fn on(subcommand: &str, manifest: &Path) -> Command {
     let mut probe = cargo();
     probe.args(["metadata", "--format-version", "1", "--locked", "--offline", "--manifest-path"]);

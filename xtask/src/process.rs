@@ -1,6 +1,5 @@
 //! Child processes and places: the repository root, the target folder, cargo; progress and files.
 
-#[cfg(test)]
 use std::collections::BTreeSet;
 use std::env;
 use std::ffi::OsStr;
@@ -8,6 +7,7 @@ use std::fs;
 use std::io::{IsTerminal, stderr};
 use std::path::{Path, PathBuf};
 use std::process::{Command, ExitCode, ExitStatus, Stdio};
+use std::sync::{Mutex, PoisonError};
 
 /// The root of the repository.
 pub fn root() -> PathBuf {
@@ -28,15 +28,20 @@ pub fn cargo() -> Command {
 }
 
 /// Builds a program as the tests are built, so that nothing is built twice for other features of what it stands on: fast, with
-/// every check of a debug build. It is named by a test of its package.
+/// every check of a debug build. It is named by a test of its package. A process asks cargo once for each.
 ///
 /// # Errors
 ///
 /// What cargo came to.
-pub fn tested(program: &str, test: &str) -> Result<PathBuf, String> {
-    let mut build = cargo();
-    build.args(["test", "--workspace", "--no-run", "--quiet", "--test", test]);
-    run(build.current_dir(root()))?;
+pub fn tested(program: &str, test: &'static str) -> Result<PathBuf, String> {
+    static BUILT: Mutex<BTreeSet<&str>> = Mutex::new(BTreeSet::new());
+    let mut built = BUILT.lock().unwrap_or_else(PoisonError::into_inner);
+    if !built.contains(test) {
+        let mut build = cargo();
+        build.args(["test", "--workspace", "--no-run", "--quiet", "--test", test]);
+        run(build.current_dir(root()))?;
+        built.insert(test);
+    }
     Ok(target_dir().join("debug").join(program))
 }
 

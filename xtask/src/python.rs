@@ -2,6 +2,7 @@
 
 use crate::process::{self, output, run};
 use crate::summary::{self, LeftOut, Outcome};
+use crate::tally::{Tally, counted};
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, ExitCode};
@@ -11,32 +12,51 @@ const OLDEST: [u32; 2] = [3, 11];
 
 /// Runs the check by itself.
 pub fn python() -> ExitCode {
-    summary::ended("python", check())
+    summary::ended("python", tests(tools(), &mut Tally::default()))
 }
 
-/// Builds the wheel, as the tests of the workspace are built, and tests it with what the package works with.
+/// Virtual environments with what the package is built with, and with what its tests work with.
+#[derive(Debug)]
+pub(crate) struct Tools {
+    build: PathBuf,
+    tests: PathBuf,
+}
+
+/// Makes the environments; `None` without a Python that is young enough.
 ///
 /// # Errors
 ///
 /// What failed first.
-pub(crate) fn check() -> Result<Outcome, String> {
-    let Some(python) = interpreter() else {
+pub(crate) fn tools() -> Result<Option<Tools>, String> {
+    let Some(python) = interpreter() else { return Ok(None) };
+    let build = environment(&python, &place().join("tools"))?;
+    pip(&build, &["--requirement", "mbs-python/tools/requirements.txt"])?;
+    let tests = environment(&python, &place().join("tested"))?;
+    pip(&tests, &["--requirement", "mbs-python/tests/requirements.txt"])?;
+    Ok(Some(Tools { build, tests }))
+}
+
+/// Builds the wheel, as the tests of the workspace are built, and tests it with what the package works with; the tests are counted.
+///
+/// # Errors
+///
+/// What failed first.
+pub(crate) fn tests(
+    tools: Result<Option<Tools>, String>,
+    tally: &mut Tally,
+) -> Result<Outcome, String> {
+    let Some(Tools { build, tests }) = tools? else {
         let [major, minor] = OLDEST;
         return Ok(Outcome::LeftOut(LeftOut {
             why: format!("no Python of version {major}.{minor} or later with venv is installed"),
             remedy: "On Debian, as root: `apt-get install python3 python3-venv`.".to_owned(),
         }));
     };
-    let place = place();
-    let wheel = wheel(&python, &place)?;
-    let tests = environment(&python, &place.join("tested"))?;
-    pip(&tests, &["--requirement", "mbs-python/tests/requirements.txt"])?;
+    let wheel = wheel(&build)?;
     pip(&tests, &["--no-deps", "--force-reinstall", &wheel.display().to_string()])?;
-    let folder = process::root().join("mbs-python");
-    let pytest = ["-m", "pytest", "--quiet", "-p", "no:cacheprovider"];
-    run(in_environment(&tests).args(pytest).current_dir(&folder))?;
-    let size = fs::metadata(&wheel).map_err(|e| format!("{}: {e}", wheel.display()))?.len();
-    Ok(Outcome::Passed(format!("a wheel of {} MB without optimisation", size / 1_000_000)))
+    let mut pytest = in_environment(&tests);
+    pytest.args(["-m", "pytest", "--quiet", "-p", "no:cacheprovider"]);
+    counted(pytest.current_dir(process::root().join("mbs-python")), Tally::read_python, tally)
 }
 
 /// Runs the notebooks, whose code is that of the examples.
@@ -93,10 +113,8 @@ pub(crate) fn pip(at: &Path, words: &[&str]) -> Result<(), String> {
 }
 
 /// Builds the wheel with the features of the workspace's tests: what these have compiled is not compiled again.
-fn wheel(python: &str, place: &Path) -> Result<PathBuf, String> {
-    let tools = environment(python, &place.join("tools"))?;
-    pip(&tools, &["--requirement", "mbs-python/tools/requirements.txt"])?;
-    let wheels = place.join("wheels");
+fn wheel(tools: &Path) -> Result<PathBuf, String> {
+    let wheels = place().join("wheels");
     let _ = fs::remove_dir_all(&wheels);
     let build = [
         "-m",
@@ -109,7 +127,7 @@ fn wheel(python: &str, place: &Path) -> Result<PathBuf, String> {
         "as-tested",
         "--out",
     ];
-    run(in_environment(&tools)
+    run(in_environment(tools)
         .args(build)
         .arg(&wheels)
         .env("CARGO_TARGET_DIR", process::target_dir())

@@ -1,4 +1,4 @@
-//! What ran, what was left out and how to get it: the last lines of `cargo xtask test`.
+//! What ran, what was left out and how to get it: the last lines of `cargo xtask test` and `cargo xtask check`.
 
 use crate::process::children_seconds;
 use std::panic::resume_unwind;
@@ -131,9 +131,24 @@ impl Summary {
         self.lines.push(format!("  skipped   {name:<14} {why}"));
     }
 
-    /// The summary as text: one line a check, then what was left out and how to get it.
-    pub fn text(&self) -> String {
-        let mut text = String::from("cargo xtask test:\n");
+    /// Prints the summary of a job, and what failed; its exit status.
+    pub fn end(&self, job: &str) -> ExitCode {
+        eprint!("\n{}", self.text(job));
+        match self.complete() {
+            Ok(()) => {
+                eprintln!("\nAll checks that ran hold.");
+                ExitCode::SUCCESS
+            }
+            Err(why) => {
+                eprintln!("\n{why}");
+                ExitCode::FAILURE
+            }
+        }
+    }
+
+    /// The summary of a job as text: one line a check, then what was left out and how to get it.
+    pub fn text(&self, job: &str) -> String {
+        let mut text = format!("{job}:\n");
         for line in &self.lines {
             text.push_str(line.trim_end());
             text.push('\n');
@@ -158,7 +173,7 @@ mod tests {
         let mut summary = Summary::default();
         summary.check("format", || Ok(Outcome::Passed(String::new())));
         summary.check("check-nostd", || Ok(Outcome::LeftOut(missing_target())));
-        let text = summary.text();
+        let text = summary.text("cargo xtask check");
         assert!(text.contains("ok        format"));
         assert!(text.contains("check-nostd did not run: no target\nadd it\n"));
     }
@@ -186,7 +201,7 @@ mod tests {
             }
         }));
         assert_eq!(summary.complete(), Err("format failed: two lines\nfuzz failed: one".into()));
-        let text = summary.text();
+        let text = summary.text("cargo xtask check");
         assert!(text.contains("FAILED    fuzz") && text.contains("ok        pick"), "{text}");
     }
 }

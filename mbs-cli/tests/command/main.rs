@@ -22,7 +22,6 @@ mod help;
 #[cfg(target_os = "linux")]
 mod hostile;
 mod inputs;
-#[cfg(not(any(feature = "f32", feature = "dd")))]
 mod lean;
 mod manual;
 mod models;

@@ -45,6 +45,16 @@ fn files(folder: &Path, ending: &str) -> Vec<PathBuf> {
     found
 }
 
+/// The files that declare a module whose name ends so, from the root of the repository.
+pub(crate) fn modules_named(module: &str) -> Vec<String> {
+    let sources = crate_folders().into_iter().flat_map(|folder| files(&folder, "rs"));
+    let endings = [format!("{module};"), format!("{module} {{")];
+    let is_one = |line: &str| {
+        line.contains("mod ") && endings.iter().any(|ending| line.ends_with(ending.as_str()))
+    };
+    sources.filter(|path| read(path).lines().any(is_one)).map(|path| name(&path)).collect()
+}
+
 /// What a folder holds, in order; nothing when it is not there.
 fn entries(folder: &Path) -> Vec<PathBuf> {
     let mut paths: Vec<_> =

@@ -1,0 +1,60 @@
+//! `cargo xtask test`: the tests of every crate, of the command and of the Python package.
+
+use crate::process::{self, cargo};
+use crate::python;
+use crate::summary::Summary;
+use crate::tally::{Tally, counted};
+use std::panic::resume_unwind;
+use std::process::{Command, ExitCode};
+use std::thread;
+
+/// The module of the rules for text, in the library of xtask: a check by itself.
+pub(crate) const RULES: &str = "tidy::";
+/// The module of the documents that run, in the tests of the command: a check by itself.
+pub(crate) const DOCUMENTS: &str = "documents::";
+
+/// Runs the tests; the last line of standard output is their count.
+#[allow(clippy::print_stdout, reason = "the count is what is asked for")]
+pub fn test(is_strict: bool) -> ExitCode {
+    let mut summary = Summary::new(is_strict);
+    let tally = run(&mut summary);
+    let code = summary.end("cargo xtask test");
+    println!("{tally}");
+    code
+}
+
+/// Runs the tests of Rust, then those of Python, whose tools are installed meanwhile; their count.
+pub(crate) fn run(summary: &mut Summary) -> Tally {
+    thread::scope(|scope| {
+        let tools = scope.spawn(python::tools);
+        let mut tally = Tally::default();
+        summary.check("tests", || counted(&mut of_rust(), Tally::read_rust, &mut tally));
+        let tools = tools.join().unwrap_or_else(|e| resume_unwind(e));
+        summary.check("python", || python::tests(tools, &mut tally));
+        tally
+    })
+}
+
+/// The tests of the workspace; one that fails keeps no other from running.
+fn of_rust() -> Command {
+    let mut command = cargo();
+    command.args(["test", "--workspace", "--no-fail-fast", "--"]);
+    command.args(["--skip", RULES, "--skip", DOCUMENTS]).current_dir(process::root());
+    command
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::tidy::modules_named;
+
+    #[test]
+    fn no_other_module_has_the_name_of_one_that_is_a_check_by_itself() {
+        for (filter, files) in [
+            (RULES, &["xtask/src/lib.rs"][..]),
+            (DOCUMENTS, &["mbs-cli/tests/command/main.rs", "xtask/src/tidy/mod.rs"]),
+        ] {
+            assert_eq!(modules_named(filter.trim_end_matches(':')), files, "{filter}");
+        }
+    }
+}
