@@ -1,8 +1,8 @@
 //! Couplings: every kind reads to its sum; faults have their place.
 
 use super::{THREE_BODIES, read, refused};
-use crate::{SceneFile, to_toml};
 use mbs_core::scene::*;
+use mbs_scene::{SceneFile, to_toml};
 
 const JOINTS: &str = r#"[[joint]]
 name = "a"

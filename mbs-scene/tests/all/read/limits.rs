@@ -1,8 +1,8 @@
 //! What a joint is meant to keep to: read, written, and refused at its place.
 
 use super::{PLANAR, read, refused};
-use crate::{SceneFile, to_toml};
 use mbs_core::scene::*;
+use mbs_scene::{SceneFile, to_toml};
 
 /// The planar scene with lines more in its first joint; the first of them is line 23.
 fn with(lines: &str) -> String {

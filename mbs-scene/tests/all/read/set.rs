@@ -1,7 +1,7 @@
 //! Values that a command line sets, scenes in JSON, and paths to expressions.
 
 use super::*;
-use crate::SweepFile;
+use mbs_scene::SweepFile;
 
 const SCENE: &str = "\
 [scene]

@@ -2,7 +2,7 @@
 
 use super::effects::{CAR, CART};
 use super::{PLANAR, SPATIAL, read};
-use crate::SceneFile;
+use mbs_scene::SceneFile;
 use proptest::prelude::*;
 
 const SCENES: [&str; 4] = [PLANAR, SPATIAL, CART, CAR];

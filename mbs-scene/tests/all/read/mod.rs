@@ -1,19 +1,23 @@
 //! Scenes of the format, each refusal with its exact place, and no panic on anything.
 #![allow(clippy::float_cmp, reason = "numbers are read exactly")]
 
-use crate::{ReadError, ReadFault, SceneFile, to_toml};
 use mbs_core::scene::*;
+use mbs_scene::{ReadError, ReadFault, SceneFile, to_toml};
 
 mod balls;
 mod couplings;
 mod effects;
+mod expression;
 mod expressions;
 mod frames;
 mod guides;
+mod hints;
 mod includes;
 mod limits;
 mod measured;
+mod nearest;
 mod outputs;
+mod path;
 mod points;
 mod points_by_name;
 mod random;
@@ -25,6 +29,9 @@ mod shapes;
 mod signals;
 mod slips;
 mod sums;
+mod sweep;
+mod units;
+mod values;
 
 const PLANAR: &str = r#"[scene]
 name = "double pendulum"

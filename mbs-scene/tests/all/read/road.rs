@@ -6,7 +6,7 @@ use mbs_core::scene::*;
 
 /// The car on another road.
 fn road(text: &str) -> String {
-    let (head, _) = CAR.split_once("[road]").unwrap();
+    let (head, _) = CAR.split_once("[road]").expect("a road");
     format!("{head}[road]\n{text}\n")
 }
 

@@ -1,11 +1,10 @@
 //! What is written reads back as the same scene, to all digits of every precision.
 
-use crate::read::SceneFile;
-use crate::to_toml;
 use mbs_core::Real;
 use mbs_core::outputs::QUANTITIES;
 use mbs_core::real::DoubleDouble;
 use mbs_core::scene::{Number, Scene};
+use mbs_scene::{SceneFile, to_toml};
 use std::path::PathBuf;
 
 /// Every scene of the workspace that reads, with its name.

@@ -1,9 +1,9 @@
 //! Outputs of couplings, effects and the whole scene.
 
 use super::{PLANAR, read, refused};
-use crate::read::SceneFile;
 use mbs_core::outputs::RelativePoint;
 use mbs_core::scene::*;
+use mbs_scene::SceneFile;
 
 const COUPLING: &str = "[[coupling]]\nname = \"mesh\"\nkind = \"gear\"\njoints = [\"pivot\", \"elbow\"]\nteeth = [40, 17]\n\
                         [[effect]]\nname = \"mount\"\nkind = \"bushing\"\nbodies = [\"ground\", \"upper\"]\nat = [0, 0]\nstiffness = [1, 1, 1]\n";
@@ -122,7 +122,7 @@ fn the_axes_of_an_output_are_global_or_those_of_a_body() {
         let numbers = |text: &str| SceneFile::parse(text, "x").and_then(|file| file.numbers());
         let scene = numbers(&with(&output)).unwrap_or_else(|e| panic!("{output}: {e}"));
         assert_eq!(scene.outputs.last().expect("an output").frame, expected, "{output}");
-        let again = numbers(&crate::to_toml(&scene).expect("no code in it"));
+        let again = numbers(&mbs_scene::to_toml(&scene).expect("no code in it"));
         assert_eq!(again.expect("it reads").outputs, scene.outputs, "{output}");
     }
     let refusal = |output: &str| read(&with(output)).expect_err("it is refused");

@@ -1,40 +1,49 @@
 //! Scenes of the repository in other forms: the same numbers in all digits.
 
 use super::*;
-use crate::read::tree::Node;
 use std::fmt::Write;
 use std::path::PathBuf;
+use toml::de::{DeTable, DeValue};
 
 fn scenes() -> PathBuf {
     PathBuf::from(concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes"))
 }
 
-/// A tree as JSON, with the decimal texts of its numbers.
-fn json(node: &Node, out: &mut String) {
+/// A TOML value as JSON, with the decimal texts of its numbers.
+fn json(value: &DeValue<'_>, out: &mut String) {
     let text = |text: &str| serde_json::Value::from(text).to_string();
-    match node {
-        Node::Text(word) => *out += &text(word),
-        Node::Number(number) => *out += number.trim_start_matches('+'),
-        Node::Bool(flag) => write!(out, "{flag}").expect("a string"),
-        Node::Date => panic!("no key of a scene is a date"),
-        Node::List(items) => {
+    match value {
+        DeValue::String(word) => *out += &text(word),
+        DeValue::Integer(number) => {
+            assert_eq!(number.radix(), 10);
+            *out += number.as_str().trim_start_matches('+');
+        }
+        DeValue::Float(number) => *out += number.as_str().trim_start_matches('+'),
+        DeValue::Boolean(flag) => write!(out, "{flag}").expect("a string"),
+        DeValue::Datetime(_) => panic!("no key of a scene is a date"),
+        DeValue::Array(items) => {
             *out += "[";
             for (i, item) in items.iter().enumerate() {
                 *out += if i > 0 { ",\n" } else { "" };
-                json(&item.node, out);
+                json(item.get_ref(), out);
             }
             *out += "]";
         }
-        Node::Table(members) => {
-            *out += "{";
-            for (i, member) in members.iter().enumerate() {
-                write!(out, "{}{}: ", if i > 0 { ", " } else { "" }, text(&member.key))
-                    .expect("a string");
-                json(&member.item.node, out);
-            }
-            *out += "}";
-        }
+        DeValue::Table(table) => object(table, out),
     }
+}
+
+/// A table as a JSON object, its keys in the order of the file.
+fn object(table: &DeTable<'_>, out: &mut String) {
+    let mut members: Vec<_> = table.iter().collect();
+    members.sort_by_key(|(key, _)| key.span().start);
+    *out += "{";
+    for (i, (key, value)) in members.into_iter().enumerate() {
+        let name = serde_json::Value::from(key.get_ref().as_ref());
+        write!(out, "{}{name}: ", if i > 0 { ", " } else { "" }).expect("a string");
+        json(value.get_ref(), out);
+    }
+    *out += "}";
 }
 
 #[test]
@@ -46,8 +55,9 @@ fn every_scene_in_json_is_that_in_toml() {
             continue;
         }
         let file = SceneFile::read(&path).unwrap_or_else(|e| panic!("{}", e.render()));
+        let toml = std::fs::read_to_string(&path).expect("a scene");
         let mut text = String::new();
-        json(&Node::Table(file.root.clone()), &mut text);
+        object(DeTable::parse(&toml).expect("TOML").get_ref(), &mut text);
         let name = path.with_extension("json").display().to_string();
         let of_json = SceneFile::parse(&text, &name).unwrap_or_else(|e| panic!("{}", e.render()));
         assert_eq!(of_json.numbers().expect("a scene"), file.numbers().expect("a scene"), "{name}");

@@ -1,7 +1,8 @@
 //! What the tables of keys say of each other, and of what the readers take.
 
-use super::*;
-use crate::read::{SceneFile, SweepFile};
+use mbs_scene::inside::keys::{of, of_kind};
+use mbs_scene::keys::{Base, Example, KeyTable, KeyValue, Standing, tables};
+use mbs_scene::{SceneFile, SweepFile};
 use std::collections::BTreeSet;
 use std::path::Path;
 
@@ -17,8 +18,8 @@ fn folder() -> &'static Path {
 
 #[test]
 fn every_table_of_files_has_an_example_that_reads_in_all_precisions() {
-    for table in TABLES.iter().filter(|table| table.standing != Standing::Inside) {
-        let of_kind = TABLES.iter().filter(|other| {
+    for table in tables().iter().filter(|table| table.standing != Standing::Inside) {
+        let of_kind = tables().iter().filter(|other| {
             other.header == table.header && other.kind == table.kind && other.kind.is_some()
         });
         let mut examples = of_kind.chain([table]).filter_map(|table| table.example.as_ref());
@@ -44,7 +45,7 @@ fn every_table_of_files_has_an_example_that_reads_in_all_precisions() {
 
 #[test]
 fn keys_have_a_meaning_and_a_default_or_must_be_written() {
-    for table in TABLES.iter() {
+    for table in tables().iter() {
         let name = (table.header, table.kind);
         assert!(table.meaning.ends_with('.'), "{name:?}: {}", table.meaning);
         for key in &table.keys {
@@ -60,7 +61,7 @@ fn keys_have_a_meaning_and_a_default_or_must_be_written() {
 
 #[test]
 fn tables_that_keys_name_are_there() {
-    for key in TABLES.iter().flat_map(|table| &table.keys) {
+    for key in tables().iter().flat_map(|table| &table.keys) {
         if let KeyValue::Table(header)
         | KeyValue::Tables(header)
         | KeyValue::TableOrTables(header)
@@ -73,8 +74,8 @@ fn tables_that_keys_name_are_there() {
 
 #[test]
 fn tables_of_a_header_and_of_a_kind_stand_together() {
-    for table in TABLES.iter() {
-        let n = TABLES.iter().filter(|other| other.header == table.header).count();
+    for table in tables().iter() {
+        let n = tables().iter().filter(|other| other.header == table.header).count();
         assert_eq!(of(table.header).len(), n, "{}", table.header);
         let Some(kind) = table.kind else { continue };
         let n = of(table.header).iter().filter(|other| other.kind == Some(kind)).count();
@@ -88,7 +89,7 @@ fn each_needed_key_is_missed_by_its_reader() {
     // an output without one of its keys is another output
     let is_tried =
         |table: &&KeyTable| table.standing == Standing::Listed && table.header != "output";
-    for table in TABLES.iter().filter(is_tried) {
+    for table in tables().iter().filter(is_tried) {
         let Some(example) = table.example.as_ref().filter(|e| e.base != Base::Sweep) else {
             continue;
         };
@@ -120,6 +121,6 @@ fn without(text: &str, header: &str, key: &str) -> Option<String> {
 
 #[test]
 fn every_example_of_the_file_is_that_of_a_table() {
-    let n = TABLES.iter().filter(|table| table.example.is_some()).count();
-    assert_eq!(n, include_str!("examples.toml").matches("\n#: ").count());
+    let n = tables().iter().filter(|table| table.example.is_some()).count();
+    assert_eq!(n, include_str!("../../src/keys/examples.toml").matches("\n#: ").count());
 }

@@ -1,7 +1,7 @@
 //! The manual has every key, and what it says of a kind is on its page.
 
-use super::groups::{entries, groups};
-use super::*;
+use mbs_scene::inside::{entries, groups};
+use mbs_scene::manual::{list, markdown, page, schema};
 
 #[test]
 fn schema_pages_and_markdown_have_every_key() {

@@ -1,9 +1,9 @@
 //! Guides of whole joints and of bodies read to the data meant, are written back, and are refused at their place.
 
 use super::{refused, spoil};
-use crate::read::SceneFile;
-use crate::to_toml;
 use mbs_core::scene::*;
+use mbs_scene::SceneFile;
+use mbs_scene::to_toml;
 
 const SCENE: &str = r#"[scene]
 dimension = 3

@@ -2,8 +2,8 @@
 
 #![allow(clippy::float_cmp, reason = "numbers are rounded once")]
 
-use super::*;
 use mbs_core::real::DoubleDouble;
+use mbs_scene::inside::expression::{EvaluationFault, evaluate, of_key};
 
 fn value(text: &str) -> DoubleDouble {
     let mut named = |name: &str| match name {
@@ -13,7 +13,7 @@ fn value(text: &str) -> DoubleDouble {
     evaluate(text, &mut named).unwrap_or_else(|fault| panic!("{text}: {fault:?}")).value
 }
 
-fn fault(text: &str) -> Fault {
+fn fault(text: &str) -> EvaluationFault {
     let mut named = |name: &str| Err([format!("`{name}` is no parameter"), String::new()]);
     evaluate(text, &mut named).expect_err(text)
 }
@@ -104,11 +104,11 @@ fn dimensions_of_keys_and_of_numbers_agree() {
         ("1 g*cm^2", "kg m^2"),
         ("7 km/h", "m/s"),
     ] {
-        assert!(unit::of_key(key).contains(&of(text).expect("alone")), "{text}, {key}");
+        assert!(of_key(key).contains(&of(text).expect("alone")), "{text}, {key}");
     }
-    assert!(!unit::of_key("N/m").contains(&of("40 mm").expect("alone")));
+    assert!(!of_key("N/m").contains(&of("40 mm").expect("alone")));
     for other in ["2*3 mm", "40", "1 mm + 1 mm", "k"] {
         assert_eq!(of(other), None, "{other}");
     }
-    assert!(unit::of_key("-").is_empty() && unit::of_key("s, value").is_empty());
+    assert!(of_key("-").is_empty() && of_key("s, value").is_empty());
 }

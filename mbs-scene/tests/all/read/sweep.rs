@@ -1,6 +1,6 @@
 //! Members of sweeps, and each refusal with its place.
 
-use crate::{ReadError, ReadFault, SceneFile, SweepFault, SweepFile};
+use mbs_scene::{ReadError, ReadFault, SceneFile, SweepFault, SweepFile};
 
 const SCENE: &str = r#"[scene]
 name = "one"

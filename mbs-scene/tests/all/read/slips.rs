@@ -26,6 +26,6 @@ fn slips_of_a_first_scene_are_answered_with_what_to_write() {
         let shown = read.expect_err(rest).render();
         assert!(shown.contains(hint) && !shown.contains("os error"), "{rest}: {shown}");
     }
-    let missing = crate::TriangleMesh::read("none.stl".as_ref()).expect_err("no file");
+    let missing = mbs_scene::TriangleMesh::read("none.stl".as_ref()).expect_err("no file");
     assert_eq!(missing.to_string(), "there is no such file");
 }

@@ -135,7 +135,7 @@ speed = 5
 "#;
 
 fn kinds(text: &str) -> Vec<EffectKind<f64>> {
-    read(text).unwrap().effects.into_iter().map(|effect| effect.kind).collect()
+    read(text).expect("a scene").effects.into_iter().map(|effect| effect.kind).collect()
 }
 
 #[test]

@@ -1,8 +1,8 @@
 //! Rotors: read, written, and refused at their place.
 
 use super::{read, refused, spoil};
-use crate::{SceneFile, to_toml};
 use mbs_core::scene::*;
+use mbs_scene::{SceneFile, to_toml};
 
 const MOTOR: &str = r#"[scene]
 dimension = 3
