@@ -1,9 +1,7 @@
 //! Effects and roads: what laws cannot mean is refused, what published data have passes.
 
 use super::{planar, refused, spatial};
-use crate::scene::*;
-use alloc::vec;
-use alloc::vec::Vec;
+use mbs_core::scene::*;
 
 const PAIR: [BodyId; 2] = [BodyId::Ground, BodyId::Body(0)];
 /// Attachment points one metre apart along x [m].

@@ -1,8 +1,8 @@
 //! Axes that are meant to be parallel, and those that are not.
 
-use super::*;
-use crate::scene::{Dimension, Joint, JointKind, JointLimits, Scene};
-use alloc::string::String;
+use mbs_core::scene::align::*;
+use mbs_core::scene::{BodyId, Dimension, Joint, JointKind, JointLimits, Scene};
+use std::borrow::Cow;
 
 /// Hinges of a closed row of bodies, ground, 0, 1, ..., ground, with these axes; one more hangs from the last body.
 fn ring(axes: &[[f64; 3]]) -> Scene<f64> {
@@ -19,11 +19,11 @@ fn ring(axes: &[[f64; 3]]) -> Scene<f64> {
     let mut joints: Vec<_> = (0..n).map(|i| hinge([body(i), body(i + 1)], axes[i])).collect();
     let last = BodyId::Body(n - 2);
     joints.push(hinge([last, BodyId::Body(n - 1)], [1e-8, 0.0, 1.0]));
-    let bodies = (0..n).map(|_| crate::scene::Body {
+    let bodies = (0..n).map(|_| mbs_core::scene::Body {
         name: String::new(),
         mass: 1.0,
         center: [0.0; 3],
-        inertia: crate::scene::Inertia::Spatial([1.0, 1.0, 1.0, 0.0, 0.0, 0.0]),
+        inertia: mbs_core::scene::Inertia::Spatial([1.0, 1.0, 1.0, 0.0, 0.0, 0.0]),
     });
     Scene { bodies: bodies.collect(), joints, ..Scene::empty("", Dimension::Spatial, 1.0) }
 }

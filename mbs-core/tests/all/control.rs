@@ -1,9 +1,9 @@
 //! The control of steps on a plane pendulum of 1 kg and 1 m, whose steps are solved by plain iteration.
 
-use super::energy::Steering;
-use super::*;
-use crate::integrator::Integrator;
-use crate::step::{StepError, StepReport};
+use mbs_core::control::*;
+use mbs_core::inside::Steering;
+use mbs_core::integrator::Integrator;
+use mbs_core::step::{StepError, StepReport};
 
 /// Acceleration of gravity [m/s²].
 const G: f64 = 9.81;
@@ -23,9 +23,6 @@ struct Pendulum {
     /// What it says of its accelerations at both ends of a step.
     accelerating: [f64; 2],
 }
-
-extern crate std;
-use std::vec::Vec;
 
 impl Pendulum {
     fn new(angle: f64) -> Self {

@@ -1,12 +1,12 @@
 //! A wheel by itself: its rows against differences, its work, and forces that do not jump.
 
-extern crate std;
-
-use super::super::body::MAX_ACTIONS;
-use super::super::road::Feature;
-use super::*;
-use crate::algebra::rotation;
-use std::format;
+use mbs_core::algebra::{Vector, cross, norm, rotation};
+use mbs_core::laws::body::{BodyMotion, MAX_ACTIONS, UnitWrench, WrenchesLaw};
+use mbs_core::laws::calspan::Coefficients;
+use mbs_core::laws::road::{self, Feature};
+use mbs_core::laws::slip::LongitudinalSlip;
+use mbs_core::laws::tire::*;
+use mbs_core::laws::{LawInputs, Part};
 
 type V = Vector<f64, 3>;
 
@@ -40,7 +40,7 @@ fn law_inputs() -> LawInputs<'static, f64> {
 fn motion(x: f64, depth: f64, [camber, steer]: [f64; 2]) -> BodyMotion<f64> {
     let axis = rotation(&(V::z() * steer)) * rotation(&(V::x() * camber)) * V::y();
     let tire = wheel(true);
-    let mut z = super::super::road::height(tire.road, &law_inputs(), x).value + 0.2;
+    let mut z = road::height(tire.road, &law_inputs(), x).value + 0.2;
     let mut motion = BodyMotion {
         position: [x, 0.4, z],
         velocity: [3.0, 0.2, -0.1],

@@ -1,11 +1,9 @@
 //! Every refusal by name, and what must pass; arbitrary data never panics.
 
-use crate::scene::*;
-use alloc::string::String;
-use alloc::vec;
-use alloc::vec::Vec;
+use mbs_core::scene::*;
 use proptest::prelude::*;
 
+mod body;
 mod effects;
 
 fn body(name: &str, mass: f64, inertia: Inertia<f64>) -> Body<f64> {
@@ -323,7 +321,7 @@ fn unusual_scenes_pass() {
 fn messages_are_sentences_with_numbers_and_advice() {
     let mut scene = planar();
     scene.bodies[1].mass = -2.5;
-    let text: String = alloc::format!("{}", scene.check().unwrap_err());
+    let text: String = format!("{}", scene.check().unwrap_err());
     assert_eq!(text, "`mass` of body 2 must not be negative, but is -2.5; write zero or more");
 }
 
@@ -365,7 +363,7 @@ proptest! {
         if !joints.is_empty() {
             scene.joints = joints;
             for (i, joint) in scene.joints.iter_mut().enumerate() {
-                joint.name = alloc::format!("j{i}");
+                joint.name = format!("j{i}");
             }
         }
         let six = core::array::from_fn(|i| numbers[i]);

@@ -1,6 +1,6 @@
 //! Roots and changes of cubics that are known in closed form.
 
-use super::*;
+use mbs_core::inside::outputs::{AT_START, Change, Cubic, Gap};
 
 /// Rounding of a bisected fraction of a step, and of a cubic of order one [-]: that of a few products.
 const ROUNDING: f64 = 1e-15;
