@@ -1,9 +1,11 @@
-//! What becomes of members that fail in ways no scene can ask for. Members are given here, and not run: mbs/tests/all/sweep.rs
-//! runs them.
+//! What becomes of members that fail in ways no scene can ask for. Members are given here, and not run.
 
-use super::member::MemberValues;
-use super::*;
-use crate::journal::Journal;
+use mbs::Method;
+use mbs::scene_file::{SceneFile, SweepFile};
+use mbs_study::inside::{Journal, MemberValues, whole_rows};
+use mbs_study::sweep::{JournalError, PartsError, Row, Study, SweepError, SweepPart, SweepTask};
+use std::num::NonZeroUsize;
+use std::path::{Path, PathBuf};
 
 const SCENE: &str = r#"
 [scene]
@@ -25,17 +27,23 @@ step = 0.01
 "#;
 const SWEEP: &str = "[[vary]]\npath = 'body.bob.mass'\nfrom = 1\nto = 6\ncount = 6\n";
 
-fn study() -> Study {
+fn files() -> [SceneFile; 2] {
     let scene = SceneFile::parse(SCENE, "scene.toml").expect("TOML");
-    let sweep = SceneFile::parse(SWEEP, "sweep.toml").expect("TOML");
+    [scene, SceneFile::parse(SWEEP, "sweep.toml").expect("TOML")]
+}
+
+fn study() -> Study {
+    let [scene, sweep] = files();
     Study::new(scene, &sweep, &Method::default()).expect("a good sweep")
 }
 
 /// A member that was completed.
-fn completed(study: &Study, member: usize) -> Row {
+fn completed(member: usize) -> Row {
+    let [scene, sweep] = files();
+    let sweep = SweepFile::read(&sweep, &scene, &[]).expect("a good sweep");
     let (end_time, steps, energy, violation) = (0.1, 10, 1e-9, [1e-12; 3]);
     let measured = MemberValues { end_time, steps, energy, violation, outputs: Vec::new() };
-    let values = study.sweep.values(member).map(str::to_owned).collect();
+    let values = sweep.values(member).map(str::to_owned).collect();
     Row { member, values, failure: None, measured: Some(measured), cpu_seconds: 1e-4 }
 }
 
@@ -58,7 +66,7 @@ fn a_panic_is_a_failed_member_and_leaves_the_others() {
     for threads in [1, 2] {
         let job = |i| {
             assert!(i != 2, "member three, \"broken\",\nin two lines");
-            completed(&study, i)
+            completed(i)
         };
         let report = study.run_jobs(
             &SweepTask { threads: NonZeroUsize::new(threads), anew: true, ..all(&out) },
@@ -96,7 +104,7 @@ fn two_processes_do_not_share_a_directory() {
         .run_jobs(&SweepTask { anew: true, ..all(&out) }, &mut (), |i| panic!("{i} runs beside"));
     assert!(matches!(second, Err(SweepError::Journal(JournalError::Busy(_)))), "{second:?}");
     drop(held);
-    let third = study.run_jobs(&all(&out), &mut (), |i| completed(&study, i));
+    let third = study.run_jobs(&all(&out), &mut (), completed);
     assert_eq!(third.expect("free again").completed, 6);
     let _ = std::fs::remove_dir_all(&out);
 }
@@ -105,7 +113,7 @@ fn two_processes_do_not_share_a_directory() {
 fn parts_are_joined_to_the_table_of_one_run_and_what_lacks_is_named() {
     let study = study();
     let whole = scratch("whole");
-    let job = |i| completed(&study, i);
+    let job = completed;
     let report = study.run_jobs(&all(&whole), &mut (), job).expect("the directory is ours");
     let table = |out: &Path| std::fs::read_to_string(out.join("table.csv")).expect("a table");
     // more parts than members, too
@@ -151,7 +159,7 @@ fn parts_that_do_not_belong_together_are_refused() {
     assert!(matches!(study.join(&out), Err(SweepError::Parts(PartsError::None))));
     let run = |part: &str| {
         let part = Some(part.parse().expect("a part"));
-        study.run_jobs(&SweepTask { part, ..all(&out) }, &mut (), |i| completed(&study, i))
+        study.run_jobs(&SweepTask { part, ..all(&out) }, &mut (), completed)
     };
     run("1/2").expect("the directory is ours");
     run("2/3").expect("the directory is ours");
@@ -182,7 +190,7 @@ fn parquet_has_the_rows_of_the_table_with_their_types() {
     let out = scratch("parquet");
     let job = |i| match i {
         2 => Row::failed(i, vec!["3".to_owned()], "bad", "x"),
-        _ => completed(&study, i),
+        _ => completed(i),
     };
     let report = study.run_jobs(&all(&out), &mut (), job).expect("the directory is ours");
     let file = std::fs::File::open(&report.tables[1]).expect("the second table");

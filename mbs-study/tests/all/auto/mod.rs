@@ -1,14 +1,19 @@
 //! Choices on a bench whose costs and errors are given: no clock, no scene.
 
-use super::candidates::Candidate;
-use super::check;
-use super::estimate::PowerLaw;
-use super::goal::{Goal, Target};
-use super::pilot::{BUDGET, BUDGET_FRACTION, Search};
-use super::trial::{Aim, Bench, End, Rows, Trial};
-use crate::compare::method::{Control, MethodCase};
+mod estimate;
+mod goal;
+
 use mbs::record::RunError;
 use mbs::{FormulationKind, Method, Precision, ResolvedMethod};
+use mbs_study::auto::Goal;
+use mbs_study::inside::auto::{
+    Aim, BUDGET, BUDGET_FRACTION, Bench, PilotCandidate, PilotSearch, PilotTarget, PowerLaw, Trial,
+    TrialEnd, check, methods,
+};
+use mbs_study::inside::compare::{Control, MethodCase};
+
+/// Outputs at the instants.
+type Rows = Vec<Vec<f64>>;
 
 /// Longest step [s].
 const LONGEST: f64 = 0.05;
@@ -61,8 +66,8 @@ impl<F: Fn(&MethodCase) -> Nature> Fake<F> {
     }
 }
 
-fn candidate(method: MethodCase, error: f64) -> Candidate {
-    Candidate::new(method, Target { error, deadline: None }, LONGEST)
+fn candidate(method: MethodCase, error: f64) -> PilotCandidate {
+    PilotCandidate::new(method, PilotTarget { error, deadline: None }, LONGEST)
 }
 
 impl<F: Fn(&MethodCase) -> Nature> Bench for Fake<F> {
@@ -93,9 +98,9 @@ impl<F: Fn(&MethodCase) -> Nature> Bench for Fake<F> {
             reached,
             slowest: (aim == Aim::Steps).then_some(whole * setting),
             end: match (stops, is_late) {
-                (true, _) => End::Stopped(error),
-                (_, true) => End::GivenUp,
-                _ => End::Done,
+                (true, _) => TrialEnd::Stopped(error),
+                (_, true) => TrialEnd::GivenUp,
+                _ => TrialEnd::Done,
             },
         }
     }
@@ -125,7 +130,7 @@ fn extrapolation_is_a_candidate_where_it_is_asked_for_and_in_pairs() {
             ..Method::default()
         };
         let settings = ResolvedMethod::new(&scene, &base).expect("settings");
-        let methods = super::choose::methods(&scene, &base, &settings, &Goal::default());
+        let methods = methods(&scene, &base, &settings, &Goal::default());
         methods.expect("candidates").iter().any(|m| m.integrator.name() == "gbs")
     };
     assert_eq!([has(None, "f64"), has(None, "dd"), has(Some("gbs"), "f64")], [false, true, true]);
@@ -154,14 +159,14 @@ fn chosen<F: Fn(&MethodCase) -> Nature>(
     deadline: Option<f64>,
 ) -> (Option<(MethodCase, f64, bool)>, Fake<F>) {
     let mut fake = Fake::new(nature);
-    let target = Target { error, deadline };
+    let target = PilotTarget { error, deadline };
     let methods = match deadline {
         Some(_) => all().into_iter().filter(MethodCase::is_fixed).collect(),
         None => few(all()),
     };
     let longest = deadline.unwrap_or(LONGEST);
-    let candidates = methods.iter().map(|m| Candidate::new(*m, target, longest)).collect();
-    let mut search = Search::new(&mut fake, candidates, target);
+    let candidates = methods.iter().map(|m| PilotCandidate::new(*m, target, longest)).collect();
+    let mut search = PilotSearch::new(&mut fake, candidates, target);
     let places = search.run();
     let first = places.first().map(|place| {
         (search.candidates[place.candidate].method, place.prediction.setting, place.reaches)
@@ -287,12 +292,12 @@ fn a_check_from_the_other_coordinates_finds_two_models_that_differ() {
     let nature = |_: &MethodCase| Nature { seconds: 1e-4, error: 1e-5, ..TAME };
     for (apart, differs) in [(0.0, false), (0.5, true)] {
         let mut bench = Fake { apart, ..Fake::new(nature) };
-        let target = Target { error: 1e-4, deadline: None };
+        let target = PilotTarget { error: 1e-4, deadline: None };
         let relative = all().into_iter().filter(|m| m.formulation.row().relative);
-        let candidates = relative.map(|m| Candidate::new(m, target, LONGEST)).collect();
-        let mut search = Search::new(&mut bench, candidates, target);
+        let candidates = relative.map(|m| PilotCandidate::new(m, target, LONGEST)).collect();
+        let mut search = PilotSearch::new(&mut bench, candidates, target);
         let places = search.run();
-        let look = check::check(&mut search, &places, 0.01).expect("index-3 runs").unwrap();
+        let look = check(&mut search, &places, 0.01).expect("index-3 runs").unwrap();
         assert_eq!(look.differs, differs, "{look:?}");
         assert!((look.distance.unwrap() - apart).abs() < 1e-2);
     }
