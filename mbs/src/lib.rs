@@ -96,7 +96,7 @@ pub use statics::{Moved, StaticEquilibrium};
 pub use stop::{INTERRUPTED, StopError};
 pub use tilt::AlmostDependent;
 
-/// What the studies of mbs-study share with this crate; no part of its interface.
+/// What the studies of mbs-study share with this crate, and what its tests call; no part of its interface.
 #[doc(hidden)]
 pub mod inside {
     pub use crate::changes::OutputRanges;
@@ -112,6 +112,16 @@ pub mod inside {
     pub use crate::settings::DEFAULT_STEP;
     pub use crate::settings::length::{SAME_LENGTH, is_too_long, too_long};
     pub use crate::tilt::notes;
+
+    pub mod tested {
+        pub use crate::checkpoint::tape::{Eye, Pen, Tape};
+        pub use crate::front::clock::StepClock;
+        pub use crate::linear_system::solve::{Factor, divided, product, size};
+        pub use crate::linear_system::states::choose;
+        pub use crate::motion::pose::{of_axes, smallest};
+        pub use crate::motion::principal::principal;
+        pub use crate::realtime::document::parts;
+    }
 }
 
 /// A scene in one scalar and dimension: for those who write generic code.

@@ -6,7 +6,7 @@ use mbs_core::Real;
 
 /// A row of equal steps.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub(super) struct StepClock<T> {
+pub struct StepClock<T> {
     /// Time at which the row begins [s].
     origin: T,
     /// Length of its steps [s], as asked for and in the digits of the run.
@@ -18,7 +18,7 @@ pub(super) struct StepClock<T> {
 
 impl<T: Real> StepClock<T> {
     /// The time after one more step of `dt` [s] from `now`.
-    pub(super) fn advance(&mut self, now: T, dt: (f64, T)) -> T {
+    pub fn advance(&mut self, now: T, dt: (f64, T)) -> T {
         if self.dt.0.to_bits() != dt.0.to_bits() || self.end != now {
             *self = Self { origin: now, dt, count: 0, end: now };
         }
@@ -40,21 +40,5 @@ impl<T: Real> StepClock<T> {
     /// The end of the row is known to be this time [s].
     pub(super) fn land(&mut self, at: T) {
         self.end = at;
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_thousand_steps_of_a_millisecond_end_at_a_second() {
-        let (mut clock, mut t) = (StepClock::default(), 0.0_f64);
-        for _ in 0..1000 {
-            t = clock.advance(t, (1e-3, 1e-3));
-        }
-        assert_eq!(t.to_bits(), 1f64.to_bits());
-        t = clock.advance(t, (0.5, 0.5));
-        assert_eq!(t.to_bits(), 1.5f64.to_bits());
     }
 }

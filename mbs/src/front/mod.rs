@@ -1,6 +1,6 @@
 //! The front door: a mechanism as a list of named parts, in code or from a file.
 
-mod clock;
+pub(crate) mod clock;
 mod error;
 mod failure;
 mod function;
@@ -17,8 +17,6 @@ mod simulate;
 mod simulation;
 mod study;
 mod table;
-#[cfg(test)]
-mod tests;
 pub(crate) mod tree;
 mod values;
 mod view;

@@ -1,7 +1,9 @@
 //! Results are old or new, never lost, and never of two processes at once.
 
-use super::*;
+use mbs::folder::*;
+use std::fs;
 use std::io;
+use std::path::PathBuf;
 
 fn scratch(name: &str) -> PathBuf {
     let path = std::env::temp_dir().join(format!("mbs-folder-{name}-{}", std::process::id()));

@@ -1,6 +1,9 @@
 //! Files read back as what was written.
 
-use super::{Channel, Contact, CsvWriter, Outputs, RunError, RunSummary};
+mod choice;
+mod realtime;
+
+use mbs::record::{Channel, Contact, CsvWriter, Outputs, RunError, RunSummary};
 use mbs_scene::SceneFile;
 use proptest::prelude::*;
 
@@ -11,7 +14,8 @@ joint = [{ name = "rail", kind = "cylindrical", bodies = ["ground", "b"], at = [
 "#;
 
 fn columns(extra: &str) -> Vec<String> {
-    let scene = SceneFile::parse(&format!("{SCENE}{extra}"), "x").unwrap().scene::<f64>().unwrap();
+    let file = SceneFile::parse(&format!("{SCENE}{extra}"), "x").expect("TOML");
+    let scene = file.scene::<f64>().expect("a scene");
     Channel::of_scene(&scene).iter().flat_map(Channel::columns).collect()
 }
 
@@ -71,7 +75,7 @@ fn a_run_that_stops_keeps_its_rows() {
 }
 
 fn keys(value: &serde_json::Value) -> Vec<&str> {
-    value.as_object().unwrap().keys().map(String::as_str).collect()
+    value.as_object().expect("an object").keys().map(String::as_str).collect()
 }
 
 #[test]

@@ -1,7 +1,9 @@
 //! Differences of short runs that can be done by hand.
 #![allow(clippy::float_cmp, reason = "all numbers are exact in binary")]
 
-use super::{ResultColumn, ResultTable, difference};
+mod envelope;
+
+use mbs::results::{ResultColumn, ResultTable, difference};
 
 fn table(times: &[f64], columns: &[(&str, &str, &[f64])]) -> ResultTable {
     let column = |&(channel, label, values): &(&str, &str, &[f64])| ResultColumn {
