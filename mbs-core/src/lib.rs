@@ -46,3 +46,38 @@ pub use mbs_math::{
 pub use mbs_math::{algebra, blocks, ode, once, real, team};
 #[cfg(feature = "alloc")]
 pub use mbs_math::{dense, refined};
+
+/// What the tests of this crate call; no part of its interface.
+#[doc(hidden)]
+pub mod inside {
+    pub use crate::control::energy::Steering;
+    pub use crate::laws::feature::spline_hollow;
+
+    #[cfg(feature = "alloc")]
+    pub mod natural {
+        pub use crate::natural::coordinate_sets::{CoordinateSet, add_pair_square};
+        pub use crate::natural::group::add_squares;
+        pub use crate::natural::spatial_index::SpatialIndex;
+    }
+
+    #[cfg(feature = "alloc")]
+    pub mod outputs {
+        pub use crate::outputs::cubic::{AT_START, Change, Cubic};
+        pub use crate::outputs::event::fading;
+        pub use crate::outputs::frame::{carry, normalised};
+        pub use crate::outputs::leaf_elimination::{Block, eliminate_leaves};
+        pub use crate::outputs::load::Gap;
+        pub use crate::outputs::minimum_norm::MinimumNorm;
+    }
+
+    #[cfg(feature = "alloc")]
+    pub mod scene {
+        pub use crate::scene::check::body::principal_moments;
+    }
+
+    #[cfg(feature = "alloc")]
+    pub mod start {
+        pub use crate::start::rank::pivoted_rank;
+        pub use crate::start::sparse_rank::sparse_rank;
+    }
+}

@@ -16,3 +16,30 @@ pub use mbs_core::outputs::Component;
 pub use mesh::{MESH_ENDINGS, MeshFault, TriangleMesh, mesh_ending};
 pub use read::{Place, ReadError, ReadFault, SceneFile, SweepFault, SweepFile, nearest_name};
 pub use write::{WriteError, quoted, to_toml};
+
+/// What the tests of this crate call; no part of its interface.
+#[doc(hidden)]
+pub mod inside {
+    pub use crate::generate::text::number;
+    pub use crate::manual::groups::{entries, groups};
+    pub use crate::read::nearest::nearest;
+    pub use crate::read::sweep::path::{PathPart, parse};
+    pub use crate::read::sweep::values::ValueRange;
+
+    pub mod expression {
+        pub use crate::read::expression::unit::of_key;
+        pub use crate::read::expression::{Evaluated, EvaluationFault, evaluate};
+    }
+
+    pub mod hints {
+        pub use crate::read::hints::{HINTS, Hint, of_word};
+    }
+
+    pub mod keys {
+        pub use crate::keys::{of, of_kind};
+    }
+
+    pub mod units {
+        pub use crate::read::units::{hint, of_json, of_line};
+    }
+}

@@ -12,8 +12,8 @@
 mod measured;
 mod names;
 mod shapes;
-mod solve;
-mod states;
+pub mod solve;
+pub mod states;
 
 pub use shapes::ModeShape;
 

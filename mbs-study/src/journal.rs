@@ -10,27 +10,27 @@ use std::path::Path;
 
 /// What a journal is of.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) struct Kind {
+pub struct Kind {
     /// Name of the file.
-    pub(crate) file: &'static str,
+    pub file: &'static str,
     /// First word of its head.
-    pub(crate) title: &'static str,
+    pub title: &'static str,
     /// What it has the results of, with its article.
-    pub(crate) of: [&'static str; 2],
+    pub of: [&'static str; 2],
     /// What the hashes of its head are of, in order.
-    pub(crate) hashes: &'static [&'static str],
+    pub hashes: &'static [&'static str],
 }
 
 /// What a journal belongs to: version, and hashes of what its results depend on.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub(crate) struct Head {
+pub struct Head {
     kind: Kind,
     cells: Vec<String>,
 }
 
 /// An open journal, locked for this process.
 #[derive(Debug)]
-pub(crate) struct Journal {
+pub struct Journal {
     file: File,
 }
 
@@ -52,7 +52,7 @@ pub enum JournalError {
 
 impl Head {
     /// Of results that depend on these texts.
-    pub(crate) fn new(kind: Kind, texts: &[&str]) -> Self {
+    pub fn new(kind: Kind, texts: &[&str]) -> Self {
         let mut cells = vec![kind.title.to_owned(), env!("CARGO_PKG_VERSION").to_owned()];
         cells.extend(texts.iter().map(|text| hash(text)));
         Self { kind, cells }
@@ -112,7 +112,10 @@ pub(crate) fn read(out: &Path, name: &str, head: &Head) -> Result<Vec<Vec<String
 
 impl Journal {
     /// Opens the journal of a directory, or begins it, and gives the lines that are whole.
-    pub(crate) fn open(
+    ///
+    /// # Errors
+    /// [`JournalError`] where it is of other results, in use, or not written.
+    pub fn open(
         out: &Path,
         head: &Head,
         anew: bool,

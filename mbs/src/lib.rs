@@ -65,7 +65,7 @@ pub use statics::{Moved, StaticEquilibrium};
 pub use stop::{INTERRUPTED, StopError};
 pub use tilt::AlmostDependent;
 
-/// What the studies of mbs-study share with this crate; no part of its interface.
+/// What the studies of mbs-study share with this crate, and what its tests call; no part of its interface.
 #[doc(hidden)]
 pub mod inside {
     pub use mbs_steps::at_state::{Gradient, gradients, poses};
@@ -83,6 +83,16 @@ pub mod inside {
     pub use mbs_steps::settings::length::{SAME_LENGTH, is_too_long, too_long};
     pub use mbs_steps::stiffness::shortest_period;
     pub use mbs_steps::tilt::notes;
+
+    pub mod tested {
+        pub use mbs_steps::checkpoint::tape::{Eye, Pen, Tape};
+        pub use mbs_steps::erased::clock::StepClock;
+        pub use mbs_steps::linear_system::solve::{Factor, divided, product, size};
+        pub use mbs_steps::linear_system::states::choose;
+        pub use mbs_steps::motion::pose::{of_axes, smallest};
+        pub use mbs_steps::motion::principal::principal;
+        pub use mbs_steps::realtime::document::parts;
+    }
 }
 
 #[doc = include_str!("../TASKS.md")]

@@ -62,7 +62,7 @@ impl EnergyRule {
 
 /// The rule with what it remembers from step to step.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Steering {
+pub struct Steering {
     rule: EnergyRule,
     /// The last changes, faded, as they would be in the next step [-].
     memory: f64,
@@ -71,7 +71,8 @@ pub(super) struct Steering {
 }
 
 impl Steering {
-    pub(super) fn new(rule: EnergyRule) -> Self {
+    /// Nothing is remembered yet.
+    pub fn new(rule: EnergyRule) -> Self {
         Self { rule, memory: 0.0, small: 0 }
     }
 
@@ -79,7 +80,10 @@ impl Steering {
     /// NaN is not.
     ///
     /// Cost: two powers.
-    pub(super) fn judge(&mut self, e: f64) -> Result<f64, f64> {
+    ///
+    /// # Errors
+    /// The factor for the repeated step where the change is not kept.
+    pub fn judge(&mut self, e: f64) -> Result<f64, f64> {
         let EnergyRule { upper, lower, safety, exponent, is_printed } = self.rule;
         if !(e <= upper) {
             self.forget();

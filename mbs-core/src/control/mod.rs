@@ -40,7 +40,7 @@
 //! ```
 
 mod driver;
-mod energy;
+pub(crate) mod energy;
 mod estimate;
 mod invariant;
 
@@ -48,6 +48,3 @@ pub use driver::{Accepted, Driver, DriverHistory, Event, Limit, Rules, Stepper, 
 pub use energy::EnergyRule;
 pub use estimate::LocalError;
 pub use invariant::Invariant;
-
-#[cfg(test)]
-mod tests;

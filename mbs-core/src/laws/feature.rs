@@ -123,7 +123,7 @@ impl<T: Real> Feature<T> {
 const LEVEL: f64 = 1e-6;
 
 /// The largest curvature of the knots about a range; where the table rises from its end there, a bound that none exceeds.
-pub(super) fn spline_hollow<T: Real>(
+pub fn spline_hollow<T: Real>(
     table: &[[T; 2]],
     curvatures: &[T],
     [lower, upper]: [T; 2],

@@ -12,7 +12,7 @@ pub mod calspan;
 pub mod code;
 pub mod corner;
 pub mod entry;
-mod feature;
+pub(crate) mod feature;
 pub mod guide;
 mod law_inputs;
 pub mod operations;

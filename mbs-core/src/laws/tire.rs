@@ -121,7 +121,8 @@ const SIDE: usize = 2;
 /// Place of the aligning torque.
 const ALIGNING: usize = 3;
 /// Place of the force by slip.
-const SLIP: usize = 4;
+#[doc(hidden)]
+pub const SLIP: usize = 4;
 
 /// Sliding has at least the slope of the secant where an iteration went across rest. The tangents alone vanish where sliding is fast: the
 /// iteration would oscillate.
@@ -480,6 +481,3 @@ fn nearest<T: Real>(features: &[Feature<T>]) -> Operations {
         + hollow
         + ops(12, 13).and(5, 4, 0)
 }
-
-#[cfg(all(test, feature = "tire"))]
-mod tests;

@@ -9,17 +9,17 @@ use crate::Real;
 
 /// The columns of the first unknowns that a row touches: of one entity or two in a group that has more, or of any.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) struct CoordinateSet {
+pub struct CoordinateSet {
     first: u8,
     second: u8,
 }
 
 impl CoordinateSet {
     /// A row that touches any unknown of its group.
-    pub(crate) const ANY: Self = Self { first: u8::MAX, second: u8::MAX };
+    pub const ANY: Self = Self { first: u8::MAX, second: u8::MAX };
 
     /// Of a row that touches these entities, by their places among the unknown ones of a group of `n`.
-    pub(crate) fn of(touched: impl Iterator<Item = usize>, n: usize, dimension: usize) -> Self {
+    pub fn of(touched: impl Iterator<Item = usize>, n: usize, dimension: usize) -> Self {
         let (mut least, mut most, mut between) = (usize::MAX, 0, false);
         let mut seen = [usize::MAX; 2];
         for at in touched {
@@ -39,7 +39,7 @@ impl CoordinateSet {
 
     /// The first columns of the two entities, the lower one first; equal where there is one.
     #[inline(always)]
-    pub(crate) fn pair(self) -> Option<[usize; 2]> {
+    pub fn pair(self) -> Option<[usize; 2]> {
         (self != Self::ANY).then_some([self.first as usize, self.second as usize])
     }
 }
@@ -80,7 +80,7 @@ pub(crate) fn add_rows<T: Real, const D: usize>(
 
 /// block += w g g^T for a gradient that touches the entities at columns `a` <= `b` alone; the block has `k` unknowns.
 #[inline(always)]
-pub(crate) fn add_pair_square<T: Real, const D: usize>(
+pub fn add_pair_square<T: Real, const D: usize>(
     block: &mut [T],
     k: usize,
     g: &[T],
@@ -105,35 +105,6 @@ pub(crate) fn add_pair_square<T: Real, const D: usize>(
         let column = &mut block[at..at + D - c];
         for i in c..D {
             column[i - c] += gb[i] * wb;
-        }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn rows_of_one_or_two_entities_have_their_columns() {
-        assert_eq!(CoordinateSet::of([3, 1, 3].into_iter(), 4, 3).pair(), Some([3, 9]));
-        assert_eq!(CoordinateSet::of([2].into_iter(), 4, 3).pair(), Some([6, 6]));
-        assert_eq!(CoordinateSet::of([0, 1, 2].into_iter(), 4, 3), CoordinateSet::ANY);
-        assert_eq!(CoordinateSet::of([0, 1].into_iter(), 2, 3), CoordinateSet::ANY);
-        assert_eq!(CoordinateSet::of([0, 90].into_iter(), 100, 3), CoordinateSet::ANY);
-        assert_eq!(CoordinateSet::of([].into_iter(), 4, 3), CoordinateSet::ANY);
-    }
-
-    #[test]
-    fn square_of_a_short_row_is_that_of_the_whole_row() {
-        let part = [0.3, -1.25, 2.0, 0.75, 4.0, -0.5];
-        for [a, b] in [[0, 3], [3, 9], [0, 9], [6, 6]] {
-            let mut g = [0.0; 12];
-            g[b..b + 3].copy_from_slice(&part[3..]);
-            g[a..a + 3].copy_from_slice(&part[..3]);
-            let (mut short, mut whole) = ([0.5; 78], [0.5; 78]);
-            add_pair_square::<f64, 3>(&mut short, 12, &g, [a, b], 1.5);
-            add_squares(&mut whole, 12, [&g], [1.5]);
-            assert_eq!(short.map(f64::to_bits), whole.map(f64::to_bits), "entities at {a} and {b}");
         }
     }
 }

@@ -77,12 +77,7 @@ pub(crate) fn packed(k: usize, row: usize, column: usize) -> usize {
 
 /// block += sum_r w_r g_r g_r^T for the first k entries of each g_r.
 #[inline(always)]
-pub(crate) fn add_squares<T: Real, const R: usize>(
-    block: &mut [T],
-    k: usize,
-    g: [&[T]; R],
-    w: [T; R],
-) {
+pub fn add_squares<T: Real, const R: usize>(block: &mut [T], k: usize, g: [&[T]; R], w: [T; R]) {
     // No closures over arrays: whether they are inlined depends on the number of codegen units of the build.
     let mut g = g;
     for g in &mut g {

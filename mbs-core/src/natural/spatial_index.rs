@@ -10,7 +10,7 @@ const MAX_UNSORTED: usize = 16;
 
 /// Numbers of places that the caller knows, by where they are.
 #[derive(Debug, Clone)]
-pub(super) struct SpatialIndex {
+pub struct SpatialIndex {
     /// The first [`MAX_UNSORTED`], in order.
     few: Vec<usize>,
     /// All of them by cell, each in order, once there are more.
@@ -21,12 +21,12 @@ pub(super) struct SpatialIndex {
 
 impl SpatialIndex {
     /// For places that are one when no component differs by more than `tolerance`.
-    pub(super) fn new<T: Real>(tolerance: T) -> Self {
+    pub fn new<T: Real>(tolerance: T) -> Self {
         Self { few: Vec::new(), cells: BTreeMap::new(), edge: tolerance.to_f64() * 4.0 }
     }
 
     /// The smallest number that is `same`, of those near one of `around`. `place` is the place of a number.
-    pub(super) fn first<T: Real>(
+    pub fn first<T: Real>(
         &mut self,
         around: &[Vector<T, 3>],
         same: impl Fn(usize) -> bool,
@@ -58,7 +58,7 @@ impl SpatialIndex {
     }
 
     /// Adds a number, larger than those before, and its place.
-    pub(super) fn push<T: Real>(&mut self, i: usize, at: &Vector<T, 3>) {
+    pub fn push<T: Real>(&mut self, i: usize, at: &Vector<T, 3>) {
         if self.few.len() < MAX_UNSORTED {
             self.few.push(i);
         } else {
@@ -74,33 +74,5 @@ impl SpatialIndex {
     #[allow(clippy::cast_possible_truncation, reason = "floats saturate when they are cast")]
     fn cell<T: Real>(&self, at: &Vector<T, 3>, side: f64) -> [i64; 3] {
         core::array::from_fn(|i| libm::floor(at[i].to_f64() / self.edge + side) as i64)
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// Distance that counts as near [m].
-    const TOLERANCE: f64 = 1e-9;
-
-    #[test]
-    fn what_is_near_is_found_whatever_the_number_of_places_and_the_side_of_a_cell() {
-        let mut index = SpatialIndex::new(TOLERANCE);
-        let mut places: Vec<Vector<f64, 3>> = Vec::new();
-        for i in 0..100_usize {
-            let at = Vector::<f64, 3>::new(i as f64 * 0.1, -(i as f64), 4e-9 * i as f64);
-            for shift in [0.0, 0.9 * TOLERANCE, -0.9 * TOLERANCE] {
-                let moved = at + Vector::<f64, 3>::new(shift, 0.0, 0.0);
-                let same = |k: usize| (places[k] - moved).norm() <= TOLERANCE;
-                let found = index.first(&[moved], same, |k| places[k]);
-                assert_eq!(found, places.iter().position(|p| (p - moved).norm() <= TOLERANCE));
-                if found.is_none() {
-                    index.push(places.len(), &moved);
-                    places.push(moved);
-                }
-            }
-        }
-        assert_eq!(places.len(), 100);
     }
 }

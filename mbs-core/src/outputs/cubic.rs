@@ -13,7 +13,7 @@ use crate::Real;
 
 /// A cubic over the share r of a step.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Cubic {
+pub struct Cubic {
     /// At both ends.
     values: [f64; 2],
     /// Derivatives by r at both ends.
@@ -28,11 +28,11 @@ const BEYOND: f64 = 0.05;
 
 /// Fraction of a step before which a change is one of its start [-]. A kink of a force at r leaves 4 r (1 - r) of the largest error:
 /// here less than half a percent.
-const AT_START: f64 = 1e-3;
+pub const AT_START: f64 = 1e-3;
 
 impl Cubic {
     /// Through the gaps at both ends of a step of length `h` [s].
-    pub(super) fn new<T: Real>(gaps: [Gap<T>; 2], h: f64) -> Self {
+    pub fn new<T: Real>(gaps: [Gap<T>; 2], h: f64) -> Self {
         let values = gaps.map(|gap| gap.value.to_f64());
         Self { values, slopes: gaps.map(|gap| h * gap.rate.to_f64()) }
     }
@@ -46,7 +46,7 @@ impl Cubic {
     /// Where it is `level` between two shares at which it is on different sides of it.
     ///
     /// Bisection needs no care where the cubic is flat, and roots are asked for rarely.
-    pub(super) fn root(&self, level: f64, [mut low, mut high]: [f64; 2]) -> f64 {
+    pub fn root(&self, level: f64, [mut low, mut high]: [f64; 2]) -> f64 {
         let below = self.at(low) < level;
         for _ in 0..HALVINGS {
             let middle = 0.5 * (low + high);
@@ -62,7 +62,7 @@ impl Cubic {
     /// The first share, from [`AT_START`] to [`BEYOND`] the end, at which it comes to the other side of zero by half the band.
     ///
     /// Cost: some eighty operations where nothing changes, and a bisection where it does.
-    pub(super) fn change(&self, band: f64) -> Option<Change> {
+    pub fn change(&self, band: f64) -> Option<Change> {
         let mut side = Side::of(self.at(0.0), band);
         let mut from = 0.0;
         for to in self.pieces() {
@@ -105,11 +105,11 @@ impl Cubic {
 
 /// Where within a step a gap comes to its other side.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Change {
+pub struct Change {
     /// Share of the step.
-    pub(super) share: f64,
+    pub share: f64,
     /// Is it the step's end, and near enough?
-    pub(super) lands: bool,
+    pub lands: bool,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -130,6 +130,3 @@ impl Side {
         }
     }
 }
-
-#[cfg(test)]
-mod tests;

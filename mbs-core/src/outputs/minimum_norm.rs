@@ -15,7 +15,7 @@ use alloc::vec::Vec;
 
 /// A dense system of m equations in n unknowns, with room for the largest one.
 #[derive(Debug, Clone)]
-pub(super) struct MinimumNorm<T> {
+pub struct MinimumNorm<T> {
     m: usize,
     n: usize,
     rank: usize,
@@ -34,7 +34,7 @@ pub(super) struct MinimumNorm<T> {
 
 impl<T: Real> MinimumNorm<T> {
     /// Room for systems of up to `rows` equations in up to `columns` unknowns.
-    pub(super) fn new(rows: usize, columns: usize) -> Self {
+    pub fn new(rows: usize, columns: usize) -> Self {
         let zeros = |k| vec![T::ZERO; k];
         Self {
             m: 0,
@@ -52,7 +52,7 @@ impl<T: Real> MinimumNorm<T> {
     }
 
     /// Starts a system with zeros.
-    pub(super) fn begin(&mut self, m: usize, n: usize) {
+    pub fn begin(&mut self, m: usize, n: usize) {
         (self.m, self.n, self.rank) = (m, n, 0);
         self.a[..m * n].fill(T::ZERO);
         self.b[..m].fill(T::ZERO);
@@ -62,17 +62,17 @@ impl<T: Real> MinimumNorm<T> {
     }
 
     /// The entry of A in row `i` and column `j`.
-    pub(super) fn entry(&mut self, i: usize, j: usize) -> &mut T {
+    pub fn entry(&mut self, i: usize, j: usize) -> &mut T {
         &mut self.a[j * self.m + i]
     }
 
     /// The right-hand side.
-    pub(super) fn right(&mut self) -> &mut [T] {
+    pub fn right(&mut self) -> &mut [T] {
         &mut self.b[..self.m]
     }
 
     /// The solution.
-    pub(super) fn solution(&self) -> &[T] {
+    pub fn solution(&self) -> &[T] {
         &self.x[..self.n]
     }
 
@@ -84,7 +84,7 @@ impl<T: Real> MinimumNorm<T> {
     /// Factors and solves; returns the length of what no solution balances.
     ///
     /// Cost: about 2 m n r operations, and r (n - r)^2 when the rank is short; no allocation.
-    pub(super) fn solve(&mut self) -> T {
+    pub fn solve(&mut self) -> T {
         self.factor();
         self.substitute();
         if self.rank < self.n {
@@ -94,7 +94,7 @@ impl<T: Real> MinimumNorm<T> {
     }
 
     /// Is the unknown the same in all solutions?
-    pub(super) fn is_determined(&self, unknown: usize) -> bool {
+    pub fn is_determined(&self, unknown: usize) -> bool {
         let tolerance = self.tolerance();
         let place = self.order[..self.n].iter().position(|&j| j == unknown);
         place.is_some_and(|i| {
@@ -215,57 +215,4 @@ fn cholesky_solve<T: Real>(g: &mut [T], y: &mut [T]) {
 
 fn norm<T: Real>(x: &[T]) -> T {
     x.iter().fold(T::ZERO, |s, &x| s + x * x).sqrt()
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// Rounding of a few operations on numbers of order one.
-    const ROUNDING: f64 = 1e-14;
-
-    fn solved(rows: &[[f64; 3]], right: &[f64]) -> (Vec<f64>, Vec<bool>, f64) {
-        let mut system = MinimumNorm::new(rows.len(), 3);
-        system.begin(rows.len(), 3);
-        for (i, row) in rows.iter().enumerate() {
-            for (j, &x) in row.iter().enumerate() {
-                *system.entry(i, j) = x;
-            }
-            system.right()[i] = right[i];
-        }
-        let rest = system.solve();
-        let determined = (0..3).map(|j| system.is_determined(j)).collect();
-        (system.solution().to_vec(), determined, rest)
-    }
-
-    #[test]
-    fn a_doubled_support_is_shared_as_computed_by_hand() {
-        // x0 + x1 = 2, x2 = 3, and their sum again
-        let rows = [[1.0, 1.0, 0.0], [0.0, 0.0, 1.0], [1.0, 1.0, 1.0]];
-        let (x, determined, rest) = solved(&rows, &[2.0, 3.0, 5.0]);
-        for (x, expected) in x.iter().zip([1.0, 1.0, 3.0]) {
-            assert!((x - expected).abs() < ROUNDING, "{x} {expected}");
-        }
-        assert_eq!(determined, [false, false, true]);
-        assert!(rest < ROUNDING);
-    }
-
-    #[test]
-    fn a_full_system_has_one_solution_and_contradictions_are_measured() {
-        let rows = [[2.0, 1.0, 0.0], [0.0, 3.0, 1.0], [1.0, 0.0, 1.0], [0.0, 0.0, 0.0]];
-        let (x, determined, rest) = solved(&rows, &[4.0, 9.0, 4.0, 0.5]);
-        for (x, expected) in x.iter().zip([1.0, 2.0, 3.0]) {
-            assert!((x - expected).abs() < ROUNDING, "{x} {expected}");
-        }
-        assert_eq!(determined, [true; 3]);
-        assert!((rest - 0.5).abs() < ROUNDING);
-    }
-
-    #[test]
-    fn nothing_balances_nothing() {
-        let (x, determined, rest) = solved(&[[0.0; 3]; 2], &[0.0; 2]);
-        assert_eq!(x, [0.0; 3]);
-        assert_eq!(determined, [false; 3]);
-        assert!(rest < ROUNDING);
-    }
 }

@@ -188,6 +188,3 @@ fn directions<T: Real>(axes: &[Axis<T>], most: T, rounding: T) -> Vec<Direction<
     directions.sort_by_key(|direction| direction.members[0]);
     directions
 }
-
-#[cfg(test)]
-mod tests;

@@ -3,7 +3,7 @@
 //! Order: names, numbers and references of each entry, then what entries say about one another. Comparisons
 //! are written so that a NaN fails them.
 
-mod body;
+pub(crate) mod body;
 mod coupling;
 mod course;
 mod effect;
@@ -17,8 +17,6 @@ mod road;
 mod rolling;
 mod shape;
 mod signal;
-#[cfg(test)]
-mod tests;
 mod vector;
 
 use crate::Real;

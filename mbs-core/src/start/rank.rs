@@ -61,7 +61,8 @@ fn sparse_rows<T: Real, M: Model<T> + Cliques>(model: &M, terms: &Terms<T>) -> V
     rows
 }
 
-pub(super) fn pivoted_rank<T: Real>(mut a: Vec<T>, n: usize, m: usize) -> usize {
+/// Number of independent ones among `m` rows of `n` numbers each, one row behind the other.
+pub fn pivoted_rank<T: Real>(mut a: Vec<T>, n: usize, m: usize) -> usize {
     let tolerance = T::from_f64(n.max(m) as f64 * libm::pow(T::EPSILON.to_f64(), 2.0 / 3.0));
     let mut columns: Vec<usize> = (0..m).collect();
     let mut largest = T::ZERO;

@@ -1,5 +1,9 @@
 //! Every kind of effect in natural coordinates: power, tangents against central differences, action and reaction.
 
+mod friction;
+mod limit;
+mod speed_hold;
+
 use crate::codes;
 use mbs_core::Cliques;
 use mbs_core::algebra::{Vector, cross, rotation};

@@ -6,12 +6,14 @@ mod small;
 mod axes;
 mod balls;
 mod codes;
+mod control;
 mod coupling_kinds;
 mod effect_table;
 mod effects;
 mod efforts;
 mod elements;
 mod events;
+mod integrator;
 mod joints;
 mod least;
 mod model;
@@ -25,3 +27,35 @@ mod signals;
 mod start;
 mod sums;
 mod undetermined;
+
+mod inputs {
+    mod breaks;
+}
+
+mod laws {
+    mod bumper;
+    mod calspan;
+    mod corner;
+    mod guide;
+    mod polynomial;
+    mod relation;
+    mod road;
+    mod road_contact;
+    mod slip;
+    mod spin;
+    mod tire;
+}
+
+mod measure {
+    mod curve;
+}
+
+mod natural {
+    mod coordinate_sets;
+    mod spatial_index;
+}
+
+mod scene {
+    mod align;
+    mod check;
+}

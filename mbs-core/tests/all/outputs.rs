@@ -1,5 +1,12 @@
 //! Channels measured at known states.
 
+mod coordinate;
+mod cubic;
+mod event;
+mod frame;
+mod leaf_elimination;
+mod minimum_norm;
+
 use crate::small::{GROUND, add_body, add_joint, add_rod, hold, output, scene, start};
 use mbs_core::algebra::{Matrix, Vector, rotation, rotation_vector};
 use mbs_core::natural::NaturalModel;

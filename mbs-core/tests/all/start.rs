@@ -1,5 +1,7 @@
 //! Assembly: what is held holds exactly, the rest changes least, and what cannot be met is named.
 
+mod sparse_rank;
+
 use mbs_core::Cliques;
 use mbs_core::model::{Load, Model, Owner};
 use mbs_core::natural::NaturalModel;

@@ -8,7 +8,7 @@ mod convoy;
 mod error;
 mod four_bars;
 mod net;
-mod text;
+pub(crate) mod text;
 mod tree;
 
 pub use error::GenerateError;

@@ -18,8 +18,6 @@ mod shape;
 mod signal;
 mod sweep;
 mod table;
-#[cfg(test)]
-mod tests;
 mod value;
 
 pub use example::{Base, Example};
@@ -66,12 +64,12 @@ pub fn tables() -> &'static [KeyTable] {
 }
 
 /// The tables of a header, of all kinds.
-pub(crate) fn of(header: &str) -> &'static [KeyTable] {
+pub fn of(header: &str) -> &'static [KeyTable] {
     together(&TABLES, |table| table.header == header)
 }
 
 /// Those of a kind among the tables of a header.
-pub(crate) fn of_kind(tables: &'static [KeyTable], kind: &str) -> &'static [KeyTable] {
+pub fn of_kind(tables: &'static [KeyTable], kind: &str) -> &'static [KeyTable] {
     together(tables, |table| table.kind == Some(kind))
 }
 

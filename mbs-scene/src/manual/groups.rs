@@ -3,7 +3,7 @@
 use crate::keys::{KeyTable, tables};
 
 /// The tables that stand in files, apart from the files themselves, each header's together.
-pub(super) fn groups() -> Vec<&'static [KeyTable]> {
+pub fn groups() -> Vec<&'static [KeyTable]> {
     let mut groups = Vec::new();
     let mut rest = tables();
     while let Some(first) = rest.first() {
@@ -18,7 +18,7 @@ pub(super) fn groups() -> Vec<&'static [KeyTable]> {
 }
 
 /// The same tables, those of one kind together.
-pub(super) fn entries(group: &'static [KeyTable]) -> Vec<&'static [KeyTable]> {
+pub fn entries(group: &'static [KeyTable]) -> Vec<&'static [KeyTable]> {
     let mut entries: Vec<&'static [KeyTable]> = Vec::new();
     let mut rest = group;
     while let Some(first) = rest.first() {

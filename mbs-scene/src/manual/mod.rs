@@ -1,11 +1,9 @@
 //! The manual of scene files, written from the tables of their keys: lists and pages for a terminal, Markdown, and a schema.
 
-mod groups;
+pub(crate) mod groups;
 mod markdown;
 mod page;
 mod schema;
-#[cfg(test)]
-mod tests;
 
 pub use markdown::markdown;
 pub use page::{list, page};

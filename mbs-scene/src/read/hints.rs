@@ -3,11 +3,12 @@
 //! A hint is given where the word that it speaks of may stand: `among` is one of the words or keys that are known there.
 
 /// Words that are not known, and what is said instead of the nearest name.
-struct Hint {
+#[derive(Debug)]
+pub struct Hint {
     /// A word that is known where the hint holds.
-    among: &'static str,
+    pub among: &'static str,
     /// The words, in small letters and with hyphens.
-    words: &'static [&'static str],
+    pub words: &'static [&'static str],
     /// What to do; empty: write `among` instead.
     hint: &'static str,
 }
@@ -35,7 +36,8 @@ const RATIOS: &[&str] = &[
 
 const COUPLES: &str = "that is a `[[coupling]]` of joints: `kind = \"gear\"`, \"belt\", \"rack\" or \"screw\", with the `joints` that it couples";
 
-const HINTS: &[Hint] = &[
+/// All hints; the first that holds is given.
+pub const HINTS: &[Hint] = &[
     // kinds of joints
     says(
         "revolute",
@@ -206,7 +208,7 @@ const HINTS: &[Hint] = &[
 ];
 
 /// The hint for a word that is not among the known ones, where there is one.
-pub(crate) fn of_word<S: AsRef<str>>(found: &str, known: &[S]) -> Option<String> {
+pub fn of_word<S: AsRef<str>>(found: &str, known: &[S]) -> Option<String> {
     let word = found.trim().to_lowercase().replace(['_', ' '], "-");
     let is_known = |among: &str| known.iter().any(|name| name.as_ref() == among);
     let hint =
@@ -215,34 +217,4 @@ pub(crate) fn of_word<S: AsRef<str>>(found: &str, known: &[S]) -> Option<String>
         return Some(format!("did you mean `{}`?", hint.among));
     }
     Some(hint.hint.to_owned())
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_hint_is_given_only_where_its_word_may_stand() {
-        assert_eq!(
-            of_word("Hinge", &["revolute", "weld"]).as_deref(),
-            Some("did you mean `revolute`?")
-        );
-        assert_eq!(of_word("hinge", &["index-1"]), None);
-        assert_eq!(
-            of_word("center_of_mass", &["name", "center"]).as_deref(),
-            Some("did you mean `center`?")
-        );
-        assert!(of_word("motor", &["revolute"]).is_some_and(|hint| hint.contains("[[guide]]")));
-        assert!(
-            of_word("belt", &["spring-damper", "torque"])
-                .is_some_and(|hint| hint.contains("[[coupling]]"))
-        );
-    }
-
-    #[test]
-    fn no_word_is_known_where_it_is_said_to_be_unknown() {
-        for hint in HINTS {
-            assert!(!hint.words.contains(&hint.among), "{}", hint.among);
-        }
-    }
 }

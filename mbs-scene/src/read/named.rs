@@ -1,7 +1,7 @@
 //! Values of parameters and points: each is found once, with those that it needs.
 
 use super::error::{ExpressionFault, Read};
-use super::expression::{Fault, evaluate, unit::Dimensions};
+use super::expression::{EvaluationFault, evaluate, unit::Dimensions};
 use super::nearest::nearest_name;
 use super::number::{check_unit, decimal, rounded};
 use super::point::{self, Given, Point};
@@ -241,7 +241,7 @@ fn unknown_point<'a>(name: &str, known: impl Iterator<Item = &'a str>) -> [Strin
 }
 
 /// A fault of an expression, at its place within the text where that stands in the file as it is.
-fn refused(texts: &Texts, (text, span): (&str, &Span), fault: Fault) -> ReadError {
+fn refused(texts: &Texts, (text, span): (&str, &Span), fault: EvaluationFault) -> ReadError {
     let inside = texts.written(span).and_then(|written| {
         // without quotes, where a command line gives it
         if written == text {
@@ -252,6 +252,6 @@ fn refused(texts: &Texts, (text, span): (&str, &Span), fault: Fault) -> ReadErro
     });
     let end = fault.span.end.max(fault.span.start + 1);
     let place = inside.map_or_else(|| span.clone(), |start| start + fault.span.start..start + end);
-    let Fault { message, hint, .. } = fault;
+    let EvaluationFault { message, hint, .. } = fault;
     texts.error(&place, ReadFault::Expression(ExpressionFault { message, hint }))
 }

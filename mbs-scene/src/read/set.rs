@@ -1,7 +1,7 @@
 //! `PATH=VALUE`: values of a scene that a command line replaces or adds.
 
 use super::fields::Read;
-use super::sweep::path::{self, Part};
+use super::sweep::path::{self, PathPart};
 use super::texts::Text;
 use super::tree::{self, Item, Member, Node, Span};
 use super::{ReadFault, SceneFile, SweepFault};
@@ -56,10 +56,16 @@ impl SceneFile {
     }
 
     /// Adds a key to a table that may have it; else the fault of its path.
-    fn insert(&mut self, parts: &[Part], item: Item, span: &Span, fault: SweepFault) -> Read<()> {
+    fn insert(
+        &mut self,
+        parts: &[PathPart],
+        item: Item,
+        span: &Span,
+        fault: SweepFault,
+    ) -> Read<()> {
         let refused = |file: &Self, fault| Err(file.error(span, ReadFault::Sweep(fault)));
-        let [outer @ .., Part::Key(key)] = parts else { return refused(self, fault) };
-        let [Part::Key(table), ..] = outer else { return refused(self, fault) };
+        let [outer @ .., PathPart::Key(key)] = parts else { return refused(self, fault) };
+        let [PathPart::Key(table), ..] = outer else { return refused(self, fault) };
         if outer.len() == 1 && self.top(table).is_none() && is_once(table) {
             let node = Node::Table(Vec::new());
             let item = Item { span: span.clone(), node };
@@ -125,13 +131,13 @@ fn is_once(table: &str) -> bool {
 }
 
 /// The tables of keys to which a path leads.
-fn tables_at(parts: &[Part]) -> &'static [KeyTable] {
-    let [Part::Key(table), rest @ ..] = parts else { return &[] };
+fn tables_at(parts: &[PathPart]) -> &'static [KeyTable] {
+    let [PathPart::Key(table), rest @ ..] = parts else { return &[] };
     let mut tables = keys::of(table);
     let is_list = tables.first().is_some_and(|table| table.standing == Standing::Listed);
     // the first part behind a list is an entry, and may be called like a key
     for part in rest.iter().skip(usize::from(is_list)) {
-        let Part::Key(name) = part else { continue };
+        let PathPart::Key(name) = part else { continue };
         let key = tables.iter().find_map(|table| table.key(name));
         if let Some(
             KeyValue::Table(header)

@@ -35,21 +35,3 @@ impl Template {
         line.find('.').map_or(line, |end| &line[..end])
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::SceneFile;
-
-    #[test]
-    fn every_template_reads_says_what_it_is_and_has_outputs() {
-        for template in TEMPLATES {
-            let file = SceneFile::parse(template.text, template.name).expect("TOML");
-            let scene = file.scene::<f64>().unwrap_or_else(|e| panic!("{}", e.render()));
-            assert!(!scene.outputs.is_empty(), "{}", template.name);
-            assert!(template.meaning().len() > 10, "{}", template.name);
-            // three screens, of which a list of hard points takes one
-            assert!(template.text.lines().count() <= 160, "{}", template.name);
-        }
-    }
-}

@@ -10,8 +10,6 @@ mod rolling;
 mod shape;
 mod signal;
 mod solver;
-#[cfg(test)]
-mod tests;
 
 use super::toml;
 use crate::read::SceneFile;

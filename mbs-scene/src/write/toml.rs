@@ -84,13 +84,3 @@ pub fn quoted(text: &str) -> String {
     }
     out + "\""
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn quotes_and_control_characters_in_names_are_escaped() {
-        assert_eq!(quoted("a \"b\" \\ \n"), "\"a \\\"b\\\" \\\\ \\u000A\"");
-    }
-}

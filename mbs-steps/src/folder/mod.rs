@@ -90,6 +90,3 @@ impl Drop for Folder {
         }
     }
 }
-
-#[cfg(test)]
-mod tests;

@@ -3,9 +3,10 @@
 use crate::tree::Matrix;
 
 /// A complex number.
-pub(super) type Complex = [f64; 2];
+pub type Complex = [f64; 2];
 
-pub(super) fn product([a, b]: Complex, [c, d]: Complex) -> Complex {
+/// The product of two complex numbers.
+pub fn product([a, b]: Complex, [c, d]: Complex) -> Complex {
     [a * c - b * d, a * d + b * c]
 }
 
@@ -18,7 +19,8 @@ pub(super) fn quotient(a: Complex, [c, d]: Complex) -> Complex {
     [x / by, y / by]
 }
 
-pub(super) fn size([a, b]: Complex) -> f64 {
+/// The absolute value.
+pub fn size([a, b]: Complex) -> f64 {
     libm::hypot(a, b)
 }
 
@@ -28,7 +30,8 @@ fn subtract(from: &mut Complex, [a, b]: Complex) {
 }
 
 /// L and U of a square matrix with its rows exchanged.
-pub(super) struct Factor {
+#[derive(Debug)]
+pub struct Factor {
     n: usize,
     /// Row by row.
     lu: Vec<Complex>,
@@ -39,7 +42,7 @@ pub(super) struct Factor {
 
 impl Factor {
     /// Eliminates a matrix, row by row. A pivot that is zero becomes rounding of the largest entry.
-    pub(super) fn new(n: usize, lu: Vec<Complex>) -> Self {
+    pub fn new(n: usize, lu: Vec<Complex>) -> Self {
         let largest = lu.iter().fold(f64::MIN_POSITIVE, |most, x| most.max(size(*x)));
         let mut new = Self { n, lu, rows: (0..n).collect(), least: 1.0 };
         for k in 0..n {
@@ -70,7 +73,7 @@ impl Factor {
     }
 
     /// x of A x = b.
-    pub(super) fn solve(&self, b: &[Complex]) -> Vec<Complex> {
+    pub fn solve(&self, b: &[Complex]) -> Vec<Complex> {
         let n = self.n;
         let mut x: Vec<Complex> = self.rows.iter().map(|&row| b[row]).collect();
         for i in 0..n {
@@ -94,7 +97,7 @@ impl Factor {
 const REGULAR: f64 = 1e-12;
 
 /// R S^-1 of each R; nothing where S is singular. Columns of S are taken in their own sizes.
-pub(super) fn divided(of: [&Matrix; 2], s: &Matrix) -> Option<[Matrix; 2]> {
+pub fn divided(of: [&Matrix; 2], s: &Matrix) -> Option<[Matrix; 2]> {
     let n = s.rows;
     let column = |j: usize| (0..n).fold(0.0_f64, |most, i| most.max(s[(i, j)].abs()));
     let sizes: Vec<f64> = (0..n).map(column).collect();
@@ -118,51 +121,4 @@ pub(super) fn divided(of: [&Matrix; 2], s: &Matrix) -> Option<[Matrix; 2]> {
         }
         to
     }))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// Rounding of a product of three rows.
-    const ROUNDING: f64 = 1e-14;
-
-    #[test]
-    fn a_complex_system_is_solved() {
-        let a = [
-            [0.0, 0.0],
-            [1.0, 2.0],
-            [0.5, -1.0],
-            [3.0, 0.0],
-            [0.0, 1.0],
-            [2.0, 0.0],
-            [1.0, 1.0],
-            [0.0, 0.0],
-            [0.0, -2.0],
-        ];
-        let x = [[1.0, -1.0], [2.0, 0.5], [0.0, 3.0]];
-        let row = |i: usize| {
-            (0..3).fold([0.0; 2], |sum: Complex, j| {
-                let [re, im] = product(a[3 * i + j], x[j]);
-                [sum[0] + re, sum[1] + im]
-            })
-        };
-        let found = Factor::new(3, a.to_vec()).solve(&[row(0), row(1), row(2)]);
-        for (found, x) in found.iter().zip(x) {
-            assert!(size([found[0] - x[0], found[1] - x[1]]) < ROUNDING, "{found:?}");
-        }
-    }
-
-    #[test]
-    fn what_a_singular_matrix_divides_is_refused() {
-        let matrix = |data: [f64; 4]| Matrix { rows: 2, columns: 2, data: data.to_vec() };
-        let (r, s) = (matrix([1.0, 2.0, 3.0, 4.0]), matrix([1.0, 2.0, 2.0, 4.0]));
-        assert_eq!(divided([&r, &r], &s), None);
-        let Some([x, _]) = divided([&r, &r], &matrix([0.0, 2.0, 1e-9, 0.0])) else {
-            panic!("columns count in their sizes");
-        };
-        for (found, right) in x.data.iter().zip([1.0, 1e9, 2.0, 3e9]) {
-            assert!((found - right).abs() < ROUNDING * right, "{:?}", x.data);
-        }
-    }
 }

@@ -12,7 +12,7 @@ const HELD: f64 = 1e-8;
 
 /// The places of the states among coordinates that change by these rows with each freedom. Those of joints are first, and bodies' fill up
 /// what they leave. Nothing where all together are too few.
-pub(super) fn choose(slopes: &[Vec<f64>], n_of_joints: usize) -> Option<Vec<usize>> {
+pub fn choose(slopes: &[Vec<f64>], n_of_joints: usize) -> Option<Vec<usize>> {
     let f = slopes.first().map_or(0, Vec::len);
     let mut taken = Taken { slopes, chosen: Vec::new(), basis: Vec::new() };
     for group in [0..n_of_joints, n_of_joints..slopes.len()] {
@@ -76,22 +76,4 @@ impl Taken<'_> {
 
 fn norm(x: &[f64]) -> f64 {
     x.iter().map(|x| x * x).sum::<f64>().sqrt()
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn the_first_independent_coordinates_are_states_and_bodies_fill_up() {
-        let rows = |rows: &[[f64; 2]]| rows.iter().map(|row| row.to_vec()).collect::<Vec<_>>();
-        // the second one repeats the first, the third is held
-        let joints = rows(&[[1.0, 0.0], [-3.0, 1e-9], [1e-12, 0.0], [0.5, 0.1]]);
-        assert_eq!(choose(&joints, 4), Some(vec![0, 3]));
-        // next to dependent: the largest rest counts
-        let near = rows(&[[1.0, 0.0], [1.0, 0.01], [1.0, 0.05]]);
-        assert_eq!(choose(&near, 3), Some(vec![0, 2]));
-        assert_eq!(choose(&near, 1), Some(vec![0, 2]));
-        assert_eq!(choose(&rows(&[[1.0, 0.0], [2.0, 0.0]]), 1), None);
-    }
 }

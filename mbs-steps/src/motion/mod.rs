@@ -3,8 +3,8 @@
 mod drawing;
 mod joints;
 mod lines;
-mod pose;
-mod principal;
+pub mod pose;
+pub mod principal;
 mod road;
 mod shapes;
 mod written;

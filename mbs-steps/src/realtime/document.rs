@@ -116,28 +116,9 @@ fn time(seconds: f64) -> Option<Duration> {
 }
 
 /// Steps of a period: the fewest of equal length that are not longer than the step, but for rounding.
-fn parts(period: f64, step: f64) -> u32 {
+pub fn parts(period: f64, step: f64) -> u32 {
     let n = (period / step * (1.0 - SAME_LENGTH)).ceil().clamp(1.0, f64::from(u32::MAX));
     #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "it is clamped")]
     let n = n as u32;
     n
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_period_is_cut_into_equal_steps_that_are_not_longer_than_the_step() {
-        for (period, step, n) in [
-            (1e-3, 1e-3, 1),
-            (1e-2, 1e-3, 10),
-            (0.3, 0.1, 3),
-            (1e-3, 4e-4, 3),
-            (1e-3, 5e-3, 1),
-            (0.7, 0.07, 10),
-        ] {
-            assert_eq!(parts(period, step), n, "{period} of {step}");
-        }
-    }
 }

@@ -80,7 +80,7 @@
 //! A ladder of one's own: a second [`Simulation`] of the same scene with effects switched off takes the state over with
 //! [`Simulation::take_over`] when [`Task::level`] changes. Inputs are set in both.
 
-mod document;
+pub mod document;
 mod error;
 mod ladder;
 mod measure;

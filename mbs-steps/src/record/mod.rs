@@ -13,8 +13,6 @@ mod outputs;
 mod realtime;
 mod series;
 mod statistics;
-#[cfg(test)]
-mod tests;
 
 pub use change::OutputChange;
 pub use channel::Channel;

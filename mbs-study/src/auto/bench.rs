@@ -1,6 +1,6 @@
 //! Trials of a scene, on a clock that is given.
 
-use super::trial::{Aim, Bench, End, Rows, Trial};
+use super::trial::{Aim, Bench, Rows, Trial, TrialEnd};
 use crate::compare::course::Course;
 use crate::compare::ladder::{Instants, work};
 use crate::compare::method::{Control, MethodCase};
@@ -121,14 +121,16 @@ impl<'a, T: Real, const D: usize> SceneBench<'a, T, D> {
         let Recorder { rows, steps, reached, slowest, is_late, .. } = recorder;
         let seconds = self.clock.seconds() - begun;
         let end = match end {
-            Ok(()) if !is_late => End::Done,
+            Ok(()) if !is_late => TrialEnd::Done,
             Err(StopError::Step(StepError::StepTooSmall { .. }, _))
                 if is_own && seconds >= 0.5 * limit =>
             {
-                End::GivenUp
+                TrialEnd::GivenUp
             }
-            Err(error) if !is_late => End::Stopped(error.report(reached, &Names::new(self.scene))),
-            _ => End::GivenUp,
+            Err(error) if !is_late => {
+                TrialEnd::Stopped(error.report(reached, &Names::new(self.scene)))
+            }
+            _ => TrialEnd::GivenUp,
         };
         let slowest = (aim == Aim::Steps).then_some(slowest);
         let span = self.instants.time(self.instants.count);
@@ -154,7 +156,7 @@ impl<T: Real, const D: usize> Bench for SceneBench<'_, T, D> {
 }
 
 fn not_started(error: RunError) -> Trial {
-    let end = End::NotStarted(error);
+    let end = TrialEnd::NotStarted(error);
     Trial { rows: Vec::new(), seconds: 0.0, steps: 0, reached: 0.0, slowest: None, end }
 }
 

@@ -1,9 +1,9 @@
 //! The methods that the pilot tries, in their order, and what its trials say of each.
 
 use super::estimate::{Basis, ERROR_RANGE, Point, PowerLaw, Prediction, SMALL, extended, predict};
-use super::goal::Target;
+use super::goal::PilotTarget;
 use super::structure::Structure;
-use super::trial::{End, Trial};
+use super::trial::{Trial, TrialEnd};
 use crate::compare::method::{Control, MethodCase};
 use mbs::FormulationKind;
 
@@ -44,8 +44,9 @@ impl Tried {
 
 /// A method in the pilot.
 #[derive(Debug, Clone)]
-pub(crate) struct Candidate {
-    pub(crate) method: MethodCase,
+pub struct PilotCandidate {
+    /// The method.
+    pub method: MethodCase,
     /// From the coarsest.
     pub(crate) trials: Vec<Tried>,
     /// Why it is out.
@@ -100,9 +101,9 @@ fn is_own(method: &MethodCase) -> bool {
     method.control == Control::Own
 }
 
-impl Candidate {
+impl PilotCandidate {
     /// A candidate that is tried first with steps of at most `longest` [s], if they are fixed.
-    pub(crate) fn new(method: MethodCase, target: Target, longest: f64) -> Self {
+    pub fn new(method: MethodCase, target: PilotTarget, longest: f64) -> Self {
         let (first, coarsest) = match method.control {
             Control::Fixed => (longest, longest),
             // errors of controlled steps are mostly smaller than their tolerance
@@ -125,7 +126,7 @@ impl Candidate {
     }
 
     /// The setting that can be had, no coarser than the one asked for: a whole number of steps makes the longest.
-    pub(crate) fn fit(&self, setting: f64) -> f64 {
+    pub fn fit(&self, setting: f64) -> f64 {
         let setting = setting.max(self.finest);
         if !self.method.is_fixed() {
             return setting.min(self.coarsest);
@@ -135,7 +136,7 @@ impl Candidate {
 
     /// Takes a trial in; one that was given up before is forgotten.
     pub(crate) fn take(&mut self, tried: Tried) {
-        self.trials.retain(|t| t.trial.end != End::GivenUp);
+        self.trials.retain(|t| t.trial.end != TrialEnd::GivenUp);
         let finer = |t: &Tried| t.setting < tried.setting;
         let place = self.trials.iter().position(finer).unwrap_or(self.trials.len());
         self.trials.insert(place, tried);
@@ -146,7 +147,7 @@ impl Candidate {
     }
 
     pub(crate) fn done(&self) -> impl DoubleEndedIterator<Item = &Tried> {
-        self.trials.iter().filter(|t| t.trial.end == End::Done)
+        self.trials.iter().filter(|t| t.trial.end == TrialEnd::Done)
     }
 
     /// Completed trials whose error is known, from the coarsest. An error that is small by chance does not count: none is smaller than that
@@ -170,7 +171,7 @@ impl Candidate {
     }
 
     /// The setting for the error that is aimed at, and what is expected of it.
-    pub(crate) fn predict(&self, target: Target) -> Option<Prediction> {
+    pub(crate) fn predict(&self, target: PilotTarget) -> Option<Prediction> {
         let points = self.points();
         // nothing coarser than the first that completes is taken where it has stopped, or would make the same steps (guided-four-bar at 1e-6)
         let is_held = self.done().next().is_some_and(|t| self.is_held(&t.trial));
@@ -213,7 +214,7 @@ impl Candidate {
 
     /// Is it not out, and did its finest trial complete?
     pub(crate) fn may_continue(&self) -> bool {
-        self.out.is_none() && self.trials.last().is_some_and(|t| t.trial.end == End::Done)
+        self.out.is_none() && self.trials.last().is_some_and(|t| t.trial.end == TrialEnd::Done)
     }
 
     /// A setting that is finer than all trials, if there is one.
@@ -224,13 +225,13 @@ impl Candidate {
     }
 
     /// What it needs to be known.
-    pub(crate) fn next(&self, target: Target) -> Next {
+    pub(crate) fn next(&self, target: PilotTarget) -> Next {
         let Some(last) = self.trials.last() else { return Next::Try(self.fit(self.first)) };
         let finer = self.finer().unwrap_or(last.setting);
         match &last.trial.end {
-            End::NotStarted(e) => return Next::Out(format!("{}: {}", e.code, e.message)),
-            End::GivenUp => return Next::Try(last.setting),
-            End::Stopped(e) => {
+            TrialEnd::NotStarted(e) => return Next::Out(format!("{}: {}", e.code, e.message)),
+            TrialEnd::GivenUp => return Next::Try(last.setting),
+            TrialEnd::Stopped(e) => {
                 let before = self.trials.len().checked_sub(2).map(|i| &self.trials[i].trial);
                 let is_worse = before.is_some_and(|t| t.reached >= last.trial.reached);
                 if self.seen(target.error).is_some() {
@@ -243,7 +244,7 @@ impl Candidate {
                 }
                 return Next::Try(finer);
             }
-            End::Done => {}
+            TrialEnd::Done => {}
         }
         let Some(p) = self.predict(target) else {
             return if finer < last.setting { Next::Try(finer) } else { Next::Settled };
@@ -254,7 +255,7 @@ impl Candidate {
     }
 
     /// Does a trial nearly have the error that is aimed at, or no coarser one take fewer steps?
-    pub(crate) fn is_settled(&self, target: Target) -> bool {
+    pub(crate) fn is_settled(&self, target: PilotTarget) -> bool {
         let points = self.points();
         let is_near = |p: &Point| p.error <= target.error && p.error >= 0.5 * target.aim();
         let is_held = |t: &Tried| self.is_held(&t.trial);

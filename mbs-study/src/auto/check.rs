@@ -2,8 +2,8 @@
 //! agreement.
 
 use super::estimate::{SMALL, error_of_finer};
-use super::pilot::{Place, Search};
-use super::trial::{Aim, End, Trial};
+use super::pilot::{PilotPlace, PilotSearch};
+use super::trial::{Aim, Trial, TrialEnd};
 use crate::compare::method::{Control, MethodCase};
 use mbs::record::SecondLook;
 use mbs::{FormulationKind, IntegratorKind, Precision};
@@ -11,9 +11,9 @@ use mbs_scene::format::few;
 
 /// Compares the chosen candidate with the default formulation. Nothing where the choice is not in relative coordinates; an error says why
 /// nothing is known.
-pub(super) fn check(
-    search: &mut Search<'_>,
-    places: &[Place],
+pub fn check(
+    search: &mut PilotSearch<'_>,
+    places: &[PilotPlace],
     longest: f64,
 ) -> Option<Result<SecondLook, String>> {
     let chosen = &search.candidates[places.first()?.candidate];
@@ -36,7 +36,7 @@ pub(super) fn check(
 ///
 /// Two runs and no more: of many pairs in chaotic motion, one agrees by chance (double-pendulum at 1e-3).
 fn fine(
-    search: &mut Search<'_>,
+    search: &mut PilotSearch<'_>,
     precision: Precision,
     longest: f64,
 ) -> Result<(Trial, f64), String> {
@@ -50,9 +50,11 @@ fn fine(
     let mut trial = |step: f64| {
         let trial = search.bench.trial(&method, step, Aim::Rows, limit);
         match &trial.end {
-            End::Done => Ok(trial),
-            End::GivenUp => Err("it takes too long".to_owned()),
-            End::Stopped(e) | End::NotStarted(e) => Err(format!("it stops: {}", e.message)),
+            TrialEnd::Done => Ok(trial),
+            TrialEnd::GivenUp => Err("it takes too long".to_owned()),
+            TrialEnd::Stopped(e) | TrialEnd::NotStarted(e) => {
+                Err(format!("it stops: {}", e.message))
+            }
         }
     };
     let [coarse, fine] = [trial(longest)?, trial(0.5 * longest)?];

@@ -1,9 +1,9 @@
 //! The choice for a scene: what is asked, who may run, the pilot, and its ranked settings.
 
 use super::bench::{Clock, SceneBench};
-use super::candidates::{self, Candidate};
-use super::goal::{Goal, GoalError, Target};
-use super::pilot::{BUDGET, Place, Search};
+use super::candidates::{self, PilotCandidate};
+use super::goal::{Goal, GoalError, PilotTarget};
+use super::pilot::{BUDGET, PilotPlace, PilotSearch};
 use super::structure::{self, Structure};
 use super::{check, report};
 use crate::compare::ladder::Instants;
@@ -33,7 +33,10 @@ pub(crate) struct Task<'a> {
 }
 
 /// The methods that a caller leaves to choose from, in the order that decides where times are the same.
-pub(crate) fn methods<T>(
+///
+/// # Errors
+/// [`GoalError`] where the goal and what the caller has chosen leave no method.
+pub fn methods<T>(
     scene: &Scene<T>,
     base: &Method,
     settings: &ResolvedMethod,
@@ -104,14 +107,14 @@ fn chosen<T: Real, const D: usize>(
     let structure = structure::structure(scene, task.settings.duration, ready.as_mut().ok());
     let asked = (task.settings.asked != "auto", task.goal.deadline.is_some());
     let methods = candidates::select(asked, methods, &structure);
-    let (target, mut instants) = (Target::of(&task.goal), task.instants);
+    let (target, mut instants) = (PilotTarget::of(&task.goal), task.instants);
     // the assembly is any run's own: trials have the whole budget (iltis-links at 1e-6, whose assembly takes most of it)
     let (mut spent, mut before) = (0.0, clock.seconds() - begun);
     loop {
         let mut bench = SceneBench::new((scene, task.base), &ready, instants, (&mut *clock, spent));
         let longest = target.deadline.unwrap_or(f64::INFINITY).min(instants.interval);
         let of = |m: &MethodCase| candidate(m, &structure, (target, longest));
-        let mut search = Search::new(&mut bench, methods.iter().map(of).collect(), target);
+        let mut search = PilotSearch::new(&mut bench, methods.iter().map(of).collect(), target);
         let mut places = search.run();
         let shorter = search.shorter(instants.count);
         if let Some(count) = shorter.filter(|_| places.is_empty()) {
@@ -147,14 +150,18 @@ fn chosen<T: Real, const D: usize>(
 }
 
 /// A candidate, out if structure refuses it.
-fn candidate(method: &MethodCase, structure: &Structure, given: (Target, f64)) -> Candidate {
+fn candidate(
+    method: &MethodCase,
+    structure: &Structure,
+    given: (PilotTarget, f64),
+) -> PilotCandidate {
     let out = structure.refuses(method);
-    Candidate { out, ..Candidate::new(*method, given.0, given.1) }
+    PilotCandidate { out, ..PilotCandidate::new(*method, given.0, given.1) }
 }
 
 /// The ranked settings; on a part of the span, errors are taken to grow in proportion to it.
-fn picks(search: &Search<'_>, places: &[Place], times: f64) -> Vec<Pick> {
-    let pick = |place: &Place| {
+fn picks(search: &PilotSearch<'_>, places: &[PilotPlace], times: f64) -> Vec<Pick> {
+    let pick = |place: &PilotPlace| {
         let candidate = &search.candidates[place.candidate];
         let setting = place.prediction.setting * times.powf(-1.0 / candidate.law().error);
         Pick { method: candidate.method, setting: candidate.fit(setting) }
@@ -171,7 +178,7 @@ pub(crate) fn candidates<T: Real, const D: usize>(
     let methods = methods(scene, &Method::default(), settings, &goal).ok()?;
     let mut ready = AssembledScene::<T, D>::new(scene).ok();
     let structure = structure::structure(scene, settings.duration, ready.as_mut());
-    let given = (Target::of(&goal), instants(settings.duration, &goal).interval);
+    let given = (PilotTarget::of(&goal), instants(settings.duration, &goal).interval);
     let asked = (settings.asked != "auto", false);
     let entry = |method: &MethodCase| mbs::record::Candidate {
         basis: "the pilot decides".to_owned(),

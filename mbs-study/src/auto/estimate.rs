@@ -20,16 +20,16 @@ pub(super) const SMALL: f64 = 0.1;
 
 /// Exponents of a method in its setting: the step, or the tolerance.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct PowerLaw {
+pub struct PowerLaw {
     /// a
-    pub(crate) error: f64,
+    pub error: f64,
     /// b
-    pub(crate) cost: f64,
+    pub cost: f64,
 }
 
 impl PowerLaw {
     /// Theory's.
-    pub(crate) fn of(method: &MethodCase) -> Self {
+    pub fn of(method: &MethodCase) -> Self {
         Self { error: method.order() * method.cost(), cost: method.cost() }
     }
 
@@ -49,17 +49,20 @@ impl PowerLaw {
 
 /// A completed trial whose error is known.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Point {
-    pub(crate) setting: f64,
-    pub(crate) error: f64,
+pub struct Point {
+    /// The step [s] or the tolerance.
+    pub setting: f64,
+    /// Error of the outputs.
+    pub error: f64,
     /// CPU time [s].
-    pub(crate) seconds: f64,
-    pub(crate) steps: u64,
+    pub seconds: f64,
+    /// Number of steps.
+    pub steps: u64,
 }
 
 /// What a prediction stands on.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) enum Basis {
+pub enum Basis {
     /// A trial with this setting.
     Tried,
     /// Trials on both sides of the required error.
@@ -72,11 +75,15 @@ pub(crate) enum Basis {
 
 /// A setting, and what is expected of it.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Prediction {
-    pub(crate) setting: f64,
-    pub(crate) error: f64,
-    pub(crate) seconds: f64,
-    pub(crate) basis: Basis,
+pub struct Prediction {
+    /// The step [s] or the tolerance.
+    pub setting: f64,
+    /// Error of the outputs.
+    pub error: f64,
+    /// CPU time [s].
+    pub seconds: f64,
+    /// What it stands on.
+    pub basis: Basis,
 }
 
 impl Prediction {
@@ -87,7 +94,7 @@ impl Prediction {
 }
 
 /// The setting for an error, no coarser than `coarsest`, from trials in the order of their settings, the coarsest first.
-pub(crate) fn predict(
+pub fn predict(
     theory: PowerLaw,
     points: &[Point],
     error: f64,
@@ -142,50 +149,4 @@ pub(crate) fn error_of_finer(method: &MethodCase, fine: &Trial, coarse: &Trial, 
     let steps = coarse.steps as f64 / fine.steps as f64;
     let r = steps.powf(method.order());
     if steps > 1.0 - SMALL { f64::INFINITY } else { d * (r / (1.0 - r)).max(SMALL) }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    const SECOND: PowerLaw = PowerLaw { error: 2.0, cost: 1.0 };
-
-    fn points(settings: &[f64]) -> Vec<Point> {
-        let of = |&h: &f64| Point {
-            setting: h,
-            error: h * h,
-            seconds: 1e-3 / h,
-            steps: (10.0 / h) as u64,
-        };
-        settings.iter().map(of).collect()
-    }
-
-    #[test]
-    fn a_method_that_keeps_its_law_is_predicted_exactly_on_either_side_of_its_trials() {
-        let near = |found: f64, claimed: f64| (found / claimed - 1.0).abs() < 1e-9;
-        for (error, is_between) in [(1e-5, false), (1e-3, true), (0.5e-1, false)] {
-            let found = predict(SECOND, &points(&[0.1, 0.01]), error, 1.0).unwrap();
-            let h = f64::sqrt(error);
-            assert!(near(found.setting, h) && near(found.seconds, 1e-3 / h), "{found:?}");
-            assert!(near(found.error, error) && (found.basis == Basis::Between) == is_between);
-        }
-        assert_eq!(predict(SECOND, &[], 1e-3, 1.0), None);
-    }
-
-    #[test]
-    fn no_setting_is_coarser_than_the_coarsest() {
-        let found = predict(SECOND, &points(&[0.1]), 0.5, 0.1).unwrap();
-        assert_eq!((found.basis, found.setting), (Basis::Tried, 0.1));
-        let found = predict(SECOND, &points(&[0.1]), 0.5, 0.2).unwrap();
-        assert!((found.error - 0.04).abs() < 1e-9, "{found:?}");
-    }
-
-    #[test]
-    fn exponents_are_taken_near_those_of_theory() {
-        let mut lost = points(&[0.1, 0.05]);
-        lost[1].error = lost[0].error;
-        // an error that does not fall is taken to fall with half of the order
-        let found = predict(SECOND, &lost, 1e-4, 1.0).unwrap();
-        assert!((found.setting / (0.05 * 1e-2) - 1.0).abs() < 1e-9, "{found:?}");
-    }
 }

@@ -4,18 +4,16 @@
 //! errors against the best of them, and predicts what the required error costs each. Time comes from a [`Clock`] that is given.
 
 mod bench;
-mod candidates;
-mod check;
-mod choose;
-mod estimate;
-mod goal;
-mod pilot;
+pub(crate) mod candidates;
+pub(crate) mod check;
+pub(crate) mod choose;
+pub(crate) mod estimate;
+pub(crate) mod goal;
+pub(crate) mod pilot;
 mod plan;
 mod report;
 mod structure;
-#[cfg(test)]
-mod tests;
-mod trial;
+pub(crate) mod trial;
 
 pub use bench::Clock;
 pub(crate) use choose::{Pick, Pilot, Task, candidates, methods};

@@ -3,29 +3,32 @@
 //! All trials go over the whole span, so that what happens late in the run is seen as well. The candidate with the smallest prediction is
 //! tried next, those without a trial first, until half of no prediction is below the cheapest that reaches the required error.
 
-use super::candidates::{Candidate, Next, Tried};
+use super::candidates::{Next, PilotCandidate, Tried};
 use super::estimate::{Basis, Point, Prediction, SMALL, error_of_finer};
-use super::goal::Target;
-use super::trial::{Aim, Bench, End, Trial};
+use super::goal::PilotTarget;
+use super::trial::{Aim, Bench, Trial, TrialEnd};
 use crate::compare::method::Control;
+use core::fmt::{self, Debug, Formatter};
 use mbs_scene::format::duration;
 
 /// CPU time of the pilot [s]: what a user does not wait for.
-pub(super) const BUDGET: f64 = 0.2;
+pub const BUDGET: f64 = 0.2;
 /// CPU time of the pilot, relative to the run that it predicts [-]: a long run may have a longer pilot.
-pub(super) const BUDGET_FRACTION: f64 = 0.05;
+pub const BUDGET_FRACTION: f64 = 0.05;
 /// A trial is given up where it takes longer than the cheapest by this factor [-]: it cannot win, but its time may be off by half.
 pub(super) const GIVE_UP: f64 = 1.5;
 
 /// A place in the ranking.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Place {
-    pub(crate) candidate: usize,
-    pub(crate) prediction: Prediction,
+pub struct PilotPlace {
+    /// Its number among the candidates.
+    pub candidate: usize,
+    /// What is expected of it.
+    pub prediction: Prediction,
     /// Did a trial reach the required error?
-    pub(crate) reaches: bool,
+    pub reaches: bool,
     /// Its time is that of a run with this setting.
-    pub(crate) is_timed: bool,
+    pub is_timed: bool,
 }
 
 /// The most accurate trial so far.
@@ -37,10 +40,11 @@ pub(crate) struct Best {
 }
 
 /// The search for the cheapest.
-pub(crate) struct Search<'a> {
+pub struct PilotSearch<'a> {
     pub(crate) bench: &'a mut dyn Bench,
-    pub(crate) candidates: Vec<Candidate>,
-    pub(crate) target: Target,
+    /// The candidates.
+    pub candidates: Vec<PilotCandidate>,
+    pub(crate) target: PilotTarget,
     pub(crate) best: Option<Best>,
     /// The budget ended it.
     pub(crate) is_cut: bool,
@@ -48,11 +52,18 @@ pub(crate) struct Search<'a> {
     reserve: f64,
 }
 
-impl<'a> Search<'a> {
-    pub(crate) fn new(
+impl Debug for PilotSearch<'_> {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        f.debug_struct("PilotSearch").field("candidates", &self.candidates).finish_non_exhaustive()
+    }
+}
+
+impl<'a> PilotSearch<'a> {
+    /// A search among candidates, none of which is tried.
+    pub fn new(
         bench: &'a mut dyn Bench,
-        candidates: Vec<Candidate>,
-        target: Target,
+        candidates: Vec<PilotCandidate>,
+        target: PilotTarget,
     ) -> Self {
         let reserve = 0.5 * (BUDGET - bench.spent());
         Self { bench, candidates, target, best: None, is_cut: false, reserve }
@@ -72,7 +83,7 @@ impl<'a> Search<'a> {
     }
 
     /// Ranks: the cheapest of those that reach the required error first.
-    pub(crate) fn run(&mut self) -> Vec<Place> {
+    pub fn run(&mut self) -> Vec<PilotPlace> {
         while let Some((i, setting, limit)) = self.pick().or_else(|| self.confirming()) {
             self.attempt(i, setting, limit);
         }
@@ -95,7 +106,7 @@ impl<'a> Search<'a> {
             .clone()
             .any(|i| is_other(i) && self.candidates[i].seen(self.target.error).is_some());
         let target = match (best.own > small, is_confirmed) {
-            (true, _) => Target { error: small, ..self.target },
+            (true, _) => PilotTarget { error: small, ..self.target },
             (_, false) => self.target,
             _ => return None,
         };
@@ -153,12 +164,12 @@ impl<'a> Search<'a> {
     /// Before any reaches the required error, each first trial has twice its share of the budget without the reserve, and twice the time of the
     /// fastest trial, at most [s]. The reserve is for second trials, without which no error is known (iltis-jump at 1e-2).
     fn time_limit(&self, i: usize, left: f64) -> f64 {
-        let is_untried = |c: &&Candidate| c.out.is_none() && c.trials.is_empty();
+        let is_untried = |c: &&PilotCandidate| c.out.is_none() && c.trials.is_empty();
         if !is_untried(&&self.candidates[i]) {
             return left;
         }
         let untried = self.candidates.iter().filter(is_untried).count() as f64;
-        let done = self.candidates.iter().flat_map(Candidate::done).map(|t| t.trial.seconds);
+        let done = self.candidates.iter().flat_map(PilotCandidate::done).map(|t| t.trial.seconds);
         let fastest = done.fold(f64::INFINITY, f64::min);
         (2.0 / (untried + 1.0) * (left - self.reserve)).min(2.0 * fastest)
     }
@@ -181,8 +192,8 @@ impl<'a> Search<'a> {
 
     /// Where no trial came near the required error: a tolerance of a tenth of it, with the integrator of its own control that takes least by its
     /// order. A law so far beyond its trials asks for any setting (iltis-links at 1e-6, on a machine that is busy).
-    pub(crate) fn by_theory(&self, places: &[Place]) -> Option<Place> {
-        let is_near = |p: &Place| p.reaches || p.prediction.error <= self.target.error / SMALL;
+    pub(crate) fn by_theory(&self, places: &[PilotPlace]) -> Option<PilotPlace> {
+        let is_near = |p: &PilotPlace| p.reaches || p.prediction.error <= self.target.error / SMALL;
         if self.target.deadline.is_some() || places.first().is_some_and(is_near) {
             return None;
         }
@@ -197,7 +208,7 @@ impl<'a> Search<'a> {
         let i = able.min_by(|a, b| time(a).total_cmp(&time(b)))?;
         let error = self.candidates[i].expected(setting);
         let prediction = Prediction { setting, error, seconds: time(&i), basis: Basis::Theory };
-        Some(Place { candidate: i, prediction, reaches: false, is_timed: false })
+        Some(PilotPlace { candidate: i, prediction, reaches: false, is_timed: false })
     }
 
     fn left(&mut self) -> f64 {
@@ -209,7 +220,7 @@ impl<'a> Search<'a> {
         let aim = if self.target.deadline.is_some() { Aim::Steps } else { Aim::Rows };
         let candidate = &mut self.candidates[i];
         let trial = self.bench.trial(&candidate.method, setting, aim, limit);
-        if trial.end == End::GivenUp && trial.reached <= 0.0 {
+        if trial.end == TrialEnd::GivenUp && trial.reached <= 0.0 {
             let why = format!("it makes no way in {}", duration(trial.seconds));
             candidate.out.get_or_insert(why);
         }
@@ -232,7 +243,7 @@ impl<'a> Search<'a> {
     fn compare(&mut self, i: usize, setting: f64) {
         let is_new = |t: &Tried| t.setting.to_bits() == setting.to_bits();
         let Some(k) = self.candidates[i].trials.iter().position(is_new) else { return };
-        if self.candidates[i].trials[k].trial.end != End::Done {
+        if self.candidates[i].trials[k].trial.end != TrialEnd::Done {
             // what was given up before may have been the best
             self.rate();
             return;
@@ -269,8 +280,9 @@ impl<'a> Search<'a> {
 
     /// Completed trials: candidate and place among its trials.
     fn done(&self) -> Vec<(usize, usize)> {
-        let of = |(j, c): (usize, &Candidate)| {
-            let is_done = |(l, t): (usize, &Tried)| (t.trial.end == End::Done).then_some((j, l));
+        let of = |(j, c): (usize, &PilotCandidate)| {
+            let is_done =
+                |(l, t): (usize, &Tried)| (t.trial.end == TrialEnd::Done).then_some((j, l));
             c.trials.iter().enumerate().filter_map(is_done).collect::<Vec<_>>()
         };
         self.candidates.iter().enumerate().flat_map(of).collect()
@@ -306,11 +318,12 @@ impl<'a> Search<'a> {
     }
 
     /// What is known of a candidate that is not out.
-    fn place(&self, i: usize) -> Option<Place> {
+    fn place(&self, i: usize) -> Option<PilotPlace> {
         let candidate = &self.candidates[i];
         let p = candidate.predict(self.target).filter(|_| candidate.out.is_none())?;
         let seen = candidate.seen(self.target.error);
-        let stops = |t: &Tried| matches!(t.trial.end, End::Stopped(_)) && t.setting <= p.setting;
+        let stops =
+            |t: &Tried| matches!(t.trial.end, TrialEnd::Stopped(_)) && t.setting <= p.setting;
         let is_better = |seen: &Point| {
             let is_untried = candidate.has_missed && !candidate.has_tried(p.setting);
             is_untried || seen.seconds <= p.seconds || candidate.trials.iter().any(stops)
@@ -318,7 +331,7 @@ impl<'a> Search<'a> {
         let prediction = seen.filter(is_better).map_or(p, |point| Prediction::of_trial(&point));
         let error = if seen.is_some() { prediction.error } else { candidate.expected(p.setting) };
         let prediction = Prediction { error, ..prediction };
-        Some(Place { candidate: i, prediction, reaches: seen.is_some(), is_timed: false })
+        Some(PilotPlace { candidate: i, prediction, reaches: seen.is_some(), is_timed: false })
     }
 
     /// Tries those that are close to the cheapest with their own settings, and times them once more, interleaved, within the budget.
@@ -332,14 +345,14 @@ impl<'a> Search<'a> {
         }
         let mut timed: Vec<(usize, f64)> = Vec::new();
         for _ in 0..2 {
-            for Place { candidate: i, prediction: p, .. } in self.finalists() {
+            for PilotPlace { candidate: i, prediction: p, .. } in self.finalists() {
                 let (left, method) = (self.left(), self.candidates[i].method);
                 if p.seconds >= left || self.target.deadline.is_some() {
                     continue;
                 }
                 let trial: Trial = self.bench.trial(&method, p.setting, Aim::Time, left);
                 match timed.iter_mut().find(|(of, _)| *of == i) {
-                    _ if trial.end != End::Done => {}
+                    _ if trial.end != TrialEnd::Done => {}
                     Some((_, least)) => *least = least.min(trial.seconds),
                     None => timed.push((i, trial.seconds)),
                 }
@@ -352,7 +365,7 @@ impl<'a> Search<'a> {
     /// to reach the required error where that was missed.
     fn untried(&mut self) -> Option<(usize, f64, f64)> {
         let left = self.left();
-        let of = |place: &Place| {
+        let of = |place: &PilotPlace| {
             let candidate = &self.candidates[place.candidate];
             let p = candidate.predict(self.target)?;
             let seen = candidate.seen(self.target.error).map(|seen| seen.setting);
@@ -370,7 +383,7 @@ impl<'a> Search<'a> {
     }
 
     /// Those within [`GIVE_UP`] of the cheapest.
-    fn finalists(&self) -> Vec<Place> {
+    fn finalists(&self) -> Vec<PilotPlace> {
         let mut places = self.ranked(&[]);
         let Some(first) = places.first().copied() else { return places };
         let limit = GIVE_UP * first.prediction.seconds;
@@ -380,8 +393,8 @@ impl<'a> Search<'a> {
 
     /// Those that reach the required error by their times, then the others by their times, or by their errors where a deadline gives the
     /// time. At last come those that are out and completed a trial.
-    fn ranked(&self, timed: &[(usize, f64)]) -> Vec<Place> {
-        let mut places: Vec<Place> =
+    fn ranked(&self, timed: &[(usize, f64)]) -> Vec<PilotPlace> {
+        let mut places: Vec<PilotPlace> =
             (0..self.candidates.len()).filter_map(|i| self.place(i)).collect();
         for place in &mut places {
             if let Some((_, seconds)) = timed.iter().find(|(i, _)| *i == place.candidate) {
@@ -390,19 +403,20 @@ impl<'a> Search<'a> {
             }
         }
         let has_deadline = self.target.deadline.is_some();
-        let key = |p: &Place| match p.reaches || !has_deadline {
+        let key = |p: &PilotPlace| match p.reaches || !has_deadline {
             true => p.prediction.seconds,
             false => p.prediction.error,
         };
         places.sort_by(|a, b| b.reaches.cmp(&a.reaches).then_with(|| key(a).total_cmp(&key(b))));
-        let out = |(i, c): (usize, &Candidate)| {
+        let out = |(i, c): (usize, &PilotCandidate)| {
             let points = c.points();
             let point =
                 points.last().filter(|_| c.out.is_some() && c.finest <= points[0].setting)?;
             let prediction = Prediction::of_trial(point);
-            Some(Place { candidate: i, prediction, reaches: false, is_timed: false })
+            Some(PilotPlace { candidate: i, prediction, reaches: false, is_timed: false })
         };
-        let mut rest: Vec<Place> = self.candidates.iter().enumerate().filter_map(out).collect();
+        let mut rest: Vec<PilotPlace> =
+            self.candidates.iter().enumerate().filter_map(out).collect();
         rest.sort_by(|a, b| a.prediction.error.total_cmp(&b.prediction.error));
         places.extend(rest);
         places
@@ -410,7 +424,7 @@ impl<'a> Search<'a> {
 }
 
 /// CPU time that a trial is expected to take; 0 for the first [s].
-fn takes(candidate: &Candidate, setting: f64) -> f64 {
+fn takes(candidate: &PilotCandidate, setting: f64) -> f64 {
     let Some(last) = candidate.trials.last() else { return 0.0 };
     let ratio = (last.setting / setting).powf(candidate.law().cost);
     candidate.whole_seconds().unwrap_or(0.0) * ratio

@@ -1,18 +1,18 @@
 //! A choice as evidence, and why in words.
 
-use super::candidates::{Candidate, Tried};
+use super::candidates::{PilotCandidate, Tried};
 use super::estimate::Basis;
-use super::pilot::{BUDGET, BUDGET_FRACTION, Place, Search};
+use super::pilot::{BUDGET, BUDGET_FRACTION, PilotPlace, PilotSearch};
 use super::structure::Structure;
-use super::trial::End;
+use super::trial::TrialEnd;
 use mbs::record::Candidate as Entry;
 use mbs::record::{PilotReference, PilotReport, TrialEntry};
 use mbs_scene::format::few;
 
 /// The evidence: the ranked ones first, then those that are out.
 pub(super) fn evidence(
-    search: &mut Search<'_>,
-    places: &[Place],
+    search: &mut PilotSearch<'_>,
+    places: &[PilotPlace],
     structure: &Structure,
 ) -> PilotReport {
     let pilot_seconds = search.bench.spent();
@@ -60,7 +60,7 @@ pub(super) fn evidence(
 }
 
 /// A candidate by itself, with its trials.
-pub(super) fn entry(candidate: &Candidate) -> Entry {
+pub(super) fn entry(candidate: &PilotCandidate) -> Entry {
     let trial = |t: &Tried| TrialEntry {
         setting: t.setting,
         seconds: t.trial.seconds,
@@ -68,9 +68,9 @@ pub(super) fn entry(candidate: &Candidate) -> Entry {
         reached: t.trial.reached,
         error: t.error.filter(|e| e.is_finite()),
         outcome: match &t.trial.end {
-            End::Done => "completed".to_owned(),
-            End::GivenUp => "given up".to_owned(),
-            End::Stopped(e) | End::NotStarted(e) => e.code.clone(),
+            TrialEnd::Done => "completed".to_owned(),
+            TrialEnd::GivenUp => "given up".to_owned(),
+            TrialEnd::Stopped(e) | TrialEnd::NotStarted(e) => e.code.clone(),
         },
     };
     Entry {
@@ -86,7 +86,7 @@ pub(super) fn entry(candidate: &Candidate) -> Entry {
 }
 
 /// What a prediction stands on, in words.
-fn basis(place: &Place) -> String {
+fn basis(place: &PilotPlace) -> String {
     match (place.is_timed, place.prediction.basis) {
         (true, _) => "timed with this setting".to_owned(),
         (_, Basis::Tried) => "a trial with this setting".to_owned(),
@@ -101,7 +101,7 @@ fn basis(place: &Place) -> String {
     }
 }
 
-fn notes(search: &Search<'_>, places: &[Place]) -> Vec<String> {
+fn notes(search: &PilotSearch<'_>, places: &[PilotPlace]) -> Vec<String> {
     let (mut notes, error) = (Vec::new(), search.target.error);
     if places.first().is_none_or(|place| !place.reaches) {
         let chosen = match search.target.deadline {

@@ -8,7 +8,7 @@ pub(crate) type Rows = Vec<Vec<f64>>;
 
 /// What a trial is for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Aim {
+pub enum Aim {
     /// Outputs at all instants.
     Rows,
     /// Those, and the time of every step.
@@ -19,21 +19,24 @@ pub(crate) enum Aim {
 
 /// A run of the pilot.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Trial {
-    pub(crate) rows: Rows,
+pub struct Trial {
+    /// Outputs at the instants.
+    pub rows: Rows,
     /// CPU time of its steps [s].
-    pub(crate) seconds: f64,
-    pub(crate) steps: u64,
+    pub seconds: f64,
+    /// Number of steps.
+    pub steps: u64,
     /// Fraction of the span that was reached.
-    pub(crate) reached: f64,
+    pub reached: f64,
     /// The slowest step [s], where each was timed.
-    pub(crate) slowest: Option<f64>,
-    pub(crate) end: End,
+    pub slowest: Option<f64>,
+    /// How it ended.
+    pub end: TrialEnd,
 }
 
 /// How a trial ended.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) enum End {
+pub enum TrialEnd {
     /// At the end of the span.
     Done,
     /// It took longer than it was given.
@@ -45,7 +48,7 @@ pub(crate) enum End {
 }
 
 /// Runs trials. Whoever chooses knows time by this only, so that a choice can be made on any clock.
-pub(crate) trait Bench {
+pub trait Bench {
     /// Runs the span with a setting, for no longer than `limit` [s].
     fn trial(&mut self, method: &MethodCase, setting: f64, aim: Aim, limit: f64) -> Trial;
 

@@ -1,7 +1,7 @@
 //! What `mbs run --error` would choose on the scene, compared with the measured times of all methods.
 
 use super::reference::Known;
-use super::store::Store;
+use super::store::ResultStore;
 use super::{CompareError, Study, Watch};
 use crate::auto::{Goal, GoalError, Pick, Pilot, Processor, Task, methods};
 use crate::compare::results::{Comparison, JudgedChoice, MethodRuns, Status};
@@ -18,7 +18,7 @@ impl Study<'_> {
     pub(super) fn choices(
         &self,
         (comparison, known): (&mut Comparison, &Known),
-        store: &mut Store,
+        store: &mut ResultStore,
         watch: &mut impl Watch,
     ) -> Result<(), CompareError> {
         if !self.request.choices {

@@ -17,7 +17,7 @@ const PER_UNKNOWN: f64 = 2e-7;
 const PER_ITERATION: f64 = 3e-7;
 
 /// Steps to run, from the longest; those that are longer than a tenth of the run are left out.
-pub(crate) fn steps(asked: &[f64], of_scene: f64, duration: f64) -> Vec<f64> {
+pub fn steps(asked: &[f64], of_scene: f64, duration: f64) -> Vec<f64> {
     let mut steps: Vec<f64> = match asked {
         [] => {
             STEPS.iter().map(|factor| factor * of_scene).filter(|h| *h <= duration / 10.0).collect()
@@ -33,7 +33,7 @@ pub(crate) fn steps(asked: &[f64], of_scene: f64, duration: f64) -> Vec<f64> {
 }
 
 /// Tolerances to run, from the largest.
-pub(crate) fn tolerances(asked: &[f64]) -> Vec<f64> {
+pub fn tolerances(asked: &[f64]) -> Vec<f64> {
     let mut tolerances = if asked.is_empty() { TOLERANCES.to_vec() } else { asked.to_vec() };
     tolerances.sort_by(|a, b| b.total_cmp(a));
     tolerances.dedup();
@@ -42,15 +42,16 @@ pub(crate) fn tolerances(asked: &[f64]) -> Vec<f64> {
 
 /// Equally spaced instants at which runs are compared; every step ends on one, or is made to.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Instants {
-    pub(crate) count: usize,
+pub struct Instants {
+    /// Their number after the start.
+    pub count: usize,
     /// Their distance [s].
-    pub(crate) interval: f64,
+    pub interval: f64,
 }
 
 impl Instants {
     /// At most 200, no closer than the longest step, and so that the steps fit between them, if that can be had.
-    pub(crate) fn new(duration: f64, steps: &[f64]) -> Self {
+    pub fn new(duration: f64, steps: &[f64]) -> Self {
         let longest = steps.iter().copied().fold(0.0, f64::max);
         #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "from 1 to 200")]
         let most = (duration / longest * (1.0 + FITS)).floor().clamp(1.0, INSTANTS as f64) as usize;
@@ -67,7 +68,7 @@ impl Instants {
 
     /// Steps between two instants: as many as bring their length nearest to the one that is asked for.
     #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a count")]
-    pub(crate) fn steps_between(&self, step: f64) -> u64 {
+    pub fn steps_between(&self, step: f64) -> u64 {
         (self.interval / step).round().max(1.0) as u64
     }
 
@@ -80,38 +81,4 @@ impl Instants {
 /// The work of iterations of a model with `unknowns` coordinates and constraints [s, nominal].
 pub(crate) fn work(iterations: u64, unknowns: usize) -> f64 {
     iterations as f64 * (PER_ITERATION + PER_UNKNOWN * unknowns as f64)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn default_steps_fit_between_the_instants() {
-        for (duration, step) in [(10.0, 1e-3), (0.03, 1e-5), (6.0, 1e-3), (10.0, 5e-3), (1.0, 1e-2)]
-        {
-            let steps = steps(&[], step, duration);
-            let instants = Instants::new(duration, &steps);
-            assert!((10..=200).contains(&instants.count), "{instants:?}");
-            for h in steps {
-                let n = instants.steps_between(h) as f64;
-                assert!((n * h - instants.interval).abs() < 1e-9 * duration, "{h} {instants:?}");
-            }
-        }
-    }
-
-    #[test]
-    fn steps_that_do_not_fit_are_brought_to_the_nearest_that_do() {
-        let instants = Instants::new(1.0, &[0.03, 0.007]);
-        let h = instants.interval / instants.steps_between(0.007) as f64;
-        assert!((h - 0.007).abs() < 0.001, "{h}");
-        assert_eq!(Instants::new(1.0, &[1.0]).count, 1);
-    }
-
-    #[test]
-    fn what_is_asked_for_is_run_from_the_coarsest() {
-        assert_eq!(steps(&[1e-3, 1e-2, 1e-3], 0.1, 1.0), [1e-2, 1e-3]);
-        assert_eq!(tolerances(&[1e-6, 1e-3]), [1e-3, 1e-6]);
-        assert_eq!(steps(&[], 1.0, 2.0), [0.125, 0.0625, 0.03125]);
-    }
 }

@@ -18,19 +18,19 @@ const ITERATIONS: f64 = 3.0;
 
 /// What is mapped.
 #[derive(Debug, Clone)]
-pub(super) struct Plan {
+pub struct MapPlan {
     /// The first instants of the comparison.
-    pub(super) instants: Instants,
+    pub instants: Instants,
     /// Steps between two instants, from the longest step.
-    pub(super) between: Vec<u64>,
+    pub between: Vec<u64>,
     pub(super) formulations: Vec<FormulationKind>,
     pub(super) precisions: Vec<Precision>,
 }
 
-impl Plan {
+impl MapPlan {
     /// A map for each of the formulations and precisions; fewer steps, then none, where it would take more than `most` [s,
     /// nominal] with these unknowns.
-    pub(super) fn new(
+    pub fn new(
         (instants, of_scene): (Instants, f64),
         (formulations, precisions): (Vec<FormulationKind>, Vec<Precision>),
         (unknowns, most): (usize, f64),
@@ -57,7 +57,7 @@ impl Plan {
     }
 
     /// Steps [s].
-    pub(super) fn steps(&self) -> Vec<f64> {
+    pub fn steps(&self) -> Vec<f64> {
         self.between.iter().map(|n| self.instants.interval / *n as f64).collect()
     }
 
@@ -123,22 +123,5 @@ impl Plan {
         let error = known.errors(&recorded.rows).filter(|_| is_done).map(|[most, _]| most);
         let iterations = entry.iterations as f64 / entry.steps.max(1) as f64;
         Cell { error, iterations, failure }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_map_is_made_smaller_where_it_would_take_long() {
-        let instants = Instants { count: 200, interval: 0.05 };
-        let which =
-            || (vec![FormulationKind::Index3, FormulationKind::Index1], vec![Precision::F64]);
-        let plan = Plan::new((instants, 1e-3), which(), (6, 60.0));
-        assert_eq!((plan.instants.count, plan.between.len()), (4, 7));
-        assert!((plan.steps()[0] - 1e-2).abs() < 1e-12);
-        let smaller = Plan::new((instants, 1e-3), which(), (6000, 1.0));
-        assert!(smaller.instants.count == 1 && smaller.between.len() < 7, "{smaller:?}");
     }
 }

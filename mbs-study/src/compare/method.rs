@@ -4,7 +4,7 @@ use mbs::{FormulationKind, IntegratorKind, Method, Precision};
 
 /// What chooses the length of the steps.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Control {
+pub enum Control {
     /// Nothing: the setting is the step.
     Fixed,
     /// An estimate of the local error; the setting is its tolerance.
@@ -17,11 +17,15 @@ pub(crate) enum Control {
 
 /// A method.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) struct MethodCase {
-    pub(crate) formulation: FormulationKind,
-    pub(crate) integrator: IntegratorKind,
-    pub(crate) control: Control,
-    pub(crate) precision: Precision,
+pub struct MethodCase {
+    /// The formulation.
+    pub formulation: FormulationKind,
+    /// The integrator.
+    pub integrator: IntegratorKind,
+    /// What chooses the steps.
+    pub control: Control,
+    /// The precision.
+    pub precision: Precision,
 }
 
 /// Precisions that are compared; the last one only where it is asked for.
@@ -48,7 +52,7 @@ fn ways(formulation: FormulationKind) -> Vec<(IntegratorKind, Control)> {
 
 impl MethodCase {
     /// All that are wanted, by precision; none given means all of that kind.
-    pub(crate) fn all(formulations: &[FormulationKind], precisions: &[Precision]) -> Vec<Self> {
+    pub fn all(formulations: &[FormulationKind], precisions: &[Precision]) -> Vec<Self> {
         let mut methods = Vec::new();
         for precision in PRECISIONS {
             let is_usual = precisions.is_empty() && precision != Precision::DoubleDouble;
@@ -72,7 +76,7 @@ impl MethodCase {
     }
 
     /// Its name: what is usual is left out, the precision is not.
-    pub(crate) fn name(&self) -> String {
+    pub fn name(&self) -> String {
         let integrator = match self.integrator {
             IntegratorKind::Trapezoidal => String::new(),
             other => format!(" {}", other.name()),
@@ -96,7 +100,7 @@ impl MethodCase {
     }
 
     /// Are its settings steps?
-    pub(crate) fn is_fixed(&self) -> bool {
+    pub fn is_fixed(&self) -> bool {
         self.control == Control::Fixed
     }
 
@@ -151,23 +155,5 @@ impl MethodCase {
             tolerance: (self.control == Control::Own).then_some(setting),
             ..Method::default()
         }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn every_formulation_is_compared_and_names_are_unique() {
-        let methods = MethodCase::all(&[], &[]);
-        for formulation in FormulationKind::ALL {
-            assert!(methods.iter().any(|m| m.formulation == formulation), "{formulation:?}");
-        }
-        let mut names: Vec<String> = methods.iter().map(MethodCase::name).collect();
-        names.sort();
-        names.dedup();
-        assert_eq!(names.len(), methods.len());
-        assert_eq!(MethodCase::all(&[FormulationKind::Classical], &[Precision::F64]).len(), 2);
     }
 }

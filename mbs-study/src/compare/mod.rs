@@ -4,20 +4,20 @@
 //! Runs are recorded first, with their errors, then timed interleaved. Which runs are made follows from counts, not from a clock, so
 //! that two comparisons make the same ones. Each result is in the journal before the next run begins.
 
-mod clocked;
+pub(crate) mod clocked;
 pub(crate) mod course;
 mod judged;
 pub(crate) mod ladder;
-mod layout;
-mod map;
+pub(crate) mod layout;
+pub(crate) mod map;
 pub(crate) mod method;
 mod pass;
-mod reference;
+pub(crate) mod reference;
 pub mod results;
-mod rounds;
-mod runs;
-mod store;
-mod table;
+pub(crate) mod rounds;
+pub(crate) mod runs;
+pub(crate) mod store;
+pub(crate) mod table;
 mod truth;
 
 pub use crate::journal::JournalError;
@@ -39,7 +39,7 @@ use method::MethodCase;
 use pass::Scenes;
 use reference::Known;
 use std::path::Path;
-use store::Store;
+use store::ResultStore;
 
 /// What is to be compared. Empty lists mean all there are, or the usual ones.
 #[derive(Debug, Clone, PartialEq)]
@@ -190,7 +190,7 @@ pub fn compare(
     let options = format!("{request:?}");
     let head =
         Head::new(KIND, &[&document.whole_text(), &options, table.map_or("", |(_, text)| text)]);
-    let mut store = Store::open(out, &head, earlier)?.ok_or(CompareError::Unfinished)?;
+    let mut store = ResultStore::open(out, &head, earlier)?.ok_or(CompareError::Unfinished)?;
     store.interrupt = request.interrupt.clone();
     let study = Study::new(&scenes, request);
     let longest = request.steps.iter().copied().fold(0.0, f64::max);
@@ -313,7 +313,7 @@ impl<'a> Study<'a> {
         scene_length(&self.scenes.double)
     }
 
-    fn map_plan(&self, known: &Known) -> Option<map::Plan> {
+    fn map_plan(&self, known: &Known) -> Option<map::MapPlan> {
         let has_map = |f: &FormulationKind| f.scene_penalty().is_some() && !f.row().energy_rule;
         let augmented: Vec<FormulationKind> = FormulationKind::listed()
             .filter(|f| has_map(f) && self.methods.iter().any(|m| m.formulation == *f))
@@ -326,15 +326,15 @@ impl<'a> Study<'a> {
             precisions.filter(|p| self.methods.iter().any(|m| m.precision == *p)).collect();
         let instants = Instants { count: known.rows.len(), ..self.instants };
         let budget = (self.unknowns(), self.request.budget / MAP_BUDGETS);
-        let plan = map::Plan::new((instants, self.of_scene), (augmented, precisions), budget);
+        let plan = map::MapPlan::new((instants, self.of_scene), (augmented, precisions), budget);
         (!plan.between.is_empty()).then_some(plan)
     }
 
     fn maps(
         &self,
-        plan: &Option<map::Plan>,
+        plan: &Option<map::MapPlan>,
         known: &Known,
-        store: &mut Store,
+        store: &mut ResultStore,
         watch: &mut impl Watch,
     ) -> Result<Vec<ConvergenceMap>, CompareError> {
         let Some(plan) = plan else { return Ok(Vec::new()) };

@@ -1,7 +1,7 @@
 //! What errors are taken against: a run that is not under test, in two accuracies, beside another formulation.
 
 use super::ladder::Instants;
-use super::table::Table;
+use super::table::ReferenceTable;
 use crate::compare::results::{CrossCheck, OutputScale, Reference, output_scales, row_distance};
 use mbs::record::Channel;
 use mbs_scene::format::significant;
@@ -22,19 +22,22 @@ pub(super) type Rows = Vec<Vec<f64>>;
 
 /// A solution with an estimate of its own accuracy: rows, and less accurate ones by the same means.
 #[derive(Debug, Clone)]
-pub(super) struct Pair {
-    pub(super) method: String,
-    pub(super) rows: Rows,
-    pub(super) coarse: Rows,
+pub struct RunPair {
+    /// Name of the method.
+    pub method: String,
+    /// The rows.
+    pub rows: Rows,
+    /// The less accurate rows.
+    pub coarse: Rows,
 }
 
-impl Pair {
+impl RunPair {
     /// Extrapolates a method of second order from three runs, each with half the step of the one before.
     ///
     /// ```text
     /// y = (4 y(h/2) − y(h)) / 3
     /// ```
-    pub(super) fn richardson(method: String, [long, half, quarter]: [&Rows; 3]) -> Self {
+    pub fn richardson(method: String, [long, half, quarter]: [&Rows; 3]) -> Self {
         let of = |long: &Rows, short: &Rows| -> Rows {
             let row = |(a, b): (&Vec<f64>, &Vec<f64>)| {
                 a.iter().zip(b).map(|(a, b)| b + (b - a) / 3.0).collect()
@@ -47,20 +50,22 @@ impl Pair {
 
 /// The reference as the comparison uses it.
 #[derive(Debug, Clone)]
-pub(super) struct Known {
+pub struct Known {
     /// Rows at the instants, where they are known.
     pub(super) rows: Vec<Option<Vec<f64>>>,
     pub(super) scales: Vec<OutputScale>,
-    pub(super) report: Reference,
-    pub(super) notes: Vec<String>,
+    /// What the results say of it.
+    pub report: Reference,
+    /// What is doubtful.
+    pub notes: Vec<String>,
     /// A table that formulations which agree are far from.
-    pub(super) is_refuted: bool,
+    pub is_refuted: bool,
 }
 
 impl Known {
     /// From a table. Columns that it has not are not compared.
-    pub(super) fn of_table(
-        table: Table,
+    pub fn of_table(
+        table: ReferenceTable,
         name: &str,
         (channels, length): (&[Channel], f64),
     ) -> Self {
@@ -93,7 +98,7 @@ impl Known {
 
     /// Compares a table with two solutions by different formulations. It is verified where both agree with it, within the uncertainty of
     /// all three. It is refuted where they agree with each other and miss it by [`REFUTED`].
-    pub(super) fn verify(&mut self, name: &str, pairs: &[Pair], instants: &Instants) {
+    pub fn verify(&mut self, name: &str, pairs: &[RunPair], instants: &Instants) {
         let [a, b, ..] = pairs else {
             let note = "the reference is NOT verified: it is taken as given, since no two formulations run the scene to the end";
             self.notes.push(note.to_owned());
@@ -156,9 +161,9 @@ impl Known {
     }
 
     /// From runs; `check` is the other formulation. `least` is the least error that is to be ranked.
-    pub(super) fn of_runs(
-        best: &Pair,
-        check: Option<&Pair>,
+    pub fn of_runs(
+        best: &RunPair,
+        check: Option<&RunPair>,
         (channels, length): (&[Channel], f64),
         (instants, least): (&Instants, f64),
     ) -> Self {
@@ -211,7 +216,7 @@ impl Known {
 
     /// Largest error, and root of the mean square, of rows at the same instants; nothing where they are not all there or not
     /// finite.
-    pub(super) fn errors(&self, rows: &[Vec<f64>]) -> Option<[f64; 2]> {
+    pub fn errors(&self, rows: &[Vec<f64>]) -> Option<[f64; 2]> {
         if rows.len() < self.rows.len() {
             return None;
         }
@@ -272,92 +277,4 @@ fn known(parted: &[f64], bound: f64) -> usize {
         bound *= 10.0;
     }
     within(bound).max(least.min(all))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use mbs_scene::Component;
-
-    fn channels() -> Vec<Channel> {
-        let component = Component { label: String::new(), unit: "rad".into() };
-        vec![Channel { name: "a".into(), quantity: "", components: vec![component] }]
-    }
-
-    /// sin t at instants, wrong by `error`.
-    fn rows(n: usize, error: impl Fn(f64) -> f64) -> Rows {
-        (1..=n).map(|k| 0.1 * k as f64).map(|t| vec![t.sin() + error(t)]).collect()
-    }
-
-    const INSTANTS: Instants = Instants { count: 100, interval: 0.1 };
-
-    fn pair(error: impl Fn(f64) -> f64, coarse: impl Fn(f64) -> f64) -> Pair {
-        Pair { method: "x".into(), rows: rows(100, error), coarse: rows(100, coarse) }
-    }
-
-    fn of(best: &Pair, check: Option<&Pair>) -> Known {
-        Known::of_runs(best, check, (&channels(), 1.0), (&INSTANTS, 1e-6))
-    }
-
-    #[test]
-    fn extrapolation_removes_the_error_of_second_order() {
-        let run = |h: f64| rows(100, move |t| h * h * t + h.powi(4));
-        let pair = Pair::richardson("x".into(), [&run(0.1), &run(0.05), &run(0.025)]);
-        let exact = rows(100, |_| 0.0);
-        let error = |rows: &Rows| {
-            rows.iter().zip(&exact).map(|(a, b)| (a[0] - b[0]).abs()).fold(0.0, f64::max)
-        };
-        assert!(error(&pair.rows) < 3e-6 && error(&pair.coarse) < 4e-5);
-        assert!(error(&pair.rows) < error(&pair.coarse) / 10.0);
-    }
-
-    #[test]
-    fn the_reference_is_cut_where_its_two_runs_part_and_says_so() {
-        let chaos = |t: f64| 1e-12 * f64::exp(3.0 * t);
-        let known = of(&pair(|_| 0.0, chaos), Some(&pair(|_| 1e-9, |_| 2e-9)));
-        // 1e-12 e^(3 t) over a range of about two is 3.3e-7 at t = 4.5
-        let until = known.report.known_until.unwrap();
-        assert!((4.2..4.8).contains(&until), "{until}");
-        assert!(known.report.is_verified && known.report.uncertainty <= 1e-6 / 3.0);
-        assert_eq!(known.notes.len(), 1);
-        assert_eq!(known.errors(&rows(100, |_| 0.0)).unwrap()[0].to_bits(), 0.0_f64.to_bits());
-        assert_eq!(known.errors(&rows(10, |_| 0.0)), None);
-    }
-
-    #[test]
-    fn a_table_is_verified_or_refuted_by_formulations_that_agree() {
-        let table = |error: f64| {
-            let rows = rows(100, |_| error).into_iter().map(Some).collect();
-            let table = Table { rows, digits: vec![5e-7], has: vec![true] };
-            Known::of_table(table, "ref.csv", (&channels(), 1.0))
-        };
-        let pairs = [pair(|_| 0.0, |_| 1e-9), pair(|_| 1e-9, |_| 2e-9)];
-        let held = |error: f64, pairs: &[Pair]| {
-            let mut known = table(error);
-            known.verify("ref.csv", pairs, &INSTANTS);
-            known
-        };
-        let good = held(4e-7, &pairs);
-        assert!(good.report.is_verified && !good.is_refuted && good.notes.is_empty());
-        let invented = held(0.3, &pairs);
-        assert!(!invented.report.is_verified && invented.is_refuted);
-        let note = &invented.notes[0];
-        assert!(note.contains("NOT verified: x and x agree to 5.0e-10"), "{note}");
-        assert!(note.contains("differ from ref.csv by 0.3 rad of `a` at"), "{note}");
-        // formulations that do not agree refute nothing, and verify nothing
-        let apart = held(0.3, &[pair(|_| 0.0, |_| 1e-9), pair(|_| 0.1, |_| 0.1)]);
-        assert!(!apart.report.is_verified && !apart.is_refuted && apart.notes.len() == 1);
-        assert!(!held(0.0, &pairs[..1]).report.is_verified, "one alone verifies nothing");
-    }
-
-    #[test]
-    fn a_check_that_disagrees_or_is_too_uncertain_does_not_verify() {
-        let good = pair(|_| 0.0, |_| 1e-10);
-        let off = of(&good, Some(&pair(|_| 1e-3, |_| 1.0001e-3)));
-        assert!(!off.report.is_verified && off.notes[0].contains("away"), "{:?}", off.notes);
-        let blind = of(&good, Some(&pair(|_| 0.0, |_| 0.1)));
-        assert!(!blind.report.is_verified && blind.notes[0].contains("has an uncertainty"));
-        assert!(!of(&good, None).report.is_verified);
-        assert!(of(&good, Some(&pair(|_| 1e-8, |_| 2e-8))).report.is_verified);
-    }
 }

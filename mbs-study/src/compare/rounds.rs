@@ -1,7 +1,7 @@
 //! Times of whole runs, interleaved, until they are known well enough.
 
 use super::reference::Known;
-use super::store::Store;
+use super::store::ResultStore;
 use super::{CompareError, Study, Watch};
 use crate::compare::results::{Comparison, RunEntry, Status};
 
@@ -19,7 +19,7 @@ impl Study<'_> {
         &self,
         comparison: &mut Comparison,
         known: &Known,
-        store: &mut Store,
+        store: &mut ResultStore,
         watch: &mut impl Watch,
     ) -> Result<(), CompareError> {
         let repeats = self.request.repeats;
@@ -58,7 +58,7 @@ impl Study<'_> {
 }
 
 /// The completed runs, by method and run.
-fn completed(comparison: &Comparison) -> Vec<(usize, usize)> {
+pub fn completed(comparison: &Comparison) -> Vec<(usize, usize)> {
     let methods = comparison.methods.iter().enumerate();
     let runs = methods.flat_map(|(m, method)| {
         let runs = method.runs.iter().enumerate();
@@ -68,7 +68,7 @@ fn completed(comparison: &Comparison) -> Vec<(usize, usize)> {
 }
 
 /// The runs that decide the ranking at some errors, and are not known well enough.
-fn unsettled(comparison: &Comparison, errors: &[f64]) -> Vec<(usize, usize)> {
+pub fn unsettled(comparison: &Comparison, errors: &[f64]) -> Vec<(usize, usize)> {
     let is_apart = |run: &RunEntry| {
         let mut times = run.cpu_seconds.clone();
         times.sort_by(f64::total_cmp);
@@ -77,30 +77,4 @@ fn unsettled(comparison: &Comparison, errors: &[f64]) -> Vec<(usize, usize)> {
     let mut runs = comparison.decisive(errors);
     runs.retain(|&(m, r)| is_apart(&comparison.methods[m].runs[r]));
     runs
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::compare::results::MethodRuns;
-
-    #[test]
-    fn decisive_runs_are_timed_until_their_three_least_times_are_close() {
-        let run = |status, error, times: &[f64]| RunEntry {
-            status,
-            error: Some(error),
-            cpu_seconds: times.to_vec(),
-            ..RunEntry::default()
-        };
-        let runs = vec![
-            run(Status::Completed, 1e-1, &[1.0, 3.0, 1.004, 1.002]),
-            run(Status::Failed, 1.0, &[]),
-            run(Status::Completed, 1e-3, &[1.0, 1.001, 1.3]),
-            run(Status::Completed, 1e-5, &[1.0, 1.001]),
-        ];
-        let methods = vec![MethodRuns { runs, ..MethodRuns::default() }];
-        let comparison = Comparison { methods, ..Comparison::default() };
-        assert_eq!(completed(&comparison), [(0, 0), (0, 2), (0, 3)]);
-        assert_eq!(unsettled(&comparison, &[1e-2]), [(0, 2)]);
-    }
 }

@@ -4,7 +4,7 @@ use super::course::Course;
 use super::ladder::Instants;
 use super::method::MethodCase;
 use super::reference::Known;
-use super::store::Store;
+use super::store::ResultStore;
 use super::{CompareError, Study, Watch};
 use crate::compare::results::{MethodRuns, RunEntry, Status};
 use serde::{Deserialize, Serialize};
@@ -18,11 +18,12 @@ const RECORDING: [f64; 2] = [0.05, 0.3];
 
 /// What is known of a method while its settings are refined.
 #[derive(Debug, Default)]
-struct Refined {
+pub struct Refinement {
     /// Work and CPU time of the last run that was completed, with its setting.
     last: Option<(f64, f64, f64)>,
     best: Option<f64>,
-    no_better: u32,
+    /// Settings in a row, finer than the best, without a smaller error.
+    pub no_better: u32,
     /// Steps, iterations and errors, to the bit, of the last run that was completed. A setting that changes none of them is held by the
     /// instants of the results, and says nothing of finer ones.
     same: Option<[u64; 4]>,
@@ -43,7 +44,7 @@ impl Study<'_> {
     pub(super) fn runs(
         &self,
         known: &Known,
-        store: &mut Store,
+        store: &mut ResultStore,
         watch: &mut impl Watch,
     ) -> Result<Vec<MethodRuns>, CompareError> {
         let mut all = Vec::new();
@@ -51,7 +52,7 @@ impl Study<'_> {
             let share = i as f64 / self.methods.len() as f64;
             watch.doing(RECORDING[0] + RECORDING[1] * share, &method.name());
             let settings = if method.is_fixed() { &self.steps } else { &self.tolerances };
-            let mut refined = Refined::default();
+            let mut refined = Refinement::default();
             let mut runs = Vec::new();
             for &setting in settings {
                 runs.push(self.one(method, setting, known, (&mut refined, store))?);
@@ -75,7 +76,7 @@ impl Study<'_> {
         method: &MethodCase,
         setting: f64,
         known: &Known,
-        (refined, store): (&mut Refined, &mut Store),
+        (refined, store): (&mut Refinement, &mut ResultStore),
     ) -> Result<RunEntry, CompareError> {
         if refined.over.is_none() {
             refined.over = self.too_long(method, setting, refined);
@@ -97,7 +98,7 @@ impl Study<'_> {
     }
 
     /// Why a setting is not run: by the work of the one before, and in the last resort by its CPU time.
-    fn too_long(&self, method: &MethodCase, setting: f64, refined: &Refined) -> Option<String> {
+    fn too_long(&self, method: &MethodCase, setting: f64, refined: &Refinement) -> Option<String> {
         if refined.no_better >= NO_BETTER {
             return Some(format!("{NO_BETTER} finer settings in a row were no better"));
         }
@@ -153,8 +154,9 @@ impl Study<'_> {
     }
 }
 
-impl Refined {
-    fn take(&mut self, entry: &RunEntry, work: f64) {
+impl Refinement {
+    /// Takes a run and its work.
+    pub fn take(&mut self, entry: &RunEntry, work: f64) {
         if entry.status != Status::Completed {
             return;
         }
@@ -172,37 +174,5 @@ impl Refined {
                 self.no_better = 0;
             }
         }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn two_finer_settings_that_are_no_better_end_the_refinement_once_the_error_is_small() {
-        let mut refined = Refined::default();
-        let mut take = |error| {
-            let entry =
-                RunEntry { status: Status::Completed, error: Some(error), ..RunEntry::default() };
-            refined.take(&entry, 1.0);
-            refined.no_better
-        };
-        assert_eq!([0.5, 0.6, 0.7, 0.4].map(&mut take), [0, 0, 0, 0]);
-        assert_eq!([1e-3, 2e-3, 1e-4, 3e-4, 2e-4].map(&mut take), [0, 1, 0, 1, 2]);
-    }
-
-    #[test]
-    fn settings_that_change_no_step_do_not_end_the_refinement() {
-        let mut refined = Refined::default();
-        let mut take = |steps, error| {
-            let status = Status::Completed;
-            let entry = RunEntry { status, steps, error: Some(error), ..RunEntry::default() };
-            refined.take(&entry, 1.0);
-            refined.no_better
-        };
-        let held = [(102, 1.4e-6), (102, 1.4e-6), (102, 1.4e-6), (105, 9.7e-8), (105, 9.7e-8)];
-        assert_eq!(held.map(|(steps, error)| take(steps, error)), [0; 5]);
-        assert_eq!([(200, 2e-7), (400, 3e-7)].map(|(n, e)| take(n, e)), [1, 2]);
     }
 }

@@ -21,19 +21,22 @@ pub enum Earlier {
 
 /// Results by key, in memory and in a journal where there is a directory.
 #[derive(Debug, Default)]
-pub(super) struct Store {
+pub struct ResultStore {
     journal: Option<Journal>,
     done: BTreeMap<String, Value>,
     /// Results of an earlier start.
-    pub(super) resumed: usize,
+    pub resumed: usize,
     /// What ends the comparison from outside.
-    pub(super) interrupt: Interrupt,
+    pub interrupt: Interrupt,
 }
 
-impl Store {
+impl ResultStore {
     /// Opens the journal of a directory; without one, results are kept in memory only. Says with `None` that there are results
     /// of an earlier start which must not be lost.
-    pub(super) fn open(
+    ///
+    /// # Errors
+    /// [`JournalError`] where the journal cannot be used.
+    pub fn open(
         out: Option<&Path>,
         head: &Head,
         earlier: Earlier,
@@ -54,7 +57,10 @@ impl Store {
     }
 
     /// The result of an earlier start, or that of `job`, kept; as the journal has it.
-    pub(super) fn get<R: Serialize + DeserializeOwned + Default>(
+    ///
+    /// # Errors
+    /// [`JournalError`] where the result is not kept, or the comparison is interrupted.
+    pub fn get<R: Serialize + DeserializeOwned + Default>(
         &mut self,
         key: &str,
         job: impl FnOnce() -> R,
@@ -72,50 +78,5 @@ impl Store {
             journal.append(&[key, &value.to_string()])?;
         }
         Ok(known(self.done.entry(key.to_owned()).or_insert(value)))
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::journal::Kind;
-    use core::sync::atomic::{AtomicBool, Ordering};
-    use std::sync::Arc;
-
-    const KIND: Kind =
-        Kind { file: "x.journal", title: "x", of: ["an x", "another x"], hashes: &["the text"] };
-
-    #[test]
-    fn a_result_is_kept_to_the_last_bit_and_made_once() {
-        let out = std::env::temp_dir().join(format!("mbs-store-{}", std::process::id()));
-        let _ = std::fs::remove_dir_all(&out);
-        let head = Head::new(KIND, &["a"]);
-        let numbers: [f64; 4] = [0.1 + 0.2, 1.0 / 3.0, 5e-324, -2.5e300];
-        let open = |earlier| Store::open(Some(&out), &head, earlier).unwrap();
-        let mut store = open(Earlier::Refuse).unwrap();
-        store.get("run 1", || numbers.to_vec()).unwrap();
-        drop(store);
-        assert!(open(Earlier::Refuse).is_none(), "finished runs are not lost by mistake");
-        let mut store = open(Earlier::Resume).unwrap();
-        assert_eq!(store.resumed, 1);
-        let value: Vec<f64> = store.get("run 1", || panic!("it is there")).unwrap();
-        assert_eq!(value, numbers);
-        // what is cut short is no result
-        let flag = Arc::new(AtomicBool::new(false));
-        store.interrupt = Interrupt::new(flag.clone());
-        let cut = store.get("run 2", || {
-            flag.store(true, Ordering::Relaxed);
-            0
-        });
-        assert!(matches!(cut, Err(JournalError::Interrupted)));
-        drop(store);
-        store = open(Earlier::Resume).unwrap();
-        assert_eq!(store.resumed, 1);
-        drop(store);
-        let other = Head::new(KIND, &["b"]);
-        let refused = Store::open(Some(&out), &other, Earlier::Resume).unwrap_err();
-        assert!(matches!(refused, JournalError::Other(_)), "{refused}");
-        assert_eq!(open(Earlier::Restart).unwrap().resumed, 0);
-        std::fs::remove_dir_all(&out).unwrap();
     }
 }

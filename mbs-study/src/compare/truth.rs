@@ -1,8 +1,8 @@
 //! Makes the reference: by candidates, the best first.
 
 use super::method::{Control, MethodCase};
-use super::reference::{Known, Pair, Rows};
-use super::store::Store;
+use super::reference::{Known, Rows, RunPair};
+use super::store::ResultStore;
 use super::{CompareError, Study, course::Course, table};
 use crate::compare::results::Status;
 use mbs::{FormulationKind, IntegratorKind, Precision, ResolvedMethod};
@@ -36,7 +36,7 @@ impl Study<'_> {
     pub(super) fn known(
         &self,
         table: Option<(&str, &str)>,
-        store: &mut Store,
+        store: &mut ResultStore,
     ) -> Result<Known, CompareError> {
         let of = (&self.channels[..], self.length());
         if let Some((name, text)) = table {
@@ -65,8 +65,8 @@ impl Study<'_> {
     fn pairs(
         &self,
         kinds: &[Way<'_>],
-        store: &mut Store,
-    ) -> Result<(Vec<Pair>, String), CompareError> {
+        store: &mut ResultStore,
+    ) -> Result<(Vec<RunPair>, String), CompareError> {
         let mut why = String::from("none was tried");
         let mut pairs = Vec::new();
         for &(kind, how) in kinds {
@@ -92,9 +92,9 @@ impl Study<'_> {
         &self,
         (integrator, precision): (IntegratorKind, Precision),
         (tolerances, times): (&[[f64; 2]], f64),
-        store: &mut Store,
+        store: &mut ResultStore,
         why: &mut String,
-    ) -> Result<Option<Pair>, CompareError> {
+    ) -> Result<Option<RunPair>, CompareError> {
         let method = MethodCase {
             formulation: FormulationKind::RELATIVE,
             integrator,
@@ -108,7 +108,7 @@ impl Study<'_> {
             if let Some(rows) = self.reference_run(&method, (fine, times), store, why)? {
                 let method =
                     format!("{}, at tolerances {fine:.0e} and {coarse:.0e}", method.name());
-                return Ok(Some(Pair { method, rows, coarse: coarse_rows }));
+                return Ok(Some(RunPair { method, rows, coarse: coarse_rows }));
             }
         }
         Ok(None)
@@ -118,9 +118,9 @@ impl Study<'_> {
     fn extrapolated(
         &self,
         formulation: FormulationKind,
-        store: &mut Store,
+        store: &mut ResultStore,
         why: &mut String,
-    ) -> Result<Option<Pair>, CompareError> {
+    ) -> Result<Option<RunPair>, CompareError> {
         let method = MethodCase {
             formulation,
             integrator: IntegratorKind::Trapezoidal,
@@ -149,7 +149,7 @@ impl Study<'_> {
             formulation.name()
         );
         let [a, b, c] = &runs[..] else { return Ok(None) };
-        Ok(Some(Pair::richardson(name, [a, b, c])))
+        Ok(Some(RunPair::richardson(name, [a, b, c])))
     }
 
     /// The rows of a run that goes to the end.
@@ -157,7 +157,7 @@ impl Study<'_> {
         &self,
         method: &MethodCase,
         (setting, times): (f64, f64),
-        store: &mut Store,
+        store: &mut ResultStore,
         why: &mut String,
     ) -> Result<Option<Rows>, CompareError> {
         let key = format!("reference {} {setting:e}", method.name());

@@ -10,7 +10,7 @@ mod finding;
 mod json;
 mod masses;
 mod methods;
-mod motion;
+pub(crate) mod motion;
 mod places;
 mod sets;
 mod start;

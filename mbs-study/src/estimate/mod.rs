@@ -12,7 +12,7 @@
 //! the look errs by more than the run, the estimate is too large. In the second the true divisor is r - 1 for order 1 and r² - 1 for
 //! order 2: the mean of both is off by at most 2.9 either way. The results of the run are read, never changed.
 
-mod differences;
+pub(crate) mod differences;
 mod look;
 
 use crate::auto::Clock;

@@ -9,7 +9,7 @@ mod explanation;
 mod price;
 mod reach;
 mod simulated;
-mod timing;
+pub(crate) mod timing;
 mod trials;
 
 pub use explanation::{

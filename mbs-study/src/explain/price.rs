@@ -2,7 +2,7 @@
 
 use super::explanation::{EffectCost, EffectCosts};
 use super::reach::largest_step;
-use super::timing::{Times, interleaved, monitor, trial};
+use super::timing::{TrialTimes, interleaved, monitor, trial};
 use super::trials::{Effort, outcome, without};
 use mbs::inside::OutputRanges;
 use mbs::record::RunError;
@@ -131,7 +131,7 @@ impl Plan {
 }
 
 /// share = 1 − without / with; the noise is the worse of the two.
-fn share(with_all: &Times, without: &Times) -> EffectCost {
+fn share(with_all: &TrialTimes, without: &TrialTimes) -> EffectCost {
     let share = with_all.best().zip(without.best()).map(|(with, without)| 1.0 - without / with);
     let noise = with_all.noise().zip(without.noise()).map(|(a, b)| a.max(b));
     EffectCost {

@@ -11,18 +11,18 @@ const FEWEST_STEPS: u64 = 10;
 /// Most steps of a trial run [-], and its longest time [s]. Chosen, not tuned.
 const TRIAL: (u64, f64) = (200, 0.05);
 
-/// Times of one scene over the repeats.
+/// TrialTimes of one scene over the repeats.
 #[derive(Debug, Clone, Default)]
-pub(super) struct Times(Vec<f64>);
+pub struct TrialTimes(pub Vec<f64>);
 
-impl Times {
+impl TrialTimes {
     /// The least [s per step].
-    pub(super) fn best(&self) -> Option<f64> {
+    pub fn best(&self) -> Option<f64> {
         self.0.iter().copied().min_by(f64::total_cmp)
     }
 
     /// How far the second best is from the best, as a share of it.
-    pub(super) fn noise(&self) -> Option<f64> {
+    pub fn noise(&self) -> Option<f64> {
         let mut sorted = self.0.clone();
         sorted.sort_by(f64::total_cmp);
         let [best, next] = *sorted.first_chunk()?;
@@ -30,13 +30,13 @@ impl Times {
     }
 }
 
-/// Times every scene for `n` steps from its start, `repeats` rounds in turn, so that what disturbs a while meets all alike.
+/// TrialTimes every scene for `n` steps from its start, `repeats` rounds in turn, so that what disturbs a while meets all alike.
 pub(super) fn interleaved<T: Real, const D: usize>(
     scenes: &[Scene<T>],
     settings: &ResolvedMethod,
     (n, repeats): (u64, u32),
-) -> Vec<Times> {
-    let mut times = vec![Times::default(); scenes.len()];
+) -> Vec<TrialTimes> {
+    let mut times = vec![TrialTimes::default(); scenes.len()];
     for _ in 0..repeats {
         for (scene, times) in scenes.iter().zip(&mut times) {
             times.0.extend(once::<T, D>(scene, settings, n));
@@ -110,16 +110,4 @@ fn steps<T: Real, const D: usize>(
         simulation.set_time(T::from_f64((k + 1) as f64 * h));
     }
     n
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn the_noise_is_the_distance_of_the_two_best() {
-        let times = Times(vec![3.0, 2.0, 9.0, 2.5]);
-        assert_eq!((times.best(), times.noise()), (Some(2.0), Some(0.25)));
-        assert_eq!((Times::default().best(), Times(vec![1.0]).noise()), (None, None));
-    }
 }

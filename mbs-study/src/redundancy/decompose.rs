@@ -18,13 +18,15 @@ pub(crate) const ZERO: f64 = 1e-7;
 
 /// A group: places of its joints in the part, and the dimension of its null space.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub(crate) struct Group {
-    pub(crate) places: Vec<usize>,
-    pub(crate) redundant: usize,
+pub struct Group {
+    /// Places of its joints in the part.
+    pub places: Vec<usize>,
+    /// Dimension of its null space.
+    pub redundant: usize,
 }
 
 /// All groups of a null space. Cost: m² k operations.
-pub(crate) fn groups(jacobian: &Jacobian, null: &Matrix) -> Vec<Group> {
+pub fn groups(jacobian: &Jacobian, null: &Matrix) -> Vec<Group> {
     let p = null.times(&null.transpose());
     let rows = &jacobian.rows;
     let n = rows.len();
@@ -61,28 +63,4 @@ pub(crate) fn groups(jacobian: &Jacobian, null: &Matrix) -> Vec<Group> {
 pub(crate) fn dimension(matrix: &Matrix) -> usize {
     let sigma = singular_values(matrix).unwrap_or_default();
     sigma.iter().filter(|&&s| s > ZERO).count()
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use mbs_core::outputs::Wrench;
-
-    #[test]
-    fn groups_of_a_null_space_do_not_depend_on_its_basis() {
-        // joints of two rows each; (1, 0, 1, 0, ...) on joints 0 and 1, (0, 0, 0, 0, 1, -2, 0, 1) on 2 and 3, 4 free
-        let zero =
-            Wrench { force: super::super::Vector::zeros(), moment: super::super::Vector::zeros() };
-        let rows = (0..5).map(|i| 2 * i..2 * i + 2).collect();
-        let jacobian = Jacobian { matrix: Matrix::zeros(0, 0), rows, wrenches: vec![zero; 10] };
-        let (a, b) = (0.5_f64.sqrt(), (1.0_f64 / 6.0).sqrt());
-        let mut n = Matrix::zeros(10, 2);
-        (n[(0, 0)], n[(2, 0)]) = (a, a);
-        (n[(4, 1)], n[(5, 1)], n[(7, 1)]) = (b, -2.0 * b, b);
-        let (c, s) = (0.6, 0.8);
-        let turn = Matrix::from_fn(2, 2, |i, j| [[c, -s], [s, c]][i][j]);
-        let expected = [vec![0, 1], vec![2, 3]].map(|places| Group { places, redundant: 1 });
-        assert_eq!(groups(&jacobian, &n), expected);
-        assert_eq!(groups(&jacobian, &n.times(&turn)), expected);
-    }
 }

@@ -1,6 +1,6 @@
 //! Dependent constraint equations of a mechanism, as sets of joints, and remedies.
 
-mod decompose;
+pub(crate) mod decompose;
 mod link;
 mod linkage;
 mod loops;

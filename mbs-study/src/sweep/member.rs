@@ -41,7 +41,9 @@ pub struct MemberValues {
 
 impl Row {
     /// Of a member that did not start.
-    pub(super) fn failed(member: usize, values: Vec<String>, code: &str, message: &str) -> Self {
+    #[doc(hidden)]
+    #[must_use]
+    pub fn failed(member: usize, values: Vec<String>, code: &str, message: &str) -> Self {
         let failure = Some((code.to_owned(), message.to_owned()));
         Self { member, values, failure, measured: None, cpu_seconds: 0.0 }
     }

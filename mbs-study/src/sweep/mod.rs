@@ -5,13 +5,11 @@
 
 mod collection;
 mod join;
-mod member;
+pub(crate) mod member;
 #[cfg(feature = "parquet")]
 mod parquet;
 mod parts;
 mod table;
-#[cfg(test)]
-mod tests;
 
 pub use crate::journal::JournalError;
 pub use collection::Collection;
@@ -50,7 +48,8 @@ pub struct Study {
     overrides: Method,
     settings: ResolvedMethod,
     columns: Columns,
-    head: Head,
+    #[doc(hidden)]
+    pub head: Head,
 }
 
 /// A study that is refused.
@@ -259,7 +258,11 @@ impl Study {
     }
 
     /// [`Self::run`] with what a member is.
-    fn run_jobs(
+    ///
+    /// # Errors
+    /// As [`Self::run`].
+    #[doc(hidden)]
+    pub fn run_jobs(
         &self,
         task: &SweepTask<'_>,
         watch: &mut impl Watch,
@@ -360,7 +363,7 @@ impl Study {
 }
 
 /// Rows by member: those that have all their cells; others are of members that run again.
-fn whole_rows(lines: Vec<Vec<String>>, n_cells: usize, n_members: usize) -> Rows {
+pub fn whole_rows(lines: Vec<Vec<String>>, n_cells: usize, n_members: usize) -> Rows {
     let rows = lines.into_iter().filter_map(|cells| {
         let member = cells.first()?.parse::<usize>().ok()?.checked_sub(1)?;
         (cells.len() == n_cells && member < n_members).then_some((member, cells))

@@ -1,5 +1,7 @@
 //! The doctor: what it finds in scenes, sound and not. No time is asserted.
 
+mod motion;
+
 use mbs::core::outputs::Reactions;
 use mbs::core::scene::{Dimension, Scene};
 use mbs::typed::Simulation;

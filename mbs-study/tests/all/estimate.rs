@@ -1,5 +1,7 @@
 //! What a run says of its own accuracy.
 
+mod differences;
+
 use crate::clock::CountedClock;
 use mbs::core::scene::{Dimension, Scene};
 use mbs::record::ErrorEstimate;

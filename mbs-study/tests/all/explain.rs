@@ -1,5 +1,7 @@
 //! An explanation: what it says of scenes, and what leaving an effect out changes. No time is asserted.
 
+mod timing;
+
 use mbs::record::Provenance;
 use mbs::{Method, ResolvedMethod};
 use mbs_core::scene::Scene;

@@ -1,5 +1,7 @@
 //! The sweeps of the repository.
 
+mod members;
+
 use mbs::Method;
 use mbs::scene_file::SceneFile;
 use mbs_study::sweep::{Study, StudyError};

@@ -7,8 +7,6 @@ mod simulate;
 mod simulation;
 mod study;
 mod table;
-#[cfg(test)]
-mod tests;
 
 use crate::erased::{error, failure, function, inner, inputs, seen, values, view, watched};
 use crate::tree;

@@ -3,8 +3,6 @@
 mod difference;
 mod envelope;
 mod read;
-#[cfg(test)]
-mod tests;
 
 pub use difference::{ColumnDifference, Difference, difference, difference_over_time};
 pub use envelope::envelope;

@@ -16,6 +16,7 @@ mod items;
 mod layout;
 mod record;
 mod refused;
+mod tape;
 
 /// Rows of the summary that clocks give.
 const CLOCK_ROWS: [&str; 3] = ["CPU time of the steps", "times real time", "slowest step"];

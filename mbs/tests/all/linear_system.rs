@@ -1,5 +1,8 @@
 //! The state-space form against closed forms, the tree's derivatives, motion by differences, and modes.
 
+mod solve;
+mod states;
+
 use crate::common;
 
 use mbs::{

@@ -20,7 +20,10 @@ mod energy;
 mod excavator;
 mod feedback;
 mod field;
+mod fingerprint;
+mod folder;
 mod formulations;
+mod front;
 mod generate;
 mod guided_bodies;
 mod hints;
@@ -37,9 +40,11 @@ mod points;
 mod random;
 mod readings;
 mod realtime;
+mod record;
 mod reference;
 mod relations;
 mod relative;
+mod results;
 mod rolling;
 mod ropes;
 mod rotors;
@@ -55,3 +60,8 @@ mod tree;
 mod tree_derivatives;
 mod tree_reach;
 mod vehicle;
+
+mod motion {
+    mod pose;
+    mod principal;
+}

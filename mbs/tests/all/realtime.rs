@@ -1,6 +1,8 @@
 //! Runs at the pace of a clock: what they compute, and what a change of level does to the state. No test asserts how long anything
 //! takes: clocks here are told what time it is.
 
+mod document;
+
 use crate::common;
 use crate::common::allocations;
 use mbs::realtime::{Clock, Degrade, Overrun, Pacing, PacingError, Recovery, run_document};

@@ -17,9 +17,11 @@ use crate::model::State;
 
 /// A gap [m or rad] and its rate.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub(in crate::outputs) struct Gap<T> {
-    pub(in crate::outputs) value: T,
-    pub(in crate::outputs) rate: T,
+pub struct Gap<T> {
+    /// The gap.
+    pub value: T,
+    /// Its rate.
+    pub rate: T,
 }
 
 /// Gaps that one effect has at most: those of a limit, lower and upper.

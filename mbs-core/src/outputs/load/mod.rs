@@ -4,7 +4,8 @@ mod apply;
 mod gap;
 mod work;
 
-pub(super) use gap::{Gap, MOST_GAPS, N_READING, Reading};
+pub use gap::Gap;
+pub(super) use gap::{MOST_GAPS, N_READING, Reading};
 
 use super::coordinate::Coordinate;
 use super::coupled_sum::CoupledSum;

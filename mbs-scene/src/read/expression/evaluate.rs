@@ -16,18 +16,22 @@ const N_UNARY: usize = 5;
 
 /// What is wrong with an expression, and where in its text.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Fault {
-    pub(crate) message: String,
-    pub(crate) hint: String,
+pub struct EvaluationFault {
+    /// What is wrong.
+    pub message: String,
+    /// What to do.
+    pub hint: String,
     /// Bytes of the text.
-    pub(crate) span: Range<usize>,
+    pub span: Range<usize>,
 }
 
 /// A value, and of a number with a unit alone its dimensions.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Evaluated {
-    pub(crate) value: DoubleDouble,
-    pub(crate) dimensions: Option<Dimensions>,
+pub struct Evaluated {
+    /// The value, in SI units.
+    pub value: DoubleDouble,
+    /// Powers of length, mass and time.
+    pub dimensions: Option<Dimensions>,
 }
 
 /// Is this a word that expressions have for themselves?
@@ -36,10 +40,13 @@ pub(crate) fn is_reserved(name: &str) -> bool {
 }
 
 /// The value of a text; `named` gives that of a name, or the message and hint of its fault.
-pub(crate) fn evaluate(
+///
+/// # Errors
+/// [`EvaluationFault`] at the first place that is no part of an expression, or whose value is not finite.
+pub fn evaluate(
     text: &str,
     named: &mut dyn FnMut(&str) -> Result<DoubleDouble, [String; 2]>,
-) -> Result<Evaluated, Fault> {
+) -> Result<Evaluated, EvaluationFault> {
     let mut reader = Reader { text, at: 0, depth: 0, named };
     let value = reader.sum()?;
     reader.blank();
@@ -64,8 +71,8 @@ fn alone(text: &str) -> Option<Dimensions> {
     (reader.at == reader.text.len() && reader.at > begin).then_some(product.dimensions)
 }
 
-fn fault(message: &str, hint: &str, span: Range<usize>) -> Fault {
-    Fault { message: message.to_owned(), hint: hint.to_owned(), span }
+fn fault(message: &str, hint: &str, span: Range<usize>) -> EvaluationFault {
+    EvaluationFault { message: message.to_owned(), hint: hint.to_owned(), span }
 }
 
 /// Where in a text reading stands.
@@ -76,7 +83,7 @@ struct Reader<'a> {
     named: &'a mut dyn FnMut(&str) -> Result<DoubleDouble, [String; 2]>,
 }
 
-type Read<T> = Result<T, Fault>;
+type Read<T> = Result<T, EvaluationFault>;
 
 impl<'a> Reader<'a> {
     fn rest(&self) -> &'a str {
@@ -97,7 +104,7 @@ impl<'a> Reader<'a> {
         has
     }
 
-    fn unexpected(&self) -> Fault {
+    fn unexpected(&self) -> EvaluationFault {
         let rest = self.rest().trim_start();
         let start = self.text.len() - rest.len();
         let n = rest.chars().next().map_or(0, char::len_utf8);
@@ -215,7 +222,11 @@ impl<'a> Reader<'a> {
         let Some(name) = self.name() else { return Err(self.unexpected()) };
         if self.axis() {
             let (name, span) = (&self.text[start..self.at], start..self.at);
-            return (self.named)(name).map_err(|[message, hint]| Fault { message, hint, span });
+            return (self.named)(name).map_err(|[message, hint]| EvaluationFault {
+                message,
+                hint,
+                span,
+            });
         }
         let span = start..self.at;
         if name == "pi" {
@@ -228,7 +239,7 @@ impl<'a> Reader<'a> {
             let hint = format!("write a number before it, such as `1 {name}`");
             return Err(fault(&format!("`{name}` is a unit"), &hint, span));
         }
-        (self.named)(name).map_err(|[message, hint]| Fault { message, hint, span })
+        (self.named)(name).map_err(|[message, hint]| EvaluationFault { message, hint, span })
     }
 
     fn closed(&mut self, start: usize) -> Read<()> {

@@ -9,8 +9,7 @@
 //! `-2^2` is -4. All is computed in pairs of doubles, and rounded once to the digits of a run.
 
 mod evaluate;
-#[cfg(test)]
-mod tests;
 pub(crate) mod unit;
 
-pub(crate) use evaluate::{Fault, evaluate, is_reserved};
+pub(crate) use evaluate::is_reserved;
+pub use evaluate::{Evaluated, EvaluationFault, evaluate};

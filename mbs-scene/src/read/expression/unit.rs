@@ -92,7 +92,7 @@ impl Product {
 }
 
 /// The dimensions of a key's unit, each way in which it is written; none where the key takes any.
-pub(crate) fn of_key(unit: &str) -> Vec<Dimensions> {
+pub fn of_key(unit: &str) -> Vec<Dimensions> {
     let ways = unit.split(" or ").map(|way| {
         let mut product = Product::ONE;
         let mut power = 1;

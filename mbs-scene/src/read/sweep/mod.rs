@@ -2,11 +2,9 @@
 
 mod fault;
 mod parameter;
-pub(in crate::read) mod path;
+pub(crate) mod path;
 mod reader;
-#[cfg(test)]
-mod tests;
-mod values;
+pub(crate) mod values;
 
 pub use fault::SweepFault;
 

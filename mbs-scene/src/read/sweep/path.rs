@@ -19,12 +19,14 @@ pub(in crate::read) type Address = Vec<usize>;
 
 /// A part of a path.
 #[derive(Debug, Clone, PartialEq)]
-pub(in crate::read) enum Part {
+pub enum PathPart {
+    /// A table, a name or a key.
     Key(String),
+    /// A place in a list.
     Index(usize),
 }
 
-impl Part {
+impl PathPart {
     /// The place in a list: `[2]` or `.2`.
     fn index(&self) -> Option<usize> {
         match self {
@@ -47,29 +49,33 @@ pub(in crate::read) fn address(scene: &SceneFile, path: &str) -> Result<Address,
 }
 
 /// The address of whatever the parts of a path name.
-pub(in crate::read) fn found(root: &[Member], parts: &[Part]) -> Result<Address, SweepFault> {
+pub(in crate::read) fn found(root: &[Member], parts: &[PathPart]) -> Result<Address, SweepFault> {
     Ok(walked(root, parts)?.0.address)
 }
 
-fn walked<'a>(root: &'a [Member], parts: &[Part]) -> Result<(Walk, &'a Item), SweepFault> {
+fn walked<'a>(root: &'a [Member], parts: &[PathPart]) -> Result<(Walk, &'a Item), SweepFault> {
     let mut walk = Walk { address: Vec::new(), at: String::new() };
     let mut parts = parts.iter();
-    let Some(Part::Key(table)) = parts.next() else {
+    let Some(PathPart::Key(table)) = parts.next() else {
         return Err(SweepFault::PathSyntax("it begins with the name of a table"));
     };
     let table = if table == "parameter" { "parameters" } else { table };
     let mut item = walk.key(root, table)?;
     let mut is_entry = matches!(item.node, Node::List(_));
     for part in parts {
-        if let (true, Node::Table(members), Part::Index(_)) = (table == "point", &item.node, part) {
+        if let (true, Node::Table(members), PathPart::Index(_)) =
+            (table == "point", &item.node, part)
+        {
             item = walk.key(members, "at")?;
         }
         item = match (&item.node, part) {
-            (Node::List(items), Part::Key(name)) if is_entry => walk.entry(items, table, name)?,
+            (Node::List(items), PathPart::Key(name)) if is_entry => {
+                walk.entry(items, table, name)?
+            }
             (Node::List(items), part) if part.index().is_some() => {
                 walk.index(items, part.index().unwrap_or_default())?
             }
-            (Node::Table(members), Part::Key(key)) => walk.key(members, key)?,
+            (Node::Table(members), PathPart::Key(key)) => walk.key(members, key)?,
             _ => return Err(walk.not_a_number(item)),
         };
         is_entry = false;
@@ -121,17 +127,20 @@ pub(in crate::read) fn item_mut<'a>(
 }
 
 /// The parts of a path, or what is wrong with it.
-pub(in crate::read) fn parse(path: &str) -> Result<Vec<Part>, &'static str> {
+///
+/// # Errors
+/// What is wrong, as a clause.
+pub fn parse(path: &str) -> Result<Vec<PathPart>, &'static str> {
     let mut parts = Vec::new();
     let mut rest = path.trim();
     loop {
         let (key, after) = word(rest)?;
-        parts.push(Part::Key(key));
+        parts.push(PathPart::Key(key));
         rest = after;
         while let Some(inside) = rest.strip_prefix('[') {
             let (digits, after) = inside.split_once(']').ok_or("a bracket is not closed")?;
             let index = digits.trim().parse().map_err(|_| "a bracket holds an index from 0")?;
-            parts.push(Part::Index(index));
+            parts.push(PathPart::Index(index));
             rest = after;
         }
         match rest.strip_prefix('.') {
@@ -231,38 +240,4 @@ fn called(item: &Item, table: &str, index: usize) -> String {
         if matches!(table, "initial" | "guide") { &["joint", "body"] } else { &["name"] };
     let name = keys.iter().find_map(|key| item.text_at(key));
     name.map_or_else(|| format!("{table}-{}", index + 1), str::to_owned)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn paths_are_read_part_by_part() {
-        let key = |text: &str| Part::Key(text.to_owned());
-        assert_eq!(parse("solver.step"), Ok(vec![key("solver"), key("step")]));
-        let parts =
-            vec![key("effect"), key("front left"), key("points"), Part::Index(1), Part::Index(0)];
-        assert_eq!(parse("effect.\"front left\".points[1][0]"), Ok(parts.clone()));
-        assert_eq!(parse("effect.'front left'.points[1][0]"), Ok(parts));
-        assert_eq!(parse("body[2].mass"), Ok(vec![key("body"), Part::Index(2), key("mass")]));
-    }
-
-    #[test]
-    fn what_is_no_path_is_distinguished() {
-        for text in [
-            "",
-            ".",
-            "body.",
-            "body..mass",
-            "body.a mass",
-            "body[",
-            "body[-1].mass",
-            "body[x]",
-            "a.\"b",
-            "a]",
-        ] {
-            assert!(parse(text).is_err(), "{text}");
-        }
-    }
 }

@@ -4,7 +4,7 @@ use super::SweepFault;
 use super::fault::MOST_MEMBERS;
 use super::parameter::{Combine, Parameter};
 use super::path::{self, Address};
-use super::values::Range;
+use super::values::ValueRange;
 use crate::keys::{self, SWEEP_FILE};
 use crate::read::fields::{Context, Fields, Read};
 use crate::read::names::Names;
@@ -166,7 +166,7 @@ fn read_range(
             word => return fields.unknown_word("scale", word, &SCALES),
         },
     };
-    let range = Range { from, to, is_log };
+    let range = ValueRange { from, to, is_log };
     if !(from < to || to < from) {
         return fault(&context, &ends[1].span, SweepFault::NoRange);
     }
@@ -190,7 +190,7 @@ fn read_range(
     Ok(())
 }
 
-fn range_values(fields: &Fields<'_>, range: &Range) -> Read<Vec<f64>> {
+fn range_values(fields: &Fields<'_>, range: &ValueRange) -> Read<Vec<f64>> {
     let context = fields.context;
     fields.exclusive("count", "step")?;
     let Some(item) = fields.get("step") else {

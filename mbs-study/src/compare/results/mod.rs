@@ -3,10 +3,10 @@
 mod csv;
 mod data;
 mod digest;
-mod fit;
-mod front;
-mod rank;
-mod scale;
+pub(crate) mod fit;
+pub(crate) mod front;
+pub(crate) mod rank;
+pub(crate) mod scale;
 
 pub use csv::write_comparison;
 pub use data::{

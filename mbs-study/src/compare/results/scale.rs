@@ -4,7 +4,7 @@ use super::data::OutputScale;
 use mbs::record::Channel;
 
 /// Least scale of an output, relative to the largest range of its unit [-]. Chosen, not tuned.
-const FLOOR: f64 = 1e-3;
+pub const FLOOR: f64 = 1e-3;
 
 /// The scales of all channels. The components of one unit of a channel share the largest of their ranges over the reference. It is
 /// at least a thousandth of the largest range of an output of that unit. In lengths it is at least a thousandth of the scene's
@@ -77,33 +77,4 @@ pub fn row_distance(scales: &[OutputScale], a: &[f64], b: &[f64]) -> [f64; 2] {
         }
     }
     [largest, if n > 0.0 { libm::sqrt(squares / n) } else { 0.0 }]
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use mbs_core::outputs::Component;
-
-    fn channel(name: &str, units: &[&str]) -> Channel {
-        let component = |unit: &&str| Component { label: String::new(), unit: (*unit).to_owned() };
-        let components = units.iter().map(component).collect();
-        Channel { name: name.to_owned(), quantity: "", components }
-    }
-
-    #[test]
-    fn components_of_a_unit_share_the_largest_range_and_what_stands_still_has_a_floor() {
-        // an energy error is no output of the motion
-        let error = Channel { quantity: "invariant-error", ..channel("error", &["m"]) };
-        let [tip, post, f] =
-            [("tip", &["m", "m"][..]), ("post", &["m"]), ("f", &["N"])].map(|(a, b)| channel(a, b));
-        let channels = [tip, post, f, error];
-        let rows = vec![vec![0.0, 1.0, 7.0, 0.0, 0.0], vec![4.0, 2.0, 7.0, 0.0, 9e9]];
-        let scales = output_scales(&channels, &rows, 0.5);
-        let sizes: Vec<_> = scales.iter().map(|s| s.scale).collect();
-        assert_eq!(sizes, [Some(4.0), Some(FLOOR * 4.0), None, None]);
-        assert_eq!(scales[0].columns, [0, 1]);
-        let [largest, rms] = row_distance(&scales, &rows[0], &[0.4, 1.0, 7.0, 9.0, 1.0]);
-        assert!((largest - 0.1).abs() < 1e-12 && (rms - 0.1 / f64::sqrt(3.0)).abs() < 1e-12);
-        assert!(row_distance(&scales, &rows[0], &[0.4, f64::NAN, 7.0, 9.0, 1.0])[0].is_nan());
-    }
 }
