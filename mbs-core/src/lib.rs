@@ -26,6 +26,7 @@ pub mod laws;
 pub mod measure;
 #[cfg(feature = "alloc")]
 pub mod model;
+mod named;
 #[cfg(feature = "alloc")]
 pub mod natural;
 #[cfg(feature = "alloc")]

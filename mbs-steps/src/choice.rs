@@ -10,7 +10,7 @@ pub const PRECISIONS: [&str; 3] = Precision::NAMES;
 /// Controls of the step size.
 pub const STEP_RULES: [&str; 5] = StepRule::NAMES;
 
-crate::named! {
+mbs_core::named! {
     /// An integrator that can run, with the parameters it is given.
     pub enum IntegratorKind {
         /// Trapezoidal rule.
@@ -76,7 +76,7 @@ fn ratio<T: Real>(over: u16, under: u16) -> T {
     T::from_f64(over.into()) / T::from_f64(under.into())
 }
 
-crate::named! {
+mbs_core::named! {
     /// What chooses the length of the steps.
     pub enum StepRule {
         /// Nothing: all steps are as long as asked for.
@@ -121,7 +121,7 @@ impl StepRule {
     }
 }
 
-crate::named! {
+mbs_core::named! {
     /// Number format of a run.
     pub enum Precision {
         /// Single precision.

@@ -20,7 +20,7 @@ pub fn workspace<T: Real, const D: usize>(
     Workspace::new(model, solver)
 }
 
-crate::named! {
+mbs_core::named! {
     /// How an equilibrium is sought.
     #[derive(Default)]
     pub enum Search {

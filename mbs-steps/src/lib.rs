@@ -43,8 +43,6 @@ pub mod modes;
 #[doc(hidden)]
 pub mod motion;
 #[doc(hidden)]
-pub mod named;
-#[doc(hidden)]
 pub mod names;
 #[doc(hidden)]
 pub mod one_way;

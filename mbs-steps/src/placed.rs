@@ -8,7 +8,7 @@ use mbs_core::rigid::RigidMotion;
 use mbs_core::scene::Scene;
 use mbs_linear::{Equilibrium, Instant};
 
-crate::named! {
+mbs_core::named! {
     /// About which state.
     pub enum Place {
         /// The static equilibrium near the start, at rest.

@@ -9,8 +9,9 @@ pub mod estimate;
 pub mod explain;
 mod front;
 mod journal;
-pub mod redundancy;
 pub mod sweep;
+
+pub use mbs_redundancy as redundancy;
 
 pub use compare::Request as Compare;
 pub use front::{Sweep, SweepResult, compare, sweep};
@@ -22,9 +23,9 @@ pub mod inside {
     pub use crate::estimate::differences::{GROWTH, errors};
     pub use crate::explain::timing::TrialTimes;
     pub use crate::journal::{Head, Journal, Kind};
-    pub use crate::redundancy::decompose::{Group, groups};
     pub use crate::sweep::member::MemberValues;
     pub use crate::sweep::whole_rows;
+    pub use mbs_redundancy::decompose::{Group, groups};
 
     pub mod auto {
         pub use crate::auto::candidates::PilotCandidate;

@@ -3,8 +3,6 @@
 mod front;
 pub mod results;
 
-#[doc(hidden)]
-pub use mbs_steps::named;
 use mbs_steps::{
     checkpoint, choice, document, equilibrium, erased, fingerprint, interrupt, linear_system,
     methods, modes, names, placed, precision, rest, run, settings, sizes, statics, stop, tilt,

@@ -44,7 +44,7 @@ impl PageMeshes {
                     }
                     Ok(mesh) => {
                         meshes.by_file.insert(file.clone(), meshes.list.len());
-                        meshes.list.push(used(&mesh));
+                        meshes.list.push(mesh.used());
                         scales.push(0.0_f64);
                         uses.push(0);
                     }
@@ -88,7 +88,7 @@ impl PageMeshes {
         #[allow(clippy::cast_precision_loss, reason = "counts of triangles are far below 2^53")]
         let (area, most) = (
             areas
-                .map(|((mesh, scale), uses)| area(mesh) * scale * scale * *uses as f64)
+                .map(|((mesh, scale), uses)| mesh.area() * scale * scale * *uses as f64)
                 .sum::<f64>(),
             MOST_TRIANGLES as f64,
         );
@@ -97,7 +97,7 @@ impl PageMeshes {
         let mut best: Option<(f64, Vec<TriangleMesh>)> = None;
         for _ in 0..TRIALS {
             let list = self.list.iter().zip(scales);
-            let list: Vec<_> = list.map(|(mesh, scale)| clustered(mesh, cell / scale)).collect();
+            let list: Vec<_> = list.map(|(mesh, scale)| mesh.clustered(cell / scale)).collect();
             let n = drawn(&list);
             #[allow(clippy::cast_precision_loss, reason = "counts of triangles are far below 2^53")]
             let share = n as f64 / most;
@@ -156,58 +156,4 @@ fn name(file: &str) -> String {
     Path::new(file)
         .file_name()
         .map_or_else(|| file.to_owned(), |name| name.to_string_lossy().into_owned())
-}
-
-/// The mesh with the vertices of its triangles alone, in the order of their use: their numbers change little from one to the next.
-fn used(mesh: &TriangleMesh) -> TriangleMesh {
-    let (mut numbers, mut vertices) = (vec![None; mesh.vertices.len()], Vec::new());
-    let mut of = |old: usize| {
-        *numbers[old].get_or_insert_with(|| {
-            vertices.push(mesh.vertices[old]);
-            vertices.len() - 1
-        })
-    };
-    let triangles = mesh.triangles.iter().map(|triangle| triangle.map(&mut of)).collect();
-    TriangleMesh { triangles, vertices }
-}
-
-/// The area of all triangles.
-fn area(mesh: &TriangleMesh) -> f64 {
-    let of = |[a, b, c]: &[usize; 3]| {
-        let [a, b, c] = [*a, *b, *c].map(|i| mesh.vertices[i]);
-        let [u, v] = [b, c].map(|end| [0, 1, 2].map(|i| end[i] - a[i]));
-        let cross =
-            [u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]];
-        0.5 * cross.iter().map(|x| x * x).sum::<f64>().sqrt()
-    };
-    mesh.triangles.iter().map(of).sum()
-}
-
-/// Corners in one cell become their mean; triangles with fewer than three of them are left out, and so is the second of two that are the
-/// same.
-fn clustered(mesh: &TriangleMesh, cell: f64) -> TriangleMesh {
-    let (mut cells, mut sums) = (HashMap::new(), Vec::<([f64; 3], f64)>::new());
-    #[allow(clippy::cast_possible_truncation, reason = "the cast saturates")]
-    let mut of = |vertex: &[f64; 3]| {
-        let key = vertex.map(|x| (x / cell).floor() as i64);
-        let number = *cells.entry(key).or_insert(sums.len());
-        if number == sums.len() {
-            sums.push(([0.0; 3], 0.0));
-        }
-        let (sum, n) = &mut sums[number];
-        sum.iter_mut().zip(vertex).for_each(|(sum, x)| *sum += x);
-        *n += 1.0;
-        number
-    };
-    let numbers: Vec<usize> = mesh.vertices.iter().map(&mut of).collect();
-    let mut seen = HashSet::new();
-    let triangles = mesh.triangles.iter().filter_map(|triangle| {
-        let [a, b, c] = triangle.map(|i| numbers[i]);
-        let mut key = [a, b, c];
-        key.sort_unstable();
-        (a != b && b != c && a != c && seen.insert(key)).then_some([a, b, c])
-    });
-    let triangles = triangles.collect();
-    let vertices = sums.iter().map(|(sum, n)| sum.map(|x| x / n)).collect();
-    TriangleMesh { vertices, triangles }
 }

@@ -2,7 +2,7 @@
 
 use mbs_core::scene::{Entry, Scene};
 
-mbs::named! {
+mbs_core::named! {
     /// How bad a finding is.
     pub enum Severity {
         /// Worth knowing: nothing is wrong with it.
@@ -14,7 +14,7 @@ mbs::named! {
     }
 }
 
-mbs::named! {
+mbs_core::named! {
     /// What a finding is about, in the order of the report.
     pub enum Topic {
         /// Rank and freedoms.

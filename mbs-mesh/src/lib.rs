@@ -1,4 +1,6 @@
-//! Surfaces of triangles from files: STL, OBJ, and the older MSH of MuJoCo.
+#![doc = include_str!("../README.md")]
+
+mod simplify;
 
 use core::fmt::{self, Display, Formatter};
 use std::collections::HashMap;

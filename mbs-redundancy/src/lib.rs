@@ -1,6 +1,8 @@
-//! Dependent constraint equations of a mechanism, as sets of joints, and remedies.
+#![doc = include_str!("../README.md")]
+#![allow(clippy::cast_precision_loss, reason = "counts stay far below 2^53")]
 
-pub(crate) mod decompose;
+#[doc(hidden)]
+pub mod decompose;
 mod link;
 mod linkage;
 mod loops;

@@ -12,7 +12,7 @@ use super::residual::residuals;
 use mbs_core::rigid::RigidMotion;
 use mbs_linear::{Matrix, Svd};
 
-mbs::named! {
+mbs_core::named! {
     /// Where a dependency holds.
     pub enum Nature {
         /// In every position near by: the mechanism is built so.
