@@ -7,6 +7,7 @@ mod documents;
 mod kinds;
 mod language;
 mod packages;
+mod profiles;
 mod sources;
 mod tags;
 

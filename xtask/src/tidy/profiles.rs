@@ -1,0 +1,59 @@
+//! Rules for the levels of optimisation: what is published and measured is at level 3 throughout, and no crate of a step is below it.
+
+use super::{read, report};
+use std::collections::BTreeMap;
+use toml::{Table, Value};
+
+/// Crates whose code is in a step, or is called once for each of many numbers: never below level 3 in a release build.
+const STEPS: [&str; 15] = [
+    "amd",
+    "libm",
+    "mbs-augmented",
+    "mbs-classical",
+    "mbs-core",
+    "mbs-linear",
+    "mbs-math",
+    "mbs-mesh",
+    "mbs-nostd",
+    "mbs-parallel",
+    "mbs-recursive",
+    "mbs-redundancy",
+    "mbs-sparse",
+    "mbs-statespace",
+    "mbs-steps",
+];
+
+/// The levels of packages that a profile sets, and the profile that it inherits from.
+fn profile(manifest: &Table, name: &str) -> (BTreeMap<String, Value>, Option<String>) {
+    let profile = &manifest["profile"][name];
+    let packages = profile.get("package").and_then(Value::as_table).cloned().unwrap_or_default();
+    let level = |(name, value): (String, Value)| Some((name, value.get("opt-level")?.clone()));
+    let inherits = profile.get("inherits").and_then(Value::as_str).map(str::to_owned);
+    (packages.into_iter().filter_map(level).collect(), inherits)
+}
+
+#[test]
+fn what_release_lowers_dist_and_bench_raise_again() {
+    let manifest: Table = read("Cargo.toml").parse().expect("the manifest is TOML");
+    let [(release, _), (dist, of_dist), (bench, of_bench)] =
+        ["release", "dist", "bench"].map(|name| profile(&manifest, name));
+    assert!(!release.is_empty(), "the profile `release` lowers something");
+    assert_eq!([of_dist.as_deref(), of_bench.as_deref()], [Some("release"), Some("dist")]);
+    assert!(bench.is_empty(), "`bench` has the levels of `dist`");
+    let is_raised = |name: &String| dist.get(name).and_then(Value::as_integer) == Some(3);
+    let findings: Vec<_> = release.keys().filter(|name| !is_raised(name)).cloned().collect();
+    report("Each package that `release` lowers has level 3 in `dist`", &findings);
+    let findings: Vec<_> =
+        dist.keys().filter(|name| !release.contains_key(*name)).cloned().collect();
+    report("`dist` names no other package", &findings);
+}
+
+#[test]
+fn no_crate_of_a_step_is_below_level_3_in_release() {
+    let manifest: Table = read("Cargo.toml").parse().expect("the manifest is TOML");
+    let (release, _) = profile(&manifest, "release");
+    let lowered = STEPS.iter().filter(|name| release.contains_key(**name));
+    let findings: Vec<_> = lowered.map(|name| (*name).to_owned()).collect();
+    report("No crate of a step is lowered", &findings);
+    assert!(manifest["profile"]["release"].get("opt-level").is_none(), "release is at level 3");
+}
