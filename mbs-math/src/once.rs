@@ -7,13 +7,13 @@
 use core::any::Any;
 
 /// One function for each scalar and dimension.
-pub type Table = [&'static (dyn Any + Sync)];
+pub type InstanceTable = [&'static (dyn Any + Sync)];
 
 /// The function of this type; `None` where its scalar or dimension is not built.
 ///
 /// Cost: a comparison for each entry of the table.
 #[must_use]
-pub fn find<F: Copy + 'static>(table: &Table) -> Option<F> {
+pub fn find<F: Copy + 'static>(table: &InstanceTable) -> Option<F> {
     table.iter().find_map(|function| (*function as &dyn Any).downcast_ref::<F>().copied())
 }
 
@@ -22,7 +22,7 @@ pub fn find<F: Copy + 'static>(table: &Table) -> Option<F> {
 /// # Panics
 /// For a dimension beside the plane and space.
 #[must_use]
-pub fn found<F: Copy + 'static>(table: &Table) -> F {
+pub fn found<F: Copy + 'static>(table: &InstanceTable) -> F {
     find(table).expect("a scalar that has instances is in every table, in the plane and in space")
 }
 
@@ -49,19 +49,21 @@ macro_rules! instances {
         $crate::instances!($table: $kind = $function, { const D: usize = 2; } { const D: usize = 3; });
     };
     (f64 $table:ident: $kind:ty = $function:expr) => {
-        static $table: &$crate::once::Table = &[
+        static $table: &$crate::once::InstanceTable = &[
             &{
+                /// Dimensions of the plane [-].
                 const D: usize = 2;
                 $function as $kind
             },
             &{
+                /// Dimensions of space [-].
                 const D: usize = 3;
                 $function as $kind
             },
         ];
     };
     ($table:ident: $kind:ty = $function:expr, $({ $($item:item)* })+) => {
-        static $table: &$crate::once::Table = &[$(
+        static $table: &$crate::once::InstanceTable = &[$(
             &{
                 type T = f64;
                 $($item)*

@@ -4,6 +4,7 @@
 //! a sixth of that at level 0. A line is one of a function's body, before any optimisation. Each crate has a bound in docs/PROFILES.md, which
 //! is raised by hand: growth is seen on the day.
 
+mod counts;
 mod table;
 mod wrapper;
 
@@ -11,6 +12,7 @@ pub use wrapper::as_compiler;
 
 use crate::process::{cargo, root, run, target_dir};
 use crate::summary::{self, Outcome};
+use counts::{Counted, Counts, OWNED};
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::PathBuf;
@@ -37,27 +39,11 @@ impl Set {
     }
 }
 
-/// Modules whose functions are large and needed by many, with the crate that owns them.
-const OWNED: [(&str, &str); 4] = [
-    ("mbs_core", "natural"),
-    ("mbs_core", "start"),
-    ("mbs_core", "outputs"),
-    ("mbs_recursive", "tree"),
-];
-
 /// Crates that have functions of those modules in a step, which no table gives.
 const STEPS: [&str; 1] = ["mbs_steps"];
 
 /// Most lines of those modules in any other crate: readings of a field or two, which are smaller than a call through a table.
 const MOST_STRAY: u64 = 9_000;
-
-/// The counts of a crate.
-#[derive(Debug, Clone, Default, PartialEq, Eq)]
-struct Counts {
-    lines: u64,
-    /// Of each of [`OWNED`].
-    owned: [u64; OWNED.len()],
-}
 
 /// Counts, prints the table, and with `keep` writes the counts into docs/PROFILES.md, whose bounds stay.
 #[allow(clippy::print_stdout, reason = "the table is what this job is for")]
@@ -85,9 +71,6 @@ pub(crate) fn check() -> Result<Outcome, String> {
     table.take(&counts);
     verdict(&counts, &table).map(Outcome::Passed)
 }
-
-/// The counts of each crate of ours in both sets.
-type Counted = [BTreeMap<String, Counts>; 2];
 
 /// Compiles both sets with a compiler that counts.
 fn count() -> Result<Counted, String> {

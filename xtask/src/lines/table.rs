@@ -1,6 +1,6 @@
 //! The table of counts and bounds in docs/PROFILES.md.
 
-use super::Counted;
+use super::counts::Counted;
 use crate::process::{self, root};
 use std::collections::BTreeMap;
 use std::fs;

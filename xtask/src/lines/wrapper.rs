@@ -3,7 +3,7 @@
 //! Cargo starts this program in place of rustc where `RUSTC_WRAPPER` names it. What cargo only checks then also makes code, whose lines
 //! are counted and which is taken away again: no machine code is made, so that a count takes a small share of a build.
 
-use super::{Counts, OWNED};
+use super::counts::{Counts, OWNED};
 use crate::process;
 use std::array;
 use std::env;
