@@ -23,10 +23,12 @@ pub struct Channels<T: Real, const D: usize> {
     /// Where the components of each output end.
     outputs: Vec<usize>,
     write_at: Write<T, D>,
+    track: Track<T, D>,
 }
 
 type New<T, const D: usize> =
     fn(&Scene<T>, &NaturalModel<T, D>) -> Result<Channels<T, D>, StopError>;
+type Track<T, const D: usize> = fn(&mut Channels<T, D>, &Simulation<T, D>) -> Result<(), StopError>;
 type Write<T, const D: usize> =
     fn(&mut Channels<T, D>, &State<T>, &mut [T]) -> Result<(), StopError>;
 instances!(NEW: New<T, D> = Channels::<T, D>::new_here);
@@ -62,8 +64,8 @@ impl<T: Real, const D: usize> Channels<T, D> {
         let not_unique = Vec::with_capacity(asked.len());
         let forces = Some(forces);
         let ends = [n_joints, n_both];
-        let write_at = Self::write_here;
-        Ok(Self { measures, forces, not_unique, asked, ends, outputs, write_at })
+        let (write_at, track): (Write<T, D>, Track<T, D>) = (Self::write_here, Self::track_here);
+        Ok(Self { measures, forces, not_unique, asked, ends, outputs, write_at, track })
     }
 
     /// Exchanges what forces are made of: the same scene with other effects has others.
@@ -86,6 +88,10 @@ impl<T: Real, const D: usize> Channels<T, D> {
     /// # Errors
     /// [`StopError::Step`] with the joint whose turns are not known.
     pub fn track(&mut self, simulation: &Simulation<T, D>) -> Result<(), StopError> {
+        (self.track)(self, simulation)
+    }
+
+    fn track_here(&mut self, simulation: &Simulation<T, D>) -> Result<(), StopError> {
         let state = simulation.state();
         if simulation.has_own_coordinates() {
             self.measures.track_with(state, |joint, number| simulation.coordinate(joint, number));

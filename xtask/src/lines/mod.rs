@@ -42,8 +42,9 @@ impl Set {
 /// Crates that have functions of those modules in a step, which no table gives.
 const STEPS: [&str; 1] = ["mbs_steps"];
 
-/// Most lines of those modules in any other crate: readings of a field or two, which are smaller than a call through a table.
-const MOST_STRAY: u64 = 9_000;
+/// Most lines of those modules in any other crate, three precisions together: readings of a field or two, which are smaller than a call through
+/// a table. One model that is built outside its owner brings 50,000.
+const MOST_STRAY: u64 = 12_000;
 
 /// Counts, prints the table, and with `keep` writes the counts into docs/PROFILES.md, whose bounds stay.
 #[allow(clippy::print_stdout, reason = "the table is what this job is for")]
