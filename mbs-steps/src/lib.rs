@@ -22,11 +22,9 @@ pub mod energy_alarm;
 pub mod equilibrium;
 #[doc(hidden)]
 pub mod erased;
-#[doc(hidden)]
 pub mod export;
 #[doc(hidden)]
 pub mod fingerprint;
-#[doc(hidden)]
 pub mod folder;
 #[doc(hidden)]
 pub mod friction;
@@ -52,9 +50,7 @@ pub mod placed;
 pub mod precision;
 #[doc(hidden)]
 pub mod ready;
-#[doc(hidden)]
 pub mod realtime;
-#[doc(hidden)]
 pub mod record;
 #[doc(hidden)]
 pub mod recorder;
@@ -82,7 +78,6 @@ pub mod tally;
 pub mod tilt;
 #[doc(hidden)]
 pub mod tree;
-#[doc(hidden)]
 pub mod words;
 
 #[doc(hidden)]
