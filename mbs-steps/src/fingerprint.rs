@@ -13,7 +13,7 @@ pub struct Fingerprint(u64);
 
 impl Fingerprint {
     /// Of nothing.
-    pub fn new() -> Self {
+    pub(crate) fn new() -> Self {
         Self(BASIS)
     }
 

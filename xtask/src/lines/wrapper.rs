@@ -48,11 +48,11 @@ pub fn as_compiler() -> Option<ExitCode> {
         arg
     }));
     let end = process::hand_over(command.args(FLAGS));
-    if end == ExitCode::SUCCESS {
-        if let Err(why) = count(&args, &crate_name, &folder) {
-            eprintln!("lines of {crate_name}: {why}");
-            return Some(ExitCode::FAILURE);
-        }
+    if end == ExitCode::SUCCESS
+        && let Err(why) = count(&args, &crate_name, &folder)
+    {
+        eprintln!("lines of {crate_name}: {why}");
+        return Some(ExitCode::FAILURE);
     }
     Some(end)
 }
@@ -150,7 +150,7 @@ mod tests {
     use super::*;
 
     fn words(text: &str) -> Vec<OsString> {
-        text.split_whitespace().map(|word| OsString::from(word)).collect()
+        text.split_whitespace().map(OsString::from).collect()
     }
 
     #[test]
