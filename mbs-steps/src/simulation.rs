@@ -198,7 +198,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     /// the new input. What a law stores under another input is booked as work.
     ///
     /// # Errors
-    /// [`InputError`] where the effect has no input ([`Signal::Input`](mbs_core::scene::Signal::Input)), or where a component is not
+    /// [`InputError`] where the effect has no input ([`Signal::Input`]), or where a component is not
     /// finite. Nothing is set then.
     pub fn set_input(&mut self, effect: usize, value: [T; 3]) -> Result<(), InputError> {
         self.model.prescribed().set_input(&mut self.state.inputs, effect, value)

@@ -10,7 +10,7 @@ use mbs_core::scene::{
 use mbs_core::step::InputError;
 use std::sync::Arc;
 
-/// An input of a simulation, by its place in [`Simulation::inputs`](crate::Simulation::inputs).
+/// An input of a simulation, by its place in `Simulation::inputs`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct InputId(usize);
 

@@ -1,4 +1,4 @@
-//! What is read of a simulation, whatever its scalar and dimension: one implementation behind [`Simulation`](super::Simulation) and
+//! What is read of a simulation, whatever its scalar and dimension: one implementation behind `Simulation` and
 //! [`View`](super::View).
 
 use super::readings::Readings;

@@ -16,7 +16,7 @@ use mbs_core::scene::{EffectId, GuideId, Scene, SignalId};
 use mbs_core::step::InputError;
 use std::sync::Arc;
 
-/// A mechanism at an instant of a run: it is read as a [`Simulation`](crate::Simulation) is.
+/// A mechanism at an instant of a run: it is read as a `Simulation` is.
 #[derive(Debug, Clone, Copy)]
 pub struct View<'a> {
     seen: &'a dyn Read,
@@ -114,7 +114,7 @@ pub trait Observer {
     }
 }
 
-/// The inputs of a run, to be set before a step: as those of a [`Simulation`](crate::Simulation).
+/// The inputs of a run, to be set before a step: as those of a `Simulation`.
 #[derive(Debug)]
 pub struct RunInputs<'a> {
     inputs: &'a mut Inputs,

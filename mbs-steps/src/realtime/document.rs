@@ -16,7 +16,7 @@ use mbs_core::scene::Scene;
 use mbs_realtime::Clock;
 use mbs_scene::SceneFile;
 
-/// Runs a scene at the pace of a clock, as [`crate::run_document`] runs one as fast as it goes.
+/// Runs a scene at the pace of a clock, as `run_document` runs one as fast as it goes.
 ///
 /// Programs that take what clock comes compile the steps only once.
 ///
