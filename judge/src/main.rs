@@ -63,11 +63,8 @@ fn main() -> ExitCode {
 
 /// One of this many cases, in every method.
 fn cases(stride: usize) -> ExitCode {
-    let mut tally = trial::oracle::Tally::default();
     let cases: Vec<_> = random::cases().into_iter().step_by(stride.max(1)).collect();
-    for case in &cases {
-        trial::oracle::case(case, &mut tally);
-    }
+    let tally = trial::oracle::all(&cases);
     let out = &mut std::io::stdout();
     for line in &tally.wrong {
         let _ = writeln!(out, "{line}");

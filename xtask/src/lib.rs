@@ -22,5 +22,3 @@ pub mod simulate;
 pub mod summary;
 mod tally;
 pub mod test;
-#[cfg(test)]
-mod tidy;

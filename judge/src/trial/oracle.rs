@@ -4,6 +4,9 @@ use super::{Judged, Verdict, Way, compare, document, judge, rows, trial};
 use crate::random::{Case, STEPS};
 use mbs::core::scene::Scene;
 use std::collections::BTreeMap;
+use std::num::NonZero;
+use std::panic::resume_unwind;
+use std::thread;
 
 /// What came of the enumeration.
 #[derive(Debug, Default)]
@@ -16,14 +19,44 @@ pub struct Tally {
     pub wrong: Vec<String>,
 }
 
+impl Tally {
+    fn add(&mut self, other: Self) {
+        self.agree += other.agree;
+        self.wrong.extend(other.wrong);
+        for (reason, n) in other.left_out {
+            *self.left_out.entry(reason).or_default() += n;
+        }
+    }
+}
+
 /// Formulations with the integrators that they can have; the others are refused as settings, whatever the scene.
 pub fn methods() -> Vec<[&'static str; 2]> {
     let formulations = mbs::FORMULATIONS.iter().filter(|f| **f != "auto");
     formulations.flat_map(|f| mbs::INTEGRATORS.map(|i| [*f, i])).collect()
 }
 
+/// Tries all cases, on all cores; what came of them, in their order.
+#[must_use]
+pub fn all(cases: &[Case]) -> Tally {
+    let threads = thread::available_parallelism().map_or(1, NonZero::get);
+    let try_part = |part: &[Case]| {
+        let mut tally = Tally::default();
+        part.iter().for_each(|one| case(one, &mut tally));
+        tally
+    };
+    thread::scope(|scope| {
+        let parts = cases.chunks(cases.len().div_ceil(threads).max(1));
+        let running: Vec<_> = parts.map(|part| scope.spawn(move || try_part(part))).collect();
+        let mut all = Tally::default();
+        for part in running {
+            all.add(part.join().unwrap_or_else(|e| resume_unwind(e)));
+        }
+        all
+    })
+}
+
 /// Tries one case in every method.
-pub fn case(case: &Case, tally: &mut Tally) {
+fn case(case: &Case, tally: &mut Tally) {
     let judged = match judge(&case.text, case.step, STEPS) {
         Ok(judged) => judged,
         Err(why) => return tally.wrong.push(format!("{}: {why}", case.name)),

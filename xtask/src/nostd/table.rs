@@ -52,6 +52,11 @@ pub(crate) fn of(target: &str) -> impl Iterator<Item = &'static Build> {
     BUILDS.iter().enumerate().filter(move |(at, _)| is_first || is_end(*at)).map(|(_, build)| build)
 }
 
+/// Whether a build is the last one: the solver of controllers with all that it has.
+pub(crate) fn is_whole(build: &Build) -> bool {
+    BUILDS.last().is_some_and(|last| std::ptr::eq(last, build))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -1,9 +1,9 @@
 //! Rules for scenes and documents.
 
 use super::{between, entries, files, name, read, report};
-use crate::process::root;
 use std::collections::BTreeSet;
 use toml::Table;
+use xtask::process::root;
 
 /// Markdown files at the top level that a reader expects.
 const DOCUMENTS: [&str; 4] = ["README.md", "ARCHITECTURE.md", "CHANGELOG.md", "CONTRIBUTING.md"];

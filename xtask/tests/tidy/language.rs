@@ -5,9 +5,9 @@
 //! command. This file is left out. Scope of sentences: README.md, the documents in `docs/` and the crates' README.md files.
 
 use super::{crate_folders, files, name, read, report};
-use crate::process::root;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
+use xtask::process::root;
 
 /// Words that no text in scope has.
 const BANNED: [&str; 14] = [

@@ -2,9 +2,9 @@
 //! what a crate that is published must say.
 
 use super::{read, report};
-use crate::process::{cargo, root};
 use serde_json::Value;
 use std::collections::{BTreeMap, BTreeSet};
+use xtask::process::{cargo, root};
 
 /// Licences of what is linked or built with; each may be combined with ours.
 const LICENCES: [&str; 9] = [

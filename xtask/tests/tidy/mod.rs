@@ -11,9 +11,10 @@ mod profiles;
 mod sources;
 mod tags;
 
-use crate::process::root;
 use std::fs;
 use std::path::{Path, PathBuf};
+use xtask::process::root;
+use xtask::test::{DOCUMENTS, RULES};
 
 /// The text of a file of the repository.
 fn read(path: impl AsRef<Path>) -> String {
@@ -47,7 +48,7 @@ fn files(folder: &Path, ending: &str) -> Vec<PathBuf> {
 }
 
 /// The files that declare a module whose name ends so, from the root of the repository.
-pub(crate) fn modules_named(module: &str) -> Vec<String> {
+fn modules_named(module: &str) -> Vec<String> {
     let sources = crate_folders().into_iter().flat_map(|folder| files(&folder, "rs"));
     let endings = [format!("{module};"), format!("{module} {{")];
     let is_one = |line: &str| {
@@ -75,4 +76,14 @@ fn between<'a>(text: &'a str, mark: &str) -> &'a str {
 #[track_caller]
 fn report(rule: &str, findings: &[String]) {
     assert!(findings.is_empty(), "{rule}:\n  {}", findings.join("\n  "));
+}
+
+#[test]
+fn no_other_module_has_the_name_of_one_that_is_a_check_by_itself() {
+    for (filter, files) in [
+        (RULES, &["xtask/tests/rules.rs"][..]),
+        (DOCUMENTS, &["mbs-cli/tests/command/main.rs", "xtask/tests/tidy/mod.rs"]),
+    ] {
+        assert_eq!(modules_named(filter.trim_end_matches(':')), files, "{filter}");
+    }
 }

@@ -4,11 +4,11 @@
 //! what macros define, and modules that a macro declares, as the kinds of effect. A name that a module does not show counts for its file.
 
 use super::{name, read};
-use crate::process::root;
 use proc_macro2::{Delimiter, TokenStream, TokenTree};
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 use toml::Table;
+use xtask::process::root;
 
 /// Words that are followed by the name of an item.
 const ITEMS: [&str; 8] = ["const", "enum", "fn", "static", "struct", "trait", "type", "union"];
