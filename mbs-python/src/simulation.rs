@@ -207,7 +207,7 @@ impl Simulation {
             let set = if all.is_empty() { Ok(()) } else { simulation.set_inputs(&all) };
             let dt = dt.unwrap_or_else(|| simulation.step_length());
             let made = match set {
-                Ok(()) if simulation.is_controlled() && is_long(simulation, dt) => {
+                Ok(()) if is_long(simulation, dt) => {
                     whole(py, &self.flag, &silent(&Reached::default()), || simulation.step(dt))?
                 }
                 Ok(()) => simulation.step(dt),
@@ -246,7 +246,7 @@ impl Simulation {
                 }
                 Ok(())
             };
-            if simulation.is_controlled() && is_long(simulation, dt) {
+            if is_long(simulation, dt) {
                 // a step is many; what is raised behind the flag is the interrupt itself
                 let heard = || match self.flag.load(Ordering::Relaxed) {
                     true => Err(PyKeyboardInterrupt::new_err(())),

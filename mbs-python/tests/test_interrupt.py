@@ -60,6 +60,7 @@ LONG: dict[str, Callable[[], object]] = {
     "a step of a method that chooses its own": lambda: pendulum().simulate(formulation="recursive", integrator="rk54").step(1e5),
     "run_until of such a method": lambda: pendulum().simulate(formulation="recursive", integrator="rk54").run_until(1e5),
     "steps of such a method": lambda: pendulum().simulate(formulation="recursive", integrator="rk54").steps(1e5, 2),
+    "fewer of its steps": lambda: pendulum().simulate(formulation="recursive", integrator="rk54").step(1e4),
     "compare": lambda: pendulum().compare(duration=1e3),
     "sweep": lambda: pendulum().sweep(SWEEP, threads=2),
     "doctor": lambda: [mbs.Mechanism(scene("hexapod")).doctor() for _ in range(1000)],

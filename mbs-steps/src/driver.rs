@@ -236,6 +236,14 @@ impl<T: Real> Stretch<T> {
         Self { fixed: dt.map(fixed), ..self }
     }
 
+    /// The stretch, from `now` in a number of equal steps whose sum is `dt`, in the digits of the run and in `f64` [s].
+    pub fn in_parts(self, now: T, dt: (T, f64), n: f64) -> Self {
+        let dt = (dt.0 / T::from_f64(n), dt.1 / n);
+        #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a count")]
+        let n = n as u64;
+        Self { fixed: Some(Fixed { n, from: (now, now.to_f64()), dt }), ..self }
+    }
+
     /// The time after `j` of its steps, where it is known [s].
     fn known(&self, j: u64) -> Option<T> {
         let Fixed { n, from, dt } = self.fixed?;

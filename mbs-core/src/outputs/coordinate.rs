@@ -6,7 +6,7 @@ use crate::Real;
 use crate::algebra::{Vector, cross, norm, raised, rotation_vector, unit};
 use crate::model::State;
 use crate::natural::{self, Affine, NaturalModel, Places, unwrap, unwrap_rotation};
-use crate::scene::{BodyId, Freedom, Joint, Scene};
+use crate::scene::{BodyId, Freedom, Joint, Rotation, Scene};
 use alloc::boxed::Box;
 use alloc::vec::Vec;
 
@@ -19,8 +19,8 @@ const MISFIT: f64 = 1e-2;
 /// One coordinate of a joint, or the three of a turn; or the four of a body's orientation.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) enum Coordinate<T: Real, const D: usize> {
-    /// `sign` times the angle of y in the frame x1, x2.
-    Angle { x1: Affine<T, D>, x2: Affine<T, D>, y: Affine<T, D>, sign: T },
+    /// `sign` times the angle of y in the frame x1, x2. It is one of two, as in a universal joint, or the only one.
+    Angle { x1: Affine<T, D>, x2: Affine<T, D>, y: Affine<T, D>, sign: T, is_one_of_two: bool },
     /// x.y.
     Slide { x: Affine<T, D>, y: Affine<T, D> },
     /// Rotation of the second body against the first.
@@ -50,7 +50,11 @@ impl<T: Real, const D: usize> Coordinate<T, D> {
             return Self::none(model, freedom);
         }
         match model.coordinate(joint, scene.dimension, freedom) {
-            natural::Coordinate::Angle { x1, x2, y, sign } => Self::Angle { x1, x2, y, sign },
+            natural::Coordinate::Angle { x1, x2, y, sign } => {
+                let rotation = joint.kind.rotation(scene.dimension);
+                let is_one_of_two = matches!(rotation, Rotation::Universal(_));
+                Self::Angle { x1, x2, y, sign, is_one_of_two }
+            }
             natural::Coordinate::Slide { x, y } => Self::Slide { x, y },
             natural::Coordinate::Rotation => Self::turn(model, joint.bodies),
         }
@@ -73,6 +77,7 @@ impl<T: Real, const D: usize> Coordinate<T, D> {
             x2: model.direction(first, y),
             y: model.direction(second, x),
             sign: T::ONE,
+            is_one_of_two: false,
         }
     }
 
@@ -125,7 +130,7 @@ impl<T: Real, const D: usize> Coordinate<T, D> {
 
     /// The angle, within half a turn of zero; zero of what is none.
     fn angle_at(&self, q: &[T]) -> T {
-        let Self::Angle { x1, x2, y, sign } = self else { return T::ZERO };
+        let Self::Angle { x1, x2, y, sign, .. } = self else { return T::ZERO };
         let y = y.value(q);
         x2.value(q).dot(&y).atan2(x1.value(q).dot(&y)) * *sign
     }
@@ -179,7 +184,7 @@ impl<T: Real, const D: usize> Coordinate<T, D> {
     /// Writes the rates at (q, v).
     pub(super) fn rates(&self, q: &[T], v: &[T], out: &mut [T]) {
         match self {
-            Self::Angle { x1, x2, y, sign } => {
+            Self::Angle { x1, x2, y, sign, .. } => {
                 let (p1, p2, py) = (x1.value(q), x2.value(q), y.value(q));
                 let (w1, w2, wy) = (x1.rate(v), x2.rate(v), y.rate(v));
                 let (c, s) = (p1.dot(&py), p2.dot(&py));
@@ -218,7 +223,7 @@ impl<T: Real, const D: usize> Coordinate<T, D> {
             [x.dot(&y), xt.dot(&y) + x.dot(&yt), second]
         };
         match self {
-            Self::Angle { x1, x2, y, sign } => {
+            Self::Angle { x1, x2, y, sign, .. } => {
                 let ([c, ct, ctt], [s, st, stt]) = (product(x1, y), product(x2, y));
                 // tan theta = s/c, r^2 = c^2 + s^2
                 let inverse = T::ONE / (c * c + s * s);
@@ -235,13 +240,20 @@ impl<T: Real, const D: usize> Coordinate<T, D> {
         }
     }
 
-    /// Writes what a wrench of the first body on the second, at the joint's place there, does on the coordinate.
+    /// Writes what a wrench of the first body on the second, at the joint's place there, does on the coordinate: its work as this coordinate
+    /// alone changes.
     pub(super) fn efforts(&self, q: &[T], wrench: &Wrench<T>, out: &mut [T]) {
-        if let Self::Turn { .. } = self {
-            out.copy_from_slice(wrench.moment.as_slice());
-        } else {
-            let along = self.direction(q);
-            out.fill(wrench.force.dot(&along.force) + wrench.moment.dot(&along.moment));
+        match self {
+            Self::Turn { .. } => out.copy_from_slice(wrench.moment.as_slice()),
+            // About the axis. The gradient of the angle leads elsewhere, where the other angle's axis is oblique to this one.
+            Self::Angle { x1, x2, is_one_of_two: true, .. } => {
+                let [x1, x2] = [x1, x2].map(|x| raised(&x.value(q)));
+                out.fill(wrench.moment.dot(&cross(&x1, &x2)));
+            }
+            _ => {
+                let along = self.direction(q);
+                out.fill(wrench.force.dot(&along.force) + wrench.moment.dot(&along.moment));
+            }
         }
     }
 }

@@ -63,6 +63,9 @@ pub trait Inner: Sink + Debug + Send + Sync {
     fn restore(&mut self, bytes: &[u8]) -> Result<(), CheckpointError>;
 }
 
+/// A step that an integrator divides by itself is made in parts of so many longest steps, so that an interrupt is heard between them [-].
+const INTERRUPTED: f64 = 100.0;
+
 /// It, in its scalar and dimension.
 #[derive(Debug)]
 struct Typed<T: Real, const D: usize> {
@@ -176,7 +179,11 @@ impl<T: Real, const D: usize> Inner for Typed<T, D> {
         let fixed = (!simulation.is_controlled()).then_some(length);
         let mut watch = Watch { readings, contacts, sum: StepReport::default() };
         // an interrupt ends a call between its steps, not behind its last
-        let stretch = Stretch { is_last: true, ..Stretch::to(end).in_one(fixed) };
+        let mut stretch = Stretch { is_last: true, ..Stretch::to(end).in_one(fixed) };
+        let parts = (dt / (settings.step_max * INTERRUPTED)).ceil();
+        if fixed.is_some() && settings.integrator.controls_its_step() && parts > 1.0 {
+            stretch = stretch.in_parts(now, (length, dt), parts);
+        }
         drive(simulation, [stretch], &settings.interrupt, &mut watch)?;
         clock.land(end);
         Ok(watch.sum)

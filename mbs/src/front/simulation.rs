@@ -83,7 +83,8 @@ impl Simulation {
         SimulationError::stopped(error, self.time(), &self.names)
     }
 
-    /// Advances by `dt` [s]: one step, or as many as the step control takes.
+    /// Advances by `dt` [s]: one step, or as many as the step control takes. What an integrator divides by itself is divided into equal parts
+    /// before, of a hundred of the longest steps at most: an interrupt is heard between them.
     ///
     /// # Errors
     /// [`SimulationError`] with time and joint; the state is then that before the failed step.

@@ -4,6 +4,7 @@
 mod analyses;
 mod formulations;
 mod laws;
+mod outputs;
 mod start;
 
 pub(crate) use mbs_testkit::repository::{field, read, text, tilted};
