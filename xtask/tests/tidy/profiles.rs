@@ -1,8 +1,10 @@
-//! Rules for the levels of optimisation: what is published and measured is at level 3 throughout, and no crate of a step is below it.
+//! Rules for the levels of optimisation: what is published and measured is at level 3 throughout, and no crate of a step is below it;
+//! in tests, nothing that steps stand on is at level 0.
 
 use super::{read, report};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use toml::{Table, Value};
+use xtask::process::{cargo, output, root};
 
 /// Crates whose code is in a step, or is called once for each of many numbers: never below level 3 in a release build.
 const STEPS: [&str; 15] = [
@@ -56,4 +58,32 @@ fn no_crate_of_a_step_is_below_level_3_in_release() {
     let findings: Vec<_> = lowered.map(|name| (*name).to_owned()).collect();
     report("No crate of a step is lowered", &findings);
     assert!(manifest["profile"]["release"].get("opt-level").is_none(), "release is at level 3");
+}
+
+#[test]
+fn what_dev_raises_of_ours_plain_lowers_again() {
+    let manifest: Table = read("Cargo.toml").parse().expect("the manifest is TOML");
+    let [(dev, _), (plain, of_plain)] = ["dev", "plain"].map(|name| profile(&manifest, name));
+    assert_eq!(of_plain.as_deref(), Some("dev"));
+    let is_low = |level: Option<&Value>| level.and_then(Value::as_integer) == Some(0);
+    let ours = dev.keys().filter(|name| root().join(name).is_dir());
+    let raised = ours.filter(|name| !is_low(dev.get(*name)) && !is_low(plain.get(*name)));
+    report("`plain` has level 0 for each crate of ours", &raised.cloned().collect::<Vec<_>>());
+}
+
+#[test]
+fn other_peoples_crates_that_steps_stand_on_are_at_level_3_in_tests() {
+    let manifest: Table = read("Cargo.toml").parse().expect("the manifest is TOML");
+    let (dev, _) = profile(&manifest, "dev");
+    let mut tree = cargo();
+    tree.args(["tree", "--locked", "--package", "mbs-steps", "--prefix", "none"]);
+    tree.args(["--edges", "normal,no-proc-macro"]).current_dir(root());
+    let tree = output(&mut tree).expect("cargo knows its packages");
+    let names = tree.lines().filter_map(|line| line.split_whitespace().next());
+    let others: BTreeSet<_> = names.filter(|name| !name.starts_with("mbs-")).collect();
+    assert!(others.contains("nalgebra"), "{others:?}");
+    let low =
+        others.into_iter().filter(|name| dev.get(*name).and_then(Value::as_integer) != Some(3));
+    let findings: Vec<_> = low.map(str::to_owned).collect();
+    report("`dev` names each crate below mbs-steps, at level 3", &findings);
 }
