@@ -105,7 +105,7 @@ fn settle<T: Real, S: Space<T>>(
     for _ in 0..=options.max_sweeps {
         let Violation { worst, row, scale, is_within } = violation(m, (level, share), s)?;
         let is_stuck = last.is_some_and(|last| !(worst < last * T::HALF));
-        if is_within || (is_stuck && worst <= enough * scale) {
+        if is_within || (is_stuck && (worst <= enough * scale || is_rest(m, (level, scale), s))) {
             return Ok(worst);
         }
         // A first sweep may overshoot far from the loops; then they must come nearer.
@@ -129,6 +129,18 @@ fn settle<T: Real, S: Space<T>>(
     } else {
         Err(Fault::Unreached { level, row, violation: worst })
     }
+}
+
+/// Are the speeds of all rows rounding of what moves elsewhere? A link rests though its joints move: what is left of its rows is rounding too.
+#[inline(never)]
+fn is_rest<T: Real, S: Space<T>>(
+    m: &TreeSlices<'_, T, S>,
+    (level, scale): (u8, T),
+    s: &Store<'_, T, S>,
+) -> bool {
+    let fastest = s.v.iter().fold(T::ZERO, |most, v| most.max(v.abs()));
+    // Rates are in m/s or in rad/s.
+    level > 0 && scale <= rounding::<T>() * fastest * m.length.max(T::ONE)
 }
 
 /// Takes from an error of velocities, or of freedoms, what a projection takes: δ − M⁻¹ Jᵀ (J M⁻¹ Jᵀ + ε)⁻¹ J δ, with the rows and the

@@ -105,6 +105,19 @@ impl<T: Real, const D: usize> Coordinate<T, D> {
         matches!(self, Self::Angle { .. })
     }
 
+    /// Writes what a rotation vector follows its turns by: the angular velocity in the axes of the first body; nothing of the others.
+    pub(super) fn turning(&self, q: &[T], v: &[T], out: &mut [T]) {
+        if let Self::Turn { frames } = self {
+            let omega = frames[1].turning(q, v) - frames[0].turning(q, v);
+            out.copy_from_slice((frames[0].rotation(q).transpose() * omega).as_slice());
+        }
+    }
+
+    /// Is it a rotation vector?
+    pub(super) fn is_turn(&self) -> bool {
+        matches!(self, Self::Turn { .. })
+    }
+
     /// Replaces the last value by the present one, with the turns that lead nearest to the `expected` value.
     pub(super) fn track(&self, q: &[T], expected: &[T], last: &mut [T]) {
         match self {

@@ -164,6 +164,16 @@ impl<T: Real, const D: usize> Measures<T, D> {
                 let expected = &mut expected[..end - at];
                 expected.copy_from_slice(&values[at..end]);
                 if !coordinate.is_angle() {
+                    // A rotation vector turns about its axis as the angular velocity along it says.
+                    let before = [0, 1, 2].map(|i| rates.get(at + i).copied().unwrap_or(T::ZERO));
+                    coordinate.turning(&state.q, &state.v, &mut rates[at..end]);
+                    if has_passed && coordinate.is_turn() {
+                        for ((expected, before), now) in
+                            expected.iter_mut().zip(before).zip(&rates[at..end])
+                        {
+                            *expected = Coordinate::<T, D>::expected(*expected, [before, *now], dt);
+                        }
+                    }
                     coordinate.track(&state.q, expected, &mut values[at..end]);
                     at = end;
                     continue;

@@ -2,6 +2,7 @@
 
 use crate::common::{Bench, FORMULATIONS, SCENES, run, run_in, scene, settings, worst};
 use mbs::core::scene::Dimension;
+use mbs::core::step::StepError;
 
 /// Steps of the tables [s].
 const STEPS: [f64; 5] = [1e-2, 1e-3, 1e-4, 1e-5, 1e-6];
@@ -110,6 +111,32 @@ fn two_four_bars_in_index1_at_a_twentieth_of_a_second_pass_or_stop() {
             assert!(apart <= APART_INDEX1, "{apart:e}");
         }
         Err((t, error)) => println!("two-four-bars index-1 dt 5e-2: stops at {t}: {error}"),
+    }
+}
+
+/// Energy that a passage may cost at 1e-4 s [J]: the trapezoidal rule has 1e-2 at 1e-2 s for one loop, and less with the square of the step.
+const PASSAGE: f64 = 1e-4;
+
+#[test]
+fn at_small_steps_a_singular_position_is_passed_in_recursive_or_refused_by_name() {
+    for name in ["two-four-bars", "n-four-bar-40"] {
+        let scene = scene(name);
+        let settings = settings(&scene, "recursive", Some(1e-4));
+        let simulation = mbs::typed::Simulation::<f64, 2>::new(&scene, &settings);
+        let mut simulation = simulation.expect("it starts");
+        let mut before = simulation.state().clone();
+        for _ in 0..8000 {
+            match simulation.advance(1e-4) {
+                Ok(_) => before.clone_from(simulation.state()),
+                Err(StepError::NotConverged { .. } | StepError::Violated { .. }) => {
+                    assert_eq!(*simulation.state(), before, "an error leaves the state as it was");
+                    break;
+                }
+                Err(e) => panic!("{name}: {e}"),
+            }
+            let error = simulation.invariant().max_error();
+            assert!(error < PASSAGE, "{name} at {}: {error} J", before.t);
+        }
     }
 }
 
