@@ -1,4 +1,4 @@
-//! Outputs that were wrong where the motion was right.
+//! Outputs that were wrong where the motion was right, and a motion that was stopped over the rounding of one.
 
 use super::{field, read, text};
 use crate::common::{run, run_in};
