@@ -105,7 +105,9 @@ fn settle<T: Real, S: Space<T>>(
     for _ in 0..=options.max_sweeps {
         let Violation { worst, row, scale, is_within } = violation(m, (level, share), s)?;
         let is_stuck = last.is_some_and(|last| !(worst < last * T::HALF));
-        if is_within || (is_stuck && (worst <= enough * scale || is_rest(m, (level, scale), s))) {
+        if is_within
+            || (is_stuck && (worst <= enough * scale || is_elsewhere(m, (level, worst), s)))
+        {
             return Ok(worst);
         }
         // A first sweep may overshoot far from the loops; then they must come nearer.
@@ -124,23 +126,24 @@ fn settle<T: Real, S: Space<T>>(
         kinematics(m.links, (s.z, s.v, s.guides), s.trial)?;
     }
     let Violation { worst, row, scale, .. } = violation(m, (level, share), s)?;
-    if worst <= enough * scale {
+    if worst <= enough * scale || is_elsewhere(m, (level, worst), s) {
         Ok(worst)
     } else {
         Err(Fault::Unreached { level, row, violation: worst })
     }
 }
 
-/// Are the speeds of all rows rounding of what moves elsewhere? A link rests though its joints move: what is left of its rows is rounding too.
+/// Is this violation of velocities rounding of what moves elsewhere? A link may rest though the joints move that it hangs from: its rows
+/// are then as slow as the rounding of their rates.
 #[inline(never)]
-fn is_rest<T: Real, S: Space<T>>(
+fn is_elsewhere<T: Real, S: Space<T>>(
     m: &TreeSlices<'_, T, S>,
-    (level, scale): (u8, T),
+    (level, worst): (u8, T),
     s: &Store<'_, T, S>,
 ) -> bool {
     let fastest = s.v.iter().fold(T::ZERO, |most, v| most.max(v.abs()));
     // Rates are in m/s or in rad/s.
-    level > 0 && scale <= rounding::<T>() * fastest * m.length.max(T::ONE)
+    level > 0 && worst <= rounding::<T>() * fastest * m.length.max(T::ONE)
 }
 
 /// Takes from an error of velocities, or of freedoms, what a projection takes: δ − M⁻¹ Jᵀ (J M⁻¹ Jᵀ + ε)⁻¹ J δ, with the rows and the
