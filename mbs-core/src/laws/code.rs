@@ -157,7 +157,7 @@ code!(Relation);
 
 impl<L: ?Sized> Clone for Code<L> {
     fn clone(&self) -> Self {
-        Self(self.0.clone())
+        Self(Clone::clone(&self.0))
     }
 }
 

@@ -20,12 +20,8 @@ const LICENCES: [&str; 9] = [
 ];
 
 /// Packages that come in more than one version, and why that is left so.
-const TWICE: [(&str, &str); 4] = [
-    ("equator", "of faer, in benches and tests: it and what it stands on take two"),
-    ("equator-macro", "as equator"),
-    ("syn", "procedural macros of three generations; none is linked"),
-    ("glam", "optional conversions of nalgebra, never built; they are in the lock file alone"),
-];
+const TWICE: [(&str, &str); 1] =
+    [("glam", "optional conversions of nalgebra, never built; they are in the lock file alone")];
 
 /// What cargo says of a manifest of the repository and the versions in its lock file; from the network what is not here yet.
 fn metadata(manifest: &str) -> Value {

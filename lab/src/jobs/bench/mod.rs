@@ -37,7 +37,7 @@ const SCENES: [&str; 14] = [
 ];
 /// Arguments of cargo that build the measuring program alone.
 pub(crate) const RUNNER: [&str; 7] =
-    ["--package", "lab", "--bin", "runner", "--no-default-features", "--features", "runner"];
+    ["--package", "lab", "--bin", "runner", "--no-default-features", "--features", "faer"];
 /// The largest ones, which `--quick` leaves out.
 const LARGEST: [&str; 4] = ["net-1000", "convoy-100", "tree-4095", "chain-10000"];
 

@@ -1,6 +1,7 @@
 //! The augmented Lagrangian formulations: counts, orders of elimination, phases of a step, and what teams gain.
 
 use crate::bench::clocked::Clock;
+#[cfg(feature = "faer")]
 use crate::bench::faer_beside;
 use crate::bench::lane::{Lane, Method};
 use crate::bench::race::{Runner, race};
@@ -32,6 +33,7 @@ pub(crate) fn measure<const D: usize>(
     if is_first {
         say(&order("minimum-degree", &least.counters()));
         say(&order("chosen", &chosen.counters()));
+        #[cfg(feature = "faer")]
         faer_beside::measure(prepared, &least, request);
         if prepared.scene.joints.len() >= MANY {
             cuts.extend(

@@ -6,12 +6,14 @@
 //! ours:   T = sum T_e = L D L^T,  x = T^-1 b               faer:  slot map: sum T_e into one matrix, L L^T, x = T^-1 b
 //! ```
 
+use crate::bench::distance::distance;
 use crate::bench::faer_rival::Rival;
 use crate::bench::race::{Work, race};
 use crate::bench::request::{Request, merge, say};
 use crate::bench::scenes::Prepared;
 use faer::sparse::linalg::SupernodalThreshold;
 use mbs_augmented::{Options, Penalty, Workspace, index3};
+use mbs_core::integrator::Integrator;
 use mbs_core::model::{Load, Model, State, System, Tangent, Terms};
 use mbs_core::step::Step;
 use mbs_core::{BlockSource, Cliques, SpdSolver};
@@ -65,7 +67,7 @@ fn beside<const D: usize>(
     (after, solver): (u32, &Multifrontal<f64>),
     request: &Request,
 ) {
-    let (model, rule) = (&prepared.model, prepared.rule());
+    let (model, rule) = (&prepared.model, Integrator::trapezoidal().rule(prepared.dt));
     let (terms, penalty) = terms(prepared, state);
     let tangent = Tangent {
         stiffness: 1.0 / rule.acceleration,
@@ -155,23 +157,5 @@ impl BlockSource<f64> for Given {
     /// Right-hand sides are not assembled here.
     fn write_residual(&self, _: usize, residual: &mut [f64]) {
         residual.fill(0.0);
-    }
-}
-
-/// Largest difference of two vectors over the largest number of the first.
-fn distance(a: &[f64], b: &[f64]) -> f64 {
-    let size = a.iter().fold(0.0, |most, x| x.abs().max(most));
-    let apart = a.iter().zip(b).fold(0.0, |most, (x, y)| (x - y).abs().max(most));
-    if size > 0.0 { apart / size } else { apart }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn distances_are_shares_of_the_largest_number() {
-        assert!((distance(&[1.0, -4.0], &[1.0, -3.0]) - 0.25).abs() < 1e-15);
-        assert!(distance(&[0.0], &[0.0]).abs() < 1e-15);
     }
 }

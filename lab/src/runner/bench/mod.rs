@@ -14,7 +14,11 @@ mod augmented;
 mod clocked;
 mod counted;
 mod digits;
+#[cfg(any(test, feature = "faer"))]
+mod distance;
+#[cfg(feature = "faer")]
 mod faer_beside;
+#[cfg(feature = "faer")]
 mod faer_rival;
 mod forks;
 mod lane;

@@ -1,6 +1,5 @@
 //! Scenes by name: those in `scenes/`, and large ones made by rule.
 
-use mbs_core::integrator::Integrator;
 use mbs_core::model::{Model, State};
 use mbs_core::natural::NaturalModel;
 use mbs_core::scene::Scene;
@@ -100,11 +99,6 @@ impl<const D: usize> Prepared<D> {
             "unknowns": self.model.n_unknowns(), "rows": self.model.n_constraints(),
             "elements": self.model.n_elements(), "prepared_in": self.seconds,
         })
-    }
-
-    /// Coefficients of the scene's steps.
-    pub(crate) fn rule(&self) -> mbs_core::integrator::Rule<f64> {
-        Integrator::trapezoidal().rule(self.dt)
     }
 }
 

@@ -1,12 +1,11 @@
 //! Scenes, their equilibria and eigenvalues for the tests.
 
-use faer::Mat;
 use mbs_core::model::State;
 use mbs_core::natural::NaturalModel;
 use mbs_core::scene::BodyId;
 use mbs_linear::{
     Equilibrium, EquilibriumError, Instant, Linear, LinearError, LinearOptions, Options, Saddle,
-    Workspace, equilibrium, equilibrium_near, linearise,
+    Workspace, eigenvalues, equilibrium, equilibrium_near, linearise,
 };
 use mbs_sparse::Indefinite;
 use mbs_testkit::{scene, start};
@@ -47,10 +46,9 @@ impl<const D: usize> Case<D> {
     pub(crate) fn eigenvalues(&mut self, instant: Instant) -> Vec<(f64, f64)> {
         let linear = self.linear(instant).unwrap_or_else(|e| panic!("{e}"));
         let (n, a) = (linear.order(), linear.state_matrix());
-        let a = Mat::from_fn(n, n, |i, j| a[j * n + i]);
-        let values = a.eigenvalues().expect("the eigenvalues converge");
+        let values = eigenvalues(n, &a).expect("the eigenvalues converge");
         let mut all: Vec<(f64, f64)> =
-            values.iter().filter(|x| x.im >= 0.0).map(|x| (x.re, x.im)).collect();
+            values.iter().filter(|x| x[1] >= 0.0).map(|x| (x[0], x[1])).collect();
         all.sort_by(|a, b| a.0.hypot(a.1).total_cmp(&b.0.hypot(b.1)).then(a.0.total_cmp(&b.0)));
         all
     }

@@ -1,6 +1,6 @@
 //! Time of one evaluation of accelerations: chains of 10 to 1000 bodies, in the plane and in space, and rows of four-bars.
 //!
-//! `cargo bench -p mbs-recursive`; the throughput line gives bodies (or loops) per second.
+//! `cargo bench -p lab --features benches --bench chain`; the throughput line gives bodies (or loops) per second.
 
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 use mbs_core::Real;

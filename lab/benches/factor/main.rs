@@ -8,9 +8,9 @@
 #![allow(missing_docs, reason = "the harness makes undocumented functions")]
 #![allow(clippy::print_stdout, reason = "the counts are part of the report")]
 
-#[path = "../../tests/all/common/mod.rs"]
+#[path = "../../../mbs-sparse/tests/all/common/mod.rs"]
 mod common;
-#[path = "../../../lab/src/runner/bench/faer_rival.rs"]
+#[path = "../../src/runner/bench/faer_rival.rs"]
 mod faer_rival;
 
 use common::{Saddle, Sum};

@@ -9,7 +9,7 @@
 #![allow(missing_docs, reason = "the harness makes undocumented functions")]
 #![allow(clippy::print_stdout, reason = "the counts are part of the report")]
 
-#[path = "../../../lab/src/runner/bench/faer_rival.rs"]
+#[path = "../../src/runner/bench/faer_rival.rs"]
 mod faer_rival;
 mod iteration;
 
