@@ -31,8 +31,8 @@ pub(crate) struct Arguments {
     json: bool,
 }
 
-/// What is known of a scene that passes: coordinates, constraints, rank.
-type Sizes = [usize; 3];
+/// What is known of a scene that passes: coordinates, constraints, rank; and what is to be known of it.
+type Sizes = ([usize; 3], Vec<String>);
 
 /// Why a scene does not pass: an object for programs, and the text.
 type Failure = (Value, String);
@@ -50,12 +50,16 @@ pub(crate) fn main(arguments: &Arguments) -> ExitCode {
         }
         text += &match (checked, arguments.json) {
             (checked, true) => object(&file, checked).to_string() + "\n",
-            (Ok([coordinates, constraints, rank]), false) => format!(
-                "{file}: {} of freedom ({}, {} of rank {rank})\n",
-                counted(coordinates - rank, "degree"),
-                counted(coordinates, "coordinate"),
-                counted(constraints, "constraint"),
-            ),
+            (Ok(([coordinates, constraints, rank], notes)), false) => {
+                let notes = notes.iter().map(|note| format!("note: {note}\n"));
+                format!(
+                    "{file}: {} of freedom ({}, {} of rank {rank})\n{}",
+                    counted(coordinates - rank, "degree"),
+                    counted(coordinates, "coordinate"),
+                    counted(constraints, "constraint"),
+                    notes.collect::<String>(),
+                )
+            }
             (Err(_), false) => String::new(),
         };
     }
@@ -68,16 +72,17 @@ fn check(path: &Path) -> Result<Sizes, Failure> {
     let (document, scene) = SceneArgument::new(path, &[]).read().map_err(refused)?;
     let settings = ResolvedMethod::new(&scene, &Method::default());
     settings.map_err(|error| refused(files::refusal(&error, &document)))?;
-    sizes_at_start(&scene).map_err(|error| {
+    let sizes = sizes_at_start(&scene).map_err(|error| {
         let report = error.report(0.0, &Names::new(&scene));
         (json!(report), stopped("no start", &report, &error, &document))
-    })
+    })?;
+    Ok((sizes, scene.sense_notes().map(|(_, note)| note).collect()))
 }
 
 fn object(file: &str, checked: Result<Sizes, Failure>) -> Value {
     match checked {
-        Ok([coordinates, constraints, rank]) => json!({
-            "scene": file, "completed": true, "error": null,
+        Ok(([coordinates, constraints, rank], notes)) => json!({
+            "scene": file, "completed": true, "error": null, "notes": notes,
             "coordinates": coordinates, "constraints": constraints, "constraint_rank": rank, "dof": coordinates - rank,
         }),
         Err((error, _)) => json!({ "scene": file, "completed": false, "error": error }),

@@ -1,6 +1,6 @@
 //! What to do about a fault of a scene.
 
-use crate::scene::SceneFault;
+use crate::scene::{NotDrawn, SceneFault};
 
 /// What a point mass takes.
 const POINT_TURNS: &str = "a point takes the joints `spherical` (plane: `revolute`), `distance` and `free` as their second body, forces, and \
@@ -66,6 +66,13 @@ impl SceneFault {
             Self::Apart(_) => "move `center` or the plane's `point`, or leave `plane` out",
             Self::NoMesh => "leave it out, or name two joints with parallel axes",
             Self::OffPitch(_) => "write this place, or move it along the axes",
+            Self::NotDrawn(NotDrawn::Parallel) => {
+                "write the sum as `linear`, with the sign of each factor, or a `ratio` of a gear"
+            }
+            Self::NotDrawn(NotDrawn::PitchLine) => {
+                "move `at` of the rack's joint to its pitch line, or write the sum as `linear`"
+            }
+            Self::NoCarrier { .. } => "add that joint, or write the sum as `linear`",
             Self::PressureAngle(_) => "write it in radians: 20 degrees are 0.349",
             Self::PeriodicEnds(_) => "end the table with the value that it begins with",
             Self::SumAtStart(_) => {

@@ -11,7 +11,8 @@ use crate::Real;
 use crate::laws::code::Code;
 use crate::laws::relation::Relation;
 use crate::scene::{
-    BodyId, CouplingMeasure, CouplingTerm, Curve, JointId, Motion, Number, Vector3,
+    BodyId, CouplingMeasure, CouplingTerm, Curve, Drawn, DrawnKind, JointId, Motion, Number,
+    Vector3,
 };
 use alloc::string::String;
 use alloc::vec;
@@ -35,6 +36,8 @@ pub struct Coupling<T> {
     pub motion: Option<Motion<T>>,
     /// What holds the sum.
     pub kind: CouplingKind<T>,
+    /// What its sum follows from when the scene is [resolved](crate::scene::Scene::resolve); `None`: it is meant as it is written.
+    pub drawn: Option<Drawn>,
 }
 
 /// What holds the sum of a coupling. The motion is the same with all; reactions and notes are not.
@@ -69,6 +72,7 @@ impl<T> Coupling<T> {
             value,
             motion: None,
             kind: CouplingKind::General,
+            drawn: None,
         }
     }
 
@@ -121,6 +125,7 @@ impl Coupling<Number> {
     pub fn gear(joints: [JointId; 2], teeth: [u32; 2]) -> Self {
         let [first, second] = teeth.map(f64::from);
         Self::linear([(joints[0], first), (joints[1], second)])
+            .drawn(DrawnKind::Gear { is_internal: false, has_radii: false })
     }
 
     /// A wheel inside a ring of teeth, about axes of the same sense: both turn alike, `teeth[0]` of the first for `teeth[1]` of the second.
@@ -128,18 +133,21 @@ impl Coupling<Number> {
     pub fn internal_gear(joints: [JointId; 2], teeth: [u32; 2]) -> Self {
         let [first, second] = teeth.map(f64::from);
         Self::linear([(joints[0], first), (joints[1], -second)])
+            .drawn(DrawnKind::Gear { is_internal: true, has_radii: false })
     }
 
     /// A belt over two wheels of these radii [m] about axes of the same sense, which turn alike.
     #[must_use]
     pub fn belt(joints: [JointId; 2], radii: [f64; 2]) -> Self {
         Self::linear([(joints[0], radii[0]), (joints[1], -radii[1])])
+            .drawn(DrawnKind::Belt { is_crossed: false })
     }
 
     /// A crossed belt: its wheels turn against each other.
     #[must_use]
     pub fn crossed_belt(joints: [JointId; 2], radii: [f64; 2]) -> Self {
         Self::linear([(joints[0], radii[0]), (joints[1], radii[1])])
+            .drawn(DrawnKind::Belt { is_crossed: true })
     }
 
     /// A screw in a cylindrical joint: it slides by `lead` [m] in a turn.
@@ -161,6 +169,7 @@ impl Coupling<Number> {
             CouplingTerm::of_joint(slide.0, slide.1, per_turn),
             CouplingTerm::of_joint(turn.0, turn.1, -lead),
         ])
+        .drawn(DrawnKind::Screw)
     }
 
     /// The first joint's coordinate is `factor` times the second's.
@@ -173,7 +182,7 @@ impl Coupling<Number> {
     #[must_use]
     pub fn differential([a, b, cage]: [JointId; 3], teeth: [u32; 2]) -> Self {
         let [of_a, of_b] = teeth.map(f64::from);
-        Self::linear([(a, of_a), (b, of_b), (cage, -(of_a + of_b))])
+        Self::linear([(a, of_a), (b, of_b), (cage, -(of_a + of_b))]).drawn(DrawnKind::Differential)
     }
 
     /// A line of constant length over points of bodies [m], without friction: it pulls and pushes.
@@ -194,7 +203,7 @@ impl Coupling<Number> {
     /// A rack: the slide of the second joint is `radius` [m] times the angle of the first.
     #[must_use]
     pub fn rack([pinion, rack]: [JointId; 2], radius: f64) -> Self {
-        Self::linear([(rack, 1.0), (pinion, -radius)])
+        Self::linear([(rack, 1.0), (pinion, -radius)]).drawn(DrawnKind::Rack)
     }
 
     /// The second joint's coordinate is a curve of the first's.
@@ -210,6 +219,20 @@ impl Coupling<Number> {
     pub fn meshing_at(mut self, at: impl Into<Vector3>, pressure_angle: impl Into<Number>) -> Self {
         let pressure_angle = pressure_angle.into();
         self.kind = CouplingKind::Mesh(Mesh { at: at.into().0, pressure_angle });
+        self
+    }
+
+    fn drawn(mut self, kind: DrawnKind) -> Self {
+        self.drawn = Some(kind.drawn());
+        self
+    }
+
+    /// The same coupling, which is known to be meant as drawn: no run notes that its sum is another one than in version 0.1.
+    #[must_use]
+    pub fn as_drawn(mut self) -> Self {
+        if let Some(drawn) = &mut self.drawn {
+            drawn.is_stated = true;
+        }
         self
     }
 

@@ -1,6 +1,6 @@
 //! What can be wrong with a scene, and what to do about it.
 
-use super::{Dimension, JointKind};
+use super::{BodyId, Dimension, JointKind, NotDrawn};
 use crate::laws::relation::RelationFault;
 use crate::scene::SignalBreak;
 use core::fmt::{self, Display, Formatter};
@@ -117,6 +117,15 @@ pub enum SceneFault {
     NoMesh,
     /// A pitch point that does not divide the way between the axes as the factors do; where it is [m].
     OffPitch([f64; 3]),
+    /// A coupling that says that it is drawn, but is not.
+    NotDrawn(NotDrawn),
+    /// No body carries both parts of a drawn coupling.
+    NoCarrier {
+        /// The bodies that carry one each.
+        bodies: [BodyId; 2],
+        /// The joint about whose axis one would have to turn on the other.
+        about: usize,
+    },
     /// A pressure angle that is not from 0 to below a quarter turn [rad].
     PressureAngle(f64),
     /// The start values of its joints do not give the sum; what they give, and what is needed.
@@ -310,6 +319,18 @@ impl SceneFault {
             Self::OffPitch([x, y, z]) => write!(
                 f,
                 "is not where wheels with these factors touch, which is at [{x}, {y}, {z}]"
+            ),
+            Self::NotDrawn(NotDrawn::Parallel) => {
+                write!(f, "has axes that are not parallel: what is drawn gives them no sense")
+            }
+            Self::NotDrawn(NotDrawn::PitchLine) => write!(
+                f,
+                "has its rack on the pinion's axis: what is drawn does not say on which side its pitch line is"
+            ),
+            Self::NoCarrier { about, .. } => write!(
+                f,
+                "leads from two bodies, of which none turns on the other about the axis of joint {}: no body carries both axes",
+                about + 1
             ),
             Self::PressureAngle(angle) => {
                 write!(f, "is {angle} rad, but must be from 0 to below a quarter turn")

@@ -26,6 +26,8 @@ mod curve;
 mod data;
 mod dimension;
 #[cfg(feature = "alloc")]
+mod drawn;
+#[cfg(feature = "alloc")]
 mod effect;
 #[cfg(feature = "alloc")]
 mod error;
@@ -80,6 +82,8 @@ pub use data::{
     Body, Guide, Inertia, InitialCondition, InitialTarget, Joint, JointLimits, Motion, Start,
 };
 pub use dimension::Dimension;
+#[cfg(feature = "alloc")]
+pub use drawn::{Drawn, DrawnKind, NotDrawn, Sense};
 #[cfg(feature = "alloc")]
 pub use effect::{
     AxisFrame, CalspanCoefficients, LongitudinalSlip, PolynomialPiece, Road, RoadFeature, Signal,

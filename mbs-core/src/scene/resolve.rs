@@ -40,10 +40,12 @@ impl Scene<Number> {
             if is_missing { not_a_number } else { x.value() }
         })?;
         scene.name_points();
+        let drawn = super::drawn::fill(&mut scene);
         // may be assumed
         scene.duration = self.duration.value();
         match scene.check() {
             Ok(()) => {
+                drawn?;
                 super::open::fill(self, &mut scene)?;
                 Ok(scene)
             }
@@ -252,6 +254,7 @@ impl<T> Coupling<T> {
             terms: self.terms.iter().map(|term| term.map(f)).collect(),
             relation: self.relation.clone(),
             value: f(&self.value),
+            drawn: self.drawn,
             motion: self.motion.as_ref().map(|motion| motion.map(f)),
             kind: match &self.kind {
                 CouplingKind::General => CouplingKind::General,

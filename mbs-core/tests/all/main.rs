@@ -58,4 +58,5 @@ mod natural {
 mod scene {
     mod align;
     mod check;
+    mod drawn;
 }

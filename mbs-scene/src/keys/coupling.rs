@@ -32,13 +32,22 @@ fn joints(n: usize, meaning: &str) -> Key {
     need("joints", Several(Referent::Joint, n), "", meaning)
 }
 
+/// Whether the sum is meant as it is drawn.
+fn sense() -> Key {
+    let meaning = "Says that the sense by places and axes is meant: nothing is noted where version 0.1 took another.";
+    may("sense", Word(vec!["drawn"]), "", "as drawn, with a note", meaning)
+}
+
 fn rack() -> KeyTable {
     let radius = "Pitch radius of the pinion; negative for the other sense.";
     let keys = vec![
-        joints(2, "Turn of the pinion, slide of the rack."),
+        joints(2, "Turn of the pinion, slide of the rack with `at` on its pitch line."),
         need("radius", Number, "m", radius),
+        sense(),
     ];
-    listed("coupling", "A rack on a pinion: s - radius a = 0.", keys)
+    let meaning =
+        "A rack on a pinion: at the pitch point both have the same velocity along the rack.";
+    listed("coupling", meaning, keys)
 }
 
 fn belt() -> KeyTable {
@@ -47,8 +56,10 @@ fn belt() -> KeyTable {
         joints(2, "Turns of the wheels."),
         need("radii", Numbers(2), "m", "Radii of the wheels."),
         may("crossed", Flag, "", "false", crossed),
+        sense(),
     ];
-    listed("coupling", "A belt or chain on two wheels: r1 a1 - r2 a2 = 0.", keys)
+    let meaning = "A belt or chain on two wheels: r1 w1 = r2 w2 in the body that carries both.";
+    listed("coupling", meaning, keys)
 }
 
 fn mimic() -> KeyTable {
@@ -65,9 +76,9 @@ fn differential() -> KeyTable {
     let keys = vec![
         joints(3, "Turns of the two wheels, and of the cage."),
         may("teeth", Counts(2), "", "[1, 1]", "Teeth of the two wheels."),
+        sense(),
     ];
-    let meaning =
-        "Wheels on a cage: Na (a - c) + Nb (b - c) = 0. A planetary set has sun, ring and carrier.";
+    let meaning = "Wheels on a cage: Na (wa - wc) + Nb (wb - wc) = 0 about its axis. A planetary set has sun, ring and carrier.";
     listed("coupling", meaning, keys)
 }
 
@@ -92,7 +103,9 @@ fn gear() -> KeyTable {
         ),
     ];
     keys.extend(mesh());
-    listed("coupling", "Wheels in mesh: N1 a1 + N2 a2 = 0, internal N1 a1 - N2 a2 = 0.", keys)
+    keys.push(sense());
+    let meaning = "Wheels in mesh: N1 w1 + N2 w2 = 0, internal N1 w1 - N2 w2 = 0, in the body that carries both.";
+    listed("coupling", meaning, keys)
 }
 
 /// Where teeth touch.
@@ -118,7 +131,7 @@ fn mesh() -> [Key; 2] {
 fn screw() -> KeyTable {
     listed(
         "coupling",
-        "A screw: s - lead/(2 pi) a = 0.",
+        "A screw: s - lead/(2 pi) a = 0 along one sense of the axis.",
         vec![
             may(
                 "joint",
@@ -135,6 +148,7 @@ fn screw() -> KeyTable {
                 "The turn, the slide.",
             ),
             need("lead", Number, "m", "Slide per turn."),
+            sense(),
         ],
     )
 }

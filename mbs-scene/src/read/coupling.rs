@@ -18,8 +18,8 @@ use crate::read::fields::{Context, Fields, Read};
 use crate::read::motion::read_motion;
 use crate::read::tree::{Item, Node};
 use mbs_core::scene::{
-    Axis, BallAngle, Coupling, CouplingKind, CouplingMeasure, CouplingTerm, Curve, Freedom, Joint,
-    JointId, Mesh, Motion, Number,
+    Axis, BallAngle, Coupling, CouplingKind, CouplingMeasure, CouplingTerm, Curve, Drawn,
+    DrawnKind, Freedom, Joint, JointId, Mesh, Motion, Number,
 };
 
 /// Most teeth of a wheel [-]. Chosen, not tuned: more is no count.
@@ -74,12 +74,42 @@ pub(crate) fn read<'a>(
         }
     };
     let name = fields.name_or("coupling", index)?;
+    let drawn = read_drawn(kind, fields)?;
     let kind = match (*kind, read_mesh(fields)?) {
         ("rope", _) => CouplingKind::Rope,
         (_, Some(mesh)) => CouplingKind::Mesh(mesh),
         _ => CouplingKind::General,
     };
-    Ok(Coupling { name, terms, relation: None, value, motion, kind })
+    Ok(Coupling { name, terms, relation: None, value, motion, kind, drawn })
+}
+
+/// Whether the sum follows from places and axes, and whether the file says so; `None`: it is what the file says.
+fn read_drawn(kind: &str, fields: &Fields<'_>) -> Read<Option<Drawn>> {
+    let kind = match kind {
+        "gear" if fields.get("ratio").is_some() => {
+            fields.exclusive("ratio", "sense")?;
+            return Ok(None);
+        }
+        "gear" => DrawnKind::Gear {
+            is_internal: has_word(fields, "mesh", "internal")?,
+            has_radii: fields.get("radii").is_some(),
+        },
+        "belt" => DrawnKind::Belt { is_crossed: fields.flag("crossed", false)? },
+        "rack" => DrawnKind::Rack,
+        "screw" => DrawnKind::Screw,
+        "differential" => DrawnKind::Differential,
+        _ => return Ok(None),
+    };
+    let is_stated = match fields.get("sense").map(|_| fields.word("sense")).transpose()? {
+        None => false,
+        Some(("drawn", _)) => true,
+        Some(word) => return fields.unknown_word("sense", word, &["drawn"]),
+    };
+    Ok(Some(Drawn { is_stated, ..kind.drawn() }))
+}
+
+fn has_word(fields: &Fields<'_>, key: &'static str, wanted: &str) -> Read<bool> {
+    Ok(fields.get(key).is_some() && fields.word(key)?.0 == wanted)
 }
 
 /// The pressure angle of teeth that name none [rad]: 20 degrees, that of standard teeth (ISO 53).

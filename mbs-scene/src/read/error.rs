@@ -124,6 +124,13 @@ pub enum ReadFault {
         /// [`SceneFault::PointTurns`] or [`SceneFault::OffPoint`].
         fault: SceneFault,
     },
+    /// No body carries both parts of a drawn coupling.
+    NoCarrier {
+        /// The bodies that carry one each.
+        bodies: [String; 2],
+        /// The joint about whose axis one would have to turn on the other.
+        joint: String,
+    },
     /// The ground where a moving body is needed.
     GroundDoesNotMove,
     /// `frame = "body"` in an output that is of no body.
@@ -313,6 +320,10 @@ impl Display for ReadFault {
                 write!(f, "`{name}` is a point: this place is {by:.6e} m off it")
             }
             Self::OfPoint { name, .. } => write!(f, "`{name}` is a point: it has no orientation"),
+            Self::NoCarrier { bodies: [one, other], joint } => write!(
+                f,
+                "no body carries both axes: `{other}` does not turn on `{one}` about the axis of `{joint}`"
+            ),
             Self::GroundDoesNotMove => write!(f, "the ground does not move"),
             Self::NoOwnBody => write!(f, "this output is of no body, whose axes `body` would be"),
             Self::WrongType { expected, found } => write!(f, "expected {expected}, found {found}"),
@@ -418,6 +429,9 @@ impl ReadFault {
             Self::SignalCircle { .. } => SceneFault::SignalCircle.advice().to_owned(),
             Self::SignalNotSmooth { remedy, .. } => (*remedy).to_owned(),
             Self::OfPoint { fault, .. } => fault.advice().to_owned(),
+            Self::NoCarrier { bodies: [one, other], joint } => format!(
+                "add a joint between `{one}` and `{other}` on the axis of `{joint}`, or write the sum as `linear`"
+            ),
             Self::GuidedJoint { name } => format!("a guide moves a joint: write `joint = \"{name}\"`"),
             Self::GroundDoesNotMove => "name a body".to_owned(),
             Self::NoOwnBody => "write the name of the body whose axes are meant, or `global`".to_owned(),

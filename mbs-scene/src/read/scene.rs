@@ -12,8 +12,8 @@ use crate::read::{
 };
 use mbs_core::Real;
 use mbs_core::scene::{
-    Body, Dimension, Entry, Guide, Joint, Number, Scene, SceneError, SceneFault, SolverTable,
-    Start, signal_order,
+    Body, BodyId, Dimension, Entry, Guide, Joint, Number, Scene, SceneError, SceneFault,
+    SolverTable, Start, signal_order,
 };
 use std::collections::BTreeMap;
 
@@ -236,6 +236,20 @@ impl SceneFile {
             SceneFault::PointTurns(body) | SceneFault::OffPoint { body, .. } => {
                 let name = self.name("body", body);
                 name.map(|name| ReadFault::OfPoint { name, fault: error.fault })
+            }
+            SceneFault::NoCarrier { bodies, about } => {
+                let body = |body: BodyId| match body.index() {
+                    None => Some("ground".to_owned()),
+                    Some(body) => self.name("body", body),
+                };
+                let joint = self.name("joint", about);
+                let bodies = [body(bodies[0]), body(bodies[1])];
+                match (bodies, joint) {
+                    ([Some(one), Some(other)], Some(joint)) => {
+                        Some(ReadFault::NoCarrier { bodies: [one, other], joint })
+                    }
+                    _ => None,
+                }
             }
             _ => None,
         };

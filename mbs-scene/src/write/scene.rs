@@ -2,6 +2,7 @@
 //!
 //! Every number is written, zeros too, so that each has a path; a default that the reader computes from other keys is left out.
 
+mod coupling;
 mod effect;
 mod frame;
 mod output;
@@ -16,8 +17,8 @@ use crate::read::SceneFile;
 use crate::read::tree::{Item, Member, Node};
 use core::fmt::{self, Display, Formatter};
 use mbs_core::scene::{
-    Body, BodyId, Coupling, CouplingKind, CouplingMeasure, CouplingTerm, Curve, Dimension, Guide,
-    Inertia, InitialCondition, InitialTarget, Joint, JointId, JointLimits, Number, Scene, Start,
+    Body, BodyId, CouplingMeasure, CouplingTerm, Curve, Dimension, Guide, Inertia,
+    InitialCondition, InitialTarget, Joint, JointId, JointLimits, Number, Scene, Start,
 };
 
 /// A scene that has no text.
@@ -358,27 +359,6 @@ impl Writer<'_> {
             keys.push("coordinate", Node::Number(guide.number.to_string()));
         }
         self.motion(&mut keys, &guide.law)?;
-        Ok(keys)
-    }
-
-    /// Any coupling is written as the sum that it is: of a rope, or of anything; a relation is code.
-    fn coupling(self, coupling: &Coupling<Number>) -> Result<Keys, WriteError> {
-        if coupling.relation.is_some() {
-            return Err(WriteError::InCode(format!("coupling `{}`", coupling.name)));
-        }
-        let mut keys = Keys::default();
-        keys.push("name", coupling.name.as_str());
-        let is_rope = coupling.kind == CouplingKind::Rope;
-        keys.push("kind", if is_rope { "rope" } else { "linear" });
-        keys.push("terms", self.terms(&coupling.terms)?);
-        keys.push("value", &coupling.value);
-        if let CouplingKind::Mesh(mesh) = &coupling.kind {
-            keys.push("at", self.vector(&mesh.at));
-            keys.push("pressure_angle", &mesh.pressure_angle);
-        }
-        if let Some(law) = &coupling.motion {
-            self.motion(&mut keys, law)?;
-        }
         Ok(keys)
     }
 

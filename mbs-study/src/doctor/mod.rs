@@ -137,6 +137,7 @@ fn in_space<const D: usize>(
     units::findings(scene, &mut findings);
     places::findings(scene, &mut findings);
     start::tilts(scene, &mut findings);
+    start::senses(scene, &mut findings);
     let is_dependent = joint_level.sets.iter().any(|set| set.is_exact)
         || natural.is_some_and(|[_, constraints, rank]| rank < constraints);
     let (mut methods, mut motion, mut start) = (Vec::new(), None, None);

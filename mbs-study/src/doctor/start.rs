@@ -46,6 +46,14 @@ pub(super) fn tilts(scene: &Scene<f64>, findings: &mut Vec<Finding>) {
     }
 }
 
+/// Couplings whose sense is not that of version 0.1, or is not drawn.
+pub(super) fn senses(scene: &Scene<f64>, findings: &mut Vec<Finding>) {
+    for (coupling, message) in scene.sense_notes() {
+        let finding = Finding::new(Severity::Note, (Topic::Places, "coupling-sense"), message, "");
+        findings.push(finding.at(Entry::Coupling(coupling.index()), "kind"));
+    }
+}
+
 /// Largest displacement that is rounding of the file's numbers, relative to the scene's length [-]: they have six digits or more.
 const ROUNDING: f64 = 1e-6;
 

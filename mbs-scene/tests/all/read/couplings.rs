@@ -43,7 +43,7 @@ fn sum(coupling: &str) -> (Vec<(f64, usize, usize)>, f64) {
 fn every_kind_of_coupling_is_the_sum_that_it_says() {
     let tau = core::f64::consts::TAU;
     for (coupling, terms, value) in [
-        // about axes of opposite sense wheels in external mesh turn alike
+        // about axes of opposite sense the angles of wheels in external mesh grow alike, those of wheels on a belt do not
         (
             "kind = \"gear\"\njoints = [\"a\", \"b\"]\nteeth = [20, 40]",
             vec![(20.0, 0, 0), (-40.0, 1, 0)],
@@ -61,12 +61,12 @@ fn every_kind_of_coupling_is_the_sum_that_it_says() {
         ),
         (
             "kind = \"belt\"\njoints = [\"a\", \"b\"]\nradii = [0.1, 0.2]",
-            vec![(0.1, 0, 0), (-0.2, 1, 0)],
+            vec![(0.1, 0, 0), (0.2, 1, 0)],
             0.0,
         ),
         (
             "kind = \"belt\"\njoints = [\"a\", \"b\"]\nradii = [0.1, 0.2]\ncrossed = true",
-            vec![(0.1, 0, 0), (0.2, 1, 0)],
+            vec![(0.1, 0, 0), (-0.2, 1, 0)],
             0.0,
         ),
         (
@@ -99,6 +99,12 @@ fn every_kind_of_coupling_is_the_sum_that_it_says() {
 fn a_written_coupling_reads_as_the_same_sum() {
     for coupling in [
         "kind = \"gear\"\njoints = [\"a\", \"b\"]\nteeth = [20, 40]",
+        "kind = \"gear\"\njoints = [\"a\", \"b\"]\nradii = [0.2, 0.4]\nmesh = \"internal\"\nsense = \"drawn\"",
+        "kind = \"belt\"\njoints = [\"a\", \"b\"]\nradii = [0.1, 0.2]",
+        "kind = \"rack\"\njoints = [\"a\", \"c\"]\nradius = -0.25\nsense = \"drawn\"",
+        "kind = \"screw\"\njoint = \"c\"\nlead = 0.5",
+        "kind = \"screw\"\njoints = [\"a\", \"c\"]\nlead = -0.5",
+        "kind = \"differential\"\njoints = [\"a\", \"b\", \"c\"]\nteeth = [20, 30]",
         "kind = \"cam\"\njoints = [\"a\", \"b\"]\ntable = [[0.0, 0.0], [1.0, 0.5], [2.0, 0.0]]\nperiodic = true",
         "kind = \"cam\"\njoints = [\"a\", \"b\"]\ncoefficients = [0.0, 0.3, 0.1]",
         "kind = \"rope\"\npoints = [{ body = \"w\", at = [0.0, 1.0, 0.0] }, { body = \"ground\", at = [0.0, 3.0, 0.0] }]\nlength = 2.5\ndrum = { joint = \"b\", radius = 0.1 }",
@@ -135,7 +141,7 @@ fn what_couples_nothing_is_refused_with_its_place() {
             "kind = \"gear\"\njoints = [\"a\", \"b\"]\nradius = 1",
             "41:1",
             "`radius` has no meaning here",
-            "remove it; keys: name, kind, joints, teeth, radii, ratio, mesh, at, pressure_angle",
+            "remove it; keys: name, kind, joints, teeth, radii, ratio, mesh, at, pressure_angle, sense",
         ),
         (
             "kind = \"screw\"\njoint = \"c\"\nlead = 0",

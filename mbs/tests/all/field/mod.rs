@@ -2,6 +2,7 @@
 //! programs. Each stands for a kind: the tests beside it are others of the kind.
 
 mod analyses;
+mod couplings;
 mod formulations;
 mod laws;
 mod outputs;

@@ -1,0 +1,143 @@
+//! `[[coupling]]`: what is drawn by its kind, everything else as the sum that it is.
+
+use super::{Keys, Node, WriteError, Writer, list};
+use mbs_core::scene::{
+    Coupling, CouplingKind, CouplingTerm, Drawn, DrawnKind, Freedom, JointId, Number,
+};
+
+/// Coordinates of joints with their factors.
+type Coordinates<'a> = [(JointId, usize, &'a Number)];
+
+impl Writer<'_> {
+    /// A relation is code. What no kind has keys for, such as gears that are driven in code, is written as a sum.
+    pub(super) fn coupling(self, coupling: &Coupling<Number>) -> Result<Keys, WriteError> {
+        let in_code = || WriteError::InCode(format!("coupling `{}`", coupling.name));
+        if coupling.relation.is_some() {
+            return Err(in_code());
+        }
+        let mut keys = Keys::default();
+        keys.push("name", coupling.name.as_str());
+        let as_drawn = match coupling.drawn {
+            Some(drawn) => self.drawn(coupling, drawn)?,
+            None => None,
+        };
+        if let Some(drawn) = as_drawn {
+            keys.0.extend(drawn.0);
+        } else {
+            let is_rope = coupling.kind == CouplingKind::Rope;
+            keys.push("kind", if is_rope { "rope" } else { "linear" });
+            let terms = match coupling.drawn {
+                Some(_) => self.found(coupling).ok_or_else(in_code)?,
+                None => coupling.terms.clone(),
+            };
+            keys.push("terms", self.terms(&terms)?);
+            keys.push("value", &coupling.value);
+        }
+        if let CouplingKind::Mesh(mesh) = &coupling.kind {
+            keys.push("at", self.vector(&mesh.at));
+            keys.push("pressure_angle", &mesh.pressure_angle);
+        }
+        if let Some(law) = &coupling.motion {
+            self.motion(&mut keys, law)?;
+        }
+        Ok(keys)
+    }
+
+    /// The keys of what is drawn; `None`: its kind has no keys for it.
+    fn drawn(self, coupling: &Coupling<Number>, drawn: Drawn) -> Result<Option<Keys>, WriteError> {
+        let mut keys = Keys::default();
+        let of =
+            |term: &CouplingTerm<Number>| term.of.coordinate().is_some() && term.curve.is_none();
+        if !coupling.value.is_zero() || coupling.is_driven() || !coupling.terms.iter().all(of) {
+            return Ok(None);
+        }
+        let named = coupling.terms.iter().filter_map(|term| {
+            let (joint, number) = term.of.coordinate()?;
+            Some((joint, number, &term.factor))
+        });
+        let named: Vec<_> = named.collect();
+        keys.push("kind", drawn.kind.name());
+        let written = match (drawn.kind, &named[..]) {
+            (DrawnKind::Gear { is_internal, has_radii }, wheels @ [one, other]) => {
+                self.joints(wheels, &mut keys)?;
+                let sizes = list([one.2, other.2].map(positive));
+                keys.push(if has_radii { "radii" } else { "teeth" }, sizes);
+                if is_internal {
+                    keys.push("mesh", "internal");
+                }
+                self.takes(wheels, true)
+            }
+            (DrawnKind::Belt { is_crossed }, wheels @ [one, other]) => {
+                self.joints(wheels, &mut keys)?;
+                keys.push("radii", list([one.2, other.2].map(positive)));
+                keys.push("crossed", Node::Bool(is_crossed));
+                self.takes(wheels, true)
+            }
+            (DrawnKind::Rack, &[rack, pinion]) => {
+                self.joints(&[pinion, rack], &mut keys)?;
+                keys.push("radius", other_sign(pinion.2));
+                self.takes(&[pinion], true) && self.takes(&[rack], false)
+            }
+            (DrawnKind::Screw, &[slide, turn]) => {
+                if slide.0 == turn.0 {
+                    keys.push("joint", self.joint_name(turn.0)?);
+                } else {
+                    self.joints(&[turn, slide], &mut keys)?;
+                }
+                keys.push("lead", other_sign(turn.2));
+                self.takes(&[turn], true) && self.takes(&[slide], false)
+            }
+            (DrawnKind::Differential, all @ [a, b, _]) => {
+                self.joints(all, &mut keys)?;
+                keys.push("teeth", list([a.2, b.2].map(positive)));
+                self.takes(all, true)
+            }
+            _ => false,
+        };
+        if drawn.is_stated {
+            keys.push("sense", "drawn");
+        }
+        Ok(written.then_some(keys))
+    }
+
+    /// The terms of the sum that is drawn, in doubles; `None`: the scene is none.
+    fn found(self, coupling: &Coupling<Number>) -> Option<Vec<CouplingTerm<Number>>> {
+        let index = self.scene.couplings.iter().position(|other| core::ptr::eq(other, coupling))?;
+        let resolved = self.scene.resolve::<f64>().ok()?;
+        let term = |term: &CouplingTerm<f64>| {
+            let (joint, number) = term.of.coordinate()?;
+            Some(CouplingTerm::of_joint(joint, number, term.factor))
+        };
+        resolved.couplings[index].terms.iter().map(term).collect()
+    }
+
+    fn joints(self, named: &Coordinates<'_>, keys: &mut Keys) -> Result<(), WriteError> {
+        let names: Result<Vec<_>, _> = named.iter().map(|named| self.joint_name(named.0)).collect();
+        keys.push("joints", list(names?));
+        Ok(())
+    }
+
+    /// Does a kind that names the joint take this coordinate: its only turn, or its only slide?
+    fn takes(self, named: &Coordinates<'_>, is_turn: bool) -> bool {
+        named.iter().all(|&(joint, number, _)| {
+            let Some(joint) = self.scene.joints.get(joint.index()) else { return false };
+            let meant = joint.kind.numbered(self.scene.dimension).filter(|(_, freedom)| {
+                let turns = matches!(freedom, Freedom::Turn(_));
+                *freedom != Freedom::Ball && turns == is_turn
+            });
+            meant.map(|(number, _)| number).eq([number])
+        })
+    }
+}
+
+/// The digits without their sign; of a count without a decimal point.
+fn positive(number: &Number) -> Node {
+    let text = number.text();
+    let text = text.strip_prefix('-').unwrap_or(&text);
+    Node::Number(text.strip_suffix(".0").unwrap_or(text).to_owned())
+}
+
+fn other_sign(number: &Number) -> Node {
+    let text = number.text();
+    Node::Number(text.strip_prefix('-').map_or_else(|| format!("-{text}"), str::to_owned))
+}

@@ -1,0 +1,174 @@
+//! Couplings mean what is drawn: neither the order of a joint's bodies nor the sense of an axis changes it.
+
+use super::{field, read, text};
+use crate::common::{run, run_in};
+use mbs::core::scene::Scene;
+use mbs::{FormulationKind, Method, Outcome};
+
+/// Values of the last row.
+fn last(outcome: &Outcome) -> &[f64] {
+    assert!(outcome.error.is_none(), "{:?}", outcome.error);
+    &outcome.rows().last().expect("the start is recorded").1
+}
+
+/// Steps whose error is far below the digits that are compared.
+fn exact() -> Method {
+    Method {
+        formulation: Some("recursive".into()),
+        integrator: Some("rk853".into()),
+        tolerance: Some(1e-11),
+        ..Method::default()
+    }
+}
+
+/// Asserts values of columns at the end of a run, in every formulation.
+fn ends_with(name: &str, scene: &Scene<f64>, values: &[(usize, f64)]) {
+    let found = run(scene, &exact());
+    for &(column, right) in values {
+        let found = last(&found)[column];
+        assert!((found - right).abs() < 1e-9 * right.abs(), "{name}: {found}, {right}");
+    }
+    for formulation in FormulationKind::ALL.map(FormulationKind::name) {
+        let [coarse, fine] = [1e-3, 5e-4].map(|step| run_in(scene, formulation, Some(step)));
+        for &(column, right) in values {
+            let (coarse, fine) = (last(&coarse)[column], last(&fine)[column]);
+            // of order 1.9 or more
+            let by_the_rule = 1.37 * (coarse - fine).abs() + 1e-9 * right.abs();
+            assert!(
+                (coarse - right).abs() < by_the_rule,
+                "{name}, {formulation}: {coarse}, {right}"
+            );
+        }
+    }
+}
+
+/// Torque over inertia that the first wheel feels: 0.7 N m over 0.4 s on 0.02 + (2/3)² 0.04 kg m².
+const WHEELS: [f64; 2] = [7.411_764_705_882_353, 4.941_176_470_588_235];
+
+#[test]
+fn wheels_turn_as_they_are_drawn_whatever_the_order_of_bodies_and_the_sense_of_axes() {
+    let [one, two] = WHEELS;
+    let gear = text("22-gear-joint-wheel-first");
+    let belt = text("22-belt-axes-opposite");
+    for bodies in [r#"["two", "ground"]"#, r#"["ground", "two"]"#] {
+        let gear = gear.replace(r#"["two", "ground"]"#, bodies);
+        ends_with("gear", &read(&gear, "gear"), &[(0, one), (1, -two)]);
+        for axis in ["[0.0, 0.0, -1.0]", "[0.0, 0.0, 3.0]"] {
+            let belt = belt.replace("[0.0, 0.0, -1.0]", axis);
+            let belt = belt.replace(r#"["ground", "two"]"#, bodies);
+            ends_with("belt", &read(&belt, "belt"), &[(2, one), (5, two)]);
+            let crossed = belt.replace("radii =", "crossed = true\nradii =");
+            ends_with("crossed belt", &read(&crossed, "belt"), &[(2, one), (5, -two)]);
+        }
+    }
+}
+
+#[test]
+fn half_shafts_turn_alike_with_axes_outward_or_inward() {
+    let outward = text("22-differential-axes-outward");
+    let all = [(1, 12.5), (4, 12.5), (7, 12.5)];
+    ends_with("outward", &read(&outward, "differential"), &all);
+    let alike = outward.replace("axis = [0.0, -1.0, 0.0]", "axis = [0.0, 1.0, 0.0]");
+    ends_with("alike", &read(&alike, "differential"), &all);
+    let swapped = outward.replace(r#"["ground", "cage"]"#, r#"["cage", "ground"]"#);
+    ends_with("swapped", &read(&swapped, "differential"), &all);
+}
+
+/// r1 (s − c) + r2 (p − c) = 0 by the equations of sun, arm and planet.
+#[test]
+fn a_planet_on_an_arm_rolls_on_the_sun_that_turns_on_the_ground() {
+    let right = [2.127_659_574_468_085, 4.113_475_177_304_965, 7.092_198_581_560_283];
+    let right: Vec<(usize, f64)> = right.into_iter().enumerate().collect();
+    ends_with("arm", &field("22-gear-on-an-arm"), &right);
+    let swapped = text("22-gear-on-an-arm").replace(r#"["ground", "arm"]"#, r#"["arm", "ground"]"#);
+    ends_with("arm swapped", &read(&swapped, "arm"), &right);
+}
+
+#[test]
+fn another_sense_than_that_of_version_0_1_is_noted_until_the_scene_says_that_it_is_meant() {
+    let wheel_first = text("22-gear-joint-wheel-first");
+    let notes = |text: &str| {
+        let outcome = run_in(&read(text, "gear"), "recursive", Some(1e-3));
+        outcome.notes().iter().filter(|note| note.contains("sense")).cloned().collect::<Vec<_>>()
+    };
+    let found = notes(&wheel_first);
+    assert!(found.len() == 1 && found[0].contains("gear `mesh`"), "{found:?}");
+    assert!(notes(&wheel_first.replace("teeth =", "sense = \"drawn\"\nteeth =")).is_empty());
+    assert!(notes(&wheel_first.replace(r#"["two", "ground"]"#, r#"["ground", "two"]"#)).is_empty());
+    let linear = "kind = \"linear\"\nterms = [{ joint = \"one\", factor = 20 }, { joint = \"two\", factor = 30 }]";
+    let sum = wheel_first
+        .replace("kind = \"gear\"\njoints = [\"one\", \"two\"]\nteeth = [20, 30]", linear);
+    assert!(notes(&sum).is_empty());
+    // as in version 0.1
+    ends_with("sum", &read(&sum, "sum"), &[(0, WHEELS[0]), (1, WHEELS[1])]);
+}
+
+#[test]
+fn wheels_without_a_body_that_carries_both_are_refused_with_the_joint_to_add() {
+    let off = text("22-gear-on-an-arm").replace(
+        "name = \"arm\"\nkind = \"revolute\"\nbodies = [\"ground\", \"arm\"]\nat = [0.0, 0.0]",
+        "name = \"arm\"\nkind = \"revolute\"\nbodies = [\"ground\", \"arm\"]\nat = [0.01, 0.0]",
+    );
+    let document = mbs::scene_file::SceneFile::parse(&off, "arm.toml").expect("a file");
+    let refused = document.scene::<f64>().expect_err("no carrier").render();
+    for part in ["`arm`", "`ground`", "`sun`", "add a joint", "joints = "] {
+        assert!(refused.contains(part), "{part}: {refused}");
+    }
+}
+
+#[test]
+fn a_rack_on_the_axis_of_its_pinion_is_taken_as_written_with_a_note_or_refused() {
+    let rack = r#"
+[scene]
+dimension = 2
+duration = 0.1
+[[body]]
+name = "pinion"
+mass = 1.0
+center = [0.0, 0.0]
+inertia = 0.1
+[[body]]
+name = "rack"
+mass = 1.0
+center = [0.0, 0.0]
+inertia = 0.1
+[[joint]]
+name = "turn"
+kind = "revolute"
+bodies = ["ground", "pinion"]
+at = [0.0, 0.0]
+[[joint]]
+name = "slide"
+kind = "prismatic"
+bodies = ["ground", "rack"]
+at = [0.3, 0.0]
+axis = [1.0, 0.0]
+[[coupling]]
+kind = "rack"
+joints = ["turn", "slide"]
+radius = 0.2
+[[initial]]
+joint = "turn"
+rate = 1.0
+[[output]]
+name = "slide"
+joint = "slide"
+"#;
+    let slid = |text: &str| {
+        let outcome = run_in(&read(text, "rack"), "recursive", Some(1e-3));
+        let is_noted = outcome.notes().iter().any(|note| note.contains("rack `coupling-1`"));
+        (last(&outcome)[0], is_noted)
+    };
+    let (way, is_noted) = slid(rack);
+    assert!((way - 0.02).abs() < 1e-12 && is_noted);
+    // above the axis its teeth run against the sense of the turn, below it with it
+    for (at, right) in [("[0.3, 0.2]", -0.02), ("[0.3, -0.2]", 0.02)] {
+        let (way, is_noted) = slid(&rack.replace("[0.3, 0.0]", at));
+        assert!((way - right).abs() < 1e-12, "{at}: {way}");
+        assert_eq!(is_noted, right < 0.0);
+    }
+    let stated = rack.replace("radius = 0.2", "radius = 0.2\nsense = \"drawn\"");
+    let document = mbs::scene_file::SceneFile::parse(&stated, "rack.toml").expect("a file");
+    let refused = document.scene::<f64>().expect_err("no pitch line").render();
+    assert!(refused.contains("pitch line"), "{refused}");
+}
