@@ -141,6 +141,16 @@ impl<T: Real, const D: usize> CoupledSum<T, D> {
         })
     }
 
+    /// The length of all its lines [m].
+    pub(super) fn length(&self, state: &State<T>) -> T {
+        let lines =
+            self.terms.iter().flat_map(|term| &term.parts).filter_map(|part| match &part.of {
+                PartKind::Length { points, .. } => Some(along(points, state).1),
+                _ => None,
+            });
+        lines.fold(T::ZERO, |sum, length| sum + length)
+    }
+
     /// Hands out what it does to the bodies at an effort.
     pub(super) fn apply(&self, effort: T, state: &State<T>, mut take: impl FnMut(Applied<T>)) {
         if let Some(teeth) = &self.teeth {

@@ -66,6 +66,7 @@ impl SceneFault {
             Self::Apart(_) => "move `center` or the plane's `point`, or leave `plane` out",
             Self::NoMesh => "leave it out, or name two joints with parallel axes",
             Self::OffPitch(_) => "write this place, or move it along the axes",
+            Self::NoLine => "write `value` for the sum of a coupling",
             Self::NotDrawn(NotDrawn::Parallel) => {
                 "write the sum as `linear`, with the sign of each factor, or a `ratio` of a gear"
             }

@@ -82,6 +82,33 @@ impl<T> Coupling<T> {
         self.motion.is_some()
     }
 
+    /// What its effort is, over the force that its sum takes to change: of a gear and a differential the torque on the first wheel [N m],
+    /// of a belt the difference of its strands [N], of a rack and a screw the force along the slide [N], of a rope its tension [N]; one of others.
+    #[must_use]
+    pub fn effort_factor(&self) -> T
+    where
+        T: Real,
+    {
+        let of = |k: usize| self.terms.get(k).map_or(T::ONE, |term| term.factor);
+        if self.kind == CouplingKind::Rope {
+            let is_length =
+                |term: &&CouplingTerm<T>| matches!(term.of, CouplingMeasure::Length { .. });
+            return -self.terms.iter().find(is_length).map_or(T::ONE, |term| term.factor);
+        }
+        match self.drawn.map(|drawn| drawn.kind) {
+            Some(DrawnKind::Gear { .. } | DrawnKind::Differential | DrawnKind::Screw) => of(0),
+            Some(DrawnKind::Ratio) => of(1),
+            Some(DrawnKind::Belt { .. } | DrawnKind::Rack) | None => T::ONE,
+        }
+    }
+
+    /// The place of the term whose rate its effort is named for; `None`: that of the whole sum.
+    #[must_use]
+    pub fn named_term(&self) -> Option<usize> {
+        let drawn = self.drawn.filter(|_| !self.is_driven())?;
+        Some(usize::from(drawn.kind == DrawnKind::Ratio))
+    }
+
     /// Is its sum not always zero? It then has a place behind the [guides](crate::inputs::Prescribed::guides).
     #[must_use]
     pub fn has_sum(&self) -> bool

@@ -13,15 +13,13 @@
 //! The first factor keeps its sign, so that a sum which was right stays as it is.
 
 mod carrier;
+mod notes;
 
 use crate::Real;
 use crate::algebra::{Vector, cross, norm};
 use crate::scene::{
-    Coupling, CouplingId, CouplingMeasure, CouplingTerm, Entry, Joint, Scene, SceneError,
-    SceneFault,
+    Coupling, CouplingMeasure, CouplingTerm, Entry, Joint, Scene, SceneError, SceneFault,
 };
-use alloc::format;
-use alloc::string::String;
 use alloc::vec::Vec;
 use carrier::{Element, Leg};
 
@@ -66,6 +64,8 @@ pub enum DrawnKind {
         /// Are its sizes radii? Otherwise they count teeth.
         has_radii: bool,
     },
+    /// Two wheels by their ratio, which is as it is written: the second, the first.
+    Ratio,
     /// A belt on two wheels: the first, the second.
     Belt {
         /// Is it crossed?
@@ -84,7 +84,7 @@ impl DrawnKind {
     #[must_use]
     pub const fn name(self) -> &'static str {
         match self {
-            Self::Gear { .. } => "gear",
+            Self::Gear { .. } | Self::Ratio => "gear",
             Self::Belt { .. } => "belt",
             Self::Rack => "rack",
             Self::Screw => "screw",
@@ -125,29 +125,6 @@ pub(super) fn fill<T: Real>(scene: &mut Scene<T>) -> Result<(), SceneError> {
     Ok(())
 }
 
-impl<T> Scene<T> {
-    /// What is to be known of the couplings of a resolved scene whose sums are not those of version 0.1, or that are not drawn.
-    pub fn sense_notes(&self) -> impl Iterator<Item = (CouplingId, String)> {
-        let noted = self.couplings.iter().enumerate();
-        noted.filter_map(|(i, coupling)| {
-            let drawn = coupling.drawn.filter(|drawn| !drawn.is_stated)?;
-            let (kind, name) = (drawn.kind.name(), &coupling.name);
-            let note = match drawn.sense {
-                Sense::Same => return None,
-                Sense::Changed => format!(
-                    "the sense of {kind} `{name}` is that of places and axes, and not that of version 0.1, which took the joints as they are \
-                     written: say `sense = \"drawn\"`, or write the sum as `linear`"
-                ),
-                Sense::Undecided => format!(
-                    "places and axes do not say in which sense {kind} `{name}` works: its joints are taken as they are written; write the \
-                     sum as `linear`"
-                ),
-            };
-            Some((CouplingId::new(i), note))
-        })
-    }
-}
-
 /// The joints that a coupling names, with what it takes of each.
 struct Named<'a, T: Real> {
     scene: &'a Scene<T>,
@@ -160,7 +137,11 @@ struct Named<'a, T: Real> {
 impl<'a, T: Real> Named<'a, T> {
     /// `None` where the terms are none that a check lets pass, or where they need no carrier: a screw in one joint.
     fn new(scene: &'a Scene<T>, coupling: &Coupling<T>, kind: DrawnKind) -> Option<Self> {
-        let n = if kind == DrawnKind::Differential { 3 } else { 2 };
+        let n = match kind {
+            DrawnKind::Ratio => return None,
+            DrawnKind::Differential => 3,
+            _ => 2,
+        };
         let terms = coupling.terms.get(..n)?;
         let elements: Option<Vec<_>> =
             terms.iter().map(|term| Element::new(scene, &term.of)).collect();
@@ -180,6 +161,7 @@ impl<'a, T: Real> Named<'a, T> {
         match self.kind {
             DrawnKind::Gear { is_internal, .. } => self.wheels(is_internal),
             DrawnKind::Belt { is_crossed } => self.wheels(!is_crossed),
+            DrawnKind::Ratio => Ok(Vec::new()),
             DrawnKind::Rack => self.rack(),
             DrawnKind::Screw => self.screw(),
             DrawnKind::Differential => self.differential(),

@@ -117,6 +117,8 @@ pub enum SceneFault {
     NoMesh,
     /// A pitch point that does not divide the way between the axes as the factors do; where it is [m].
     OffPitch([f64; 3]),
+    /// The length of a coupling without lines.
+    NoLine,
     /// A coupling that says that it is drawn, but is not.
     NotDrawn(NotDrawn),
     /// No body carries both parts of a drawn coupling.
@@ -320,6 +322,9 @@ impl SceneFault {
                 f,
                 "is not where wheels with these factors touch, which is at [{x}, {y}, {z}]"
             ),
+            Self::NoLine => {
+                write!(f, "is of couplings with lines over points, which this one has not")
+            }
             Self::NotDrawn(NotDrawn::Parallel) => {
                 write!(f, "has axes that are not parallel: what is drawn gives them no sense")
             }

@@ -9,9 +9,12 @@ const COLUMNS: (usize, usize) = (3, 16);
 /// The midpoint rule over a step in 2, 4, 6, ... 2k parts, extrapolated in h² to parts of no length.
 ///
 /// ```text
-/// d₀ = 0,   d₁ = η f(t, y),   dₘ₊₁ = dₘ₋₁ + 2 η f(t + m η, y + dₘ),   η = h/nⱼ,   Tⱼ₁ = d at the end
+/// d₀ = 0,   d₁ = η f(t, y),   dₘ₊₁ = dₘ₋₁ + 2 η f(t + m η, y + dₘ),   η = h/nⱼ
+/// Tⱼ₁ = (dₙ + dₙ₋₁ + η f(t + h, y + dₙ))/2
 /// Tⱼ,ₗ₊₁ = Tⱼₗ + (Tⱼₗ − Tⱼ₋₁,ₗ) / ((nⱼ/nⱼ₋ₗ)² − 1),   y(t + h) = y + Tₖₖ,   error = Tₖₖ − Tₖ,ₖ₋₁
 /// ```
+///
+/// The rates at the end are in every column: where forces set in just before it, columns differ, and the estimate sees them.
 ///
 /// k columns give order 2k, of which the estimate is h^(2k−1). For reference runs in [`DoubleDouble`](crate::real::DoubleDouble):
 /// the higher the order, the fewer evaluations the last digits take. Increments are extrapolated, not states, for the weights
@@ -72,6 +75,13 @@ impl Extrapolation {
                 now[i] = next;
             }
         }
+        for i in 0..n {
+            stage[i] = y[i] + now[i];
+        }
+        system.rates(t + h, stage, rates)?;
+        for i in 0..n {
+            now[i] = T::HALF * (now[i] + before[i] + part * rates[i]);
+        }
         Ok(())
     }
 }
@@ -91,9 +101,9 @@ impl<T: Real> Method<T> for Extrapolation {
         (self.columns + 5) * n
     }
 
-    /// k (k + 1) parts, of which the first of each column begins with the same rates.
+    /// k (k + 1) parts with the rates at the end of each; all columns begin with the same ones.
     fn evaluations(&self, first_is_known: bool) -> u64 {
-        (self.columns * self.columns) as u64 + u64::from(!first_is_known)
+        (self.columns * (self.columns + 1)) as u64 + u64::from(!first_is_known)
     }
 
     fn trial<R: Rates<T>>(

@@ -216,8 +216,8 @@ fn linear() -> KeyTable {
     )
 }
 
-/// What a sum or a signal measures.
-pub(super) fn measure() -> Vec<Key> {
+/// What a sum or a signal measures, with the angles of a ball that it takes.
+pub(super) fn measure(of_ball: &str) -> Vec<Key> {
     vec![
         may("joint", Of(Referent::Joint), "", "needed without `points`", "A joint."),
         may(
@@ -225,13 +225,13 @@ pub(super) fn measure() -> Vec<Key> {
             Coordinate,
             "",
             "the only one",
-            "Its coordinate; of a ball `\"swing\"` or `\"twist\"`.",
+            &format!("Its coordinate; of a ball {of_ball}."),
         ),
         may(
             "axis",
             Vector,
             "",
-            "needed beside `swing` and `twist`",
+            "needed beside the angle of a ball",
             "The axis of the angle of a ball.",
         )
         .in_space(),
@@ -246,7 +246,7 @@ pub(super) fn measure() -> Vec<Key> {
 }
 
 fn term() -> KeyTable {
-    let mut keys = measure();
+    let mut keys = measure("`\"swing\"` or `\"twist\"`");
     keys.push(may("factor", Number, "", "1", "Factor of the coordinate or length."));
     keys.extend(curve("A curve of the coordinate or length: rows `[x, f]`, a cubic spline."));
     inside(

@@ -95,7 +95,7 @@ fn input() -> KeyTable {
 }
 
 fn measured() -> KeyTable {
-    let mut keys = measure();
+    let mut keys = measure("`\"swing\"`");
     let words = Word(vec!["value", "rate"]);
     keys.push(may("quantity", words, "", "value", "The coordinate or length, or its rate."));
     of("A coordinate of a joint, turns counted, or a length; or its rate.", keys)

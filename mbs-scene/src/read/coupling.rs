@@ -88,7 +88,7 @@ fn read_drawn(kind: &str, fields: &Fields<'_>) -> Read<Option<Drawn>> {
     let kind = match kind {
         "gear" if fields.get("ratio").is_some() => {
             fields.exclusive("ratio", "sense")?;
-            return Ok(None);
+            return Ok(Some(DrawnKind::Ratio.drawn()));
         }
         "gear" => DrawnKind::Gear {
             is_internal: has_word(fields, "mesh", "internal")?,

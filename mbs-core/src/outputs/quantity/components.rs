@@ -69,6 +69,8 @@ pub enum ComponentForm {
     Number(&'static str),
     /// One number that a coupling or an effect measures, with what follows its unit; nothing of an effect that measures several.
     Measured(&'static str),
+    /// One length of a coupling that has lines [m]; nothing of others.
+    Length,
     /// One number of an effect that acts on one side only; nothing of others.
     Contact,
     /// One number of a tire, with its unit; nothing of other effects.
@@ -123,6 +125,7 @@ impl ComponentForm {
             Self::Efforts => coordinates(&|unit| effort(unit).into()),
             Self::Number(unit) | Self::Tire(unit) => [one("", unit)].into(),
             Self::Contact => [one("", "-")].into(),
+            Self::Length => measured.map(|unit| one("", unit)).into_iter().collect(),
             Self::Deflection => measured.map(|unit| one("", unit)).into_iter().collect(),
             Self::Matrix => {
                 let row = |x| axes.iter().map(move |y| one(&format!("{x}{y}"), "-"));

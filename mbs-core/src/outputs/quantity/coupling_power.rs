@@ -1,15 +1,16 @@
-//! Power of a driven coupling.
+//! Power of a coupling: what one that is driven gives, and what one that is drawn passes on to its first part.
 
 use super::super::coupled_sum::CoupledSum;
 use super::kind::{Instant, Maker, Measured};
 use super::{ComponentForm, QuantityRow, TargetKind};
 use crate::Real;
+use crate::measure::CouplingInput;
 use crate::scene::CouplingId;
 
 pub(super) const ROW: QuantityRow =
     QuantityRow::new("power", TargetKind::Coupling, ComponentForm::Number("W")).of_reactions();
 
-/// The coupling; with its sum, where that is driven.
+/// The coupling; with its sum, where that is driven, or the term that its effort does work on.
 #[derive(Debug, Clone)]
 pub(in crate::outputs) struct CouplingPower<T: Real, const D: usize>(
     usize,
@@ -21,8 +22,17 @@ impl<T: Real, const D: usize> Measured<T, D> for CouplingPower<T, D> {
 
     fn new(of: CouplingId, from: &mut Maker<'_, T, D>) -> Self {
         let index = of.index();
-        let is_driven = from.scene.couplings[index].is_driven();
-        Self(index, is_driven.then(|| CoupledSum::new(from.scene, from.model, index)))
+        let coupling = &from.scene.couplings[index];
+        let sum = match coupling.named_term() {
+            Some(named) => {
+                let input = CouplingInput::new(coupling);
+                let term = input.terms.get(named..=named).unwrap_or_default();
+                Some(CoupledSum::of_terms((from.scene, from.model), term, None))
+            }
+            None if coupling.is_driven() => Some(CoupledSum::new(from.scene, from.model, index)),
+            None => None,
+        };
+        Self(index, sum)
     }
 
     fn write(&self, now: &Instant<'_, T, D>, out: &mut [T]) {

@@ -7,7 +7,7 @@ use crate::Real;
 use crate::scene::CouplingId;
 
 pub(super) const ROW: QuantityRow =
-    QuantityRow::new("value", TargetKind::Coupling, ComponentForm::Measured("")).or("length");
+    QuantityRow::new("value", TargetKind::Coupling, ComponentForm::Measured(""));
 
 /// Its sum.
 #[derive(Debug, Clone)]

@@ -62,13 +62,18 @@ macro_rules! list {
                 Reaction in reaction;
             }
             of Coupling(coupling: CouplingId) {
-                /// Effort of a coupling: the generalised force on each of its terms over the term's factor [N m, or N where it has slides or lengths].
+                /// Effort of a coupling: of a gear and a differential the torque on the first wheel [N m], of a belt the difference of its strands
+                /// [N], of a rack and a screw the force along the slide [N], of a rope its tension, positive where it pulls [N]; else the generalised
+                /// force on each of its terms over the term's factor [N m, or N where it has slides or lengths].
                 Effort in effort;
                 /// The sum of a coupling, turns counted [rad, or m where it has slides or lengths].
                 CouplingValue in coupling_value;
+                /// The length of the lines of a coupling [m], such as that of a rope between its points; of no other coupling.
+                CouplingLength in coupling_length;
                 /// The rate of the sum of a coupling [rad/s or m/s].
                 CouplingRate in coupling_rate;
-                /// Power that a driven coupling gives [W]; zero where its sum is constant.
+                /// Power that a driven coupling gives [W]; of a gear, a differential, a belt, a rack and a screw what it passes on to its first wheel
+                /// or its slide; zero of others.
                 CouplingPower in coupling_power;
             }
             of Rolling(rolling: RollingId) {

@@ -5,8 +5,8 @@ use super::effect_deflection::has_free_value;
 use super::{Quantity, RelativePoint, Target};
 use crate::effects::{ActsOn, Value};
 use crate::scene::{
-    BodyId, CouplingId, CouplingMeasure, CouplingTerm, EffectId, Freedom, JointId, Number, Output,
-    RollingId, Scene, SignalId, SignalKind, Vector3,
+    BodyId, CouplingId, CouplingMeasure, CouplingTerm, DrawnKind, EffectId, Freedom, JointId,
+    Number, Output, RollingId, Scene, SignalId, SignalKind, Vector3,
 };
 use alloc::vec::Vec;
 
@@ -55,11 +55,14 @@ impl<T: Clone> Quantity<T> {
                 }
                 (freedoms, None)
             }
+            Target::Coupling(coupling) if form == ComponentForm::Length => {
+                let is_line =
+                    |term: &CouplingTerm<T>| matches!(term.of, CouplingMeasure::Length { .. });
+                let has_lines = scene.couplings[coupling.index()].terms.iter().any(is_line);
+                (&[][..], has_lines.then_some("m"))
+            }
             Target::Coupling(coupling) => {
-                let of = &scene.couplings[coupling.index()];
-                // what a relation makes of its measures is its own
-                let is_sum = of.relation.is_none();
-                (&[][..], Some(if is_sum { unit_of_sum(scene, &of.terms) } else { "-" }))
+                (&[][..], Some(unit_of_coupling(scene, coupling, form == ComponentForm::Force)))
             }
             Target::Effect(effect) if form == ComponentForm::Contact => {
                 if !scene.effects[effect.index()].kind.is_one_sided() {
@@ -95,6 +98,19 @@ fn unit_of_coordinate<T>(scene: &Scene<T>, joint: JointId, number: usize) -> &'s
     let joint = scene.joints.get(joint.index());
     let freedom = joint.and_then(|joint| joint.kind.freedom(scene.dimension, number));
     freedom.map_or("rad", Freedom::unit)
+}
+
+/// The unit of what a coupling holds; or of what its effort does work on.
+fn unit_of_coupling<T>(scene: &Scene<T>, coupling: CouplingId, is_effort: bool) -> &'static str {
+    let of = &scene.couplings[coupling.index()];
+    match of.drawn.map(|drawn| drawn.kind) {
+        // what a relation makes of its measures is its own
+        _ if of.relation.is_some() => "-",
+        Some(DrawnKind::Belt { .. } | DrawnKind::Rack | DrawnKind::Screw) => "m",
+        Some(DrawnKind::Gear { has_radii: true, .. }) if !is_effort => "m",
+        Some(DrawnKind::Gear { .. } | DrawnKind::Differential) => "rad",
+        Some(DrawnKind::Ratio) | None => unit_of_sum(scene, &of.terms),
+    }
 }
 
 /// The unit of a sum: that of its slides and lengths, whose factors are numbers, else that of its angles.

@@ -55,6 +55,9 @@ fn of_target<T: Real>(
         Target::Coupling(coupling) if coupling.index() >= scene.couplings.len() => {
             place.fault("coupling", SceneFault::UnknownReference)
         }
+        Target::Coupling(_) if quantity.components(scene).is_empty() => {
+            place.fault("quantity", SceneFault::NoLine)
+        }
         Target::Effect(effect) => match scene.effects.get(effect.index()) {
             None => place.fault("effect", SceneFault::UnknownReference),
             Some(_) if quantity.components(scene).is_empty() => {

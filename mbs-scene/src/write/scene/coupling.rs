@@ -67,6 +67,11 @@ impl Writer<'_> {
                 }
                 self.takes(wheels, true)
             }
+            (DrawnKind::Ratio, &[second, first]) => {
+                self.joints(&[first, second], &mut keys)?;
+                keys.push("ratio", other_sign(first.2));
+                second.2.text() == "1.0" && self.takes(&[first, second], true)
+            }
             (DrawnKind::Belt { is_crossed }, wheels @ [one, other]) => {
                 self.joints(wheels, &mut keys)?;
                 keys.push("radii", list([one.2, other.2].map(positive)));

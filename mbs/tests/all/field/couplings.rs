@@ -63,6 +63,40 @@ fn wheels_turn_as_they_are_drawn_whatever_the_order_of_bodies_and_the_sense_of_a
     }
 }
 
+/// What the first wheel needs for itself: 0.7 − 0.02 α, and 0.04 α 2/3 for the second.
+#[test]
+fn efforts_are_torques_forces_and_tensions_of_the_drawn_machine() {
+    let torque = -(0.7 - 0.02 * WHEELS[0] / 0.4);
+    let gear = text("22-gear-joint-wheel-first");
+    let power = "[[output]]\nname = \"power\"\ncoupling = \"mesh\"\nquantity = \"power\"\n";
+    let with_power = format!("{gear}\n{power}");
+    let right = [(2, torque), (3, torque * WHEELS[0])];
+    ends_with("torque of a gear", &read(&with_power, "gear"), &right);
+    let ratio = gear.replace("teeth = [20, 30]", "ratio = 0.6666666666666667");
+    ends_with("torque by a ratio", &read(&ratio, "gear"), &[(2, torque)]);
+    let belt = text("22-belt-axes-opposite");
+    ends_with("strands of a belt", &read(&belt, "belt"), &[(6, torque / 0.1)]);
+    let power = power.replace("\"mesh\"", "\"differential\"");
+    let effort = power.replace("power", "effort");
+    let differential = format!("{}\n{effort}{power}", text("22-differential-axes-outward"));
+    // each half shaft is turned by 0.03 kg m² · 25 rad/s²
+    ends_with("differential", &read(&differential, "d"), &[(9, 0.75), (10, 0.75 * 12.5)]);
+    // 60 (g − a) = T,   0.25 T = 0.5 a/0.25
+    ends_with("tension of a rope", &field("29-axle-of-a-winch"), &[(3, 69.247_058_823_529_41)]);
+    ends_with("force of a thread", &field("30-lead-screw"), &[(0, 600.0)]);
+    let units = |name: &str| {
+        let scene = field(name);
+        let efforts = scene.outputs.iter().filter(|output| {
+            output.name == "mesh" || output.name == "thread" || output.name == "rope"
+        });
+        efforts.flat_map(|output| output.components(&scene)).map(|one| one.unit).collect::<Vec<_>>()
+    };
+    assert_eq!(units("22-gear-joint-wheel-first"), ["N m"]);
+    assert_eq!(units("22-belt-axes-opposite"), ["N"]);
+    assert_eq!(units("29-axle-of-a-winch"), ["N"]);
+    assert_eq!(units("30-lead-screw"), ["N"]);
+}
+
 #[test]
 fn half_shafts_turn_alike_with_axes_outward_or_inward() {
     let outward = text("22-differential-axes-outward");
@@ -171,4 +205,21 @@ joint = "slide"
     let document = mbs::scene_file::SceneFile::parse(&stated, "rack.toml").expect("a file");
     let refused = document.scene::<f64>().expect_err("no pitch line").render();
     assert!(refused.contains("pitch line"), "{refused}");
+}
+
+#[test]
+fn the_length_of_a_rope_is_a_length_and_that_of_wheels_is_refused() {
+    let scene = field("61-length-of-a-rope");
+    for formulation in FormulationKind::ALL.map(FormulationKind::name) {
+        let outcome = run_in(&scene, formulation, Some(1e-3));
+        assert!(outcome.error.is_none(), "{formulation}: {:?}", outcome.error);
+        for (t, row) in outcome.rows() {
+            assert!((row[0] - 1.3).abs() < 1e-9, "{formulation} at {t}: {}", row[0]);
+        }
+    }
+    let gear =
+        text("22-gear-joint-wheel-first").replace("quantity = \"effort\"", "quantity = \"length\"");
+    let document = mbs::scene_file::SceneFile::parse(&gear, "gear.toml").expect("a file");
+    let refused = document.scene::<f64>().expect_err("no line").render();
+    assert!(refused.contains("`value`"), "{refused}");
 }

@@ -1,0 +1,26 @@
+//! The length of the lines of a coupling, such as that of a rope between its points.
+
+use super::super::coupled_sum::CoupledSum;
+use super::kind::{Instant, Maker, Measured};
+use super::{ComponentForm, QuantityRow, TargetKind};
+use crate::Real;
+use crate::scene::CouplingId;
+
+pub(super) const ROW: QuantityRow =
+    QuantityRow::new("length", TargetKind::Coupling, ComponentForm::Length);
+
+/// The sum with the lines in it.
+#[derive(Debug, Clone)]
+pub(in crate::outputs) struct CouplingLength<T: Real, const D: usize>(CoupledSum<T, D>);
+
+impl<T: Real, const D: usize> Measured<T, D> for CouplingLength<T, D> {
+    type Of = CouplingId;
+
+    fn new(of: CouplingId, from: &mut Maker<'_, T, D>) -> Self {
+        Self(CoupledSum::new(from.scene, from.model, of.index()))
+    }
+
+    fn write(&self, now: &Instant<'_, T, D>, out: &mut [T]) {
+        out[0] = self.0.length(now.state);
+    }
+}

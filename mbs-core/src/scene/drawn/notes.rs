@@ -1,0 +1,63 @@
+//! What a run notes of couplings that mean something else than in version 0.1.
+
+use super::{DrawnKind, Sense};
+use crate::Real;
+use crate::scene::{CouplingId, CouplingKind, Quantity, Scene};
+use alloc::format;
+use alloc::string::String;
+
+impl<T> Scene<T> {
+    /// What is to be known of the couplings of a resolved scene whose sums are not those of version 0.1, or that are not drawn.
+    pub fn sense_notes(&self) -> impl Iterator<Item = (CouplingId, String)> {
+        let noted = self.couplings.iter().enumerate();
+        noted.filter_map(|(i, coupling)| {
+            let drawn = coupling.drawn.filter(|drawn| !drawn.is_stated)?;
+            let (kind, name) = (drawn.kind.name(), &coupling.name);
+            let note = match drawn.sense {
+                Sense::Same => return None,
+                Sense::Changed => format!(
+                    "the sense of {kind} `{name}` is that of places and axes, and not that of version 0.1, which took the joints as they are \
+                     written: say `sense = \"drawn\"`, or write the sum as `linear`"
+                ),
+                Sense::Undecided => format!(
+                    "places and axes do not say in which sense {kind} `{name}` works: its joints are taken as they are written; write the \
+                     sum as `linear`"
+                ),
+            };
+            Some((CouplingId::new(i), note))
+        })
+    }
+}
+
+impl<T: Real> Scene<T> {
+    /// Outputs of couplings that version 0.1 gave otherwise.
+    pub fn effort_notes(&self) -> impl Iterator<Item = String> {
+        self.outputs.iter().filter_map(|output| {
+            let (coupling, is_effort) = match output.quantity {
+                Quantity::Effort { coupling } => (coupling, true),
+                Quantity::CouplingPower { coupling } => (coupling, false),
+                _ => return None,
+            };
+            let of = self.couplings.get(coupling.index())?;
+            let what = match (of.drawn.map(|drawn| drawn.kind), is_effort) {
+                _ if is_effort && of.kind == CouplingKind::Rope => {
+                    "the tension of the rope [N], and was minus that"
+                }
+                (
+                    Some(DrawnKind::Gear { .. } | DrawnKind::Ratio | DrawnKind::Differential),
+                    true,
+                ) => {
+                    "the torque on the first wheel [N m], and was that over the factor of the wheel"
+                }
+                (Some(DrawnKind::Screw), true) => {
+                    "the force along the screw [N], and was that over 2 pi"
+                }
+                (Some(_), false) if of.named_term().is_some() => {
+                    "what the coupling passes on, and was zero"
+                }
+                _ => return None,
+            };
+            Some(format!("output `{}` is {what} in version 0.1", output.name))
+        })
+    }
+}
