@@ -147,7 +147,13 @@ fn reactions(c: &Checkup) -> Section {
     };
     let all = c.unique.iter().enumerate().map(|(j, of)| (j, open(of)));
     let some: Vec<(usize, String)> = all.filter(|(_, open)| !open.is_empty()).collect();
-    let rows = if some.is_empty() {
+    let lacking = c.lacking.iter().map(|(joint, coupling)| {
+        row(
+            &c.joints[*joint],
+            format!("lacks the force of `{coupling}`, which acts as a moment alone"),
+        )
+    });
+    let rows = if some.is_empty() && c.lacking.is_empty() {
         vec![row("all joints", "every component is determined by the motion".to_owned())]
     } else {
         let entry = |(j, open): &(usize, String)| {
@@ -155,7 +161,8 @@ fn reactions(c: &Checkup) -> Section {
             row(&c.joints[*j], value)
         };
         let mut rows: Vec<_> = some.iter().map(entry).collect();
-        if c.unique.len() > some.len() {
+        rows.extend(lacking);
+        if c.unique.len() > some.len() + c.lacking.len() {
             rows.push(row("all others", "every component is determined by the motion".to_owned()));
         }
         rows

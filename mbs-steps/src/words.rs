@@ -207,6 +207,7 @@ pub fn notes<T: Real>(
     notes.extend(crate::tilt::notes(scene).into_iter().map(|(_, note)| note));
     notes.extend(scene.sense_notes().map(|(_, note)| note));
     notes.extend(scene.effort_notes());
+    notes.extend(scene.reaction_notes());
     if change > REPORTED_CHANGE {
         let most = moved.map(|body| format!(", most at body `{body}`")).unwrap_or_default();
         notes.push(format!(

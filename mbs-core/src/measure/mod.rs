@@ -2,6 +2,8 @@
 //!
 //! Held, such a sum is a [coupling](crate::scene::Coupling). Here too: where something that rolls touches its plane.
 
+#[cfg(feature = "alloc")]
+mod acting;
 mod arguments;
 mod contact;
 #[cfg(feature = "alloc")]
@@ -18,6 +20,8 @@ mod rotor;
 #[cfg(feature = "alloc")]
 mod term;
 
+#[cfg(feature = "alloc")]
+pub(crate) use acting::Acting;
 pub use arguments::Arguments;
 pub use contact::{Moving, lies_flat, lowest_place, lowest_point};
 #[cfg(feature = "alloc")]

@@ -12,6 +12,7 @@
 //! Of wheels with a pitch point the force of the teeth acts in place of the moments.
 
 use super::coordinate::Coordinate;
+use super::drawn_force::DrawnForce;
 use super::tooth_force::ToothForce;
 use super::wrench::{Applied, Wrench};
 use crate::Real;
@@ -39,6 +40,8 @@ pub(super) struct CoupledSum<T: Real, const D: usize> {
     scale: T,
     /// What acts in place of the terms' couples where its wheels have a pitch point.
     teeth: Option<Box<ToothForce<T, D>>>,
+    /// What acts in place of the terms' forces where they act elsewhere on the drawn machine.
+    drawn: Option<Box<DrawnForce<T, D>>>,
 }
 
 /// A curve of a sum of measures, with its factor.
@@ -81,6 +84,7 @@ impl<T: Real, const D: usize> CoupledSum<T, D> {
             sum.relation = input.relation;
         }
         sum.teeth = ToothForce::new(scene, model, coupling).map(Box::new);
+        sum.drawn = DrawnForce::new(scene, model, coupling).map(Box::new);
         sum
     }
 
@@ -103,7 +107,7 @@ impl<T: Real, const D: usize> CoupledSum<T, D> {
         let terms = terms.collect();
         bodies.sort_unstable();
         bodies.dedup();
-        Self { terms, relation: None, bodies, scale, teeth: None }
+        Self { terms, relation: None, bodies, scale, teeth: None, drawn: None }
     }
 
     /// Is it an angle, without slides and lengths?
@@ -155,6 +159,9 @@ impl<T: Real, const D: usize> CoupledSum<T, D> {
     pub(super) fn apply(&self, effort: T, state: &State<T>, mut take: impl FnMut(Applied<T>)) {
         if let Some(teeth) = &self.teeth {
             return teeth.apply(effort, state, take);
+        }
+        if let Some(drawn) = &self.drawn {
+            return drawn.apply((effort, &self.terms[0].parts), state, take);
         }
         let related = self.relation.is_some().then(|| self.related(state).1);
         for (k, term) in self.terms.iter().enumerate() {

@@ -11,6 +11,7 @@ mod contact;
 mod coordinate;
 mod coupled_sum;
 pub(crate) mod cubic;
+mod drawn_force;
 mod error;
 pub(crate) mod event;
 mod exerted;

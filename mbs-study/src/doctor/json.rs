@@ -36,7 +36,7 @@ pub fn to_json(checkup: &Checkup, line: Written<'_>) -> Value {
             "least_singular_value": level.least,
         },
         "dependent_sets": level.sets.iter().map(|s| names.set(s)).collect::<Vec<_>>(),
-        "reactions": names.reactions(&c.unique, c.dimension),
+        "reactions": names.reactions(c, c.dimension),
         "loops": c.loops.iter().map(|l| names.round(l)).collect::<Vec<_>>(),
         "shares_of_the_motion": c.drives.iter().map(|d| json!({
             "joint": names.joint(d.joint), "share": d.share,
@@ -129,13 +129,15 @@ impl Names<'_> {
         })
     }
 
-    fn reactions(&self, unique: &[Vec<bool>], dimension: usize) -> Vec<Value> {
+    fn reactions(&self, c: &Checkup, dimension: usize) -> Vec<Value> {
         let of = |(j, components): (usize, &Vec<bool>)| {
             let labels = labels(dimension).iter().zip(components);
             let open: Vec<&str> = labels.filter(|(_, unique)| !**unique).map(|(l, _)| *l).collect();
-            json!({ "joint": self.joint(j), "unique": open.is_empty(), "not_unique": open })
+            let lacking = c.lacking.iter().filter(|(joint, _)| *joint == j);
+            let lacks: Vec<&str> = lacking.map(|(_, coupling)| coupling.as_str()).collect();
+            json!({ "joint": self.joint(j), "unique": open.is_empty(), "not_unique": open, "lacks": lacks })
         };
-        unique.iter().enumerate().map(of).collect()
+        c.unique.iter().enumerate().map(of).collect()
     }
 
     fn round(&self, lap: &Loop) -> Value {

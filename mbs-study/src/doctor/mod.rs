@@ -56,6 +56,8 @@ pub struct Checkup {
     pub is_at_start: bool,
     /// Whose reaction is determined in which components: [Fx, Fy, Mz] or all six, in global axes.
     pub unique: Vec<Vec<bool>>,
+    /// Joints whose reactions lack the force of a coupling, with its name.
+    pub lacking: Vec<(usize, String)>,
     /// The loops with their corners.
     pub loops: Vec<Loop>,
     /// Joints of parts with one freedom, with their share of the motion.
@@ -97,6 +99,11 @@ impl Checkup {
             None => self.joint_level.sizes[1] - self.joint_level.sizes[2],
         }
     }
+}
+
+fn lacking(scene: &Scene<f64>) -> Vec<(usize, String)> {
+    let name = |coupling: usize| scene.couplings[coupling].name.clone();
+    scene.lacking_forces().map(|(joint, of)| (joint.index(), name(of.index()))).collect()
 }
 
 /// Examines a checked scene.
@@ -169,6 +176,7 @@ fn in_space<const D: usize>(
         findings,
         natural,
         unique: unique(&linkage, &joint_level),
+        lacking: lacking(scene),
         loops: loops(&linkage, poses),
         drives: shares(&linkage, poses),
         joint_level,

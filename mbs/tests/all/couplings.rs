@@ -140,7 +140,8 @@ fn elements_between_two_coordinates_share_their_inertia() {
             body("wheel", 1.0, [0.0, 0.0], 0.02),
             body("slider", 3.0, [0.0, 1.0], 0.1),
             revolute("a", ["ground", "wheel"], [0.0, 0.0]),
-            prismatic("s", ["ground", "slider"], [0.0, 1.0], [1.0, 0.0]),
+            // the rack lies below its pinion
+            prismatic("s", ["ground", "slider"], [0.0, -0.3], [1.0, 0.0]),
             coupling.to_owned(),
             torque("a", 0.5),
             rates(&["a", "s"]),

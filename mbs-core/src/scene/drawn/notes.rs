@@ -30,6 +30,32 @@ impl<T> Scene<T> {
 }
 
 impl<T: Real> Scene<T> {
+    /// Outputs of reactions that lack the force of a coupling.
+    pub fn reaction_notes(&self) -> impl Iterator<Item = String> {
+        self.outputs.iter().flat_map(|output| {
+            let joint = match output.quantity {
+                Quantity::Reaction { joint } => Some(joint),
+                _ => None,
+            };
+            let lacking = self.lacking_forces().filter(move |(of, _)| Some(*of) == joint);
+            lacking.map(|(_, coupling)| {
+                let of = &self.couplings[coupling.index()];
+                let (kind, remedy) = match of.drawn.map(|drawn| drawn.kind) {
+                    Some(kind @ DrawnKind::Gear { .. }) => (kind.name(), "give its pitch point `at`"),
+                    Some(kind) => (kind.name(), "its `effort` has the size of that force"),
+                    None => (
+                        "rope",
+                        "begin or end its line at the rim of the drum, on the body that carries it",
+                    ),
+                };
+                format!(
+                    "output `{}` lacks the force of {kind} `{}`, which acts as a moment alone: {remedy}",
+                    output.name, of.name
+                )
+            })
+        })
+    }
+
     /// Outputs of couplings that version 0.1 gave otherwise.
     pub fn effort_notes(&self) -> impl Iterator<Item = String> {
         self.outputs.iter().filter_map(|output| {

@@ -97,6 +97,64 @@ fn efforts_are_torques_forces_and_tensions_of_the_drawn_machine() {
     assert_eq!(units("30-lead-screw"), ["N"]);
 }
 
+/// Bearings carry the forces of rope and thread: what the drum and the screw need beside their weight and their torque.
+#[test]
+fn bearings_carry_what_the_drawn_machine_puts_on_them() {
+    let tension = 69.247_058_823_529_41;
+    let axle = [(0, 0.0), (1, 20.0 * 9.81 + tension), (2, 0.0)];
+    let winch = text("29-axle-of-a-winch");
+    reacts("axle", &read(&winch, "winch"), &axle);
+    let swapped = winch.replace(r#"bodies = ["ground", "drum"]"#, r#"bodies = ["drum", "ground"]"#);
+    let swapped = swapped.replace("radius = 0.25", "radius = -0.25");
+    reacts("axle, swapped", &read(&swapped, "winch"), &axle.map(|(k, right)| (k, -right)));
+    let moment = -600.0 * 0.02 / core::f64::consts::TAU;
+    let right = [(1, 600.0), (2, 0.0), (3, 0.0), (4, 0.0), (5, 0.0), (6, 0.0)];
+    let bearing = text("30-lead-screw");
+    reacts("bearing", &read(&bearing, "screw"), &right);
+    let guide = [(7, 0.0), (8, 0.0), (9, 0.0), (10, moment), (11, 0.0), (12, 0.0)];
+    reacts("guide", &read(&bearing, "screw"), &guide);
+}
+
+/// Asserts columns of reactions at the end of a run in every formulation; of zeros what is rounding beside the largest.
+fn reacts(name: &str, scene: &Scene<f64>, values: &[(usize, f64)]) {
+    let largest = values.iter().fold(1.0, |most: f64, (_, right)| most.max(right.abs()));
+    for formulation in FormulationKind::ALL.map(FormulationKind::name) {
+        let found = run_in(scene, formulation, Some(1e-3));
+        for &(column, right) in values {
+            let found = last(&found)[column];
+            assert!(
+                (found - right).abs() < 1e-6 * largest,
+                "{name}, {formulation}: {found}, {right}"
+            );
+        }
+    }
+}
+
+#[test]
+fn reactions_without_a_line_of_action_are_marked() {
+    let notes = |text: &str| {
+        let outcome = run_in(&read(text, "marked"), "recursive", Some(1e-3));
+        outcome.notes().iter().filter(|note| note.contains("lacks")).cloned().collect::<Vec<_>>()
+    };
+    let reaction = "[[output]]\nname = \"bearing\"\njoint = \"one\"\nquantity = \"reaction\"\n";
+    let gear = format!("{}\n{reaction}", text("22-gear-joint-wheel-first"));
+    let found = notes(&gear);
+    assert!(
+        found.len() == 1 && found[0].contains("gear `mesh`") && found[0].contains("`at`"),
+        "{found:?}"
+    );
+    assert!(notes(&gear.replace("teeth =", "at = [0.1, 0.0]\nteeth =")).is_empty());
+    assert!(notes(&text("22-gear-joint-wheel-first")).is_empty());
+    let winch = text("29-axle-of-a-winch");
+    assert!(notes(&winch).is_empty());
+    // a line that does not begin at the rim
+    let found = notes(&winch.replace("at = [0.25, 3.0]", "at = [0.25, 3.1]"));
+    assert!(
+        found.len() == 1 && found[0].contains("rope `rope`") && found[0].contains("rim"),
+        "{found:?}"
+    );
+}
+
 #[test]
 fn half_shafts_turn_alike_with_axes_outward_or_inward() {
     let outward = text("22-differential-axes-outward");

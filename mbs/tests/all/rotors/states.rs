@@ -85,8 +85,8 @@ fn a_rotor_beside_a_gear_adds_at_its_own_joint() {
     ]
     .concat();
     let acceleration = 0.6 / (0.1 + (0.4 + 0.25) / 4.0);
-    // 40 effort is the torque on b
-    let effort = (0.4 + 0.25) * -acceleration / 2.0 / 40.0;
+    // the effort is the torque on a
+    let effort = (0.4 + 0.25) * -acceleration / 4.0;
     for formulation in TRAPEZOIDAL {
         let rows = run(&text, formulation, 1e-3 / 32.0, 1e-3);
         let row = last(&rows);

@@ -1,0 +1,128 @@
+//! Forces of couplings where they act on the drawn machine: of a thread between screw and nut, of a rope at the rim of its drum.
+//!
+//! ```text
+//! thread   F along the axis and -M about it on the nut, at the screw's axis; -F and M on the screw
+//! drum     T along the line on the drum, where the line leaves its carrier; about its axis w = radius T, by a couple what the arm lacks
+//! ```
+//!
+//! Neither changes the motion: what a coupling does along its coordinates stays. Bearings carry the forces.
+
+use super::coordinate::Coordinate;
+use super::coupled_sum::Part;
+use super::wrench::{Applied, Wrench};
+use crate::Real;
+use crate::algebra::{Vector, cross, raised};
+use crate::measure::Acting;
+use crate::model::State;
+use crate::natural::{Affine, NaturalModel};
+use crate::scene::{BodyId, Coupling, Joint, Scene};
+
+/// A force that acts elsewhere than along the coordinates of its coupling.
+#[derive(Debug, Clone)]
+pub(super) enum DrawnForce<T: Real, const D: usize> {
+    /// Of a thread.
+    Thread {
+        /// Nut, then screw.
+        bodies: [BodyId; 2],
+        /// The screw's axis, with its place.
+        turn: (Coordinate<T, D>, Affine<T, D>),
+        slide: Coordinate<T, D>,
+        /// Force on the nut along the slide, and moment on the screw about its axis, for an effort of one.
+        weights: [T; 2],
+    },
+    /// Of a rope at its drum.
+    Drum {
+        drum: BodyId,
+        carrier: BodyId,
+        is_end: bool,
+        turn: (Coordinate<T, D>, Affine<T, D>),
+        /// Force on a growth of the line, and moment on the drum about its axis, for an effort of one.
+        weights: [T; 2],
+    },
+}
+
+/// The turn of a joint with its place on a body, and the sign of its coordinate for the other one.
+type Turn<T, const D: usize> = ((Coordinate<T, D>, Affine<T, D>), T);
+
+impl<T: Real, const D: usize> DrawnForce<T, D> {
+    /// Of a coupling in a scene that passed its check; `None`: it acts along its coordinates.
+    pub(super) fn new(
+        scene: &Scene<T>,
+        model: &NaturalModel<T, D>,
+        coupling: &Coupling<T>,
+    ) -> Option<Self> {
+        let of = |term: usize| {
+            let (joint, number) = coupling.terms[term].of.coordinate()?;
+            let joint = &scene.joints[joint.index()];
+            let freedom = joint.kind.freedom(scene.dimension, number)?;
+            Some((joint, Coordinate::of_freedom(scene, model, (joint, freedom))))
+        };
+        let other = |joint: &Joint<T>, carrier: BodyId| {
+            let side = usize::from(joint.bodies[0] == carrier);
+            (joint.bodies[side], if side == 1 { T::ONE } else { -T::ONE })
+        };
+        let turn_of = |term: usize, carrier: BodyId| -> Option<(BodyId, Turn<T, D>)> {
+            let (joint, axis) = of(term)?;
+            let (body, sign) = other(joint, carrier);
+            let side = usize::from(joint.bodies[1] == carrier);
+            Some((body, ((axis, model.point(carrier, joint.points[side])), sign)))
+        };
+        match Acting::of(scene, coupling)? {
+            Acting::Thread { terms: [turn, slide], carrier } => {
+                let (screw, (axis, sense)) = turn_of(turn, carrier)?;
+                let (joint, way) = of(slide)?;
+                let (nut, sign) = other(joint, carrier);
+                let weights =
+                    [coupling.terms[slide].factor * sign, coupling.terms[turn].factor * sense];
+                Some(Self::Thread { bodies: [nut, screw], turn: axis, slide: way, weights })
+            }
+            Acting::Drum { term, is_end, carrier } => {
+                let (drum, (turn, sense)) = turn_of(term, carrier)?;
+                let weights =
+                    [coupling.terms[1 - term].factor, coupling.terms[term].factor * sense];
+                Some(Self::Drum { drum, carrier, is_end, turn, weights })
+            }
+        }
+    }
+
+    /// Hands out what it does at an effort; `line` has the parts of the coupling's first term.
+    pub(super) fn apply(
+        &self,
+        (effort, line): (T, &[Part<T, D>]),
+        state: &State<T>,
+        mut take: impl FnMut(Applied<T>),
+    ) {
+        let moment = |moment| Wrench { force: Vector::zeros(), moment };
+        match self {
+            Self::Thread { bodies: [nut, screw], turn: (axis, place), slide, weights } => {
+                let at = raised(&place.value(&state.q));
+                let wrench = Wrench {
+                    force: slide.direction(&state.q).force * (weights[0] * effort),
+                    moment: axis.direction(&state.q).moment * (-weights[1] * effort),
+                };
+                take((*nut, Some(at), wrench));
+                take((*screw, Some(at), wrench.scaled(-T::ONE)));
+            }
+            Self::Drum { drum, carrier, is_end, turn: (axis, place), weights } => {
+                let n = axis.direction(&state.q).moment;
+                let center = raised(&place.value(&state.q));
+                let (last, mut about) = (line.len() - 1, T::ZERO);
+                for (k, part) in line.iter().enumerate() {
+                    let mut side = 0;
+                    part.apply(weights[0] * effort, state, |(body, at, wrench)| {
+                        let is_rim =
+                            if *is_end { k == last && side == 1 } else { k == 0 && side == 0 };
+                        side += 1;
+                        if let (true, Some(rim)) = (is_rim, at) {
+                            about += n.dot(&cross(&(rim - center), &wrench.force));
+                        }
+                        take((if is_rim { *drum } else { body }, at, wrench));
+                    });
+                }
+                let rest = n * (weights[1] * effort - about);
+                take((*drum, None, moment(rest)));
+                take((*carrier, None, moment(-rest)));
+            }
+        }
+    }
+}
