@@ -3,8 +3,8 @@
 use crate::Real;
 use crate::algebra::{Vector, along, cross, norm};
 use crate::scene::{
-    Axis, BodyId, Coupling, CouplingId, CouplingKind, CouplingMeasure, CouplingTerm, Dimension,
-    DrawnKind, Freedom, Joint, JointId, JointKind, Scene,
+    BodyId, Coupling, CouplingId, CouplingKind, CouplingMeasure, CouplingTerm, DrawnKind, Freedom,
+    Joint, JointId, Scene,
 };
 
 /// Largest distance of what should be at one place, over the size of what it belongs to [-]. Chosen, not tuned: digits of a file.
@@ -46,8 +46,9 @@ impl Acting {
 
     fn thread<T: Real>(scene: &Scene<T>, terms: &[CouplingTerm<T>]) -> Option<Self> {
         let [slide, turn] = terms else { return None };
-        let (slide, turn) = (joint_of(scene, slide)?, joint_of(scene, turn)?);
-        let is_plain = turn.kind == JointKind::Revolute && slide.kind == JointKind::Prismatic;
+        let (slide, way) = joint_of(scene, slide)?;
+        let (turn, about) = joint_of(scene, turn)?;
+        let is_plain = matches!((about, way), (Freedom::Turn(_), Freedom::Slide(_)));
         let carrier = *turn.bodies.iter().find(|body| slide.bodies.contains(body))?;
         (is_plain && turn.bodies != slide.bodies).then_some(Self::Thread { terms: [1, 0], carrier })
     }
@@ -55,11 +56,11 @@ impl Acting {
     fn drum<T: Real>(scene: &Scene<T>, terms: &[CouplingTerm<T>]) -> Option<Self> {
         let [line, drum] = terms else { return None };
         let CouplingMeasure::Length { points } = &line.of else { return None };
-        let joint = joint_of(scene, drum).filter(|joint| joint.kind == JointKind::Revolute)?;
+        let (joint, Freedom::Turn(axis)) = joint_of(scene, drum)? else { return None };
         if line.curve.is_some() || drum.curve.is_some() {
             return None;
         }
-        let axis = along(&joint.direction(turn_axis(scene.dimension)));
+        let axis = along(&joint.direction(axis));
         let (center, radius) = (Vector::from(joint.points[0]), drum.factor.abs());
         let last = points.len() - 1;
         [(0, 1, false), (last, last - 1, true)].into_iter().find_map(|(end, next, is_end)| {
@@ -96,15 +97,11 @@ impl<T: Real> Scene<T> {
     }
 }
 
-/// The joint whose coordinate a term is.
-fn joint_of<'a, T>(scene: &'a Scene<T>, term: &CouplingTerm<T>) -> Option<&'a Joint<T>> {
-    scene.joints.get(term.of.coordinate()?.0.index())
-}
-
-/// The axis of a revolute joint.
-fn turn_axis(dimension: Dimension) -> Axis {
-    match JointKind::Revolute.freedom(dimension, 0) {
-        Some(Freedom::Turn(axis)) => axis,
-        _ => Axis::Z,
+/// The joint whose only coordinate a term is, and what that is.
+fn joint_of<'a, T>(scene: &'a Scene<T>, term: &CouplingTerm<T>) -> Option<(&'a Joint<T>, Freedom)> {
+    let joint = scene.joints.get(term.of.coordinate()?.0.index())?;
+    match joint.kind.freedoms(scene.dimension) {
+        [only] => Some((joint, *only)),
+        _ => None,
     }
 }

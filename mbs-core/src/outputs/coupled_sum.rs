@@ -161,7 +161,18 @@ impl<T: Real, const D: usize> CoupledSum<T, D> {
             return teeth.apply(effort, state, take);
         }
         if let Some(drawn) = &self.drawn {
-            return drawn.apply((effort, &self.terms[0].parts), state, take);
+            let (mut end, mut about) = (0, T::ZERO);
+            if let Some(weight) = drawn.on_line(effort) {
+                let line = &self.terms[0].parts;
+                for part in line {
+                    part.apply(weight, state, |applied| {
+                        let ends = (end, 2 * line.len());
+                        take(drawn.moved(ends, applied, (state, &mut about)));
+                        end += 1;
+                    });
+                }
+            }
+            return drawn.apply((effort, about), state, take);
         }
         let related = self.relation.is_some().then(|| self.related(state).1);
         for (k, term) in self.terms.iter().enumerate() {

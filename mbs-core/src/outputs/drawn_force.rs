@@ -8,7 +8,6 @@
 //! Neither changes the motion: what a coupling does along its coordinates stays. Bearings carry the forces.
 
 use super::coordinate::Coordinate;
-use super::coupled_sum::Part;
 use super::wrench::{Applied, Wrench};
 use crate::Real;
 use crate::algebra::{Vector, cross, raised};
@@ -85,14 +84,38 @@ impl<T: Real, const D: usize> DrawnForce<T, D> {
         }
     }
 
-    /// Hands out what it does at an effort; `line` has the parts of the coupling's first term.
+    /// The force on a growth of the line, whose parts are then handed out one after the other by [`moved`](Self::moved).
+    pub(super) fn on_line(&self, effort: T) -> Option<T> {
+        match self {
+            Self::Thread { .. } => None,
+            Self::Drum { weights, .. } => Some(weights[0] * effort),
+        }
+    }
+
+    /// What acts at an end of the line, of so many ends: at the rim on the drum. Adds its moment about the drum's axis.
+    pub(super) fn moved(
+        &self,
+        (end, ends): (usize, usize),
+        (body, at, wrench): Applied<T>,
+        (state, about): (&State<T>, &mut T),
+    ) -> Applied<T> {
+        let Self::Drum { drum, is_end, turn: (axis, place), .. } = self else {
+            return (body, at, wrench);
+        };
+        let is_rim = end == if *is_end { ends - 1 } else { 0 };
+        let (true, Some(rim)) = (is_rim, at) else { return (body, at, wrench) };
+        let way = rim - raised(&place.value(&state.q));
+        *about += axis.direction(&state.q).moment.dot(&cross(&way, &wrench.force));
+        (*drum, at, wrench)
+    }
+
+    /// Hands out what it does beside the line, whose force has this moment about the drum's axis.
     pub(super) fn apply(
         &self,
-        (effort, line): (T, &[Part<T, D>]),
+        (effort, about): (T, T),
         state: &State<T>,
         mut take: impl FnMut(Applied<T>),
     ) {
-        let moment = |moment| Wrench { force: Vector::zeros(), moment };
         match self {
             Self::Thread { bodies: [nut, screw], turn: (axis, place), slide, weights } => {
                 let at = raised(&place.value(&state.q));
@@ -103,25 +126,11 @@ impl<T: Real, const D: usize> DrawnForce<T, D> {
                 take((*nut, Some(at), wrench));
                 take((*screw, Some(at), wrench.scaled(-T::ONE)));
             }
-            Self::Drum { drum, carrier, is_end, turn: (axis, place), weights } => {
-                let n = axis.direction(&state.q).moment;
-                let center = raised(&place.value(&state.q));
-                let (last, mut about) = (line.len() - 1, T::ZERO);
-                for (k, part) in line.iter().enumerate() {
-                    let mut side = 0;
-                    part.apply(weights[0] * effort, state, |(body, at, wrench)| {
-                        let is_rim =
-                            if *is_end { k == last && side == 1 } else { k == 0 && side == 0 };
-                        side += 1;
-                        if let (true, Some(rim)) = (is_rim, at) {
-                            about += n.dot(&cross(&(rim - center), &wrench.force));
-                        }
-                        take((if is_rim { *drum } else { body }, at, wrench));
-                    });
-                }
-                let rest = n * (weights[1] * effort - about);
-                take((*drum, None, moment(rest)));
-                take((*carrier, None, moment(-rest)));
+            Self::Drum { drum, carrier, turn: (axis, _), weights, .. } => {
+                let moment = axis.direction(&state.q).moment * (weights[1] * effort - about);
+                let wrench = Wrench { force: Vector::zeros(), moment };
+                take((*drum, None, wrench));
+                take((*carrier, None, wrench.scaled(-T::ONE)));
             }
         }
     }

@@ -28,6 +28,8 @@ mod dimension;
 #[cfg(feature = "alloc")]
 mod drawn;
 #[cfg(feature = "alloc")]
+mod drawn_kind;
+#[cfg(feature = "alloc")]
 mod effect;
 #[cfg(feature = "alloc")]
 mod error;
@@ -83,7 +85,7 @@ pub use data::{
 };
 pub use dimension::Dimension;
 #[cfg(feature = "alloc")]
-pub use drawn::{Drawn, DrawnKind, NotDrawn, Sense};
+pub use drawn_kind::{Drawn, DrawnKind, NotDrawn, Sense};
 #[cfg(feature = "alloc")]
 pub use effect::{
     AxisFrame, CalspanCoefficients, LongitudinalSlip, PolynomialPiece, Road, RoadFeature, Signal,

@@ -10,6 +10,7 @@
 //!
 //! `at` and `pressure_angle` say where the teeth of two wheels touch.
 
+mod carrier;
 mod named;
 
 use self::named::{Named, Needed};
@@ -17,6 +18,7 @@ use crate::read::ReadFault;
 use crate::read::fields::{Context, Fields, Read};
 use crate::read::motion::read_motion;
 use crate::read::tree::{Item, Node};
+pub(crate) use carrier::{joint_to_add, no_carrier};
 use mbs_core::scene::{
     Axis, BallAngle, Coupling, CouplingKind, CouplingMeasure, CouplingTerm, Curve, Drawn,
     DrawnKind, Freedom, Joint, JointId, Mesh, Motion, Number,

@@ -1,5 +1,6 @@
 //! What can be wrong with a scene file.
 
+use crate::read::coupling::{joint_to_add, no_carrier};
 use crate::read::nearest::{listing, nearest_name};
 use crate::read::{Place, SweepFault, units};
 use core::fmt::{self, Display, Formatter};
@@ -320,10 +321,7 @@ impl Display for ReadFault {
                 write!(f, "`{name}` is a point: this place is {by:.6e} m off it")
             }
             Self::OfPoint { name, .. } => write!(f, "`{name}` is a point: it has no orientation"),
-            Self::NoCarrier { bodies: [one, other], joint } => write!(
-                f,
-                "no body carries both axes: `{other}` does not turn on `{one}` about the axis of `{joint}`"
-            ),
+            Self::NoCarrier { bodies, joint } => f.write_str(&no_carrier(bodies, joint)),
             Self::GroundDoesNotMove => write!(f, "the ground does not move"),
             Self::NoOwnBody => write!(f, "this output is of no body, whose axes `body` would be"),
             Self::WrongType { expected, found } => write!(f, "expected {expected}, found {found}"),
@@ -429,9 +427,7 @@ impl ReadFault {
             Self::SignalCircle { .. } => SceneFault::SignalCircle.advice().to_owned(),
             Self::SignalNotSmooth { remedy, .. } => (*remedy).to_owned(),
             Self::OfPoint { fault, .. } => fault.advice().to_owned(),
-            Self::NoCarrier { bodies: [one, other], joint } => format!(
-                "add a joint between `{one}` and `{other}` on the axis of `{joint}`, or write the sum as `linear`"
-            ),
+            Self::NoCarrier { bodies, joint } => joint_to_add(bodies, joint),
             Self::GuidedJoint { name } => format!("a guide moves a joint: write `joint = \"{name}\"`"),
             Self::GroundDoesNotMove => "name a body".to_owned(),
             Self::NoOwnBody => "write the name of the body whose axes are meant, or `global`".to_owned(),

@@ -26,7 +26,7 @@ pub use start::Moved;
 use crate::redundancy::{
     Diagnosis, Drive, Linkage, Loop, Massless, Rank, diagnose, drives, loops, reference,
 };
-use basis::begin;
+use basis::{Begun, begin};
 use mbs::ResolvedMethod;
 use mbs::inside::rank;
 use mbs::typed::Simulation;
@@ -118,6 +118,12 @@ pub fn examine(scene: &Scene<f64>, settings: &ResolvedMethod, effort: &Effort) -
     }
 }
 
+/// Natural coordinates, constraints and their rank at the start.
+fn sizes<const D: usize>(begun: &Begun<D>) -> [usize; 3] {
+    let Begun { model, start, .. } = begun;
+    [model.n_unknowns(), model.n_constraints(), rank(model, &start.state)]
+}
+
 fn in_space<const D: usize>(
     scene: &Scene<f64>,
     settings: &ResolvedMethod,
@@ -130,10 +136,7 @@ fn in_space<const D: usize>(
     let poses = begun.as_ref().map_or(&rest, |b| &b.poses);
     let joint_level = diagnose(&linkage, poses);
     let massless = crate::redundancy::massless(scene, &linkage, poses);
-    let natural = begun
-        .as_ref()
-        .ok()
-        .map(|b| [b.model.n_unknowns(), b.model.n_constraints(), rank(&b.model, &b.start.state)]);
+    let natural = begun.as_ref().ok().map(sizes);
     sets::findings(scene, &joint_level, natural, &mut findings);
     let taken = begun
         .as_ref()
@@ -143,8 +146,7 @@ fn in_space<const D: usize>(
     masses::findings(scene, massless.as_deref(), &mut findings);
     units::findings(scene, &mut findings);
     places::findings(scene, &mut findings);
-    start::tilts(scene, &mut findings);
-    start::senses(scene, &mut findings);
+    start::axes(scene, &mut findings);
     let is_dependent = joint_level.sets.iter().any(|set| set.is_exact)
         || natural.is_some_and(|[_, constraints, rank]| rank < constraints);
     let (mut methods, mut motion, mut start) = (Vec::new(), None, None);

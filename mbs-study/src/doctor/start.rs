@@ -38,16 +38,13 @@ pub(super) fn no_start(scene: &Scene<f64>, error: &StopError, findings: &mut Vec
     findings.push(finding);
 }
 
-/// Axes that are taken as parallel, or as across each other, though they are off by a little.
-pub(super) fn tilts(scene: &Scene<f64>, findings: &mut Vec<Finding>) {
+/// Axes that are taken as parallel, or as across each other, though they are off by a little; and couplings whose sense is not that of
+/// version 0.1, or is not drawn.
+pub(super) fn axes(scene: &Scene<f64>, findings: &mut Vec<Finding>) {
     for (joint, message) in mbs::inside::notes(scene) {
         let finding = Finding::new(Severity::Note, (Topic::Start, "axis-off"), message, "");
         findings.push(finding.joints(vec![joint]));
     }
-}
-
-/// Couplings whose sense is not that of version 0.1, or is not drawn.
-pub(super) fn senses(scene: &Scene<f64>, findings: &mut Vec<Finding>) {
     for (coupling, message) in scene.sense_notes() {
         let finding = Finding::new(Severity::Note, (Topic::Places, "coupling-sense"), message, "");
         findings.push(finding.at(Entry::Coupling(coupling.index()), "kind"));

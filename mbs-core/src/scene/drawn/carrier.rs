@@ -2,7 +2,7 @@
 
 use crate::Real;
 use crate::algebra::{Vector, along, cross, norm};
-use crate::scene::{BodyId, CouplingMeasure, Freedom, Joint, JointId, JointKind, Scene};
+use crate::scene::{BodyId, CouplingMeasure, Freedom, Joint, JointId, Scene};
 use alloc::collections::VecDeque;
 use alloc::vec;
 use alloc::vec::Vec;
@@ -44,16 +44,12 @@ impl<T: Real> Element<T> {
     /// The only turn or slide of a joint; one along the axis of its turn may be beside.
     fn only(scene: &Scene<T>, joint: usize) -> Option<Self> {
         let of: &Joint<T> = &scene.joints[joint];
-        let mut turns = None;
-        for (number, freedom) in of.kind.numbered(scene.dimension) {
-            match (freedom, of.kind) {
-                (Freedom::Slide(_), JointKind::Cylindrical) => {}
-                (Freedom::Ball, _) => return None,
-                _ if turns.is_some() => return None,
-                _ => turns = Some(number),
-            }
-        }
-        Self::of(scene, JointId::new(joint), turns?)
+        let number = match of.kind.freedoms(scene.dimension) {
+            [Freedom::Turn(_) | Freedom::Slide(_)] => 0,
+            [Freedom::Slide(slide), Freedom::Turn(turn)] if slide == turn => 1,
+            _ => return None,
+        };
+        Self::of(scene, JointId::new(joint), number)
     }
 
     /// The sense of its axis against another that is parallel.
@@ -108,7 +104,8 @@ pub(super) fn of<T: Real>(
         if !is_past && element.keeps(first, reach) {
             return Some((Some((element, true)), false));
         }
-        element.keeps(second, reach).then(|| (Some((element, false)), true))
+        let keeps = element.keeps(second, reach);
+        keeps.then_some((Some((element, false)), true))
     };
     let mut best: Option<([T; 2], Vec<Leg<T>>, usize)> = None;
     for (i, j) in [(1, 1), (1, 0), (0, 1), (0, 0)] {
@@ -184,10 +181,9 @@ fn way<T: Real>(
             if joints.contains(&JointId::new(k)) || bodies.contains(&next) {
                 continue;
             }
-            let step = match joint.kind {
-                JointKind::Weld => Some((None, is_past)),
-                _ => admit(k, is_past),
-            };
+            let is_weld =
+                joint.kind.freedoms(scene.dimension).is_empty() && !joint.kind.form().is_link;
+            let step = if is_weld { Some((None, is_past)) } else { admit(k, is_past) };
             let Some((leg, is_past_next)) = step else { continue };
             let to = (next, is_past_next);
             if seen[place(to)].is_none() {

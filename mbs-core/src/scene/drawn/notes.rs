@@ -1,8 +1,7 @@
 //! What a run notes of couplings that mean something else than in version 0.1.
 
-use super::{DrawnKind, Sense};
 use crate::Real;
-use crate::scene::{CouplingId, CouplingKind, Quantity, Scene};
+use crate::scene::{CouplingId, CouplingKind, DrawnKind, Quantity, Scene, Sense};
 use alloc::format;
 use alloc::string::String;
 

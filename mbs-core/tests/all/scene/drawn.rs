@@ -36,12 +36,15 @@ fn slide(name: &'static str, bodies: [&'static str; 2], at: Vector) -> Drawn {
     Drawn { name, bodies, is_turn: false, at, axis: [1.0, 0.0, 0.0] }
 }
 
+/// How far parts slip where they touch, by the velocities of the bodies.
+type Slip = Box<dyn Fn(&dyn Fn(&str) -> Twist) -> f64>;
+
 /// A machine, and what it has to keep at zero: how far its parts slip where they touch, by the velocities of its bodies.
 struct Machine {
     what: &'static str,
     joints: Vec<Drawn>,
     coupling: String,
-    slip: Box<dyn Fn(&dyn Fn(&str) -> Twist) -> f64>,
+    slip: Slip,
 }
 
 /// Angular velocity, and the velocity of the origin.
@@ -74,189 +77,173 @@ fn twists(joints: &[Drawn], rates: &[f64]) -> Vec<(&'static str, Twist)> {
     known
 }
 
-/// A machine of one of the kinds, with parts of random sizes, on a body that moves, or on the ground.
-fn machine(random: &mut Random, kind: usize) -> Machine {
-    let mut size = || 0.6 + 0.4 * random.next();
-    let (r1, r2) = (size(), size());
-    // a base that turns elsewhere, and a cart
-    let base = slide("base", ["ground", "base"], [0.0, size(), 0.0]);
-    let swing = turn("swing", ["base", "frame"], [-3.0, size(), 0.0]);
-    let (first, z) = ([0.3, size(), 0.0], [0.0, 0.0, 1.0]);
-    let apart = move |d: f64| plus(first, d, [0.8, 0.6, 0.0]);
-    let (one, other) = (first, apart(r1 + r2));
-    let along = [-0.6, 0.8, 0.0];
-    let pitch = |p: Vector, t: Vector| {
-        move |v: &dyn Fn(&str) -> Twist| dot(plus(v("one").at(p), -1.0, v("two").at(p)), t)
-    };
-    let frames = vec![base, swing];
-    let with = |joints: Vec<Drawn>| [frames.clone(), joints].concat();
-    let radii = format!("radii = [{r1:?}, {r2:?}]");
-    let gear = |more: &str| format!("kind = \"gear\"\njoints = [\"one\", \"two\"]\n{radii}{more}");
-    let arm = |at: Vector| turn("arm", ["frame", "arm"], at);
-    match kind {
-        0 => Machine {
-            what: "gears",
-            joints: with(vec![
-                turn("one", ["frame", "one"], one),
-                turn("two", ["frame", "two"], other),
-            ]),
-            coupling: gear(""),
-            slip: Box::new(pitch(apart(r1), along)),
-        },
-        1 => {
-            let r2 = r1 * 0.4;
-            let centre = apart(r1 - r2);
-            Machine {
-                what: "wheel in a ring",
-                joints: with(vec![
-                    turn("one", ["frame", "one"], one),
-                    turn("two", ["frame", "two"], centre),
-                ]),
-                coupling: format!(
-                    "kind = \"gear\"\njoints = [\"one\", \"two\"]\nradii = [{r1:?}, {r2:?}]\nmesh = \"internal\""
-                ),
-                slip: Box::new(pitch(apart(r1), along)),
-            }
-        }
-        2 => Machine {
-            what: "planet on an arm",
-            joints: with(vec![
-                turn("one", ["frame", "one"], one),
-                arm(one),
-                turn("two", ["arm", "two"], other),
-            ]),
-            coupling: gear(""),
-            slip: Box::new(pitch(apart(r1), along)),
-        },
-        3 => Machine {
-            what: "sun held by the arm's joint",
-            joints: with(vec![
-                turn("one", ["frame", "arm"], one),
-                turn("two", ["arm", "two"], other),
-            ]),
-            coupling: gear(""),
-            slip: Box::new(move |v| {
-                let p = apart(r1);
-                dot(plus(v("frame").at(p), -1.0, v("two").at(p)), along)
-            }),
-        },
-        4 => Machine {
-            what: "arms about both axes",
-            joints: with(vec![
-                turn("one", ["frame", "one"], one),
-                arm(one),
+const Z: Vector = [0.0, 0.0, 1.0];
+/// From one wheel to the next, and across.
+const WAY: Vector = [0.8, 0.6, 0.0];
+const ACROSS: Vector = [-0.6, 0.8, 0.0];
+
+/// Sizes of two parts, and where the first stands.
+#[derive(Debug, Clone, Copy)]
+struct Parts {
+    r1: f64,
+    r2: f64,
+    one: Vector,
+}
+
+impl Parts {
+    /// A place so far from the first part.
+    fn apart(&self, distance: f64) -> Vector {
+        plus(self.one, distance, WAY)
+    }
+
+    fn radii(&self) -> String {
+        format!("joints = [\"one\", \"two\"]\nradii = [{:?}, {:?}]", self.r1, self.r2)
+    }
+
+    fn one(&self) -> Drawn {
+        turn("one", ["frame", "one"], self.one)
+    }
+}
+
+/// The velocity of one body against another at a place, along a direction.
+fn touching(bodies: [&'static str; 2], place: Vector, along: Vector) -> Slip {
+    Box::new(move |v| {
+        let [a, b] = bodies.map(|body| v(body).at(place));
+        dot(plus(a, -1.0, b), along)
+    })
+}
+
+/// Two wheels in mesh.
+fn gears(of: Parts, kind: usize) -> Machine {
+    let other = of.apart(of.r1 + of.r2);
+    let coupling = format!("kind = \"gear\"\n{}", of.radii());
+    let arm = turn("arm", ["frame", "arm"], of.one);
+    let slip = touching(["one", "two"], of.apart(of.r1), ACROSS);
+    let (what, joints) = match kind {
+        0 => ("gears", vec![of.one(), turn("two", ["frame", "two"], other)]),
+        1 => ("planet on an arm", vec![of.one(), arm, turn("two", ["arm", "two"], other)]),
+        2 => (
+            "arms about both axes",
+            vec![
+                of.one(),
+                arm,
                 turn("fork", ["arm", "fork"], other),
                 turn("two", ["fork", "two"], other),
-            ]),
-            coupling: gear(""),
-            slip: Box::new(pitch(apart(r1), along)),
-        },
-        5 | 6 => {
-            let is_crossed = kind == 6;
-            let d = r1 + r2 + 0.5;
-            let centre = apart(d);
-            // the strand leaves the wheels at angles ± acos((r1 ∓ r2)/d) from the way between the axes
-            let share: f64 = if is_crossed { (r1 + r2) / d } else { (r1 - r2) / d };
-            let (c, s) = (share, (1.0 - share * share).sqrt());
-            let n = plus(plus([0.0; 3], c, [0.8, 0.6, 0.0]), s, along);
-            let on_first = plus(one, r1, n);
-            let on_second = plus(centre, if is_crossed { -r2 } else { r2 }, n);
-            let strand = plus(on_second, -1.0, on_first);
-            let length = dot(strand, strand).sqrt();
-            Machine {
-                what: if is_crossed { "crossed belt" } else { "belt" },
-                joints: with(vec![
-                    turn("one", ["frame", "one"], one),
-                    turn("two", ["frame", "two"], centre),
-                ]),
-                coupling: format!(
-                    "kind = \"belt\"\njoints = [\"one\", \"two\"]\n{radii}\ncrossed = {is_crossed}"
-                ),
-                slip: Box::new(move |v| {
-                    let u = plus([0.0; 3], 1.0 / length, strand);
-                    dot(v("one").at(on_first), u) - dot(v("two").at(on_second), u)
-                }),
-            }
+            ],
+        ),
+        3 => {
+            let joints =
+                vec![turn("one", ["frame", "arm"], of.one), turn("two", ["arm", "two"], other)];
+            let slip = touching(["frame", "two"], of.apart(of.r1), ACROSS);
+            return Machine { what: "sun held by the frame", joints, coupling, slip };
         }
-        7 | 8 => {
-            let side = if kind == 7 { r1 } else { -r1 };
-            let line = plus(one, side, [0.0, 1.0, 0.0]);
-            Machine {
-                what: "rack",
-                joints: with(vec![
-                    turn("one", ["frame", "one"], one),
-                    slide("two", ["frame", "two"], plus(line, 0.7, [1.0, 0.0, 0.0])),
-                ]),
-                coupling: format!("kind = \"rack\"\njoints = [\"one\", \"two\"]\nradius = {r1:?}"),
-                slip: Box::new(pitch(line, [1.0, 0.0, 0.0])),
-            }
+        _ => {
+            let inside = Parts { r2: 0.4 * of.r1, ..of };
+            let joints = vec![of.one(), turn("two", ["frame", "two"], of.apart(0.6 * of.r1))];
+            let coupling = format!("kind = \"gear\"\n{}\nmesh = \"internal\"", inside.radii());
+            return Machine { what: "wheel in a ring", joints, coupling, slip };
         }
-        9 => {
-            let line = plus(one, r1, [0.0, 1.0, 0.0]);
-            Machine {
-                what: "pinion on a cart, rack on the frame",
-                joints: with(vec![
-                    slide("cart", ["frame", "cart"], one),
-                    turn("one", ["cart", "one"], one),
-                    slide("two", ["frame", "two"], line),
-                ]),
-                coupling: format!("kind = \"rack\"\njoints = [\"one\", \"two\"]\nradius = {r1:?}"),
-                slip: Box::new(pitch(line, [1.0, 0.0, 0.0])),
-            }
-        }
-        10 => {
-            let line = plus(one, r1, [0.0, 1.0, 0.0]);
-            Machine {
-                what: "pinion on a cart that runs along a rack",
-                joints: with(vec![
-                    slide("two", ["frame", "cart"], line),
-                    turn("one", ["cart", "one"], one),
-                ]),
-                coupling: format!("kind = \"rack\"\njoints = [\"one\", \"two\"]\nradius = {r1:?}"),
-                slip: Box::new(move |v| plus(v("one").at(line), -1.0, v("frame").at(line))[0]),
-            }
-        }
-        11 => Machine {
-            what: "screw that turns, nut that slides",
-            joints: with(vec![
-                turn("one", ["frame", "one"], one),
-                Drawn { axis: z, ..slide("two", ["frame", "two"], other) },
-            ]),
-            coupling: format!("kind = \"screw\"\njoints = [\"one\", \"two\"]\nlead = {r1:?}"),
-            slip: Box::new(move |v| {
-                let turns = dot(plus(v("one").0, -1.0, v("frame").0), z) / core::f64::consts::TAU;
-                dot(plus(v("two").at(other), -1.0, v("frame").at(other)), z) - r1 * turns
-            }),
-        },
-        12 => Machine {
-            what: "half shafts on the housing",
-            joints: with(vec![
-                turn("one", ["frame", "one"], plus(one, 1.0, z)),
-                turn("two", ["frame", "two"], plus(one, -1.0, z)),
-                turn("cage", ["frame", "cage"], one),
-            ]),
-            coupling:
-                "kind = \"differential\"\njoints = [\"one\", \"two\", \"cage\"]\nteeth = [20, 30]"
-                    .to_owned(),
-            slip: Box::new(move |v| {
-                let [a, b] = ["one", "two"].map(|w| dot(plus(v(w).0, -1.0, v("cage").0), z));
-                20.0 * a + 30.0 * b
-            }),
-        },
-        _ => Machine {
-            what: "sun and ring on the carrier",
-            joints: with(vec![
-                turn("cage", ["frame", "cage"], one),
-                turn("one", ["cage", "one"], plus(one, 1.0, z)),
-                turn("two", ["frame", "two"], plus(one, -1.0, z)),
-            ]),
-            coupling: "kind = \"differential\"\njoints = [\"one\", \"two\", \"cage\"]".to_owned(),
-            slip: Box::new(move |v| {
-                let [a, b] = ["one", "two"].map(|w| dot(plus(v(w).0, -1.0, v("cage").0), z));
-                a + b
-            }),
-        },
+    };
+    Machine { what, joints, coupling, slip }
+}
+
+/// Two wheels whose strand runs straight from rim to rim.
+fn belt(of: Parts, is_crossed: bool) -> Machine {
+    let d = of.r1 + of.r2 + 0.5;
+    let r2 = if is_crossed { -of.r2 } else { of.r2 };
+    // a normal to the strand, which both rims have
+    let c = (of.r1 - r2) / d;
+    let n = plus(plus([0.0; 3], c, WAY), (1.0 - c * c).sqrt(), ACROSS);
+    let ends = [plus(of.one, of.r1, n), plus(of.apart(d), r2, n)];
+    let strand = plus(ends[1], -1.0, ends[0]);
+    Machine {
+        what: if is_crossed { "crossed belt" } else { "belt" },
+        joints: vec![of.one(), turn("two", ["frame", "two"], of.apart(d))],
+        coupling: format!("kind = \"belt\"\n{}\ncrossed = {is_crossed}", of.radii()),
+        slip: Box::new(move |v| {
+            dot(v("one").at(ends[0]), strand) - dot(v("two").at(ends[1]), strand)
+        }),
     }
+}
+
+/// A pinion with a rack along x, above it or below.
+fn rack(of: Parts, kind: usize) -> Machine {
+    let side = if kind == 0 { -of.r1 } else { of.r1 };
+    let line = plus(of.one, side, [0.0, 1.0, 0.0]);
+    let coupling = format!("kind = \"rack\"\njoints = [\"one\", \"two\"]\nradius = {:?}", of.r1);
+    let along = plus(line, 0.7, [1.0, 0.0, 0.0]);
+    let on_cart = turn("one", ["cart", "one"], of.one);
+    let (what, joints, other) = match kind {
+        0 | 1 => ("rack", vec![of.one(), slide("two", ["frame", "two"], along)], "two"),
+        2 => (
+            "pinion on a cart, rack on the frame",
+            vec![
+                slide("cart", ["frame", "cart"], of.one),
+                on_cart,
+                slide("two", ["frame", "two"], along),
+            ],
+            "two",
+        ),
+        _ => (
+            "pinion on a cart that runs along a rack",
+            vec![slide("two", ["frame", "cart"], line), on_cart],
+            "frame",
+        ),
+    };
+    Machine { what, joints, coupling, slip: touching(["one", other], line, [1.0, 0.0, 0.0]) }
+}
+
+/// A screw that turns and a nut that slides.
+fn screw(of: Parts) -> Machine {
+    let lead = of.r1;
+    Machine {
+        what: "screw",
+        joints: vec![of.one(), Drawn { axis: Z, ..slide("two", ["frame", "two"], of.apart(1.0)) }],
+        coupling: format!("kind = \"screw\"\njoints = [\"one\", \"two\"]\nlead = {lead:?}"),
+        slip: Box::new(move |v| {
+            let frame = v("frame");
+            let turns = dot(plus(v("one").0, -1.0, frame.0), Z) / core::f64::consts::TAU;
+            let at = of.apart(1.0);
+            dot(plus(v("two").at(at), -1.0, frame.at(at)), Z) - lead * turns
+        }),
+    }
+}
+
+/// Wheels beside a cage, on the frame or one of them on the cage.
+fn differential(of: Parts, is_on_cage: bool) -> Machine {
+    let own = if is_on_cage { "cage" } else { "frame" };
+    Machine {
+        what: if is_on_cage { "sun on the carrier" } else { "half shafts" },
+        joints: vec![
+            turn("cage", ["frame", "cage"], of.one),
+            turn("one", [own, "one"], plus(of.one, 1.0, Z)),
+            turn("two", ["frame", "two"], plus(of.one, -1.0, Z)),
+        ],
+        coupling:
+            "kind = \"differential\"\njoints = [\"one\", \"two\", \"cage\"]\nteeth = [20, 30]"
+                .to_owned(),
+        slip: Box::new(move |v| {
+            let [a, b] = ["one", "two"].map(|wheel| dot(plus(v(wheel).0, -1.0, v("cage").0), Z));
+            20.0 * a + 30.0 * b
+        }),
+    }
+}
+
+/// A machine of one of the kinds, with parts of random sizes, on a frame that turns on a base that slides.
+fn machine(random: &mut Random, kind: usize) -> Machine {
+    let mut size = || 0.6 + 0.4 * random.next();
+    let of = Parts { r1: size(), r2: size(), one: [0.3, size(), 0.0] };
+    let base = slide("base", ["ground", "base"], [0.0, size(), 0.0]);
+    let swing = turn("swing", ["base", "frame"], [-3.0, size(), 0.0]);
+    let mut machine = match kind {
+        0..5 => gears(of, kind),
+        5 | 6 => belt(of, kind == 6),
+        7..11 => rack(of, kind - 7),
+        11 => screw(of),
+        _ => differential(of, kind == 13),
+    };
+    machine.joints.splice(0..0, [base, swing]);
+    machine
 }
 
 /// The machine as a file may have it: joints in any order, their bodies too, axes of any length and sense, the whole turned.
