@@ -109,9 +109,11 @@ fn format() -> Result<Outcome, String> {
     component("fmt", "rustfmt", &args)
 }
 
+/// With the benches, and the rival that they name: here alone they are compiled.
 fn lints() -> Result<Outcome, String> {
+    let benches = ["clippy", "--workspace", "--features", "lab/benches"];
     let args = ["--all-targets", "--quiet", "--", "--deny", "warnings"];
-    component("clippy", "clippy", &[&["clippy", "--workspace"], &args[..]].concat())
+    component("clippy", "clippy", &[&benches[..], &args[..]].concat())
 }
 
 /// The rules for text, edges, dependencies, licences and packages, which are tests of xtask.

@@ -60,7 +60,7 @@ const FEATURES: [(&str, &[&str]); 8] = [
     ("mbs-steps", &["", "f32", "dd"]),
     ("mbs", &[""]),
     ("mbs-cli", &["", "f32", "dd"]),
-    ("lab", &["jobs,effects", "benches"]),
+    ("lab", &["jobs,effects"]),
 ];
 
 /// The variable that names the command in `f64` alone to its tests.
@@ -79,9 +79,6 @@ pub(crate) fn check() -> Result<Outcome, String> {
         let mut command = cargo();
         command.args([if has_lints { "clippy" } else { "check" }, "--quiet", "--package", package]);
         command.args(["--no-default-features", "--features", set]);
-        if *set == "benches" {
-            command.arg("--benches");
-        }
         if has_lints {
             command.args(["--", "--deny", "warnings"]);
         }

@@ -18,8 +18,8 @@ mod notes;
 use crate::Real;
 use crate::algebra::{Vector, cross, norm};
 use crate::scene::{
-    Coupling, CouplingMeasure, CouplingTerm, Drawn, DrawnKind, Entry, Joint, NotDrawn, Scene,
-    SceneError, SceneFault, Sense,
+    BodyId, Coupling, CouplingMeasure, CouplingTerm, Drawn, DrawnKind, Entry, Joint, NotDrawn,
+    Scene, SceneError, SceneFault, Sense,
 };
 use alloc::vec::Vec;
 use carrier::{Element, Leg};
@@ -29,6 +29,11 @@ use carrier::{Element, Leg};
 /// # Errors
 /// [`SceneFault::NoCarrier`]; of a coupling that says that it is drawn [`SceneFault::NotDrawn`].
 pub(super) fn fill<T: Real>(scene: &mut Scene<T>) -> Result<(), SceneError> {
+    let bodies = scene.joints.iter().flat_map(|joint| joint.bodies);
+    if bodies.filter_map(BodyId::index).any(|body| body >= scene.bodies.len()) {
+        // the check names the joint
+        return Ok(());
+    }
     for i in 0..scene.couplings.len() {
         let Some(drawn) = scene.couplings[i].drawn else { continue };
         let Some(named) = Named::new(scene, &scene.couplings[i], drawn.kind) else { continue };

@@ -53,3 +53,17 @@ fn the_document_is_written_from_the_tables() {
         "run this test with MBS_WRITE_DOCS=1, and look at the difference"
     );
 }
+
+/// A twist has no value where the swing is half a turn: no signal measures it, and no page says so.
+#[test]
+fn a_signal_is_not_offered_the_twist_of_a_ball() {
+    let document = markdown();
+    let of = |heading: &str| {
+        let (_, rest) = document.split_once(heading).expect("a heading");
+        rest.split("\n##").next().expect("its text").to_owned()
+    };
+    assert!(!of("### signal `measure`").contains("twist"));
+    assert!(
+        of("### signal `measure`").contains("swing") && of("## Table `term`").contains("twist")
+    );
+}

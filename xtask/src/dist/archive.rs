@@ -14,6 +14,9 @@ const SHELLS: [&str; 5] = ["bash", "elvish", "fish", "powershell", "zsh"];
 /// Files of the repository that come with the command.
 const FILES: [&str; 4] = ["LICENSE-APACHE", "LICENSE-MIT", "README.md", "CHANGELOG.md"];
 
+/// Most bytes of the command with all precisions: 29.6 million on 29 November 2026. Raised by hand, where what it brings is worth it.
+const MOST_BYTES: u64 = 31_000_000;
+
 /// How cargo builds the command on the crates that the wheel is built on: with the package of the wheel selected too, features of
 /// dependencies are the same, and nothing is compiled twice.
 pub(super) const SELECTION: [&str; 7] = [
@@ -37,11 +40,26 @@ pub(super) fn made(build: &Build<'_>, place: &Path) -> Result<PathBuf, String> {
     run(build.strip(&mut command))?;
     let name = format!("mbs-{VERSION}-{}", build.target()?);
     let staged = emptied(&place.join(&name))?;
+    if build.profile == "dist" {
+        within(&build.folder().join(format!("mbs{EXE_SUFFIX}")), MOST_BYTES)?;
+    }
     packed(&build.folder().join(format!("mbs{EXE_SUFFIX}")), &staged)?;
     let archive = format!("{name}.tar.gz");
     run(Command::new("tar").args(["-czf", &archive, &name]).current_dir(place))?;
     fs::remove_dir_all(&staged).map_err(|e| format!("{}: {e}", staged.display()))?;
     Ok(place.join(archive))
+}
+
+/// Fails where a program is larger than it may be.
+fn within(built: &Path, most: u64) -> Result<(), String> {
+    let name = built.display();
+    let bytes = fs::metadata(built).map_err(|e| format!("{name}: {e}"))?.len();
+    if bytes > most {
+        return Err(format!(
+            "{name} has {bytes} bytes, and may have {most}: what grew? Raise the bound by hand where it is worth its size"
+        ));
+    }
+    Ok(())
 }
 
 /// Puts the command and what comes with it into a folder.
@@ -87,6 +105,14 @@ pub(super) fn tried(archive: &Path, folder: &Path) -> Result<f64, String> {
 mod tests {
     use super::*;
     use crate::process::built_packages;
+
+    #[test]
+    fn a_command_beyond_its_bound_fails() {
+        let file = root().join(FILES[2]);
+        let bytes = fs::metadata(&file).expect("a README").len();
+        assert!(within(&file, bytes).is_ok());
+        assert!(within(&file, bytes - 1).expect_err("it is larger").contains("Raise the bound"));
+    }
 
     #[test]
     fn the_command_of_a_release_stands_on_what_the_wheel_stands_on() {

@@ -218,17 +218,22 @@ pub(super) fn inner<T: Real>(scene: &Scene<T>, of: &Element<T>) -> BodyId {
 
 /// How many joints lie between each body and the ground; `None`: none lead there.
 fn distances<T: Real>(scene: &Scene<T>) -> Vec<Option<usize>> {
-    let mut far = vec![None; scene.bodies.len()];
-    let mut open = VecDeque::from([(BodyId::Ground, 0)]);
+    let place = |body: BodyId| body.index().map_or(0, |body| body + 1);
+    let mut neighbours = vec![Vec::new(); scene.bodies.len() + 1];
+    for [a, b] in scene.joints.iter().map(|joint| joint.bodies.map(place)) {
+        neighbours[a].push(b);
+        neighbours[b].push(a);
+    }
+    let mut far = vec![None; neighbours.len()];
+    far[0] = Some(0);
+    let mut open = VecDeque::from([(0, 0)]);
     while let Some((body, steps)) = open.pop_front() {
-        for joint in scene.joints.iter().filter(|joint| joint.bodies.contains(&body)) {
-            for next in joint.bodies.into_iter().filter_map(BodyId::index) {
-                if far[next].is_none() && Some(next) != body.index() {
-                    far[next] = Some(steps + 1);
-                    open.push_back((BodyId::Body(next), steps + 1));
-                }
+        for &next in &neighbours[body] {
+            if far[next].is_none() {
+                far[next] = Some(steps + 1);
+                open.push_back((next, steps + 1));
             }
         }
     }
-    far
+    far.split_off(1)
 }
