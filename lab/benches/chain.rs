@@ -5,33 +5,13 @@
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 use mbs_core::Real;
 use mbs_core::real::Lanes;
-use mbs_core::scene::{
-    Body, BodyId, Dimension, Inertia, Joint, JointKind, JointLimits, Scene, SolverTable,
-};
+use mbs_core::scene::{Body, BodyId, Dimension, Inertia, Joint, JointKind, JointLimits, Scene};
 use mbs_recursive::space::Space;
 use mbs_recursive::{Options, Planar, Spatial, TreeModel, TreeState, Workspace};
 
 fn scene<T: Real>(dimension: Dimension) -> Scene<T> {
-    Scene {
-        name: String::new(),
-        dimension,
-        gravity: Some([0.0, -9.81, 0.0].map(T::from_f64)),
-        duration: T::ONE,
-        bodies: Vec::new(),
-        joints: Vec::new(),
-        initials: Vec::new(),
-        guides: Vec::new(),
-        couplings: Vec::new(),
-        rollings: Vec::new(),
-        signals: Vec::new(),
-        frames: Vec::new(),
-        shapes: Vec::new(),
-        effects: Vec::new(),
-        road: Default::default(),
-        start: Default::default(),
-        outputs: Vec::new(),
-        solver: SolverTable::default(),
-    }
+    let gravity = Some([0.0, -9.81, 0.0].map(T::from_f64));
+    Scene { gravity, ..Scene::empty("", dimension, T::ONE) }
 }
 
 fn revolute<T: Real>(bodies: [BodyId; 2], at: [f64; 3], axis: Option<[f64; 3]>) -> Joint<T> {

@@ -5,7 +5,7 @@ use crate::simulation::Simulation;
 use mbs_core::Real;
 use mbs_core::natural::NaturalModel;
 use mbs_core::outputs::Reactions;
-use mbs_core::scene::{CouplingKind, CouplingMeasure, CouplingTerm, Scene};
+use mbs_core::scene::{CouplingKind, Scene};
 use mbs_scene::format::{few, significant};
 
 /// Force the wrong way that is noted, relative to the largest of the row so far [-]: more than steps leave of a force.
@@ -28,9 +28,7 @@ impl Row {
         let rollings = scene.rollings.iter().enumerate();
         let contacts = rollings.filter(|(_, rolling)| rolling.kind.radius().is_some());
         let ropes = scene.couplings.iter().enumerate().filter_map(|(i, coupling)| {
-            let is_length =
-                |term: &&CouplingTerm<T>| matches!(term.of, CouplingMeasure::Length { .. });
-            let length = coupling.terms.iter().find(is_length)?;
+            let length = coupling.line()?;
             (coupling.kind == CouplingKind::Rope).then(|| Self::Rope(i, length.factor.to_f64()))
         });
         contacts.map(|(i, _)| Self::Contact(i)).chain(ropes).collect()

@@ -13,17 +13,13 @@ const OFF: f64 = 1e-6;
 /// A force that acts elsewhere than along the coordinates of a coupling.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) enum Acting {
-    /// Between a screw and its nut, along the screw's axis and about it.
+    /// Between a screw and its nut, along the screw's axis and about it. The terms are the nut's slide and the screw's turn.
     Thread {
-        /// The screw's turn, then the nut's slide: the place of their terms.
-        terms: [usize; 2],
         /// The body that carries both.
         carrier: BodyId,
     },
-    /// At the rim of a drum, where a line begins or ends that the drum's carrier has there.
+    /// At the rim of a drum, where a line begins or ends that the drum's carrier has there. The terms are the line and the drum's turn.
     Drum {
-        /// The drum's term.
-        term: usize,
         /// Is it the end of the line? Otherwise its beginning.
         is_end: bool,
         /// The body that carries the drum.
@@ -49,8 +45,8 @@ impl Acting {
         let (slide, way) = joint_of(scene, slide)?;
         let (turn, about) = joint_of(scene, turn)?;
         let is_plain = matches!((about, way), (Freedom::Turn(_), Freedom::Slide(_)));
-        let carrier = *turn.bodies.iter().find(|body| slide.bodies.contains(body))?;
-        (is_plain && turn.bodies != slide.bodies).then_some(Self::Thread { terms: [1, 0], carrier })
+        let carrier = turn.shared_body(slide)?;
+        is_plain.then_some(Self::Thread { carrier })
     }
 
     fn drum<T: Real>(scene: &Scene<T>, terms: &[CouplingTerm<T>]) -> Option<Self> {
@@ -74,7 +70,7 @@ impl Acting {
             let least = radius * T::from_f64(OFF);
             let is_rim = (norm(&way) - radius / line.factor.abs()).abs() <= least;
             let is_tangent = (axis.dot(&arm) + turns).abs() <= least;
-            (is_rim && is_tangent).then_some(Self::Drum { term: 1, is_end, carrier })
+            (is_rim && is_tangent).then_some(Self::Drum { is_end, carrier })
         })
     }
 }

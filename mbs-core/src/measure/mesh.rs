@@ -36,11 +36,7 @@ impl<T: Real> MeshedWheels<T> {
         let [Some(a), Some(b)] = joints else { return None };
         let [j, k] = [a.0, b.0].map(|joint| scene.joints.get(joint.index()));
         let (j, k) = (j?, k?);
-        let shares = |body: &&BodyId| k.bodies.contains(body);
-        let carrier = match [j.bodies.iter().find(shares), j.bodies.iter().rfind(shares)] {
-            [Some(one), Some(other)] if one == other => *one,
-            _ => return None,
-        };
+        let carrier = j.shared_body(k)?;
         let mut wheels = Self {
             carrier,
             wheels: [carrier; 2],

@@ -6,7 +6,7 @@ use crate::Real;
 use crate::algebra::{Vector, cross, norm, raised, rotation_vector, unit};
 use crate::model::State;
 use crate::natural::{self, Affine, NaturalModel, Places, unwrap, unwrap_rotation};
-use crate::scene::{BodyId, Freedom, Joint, Rotation, Scene};
+use crate::scene::{BodyId, Freedom, Joint, JointId, Rotation, Scene};
 use alloc::boxed::Box;
 use alloc::vec::Vec;
 
@@ -38,6 +38,19 @@ impl<T: Real, const D: usize> Coordinate<T, D> {
     ) -> Vec<Self> {
         let freedoms = joint.freedoms(scene.dimension).iter();
         freedoms.map(|&freedom| Self::of_freedom(scene, model, (joint, freedom))).collect()
+    }
+
+    /// A coordinate of a joint by its number, with the joint's place on one of its bodies; `None` where no number measures it.
+    pub(super) fn carried(
+        (scene, model): (&Scene<T>, &NaturalModel<T, D>),
+        (joint, number): (JointId, usize),
+        carrier: BodyId,
+    ) -> Option<(Self, Affine<T, D>)> {
+        let joint = &scene.joints[joint.index()];
+        let freedom = joint.kind.freedom(scene.dimension, number)?;
+        let side = usize::from(joint.bodies[1] == carrier);
+        let place = model.point(carrier, joint.points[side]);
+        Some((Self::of_freedom(scene, model, (joint, freedom)), place))
     }
 
     /// That of one freedom.

@@ -14,7 +14,7 @@ use crate::algebra::{Vector, cross, raised};
 use crate::measure::Acting;
 use crate::model::State;
 use crate::natural::{Affine, NaturalModel};
-use crate::scene::{BodyId, Coupling, Joint, Scene};
+use crate::scene::{BodyId, Coupling, Scene};
 
 /// A force that acts elsewhere than along the coordinates of its coupling.
 #[derive(Debug, Clone)]
@@ -40,9 +40,6 @@ pub(super) enum DrawnForce<T: Real, const D: usize> {
     },
 }
 
-/// The turn of a joint with its place on a body, and the sign of its coordinate for the other one.
-type Turn<T, const D: usize> = ((Coordinate<T, D>, Affine<T, D>), T);
-
 impl<T: Real, const D: usize> DrawnForce<T, D> {
     /// Of a coupling in a scene that passed its check; `None`: it acts along its coordinates.
     pub(super) fn new(
@@ -50,35 +47,24 @@ impl<T: Real, const D: usize> DrawnForce<T, D> {
         model: &NaturalModel<T, D>,
         coupling: &Coupling<T>,
     ) -> Option<Self> {
-        let of = |term: usize| {
-            let (joint, number) = coupling.terms[term].of.coordinate()?;
-            let joint = &scene.joints[joint.index()];
-            let freedom = joint.kind.freedom(scene.dimension, number)?;
-            Some((joint, Coordinate::of_freedom(scene, model, (joint, freedom))))
-        };
-        let other = |joint: &Joint<T>, carrier: BodyId| {
-            let side = usize::from(joint.bodies[0] == carrier);
-            (joint.bodies[side], if side == 1 { T::ONE } else { -T::ONE })
-        };
-        let turn_of = |term: usize, carrier: BodyId| -> Option<(BodyId, Turn<T, D>)> {
-            let (joint, axis) = of(term)?;
-            let (body, sign) = other(joint, carrier);
-            let side = usize::from(joint.bodies[1] == carrier);
-            Some((body, ((axis, model.point(carrier, joint.points[side])), sign)))
+        // a term's coordinate with its place on the carrier; the other body, and the sign of the coordinate as its motion
+        let part = |term: usize, carrier: BodyId| {
+            let of = coupling.terms[term].of.coordinate()?;
+            let bodies = scene.joints[of.0.index()].bodies;
+            let (body, sign) =
+                if bodies[0] == carrier { (bodies[1], T::ONE) } else { (bodies[0], -T::ONE) };
+            let axis = Coordinate::carried((scene, model), of, carrier)?;
+            Some((body, axis, coupling.terms[term].factor * sign))
         };
         match Acting::of(scene, coupling)? {
-            Acting::Thread { terms: [turn, slide], carrier } => {
-                let (screw, (axis, sense)) = turn_of(turn, carrier)?;
-                let (joint, way) = of(slide)?;
-                let (nut, sign) = other(joint, carrier);
-                let weights =
-                    [coupling.terms[slide].factor * sign, coupling.terms[turn].factor * sense];
-                Some(Self::Thread { bodies: [nut, screw], turn: axis, slide: way, weights })
+            Acting::Thread { carrier } => {
+                let (nut, (slide, _), force) = part(0, carrier)?;
+                let (screw, turn, moment) = part(1, carrier)?;
+                Some(Self::Thread { bodies: [nut, screw], turn, slide, weights: [force, moment] })
             }
-            Acting::Drum { term, is_end, carrier } => {
-                let (drum, (turn, sense)) = turn_of(term, carrier)?;
-                let weights =
-                    [coupling.terms[1 - term].factor, coupling.terms[term].factor * sense];
+            Acting::Drum { is_end, carrier } => {
+                let (drum, turn, moment) = part(1, carrier)?;
+                let weights = [coupling.terms[0].factor, moment];
                 Some(Self::Drum { drum, carrier, is_end, turn, weights })
             }
         }

@@ -15,7 +15,7 @@ use crate::algebra::{Vector, cross, norm, raised};
 use crate::measure::MeshedWheels;
 use crate::model::State;
 use crate::natural::{Affine, NaturalModel};
-use crate::scene::{BodyId, Coupling, CouplingKind, CouplingMeasure, Scene};
+use crate::scene::{BodyId, Coupling, CouplingKind, Scene};
 
 /// The force of teeth.
 #[derive(Debug, Clone)]
@@ -41,14 +41,8 @@ impl<T: Real, const D: usize> ToothForce<T, D> {
         let CouplingKind::Mesh(mesh) = &coupling.kind else { return None };
         let wheels = MeshedWheels::new(scene, &coupling.terms)?;
         let axis = |term: usize| {
-            let CouplingMeasure::Coordinate { joint, number } = coupling.terms[term].of else {
-                return None;
-            };
-            let joint = &scene.joints[joint.index()];
-            let freedom = joint.kind.freedom(scene.dimension, number)?;
-            let side = usize::from(joint.bodies[1] == wheels.carrier);
-            let place = model.point(wheels.carrier, joint.points[side]);
-            Some((Coordinate::of_freedom(scene, model, (joint, freedom)), place))
+            let of = coupling.terms[term].of.coordinate()?;
+            Coordinate::carried((scene, model), of, wheels.carrier)
         };
         let (sine, cosine) = mesh.pressure_angle.sin_cos();
         Some(Self {

@@ -76,6 +76,12 @@ impl<T> Coupling<T> {
         }
     }
 
+    /// The first of its terms that is a length.
+    #[must_use]
+    pub fn line(&self) -> Option<&CouplingTerm<T>> {
+        self.terms.iter().find(|term| matches!(term.of, CouplingMeasure::Length { .. }))
+    }
+
     /// Does its sum change with time?
     #[must_use]
     pub const fn is_driven(&self) -> bool {
@@ -91,9 +97,7 @@ impl<T> Coupling<T> {
     {
         let of = |k: usize| self.terms.get(k).map_or(T::ONE, |term| term.factor);
         if self.kind == CouplingKind::Rope {
-            let is_length =
-                |term: &&CouplingTerm<T>| matches!(term.of, CouplingMeasure::Length { .. });
-            return -self.terms.iter().find(is_length).map_or(T::ONE, |term| term.factor);
+            return -self.line().map_or(T::ONE, |line| line.factor);
         }
         match self.drawn.map(|drawn| drawn.kind) {
             Some(DrawnKind::Gear { .. } | DrawnKind::Differential | DrawnKind::Screw) => of(0),

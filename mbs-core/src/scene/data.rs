@@ -74,6 +74,18 @@ pub struct Joint<T> {
     pub limits: JointLimits<T>,
 }
 
+impl<T> Joint<T> {
+    /// The only body that is also one of another joint's; `None`: they share none, or both.
+    #[must_use]
+    pub fn shared_body(&self, other: &Self) -> Option<BodyId> {
+        let shares = |body: &&BodyId| other.bodies.contains(body);
+        match [self.bodies.iter().find(shares), self.bodies.iter().rfind(shares)] {
+            [Some(one), Some(same)] if one == same => Some(*one),
+            _ => None,
+        }
+    }
+}
+
 /// What the only coordinate of a joint, its rate and its effort are meant to keep to: data, without effect on the motion.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct JointLimits<T> {

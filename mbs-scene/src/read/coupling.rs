@@ -93,7 +93,7 @@ fn read_drawn(kind: &str, fields: &Fields<'_>) -> Read<Option<Drawn>> {
             return Ok(Some(DrawnKind::Ratio.drawn()));
         }
         "gear" => DrawnKind::Gear {
-            is_internal: has_word(fields, "mesh", "internal")?,
+            is_internal: is_internal(fields)?,
             has_radii: fields.get("radii").is_some(),
         },
         "belt" => DrawnKind::Belt { is_crossed: fields.flag("crossed", false)? },
@@ -110,8 +110,13 @@ fn read_drawn(kind: &str, fields: &Fields<'_>) -> Read<Option<Drawn>> {
     Ok(Some(Drawn { is_stated, ..kind.drawn() }))
 }
 
-fn has_word(fields: &Fields<'_>, key: &'static str, wanted: &str) -> Read<bool> {
-    Ok(fields.get(key).is_some() && fields.word(key)?.0 == wanted)
+/// Does one wheel stand inside the other?
+fn is_internal(fields: &Fields<'_>) -> Read<bool> {
+    match fields.get("mesh").map(|_| fields.word("mesh")).transpose()? {
+        None | Some(("external", _)) => Ok(false),
+        Some(("internal", _)) => Ok(true),
+        Some(word) => fields.unknown_word("mesh", word, &["external", "internal"]),
+    }
 }
 
 /// The pressure angle of teeth that name none [rad]: 20 degrees, that of standard teeth (ISO 53).
@@ -197,11 +202,7 @@ fn gear<'a>(fields: &Fields<'a>, joints: &'a [Joint<Number>]) -> Read<Vec<Coupli
             .context
             .fault(fields.header, ReadFault::Missing { key: "teeth, radii or ratio" });
     };
-    let is_internal = match fields.get("mesh").map(|_| fields.word("mesh")).transpose()? {
-        None | Some(("external", _)) => false,
-        Some(("internal", _)) => true,
-        Some(word) => return fields.unknown_word("mesh", word, &["external", "internal"]),
-    };
+    let is_internal = is_internal(fields)?;
     let Some(sense) = sense(fields, [first, second])? else {
         return fields.context.fault(&item.span, ReadFault::AxesNotParallel);
     };

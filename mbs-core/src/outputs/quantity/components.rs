@@ -125,8 +125,9 @@ impl ComponentForm {
             Self::Efforts => coordinates(&|unit| effort(unit).into()),
             Self::Number(unit) | Self::Tire(unit) => [one("", unit)].into(),
             Self::Contact => [one("", "-")].into(),
-            Self::Length => measured.map(|unit| one("", unit)).into_iter().collect(),
-            Self::Deflection => measured.map(|unit| one("", unit)).into_iter().collect(),
+            Self::Length | Self::Deflection => {
+                measured.map(|unit| one("", unit)).into_iter().collect()
+            }
             Self::Matrix => {
                 let row = |x| axes.iter().map(move |y| one(&format!("{x}{y}"), "-"));
                 axes.iter().flat_map(row).collect()

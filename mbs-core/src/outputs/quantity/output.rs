@@ -56,10 +56,7 @@ impl<T: Clone> Quantity<T> {
                 (freedoms, None)
             }
             Target::Coupling(coupling) if form == ComponentForm::Length => {
-                let is_line =
-                    |term: &CouplingTerm<T>| matches!(term.of, CouplingMeasure::Length { .. });
-                let has_lines = scene.couplings[coupling.index()].terms.iter().any(is_line);
-                (&[][..], has_lines.then_some("m"))
+                (&[][..], scene.couplings[coupling.index()].line().map(|_| "m"))
             }
             Target::Coupling(coupling) => {
                 (&[][..], Some(unit_of_coupling(scene, coupling, form == ComponentForm::Force)))

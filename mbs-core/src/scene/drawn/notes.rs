@@ -31,12 +31,12 @@ impl<T> Scene<T> {
 impl<T: Real> Scene<T> {
     /// Outputs of reactions that lack the force of a coupling.
     pub fn reaction_notes(&self) -> impl Iterator<Item = String> {
-        self.outputs.iter().flat_map(|output| {
-            let joint = match output.quantity {
-                Quantity::Reaction { joint } => Some(joint),
-                _ => None,
-            };
-            let lacking = self.lacking_forces().filter(move |(of, _)| Some(*of) == joint);
+        let reactions = self.outputs.iter().filter_map(|output| match output.quantity {
+            Quantity::Reaction { joint } => Some((output, joint)),
+            _ => None,
+        });
+        reactions.flat_map(|(output, joint)| {
+            let lacking = self.lacking_forces().filter(move |(of, _)| *of == joint);
             lacking.map(|(_, coupling)| {
                 let of = &self.couplings[coupling.index()];
                 let (kind, remedy) = match of.drawn.map(|drawn| drawn.kind) {

@@ -1,29 +1,14 @@
 //! Couplings mean what is drawn: neither the order of a joint's bodies nor the sense of an axis changes it.
 
-use super::{field, read, text};
+use super::{by_tolerance, field, last, read, text};
 use crate::common::{run, run_in};
+use mbs::FormulationKind;
 use mbs::core::scene::Scene;
-use mbs::{FormulationKind, Method, Outcome};
-
-/// Values of the last row.
-fn last(outcome: &Outcome) -> &[f64] {
-    assert!(outcome.error.is_none(), "{:?}", outcome.error);
-    &outcome.rows().last().expect("the start is recorded").1
-}
-
-/// Steps whose error is far below the digits that are compared.
-fn exact() -> Method {
-    Method {
-        formulation: Some("recursive".into()),
-        integrator: Some("rk853".into()),
-        tolerance: Some(1e-11),
-        ..Method::default()
-    }
-}
+use mbs::scene_file::SceneFile;
 
 /// Asserts values of columns at the end of a run, in every formulation.
 fn ends_with(name: &str, scene: &Scene<f64>, values: &[(usize, f64)]) {
-    let found = run(scene, &exact());
+    let found = run(scene, &by_tolerance("rk853", None));
     for &(column, right) in values {
         let found = last(&found)[column];
         assert!((found - right).abs() < 1e-9 * right.abs(), "{name}: {found}, {right}");
@@ -201,8 +186,7 @@ fn wheels_without_a_body_that_carries_both_are_refused_with_the_joint_to_add() {
         "name = \"arm\"\nkind = \"revolute\"\nbodies = [\"ground\", \"arm\"]\nat = [0.0, 0.0]",
         "name = \"arm\"\nkind = \"revolute\"\nbodies = [\"ground\", \"arm\"]\nat = [0.01, 0.0]",
     );
-    let document = mbs::scene_file::SceneFile::parse(&off, "arm.toml").expect("a file");
-    let refused = document.scene::<f64>().expect_err("no carrier").render();
+    let refused = refused(&off);
     for part in ["`arm`", "`ground`", "`sun`", "add a joint", "joints = "] {
         assert!(refused.contains(part), "{part}: {refused}");
     }
@@ -260,8 +244,7 @@ joint = "slide"
         assert_eq!(is_noted, right < 0.0);
     }
     let stated = rack.replace("radius = 0.2", "radius = 0.2\nsense = \"drawn\"");
-    let document = mbs::scene_file::SceneFile::parse(&stated, "rack.toml").expect("a file");
-    let refused = document.scene::<f64>().expect_err("no pitch line").render();
+    let refused = refused(&stated);
     assert!(refused.contains("pitch line"), "{refused}");
 }
 
@@ -277,7 +260,12 @@ fn the_length_of_a_rope_is_a_length_and_that_of_wheels_is_refused() {
     }
     let gear =
         text("22-gear-joint-wheel-first").replace("quantity = \"effort\"", "quantity = \"length\"");
-    let document = mbs::scene_file::SceneFile::parse(&gear, "gear.toml").expect("a file");
-    let refused = document.scene::<f64>().expect_err("no line").render();
+    let refused = refused(&gear);
     assert!(refused.contains("`value`"), "{refused}");
+}
+
+/// How a text that is a file but no scene is refused.
+fn refused(text: &str) -> String {
+    let document = SceneFile::parse(text, "refused.toml").expect("a file");
+    document.scene::<f64>().expect_err("it is no scene").render()
 }

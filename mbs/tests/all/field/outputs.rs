@@ -1,26 +1,9 @@
 //! Outputs that were wrong where the motion was right, and a motion that was stopped over the rounding of one.
 
-use super::{field, read, text};
+use super::{by_tolerance, field, last, read, text};
 use crate::common::{run, run_in};
 use mbs::core::scene::Scene;
-use mbs::{FormulationKind, Method, Outcome};
-
-/// Values of the last row.
-fn last(outcome: &Outcome) -> &[f64] {
-    assert!(outcome.error.is_none(), "{:?}", outcome.error);
-    &outcome.rows().last().expect("the start is recorded").1
-}
-
-/// By steps whose length is chosen for this tolerance, at most `most` long [s].
-fn by_tolerance(integrator: &str, most: Option<f64>) -> Method {
-    Method {
-        formulation: Some("recursive".into()),
-        integrator: Some(integrator.into()),
-        tolerance: Some(1e-11),
-        step_max: most,
-        ..Method::default()
-    }
-}
+use mbs::{FormulationKind, Method};
 
 /// Efforts on both angles of the cross [N m], and their power [W], at 0.5 s: the equations of mast and dish by another program.
 const CROSS: [f64; 3] = [-5.399_044_19, 1.102_128_63, 16.795_604_76];
