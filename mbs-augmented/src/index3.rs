@@ -75,6 +75,9 @@ pub(crate) fn solve<T: Real, M: Model<T>, S: SpdSolver<T>>(
 
     let newton = Newton::new((scale, options.tolerance, length));
     let done = iterate(model, (rule, newton), (options, start), s, w)?;
+    if has_loose_rows(model, (options, start), w) {
+        filter(model, &mut w.equations, (&w.scale.weights, &mut w.lambda));
+    }
     // the accelerations leave the unit of the iteration
     w.end.scale_accelerations(model, rule.acceleration);
     Ok(done)
@@ -94,16 +97,23 @@ fn iterate<T: Real, M: Model<T>, S: SpdSolver<T>>(
     let rule_of_stop = StopRule::new(model, options, is_balanced);
     let mut reuse = FactorReuse::new(is_balanced, rule_of_stop.is_tolerance_alone());
     while newton.iterations < options.max_iterations {
-        let is_reused = reuse.can_reuse(&newton, rule, &w.equations);
+        let is_loose = has_loose_rows(model, (options, start), w);
+        let is_corrected = newton.iterations == 1;
+        if is_loose && newton.iterations > 0 {
+            filter(model, &mut w.equations, (&w.scale.weights, &mut w.lambda));
+        }
+        let is_reused = reuse.can_reuse(&newton, rule, &w.equations) && !(is_corrected && is_loose);
         if !is_reused {
             w.factor(model, rule, options.geometric_stiffness)?;
             reuse.since = T::ZERO;
         }
-        if newton.iterations == 0 {
+        if newton.iterations == 0 || is_corrected && is_loose {
             adapt(model, rule, (options, start), w)?;
         }
 
         // f = M a/a' + J^T (s phi + lambda/a') - Q/a'   [P3 (9)]
+        // at predicted positions what contradicts others does not show apart from what is determined: the next correction makes up for it
+        let is_predicted = newton.iterations == 0 && has_loose_rows(model, (options, start), w);
         let Workspace { equations: eq, end, lambda, scale, .. } = w;
         if is_reused && is_balanced {
             let rows = (&scale.weights[..], &lambda[..]);
@@ -115,7 +125,7 @@ fn iterate<T: Real, M: Model<T>, S: SpdSolver<T>>(
 
         // T d = -f,   lambda <- lambda + s (phi + J' d)   [P3 (8)]
         eq.solve();
-        if is_balanced {
+        if is_balanced && !is_predicted {
             update_multipliers(model, eq, (&scale.weights, lambda));
         }
 
@@ -152,14 +162,39 @@ fn adapt<T: Real, M: Model<T>, S: SpdSolver<T>>(
     (options, start): (&Options<T>, MultiplierStart),
     w: &mut Workspace<T, S>,
 ) -> Result<(), StepError> {
-    if options.adaptive_penalty && w.adaptation.adapt_penalty(model, &mut w.equations, &mut w.scale)
-    {
+    let Workspace { adaptation, equations, scale, .. } = w;
+    let is_raised = !model.has_velocity_rows();
+    let is_changed =
+        options.adaptive_penalty && adaptation.adapt_penalty(model, equations, scale, is_raised);
+    if is_changed {
         w.factor(model, rule, options.geometric_stiffness)?;
     }
-    let is_well_conditioned =
-        options.adaptive_penalty && w.adaptation.is_well_conditioned(&w.scale);
-    if start == Filtered && !is_well_conditioned {
+    if is_filtered((options, start), w) {
         filter(model, &mut w.equations, (&w.scale.weights, &mut w.lambda));
     }
     Ok(())
+}
+
+/// Is there, or may there be, a part of the multipliers that no constraint determines, and that is to be removed?
+fn is_filtered<T: Real, S: SpdSolver<T>>(
+    (options, start): (&Options<T>, MultiplierStart),
+    w: &Workspace<T, S>,
+) -> bool {
+    let is_well_conditioned =
+        options.adaptive_penalty && w.adaptation.is_well_conditioned(&w.scale);
+    start == Filtered && !is_well_conditioned
+}
+
+/// May rows of velocities depend on others, as those of two wheels on one axle?
+///
+/// Then phi = h/2 J v of these rows contradicts the others by what the rule errs by, h^3, which no correction takes back. Each adds s times it
+/// to the multipliers that nothing determines, which act where rows have turned since. So they are filtered after each correction. And rows
+/// depend on each other where positions are closed: before, the combination looks weak, not lost. So the matrix is factored anew after the
+/// first correction, and penalties are not raised for it.
+fn has_loose_rows<T: Real, M: Model<T>, S: SpdSolver<T>>(
+    model: &M,
+    how: (&Options<T>, MultiplierStart),
+    w: &Workspace<T, S>,
+) -> bool {
+    model.has_velocity_rows() && is_filtered(how, w)
 }

@@ -42,16 +42,18 @@ impl MultiplierStart {
     }
 }
 
-/// lambda <- s J T^-1 J^T lambda: removes what no constraint determines. Needs T factored. Cost: one solve.
+/// lambda <- s J' T^-1 J'^T lambda: removes what no constraint of the factored rows J' determines. Needs T factored. Cost: one solve.
 pub(crate) fn filter<T: Real, M: Model<T>, S: SpdSolver<T>>(
     model: &M,
     equations: &mut Equations<T, S>,
     (s, lambda): (&[T], &mut [T]),
 ) {
     equations.mu.copy_from_slice(lambda);
-    equations.assemble(model, None, T::ZERO);
-    equations.solve();
-    equations.multiply_correction(model);
+    equations.with_factored_rows(|eq| {
+        eq.assemble(model, None, T::ZERO);
+        eq.solve();
+        eq.multiply_correction(model);
+    });
     set_product(model.team(), lambda, (s, &equations.mu));
 }
 

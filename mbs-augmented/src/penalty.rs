@@ -81,6 +81,12 @@ impl<T: Real> PenaltyScale<T> {
         self.factor *= by;
     }
 
+    /// Multiplies the penalties of rows of velocities.
+    pub(crate) fn scale_velocity_rows(&mut self, model: &impl Model<T>, by: T) {
+        let rows = self.weights.iter_mut().enumerate();
+        rows.filter(|(row, _)| model.is_velocity_row(*row)).for_each(|(_, s)| *s *= by);
+    }
+
     /// Takes raised penalties back; returns whether there were any.
     pub(crate) fn restore(&mut self) -> bool {
         let was_raised = self.factor > T::ONE;
@@ -158,8 +164,8 @@ impl<T: Real> PenaltyAdaptation<T> {
     }
 
     /// Makes one power iteration for the weakest combination u of constraints, from the last step's, or where that is well determined from
-    /// it and a part of all. Raises the penalties until a correction leaves at most [`MAX_CONTRACTION`] of it. A combination that no
-    /// allowed penalty determines is redundant and left.
+    /// it and a part of all. Where `is_raised`, raises the penalties until a correction leaves at most [`MAX_CONTRACTION`] of it. A
+    /// combination that no allowed penalty determines is redundant and left.
     ///
     /// Returns whether the penalties changed, so that T must be factored anew. Needs T factored. Cost: one solve.
     pub(crate) fn adapt_penalty<M: Model<T>, S: SpdSolver<T>>(
@@ -167,6 +173,7 @@ impl<T: Real> PenaltyAdaptation<T> {
         model: &M,
         equations: &mut Equations<T, S>,
         scale: &mut PenaltyScale<T>,
+        is_raised: bool,
     ) -> bool {
         let u = &mut self.weakest_combination;
         let size = norm_inf(model.team(), u);
@@ -197,7 +204,8 @@ impl<T: Real> PenaltyAdaptation<T> {
         }
         let most = T::from_f64(MAX_CONTRACTION);
         // What even the largest penalty cannot determine is redundant, or so near a singular position that nothing is lost.
-        rho > most && rho / (T::ONE - rho).max(T::EPSILON) < scale.room() * most && scale.raise(rho)
+        let is_weak = rho > most && rho / (T::ONE - rho).max(T::EPSILON) < scale.room() * most;
+        is_raised && is_weak && scale.raise(rho)
     }
 }
 

@@ -155,6 +155,9 @@ macro_rules! delegate_model {
         fn has_velocity_rows(&self) -> bool {
             self.$model.has_velocity_rows()
         }
+        fn is_velocity_row(&self, row: usize) -> bool {
+            self.$model.is_velocity_row(row)
+        }
         fn evaluate_rates(&self, v: &[$T], unit: $T, terms: &mut $crate::model::Terms<$T>) {
             self.$model.evaluate_rates(v, unit, terms);
         }

@@ -149,6 +149,10 @@ pub trait Model<T: Real>: Cliques + Sync {
     fn has_velocity_rows(&self) -> bool {
         false
     }
+    /// Is `row` one of them?
+    fn is_velocity_row(&self, _row: usize) -> bool {
+        false
+    }
     /// phi = `unit` J v of the rows of velocities, with J as last evaluated: what a step of `unit` = dq/dv leaves of them.
     fn evaluate_rates(&self, _v: &[T], _unit: T, _terms: &mut Terms<T>) {}
     /// Bias of phi'' at (`q`, `v`).

@@ -3,9 +3,11 @@
 
 extern crate alloc;
 
+mod advance;
 mod eigen;
 mod equilibrium;
 mod error;
+mod linear;
 mod linearise;
 mod matrix;
 mod near;
@@ -19,10 +21,12 @@ mod tangent_coordinates;
 mod watch;
 mod workspace;
 
+pub use advance::advance;
 pub use eigen::eigenvalues;
 pub use equilibrium::{Equilibrium, equilibrium};
 pub use error::{EquilibriumError, LinearError};
-pub use linearise::{Instant, Linear, linearise};
+pub use linear::Linear;
+pub use linearise::{Instant, linearise};
 pub use matrix::Matrix;
 pub use mbs_core::saddle::Saddle;
 pub use mbs_core::step::OptionError;

@@ -9,7 +9,8 @@
 //! again without a change of z, then velocities, then accelerations. Its rate and its acceleration are inputs of their own.
 
 use crate::error::LinearError;
-use crate::linearise::{Field, Instant, Linear, difference};
+use crate::linear::Linear;
+use crate::linearise::{Field, Instant, difference};
 use crate::options::LinearOptions;
 use crate::watch::{OutputMeasure, Watch};
 use crate::workspace::Workspace;

@@ -5,7 +5,8 @@
 //! ```
 
 use crate::error::{EquilibriumError, LinearError};
-use crate::linearise::{Field, Instant, Linear, difference, linearise};
+use crate::linear::Linear;
+use crate::linearise::{Field, Instant, difference, linearise};
 use crate::near::{equilibrium_near, failed};
 use crate::options::{LinearOptions, Options};
 use crate::pivoted::Pivoted;

@@ -42,12 +42,13 @@ pub(crate) struct TangentCoordinates<T> {
 const NO_INERTIA: f64 = 1e-13;
 
 impl<T: Real> TangentCoordinates<T> {
-    /// Splits by `jacobian`, row by row (m rows of n); `mass` multiplies a vector of n by M.
+    /// Splits by `jacobian`, row by row (m rows of n); `mass` multiplies a vector of n by M. Rows of velocities, `is_late`, are taken after
+    /// all others: where they depend on rows of positions, those are the ones that positions are closed by.
     ///
     /// Fails with the index of the freedom without inertia.
     pub(crate) fn new(
         sizes: &[T],
-        mut jacobian: Vec<T>,
+        (mut jacobian, is_late): (Vec<T>, impl Fn(usize) -> bool),
         mut mass: impl FnMut(&[T]) -> Vec<T>,
     ) -> Result<Self, usize> {
         let n = sizes.len();
@@ -55,7 +56,7 @@ impl<T: Real> TangentCoordinates<T> {
         for row in jacobian.chunks_exact_mut(n.max(1)) {
             row.copy_from_slice(&scaled(row));
         }
-        let (rows, lengths, q, r) = factor(n, &mut jacobian);
+        let (rows, lengths, q, r) = factor(n, &mut jacobian, is_late);
         let rank = rows.len();
         let f = n - rank;
         let mut l = vec![T::ZERO; f * f];
@@ -154,11 +155,17 @@ fn dot<T: Real>(a: &[T], b: &[T]) -> T {
     a.iter().zip(b).fold(T::ZERO, |sum, (&x, &y)| sum + x * y)
 }
 
-/// Rows chosen, their lengths, Q and R11. Rows that are shorter than max(n, m) eps^(2/3) of the largest after elimination
-/// depend on the others.
-fn factor<T: Real>(n: usize, jacobian: &mut [T]) -> (Vec<usize>, Vec<T>, Vec<T>, Vec<T>) {
+/// Rows chosen, those that are not `is_late` first, their lengths, Q and R11. Rows that are shorter than max(n, m) eps^(2/3) of the largest
+/// after elimination depend on the others.
+fn factor<T: Real>(
+    n: usize,
+    jacobian: &mut [T],
+    is_late: impl Fn(usize) -> bool,
+) -> (Vec<usize>, Vec<T>, Vec<T>, Vec<T>) {
     let m = jacobian.len() / n.max(1);
     let mut order: Vec<usize> = (0..m).collect();
+    order.sort_by_key(|&row| is_late(row));
+    let mut end = order.partition_point(|&row| !is_late(row));
     let mut lengths = vec![T::ONE; m];
     for (row, length) in jacobian.chunks_exact_mut(n.max(1)).zip(&mut lengths) {
         let size = dot(row, row).sqrt();
@@ -172,18 +179,23 @@ fn factor<T: Real>(n: usize, jacobian: &mut [T]) -> (Vec<usize>, Vec<T>, Vec<T>,
     let (mut largest, mut rank) = (T::ZERO, 0);
     let mut q = vec![T::ZERO; n * n];
     (0..n).for_each(|i| q[i * n + i] = T::ONE);
-    while rank < n.min(m) {
+    while rank < n {
         let rest = |row: usize| {
             let tail = &jacobian[row * n + rank..(row + 1) * n];
             dot(tail, tail)
         };
-        let best = (rank..m).fold(rank, |b, j| if rest(order[j]) > rest(order[b]) { j } else { b });
-        order.swap(rank, best);
-        let norm = rest(order[rank]).sqrt();
+        let longest = |b: usize, j| if rest(order[j]) > rest(order[b]) { j } else { b };
+        let best = (rank..end).reduce(longest);
+        let norm = best.map_or(T::ZERO, |best| rest(order[best]).sqrt());
         largest = largest.max(norm);
-        if norm <= tolerance * largest || norm == T::ZERO {
-            break;
-        }
+        let Some(best) = best.filter(|_| norm > tolerance * largest) else {
+            if end == m {
+                break;
+            }
+            end = m;
+            continue;
+        };
+        order.swap(rank, best);
         let at = order[rank] * n;
         let mut v = jacobian[at + rank..at + n].to_vec();
         let alpha = if v[0] > T::ZERO { -norm } else { norm };
@@ -252,8 +264,8 @@ mod tests {
         // x + y = 0 twice and z = 0 in four coordinates, mass diag(1, 3, 1, 4): freedoms x - y with mass 4/2 and w.
         let jacobian = vec![1.0, 1.0, 0.0, 0.0, 2.0, 2.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0];
         let mass = |x: &[f64]| vec![x[0], 3.0 * x[1], x[2], 4.0 * x[3]];
-        let tangent =
-            TangentCoordinates::new(&[1.0; 4], jacobian, mass).expect("every freedom has mass");
+        let tangent = TangentCoordinates::new(&[1.0; 4], (jacobian, |_| false), mass)
+            .expect("every freedom has mass");
         assert_eq!(tangent.n_freedoms(), 2);
         for j in 0..2 {
             let b = tangent.direction(j);
@@ -275,6 +287,6 @@ mod tests {
     #[test]
     fn a_freedom_without_inertia_is_named() {
         let mass = |x: &[f64]| vec![x[0], 0.0];
-        assert!(TangentCoordinates::new(&[1.0; 2], vec![], mass).is_err());
+        assert!(TangentCoordinates::new(&[1.0; 2], (vec![], |_| false), mass).is_err());
     }
 }

@@ -13,6 +13,11 @@ use mbs_core::{Real, SpdSolver};
 const ROUNDING: f64 = 64.0;
 /// Part of a violation of positions that a slow sweep leaves, for which penalties are raised [-]: ten sweeps would make ten digits.
 const SLOW_CONTRACTION: f64 = 0.1;
+/// Slow sweeps until rows of velocities give way [-]: where they depend on no others, raised penalties leave no second one.
+const SLOW_SWEEPS: u32 = 1;
+/// Factor on penalties of rows of velocities that give way to rows of positions [-]: what a sweep leaves of these, and enough to hold the rest.
+/// A power of two, which takes no digits.
+const LOOSE: f64 = 1.0 / 8_192.0;
 /// Part of a violation of positions that a sweep leaves which is of no use [-].
 const USELESS: f64 = 0.9;
 
@@ -67,6 +72,9 @@ pub(super) fn velocities<T: Real, M: Model<T>, S: SpdSolver<T>>(
 
 /// W d = -J^T s phi,   q += d: until phi is at rounding.
 ///
+/// Rows of velocities are zero here, and may depend on rows of positions, as of two wheels on one axle. A sweep then closes its share of a
+/// joint alone. Where that is slow such rows give way: the correction, of third order in the step, slips.
+///
 /// Every sweep begins from where the last one ended. The multipliers of all together, as [P1 (8)-(10)] carries them, would make the whole way
 /// orthogonal, not each part of it. That differs by the square of the way. As their rows turn they push light pieces off, the more the
 /// heavier those are that they carry.
@@ -84,6 +92,7 @@ fn positions<T: Real, M: Model<T>, S: SpdSolver<T>>(
     let moved = if options.compensated { moved } else { length.max(T::ONE) };
     let rounding = moved * T::EPSILON * T::from_f64(ROUNDING);
     let mut violation = norm_inf(model.team(), &w.terms().phi);
+    let (mut n_slow, mut is_loosened) = (0, false);
     for _ in 0..options.max_sweeps {
         w.scale.factor(model, &mut w.equations)?;
         if violation <= limits.goal {
@@ -99,13 +108,25 @@ fn positions<T: Real, M: Model<T>, S: SpdSolver<T>>(
         let contraction = left / violation;
         violation = left;
         let is_slow = contraction > T::from_f64(SLOW_CONTRACTION) && violation > rounding;
+        n_slow += u32::from(is_slow);
+        if is_slow && n_slow > SLOW_SWEEPS && model.has_velocity_rows() && !is_loosened {
+            w.scale.restore();
+            w.scale.scale_velocity_rows(model, T::from_f64(LOOSE));
+            is_loosened = true;
+            continue;
+        }
+        // The heights of a third and a fourth wheel contradict the rows of unit lengths until these hold, by a half or less from sweep to sweep.
+        let is_slow = is_slow && !(is_loosened && contraction < T::HALF);
         let is_raised = is_slow && w.scale.raise(contraction);
         if contraction > T::from_f64(USELESS) && !is_raised {
             break;
         }
     }
+    if is_loosened {
+        w.scale.scale_velocity_rows(model, T::ONE / T::from_f64(LOOSE));
+    }
     // What is almost lost is enforced on positions only: velocities and accelerations would grow like 1 / sigma there.
-    if w.scale.restore() {
+    if w.scale.restore() || is_loosened {
         w.factor_mass(model)?;
     }
     limits.check_positions(violation, rounding, &w.terms().phi)

@@ -212,6 +212,10 @@ impl<T: Real, const D: usize> Model<T> for NaturalModel<T, D> {
         !self.rollings.is_empty()
     }
 
+    fn is_velocity_row(&self, row: usize) -> bool {
+        self.rollings.iter().any(|rolling| rolling.slip_rows().contains(&row))
+    }
+
     fn evaluate_rates(&self, v: &[T], unit: T, terms: &mut Terms<T>) {
         self.write_slips(v, unit, terms);
     }

@@ -2,6 +2,7 @@
 
 mod closed_forms;
 mod contacts;
+mod dependent;
 mod refusals;
 
 use crate::common::oracle::{self, Rows, Way, last};

@@ -52,3 +52,15 @@ fn near_the_start_an_unstable_place_has_a_mode_that_grows() {
     assert!(found.iter().any(|m| is_at(m, rate, 0.0) && m.grows()), "{found:?}");
     assert!(found.iter().any(|m| is_at(m, -rate, 0.0)), "{found:?}");
 }
+
+/// Masses of 12 kg and inertia of both wheels 0.16 kg m² move the axle, 8 kg hang 0.2 m below it: two masses in closed form.
+#[test]
+fn a_cart_on_two_wheels_of_one_axle_rests_and_swings() {
+    let cart = field("21-cart-on-two-wheels");
+    let found = modes(&cart, Search::Down);
+    let swing = found.last().expect("it swings");
+    assert!(is_at(swing, 0.0, 5.420_572_73), "{found:?}");
+    assert!(found[..found.len() - 1].iter().all(|mode| mode.is_neutral), "{found:?}");
+    let rest = mbs::StaticEquilibrium::new(&cart, Search::Down).expect("it rests");
+    assert_eq!(rest.unstable, Some(0));
+}
