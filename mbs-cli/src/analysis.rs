@@ -56,6 +56,9 @@ pub(crate) struct Modes {
     /// State to linearise about: the equilibrium at rest, the initial state, or the equilibrium with the initial velocities (moving).
     #[arg(long, value_enum, default_value_t = At::Equilibrium)]
     at: At,
+    /// Eigenvalues of the instant where the state is no steady motion: they say nothing of what grows.
+    #[arg(long)]
+    frozen: bool,
 }
 
 #[derive(Debug, Clone, Copy, ValueEnum)]
@@ -90,7 +93,8 @@ pub(crate) fn modes(arguments: &Modes) -> ExitCode {
         )
         .report();
     }
-    let analysed = |scene: &Scene<f64>| mbs::Modes::new(scene, place, search);
+    let by = if arguments.frozen { mbs::Modes::frozen } else { mbs::Modes::new };
+    let analysed = |scene: &Scene<f64>| by(scene, place, search);
     let analyse = |scene: &Scene<f64>| analysed(scene).map(|m| (m.to_json(), spectrum(&m)));
     command(&arguments.common, "modes.json", analyse)
 }
@@ -194,7 +198,7 @@ fn still(s: &StaticEquilibrium) -> String {
             let _ = writeln!(text, "  {:<24} {}", channel.name, values_text(channel, values));
         }
     }
-    leave_out(&s.left_out, &mut text);
+    leave_out("this analysis", &s.left_out, &mut text);
     for joint in &s.not_unique {
         let _ = writeln!(text, "note: {}", words::not_unique(joint));
     }
@@ -215,13 +219,13 @@ fn moved(s: &StaticEquilibrium) -> String {
 }
 
 /// A note for what is left out.
-fn leave_out(left_out: &[LeftOut], text: &mut String) {
+fn leave_out(from: &str, left_out: &[LeftOut], text: &mut String) {
     if left_out.is_empty() {
         return;
     }
-    let parts: Vec<_> = left_out.iter().map(|l| format!("{} of `{}`", l.part, l.effect)).collect();
+    let parts: Vec<_> = left_out.iter().map(|l| format!("{} of `{}`", l.part, l.name)).collect();
     // Writing into a String has nothing to fail on.
-    let _ = writeln!(text, "note: left out of this analysis: {}", parts.join(", "));
+    let _ = writeln!(text, "note: left out of {from}: {}", parts.join(", "));
 }
 
 /// Values with their units.
@@ -234,12 +238,13 @@ fn values_text(channel: &Channel, values: &[f64]) -> String {
     parts.collect::<Vec<_>>().join("  ")
 }
 
-/// Largest accelerations of a state about which eigenvalues need no note [m sqrt(kg)/s^2, m/s^2]. Chosen, not tuned.
-const AT_REST: f64 = 1e-6;
-
 /// Eigenvalues as a table.
 fn spectrum(m: &mbs::Modes) -> String {
-    let stable = if m.is_stable() { "stable" } else { "unstable" };
+    let stable = match (&m.unsteady, m.is_stable()) {
+        (Some(_), _) => "at an instant",
+        (None, true) => "stable",
+        (None, false) => "unstable",
+    };
     let mut text = format!(
         "{}: {} about its {}, {stable}\n",
         m.scene,
@@ -267,12 +272,12 @@ fn spectrum(m: &mbs::Modes) -> String {
             mode.undamped_frequency(),
         );
     }
-    leave_out(&m.left_out, &mut text);
-    if m.place != Place::Equilibrium && (m.acceleration > AT_REST || m.turning > AT_REST) {
-        let _ = writeln!(
-            text,
-            "note: this state accelerates or turns: the eigenvalues hold for an instant and for one choice of coordinates"
-        );
+    // the motion itself is linearised with all that the scene has
+    let is_moving = m.place == Place::Moving;
+    let from = if is_moving { "the search of the equilibrium alone" } else { "this analysis" };
+    leave_out(from, &m.left_out, &mut text);
+    if let Some(unsteady) = &m.unsteady {
+        let _ = writeln!(text, "note: {unsteady}; they hold for an instant");
     }
     text
 }

@@ -5,6 +5,7 @@ use crate::error::{Class, raised, unknown_name, usage};
 use crate::mechanism::Mechanism;
 use crate::watch::{Progress, Reached, left, silent, whole};
 use crate::{settings, value, values};
+use mbs::Error as _;
 use mbs::core::scene::Entry;
 use mbs::{
     EquilibriumOptions, FormulationKind, Interrupt, LinearSystem, LinearizeOptions, Matrix, Method,
@@ -241,15 +242,8 @@ impl Mechanism {
         Ok(At::State(q, Numbers::row(&v, "v", first.velocities().len())?))
     }
 
-    /// Something of a linear system.
-    fn linear<R: Send + 'static>(
-        &self,
-        py: Python<'_>,
-        (at, names): (At, Ports),
-        then: impl FnOnce(LinearSystem, Option<(Place, Search)>) -> Result<R, SimulationError>
-        + Send
-        + 'static,
-    ) -> PyResult<R> {
+    /// The linear system about a state.
+    fn linear(&self, py: Python<'_>, (at, names): (At, Ports)) -> PyResult<LinearSystem> {
         let (shared, mut tree) = (self.shared.clone(), self.first(py)?.clone());
         let made = left(py, move || {
             let [inputs, outputs] = names.each_ref().map(|names| {
@@ -260,18 +254,54 @@ impl Mechanism {
             match at {
                 At::Place(place, search) => {
                     let options = LinearizeOptions { place, search };
-                    let system = mbs::linearize(mechanism, &options, inputs, outputs)?;
-                    then(system, Some((place, search)))
+                    mbs::linearize(mechanism, &options, inputs, outputs)
                 }
                 At::State(q, v) => {
                     let state = (&mut tree, &q[..], &v[..]);
-                    then(mbs::linearize_at(mechanism, state, inputs, outputs)?, None)
+                    mbs::linearize_at(mechanism, state, inputs, outputs)
                 }
             }
         })?;
         made.map_err(|error| raised(py, &error, Class::Start))
     }
+
+    /// Shapes about a state, the names of their states, and what the command says of a place.
+    fn shapes(&self, py: Python<'_>, at: At, frozen: bool) -> PyResult<Shapes> {
+        let (shared, mut tree) = (self.shared.clone(), self.first(py)?.clone());
+        let made = left(py, move || {
+            let (mechanism, scene, none) = (&shared.mechanism, &shared.scene, Some(&[][..]));
+            let is_frozen = |error: &SimulationError| frozen && error.code() == "not-steady";
+            let (system, named) = match at {
+                At::Place(place, search) => {
+                    let options = LinearizeOptions { place, search };
+                    let system = match mbs::linearize_steady(mechanism, &options) {
+                        Err(e) if is_frozen(&e) => mbs::linearize(mechanism, &options, none, none),
+                        found => found,
+                    };
+                    let by = if frozen { mbs::Modes::frozen } else { mbs::Modes::new };
+                    let stopped =
+                        |error| SimulationError::stopped(error, 0.0, &mbs::Names::new(scene));
+                    (system?, Some(by(scene, place, search).map_err(stopped)?))
+                }
+                At::State(q, v) => {
+                    let found = mbs::linearize_steady_at(mechanism, (&mut tree, &q, &v));
+                    let system = match found {
+                        Err(e) if is_frozen(&e) => {
+                            mbs::linearize_at(mechanism, (&mut tree, &q, &v), none, none)
+                        }
+                        found => found,
+                    };
+                    (system?, None)
+                }
+            };
+            Ok((system.shapes()?, system.states, named))
+        })?;
+        made.map_err(|error: SimulationError| raised(py, &error, Class::Start))
+    }
 }
+
+/// Shapes, the names of their states, and what the command says of a place.
+type Shapes = (Vec<mbs::ModeShape>, Vec<String>, Option<mbs::Modes>);
 
 fn matrix<'py>(py: Python<'py>, matrix: &Matrix) -> PyResult<Bound<'py, PyAny>> {
     array(py, matrix.data.clone(), &[matrix.rows, matrix.columns])
@@ -290,27 +320,23 @@ impl Mechanism {
         outputs: Option<Vec<String>>,
     ) -> PyResult<Bound<'py, PyAny>> {
         let at = self.at(at)?;
-        let s = self.linear(py, (at, [inputs, outputs]), |system, _| Ok(system))?;
+        let s = self.linear(py, (at, [inputs, outputs]))?;
         let [a, b, c, d] = [&s.a, &s.b, &s.c, &s.d].map(|m| matrix(py, m));
         values::make(py, "Linear", (a?, b?, c?, d?, s.states, s.inputs, s.outputs))
     }
 
     /// Eigenvalues of the motion about a state, with frequencies, damping ratios and shapes, from the slowest to the fastest.
-    #[pyo3(signature = (at = None))]
+    ///
+    /// About a state that is neither a rest nor a steady motion `frozen` gives the eigenvalues of the instant; else it is refused.
+    #[pyo3(signature = (at = None, *, frozen = false))]
     fn modes<'py>(
         &self,
         py: Python<'py>,
         at: Option<&Bound<'py, PyAny>>,
+        frozen: bool,
     ) -> PyResult<Bound<'py, PyAny>> {
         let at = self.at(at)?;
-        let (none, shared) = (|| Some(Vec::new()), self.shared.clone());
-        let found = self.linear(py, (at, [none(), none()]), move |system, at| {
-            let scene = &shared.scene;
-            let stopped = |error| SimulationError::stopped(error, 0.0, &mbs::Names::new(scene));
-            let named = at.map(|(place, search)| mbs::Modes::new(scene, place, search));
-            Ok((system.shapes()?, system.states, named.transpose().map_err(stopped)?))
-        })?;
-        let (shapes, states, named) = found;
+        let (shapes, states, named) = self.shapes(py, at, frozen)?;
         let pairs = shapes.iter().flat_map(|shape| &shape.states).flatten().copied();
         let (n, m) = (shapes.len(), states.len());
         let pairs = array(py, pairs.collect(), &[n, 2 * m])?;

@@ -83,3 +83,37 @@ def test_an_equilibrium_is_a_state_without_accelerations() -> None:
     assert not v.any()
     assert np.abs(mechanism.accelerations(q, v)).max() < 1e-6  # of 9.81 m/s^2
     assert equilibrium.outputs["wheel"][1] == pytest.approx(0.35638423152, abs=1e-9)
+
+
+NO_NUMBERS = ["not-steady", "no-linearisation", "no-equilibrium"]
+"""Codes of states that have no modes."""
+
+
+@pytest.mark.parametrize("at", ["equilibrium", "initial", "moving"])
+@pytest.mark.parametrize("name", ["quarter-car", "double-pendulum", "spinning-top", "free-body", "servo-arm", "rolling-disc"])
+def test_command_and_package_give_the_same_eigenvalues_or_the_same_refusal(name: str, at: str) -> None:
+    mechanism = mbs.Mechanism(scene(name))
+    try:
+        modes = mechanism.modes(at)
+    except mbs.MbsError as refused:
+        assert refused.code in NO_NUMBERS
+        if refused.code != "not-steady":
+            return
+        modes = mechanism.modes(at, frozen=True)
+        assert modes.summary["stable"] is None
+    of_command = [complex(mode["real"], mode["imaginary"]) for mode in modes.summary["modes"]]
+    neutral = [mode["neutral"] for mode in modes.summary["modes"]]
+    assert len(of_command) == len(modes.eigenvalues)
+    scale = max(np.abs(of_command))
+    for one, other, is_neutral in zip(of_command, modes.eigenvalues, neutral, strict=True):
+        assert is_neutral or abs(one - other) < 1e-8 * scale
+
+
+def test_a_spinning_rotor_whirls_and_its_eigenvalues_are_those_of_the_command() -> None:
+    """Values of closed form, to 1e-9."""
+    rotor = scene("spinning-top").parents[1] / "mbs/tests/field/23-whirl-of-a-rotor.toml"
+    mechanism = mbs.Mechanism(rotor)
+    modes = mechanism.modes("initial")
+    whirl = [44.274661460, 170.736245313]
+    assert sorted(modes.eigenvalues.imag)[-2:] == pytest.approx(whirl, rel=1e-9)
+    assert modes.summary["stable"]

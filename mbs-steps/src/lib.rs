@@ -37,6 +37,7 @@ pub mod linear_system;
 #[doc(hidden)]
 pub mod methods;
 #[doc(hidden)]
+pub mod mode;
 pub mod modes;
 #[doc(hidden)]
 pub mod motion;
@@ -78,6 +79,7 @@ pub mod tally;
 pub mod tilt;
 #[doc(hidden)]
 pub mod tree;
+mod unsteady;
 pub mod words;
 
 #[doc(hidden)]

@@ -1,54 +1,20 @@
-//! Eigenvalues of a scene linearised about its equilibrium or its start.
+//! Eigenvalues of a scene linearised about its equilibrium, its start, or a steady motion.
 //!
 //! ```text
 //! lambda = -zeta omega_0 +- i omega_0 sqrt(1 - zeta^2):   omega_0 = |lambda|,  zeta = -Re lambda / |lambda|
 //! ```
 
 use crate::equilibrium::{Search, workspace};
+use crate::linear_system::{About, LinearSystem};
+use crate::mode::NOISE;
+pub use crate::mode::{Mode, slowest_first};
 use crate::placed::{Place, PlacedScene};
 use crate::rest::{LeftOut, left_out_json};
 use crate::stop::StopError;
-use core::f64::consts::TAU;
+use crate::unsteady::Unsteady;
 use mbs_core::scene::{Dimension, Scene};
 use mbs_linear::{Equilibrium, Linear, LinearOptions, Matrix, linearise, singular_values};
 use serde_json::{Value, json};
-
-/// An eigenvalue, or a pair of conjugate ones.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Mode {
-    /// Real part [1/s]: negative decays.
-    pub real: f64,
-    /// Imaginary part [rad/s], not negative; positive stands for a pair.
-    pub imaginary: f64,
-    /// Not distinguishable from zero.
-    pub is_neutral: bool,
-}
-
-impl Mode {
-    /// |lambda| / 2 pi [Hz].
-    #[must_use]
-    pub fn undamped_frequency(&self) -> f64 {
-        libm::hypot(self.real, self.imaginary) / TAU
-    }
-
-    /// Im lambda / 2 pi [Hz].
-    #[must_use]
-    pub fn frequency(&self) -> f64 {
-        self.imaginary / TAU
-    }
-
-    /// Does it grow, beyond rounding?
-    #[must_use]
-    pub fn grows(&self) -> bool {
-        !self.is_neutral && self.real > AXIS * libm::hypot(self.real, self.imaginary)
-    }
-
-    /// -Re lambda / |lambda| [-]; `None` for a neutral one.
-    #[must_use]
-    pub fn damping_ratio(&self) -> Option<f64> {
-        (!self.is_neutral).then(|| -self.real / libm::hypot(self.real, self.imaginary))
-    }
-}
 
 /// The modes of a scene, with its names.
 #[derive(Debug, Clone, PartialEq)]
@@ -63,46 +29,85 @@ pub struct Modes {
     pub left_out: Vec<LeftOut>,
     /// Freedoms.
     pub dof: usize,
-    /// Largest acceleration at the state, of coordinates with unit inertia [m sqrt(kg)/s^2]; zero in an equilibrium.
-    pub acceleration: f64,
-    /// Largest acceleration that joints ask for because bodies turn [m/s^2]: where it is not zero, eigenvalues hold for an
-    /// instant and depend on the choice of coordinates.
+    /// Why the state is no rest and no steady motion, if it is none: the eigenvalues are then those of an instant.
+    pub unsteady: Option<Unsteady>,
+    /// Largest acceleration that joints ask for because bodies turn [m/s^2].
     pub turning: f64,
     /// The eigenvalues from the slowest to the fastest.
     pub modes: Vec<Mode>,
 }
 
 impl Modes {
-    /// Assembles a scene, seeks its equilibrium if that is the place, and linearises it.
+    /// Assembles a scene, seeks its equilibrium if that is the place, and linearises it there: at rest, or in a steady motion.
     ///
     /// # Errors
-    /// [`StopError`] when there is no model, consistent start, equilibrium or linearisation.
+    /// [`StopError`] when there is no model, consistent start, equilibrium or linearisation; [`StopError::NotSteady`] where the state is
+    /// neither a rest nor a steady motion.
     pub fn new(scene: &Scene<f64>, place: Place, search: Search) -> Result<Self, StopError> {
+        let found = Self::of(scene, (place, search), false)?;
+        match found.unsteady {
+            Some(unsteady) => Err(StopError::NotSteady(Box::new(unsteady))),
+            None => Ok(found),
+        }
+    }
+
+    /// The same of any state: of one that is no steady motion the eigenvalues of the instant, in axes that stand. They say nothing of what
+    /// grows or decays.
+    ///
+    /// # Errors
+    /// As for [`new`](Self::new), but for the last.
+    pub fn frozen(scene: &Scene<f64>, place: Place, search: Search) -> Result<Self, StopError> {
+        Self::of(scene, (place, search), true)
+    }
+
+    fn of(scene: &Scene<f64>, how: (Place, Search), is_frozen: bool) -> Result<Self, StopError> {
         match scene.dimension {
-            Dimension::Planar => Self::in_space::<2>(scene, place, search),
-            Dimension::Spatial => Self::in_space::<3>(scene, place, search),
+            Dimension::Planar => Self::in_space::<2>(scene, how, is_frozen),
+            Dimension::Spatial => Self::in_space::<3>(scene, how, is_frozen),
         }
     }
 
     fn in_space<const D: usize>(
         scene: &Scene<f64>,
-        place: Place,
-        search: Search,
+        (place, search): (Place, Search),
+        is_frozen: bool,
     ) -> Result<Self, StopError> {
-        let PlacedScene { scene, ready, found, left_out, instant } =
-            PlacedScene::<D>::new(scene, place, search)?;
+        let placed = PlacedScene::<D>::new(scene, place, search)?;
+        if place == Place::Equilibrium {
+            return Self::at_rest(placed);
+        }
+        let mut found = About::alone(scene, &placed, true).system()?;
+        if found.unsteady.is_some() && is_frozen {
+            let unsteady = found.unsteady.take();
+            found = LinearSystem { unsteady, ..About::alone(scene, &placed, false).system()? };
+        }
+        let values = found.eigenvalues()?;
+        Ok(Self {
+            scene: found.scene,
+            place,
+            found: found.found,
+            left_out: found.left_out,
+            dof: found.n_freedoms,
+            unsteady: found.unsteady,
+            turning: found.turning,
+            modes: slowest_first(&values, found.noise),
+        })
+    }
+
+    /// About an equilibrium, where the axes stand and all coordinates have the same eigenvalues.
+    fn at_rest<const D: usize>(placed: PlacedScene<D>) -> Result<Self, StopError> {
+        let PlacedScene { scene, ready, found, left_out, instant } = placed;
         let (model, state) = (&ready.model, &ready.start.state);
         let how = (instant, &LinearOptions::default());
         let linear = linearise(model, how, state, &mut workspace(model))
             .map_err(|error| StopError::Linear(error).or_law(model.codes()))?;
-        let acceleration = linear.acceleration.iter().fold(0.0, |a: f64, x| a.max(x.abs()));
         Ok(Self {
             scene: scene.name,
-            place,
+            place: Place::Equilibrium,
             found,
             left_out,
             dof: linear.n_freedoms,
-            acceleration,
+            unsteady: None,
             turning: linear.turning,
             modes: eigenvalues(&linear)?,
         })
@@ -133,8 +138,12 @@ impl Modes {
             "error": null,
             "at": self.place.name(),
             "dof": self.dof,
-            "stable": self.is_stable(),
-            "acceleration": self.acceleration,
+            "stable": self.unsteady.is_none().then(|| self.is_stable()),
+            "acceleration": match &self.unsteady {
+                Some(Unsteady::Accelerates { by, .. }) => *by,
+                _ => 0.0,
+            },
+            "unsteady": self.unsteady.as_ref().map(Unsteady::to_json),
             "turning": self.turning,
             "left_out": left_out_json(&self.left_out),
             "equilibrium_residual": self.found.map(|f| f.residual),
@@ -143,12 +152,10 @@ impl Modes {
     }
 }
 
-/// Ratio of real part and eigenvalue below which it is rounding of an undamped one [-]: differences give ten digits.
-const AXIS: f64 = 1e-8;
-/// Square of an eigenvalue that is zero, in units of rounding of the stiffness [-]. Chosen, not tuned.
-const NOISE: f64 = 1e3;
-
 /// The eigenvalues of a linearised motion, conjugate ones once, from the slowest to the fastest.
+///
+/// # Errors
+/// [`StopError::Eigenvalues`] where the iteration does not converge.
 pub fn eigenvalues(linear: &Linear<f64>) -> Result<Vec<Mode>, StopError> {
     let (n, a) = (linear.order(), linear.state_matrix());
     if n == 0 {
@@ -158,26 +165,10 @@ pub fn eigenvalues(linear: &Linear<f64>) -> Result<Vec<Mode>, StopError> {
     Ok(slowest_first(&values, linear.noise))
 }
 
-/// Conjugate eigenvalues once, from the slowest to the fastest, with the rounding of their squares [1/s^2].
-pub fn slowest_first(values: &[[f64; 2]], noise: f64) -> Vec<Mode> {
-    let zero = (NOISE * noise).sqrt();
-    let mut modes: Vec<Mode> = values
-        .iter()
-        .filter(|[_, imaginary]| *imaginary >= 0.0)
-        .map(|&[real, imaginary]| Mode {
-            real,
-            imaginary,
-            is_neutral: libm::hypot(real, imaginary) <= zero,
-        })
-        .collect();
-    modes.sort_by(|a, b| {
-        let size = |m: &Mode| m.undamped_frequency();
-        size(a).total_cmp(&size(b)).then(a.real.total_cmp(&b.real))
-    });
-    modes
-}
-
 /// Directions without stiffness [-]: in which an equilibrium may stand anywhere.
+///
+/// # Errors
+/// [`StopError::Eigenvalues`] where the iteration does not converge.
 pub fn neutral_directions(linear: &Linear<f64>) -> Result<usize, StopError> {
     let f = linear.n_freedoms;
     if f == 0 {

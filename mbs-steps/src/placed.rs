@@ -2,7 +2,7 @@
 
 use crate::equilibrium::{Search, find_equilibrium};
 use crate::ready::AssembledScene;
-use crate::rest::{LeftOut, at_rest, left_out};
+use crate::rest::{LeftOut, at_rest, effects_left_out, left_out};
 use crate::stop::StopError;
 use mbs_core::rigid::RigidMotion;
 use mbs_core::scene::Scene;
@@ -32,7 +32,7 @@ pub struct PlacedScene<const D: usize> {
     pub ready: AssembledScene<f64, D>,
     /// The equilibrium, if that is the place.
     pub found: Option<Equilibrium<f64>>,
-    /// What is left out, of the equilibrium too.
+    /// What is left out; of a moving state, of the search of its equilibrium alone.
     pub left_out: Vec<LeftOut>,
     /// What guides do there.
     pub instant: Instant,
@@ -44,7 +44,11 @@ impl<const D: usize> PlacedScene<D> {
     /// # Errors
     /// [`StopError`] when there is no model, consistent start or equilibrium.
     pub fn new(scene: &Scene<f64>, place: Place, search: Search) -> Result<Self, StopError> {
-        let left_out = if place == Place::Initial { Vec::new() } else { left_out(scene) };
+        let left_out = match place {
+            Place::Equilibrium => left_out(scene),
+            Place::Initial => Vec::new(),
+            Place::Moving => effects_left_out(scene),
+        };
         let (scene, ready, found) = match place {
             Place::Equilibrium => {
                 let still = at_rest(scene);

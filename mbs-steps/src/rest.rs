@@ -2,14 +2,16 @@
 
 use mbs_core::Real;
 use mbs_core::inputs::{GuideInput, SignalGraph};
-use mbs_core::scene::{InitialTarget, Motion, Scene};
+use mbs_core::scene::{BodyId, InitialTarget, Motion, Scene};
 use serde_json::{Value, json};
 
 /// What an analysis at rest leaves out of a scene.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct LeftOut {
-    /// Name of the effect.
-    pub effect: String,
+    /// What it belongs to: `effect`, `joint` or `body`.
+    pub of: &'static str,
+    /// Name of that.
+    pub name: String,
     /// The part of it.
     pub part: &'static str,
 }
@@ -43,11 +45,45 @@ pub fn without_rates<T: Real>(mut scene: Scene<T>) -> Scene<T> {
     scene
 }
 
-/// What [`at_rest`] leaves out that could act at rest, or on small motions about it.
+/// What [`at_rest`] leaves out that could act at rest, or on small motions about it: parts of effects, then rates.
 pub fn left_out<T: Real>(scene: &Scene<T>) -> Vec<LeftOut> {
+    let mut all = effects_left_out(scene);
+    let mut leave = |of, name: &String, part| {
+        let one = LeftOut { of, name: name.clone(), part };
+        if !all.contains(&one) {
+            all.push(one);
+        }
+    };
+    let signals = SignalGraph::new(&scene.signals).values(T::ZERO);
+    for guide in &scene.guides {
+        let [_, rate, acceleration] = GuideInput::new(&guide.law).at(T::ZERO, &signals);
+        if !rate.is_zero() || !acceleration.is_zero() {
+            leave("joint", &scene.joints[guide.joint.index()].name, "motion of the guide");
+        }
+    }
+    let moves = |rates: Option<&[T]>| rates.is_some_and(|all| all.iter().any(|x| !x.is_zero()));
+    for initial in &scene.initials {
+        match &initial.target {
+            InitialTarget::Joint { joint, rate, .. } if moves(rate.as_deref()) => {
+                leave("joint", &scene.joints[joint.index()].name, "initial rate");
+            }
+            InitialTarget::Body { body: BodyId::Body(body), velocity, angular_velocity } => {
+                let velocity = velocity.as_ref().map(|(_, velocity)| &velocity[..]);
+                if moves(velocity) || moves(angular_velocity.as_ref().map(|w| &w[..])) {
+                    leave("body", &scene.bodies[*body].name, "initial velocity");
+                }
+            }
+            InitialTarget::Joint { .. } | InitialTarget::Body { .. } => {}
+        }
+    }
+    all
+}
+
+/// The parts of effects among them.
+pub fn effects_left_out<T: Real>(scene: &Scene<T>) -> Vec<LeftOut> {
     let mut all = Vec::new();
     for effect in scene.effects.iter().filter(|effect| effect.enabled) {
-        let mut leave = |part| all.push(LeftOut { effect: effect.name.clone(), part });
+        let mut leave = |part| all.push(LeftOut { of: "effect", name: effect.name.clone(), part });
         effect.kind.clone().rest(&mut leave);
     }
     all
@@ -55,5 +91,5 @@ pub fn left_out<T: Real>(scene: &Scene<T>) -> Vec<LeftOut> {
 
 /// As it stands in JSON.
 pub fn left_out_json(left_out: &[LeftOut]) -> Value {
-    left_out.iter().map(|l| json!({ "effect": l.effect, "part": l.part })).collect()
+    left_out.iter().map(|l| json!({ l.of: l.name, "part": l.part })).collect()
 }

@@ -1,5 +1,6 @@
 //! Why a run stopped, in words and with names.
 
+mod code;
 mod gap;
 mod linear;
 mod step;
@@ -8,6 +9,7 @@ use self::linear::write_linear;
 use self::step::{step_hint, step_owner, write_step};
 use crate::names::Names;
 use crate::tilt::AlmostDependent;
+use crate::unsteady::Unsteady;
 use mbs_scene::format::few;
 
 use crate::record::RunError;
@@ -48,6 +50,8 @@ pub enum StopError {
     Equilibrium(EquilibriumError, Option<Owner>),
     /// The motion cannot be linearised.
     Linear(LinearError),
+    /// A state about which modes are asked for is neither a rest nor a steady motion.
+    NotSteady(Box<Unsteady>),
     /// The iteration for the eigenvalues did not converge.
     Eigenvalues,
     /// The operating system did not give that many threads.
@@ -163,6 +167,7 @@ impl StopError {
             Self::Friction { effect, .. } => Owner::Effect(*effect),
             Self::Reaction(_)
             | Self::Linear(_)
+            | Self::NotSteady(_)
             | Self::Eigenvalues
             | Self::NoThreads(_)
             | Self::NotBuilt
@@ -176,51 +181,6 @@ impl StopError {
             Owner::Coupling(c) => Entry::Coupling(c),
             Owner::Rolling(r) => Entry::Rolling(r),
         })
-    }
-
-    /// A short fixed word for programs.
-    #[must_use]
-    pub fn code(&self) -> &'static str {
-        match self {
-            Self::Start(AssemblyError::Model(_)) => "no-model",
-            Self::Start(AssemblyError::Position { .. } | AssemblyError::NotLeast { .. }) => {
-                "cannot-assemble"
-            }
-            Self::Start(AssemblyError::Velocity { .. }) => "contradicting-velocities",
-            Self::Start(AssemblyError::NoInertia { .. }) => "no-inertia",
-            Self::Start(_) => "no-accelerations",
-            Self::Step(StepError::NotConverged { .. }, _) => "not-converged",
-            Self::Step(StepError::Singular(_), _) => "singular-matrix",
-            Self::Step(StepError::NotFinite { .. }, _) => "not-finite",
-            Self::Step(StepError::Violated { .. }, _) => "violated",
-            Self::Step(StepError::OppositeBranch { .. }, _) => "opposite-branch",
-            Self::Step(StepError::RankLost { .. }, _) => "rank-lost",
-            Self::Step(StepError::StepTooSmall { .. }, _) => "step-too-small",
-            Self::Step(StepError::TurnTooLarge { .. }, _) => "turn-too-large",
-            Self::Step(StepError::Overturned { .. }, _) => "overturned",
-            Self::Step(StepError::RollingFlat { .. }, _) => "rolling-flat",
-            Self::Step(StepError::VelocityRows, _) => "velocity-rows",
-            Self::Step(StepError::RopeCollapsed { .. } | StepError::LineCollapsed { .. }, _) => {
-                "rope-collapsed"
-            }
-            Self::Step(StepError::TwistOpen { .. }, _) => "twist-open",
-            Self::Step(StepError::Law { .. }, _) => "law-not-finite",
-            Self::Step(StepError::Relation { .. }, _) => "relation-not-finite",
-            Self::Step(..) => "step-failed",
-            Self::AlmostDependent(_) => "almost-dependent",
-            Self::Reaction(_) => "no-reactions",
-            Self::Tree(..) => "no-tree",
-            Self::Friction { .. } => "friction-not-resolved",
-            Self::Energy { .. } => "energy-drift",
-            Self::Output { .. } => "output-not-finite",
-            Self::Equilibrium(..) => "no-equilibrium",
-            Self::Linear(_) => "no-linearisation",
-            Self::Eigenvalues => "no-eigenvalues",
-            Self::NoThreads(_) => "no-threads",
-            Self::NotBuilt => "precision-not-built",
-            Self::Interrupted => INTERRUPTED,
-            Self::Observer { code, .. } => code,
-        }
     }
 
     /// What to try.
@@ -276,6 +236,9 @@ impl StopError {
             }
             Self::Linear(LinearError::Rolls) => "linearise about a rest, such as the equilibrium",
             Self::Linear(_) | Self::Eigenvalues => "check the data of the effects",
+            Self::NotSteady(_) => {
+                "start from a steady motion or a rest; `--frozen`, in Python `frozen=True`, gives the eigenvalues of the instant"
+            }
             Self::NoThreads(_) => "ask for fewer threads",
             Self::NotBuilt => "build with the feature of the precision, which is on by default",
             Self::Interrupted => "rows are kept; a run with `checkpoint` continues by `resume`",
@@ -318,6 +281,7 @@ impl StopError {
             | Self::Friction { .. }
             | Self::Output { .. }
             | Self::Linear(_)
+            | Self::NotSteady(_)
             | Self::Eigenvalues
             | Self::Interrupted
             | Self::Observer { .. }
@@ -376,6 +340,7 @@ impl core::fmt::Display for StopError {
             Self::Tree(error, _) => write_tree(error, f),
             Self::Equilibrium(error, _) => write_equilibrium(error, f),
             Self::Linear(error) => write_linear(error, f),
+            Self::NotSteady(unsteady) => write!(f, "{unsteady}"),
             Self::Eigenvalues => write!(f, "the iteration for the eigenvalues did not converge"),
             Self::NoThreads(n) => write!(f, "the system gives no {n} threads"),
             Self::NotBuilt => write!(f, "this build has no steps in the scalar of the scene"),

@@ -31,10 +31,11 @@ pub use front::{
     InputOwner, InputTableError, Joint, Mechanism, NamedSignal, Observer, Output, OutputFunction,
     Part, PathError, PointMotion, Pose, Rolling, Run, RunInputs, RunResult, SceneError, Simulation,
     SimulationError, Sizes, Snapshot, StepReport, Table, UnknownName, View, Wrench, equilibrium,
-    linearize, linearize_at, modes, run, run_with, with_inputs,
+    linearize, linearize_at, linearize_steady, linearize_steady_at, modes, run, run_with,
+    with_inputs,
 };
 pub use interrupt::Interrupt;
-pub use linear_system::{LinearSystem, LinearizeOptions, ModeShape};
+pub use linear_system::{LinearSystem, LinearizeOptions, ModeShape, Unsteady};
 pub use mbs_core::formulation::{Formulation, SwitchError};
 pub use mbs_core::laws::code::{BodyLaw, Force, ForceLaw, Measured, MeasuredBody};
 pub use mbs_core::laws::relation::Relation;

@@ -94,6 +94,11 @@ fn near_its_start_a_pendulum_stands_and_the_text_says_how_far_it_went() {
     assert!(text.contains("left out of this analysis: dry friction of `rub`"), "{text}");
     let text = told(&["modes", file, "--near"]);
     assert!(text.contains("unstable") && text.contains("dry friction of `rub`"), "{text}");
-    assert!(!told(&["modes", file, "--at", "initial"]).contains("left out"));
+    let frozen = told(&["modes", file, "--at", "initial", "--frozen"]);
+    assert!(!frozen.contains("left out") && frozen.contains("at an instant"), "{frozen}");
+    let refused = run("modes", &[file, "--at", "initial"]);
+    assert_eq!(refused.status.code(), Some(2));
+    let said = String::from_utf8_lossy(&refused.stderr).into_owned();
+    assert!(said.contains("`pivot` accelerates by") && said.contains("--frozen"), "{said}");
     assert_eq!(run("modes", &[file, "--near", "--at", "initial"]).status.code(), Some(1));
 }

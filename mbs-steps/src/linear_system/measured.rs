@@ -1,12 +1,19 @@
 //! What is measured at each state of a linearisation: outputs, and coordinates of joints and bodies with their rates.
+//!
+//! About a motion rotations count from those of the motion itself, in global axes:
+//!
+//! ```text
+//! R = exp(delta) R_r:   delta' = omega - omega_r + omega_r x delta,      of a joint delta_2 - delta_1
+//! ```
 
+use super::coordinates::{Ball, Coordinates};
 use super::names::OutputColumns;
 use crate::channels::Channels;
-use crate::record::Channel;
 use crate::stop::StopError;
+use mbs_core::algebra::{Matrix, Vector, rotation, rotation_vector};
 use mbs_core::model::State;
 use mbs_core::natural::NaturalModel;
-use mbs_core::scene::{BodyId, Dimension, Freedom, JointId, Output, Quantity, Scene};
+use mbs_core::scene::{Output, Scene};
 use mbs_linear::LinearError;
 
 /// Way of a difference along the velocity, relative to the scene's length [-]: its fourth power is rounding of a rate.
@@ -19,13 +26,19 @@ pub(super) struct Layout {
     outputs: Vec<usize>,
     n_measured: usize,
     /// The coordinates that may be states, those of joints first.
-    names: Vec<String>,
+    pub(super) names: Vec<String>,
     pub(super) n_of_joints: usize,
+    /// Those of joints that are parts of a vector in the axes of a body: of a ball, or of two slides.
+    pub(super) of_vectors: Vec<bool>,
+    /// First coordinate and number of each vector in global axes: places and rotations of bodies.
+    pub(super) vectors: Vec<[usize; 2]>,
+    /// Units of the coordinates.
+    pub(super) units: Vec<&'static str>,
 }
 
 impl Layout {
     /// The rows of one part for each coordinate.
-    fn part(&self, part: usize) -> impl Fn(usize) -> usize {
+    pub(super) fn part(&self, part: usize) -> impl Fn(usize) -> usize {
         let start = self.n_measured + part * self.names.len();
         move |coordinate| start + coordinate
     }
@@ -45,17 +58,8 @@ impl Layout {
 
     /// Coordinates that are states, then their rates.
     pub(super) fn state_rows(&self, chosen: &[usize]) -> impl Iterator<Item = usize> {
-        self.both(chosen, [0, 1])
-    }
-
-    /// The derivatives of both.
-    pub(super) fn rate_rows(&self, chosen: &[usize]) -> impl Iterator<Item = usize> {
-        self.both(chosen, [2, 3])
-    }
-
-    fn both(&self, chosen: &[usize], parts: [usize; 2]) -> impl Iterator<Item = usize> {
         let of = |part| chosen.iter().copied().map(self.part(part));
-        of(parts[0]).chain(of(parts[1])).collect::<Vec<_>>().into_iter()
+        of(0).chain(of(1)).collect::<Vec<_>>().into_iter()
     }
 
     /// Names of the states.
@@ -73,6 +77,11 @@ pub(super) struct Measured<const D: usize> {
     coordinates: Option<[Channels<f64, D>; 3]>,
     /// Coordinates of a rotation: their rates are angular velocities.
     turns: Vec<bool>,
+    /// First coordinate of each body's rotation, and of each joint's that is a rotation in space, with the bodies of the joint.
+    rotations: Vec<usize>,
+    balls: Vec<Ball>,
+    /// The motion from which rotations count; nothing about a rest.
+    reference: Option<Reference>,
     /// The scene's length [m].
     length: f64,
     /// Why the last measurement failed.
@@ -94,23 +103,74 @@ impl<const D: usize> Measured<D> {
         };
         let outputs = channels(columns.measured.clone())?;
         let n_measured = outputs.as_ref().map_or(0, |outputs| outputs.lengths().sum());
-        let Coordinates { quantities, names, turns, n_of_joints } = Coordinates::new(scene);
+        let coordinates = Coordinates::new(scene);
         let [mut values, mut rates, mut accelerations] = [Vec::new(), Vec::new(), Vec::new()];
-        for [value, rate, acceleration] in quantities {
+        for [value, rate, acceleration] in coordinates.quantities {
             values.push(value);
             rates.push(rate);
             accelerations.push(acceleration);
         }
         let three = [channels(values)?, channels(rates)?, channels(accelerations)?];
-        let coordinates = match three {
+        let measured = match three {
             [Some(values), Some(rates), Some(accelerations)] => {
                 Some([values, rates, accelerations])
             }
             _ => None,
         };
-        let layout = Layout { outputs: columns.places.clone(), n_measured, names, n_of_joints };
-        let length = model.length();
-        Ok(Self { layout, outputs, coordinates, turns, length, stop: None })
+        let Coordinates {
+            names,
+            units,
+            turns,
+            n_of_joints,
+            of_vectors,
+            vectors,
+            rotations,
+            balls,
+            ..
+        } = coordinates;
+        let outputs_of = columns.places.clone();
+        let layout = Layout {
+            outputs: outputs_of,
+            n_measured,
+            names,
+            n_of_joints,
+            of_vectors,
+            vectors,
+            units,
+        };
+        Ok(Self {
+            layout,
+            outputs,
+            coordinates: measured,
+            turns,
+            rotations,
+            balls,
+            reference: None,
+            length: model.length(),
+            stop: None,
+        })
+    }
+
+    /// Lets rotations count from those of `s`, where it moves.
+    pub(super) fn count_from(&mut self, s: &State<f64>) -> Result<(), StopError> {
+        self.reference = None;
+        let is_moving = s.v.iter().any(|v| *v != 0.0);
+        let Some([values, rates, _]) = self.coordinates.as_mut().filter(|_| D == 3 && is_moving)
+        else {
+            return Ok(());
+        };
+        let [mut value, mut rate] = [0, 1].map(|_| vec![0.0; self.turns.len()]);
+        values.write_at(s, &mut value)?;
+        rates.write_at(s, &mut rate)?;
+        let of = |from: &[f64], at: usize| Vector::from_fn(|i, _| from[at + i]);
+        let bodies = self.rotations.iter().map(|&at| (rotation(&of(&value, at)), of(&rate, at)));
+        self.reference = Some(Reference { bodies: bodies.collect(), values: value });
+        Ok(())
+    }
+
+    /// The coordinates of the state that rotations count from, as they are without it.
+    pub(super) fn reference_values(&self) -> Option<&[f64]> {
+        self.reference.as_ref().map(|reference| &reference.values[..])
     }
 
     /// All numbers at a state.
@@ -137,7 +197,9 @@ impl<const D: usize> Measured<D> {
         rates.write_at(s, rate)?;
         accelerations.write_at(s, acceleration)?;
         change.copy_from_slice(rate);
-        if self.turns.contains(&true) {
+        if let Some(reference) = &self.reference {
+            reference.count((&self.rotations, &self.balls), (value, rate, change));
+        } else if self.turns.contains(&true) {
             let found = along(values, s, self.length, n)?;
             for (to, (found, _)) in change
                 .iter_mut()
@@ -180,67 +242,39 @@ fn along<const D: usize>(
     Ok((0..n).map(slope).collect())
 }
 
-/// The coordinates that may be states.
-struct Coordinates {
-    /// Value, rate and acceleration.
-    quantities: Vec<[Output<f64>; 3]>,
-    /// Of each component.
-    names: Vec<String>,
-    turns: Vec<bool>,
-    n_of_joints: usize,
+/// A motion from which rotations count.
+struct Reference {
+    /// Rotation and angular velocity of each body.
+    bodies: Vec<(Matrix<f64, 3>, Vector<f64, 3>)>,
+    /// All coordinates.
+    values: Vec<f64>,
 }
 
-impl Coordinates {
-    /// Those of all joints, then centres of mass and rotations of all bodies.
-    fn new(scene: &Scene<f64>) -> Self {
-        let mut all =
-            Self { quantities: Vec::new(), names: Vec::new(), turns: Vec::new(), n_of_joints: 0 };
-        let joints = Scene { outputs: Vec::new(), ..scene.clone() };
-        let channels = Channel::of_scene(&joints);
-        for (output, channel) in joints.channels().iter().zip(&channels) {
-            let Quantity::JointValue { joint } = output.quantity else { continue };
-            all.add_joint(scene, joint, channel);
+impl Reference {
+    /// Lets the rotations of bodies and balls among the values count from here, with what they change by.
+    fn count(
+        &self,
+        (rotations, balls): (&[usize], &[Ball]),
+        (value, rate, change): (&mut [f64], &[f64], &mut [f64]),
+    ) {
+        let of =
+            |from: &[f64], at: usize| -> Vector<f64, 3> { Vector::from_fn(|i, _| from[at + i]) };
+        let deviation = |(&at, (from, before)): (&usize, &(Matrix<f64, 3>, Vector<f64, 3>))| {
+            let turn = rotation(&of(value, at)) * from.transpose();
+            [rotation_vector(&turn), of(rate, at) - turn * before]
+        };
+        let all: Vec<_> = rotations.iter().zip(&self.bodies).map(deviation).collect();
+        let mut set = |at: usize, [turn, turns]: [Vector<f64, 3>; 2]| {
+            value[at..at + 3].copy_from_slice(turn.as_slice());
+            change[at..at + 3].copy_from_slice(turns.as_slice());
+        };
+        for (&at, &both) in rotations.iter().zip(&all) {
+            set(at, both);
         }
-        all.n_of_joints = all.names.len();
-        for (b, body) in scene.bodies.iter().enumerate() {
-            let (of, at, axes) = (BodyId::Body(b), body.center, ["x", "y", "z"]);
-            let n = scene.dimension.count();
-            all.quantities.push([
-                Output::new(Quantity::Position { body: of, at }),
-                Output::new(Quantity::Velocity { body: of, at }),
-                Output::new(Quantity::Acceleration { body: of, at }),
-            ]);
-            all.name(axes[..n].iter().map(|x| format!("{}.{x}", body.name)), false);
-            all.quantities.push([
-                Output::new(Quantity::RotationVector { body: of }),
-                Output::new(Quantity::AngularVelocity { body: of }),
-                Output::new(Quantity::AngularAcceleration { body: of }),
-            ]);
-            let (about, turns) = match scene.dimension {
-                Dimension::Planar => (&axes[2..], false),
-                Dimension::Spatial => (&axes[..], true),
-            };
-            all.name(about.iter().map(|x| format!("{}.r{x}", body.name)), turns);
+        let zero = [Vector::zeros(); 2];
+        for &(at, bodies) in balls {
+            let [first, second] = bodies.map(|body| body.map_or(zero, |body| all[body]));
+            set(at, [second[0] - first[0], second[1] - first[1]]);
         }
-        all
-    }
-
-    fn add_joint(&mut self, scene: &Scene<f64>, joint: JointId, channel: &Channel) {
-        self.quantities.push([
-            Output::new(Quantity::JointValue { joint }),
-            Output::new(Quantity::JointRate { joint }),
-            Output::new(Quantity::JointAcceleration { joint }),
-        ]);
-        let freedoms = scene.joints[joint.index()].freedoms(scene.dimension);
-        let turns = freedoms.iter().flat_map(|freedom| {
-            core::iter::repeat_n(*freedom == Freedom::Ball, freedom.n_coordinates())
-        });
-        self.turns.extend(turns);
-        self.names.extend(channel.columns());
-    }
-
-    fn name(&mut self, names: impl Iterator<Item = String>, turns: bool) {
-        self.names.extend(names);
-        self.turns.resize(self.names.len(), turns);
     }
 }

@@ -10,7 +10,8 @@ use mbs_core::natural::NaturalModel;
 use mbs_core::scene::{Output, Scene};
 
 /// The inputs that are asked for, and their places among those of a state.
-pub(super) struct InputPlaces {
+#[derive(Debug, Default)]
+pub(crate) struct InputPlaces {
     pub(super) names: Vec<String>,
     pub(super) places: Vec<usize>,
 }
@@ -86,7 +87,8 @@ pub(super) fn signal_states<const D: usize>(
 }
 
 /// The columns that are asked for.
-pub(super) struct OutputColumns {
+#[derive(Debug, Default)]
+pub(crate) struct OutputColumns {
     /// The outputs that they are components of.
     pub(super) measured: Vec<Output<f64>>,
     /// Their places among all components of these.

@@ -6,10 +6,10 @@
 //!
 //! Equal eigenvalues have as many vectors as are independent: each is made orthogonal to those before.
 
-use super::LinearSystem;
+use super::data::LinearSystem;
 use super::solve::{Complex, Factor, product, quotient, size};
 use crate::erased::SimulationError;
-use crate::modes::{Mode, slowest_first};
+use crate::mode::{Mode, slowest_first};
 use crate::stop::StopError;
 
 /// Iterations for a vector [-]: one is enough where the start is not orthogonal to it. Chosen, not tuned.
@@ -59,13 +59,7 @@ impl LinearSystem {
     /// # Ok::<(), mbs::SimulationError>(())
     /// ```
     pub fn shapes(&self) -> Result<Vec<ModeShape>, SimulationError> {
-        let n = self.a.rows;
-        if n == 0 {
-            return Ok(Vec::new());
-        }
-        let by_columns: Vec<f64> = (0..n * n).map(|k| self.a[(k % n, k / n)]).collect();
-        let values = mbs_linear::eigenvalues(n, &by_columns).ok_or(StopError::Eigenvalues);
-        let values = values.map_err(|error| {
+        let values = self.eigenvalues().map_err(|error| {
             SimulationError::new(error.code(), "the eigenvalues do not converge", "")
                 .with_cause(error)
         })?;
@@ -82,6 +76,16 @@ impl LinearSystem {
             shapes.push(ModeShape { mode, states, outputs });
         }
         Ok(shapes)
+    }
+
+    /// The eigenvalues of A.
+    pub(crate) fn eigenvalues(&self) -> Result<Vec<Complex>, StopError> {
+        let n = self.a.rows;
+        if n == 0 {
+            return Ok(Vec::new());
+        }
+        let by_columns: Vec<f64> = (0..n * n).map(|k| self.a[(k % n, k / n)]).collect();
+        mbs_linear::eigenvalues(n, &by_columns).ok_or(StopError::Eigenvalues)
     }
 
     /// An eigenvector, with its largest component one.

@@ -15,8 +15,9 @@ const HELD: f64 = 1e-8;
 pub fn choose(slopes: &[Vec<f64>], n_of_joints: usize) -> Option<Vec<usize>> {
     let f = slopes.first().map_or(0, Vec::len);
     let mut taken = Taken { slopes, chosen: Vec::new(), basis: Vec::new() };
+    let largest = slopes.iter().fold(0.0_f64, |most, row| most.max(norm(row)));
     for group in [0..n_of_joints, n_of_joints..slopes.len()] {
-        taken.fill(f, group);
+        taken.fill(f, group, HELD * largest);
     }
     let mut chosen = taken.chosen;
     chosen.sort_unstable();
@@ -31,10 +32,9 @@ struct Taken<'a> {
 }
 
 impl Taken<'_> {
-    /// Takes from a group until there are `f` of them, or none is independent.
-    fn fill(&mut self, f: usize, group: Range<usize>) {
-        let largest = group.clone().fold(0.0_f64, |most, i| most.max(norm(&self.slopes[i])));
-        let moving = group.filter(|&i| norm(&self.slopes[i]) > HELD * largest);
+    /// Takes from a group, of those that change by more than `held`, until there are `f` of them, or none is independent.
+    fn fill(&mut self, f: usize, group: Range<usize>, held: f64) {
+        let moving = group.filter(|&i| norm(&self.slopes[i]) > held);
         let moving: Vec<usize> = moving.collect();
         for &i in &moving {
             self.take(f, i, INDEPENDENT);

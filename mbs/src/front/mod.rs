@@ -20,7 +20,8 @@ pub use mechanism::Mechanism;
 pub use part::{Id, Part};
 pub use simulation::{Simulation, Snapshot};
 pub use study::{
-    EquilibriumOptions, Run, RunResult, equilibrium, linearize, linearize_at, modes, run, run_with,
+    EquilibriumOptions, Run, RunResult, equilibrium, linearize, linearize_at, linearize_steady,
+    linearize_steady_at, modes, run, run_with,
 };
 pub use table::Table;
 pub use values::{

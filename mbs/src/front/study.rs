@@ -17,6 +17,7 @@ use crate::record::RunSummary;
 use crate::run::Outcome;
 use crate::settings::Method;
 use crate::statics::StaticEquilibrium;
+use mbs_core::scene::Scene;
 
 /// What is asked of a run: a method, how long, and what else.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -200,9 +201,60 @@ pub fn linearize_at(
     inputs: Option<&[&str]>,
     outputs: Option<&[&str]>,
 ) -> Result<LinearSystem, SimulationError> {
+    let scene = at(m, (tree, q, v))?;
+    LinearSystem::at(&scene, tree.motions(), inputs, outputs)
+}
+
+/// The linear motion of this mechanism about a rest or a steady motion, in axes that turn with it, without inputs and outputs: its
+/// eigenvalues and shapes are those of the motion.
+///
+/// # Errors
+/// As for [`linearize`]; `not-steady` where the state is neither a rest nor a steady motion, with what accelerates or changes.
+///
+/// # Examples
+/// A top that spins upright about its vertical axis: m g l = 1 N m, 0.05 and 0.01 kg m^2. It sleeps from 2 (m g l A)^(1/2) / C = 44.72 rad/s on.
+/// ```
+/// use mbs::{Body, GROUND, Initial, Joint, LinearizeOptions, Mechanism, Place, linearize_steady};
+/// let grows = |rate: f64| {
+///     let mut m = Mechanism::spatial("top");
+///     m.set_gravity([0.0, 0.0, -10.0]);
+///     let top = m.add(Body::spatial([0.0, 0.0, 0.1], 1.0, [0.04, 0.04, 0.01, 0.0, 0.0, 0.0]));
+///     m.add(Joint::spherical([GROUND, top], [0.0, 0.0, 0.0]));
+///     m.add(Initial::motion(top, [0.0, 0.0, 0.0]).turning([0.0, 0.0, rate]));
+///     let options = LinearizeOptions { place: Place::Initial, ..LinearizeOptions::default() };
+///     let shapes = linearize_steady(&m, &options)?.shapes()?;
+///     Ok::<_, mbs::SimulationError>(shapes.iter().any(|shape| shape.mode.grows()))
+/// };
+/// assert!(grows(44.0)? && !grows(45.0)?);
+/// # Ok::<(), mbs::SimulationError>(())
+/// ```
+pub fn linearize_steady(
+    m: &Mechanism,
+    options: &LinearizeOptions,
+) -> Result<LinearSystem, SimulationError> {
+    LinearSystem::steady(&m.resolve_scene()?, options)
+}
+
+/// [`linearize_steady`] about coordinates and velocities of a tree of the mechanism, as [`linearize_at`] takes them.
+///
+/// # Errors
+/// As for [`linearize_steady`] and [`linearize_at`].
+pub fn linearize_steady_at(
+    m: &Mechanism,
+    state: (&mut Tree, &[f64], &[f64]),
+) -> Result<LinearSystem, SimulationError> {
+    let (tree, q, v) = state;
+    let scene = at(m, (tree, q, v))?;
+    LinearSystem::steady_at(&scene, tree.motions())
+}
+
+/// Moves a tree to a state; the scene that starts there.
+fn at(
+    m: &Mechanism,
+    (tree, q, v): (&mut Tree, &[f64], &[f64]),
+) -> Result<Scene<f64>, SimulationError> {
     tree.reset();
     tree.set(q, v)?;
     tree.make_consistent()?;
-    let scene = started(&m.resolve_scene()?, &tree.joint_states());
-    LinearSystem::at(&scene, tree.motions(), inputs, outputs)
+    Ok(started(&m.resolve_scene()?, &tree.joint_states()))
 }

@@ -53,6 +53,7 @@ mod signals;
 mod slack_ropes;
 mod states;
 mod statistics;
+mod steady;
 mod sums;
 mod threads;
 mod tooth_forces;

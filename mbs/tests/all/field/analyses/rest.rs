@@ -116,7 +116,7 @@ fn dry_friction_is_left_out_by_name_and_viscous_friction_is_not() {
     let dry = text("04-modes-viscous-friction").replace("coulomb = 0.0", "coulomb = 40.0");
     let found =
         StaticEquilibrium::new(&read(&dry, "dry"), Search::Down).expect("the spring holds it");
-    let left_out: Vec<_> = found.left_out.iter().map(|l| (l.effect.as_str(), l.part)).collect();
+    let left_out: Vec<_> = found.left_out.iter().map(|l| (l.name.as_str(), l.part)).collect();
     assert_eq!(left_out, [("rub", "dry friction")]);
     assert!(joint(&found).abs() < CLOSE);
     assert_eq!(found.to_json()["left_out"][0]["effect"], "rub");

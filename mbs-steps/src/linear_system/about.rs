@@ -1,0 +1,175 @@
+//! The linear motion about one state: measured there, and a little later where it is asked whether it stays so.
+
+use super::data::LinearSystem;
+use super::measured::{Layout, Measured};
+use super::names::{self, InputPlaces, OutputColumns};
+use super::parts::Parts;
+use super::states;
+use super::steady::{PHASE, Sizes, Turning, accelerating, changing};
+use crate::equilibrium::workspace;
+use crate::placed::PlacedScene;
+use crate::stop::StopError;
+use crate::unsteady::Unsteady;
+use mbs_core::model::State;
+use mbs_core::scene::Scene;
+use mbs_linear::{
+    Linear, LinearError, LinearOptions, LinearPorts, Ports, advance, linearise_ports,
+};
+
+/// What is linearised about which state.
+pub(crate) struct About<'a, const D: usize> {
+    pub(super) scene: &'a Scene<f64>,
+    pub(super) placed: &'a PlacedScene<D>,
+    pub(super) columns: OutputColumns,
+    pub(super) inputs: InputPlaces,
+    /// Are the axes those that turn with the motion, and is it tested that it is steady in them?
+    pub(super) turns: bool,
+}
+
+/// What is measured about a state.
+struct At {
+    layout: Layout,
+    /// The coordinates that are states.
+    chosen: Vec<usize>,
+    linear: Linear<f64>,
+    ports: LinearPorts<f64>,
+    /// All coordinates, rotations as the scene counts them.
+    values: Option<Vec<f64>>,
+    not_unique: Vec<String>,
+}
+
+impl<'a, const D: usize> About<'a, D> {
+    /// Without inputs and outputs.
+    pub(crate) fn alone(scene: &'a Scene<f64>, placed: &'a PlacedScene<D>, turns: bool) -> Self {
+        let (columns, inputs) = (OutputColumns::default(), InputPlaces::default());
+        Self { scene, placed, columns, inputs, turns }
+    }
+
+    /// The linear system of the placed state.
+    ///
+    /// # Errors
+    /// [`StopError`] where what is measured is not finite, or the motion cannot be linearised.
+    pub(crate) fn system(&self) -> Result<LinearSystem, StopError> {
+        let (scene, placed) = (self.scene, self.placed);
+        let (model, state) = (&placed.ready.model, &placed.ready.start.state);
+        let at = self.measured(state, None)?;
+        let is_moving = state.v.iter().any(|v| *v != 0.0);
+        let (layout, chosen) = (&at.layout, &at.chosen[..]);
+        let turning = if self.turns && is_moving {
+            let values = (&at.ports.values[..], model.length());
+            Turning::of(&placed.scene, (layout, chosen), values)
+        } else {
+            Turning::none()
+        };
+        let [a, b, c, d] = at.matrices(&turning)?;
+        let signals = names::signal_states(scene, model);
+        let states = layout.state_names(chosen, signals);
+        let sizes = at.sizes(model.length());
+        let mut unsteady = at.accelerating(&turning, (&a, &sizes));
+        if self.turns && is_moving && unsteady.is_none() {
+            let h = PHASE / sizes.rate;
+            let later = advance(model, h, state, &mut workspace(model))
+                .map_err(|error| StopError::Linear(error).or_law(model.codes()))?;
+            let after = self.measured(&later, Some(chosen))?;
+            let turned = turning.after(h);
+            let [later, ..] = after.matrices(&turned)?;
+            let changed = || changing(&states, [&a, &later], at.linear.noise);
+            unsteady = after.accelerating(&turned, (&later, &sizes)).or_else(changed);
+        }
+        let value = |place: usize| at.ports.values[place];
+        let mut state_values: Vec<f64> = layout.state_rows(chosen).map(value).collect();
+        if let Some(values) = &at.values {
+            state_values.iter_mut().zip(chosen).for_each(|(to, &i)| *to = values[i]);
+        }
+        let of_signals = &state.signals[..at.linear.signals.n];
+        state_values.extend(of_signals.iter().map(|[value, _]| *value));
+        Ok(LinearSystem {
+            scene: scene.name.clone(),
+            place: None,
+            found: placed.found,
+            left_out: placed.left_out.clone(),
+            states,
+            input_values: self.inputs.places.iter().map(|&place| state.inputs[place]).collect(),
+            inputs: self.inputs.names.clone(),
+            output_values: layout.output_rows().map(value).collect(),
+            not_unique: at.not_unique.clone(),
+            outputs: self.columns.names.clone(),
+            a,
+            b,
+            c,
+            d,
+            state_values,
+            unsteady,
+            turning: at.linear.turning,
+            n_freedoms: at.linear.n_freedoms,
+            noise: at.linear.noise,
+        })
+    }
+
+    /// Linearises about `state`, with these coordinates as states where they are given.
+    fn measured(&self, state: &State<f64>, given: Option<&[usize]>) -> Result<At, StopError> {
+        let (scene, model) = (&self.placed.scene, &self.placed.ready.model);
+        let mut measured = Measured::new(scene, model, &self.columns)?;
+        measured.count_from(state)?;
+        let layout = measured.layout.clone();
+        let is_moving = state.v.iter().any(|v| *v != 0.0);
+        let mut chosen = given.unwrap_or_default().to_vec();
+        let mut choose = |slopes: &[f64]| {
+            let mut slopes = layout.slopes(slopes);
+            if self.turns && is_moving {
+                let rows = slopes.iter_mut().zip(&layout.of_vectors);
+                rows.filter(|(_, is)| **is).for_each(|(row, _)| row.fill(0.0));
+            }
+            if given.is_none() {
+                chosen = states::choose(&slopes, layout.n_of_joints)?;
+            }
+            let columns = 0..chosen.len();
+            let column = |j: usize| chosen.iter().map(|&i| slopes[i][j]).collect::<Vec<_>>();
+            Some(columns.flat_map(column).collect())
+        };
+        let mut measure = |s: &_| measured.write(s);
+        let ports = Ports {
+            inputs: &self.inputs.places,
+            outputs: &mut measure,
+            coordinates: Some(&mut choose),
+        };
+        let how = (self.placed.instant, &LinearOptions::default());
+        let found = linearise_ports(model, how, state, &mut workspace(model), ports);
+        let (linear, ports) = found.map_err(|error| {
+            let of_output = matches!(error, LinearError::Output { .. });
+            let stop = measured.stop.take().filter(|_| of_output);
+            stop.unwrap_or(StopError::Linear(error)).or_law(model.codes())
+        })?;
+        let values = measured.reference_values().map(<[f64]>::to_vec);
+        let not_unique = measured.not_unique(scene);
+        Ok(At { layout, chosen, linear, ports, values, not_unique })
+    }
+}
+
+impl At {
+    /// A, B, C and D in these axes.
+    fn matrices(&self, turning: &Turning) -> Result<[crate::tree::Matrix; 4], StopError> {
+        let parts = Parts { linear: &self.linear, ports: &self.ports };
+        let singular = || StopError::Linear(LinearError::Singular { freedom: 0 });
+        parts.matrices(&self.layout, &self.chosen, turning).ok_or_else(singular)
+    }
+
+    /// What accelerations are compared with.
+    fn sizes(&self, length: f64) -> Sizes {
+        let mut sizes = Sizes { length, rate: 0.0, lively: self.linear.lively };
+        let rates = self.layout.part(1);
+        let of = |i: usize| self.ports.values[rates(i)].abs() / sizes.of(self.layout.units[i]);
+        sizes.rate = (0..self.layout.names.len()).map(of).fold(0.0, f64::max);
+        sizes
+    }
+
+    /// The state that accelerates most in these axes, if any does.
+    fn accelerating(
+        &self,
+        turning: &Turning,
+        of: (&crate::tree::Matrix, &Sizes),
+    ) -> Option<Unsteady> {
+        let states = (&self.layout, &self.chosen[..]);
+        accelerating(states, (turning, &self.ports.values), of)
+    }
+}

@@ -1,0 +1,189 @@
+//! Is a motion steady, and what is its linear motion in the axes that turn with it?
+//!
+//! ```text
+//! Omega: the turning of the whole about gravity, by which vectors x of bodies change:   x'' = Omega x x'
+//! x_c = C^T x,   x_c' = C^T x' - Omega x x_c,   w_c' = C^T w' - Omega x w_c,   C = exp(Omega (t - t_0))
+//! steady: w_c' = 0 in all states, at the state and a little later, with the same A in these axes
+//! ```
+//!
+//! Joint coordinates of one freedom are the same in all axes. Of joints with a vector the bodies are taken, whose vectors are in global axes.
+
+use super::measured::Layout;
+use crate::unsteady::Unsteady;
+use mbs_core::algebra::{Matrix, Vector, rotation};
+use mbs_core::scene::{Dimension, Scene};
+
+/// Phase of the motion after which it is looked at again [rad]: what changes once a turn has changed by a thirtieth, and one step of a rule
+/// of order four errs by 1e-10.
+pub(super) const PHASE: f64 = 0.03;
+/// Largest acceleration in the turning axes that is none, relative to what a deviation of one radian, or of the scene's length, makes of
+/// it [-]: the state is then that near to a steady motion. Initial values are written with seven digits.
+const STEADY: f64 = 1e-6;
+/// Largest acceleration that rounding leaves where nothing deviates, relative to the largest force over the inertia that it moves [-].
+const LEFT: f64 = 1e-9;
+/// Largest change of an entry of A within the phase that is none, relative to the largest of its row [-]: 1e-4 in a radian, as a state that
+/// is steady to seven digits changes them by 1e-5.
+const UNCHANGED: f64 = 1e-4 * PHASE;
+/// Rounding of squares of eigenvalues that entries of A may change by [-]: that of two matrices, and of the states between. Chosen, not tuned.
+const ROUNDINGS: f64 = 1e2;
+
+/// Axes that turn with a motion.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Turning {
+    /// Omega [rad/s].
+    pub(super) rate: Vector<f64, 3>,
+    /// C, which is 1 at the state.
+    pub(super) axes: Matrix<f64, 3>,
+}
+
+/// A row of what is measured, by states and by inputs; or a single number of it.
+pub(super) type Row = Vec<f64>;
+
+impl Turning {
+    /// Axes that stand.
+    pub(super) fn none() -> Self {
+        Self { rate: Vector::zeros(), axes: Matrix::<f64, 3>::identity() }
+    }
+
+    /// Those of a state, given what is measured there: the turning by which the vectors among the chosen states change.
+    pub(super) fn of(
+        scene: &Scene<f64>,
+        (layout, chosen): (&Layout, &[usize]),
+        (values, length): (&[f64], f64),
+    ) -> Self {
+        let [rates, accelerations] = [1, 3].map(|part| layout.part(part));
+        let (mut square, mut moment) = (Matrix::<f64, 3>::zeros(), Vector::<f64, 3>::zeros());
+        let is_chosen =
+            |[first, n]: &&[usize; 2]| chosen.iter().any(|i| (*first..*first + *n).contains(i));
+        for &[first, n] in layout.vectors.iter().filter(is_chosen) {
+            let size = if layout.units[first] == "m" { length } else { 1.0 };
+            let of = |part: &dyn Fn(usize) -> usize| -> Vector<f64, 3> {
+                Vector::from_fn(|i, _| if i < n { values[part(first + i)] / size } else { 0.0 })
+            };
+            let (v, a) = (of(&rates), of(&accelerations));
+            square += Matrix::<f64, 3>::identity() * v.dot(&v) - v * v.transpose();
+            moment += v.cross(&a);
+        }
+        let gravity = scene.gravity.map_or_else(Vector::zeros, Vector::from);
+        let is_planar = scene.dimension == Dimension::Planar;
+        let axis = match (is_planar, gravity.norm() > 0.0) {
+            (true, true) => return Self::none(),
+            (true, false) => Vector::<f64, 3>::new(0.0, 0.0, 1.0),
+            (false, true) => gravity.normalize(),
+            // across the largest vector, if there is one
+            (false, false) => {
+                let norm = moment.norm();
+                if norm > 0.0 { moment / norm } else { return Self::none() }
+            }
+        };
+        let weight = axis.dot(&(square * axis));
+        let rate = if weight > 0.0 { axis.dot(&moment) / weight } else { 0.0 };
+        Self { rate: axis * rate, axes: Matrix::<f64, 3>::identity() }
+    }
+
+    /// A time `h` [s] later.
+    pub(super) fn after(&self, h: f64) -> Self {
+        Self { axes: rotation(&(self.rate * h)) * self.axes, ..*self }
+    }
+
+    /// Value, rate, derivative of the value and acceleration of a coordinate in these axes, from `row`: what is measured at a place.
+    pub(super) fn rows(&self, layout: &Layout, i: usize, row: impl Fn(usize) -> Row) -> [Row; 4] {
+        let part = |part: usize, of: usize| row(layout.part(part)(of));
+        if self.rate.iter().all(|rate| *rate == 0.0) {
+            return [0, 1, 2, 3].map(|k| part(k, i));
+        }
+        let vector = layout.vectors.iter().find(|[first, n]| (*first..*first + *n).contains(&i));
+        let Some(&[first, n]) = vector else { return [0, 1, 2, 3].map(|k| part(k, i)) };
+        let seen = |k: usize, component: usize| {
+            let parts = (0..n).map(|j| (self.axes[(j, component)], part(k, first + j)));
+            combined(parts)
+        };
+        let k = i - first;
+        // (Omega x x)_k = Omega_(k+1) x_(k+2) - Omega_(k+2) x_(k+1)
+        let carried = |of: usize, moved: Row| {
+            let mut parts = vec![(1.0, moved)];
+            for (component, by, sign) in
+                [((k + 2) % 3, (k + 1) % 3, -1.0), ((k + 1) % 3, (k + 2) % 3, 1.0)]
+            {
+                if component < n && self.rate[by] != 0.0 {
+                    parts.push((sign * self.rate[by], seen(of, component)));
+                }
+            }
+            combined(parts.into_iter())
+        };
+        [seen(0, k), seen(1, k), carried(0, seen(2, k)), carried(1, seen(3, k))]
+    }
+}
+
+/// The sum of rows with factors.
+fn combined(parts: impl Iterator<Item = (f64, Row)>) -> Row {
+    let mut sum = Row::new();
+    for (by, row) in parts {
+        sum.resize(row.len(), 0.0);
+        sum.iter_mut().zip(row).for_each(|(sum, x)| *sum += by * x);
+    }
+    sum
+}
+
+/// What accelerations are compared with.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Sizes {
+    /// The scene's length [m].
+    pub(super) length: f64,
+    /// The largest rate, in radians or lengths [1/s].
+    pub(super) rate: f64,
+    /// The largest force over the inertia that it moves, in radians or lengths [1/s^2].
+    pub(super) lively: f64,
+}
+
+impl Sizes {
+    /// Of a coordinate with this unit.
+    pub(super) fn of(&self, unit: &str) -> f64 {
+        if unit == "m" { self.length } else { 1.0 }
+    }
+}
+
+/// The state that accelerates most, if any does, given the matrix A.
+pub(super) fn accelerating(
+    (layout, chosen): (&Layout, &[usize]),
+    (turning, values): (&Turning, &[f64]),
+    (a, sizes): (&crate::tree::Matrix, &Sizes),
+) -> Option<Unsteady> {
+    let (mut worst, f) = ((1.0, None), chosen.len());
+    for (k, &i) in chosen.iter().enumerate() {
+        let [.., acceleration] = turning.rows(layout, i, |place| vec![values[place]]);
+        let (by, unit) = (acceleration[0].abs(), layout.units[i]);
+        let deviations = a.row(f + k)[..2 * f].iter().enumerate().map(|(j, x)| {
+            let by_rate = if j < f { 1.0 } else { sizes.rate };
+            x.abs() * sizes.of(layout.units[chosen[j % f]]) * by_rate
+        });
+        let largest = deviations.fold(0.0, f64::max);
+        let least = STEADY * largest + LEFT * sizes.lively * sizes.of(unit);
+        if by > least * worst.0 {
+            let state = layout.names[i].clone();
+            let unit = if unit == "m" { "m/s^2" } else { "rad/s^2" };
+            worst = (by / least, Some(Unsteady::Accelerates { state, by, unit }));
+        }
+    }
+    worst.1
+}
+
+/// The state whose equation changes most between two matrices, row by row, if any does; `noise` [1/s^2] is their rounding.
+pub(super) fn changing(
+    names: &[String],
+    [a, b]: [&crate::tree::Matrix; 2],
+    noise: f64,
+) -> Option<Unsteady> {
+    let mut worst = (1.0, None);
+    for (i, name) in names.iter().enumerate() {
+        let largest = a.row(i).iter().fold(0.0_f64, |most, x| most.max(x.abs()));
+        let change = a.row(i).iter().zip(b.row(i)).map(|(a, b)| (a - b).abs());
+        let change = change.fold(0.0, f64::max);
+        let least = UNCHANGED * largest + ROUNDINGS * noise;
+        if change > least * worst.0 {
+            let by = change / PHASE / largest;
+            worst = (change / least, Some(Unsteady::Changes { state: name.clone(), by }));
+        }
+    }
+    worst.1
+}

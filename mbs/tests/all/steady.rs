@@ -1,0 +1,208 @@
+//! Modes of steady motions: bodies that spin, that precess, and that drive in a bend, against closed forms and equations of others; and what is
+//! no steady motion.
+
+use crate::common::scene;
+use mbs::core::scene::Scene;
+use mbs::{Mode, Modes, Place, Search, StopError, Unsteady};
+use mbs_testkit::repository::{field, read, text};
+
+/// Differences of fourth order, of numbers that share no digits with others [-].
+const CLOSE: f64 = 1e-8;
+
+fn modes(scene: &Scene<f64>) -> Modes {
+    let found = Modes::new(scene, Place::Initial, Search::Down);
+    found.unwrap_or_else(|e| panic!("{}: {e}", scene.name))
+}
+
+/// Has these eigenvalues, and else neutral ones alone.
+fn has(found: &Modes, right: &[[f64; 2]]) {
+    has_to(CLOSE, found, right);
+}
+
+fn has_to(close: f64, found: &Modes, right: &[[f64; 2]]) {
+    let others: Vec<&Mode> = found.modes.iter().filter(|mode| !mode.is_neutral).collect();
+    assert_eq!(others.len(), right.len(), "{others:?}");
+    for &[real, imaginary] in right {
+        let size = f64::hypot(real, imaginary);
+        let is = |m: &&&Mode| f64::hypot(m.real - real, m.imaginary - imaginary) < close * size;
+        assert!(others.iter().any(|mode| is(&mode)), "{real}, {imaginary}: {others:?}");
+    }
+}
+
+/// `text` with other numbers in place of some that it has.
+fn with(text: &str, changes: &[[&str; 2]]) -> String {
+    changes.iter().fold(text.to_owned(), |text, [from, to]| {
+        assert!(text.contains(from), "{from}");
+        text.replace(from, to)
+    })
+}
+
+/// (A s² + k)(C s² + k) + (Ip Ω)² s² = 0: A = 0.045, C = 0.035, Ip = 0.05 kg m², k = 300 N m/rad.
+#[test]
+fn a_rotor_in_gimbals_whirls_by_its_speed() {
+    let rotor = text("23-whirl-of-a-rotor");
+    for rate in [-160.0, 40.0, 100.0, 1000.0_f64] {
+        let rotor = with(&rotor, &[["rate = 100.0", &format!("rate = {rate:?}")]]);
+        let (a, b, c) = (0.045 * 0.035, 300.0 * 0.08 + (0.05 * rate).powi(2), 9e4);
+        let root = (b * b - 4.0 * a * c).sqrt();
+        let both = [2.0 * c / (b + root), (b + root) / (2.0 * a)];
+        let found = modes(&read(&rotor, "rotor"));
+        has(&found, &both.map(|square| [0.0, square.sqrt()]));
+        assert!(found.is_stable());
+    }
+}
+
+/// 0.28 s² + 50 + 0.329 · 900 = 0.
+#[test]
+fn a_blade_on_a_driven_hub_flaps_stiffer_as_it_turns() {
+    let blade = field("23-hinged-blade");
+    let right = ((50.0 + 0.329 * 900.0) / 0.28_f64).sqrt();
+    has(&modes(&blade), &[[0.0, right]]);
+    let moving = Modes::new(&blade, Place::Moving, Search::Down).expect("it turns at its rest");
+    has(&moving, &[[0.0, right]]);
+}
+
+/// cos α = m g l / (36 (m l² + 0.0295)): 1.061597765855 rad; its mode from the same equation.
+#[test]
+fn a_governor_swings_about_its_rest_in_the_turning_axes() {
+    let governor = with(
+        &text("25-governor-at-speed"),
+        &[
+            ["mass = 2.0", "mass = 1.0"],
+            ["[0.0, 0.0, -0.4]", "[0.0, 0.0, -0.5]"],
+            ["[0.01, 0.01, 0.0002", "[0.03, 0.03, 0.0005"],
+            ["rate = 8.0", "rate = 6.0"],
+            ["value = 0.2", "value = 1.0615977658549"],
+        ],
+    );
+    let damped = format!(
+        "{governor}\n[[effect]]\nkind = \"friction\"\njoint = \"arm\"\ncoulomb = 0.0\nviscous = 0.4\n"
+    );
+    has(&modes(&read(&damped, "governor")), &[[-0.714_285_714, 5.185_166_012]]);
+    let error = Modes::new(&field("25-governor-at-speed"), Place::Initial, Search::Down);
+    let Err(StopError::NotSteady(unsteady)) = error else { panic!("{error:?}") };
+    let Unsteady::Accelerates { state, by, unit } = *unsteady else { panic!("{unsteady:?}") };
+    // a'' = (64 · 0.3298 cos 0.2 − 2 · 9.81 · 0.4) sin 0.2 / 0.33
+    let (sine, cosine) = 0.2_f64.sin_cos();
+    let right = (64.0 * 0.3298 * cosine - 7.848) * sine / 0.33;
+    assert!(
+        state == "arm" && unit == "rad/s^2" && (by - right.abs()).abs() < 1e-6,
+        "{by}, {right}"
+    );
+}
+
+/// m g l = 0.981 N m, A = 0.024, C = 0.002 kg m² about the tip.
+fn top(tilt: f64, spin: f64, precession: f64) -> Scene<f64> {
+    let (sine, cosine) = tilt.sin_cos();
+    let (along, across) = (0.002, 0.004);
+    let [xx, zz] = [sine, cosine].map(|part| across + (along - across) * part * part);
+    let xz = (along - across) * sine * cosine;
+    let about = spin - precession * cosine;
+    let text = format!(
+        "[scene]\ndimension = 3\nduration = 1.0\ngravity = [0.0, 0.0, -9.81]\n\
+         [[body]]\nname = \"top\"\nmass = 0.5\ncenter = [{:?}, 0.0, {:?}]\ninertia = [{xx:?}, {across:?}, {zz:?}, 0.0, 0.0, {xz:?}]\n\
+         [[joint]]\nname = \"tip\"\nkind = \"spherical\"\nbodies = [\"ground\", \"top\"]\nat = [0.0, 0.0, 0.0]\n\
+         [[initial]]\nbody = \"top\"\nat = [0.0, 0.0, 0.0]\nvelocity = [0.0, 0.0, 0.0]\nangular_velocity = [{:?}, 0.0, {:?}]\n",
+        0.2 * sine,
+        0.2 * cosine,
+        about * sine,
+        precession + about * cosine,
+    );
+    read(&text, "top")
+}
+
+/// A s² − i C ω s − m g l = 0, in axes that do not spin.
+#[test]
+fn a_top_sleeps_above_its_limit_alone() {
+    for spin in [100.0, 150.0, 160.0_f64] {
+        let (middle, square) = (0.002 * spin / 0.048, 0.981 / 0.024);
+        let rest = middle * middle - square;
+        let right = if rest < 0.0 {
+            let grows = (-rest).sqrt();
+            [[grows, middle], [-grows, middle]]
+        } else {
+            [[0.0, middle - rest.sqrt()], [0.0, middle + rest.sqrt()]]
+        };
+        let found = modes(&top(0.0, spin, 0.0));
+        has(&found, &right);
+        assert_eq!(found.is_stable(), rest > 0.0, "{spin}");
+    }
+}
+
+/// A cos θ Ω² − C ω Ω + m g l = 0;   ν² = Ω² − 2 g' cos θ + (g'/Ω)²,   g' = m g l/A.
+#[test]
+fn a_top_that_precesses_nutates() {
+    let (cosine, weight) = (0.5_f64.cos(), 0.981);
+    let (a, b) = (0.024 * cosine, 0.002 * 150.0);
+    let precession = 2.0 * weight / (b + f64::sqrt(b * b - 4.0 * a * weight));
+    let found = modes(&top(0.5, 150.0, precession));
+    let g = weight / 0.024;
+    let square = precession.powi(2) - 2.0 * g * cosine + (g / precession).powi(2);
+    // differences lose the eight digits that the centripetal acceleration of 150 rad/s has before the nutation's
+    has_to(3.0 * CLOSE, &found, &[[0.0, square.sqrt()]]);
+    assert!(found.is_stable());
+    let faster = Modes::new(&top(0.5, 150.0, 1.01 * precession), Place::Initial, Search::Down);
+    assert!(matches!(faster, Err(StopError::NotSteady(_))), "{faster:?}");
+}
+
+/// Round a centre that a spring of 600 N/m pulls it to: ω² = k (r − l)/(m r) = 36, ν² = 3 ω² + k/m.
+#[test]
+fn a_body_on_its_orbit_swings_across_it_in_axes_that_turn() {
+    let orbit = "[scene]\ndimension = 2\nduration = 1.0\n\
+        [[body]]\nname = \"stone\"\nmass = 4.0\ncenter = [0.6, 0.8]\ninertia = 0.3\n\
+        [[effect]]\nkind = \"spring-damper\"\nbodies = [\"ground\", \"stone\"]\npoints = [[0.0, 0.0], [0.6, 0.8]]\nstiffness = 600.0\nfree_length = 0.76\n\
+        [[initial]]\nbody = \"stone\"\nat = [0.6, 0.8]\nvelocity = [-4.8, 3.6]\nangular_velocity = 2.0\n";
+    let found = modes(&read(orbit, "orbit"));
+    has_to(1e-7, &found, &[[0.0, f64::sqrt(3.0 * 36.0 + 150.0)]]);
+}
+
+#[test]
+fn a_rotor_with_two_moments_across_its_axis_is_refused_and_frozen_when_asked() {
+    let rotor = text("23-whirl-of-a-rotor");
+    let rotor = with(&rotor, &[["[0.05, 0.03, 0.03", "[0.05, 0.03, 0.02"]]);
+    let scene = read(&rotor, "rotor");
+    let error = Modes::new(&scene, Place::Initial, Search::Down);
+    let Err(StopError::NotSteady(unsteady)) = error else { panic!("{error:?}") };
+    assert!(matches!(*unsteady, Unsteady::Changes { .. }), "{unsteady:?}");
+    let frozen = Modes::frozen(&scene, Place::Initial, Search::Down).expect("of an instant");
+    assert_eq!(frozen.unsteady, Some(*unsteady));
+    assert!(frozen.to_json()["stable"].is_null());
+    assert_eq!(frozen.modes.len(), 4);
+}
+
+#[test]
+fn of_a_rest_the_start_and_the_equilibrium_have_the_same_modes() {
+    let places = [("quarter-car", Place::Initial), ("double-pendulum", Place::Moving)];
+    for (name, place) in places.into_iter().chain([("iltis-suspension", Place::Moving)]) {
+        let scene = scene(name);
+        let rest = Modes::new(&scene, Place::Equilibrium, Search::Down).expect("it rests");
+        let right: Vec<[f64; 2]> = rest
+            .modes
+            .iter()
+            .filter(|mode| !mode.is_neutral)
+            .map(|mode| [mode.real, mode.imaginary])
+            .collect();
+        let found = Modes::new(&scene, place, Search::Down).expect("it stands there");
+        has(&found, &right);
+    }
+}
+
+#[test]
+fn what_a_rest_leaves_out_of_a_motion_is_listed_and_a_motion_has_it() {
+    for (name, left_out) in [
+        ("25-governor-at-speed", ["joint", "shaft", "motion of the guide"]),
+        ("23-whirl-of-a-rotor", ["joint", "spin", "initial rate"]),
+        ("23-closed-clutch", ["effect", "clutch", "dry friction"]),
+    ] {
+        let scene = field(name);
+        let rest = Modes::new(&scene, Place::Equilibrium, Search::Down).expect("it rests");
+        let listed = rest.left_out.iter().map(|l| [l.of, &l.name, l.part]).collect::<Vec<_>>();
+        assert_eq!(listed, [left_out], "{name}");
+        let [of, name, part] = left_out;
+        assert_eq!(rest.to_json()["left_out"][0], serde_json::json!({ of: name, "part": part }));
+    }
+    // 18.973666 rad/s is the locked pair: the friction is in
+    let clutch = field("23-closed-clutch");
+    let moving = Modes::new(&clutch, Place::Moving, Search::Down).expect("it is steady");
+    assert!(moving.modes.iter().any(|mode| (mode.imaginary - 18.973_666).abs() < 1e-6));
+}
