@@ -215,6 +215,13 @@ impl StopError {
                 "leave one of the guides or joint effects of the loop out, or try index-3"
             }
             Self::Tree(TreeError::Effect(_), _) => "set enabled = false",
+            Self::Tree(TreeError::Coupling { .. } | TreeError::Signal { .. }, _) => {
+                "try index-3, which takes it; or let it name joints of one coordinate that no loop needs"
+            }
+            Self::Tree(TreeError::CouplingGuided { .. }, _) => {
+                "leave a guide or the coupling out: the guides alone determine its sum"
+            }
+            Self::Tree(TreeError::Dimension, _) => "give the scene the dimension of its bodies",
             Self::Tree(..) => "give the body mass and inertia, or try index-3",
             Self::Equilibrium(EquilibriumError::Escapes { .. }, _) => {
                 "hold the mechanism by a joint or a spring; check the direction of gravity"

@@ -92,8 +92,10 @@ pub enum Form {
 /// What an effect asks of a joint whose coordinate is not given.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum JointNeed {
-    /// One rotation.
+    /// One rotation, or one coordinate alone.
     Rotation,
+    /// One rotation, and nothing else will do.
+    Spin,
     /// One coordinate.
     Coordinate,
 }

@@ -117,8 +117,8 @@ fn key(field: &Field) -> Option<String> {
     let named = match field.form {
         Form::Bodies | Form::Points(_) | Form::Name(_) => return None,
         Form::Coordinate | Form::Terms | Form::Line => return None,
-        Form::Joint(JointNeed::Rotation) => {
-            format!("`{key}` with one rotation, or with a `coordinate`")
+        Form::Joint(JointNeed::Rotation | JointNeed::Spin) => {
+            format!("`{key}` with one rotation or one coordinate, or with a `coordinate`")
         }
         Form::Joint(JointNeed::Coordinate) => {
             format!("`{key}` with one coordinate, or with a `coordinate`")

@@ -54,7 +54,7 @@ pub(super) fn check<T: Real>(
             Value::MaybeAxis(_) | Value::Pieces(_) | Value::Side(_) | Value::Slip(_) => {}
             Value::Spin(joint) => {
                 let Some(joint) = joint else { continue };
-                let need = (JointNeed::Rotation, None);
+                let need = (JointNeed::Spin, None);
                 check_coordinate(among, joint, need, place)
                     .map_err(|error| SceneError { field: key, ..error })?;
             }

@@ -61,9 +61,11 @@ pub(crate) fn check_coordinate<T>(
     let needs_one = SceneFault::NeedsCoordinate { joint: kind, dimension, given };
     let Some(number) = given else {
         let (meant, fault) = match need {
-            JointNeed::Rotation => {
-                let n = kind.n_rotations(dimension);
-                (n, SceneFault::NoSingleRotation(n))
+            JointNeed::Rotation | JointNeed::Spin => {
+                let rotations = kind.n_rotations(dimension);
+                let is_only = rotations == 0 && n == 1 && need == JointNeed::Rotation;
+                let meant = if is_only { n } else { rotations };
+                (meant, SceneFault::NoSingleRotation(rotations))
             }
             JointNeed::Coordinate => (n, SceneFault::NoSingleCoordinate(n)),
         };

@@ -223,3 +223,25 @@ fn natural_coordinates_follow_turns_or_say_that_they_cannot() {
         }
     }
 }
+
+/// x = 0.01 cos(50^(1/2) t) m after 0.1 s.
+#[test]
+fn springs_and_torques_of_a_slide_act_along_its_only_coordinate() {
+    let spring = text("28-spring-on-a-slide");
+    let let_go = "[[initial]]\njoint = \"rail\"\nvalue = 0.01\n[[output]]\nname = \"rail\"\njoint = \"rail\"\nquantity = \"value\"\n";
+    let right = 0.01 * (0.1 * f64::sqrt(50.0)).cos();
+    let plain = format!("{spring}\n{let_go}");
+    let named = plain.replace("stiffness =", "coordinate = \"slide\"\nstiffness =");
+    for formulation in formulations() {
+        let [found, same] = [&plain, &named].map(|text| {
+            last(&run_in(&read(text, "slide"), formulation, Some(1e-4))).expect("it slides")
+        });
+        assert!((found - right).abs() < 1e-8 && found == same, "{formulation}: {found}, {right}");
+    }
+    // a force of 2 N on 1 kg, in place of the spring
+    let pushed = plain
+        .replace("kind = \"torsion-spring\"", "kind = \"torque\"")
+        .replace("stiffness = 50.0", "value = 2.0");
+    let found = last(&run_in(&read(&pushed, "slide"), "recursive", Some(1e-3)));
+    assert!((found.expect("it slides") - 0.02).abs() < 1e-12);
+}
