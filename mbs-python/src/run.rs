@@ -71,9 +71,7 @@ fn go(
     }
     let mut outcome = run_document((file, scene), settings, &mut look)?;
     if has_estimate {
-        let whole = mbs_study::auto::Clock::seconds(&mut clock);
-        let whole = whole.max(outcome.summary.cpu_seconds);
-        estimate(scene, settings, &mut outcome, (&mut clock, whole));
+        estimate(scene, settings, &mut outcome, &mut clock);
     }
     Ok((outcome, settings.clone()))
 }

@@ -1,26 +1,32 @@
 //! A second look at the motion of a run: the same scene by another method, compared at some of the run's rows.
 
-use crate::auto::Clock;
 use core::ops::ControlFlow;
 use mbs::inside::{
     Alarm, AssembledScene, Channels, Stretch, continue_if, drive, poses, shortest_period,
 };
 use mbs::typed::{Simulation, StepObserver};
 use mbs::{Interrupt, Names, ResolvedMethod, StopError};
+use mbs_core::control::Accepted;
 use mbs_core::scene::Scene;
-use mbs_core::step::StepError;
+use mbs_core::step::{StepError, StepReport};
 use mbs_sparse::Multifrontal;
 
-/// Fraction of its time limit after which a run for comparison may stop for being behind [-]: its first steps search for their length.
+/// Fraction of its most work after which a run for comparison may stop for being behind [-]: its first steps search for their length.
 const PROBE: f64 = 0.1;
-/// Factor by which a run for comparison may be behind at first [-]; it falls to one at the time limit. Chosen, not tuned.
-const BEHIND: f64 = 1.5;
+/// Factor by which a run for comparison may be behind at first [-]; it falls to one at its most work. Chosen, not tuned.
+const BEHIND: f64 = 1.8;
+/// Measurements whose work is taken for that of those to come [-]: what swings out at the start takes more. Chosen, not tuned.
+const RECENT: usize = 8;
+/// Fraction of its most work that a run for comparison may do between two measurements [-], beside [`FEW_STEPS`]. Chosen, not tuned.
+const AT_ONCE: f64 = 0.1;
 /// States at which the stiffest force is searched. Chosen, not tuned.
 const STATES: usize = 5;
 /// Largest turn between two measurements [rad]: measured angles are known within half a turn.
 const TURN: f64 = 1.5;
-/// Steps between two measurements that a comparison run with controlled steps has beside those of the run. Chosen, not tuned.
+/// Steps between two measurements that a comparison run with controlled steps always has [-]. Chosen, not tuned.
 const FEW_STEPS: f64 = 64.0;
+/// Evaluations in a step of a comparison run with controlled steps [-]: those of order 8, of which the last is the next one's first.
+const EVALUATIONS: f64 = 12.0;
 /// Most steps between two measurements: those that an integrator may try by default.
 const MOST_STEPS: f64 = 1e6;
 
@@ -29,7 +35,7 @@ const MOST_STEPS: f64 = 1e6;
 pub(super) enum End {
     /// It saw the whole run.
     Whole,
-    /// It would take too long.
+    /// It would take too much work.
     Late,
     /// It stopped; when and why.
     Stopped(f64, String),
@@ -60,11 +66,13 @@ impl Pace {
 /// What a look saw.
 #[derive(Debug)]
 pub(super) struct Seen {
-    /// The largest difference of each component.
-    pub(super) differences: Vec<f64>,
+    /// Components at the instants that it reached.
+    pub(super) values: Vec<Vec<f64>>,
     /// How fast the motion is for the steps of the run.
     pub(super) pace: Pace,
-    /// CPU time [s].
+    /// Iterations and steps.
+    work: f64,
+    /// Their nominal time [s].
     pub(super) seconds: f64,
     pub(super) end: End,
 }
@@ -82,41 +90,36 @@ pub(super) struct Look<'a, const D: usize> {
 }
 
 impl<const D: usize> Look<'_, D> {
-    /// Looks with these settings at these rows, in steps of about `step` [s] where their length is fixed, for no longer than `most` [s].
+    /// Looks with these settings at these rows, in steps of about `step` [s] where their length is fixed, for no longer than `most`
+    /// [s, nominal] where `of_one` says what an iteration or a step takes in a model of these sizes.
     pub(super) fn at(
         &self,
         settings: &ResolvedMethod,
         (instants, step): (&[usize], Option<f64>),
-        (clock, most): (&mut dyn Clock, f64),
+        (most, of_one): (f64, &dyn Fn([usize; 3]) -> f64),
     ) -> Seen {
-        let n = self.rows.first().map_or(0, |(_, row)| row.len());
         let mut seen = Seen {
-            differences: vec![0.0; n],
+            values: Vec::new(),
             pace: Pace::default(),
+            work: 0.0,
             seconds: 0.0,
             end: End::Whole,
         };
-        let begun = clock.seconds();
         let end = match self.start(settings) {
             Ok((simulation, channels)) => {
-                let mut time = |share: f64| {
-                    if settings.interrupt.is_set() {
-                        return true;
-                    }
-                    let spent = clock.seconds() - begun;
-                    let taken = spent / most;
-                    let behind = BEHIND + (1.0 - BEHIND) * taken;
-                    taken > 1.0 || (taken > PROBE && taken > behind * share)
-                };
+                let of_one = of_one(simulation.sizes());
+                let most = most / of_one;
+                let limit = Limit { most, interrupt: &settings.interrupt };
                 let alarm = Alarm::new(settings.energy_alarm);
                 let solver = self.ready.solver.clone();
-                let eye = Eye { look: self, simulation, channels, alarm, step, solver };
-                eye.follow(instants, &mut seen, &mut time)
+                let eye = Eye { look: self, simulation, channels, alarm, step, solver, limit };
+                let end = eye.follow(instants, &mut seen);
+                seen.seconds = of_one * seen.work;
+                end
             }
             Err(error) => Err(End::NotStarted(error.report(0.0, &Names::new(self.scene)).message)),
         };
         seen.end = end.err().unwrap_or(End::Whole);
-        seen.seconds = clock.seconds() - begun;
         seen
     }
 
@@ -143,31 +146,54 @@ struct Eye<'a, const D: usize> {
     alarm: Alarm,
     step: Option<f64>,
     solver: Multifrontal<f64>,
+    limit: Limit<'a>,
+}
+
+/// What ends a look.
+#[derive(Clone, Copy)]
+struct Limit<'a> {
+    /// Most iterations and steps.
+    most: f64,
+    interrupt: &'a Interrupt,
+}
+
+impl Limit<'_> {
+    /// Has so much work been done that the look ends?
+    fn is_reached(&self, work: f64) -> bool {
+        work > self.most || self.interrupt.is_set()
+    }
+
+    /// Is too much work left? `work` was done at the last measurements, which have seen these fractions of the run.
+    fn is_behind(&self, seen: &[(f64, f64)]) -> bool {
+        let Some(&(share, work)) = seen.last() else { return false };
+        let (before, done) = seen[seen.len().saturating_sub(RECENT + 1)];
+        // neither a burst nor a start that swings out says what the rest takes
+        let rate = (work / share).min((work - done) / (share - before));
+        let left = (1.0 - share) * rate;
+        let taken = work / self.most;
+        taken > PROBE && work + left > (BEHIND + (1.0 - BEHIND) * taken) * self.most
+    }
 }
 
 impl<const D: usize> Eye<'_, D> {
-    fn follow(
-        mut self,
-        instants: &[usize],
-        seen: &mut Seen,
-        is_late: &mut impl FnMut(f64) -> bool,
-    ) -> Result<(), End> {
-        let mut row = vec![0.0; seen.differences.len()];
+    fn follow(mut self, instants: &[usize], seen: &mut Seen) -> Result<(), End> {
+        let n = self.look.rows.first().map_or(0, |(_, row)| row.len());
+        let mut row = vec![0.0; n];
         let span = self.look.span();
         let mut rate = self.turning(0.0, &mut seen.pace);
+        let mut works = vec![(0.0, 0.0)];
         for (k, &i) in instants.iter().enumerate() {
             if k.is_multiple_of(instants.len().div_ceil(STATES)) {
                 self.stiffness(&mut seen.pace);
             }
-            let (t, values) = &self.look.rows[i];
-            self.reach((*t, rate), *t >= span, is_late)?;
+            let (t, _) = &self.look.rows[i];
+            self.reach((*t, rate), *t >= span, &mut seen.work)?;
             rate = self.turning(*t, &mut seen.pace);
             let written = self.channels.write(&self.simulation, &mut row);
             written.map_err(|error| stopped(self.look.scene, &self.simulation, &error))?;
-            for ((most, a), b) in seen.differences.iter_mut().zip(&row).zip(values) {
-                *most = most.max((a - b).abs());
-            }
-            if *t < span && is_late(t / span) {
+            seen.values.push(row.clone());
+            works.push((t / span, seen.work));
+            if *t < span && self.limit.is_behind(&works) {
                 return Err(End::Late);
             }
         }
@@ -175,33 +201,32 @@ impl<const D: usize> Eye<'_, D> {
     }
 
     /// Steps to a time [s]; bodies turn at a rate [rad/s].
-    fn reach(
-        &mut self,
-        (to, rate): (f64, f64),
-        is_last: bool,
-        is_late: &mut impl FnMut(f64) -> bool,
-    ) -> Result<(), End> {
-        let (from, span) = (self.simulation.state().t, self.look.span());
+    fn reach(&mut self, (to, rate): (f64, f64), is_last: bool, work: &mut f64) -> Result<(), End> {
+        let from = self.simulation.state().t;
         let rest = to - from;
         let pieces = match self.step {
             Some(step) => (rest / step).round().max(1.0),
             None => (rest * rate / TURN).ceil().clamp(1.0, self.look.n_steps.max(1.0)),
         };
         #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a small count")]
-        let (count, most) =
-            (pieces as u64, (FEW_STEPS + self.look.n_steps * rest / span).min(MOST_STEPS) as u32);
+        let (count, most) = (
+            pieces as u64,
+            (FEW_STEPS + AT_ONCE * self.limit.most / EVALUATIONS).min(MOST_STEPS) as u32,
+        );
         if self.step.is_none() {
             self.simulation.formulation_mut().set_max_steps(most);
         }
         let end = |j: u64| if j == count { to } else { from + rest * (j as f64 / pieces) };
         let piece = |j| Stretch { is_last: is_last && j == count, ..Stretch::to(end(j)) };
-        let Self { look, simulation, channels, alarm, step, .. } = self;
-        let mut glance = Glance { channels, alarm, is_late, to: (to, is_last), span, late: false };
+        let Self { look, simulation, channels, alarm, step, limit, .. } = self;
+        let to = (to, is_last);
+        let mut glance = Glance { channels, alarm, limit: *limit, to, late: false, work };
         let stretches = (1..=count).map(piece);
         match drive(simulation, stretches, &Interrupt::default(), &mut glance) {
             Ok(()) if glance.late => Err(End::Late),
             Ok(()) => Ok(()),
             Err(StopError::Step(StepError::StepTooSmall { .. }, _)) if step.is_none() => {
+                *glance.work += EVALUATIONS * f64::from(most);
                 Err(End::Late)
             }
             Err(stop) => Err(stopped(look.scene, simulation, &stop)),
@@ -233,6 +258,11 @@ impl<const D: usize> Eye<'_, D> {
     }
 }
 
+/// The work of a step: its iterations, or evaluations, and itself.
+fn counted(report: &StepReport<f64>) -> f64 {
+    f64::from(report.iterations) + f64::from(report.steps)
+}
+
 /// How a look ends that stops.
 fn stopped<const D: usize>(
     scene: &Scene<f64>,
@@ -244,17 +274,29 @@ fn stopped<const D: usize>(
 }
 
 /// Sees the pieces of a look up to a row.
-struct Glance<'a, F, const D: usize> {
+struct Glance<'a, const D: usize> {
     channels: &'a mut Channels<f64, D>,
     alarm: &'a mut Alarm,
-    is_late: &'a mut F,
+    limit: Limit<'a>,
+    /// Iterations and steps so far.
+    work: &'a mut f64,
     /// Time of the row [s]; does the look end with it?
     to: (f64, bool),
-    span: f64,
     late: bool,
 }
 
-impl<F: FnMut(f64) -> bool, const D: usize> StepObserver<f64, D> for Glance<'_, F, D> {
+impl<const D: usize> StepObserver<f64, D> for Glance<'_, D> {
+    fn step(
+        &mut self,
+        now: &Simulation<f64, D>,
+        accepted: &Accepted<f64>,
+        _: bool,
+    ) -> Result<ControlFlow<()>, StopError> {
+        *self.work += counted(&accepted.attempt.report);
+        self.late = now.state().t < self.to.0 && self.limit.is_reached(*self.work);
+        Ok(continue_if(!self.late))
+    }
+
     fn instant(&mut self, now: &Simulation<f64, D>) -> Result<ControlFlow<()>, StopError> {
         self.channels.track(now)?;
         let t = now.state().t;
@@ -262,7 +304,6 @@ impl<F: FnMut(f64) -> bool, const D: usize> StepObserver<f64, D> for Glance<'_, 
         if let Some(stop) = self.alarm.rings(now, is_last && t >= to) {
             return Err(stop);
         }
-        self.late = t < to && (self.is_late)(t / self.span);
-        Ok(continue_if(!self.late))
+        Ok(ControlFlow::Continue(()))
     }
 }
