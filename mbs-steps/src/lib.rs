@@ -46,6 +46,8 @@ pub mod names;
 #[doc(hidden)]
 pub mod one_way;
 #[doc(hidden)]
+pub mod peak;
+#[doc(hidden)]
 pub mod placed;
 #[doc(hidden)]
 pub mod precision;

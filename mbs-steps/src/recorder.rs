@@ -51,8 +51,6 @@ pub struct Recorder {
     /// Largest values since the last row, so that thinning hides no peak.
     recent: StepMark,
     keep: RecordRows,
-    /// Least and largest value of each component over the rows, kept or not.
-    ranges: Vec<[f64; 2]>,
     /// Statistics over every step that is taken, whatever rows there are.
     tallies: Tallies,
 }
@@ -98,7 +96,6 @@ impl Recorder {
         tape.float(&mut self.initial)?;
         tape.floats(&mut self.max_violation)?;
         self.recent.walk(tape)?;
-        tape.places(&mut self.ranges, |tape, range| tape.floats(range))?;
         self.tallies.walk(tape)?;
         let (n_marks, n_rows, n_rests) = (self.marks.len(), self.rows.len(), self.rests.len());
         holds(n_marks > 0 && n_marks as u64 <= 2 * MOST_ROWS && self.every > 0)?;
@@ -130,7 +127,6 @@ impl Recorder {
             max_violation: [0.0; 3],
             recent: StepMark::default(),
             keep,
-            ranges: vec![[f64::INFINITY, f64::NEG_INFINITY]; n_columns],
         }
     }
 
@@ -174,9 +170,8 @@ impl Recorder {
             self.rows.clear();
             self.rests.clear();
         }
-        for ([least, most], &value) in self.ranges.iter_mut().zip(values) {
+        for &value in values {
             let near = value.to_f64();
-            (*least, *most) = (least.min(near), most.max(near));
             self.rows.push(near);
             if is_finer::<T>() {
                 self.rests.push((value - T::from_f64(near)).to_f64());
@@ -221,9 +216,9 @@ impl Recorder {
         self.keep == RecordRows::All
     }
 
-    /// Least and largest value of each component over the rows.
-    pub fn ranges(&self) -> &[[f64; 2]] {
-        &self.ranges
+    /// Least and largest value of each component, by the statistics.
+    pub fn ranges(&self) -> Vec<[f64; 2]> {
+        self.tallies.ranges()
     }
 
     /// The last row by channels.

@@ -239,7 +239,7 @@ impl<'a, T: Real, const D: usize> Run<'a, T, D> {
         let long_table = run.recorder.long_table().collect();
         let table = run.recorder.table().map(|(t, row)| (t, row.to_vec())).collect();
         let channels = run.recorder.channels.clone();
-        let ranges = run.recorder.ranges().to_vec();
+        let ranges = run.recorder.ranges();
         Outcome { summary, error, record, channels, table, long_table, ranges, steps }
     }
 }

@@ -3,8 +3,11 @@
 //! ```text
 //! rms = √(1/T ∫ x² dt),   ∫ x² dt ≈ Σ (tₖ − tₖ₋₁) (xₖ² + xₖ₋₁²)/2
 //! ```
+//!
+//! Peaks between steps are those of [`turning_point`].
 
-use crate::checkpoint::tape::{Tape, Walked};
+use crate::checkpoint::tape::{Tape, Walked, holds};
+use crate::peak::turning_point;
 use crate::record::{Channel, ComponentStatistics, Statistics, measured};
 use core::ops::Range;
 use mbs_core::Real;
@@ -19,6 +22,8 @@ struct Tally {
     /// Integral of its square over time.
     square: f64,
     last: f64,
+    /// The last five values.
+    recent: [f64; 5],
 }
 
 impl Tally {
@@ -29,18 +34,26 @@ impl Tally {
         at_max: 0.0,
         square: 0.0,
         last: 0.0,
+        recent: [0.0; 5],
     };
 
     /// Takes a value at `t` [s], `dt` after the last one.
     fn take(&mut self, t: f64, dt: f64, x: f64) {
+        self.peak(t, x);
+        self.square += dt * (x * x + self.last * self.last) / 2.0;
+        self.last = x;
+        self.recent.rotate_left(1);
+        self.recent[4] = x;
+    }
+
+    /// Takes what may be a peak.
+    fn peak(&mut self, t: f64, x: f64) {
         if x < self.min {
             (self.min, self.at_min) = (x, t);
         }
         if x > self.max {
             (self.max, self.at_max) = (x, t);
         }
-        self.square += dt * (x * x + self.last * self.last) / 2.0;
-        self.last = x;
     }
 }
 
@@ -54,6 +67,9 @@ pub struct Tallies {
     tallies: Vec<Tally>,
     /// First and last time [s]; nothing before the first values.
     times: Option<[f64; 2]>,
+    /// The last five times [s]; so many of them are known.
+    recent: [f64; 5],
+    n_recent: u64,
 }
 
 impl Tallies {
@@ -67,13 +83,18 @@ impl Tallies {
             }
             first += channel.components.len();
         }
-        Self { tallies: vec![Tally::NEW; columns.len()], columns, is_magnitude, times: None }
+        let tallies = vec![Tally::NEW; columns.len()];
+        Self { columns, is_magnitude, tallies, times: None, recent: [0.0; 5], n_recent: 0 }
     }
 
     /// Takes the components of all channels at `t` [s]. No allocation.
     pub fn take<T: Real>(&mut self, t: f64, values: &[T]) {
         let [from, last] = self.times.unwrap_or([t, t]);
         self.times = Some([from, t]);
+        self.recent.rotate_left(1);
+        self.recent[4] = t;
+        self.n_recent = (self.n_recent + 1).min(5);
+        let has_all = self.n_recent == 5;
         let numbers = self.columns.iter().zip(&self.is_magnitude);
         for ((columns, is_magnitude), tally) in numbers.zip(&mut self.tallies) {
             let values = values[columns.clone()].iter().map(|x| x.to_f64());
@@ -82,6 +103,10 @@ impl Tallies {
                 false => values.sum(),
             };
             tally.take(t, t - last, x);
+            let peak = if has_all { turning_point(self.recent, tally.recent) } else { None };
+            if let Some((t, x)) = peak {
+                tally.peak(t, if *is_magnitude { x.max(0.0) } else { x });
+            }
         }
     }
 
@@ -90,7 +115,7 @@ impl Tallies {
         let Some([from, to]) = self.times else { return vec![Vec::new(); channels.len()] };
         let mut tallies = self.tallies.iter();
         let mut statistics = || {
-            let Tally { min, at_min, max, at_max, square, last } = tallies.next()?;
+            let Tally { min, at_min, max, at_max, square, last, .. } = tallies.next()?;
             let mean = if to > from { square / (to - from) } else { last * last };
             let [min, at_min, max, at_max] = [*min, *at_min, *max, *at_max];
             Some(Statistics { min, at_min, max, at_max, rms: mean.sqrt(), end: *last })
@@ -106,12 +131,23 @@ impl Tallies {
         channels.iter().map(of_channel).collect()
     }
 
+    /// Least and largest value of each column.
+    pub fn ranges(&self) -> Vec<[f64; 2]> {
+        let both = self.tallies.iter().zip(&self.is_magnitude);
+        both.filter(|(_, is_magnitude)| !**is_magnitude).map(|(x, _)| [x.min, x.max]).collect()
+    }
+
     /// Writes all that is gathered so far, or reads it back.
     pub fn walk(&mut self, tape: &mut impl Tape) -> Walked {
         tape.option(&mut self.times, |tape, times| tape.floats(times))?;
+        tape.floats(&mut self.recent)?;
+        tape.count(&mut self.n_recent)?;
+        holds(self.n_recent <= 5)?;
         tape.places(&mut self.tallies, |tape, tally| {
-            let Tally { min, at_min, max, at_max, square, last } = tally;
-            [min, at_min, max, at_max, square, last].into_iter().try_for_each(|x| tape.float(x))
+            let Tally { min, at_min, max, at_max, square, last, recent } = tally;
+            let each = [min, at_min, max, at_max, square, last];
+            each.into_iter().try_for_each(|x| tape.float(x))?;
+            tape.floats(recent)
         })
     }
 }

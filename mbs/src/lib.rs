@@ -73,6 +73,7 @@ pub mod inside {
     pub use mbs_steps::driver::{Fixed, Stretch, continue_if, drive_simulation as drive};
     pub use mbs_steps::energy_alarm::Alarm;
     pub use mbs_steps::fingerprint::fingerprint;
+    pub use mbs_steps::peak::turning_point;
     pub use mbs_steps::precision::{ReadScene, SceneWork, in_space, not_built_hint};
     pub use mbs_steps::ready::AssembledScene;
     pub use mbs_steps::ready::constraint_rank as rank;

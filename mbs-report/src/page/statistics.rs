@@ -20,7 +20,8 @@ pub(super) fn section(channels: &[ChannelSeries]) -> Option<PageSection> {
     let head = ["output", "unit", "min", "at [s]", "max", "at [s]", "RMS", "end"];
     let mut table = Section::new("Statistics", &head, rows);
     table.caption =
-        "Over every step, rows or not: RMS is the root of the mean square over time.".to_owned();
+        "Over every step, rows or not. Peaks lie between steps where their neighbours agree on one. RMS is the root of the mean square over time."
+            .to_owned();
     let table = PageSection::Table(table);
     Some(if n > MAX_OPEN {
         PageSection::Fold(format!("Statistics of {n} numbers"), vec![table])

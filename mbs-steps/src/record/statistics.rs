@@ -3,7 +3,8 @@
 use super::channel::Channel;
 use mbs_core::outputs::magnitudes;
 
-/// Statistics of a number over every step, the start among them.
+/// Statistics of a number over every step, the start among them. Least and largest value may lie between steps, where five neighbouring
+/// values agree on a turning point.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Statistics {
     /// Least value.

@@ -89,7 +89,8 @@ impl Outcome {
         self.record.summary = summary_rows(&self.summary);
     }
 
-    /// Least and largest value of each component of each channel, over the rows; empty when the run did not start.
+    /// Least and largest value of each component of each channel, as its statistics have them; empty when the run did not start.
+    /// Of a run that keeps its last row alone they are over its rows.
     #[must_use]
     pub fn ranges(&self) -> &[[f64; 2]] {
         &self.ranges

@@ -3,6 +3,7 @@
 use crate::common::{run, run_by, scene};
 use core::ops::ControlFlow;
 use mbs::core::control::Accepted;
+use mbs::inside::turning_point;
 use mbs::record::{ChannelSeries, Provenance, Statistics};
 use mbs::scene_file::SceneFile;
 use mbs::typed::{Simulation, StepObserver};
@@ -89,6 +90,31 @@ fn assert_same(found: &Statistics, expected: &Statistics, what: &str) {
     assert!((found.rms - expected.rms).abs() <= SAME_RMS * size, "{what}: {found:?} {expected:?}");
 }
 
+/// The largest value between rows, relative to what the row beside it differs from its neighbours [-]: of a parabola an eighth.
+const BETWEEN: f64 = 0.25;
+
+/// Compares with rows. Peaks are those of rows, or go beyond the peak of three rows within these and by little.
+fn assert_like_rows(found: &Statistics, (times, x): (&[f64], &[f64]), what: &str) {
+    let rows = of_rows(times, x);
+    let size = rows.min.abs().max(rows.max.abs());
+    for (sign, peak, at, of_rows) in
+        [(1.0, found.max, found.at_max, rows.max), (-1.0, found.min, found.at_min, rows.min)]
+    {
+        let beyond = sign * (peak - of_rows);
+        assert!(beyond >= -SAME * size, "{what}: {peak} for {of_rows}");
+        let most = (1..x.len() - 1)
+            .filter(|&i| times[i - 1] <= at && at <= times[i + 1])
+            .map(|i| {
+                let apart = (x[i] - x[i - 1]).abs().max((x[i] - x[i + 1]).abs());
+                sign * (x[i] - of_rows) + BETWEEN * apart
+            })
+            .fold(0.0, f64::max);
+        assert!(beyond <= most + SAME * size.max(1.0), "{what}: {peak} at {at} for {of_rows}");
+    }
+    let (min, at_min, max, at_max) = (rows.min, rows.at_min, rows.max, rows.at_max);
+    assert_same(&Statistics { min, at_min, max, at_max, ..*found }, &rows, what);
+}
+
 /// Compares the statistics of all channels of a run whose rows are its steps; gives how many magnitudes there were.
 fn magnitudes_like_rows(outcome: &Outcome, what: &str) -> usize {
     let (mut n_numbers, mut n_magnitudes) = (0, 0);
@@ -110,7 +136,7 @@ fn magnitudes_like_rows(outcome: &Outcome, what: &str) -> usize {
                     (0..series.times.len()).map(|k| square(k).sqrt()).collect()
                 }
             };
-            assert_same(&stats.of, &of_rows(&series.times, &values), &what);
+            assert_like_rows(&stats.of, (&series.times, &values), &what);
         }
         n_numbers += n;
         n_magnitudes += series.stats.len() - n;
@@ -171,6 +197,65 @@ fn statistics_of_an_oscillator_are_those_of_its_closed_form_though_rows_are_thin
     for (t, of_period) in [(x.at_max, 0.0), (x.at_min, 0.5), (v.stats[0].of.at_min, 0.25)] {
         let periods = t / period - of_period;
         assert!((periods - periods.round()).abs() * period < step, "{t} for {of_period}");
+    }
+}
+
+#[test]
+fn peaks_between_long_steps_are_those_of_the_closed_form() {
+    let document = SceneFile::parse(OSCILLATOR, "oscillator.toml").expect("a scene");
+    let scene = document.scene::<f64>().expect("a scene");
+    let [a, w] = WAVE;
+    // 25 steps in a period: the rule keeps the amplitude, and steps miss the peaks by up to 0.8 % of it
+    let step = 0.05;
+    let outcome = run(&scene, &Method { step: Some(step), ..Method::default() });
+    let channels = series(&outcome);
+    let x = channels[0].stats[0].of;
+    let rows = channels[0].values[0].iter();
+    let of_rows = rows.fold(0.0, |least: f64, x| least.min(*x));
+    assert!(of_rows + a > 1e-4 * a, "{of_rows} is a peak");
+    for (found, right) in [(x.min, -a), (x.max, a)] {
+        assert!((found - right).abs() < 4e-5 * a, "{found} for {right}");
+    }
+    // of the rule:   tan(θ/2) = w h/2
+    let period = core::f64::consts::PI * step / (w * step / 2.0).atan();
+    let halves = x.at_min / period - 0.5;
+    assert!((halves - halves.round()).abs() < 1e-3, "{} of {period}", x.at_min);
+}
+
+/// Distances of five instants, equal and not [s].
+const SPACINGS: [[f64; 5]; 3] =
+    [[-2.0, -1.0, 0.0, 1.0, 2.0], [-2.5, -1.2, 0.0, 0.7, 1.9], [-1.0, -0.6, 0.0, 1.3, 2.0]];
+
+#[test]
+fn a_peak_of_a_polynomial_is_exact_and_its_opposite_is_too() {
+    let quartic = |t: f64| 3.0 + (t - 0.2).powi(2) * (1.0 + 0.1 * t + 0.02 * t * t);
+    for times in SPACINGS {
+        let (at, value) = turning_point(times, times.map(quartic)).expect("a turning point");
+        assert!((at - 0.2).abs() < 1e-12 && (value - 3.0).abs() < 1e-12, "{at}, {value}");
+        let (at, value) = turning_point(times, times.map(|t| -quartic(t))).expect("a peak");
+        assert!((at - 0.2).abs() < 1e-12 && (value + 3.0).abs() < 1e-12, "{at}, {value}");
+    }
+}
+
+#[test]
+fn a_number_that_jumps_or_has_a_kink_has_no_peak_beyond_its_steps() {
+    for times in SPACINGS {
+        for k in -9..=9 {
+            let at = f64::from(k) / 10.0;
+            let bent = |t: f64| if t < at { 0.0 } else { 3.0 * (t - at) };
+            let jump = |t: f64| if t < at { 0.0 } else { 1.0 };
+            let tooth = |t: f64| if t < at { t } else { t - 1.0 };
+            for sign in [1.0, -1.0] {
+                for of in [&bent as &dyn Fn(f64) -> f64, &jump, &tooth] {
+                    let values = times.map(|t| sign * of(t));
+                    let found = turning_point(times, values);
+                    assert!(found.is_none(), "{at} {values:?}: {found:?}");
+                }
+                let kink = times.map(|t| sign * (t - at).abs());
+                let found = turning_point(times, kink);
+                assert!(found.is_none_or(|(_, x)| sign * x >= 0.0), "{at} {kink:?}: {found:?}");
+            }
+        }
     }
 }
 

@@ -297,12 +297,12 @@ impl<'a> Walk<'a> {
             walk.list_of_numbers()?;
             walk.list_of_numbers()?;
             walk.numbers(5)?;
-            walk.mark()?;
-            walk.list(|walk| walk.numbers(2))
+            walk.mark()
         })?;
         self.named("statistics", |walk| {
             walk.option(|walk| walk.numbers(2))?;
-            walk.list(|walk| walk.numbers(6))
+            walk.numbers(6)?;
+            walk.list(|walk| walk.numbers(11))
         })?;
         self.named("pictures", |walk| {
             walk.numbers(1)?;
