@@ -5,7 +5,7 @@ use super::measured::{Layout, Measured};
 use super::names::{self, InputPlaces, OutputColumns};
 use super::parts::Parts;
 use super::states;
-use super::steady::{PHASE, Sizes, Turning, accelerating, changing};
+use super::steady::{Sizes, Turning, accelerating, changing};
 use crate::equilibrium::workspace;
 use crate::placed::PlacedScene;
 use crate::stop::StopError;
@@ -53,21 +53,20 @@ impl<'a, const D: usize> About<'a, D> {
         let (scene, placed) = (self.scene, self.placed);
         let (model, state) = (&placed.ready.model, &placed.ready.start.state);
         let at = self.measured(state, None)?;
-        let is_moving = state.v.iter().any(|v| *v != 0.0);
+        let sizes = at.sizes(model.length());
+        let is_tested = self.turns && sizes.has_motion();
         let (layout, chosen) = (&at.layout, &at.chosen[..]);
-        let turning = if self.turns && is_moving {
-            let values = (&at.ports.values[..], model.length());
-            Turning::of(&placed.scene, (layout, chosen), values)
+        let turning = if is_tested {
+            Turning::of(&placed.scene, (layout, chosen), (&at.ports.values, &sizes))
         } else {
             Turning::none()
         };
         let [a, b, c, d] = at.matrices(&turning)?;
         let signals = names::signal_states(scene, model);
         let states = layout.state_names(chosen, signals);
-        let sizes = at.sizes(model.length());
         let mut unsteady = at.accelerating(&turning, (&a, &sizes));
-        if self.turns && is_moving && unsteady.is_none() {
-            let h = PHASE / sizes.rate;
+        if is_tested && unsteady.is_none() {
+            let h = sizes.later();
             let later = advance(model, h, state, &mut workspace(model))
                 .map_err(|error| StopError::Linear(error).or_law(model.codes()))?;
             let after = self.measured(&later, Some(chosen))?;

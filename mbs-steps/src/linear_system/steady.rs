@@ -15,7 +15,7 @@ use mbs_core::scene::{Dimension, Scene};
 
 /// Phase of the motion after which it is looked at again [rad]: what changes once a turn has changed by a thirtieth, and one step of a rule
 /// of order four errs by 1e-10.
-pub(super) const PHASE: f64 = 0.03;
+const PHASE: f64 = 0.03;
 /// Largest acceleration in the turning axes that is none, relative to what a deviation of one radian, or of the scene's length, makes of
 /// it [-]: the state is then that near to a steady motion. Initial values are written with seven digits.
 const STEADY: f64 = 1e-6;
@@ -49,18 +49,21 @@ impl Turning {
     pub(super) fn of(
         scene: &Scene<f64>,
         (layout, chosen): (&Layout, &[usize]),
-        (values, length): (&[f64], f64),
+        (values, sizes): (&[f64], &Sizes),
     ) -> Self {
         let [rates, accelerations] = [1, 3].map(|part| layout.part(part));
         let (mut square, mut moment) = (Matrix::<f64, 3>::zeros(), Vector::<f64, 3>::zeros());
         let is_chosen =
             |[first, n]: &&[usize; 2]| chosen.iter().any(|i| (*first..*first + *n).contains(i));
         for &[first, n] in layout.vectors.iter().filter(is_chosen) {
-            let size = if layout.units[first] == "m" { length } else { 1.0 };
+            let size = sizes.of(layout.units[first]);
             let of = |part: &dyn Fn(usize) -> usize| -> Vector<f64, 3> {
                 Vector::from_fn(|i, _| if i < n { values[part(first + i)] / size } else { 0.0 })
             };
             let (v, a) = (of(&rates), of(&accelerations));
+            if !(v.norm() > STILL * sizes.rate) {
+                continue;
+            }
             square += Matrix::<f64, 3>::identity() * v.dot(&v) - v * v.transpose();
             moment += v.cross(&a);
         }
@@ -136,7 +139,22 @@ pub(super) struct Sizes {
     pub(super) lively: f64,
 }
 
+/// Largest rate of a vector that is none, relative to the largest of all [-]: rounding of its acceleration would turn the axes.
+const STILL: f64 = 1e-6;
+/// Longest time after which a motion is looked at again [s]: one that is slower moves little in all.
+const LONGEST: f64 = 1.0;
+
 impl Sizes {
+    /// Does anything move, beyond what rounding leaves of rates?
+    pub(super) fn has_motion(&self) -> bool {
+        self.rate * self.rate > LEFT * self.lively
+    }
+
+    /// When the motion is looked at again [s].
+    pub(super) fn later(&self) -> f64 {
+        (PHASE / self.rate).min(LONGEST)
+    }
+
     /// Of a coordinate with this unit.
     pub(super) fn of(&self, unit: &str) -> f64 {
         if unit == "m" { self.length } else { 1.0 }
@@ -181,7 +199,7 @@ pub(super) fn changing(
         let change = change.fold(0.0, f64::max);
         let least = UNCHANGED * largest + ROUNDINGS * noise;
         if change > least * worst.0 {
-            let by = change / PHASE / largest;
+            let by = change / PHASE / largest.max(f64::MIN_POSITIVE);
             worst = (change / least, Some(Unsteady::Changes { state: name.clone(), by }));
         }
     }
