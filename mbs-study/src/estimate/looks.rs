@@ -101,8 +101,7 @@ impl<'a, const D: usize> Looks<'a, D> {
         let of_one = |sizes| of_one(purse, sizes);
         let seen = self.look.at(settings, (instants, step), (purse.left(), &of_one));
         self.purse.spent += seen.seconds;
-        self.purse.pay_rows(seen.values.len());
-        self.purse.pay_rows(seen.values.len());
+        self.purse.spent += self.purse.of_rows(seen.values.len());
         if std::env::var("DBG").is_ok() {
             eprintln!(
                 "DBG {:?} {} tol {:?} step {:?} spent {:.4} left {:.4} n {} {:?}",
@@ -129,7 +128,9 @@ impl<'a, const D: usize> Looks<'a, D> {
                 break;
             }
             for &(integrator, tolerance, work) in *sequence {
-                if best.as_ref().is_some_and(|(seen, _)| !self.purse.has(work * seen.seconds)) {
+                let rows = self.purse.of_rows(instants.len());
+                let seconds = |seen: &Seen| work * seen.seconds + rows;
+                if best.as_ref().is_some_and(|(seen, _)| !self.purse.has(seconds(seen))) {
                     break;
                 }
                 let settings = self.of_relative(integrator, tolerance);

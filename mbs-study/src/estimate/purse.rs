@@ -30,7 +30,7 @@ const AT_LEAST: f64 = 0.8;
 /// Time of a comparison run by the method of the run that counts, relative to its nominal time [-]: few take more.
 const AT_MOST: f64 = 1.5;
 /// Nominal time of reactions at an instant for each natural coordinate and constraint [s]: fitted to scenes with an output of one.
-const OF_REACTIONS: f64 = 1e-6;
+const OF_REACTIONS: f64 = 1.2e-6;
 /// Nominal time of an evaluation of the accelerations in relative coordinates, beside what grows with the scene [s]: fitted to all scenes.
 const OF_EVALUATION: f64 = 3e-7;
 /// The same for each coordinate and each effect [s].
@@ -97,9 +97,9 @@ impl Purse {
         (self.most - self.spent).max(0.0)
     }
 
-    /// Pays for the outputs at so many instants.
-    pub(super) fn pay_rows(&mut self, n: usize) {
-        self.spent += n as f64 * self.row;
+    /// Nominal time of the outputs at so many instants [s].
+    pub(super) fn of_rows(&self, n: usize) -> f64 {
+        n as f64 * self.row
     }
 
     /// Is there time for a look that takes so much?
