@@ -5,6 +5,7 @@ use crate::{files, json, plain, run_line, scene, status};
 use serde_json::Value;
 use std::path::{Path, PathBuf};
 use std::process::Output;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// An empty directory for one test.
 fn scratch(name: &str) -> PathBuf {
@@ -280,9 +281,10 @@ fn another_sweep_in_the_same_directory_is_refused_until_restart() {
     assert_eq!(std::fs::read_to_string(out.join("sweep.journal")).unwrap(), "my diary\n");
 }
 
-/// Standard error of a refusal.
+/// Standard error of a refusal, in a folder of its own: tests run beside each other.
 fn refusal(text: &str, more: &[&str]) -> String {
-    let out = scratch("refusal");
+    static N_REFUSALS: AtomicUsize = AtomicUsize::new(0);
+    let out = scratch(&format!("refusal-{}", N_REFUSALS.fetch_add(1, Ordering::Relaxed)));
     let file = out.join("sweep.toml");
     std::fs::write(&file, text).expect("the scratch directory is ours");
     let results = out.join("results");
