@@ -103,10 +103,10 @@ macro_rules! delegate_model {
             &self,
             q: &[$T],
             terms: &$crate::model::Terms<$T>,
-            lambda: &[$T],
+            weights: (&[$T], $T),
             element: usize,
         ) -> $crate::model::RowCurvature<$T> {
-            self.$model.row_curvature(q, terms, lambda, element)
+            self.$model.row_curvature(q, terms, weights, element)
         }
         #[inline]
         fn has_block(

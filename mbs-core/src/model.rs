@@ -173,13 +173,13 @@ pub trait Model<T: Real>: Cliques + Sync {
         element: usize,
         block: &mut [T],
     );
-    /// The second derivatives of the rows of one element that [`write_block`](Self::write_block) leaves out, and a search needs: those
-    /// of user-defined relations at `q` with multipliers `lambda`, packed as a block; empty: none.
+    /// The second derivatives of one element that [`write_block`](Self::write_block) leaves out, and a search needs: those of couplings at
+    /// `q` with multipliers `lambda`, and of sums under tension times `stiffness`, packed as a block; empty: none.
     fn row_curvature(
         &self,
         _q: &[T],
         _terms: &Terms<T>,
-        _lambda: &[T],
+        (_lambda, _stiffness): (&[T], T),
         _element: usize,
     ) -> RowCurvature<T> {
         Vec::new()

@@ -118,16 +118,16 @@ pub fn equilibrium<T: Real, M: Model<T>, S: SymmetricSolver<T>>(
 }
 
 pub(crate) struct Search<'a, T, M, S> {
-    model: &'a M,
-    w: &'a mut Workspace<T, S>,
+    pub(crate) model: &'a M,
+    pub(crate) w: &'a mut Workspace<T, S>,
     v: Vec<T>,
     /// Positions, multipliers, measured angles and J^T lambda - Q, as accepted.
-    q: Vec<T>,
+    pub(crate) q: Vec<T>,
     lambda: Vec<T>,
     residual: Vec<T>,
     phi: Vec<T>,
     /// The same for a step on trial.
-    next: Vec<T>,
+    pub(crate) next: Vec<T>,
     next_lambda: Vec<T>,
     next_residual: Vec<T>,
     /// Positions at the start.
@@ -266,12 +266,15 @@ impl<'a, T: Real, M: Model<T>, S: SymmetricSolver<T>> Search<'a, T, M, S> {
         for k in 0..self.lambda.len() {
             self.next_lambda[k] = self.lambda[k] + self.w.f[n + k] / self.s;
         }
-        if !is_balanced && self.goes_through() {
+        if !is_balanced && (self.goes_through() || self.is_too_long_to_roll(size)) {
             return None;
         }
         self.model.evaluate(&self.next, &mut self.w.terms);
         let [broken, before] = [&self.w.terms.phi, &self.phi].map(|phi| self.w.openness(phi));
-        if !(broken <= size * T::from_f64(BROKEN) + before + self.floor()) || !self.close() {
+        if !(broken <= size * T::from_f64(BROKEN) + before + self.floor())
+            || !self.close()
+            || !self.roll()
+        {
             return None;
         }
         self.evaluate();
@@ -331,7 +334,7 @@ impl<'a, T: Real, M: Model<T>, S: SymmetricSolver<T>> Search<'a, T, M, S> {
     }
 
     /// Closes the constraints at `next` by sweeps with the factor at hand: the smallest changes in its metric.
-    fn close(&mut self) -> bool {
+    pub(crate) fn close(&mut self) -> bool {
         let n = self.w.n;
         let mut violation = self.w.openness(&self.w.terms.phi);
         for _ in 0..SWEEPS {
@@ -357,7 +360,7 @@ impl<'a, T: Real, M: Model<T>, S: SymmetricSolver<T>> Search<'a, T, M, S> {
     }
 
     /// Rounding of a constraint row, as a coordinate of its size moves it [-].
-    fn floor(&self) -> T {
+    pub(crate) fn floor(&self) -> T {
         (self.w.extent(&self.next[..self.w.n]) + T::ONE) * T::EPSILON * T::from_f64(FLOOR_ROUNDINGS)
     }
 

@@ -14,6 +14,7 @@ mod near;
 mod options;
 mod pivoted;
 mod ports;
+mod roll;
 mod signal_matrices;
 mod signals;
 mod svd;

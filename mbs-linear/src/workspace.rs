@@ -200,7 +200,8 @@ impl<T: Real, M: Model<T>> BlockSource<T> for Curved<'_, T, M> {
     fn write_block(&self, element: usize, block: &mut [T]) {
         self.system.write_block(element, block);
         let (model, Some((q, lambda))) = (self.system.model, self.at) else { return };
-        let curvature = model.row_curvature(q, self.system.terms, lambda, element);
+        let weights = (lambda, self.system.tangent.stiffness);
+        let curvature = model.row_curvature(q, self.system.terms, weights, element);
         let (k, rows) = (model.clique(element).len(), model.rows(element).len());
         // columns of the coordinates are longer here by the rows
         let (mut from, mut to) = (0, 0);

@@ -2,6 +2,7 @@
 
 use super::build::Builder;
 use super::coordinate::{Coordinate, Places};
+use super::forces::Measure;
 use super::group::{Group, add_squares};
 use super::model::NaturalModel;
 use super::row_builder::{CoupledDraft, GroupDraft, MeasureDraft, RowDraft, difference};
@@ -144,60 +145,72 @@ impl<T: Real, const D: usize> NaturalModel<T, D> {
         block: &mut [T],
     ) {
         let group = &self.groups[element];
-        let (k, rows) = (group.clique.len(), group.rows.range());
-        let at = |x: Span| combine::<T, D>(x.of(&self.pool), q);
+        let rows = group.rows.range();
         for row in self.coupled.iter().filter(|row| rows.contains(&(row.row as usize))) {
             if let CoupledForm::Relation(number) = row.form {
                 let weight = lambda[row.row as usize] * row.inverse;
                 self.add_relation_curvature((row, number), (q, terms), weight, (group, block));
                 continue;
             }
-            for term in row.terms.of(&self.coupled_terms) {
-                let measures = term.measures.of(&self.coupled_measures);
-                let mut gradient = vec![T::ZERO; group.width as usize];
-                let mut m = T::ZERO;
-                for measure in measures {
-                    m += measure.sign * measured_value(&measure.of, at, &terms.angles);
-                    add_measure_gradient(&measure.of, &self.pool, at, measure.sign, &mut gradient);
-                }
-                let s = lambda[row.row as usize] * term.factor;
-                let [_, slope, bend] = self.coupled_tables().function(term.curve, m);
-                add_squares(block, k, [&gradient], [s * bend]);
-                for measure in measures {
-                    self.add_measure_curvature(
-                        &measure.of,
-                        q,
-                        s * slope * measure.sign,
-                        group,
-                        block,
-                    );
-                }
+            let weight = lambda[row.row as usize];
+            self.add_sum_curvature((row.terms, weight), (q, terms), (group, block));
+        }
+    }
+
+    /// Adds the second derivatives of a sum of terms, times `weight`.
+    fn add_sum_curvature(
+        &self,
+        (of, weight): (Span, T),
+        (q, terms): (&[T], &Terms<T>),
+        (group, block): (&Group, &mut [T]),
+    ) {
+        let at = |x: Span| combine::<T, D>(x.of(&self.pool), q);
+        for term in of.of(&self.coupled_terms) {
+            let measures = term.measures.of(&self.coupled_measures);
+            let mut gradient = vec![T::ZERO; group.width as usize];
+            let mut m = T::ZERO;
+            for measure in measures {
+                m += measure.sign * measured_value(&measure.of, at, &terms.angles);
+                add_measure_gradient(&measure.of, &self.pool, at, measure.sign, &mut gradient);
+            }
+            let s = weight * term.factor;
+            let [_, slope, bend] = self.coupled_tables().function(term.curve, m);
+            add_squares(block, group.clique.len(), [&gradient], [s * bend]);
+            for measure in measures {
+                self.add_measure_curvature(&measure.of, q, s * slope * measure.sign, group, block);
             }
         }
     }
 
-    /// The second derivatives of the relations among the rows of an element, packed as its block; empty where there are none.
-    pub(super) fn relation_curvature(
+    /// The second derivatives of the rows of couplings of an element, and of sums under tension times `stiffness`, packed as its block; empty
+    /// where there are none.
+    pub(super) fn coupled_curvature(
         &self,
-        at: (&[T], &Terms<T>),
-        lambda: &[T],
+        (q, terms): (&[T], &Terms<T>),
+        (lambda, stiffness): (&[T], T),
         element: usize,
     ) -> Vec<T> {
         let group = &self.groups[element];
-        let (rows, k) = (group.rows.range(), group.clique.len());
-        let first = self.coupled.partition_point(|row| (row.row as usize) < rows.start);
-        let coupled = self.coupled[first..].iter().take_while(|row| (row.row as usize) < rows.end);
-        let mut block = Vec::new();
-        for row in coupled {
-            let CoupledForm::Relation(number) = row.form else { continue };
-            block.resize(k * (k + 1) / 2, T::ZERO);
-            let weight = lambda[row.row as usize] * row.inverse;
-            self.add_relation_curvature((row, number), at, weight, (group, &mut block));
+        let (k, rows) = (group.clique.len(), group.rows.range());
+        // a law of a body has numbers of its own there
+        let measures = if group.has_body_law { 0..0 } else { group.measures.range() };
+        let sums = measures.filter_map(|m| match self.measures[m].gauge {
+            Measure::Sum { terms: of } => Some((of, terms.measures[m].tension * stiffness)),
+            _ => None,
+        });
+        let has_rows = self.coupled.iter().any(|row| rows.contains(&(row.row as usize)));
+        if !has_rows && sums.clone().next().is_none() {
+            return Vec::new();
+        }
+        let mut block = vec![T::ZERO; k * (k + 1) / 2];
+        self.add_coupled_curvature((q, terms), lambda, element, &mut block);
+        for (of, tension) in sums {
+            self.add_sum_curvature((of, tension), (q, terms), (group, &mut block));
         }
         block
     }
 
-    /// Likewise of a relation: weight (sum_k phi_k H(a_k) + sum_kl phi_kl grad a_k grad a_l^T).
+    /// Adds the second derivatives of a relation: weight (sum_k phi_k H(a_k) + sum_kl phi_kl grad a_k grad a_l^T).
     fn add_relation_curvature(
         &self,
         (row, number): (&Coupled<T>, u32),

@@ -257,8 +257,14 @@ impl<T: Real, const D: usize> Model<T> for NaturalModel<T, D> {
         sized!(group.clique.len(), self.write_sized_block(terms, tangent, group, block));
     }
 
-    fn row_curvature(&self, q: &[T], terms: &Terms<T>, lambda: &[T], element: usize) -> Vec<T> {
-        self.relation_curvature((q, terms), lambda, element)
+    fn row_curvature(
+        &self,
+        q: &[T],
+        terms: &Terms<T>,
+        weights: (&[T], T),
+        element: usize,
+    ) -> Vec<T> {
+        self.coupled_curvature((q, terms), weights, element)
     }
 
     #[inline]

@@ -64,3 +64,14 @@ fn a_cart_on_two_wheels_of_one_axle_rests_and_swings() {
     let rest = mbs::StaticEquilibrium::new(&cart, Search::Down).expect("it rests");
     assert_eq!(rest.unstable, Some(0));
 }
+
+/// g over the length of the rope; 2 · 0.05 · 3 g over 0.05 kg m² of the shaft.
+#[test]
+fn weights_on_ropes_and_cams_swing_about_their_rests() {
+    for (name, right) in
+        [("24-weight-on-a-rope", 2.962_149_68), ("24-follower-on-a-cam", 7.672_027_11)]
+    {
+        let found = modes(&field(name), Search::Down);
+        assert!(found.len() == 1 && is_at(&found[0], 0.0, right), "{name}: {found:?}");
+    }
+}
