@@ -221,9 +221,8 @@ class Mechanism:
     def equilibrium(self, search: Literal["down", "near"] = "down") -> Equilibrium:
         """The static equilibrium: downhill to a stable one, or the one `near` the reference configuration."""
     def modes(self, at: StateLike = "equilibrium", *, frozen: bool = False) -> Modes:
-        """Eigenvalues of the motion about a state, with frequencies, damping ratios and shapes, from the slowest to the fastest.
-
-        About a state that is neither a rest nor a steady motion `frozen` gives the eigenvalues of the instant; else it is refused."""
+        """Eigenvalues of the motion about a state, with frequencies, damping ratios and shapes, from the slowest to the fastest. About a
+        state that is neither a rest nor a steady motion `frozen` gives the eigenvalues of the instant; else it is refused."""
     def linearize(
         self,
         at: StateLike = "equilibrium",

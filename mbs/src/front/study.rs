@@ -214,13 +214,13 @@ pub fn linearize_at(
 /// # Examples
 /// A top that spins upright about its vertical axis: m g l = 1 N m, 0.05 and 0.01 kg m^2. It sleeps from 2 (m g l A)^(1/2) / C = 44.72 rad/s on.
 /// ```
-/// use mbs::{Body, GROUND, Initial, Joint, LinearizeOptions, Mechanism, Place, linearize_steady};
+/// use mbs::{Body, GROUND, InitialCondition, Joint, LinearizeOptions, Mechanism, Place, linearize_steady};
 /// let grows = |rate: f64| {
 ///     let mut m = Mechanism::spatial("top");
 ///     m.set_gravity([0.0, 0.0, -10.0]);
 ///     let top = m.add(Body::spatial([0.0, 0.0, 0.1], 1.0, [0.04, 0.04, 0.01, 0.0, 0.0, 0.0]));
 ///     m.add(Joint::spherical([GROUND, top], [0.0, 0.0, 0.0]));
-///     m.add(Initial::motion(top, [0.0, 0.0, 0.0]).turning([0.0, 0.0, rate]));
+///     m.add(InitialCondition::angular_velocity(top, [0.0, 0.0, rate]));
 ///     let options = LinearizeOptions { place: Place::Initial, ..LinearizeOptions::default() };
 ///     let shapes = linearize_steady(&m, &options)?.shapes()?;
 ///     Ok::<_, mbs::SimulationError>(shapes.iter().any(|shape| shape.mode.grows()))

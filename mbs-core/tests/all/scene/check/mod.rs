@@ -296,7 +296,7 @@ fn effects_act_between_different_points_and_on_rotations() {
     let found = refused(planar(), |s| s.effects = vec![spring(apart, [upper, upper])]);
     assert_eq!(found, (Entry::Effect(0), "bodies", SceneFault::SameBody));
     let found = refused(spatial(), |s| {
-        s.joints[1].kind = JointKind::Weld;
+        (s.joints[1].kind, s.joints[1].axes) = (JointKind::Weld, [None; 2]);
         let course = Signal::Constant([1.0, 0.0, 0.0]);
         let kind = EffectKind::JointTorque(JointTorque {
             joint: JointId::new(1),
