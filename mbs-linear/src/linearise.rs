@@ -369,11 +369,15 @@ impl<'a, T: Real, M: Model<T>, S: SymmetricSolver<T>> Field<'a, T, M, S> {
     pub(crate) fn close(&mut self) -> Result<(), LinearError> {
         let n = self.w.n;
         let floor = (T::ONE + self.w.extent(&self.q[..n])) * T::EPSILON;
-        let mut last = None;
+        let (mut last, mut stalls) = (None, 0);
         for _ in 0..SWEEPS {
             self.model.evaluate(&self.q, &mut self.w.terms);
             let violation = self.w.openness(&self.w.terms.phi);
-            if last.is_some_and(|last| violation > last * T::HALF) || violation == T::ZERO {
+            let is_stalled = last.is_some_and(|last| violation > last * T::HALF);
+            stalls = if is_stalled { stalls + 1 } else { 0 };
+            // the height of a large wheel is open by what its directions were, once they are of unit length
+            let is_last = violation <= floor * T::from_f64(STALLED) || stalls > 1;
+            if is_stalled && is_last || violation == T::ZERO {
                 break;
             }
             last = Some(violation);

@@ -186,7 +186,8 @@ fn a_wheel_with_a_weight_off_its_centre_rests_where_it_rolls_to() {
     let large = wheel
         .replace("center = [0.05, 0.2]", "center = [1.0, 4.0]")
         .replace("[0.0, 0.2]", "[0.0, 4.0]")
-        .replace("radius = 0.2", "radius = 4.0");
+        .replace("radius = 0.2", "radius = 4.0")
+        .replace("inertia = 0.05", "inertia = 20.0");
     for (text, radius) in [(wheel, 0.2), (large, 4.0)] {
         let found = StaticEquilibrium::new(&read(&text, "wheel"), Search::Down).expect("it rests");
         let [x, y] = [0, 1].map(|i| found.outputs[0].1[i] / radius);
