@@ -52,7 +52,7 @@ impl Default for LinearizeOptions {
 impl LinearSystem {
     /// Assembles a scene, seeks its equilibrium if that is the place, and linearises it.
     ///
-    /// Cost: that of [`linearise_ports`], and n^3 operations for n states.
+    /// Cost: that of `mbs_linear::linearise_ports`, and n^3 operations for n states.
     ///
     /// # Errors
     /// As for [`linearize`](crate::linearize).
@@ -70,7 +70,7 @@ impl LinearSystem {
     ///
     /// In motion, states are joint coordinates of one freedom, and places and rotations of bodies.
     ///
-    /// Cost: that of [`linearise_ports`], in motion twice.
+    /// Cost: that of `mbs_linear::linearise_ports`, in motion twice.
     ///
     /// # Errors
     /// As for [`linearize`](crate::linearize); `not-steady` where the state is neither a rest nor a steady motion.
