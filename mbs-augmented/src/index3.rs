@@ -162,11 +162,8 @@ fn adapt<T: Real, M: Model<T>, S: SpdSolver<T>>(
     (options, start): (&Options<T>, MultiplierStart),
     w: &mut Workspace<T, S>,
 ) -> Result<(), StepError> {
-    let Workspace { adaptation, equations, scale, .. } = w;
-    let is_raised = !model.has_velocity_rows();
-    let is_changed =
-        options.adaptive_penalty && adaptation.adapt_penalty(model, equations, scale, is_raised);
-    if is_changed {
+    if options.adaptive_penalty && w.adaptation.adapt_penalty(model, &mut w.equations, &mut w.scale)
+    {
         w.factor(model, rule, options.geometric_stiffness)?;
     }
     if is_filtered((options, start), w) {

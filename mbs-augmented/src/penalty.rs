@@ -164,8 +164,9 @@ impl<T: Real> PenaltyAdaptation<T> {
     }
 
     /// Makes one power iteration for the weakest combination u of constraints, from the last step's, or where that is well determined from
-    /// it and a part of all. Where `is_raised`, raises the penalties until a correction leaves at most [`MAX_CONTRACTION`] of it. A
-    /// combination that no allowed penalty determines is redundant and left.
+    /// it and a part of all. Raises the penalties until a correction leaves at most [`MAX_CONTRACTION`] of it, unless there are rows of
+    /// velocities: at predicted positions these look weak where they are lost. A combination that no allowed penalty determines is
+    /// redundant and left.
     ///
     /// Returns whether the penalties changed, so that T must be factored anew. Needs T factored. Cost: one solve.
     pub(crate) fn adapt_penalty<M: Model<T>, S: SpdSolver<T>>(
@@ -173,7 +174,6 @@ impl<T: Real> PenaltyAdaptation<T> {
         model: &M,
         equations: &mut Equations<T, S>,
         scale: &mut PenaltyScale<T>,
-        is_raised: bool,
     ) -> bool {
         let u = &mut self.weakest_combination;
         let size = norm_inf(model.team(), u);
@@ -205,7 +205,7 @@ impl<T: Real> PenaltyAdaptation<T> {
         let most = T::from_f64(MAX_CONTRACTION);
         // What even the largest penalty cannot determine is redundant, or so near a singular position that nothing is lost.
         let is_weak = rho > most && rho / (T::ONE - rho).max(T::EPSILON) < scale.room() * most;
-        is_raised && is_weak && scale.raise(rho)
+        is_weak && !model.has_velocity_rows() && scale.raise(rho)
     }
 }
 

@@ -19,11 +19,11 @@ pub(super) const WORK_SHARE: f64 = 0.26;
 const ALWAYS: f64 = 0.078;
 /// Nominal time of an iteration or a step of a run, beside what grows with its unknowns [s]: fitted to all scenes.
 const OF_STEP: f64 = 4e-7;
-/// The same for each coordinate and constraint, by index-3 [s].
+/// Nominal time of an iteration or a step for each coordinate and constraint, by index-3 [s]: fitted to all scenes.
 const OF_UNKNOWN_INDEX_3: f64 = 7e-8;
-/// The same by the classical Lagrangian, which factors a matrix of all unknowns [s].
+/// Nominal time of an iteration or a step for each coordinate and constraint, by the classical Lagrangian [s]: it factors a matrix of all.
 const OF_UNKNOWN_CLASSICAL: f64 = 2.8e-7;
-/// The same by the other formulations [s].
+/// Nominal time of an iteration or a step for each coordinate and constraint, by the other formulations [s]: fitted to all scenes.
 const OF_UNKNOWN: f64 = 1.8e-7;
 /// Time of a run that counts, relative to its nominal time [-]: few runs take less.
 const AT_LEAST: f64 = 0.8;
@@ -33,9 +33,9 @@ const AT_MOST: f64 = 1.5;
 const OF_REACTIONS: f64 = 1.2e-6;
 /// Nominal time of an evaluation of the accelerations in relative coordinates, beside what grows with the scene [s]: fitted to all scenes.
 const OF_EVALUATION: f64 = 3e-7;
-/// The same for each coordinate and each effect [s].
+/// Nominal time of an evaluation for each coordinate and each effect [s]: fitted to all scenes.
 const OF_COORDINATE: f64 = 1e-7;
-/// The same for each constraint [s].
+/// Nominal time of an evaluation for each constraint [s]: fitted to all scenes.
 const OF_CONSTRAINT: f64 = 2.5e-7;
 /// Evaluations that a step by Radau's method takes for its equations, relative to those that it counts and with these [-].
 const OF_IMPLICIT: f64 = 1.5;
@@ -47,6 +47,7 @@ const OF_A_STEP: f64 = 12.0;
 const FEWEST_ROWS: usize = 100;
 /// Most rows at equal distances at which runs are compared [-]. Chosen, not tuned.
 const MOST_ROWS: usize = 1000;
+
 /// Nominal time of an iteration or a step for each coordinate and constraint [s].
 const fn of_unknown(formulation: FormulationKind) -> f64 {
     match formulation {
