@@ -10,6 +10,7 @@ use mbs::scene_file::SceneFile;
 use mbs::{Method, Names, Outcome, ResolvedMethod, SimulationError, run_document};
 use mbs_study::auto::{Goal, PlanError, Processor, plan, run_plan};
 use mbs_study::estimate::estimate;
+use mbs_study::remedy::name_what_runs;
 use numpy::{IntoPyArray, PyArrayMethods};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -72,6 +73,7 @@ fn go(
     let mut outcome = run_document((file, scene), settings, &mut look)?;
     if has_estimate {
         estimate(scene, settings, &mut outcome, &mut clock);
+        name_what_runs(scene, (method, settings), &mut outcome);
     }
     Ok((outcome, settings.clone()))
 }

@@ -9,6 +9,7 @@ pub mod estimate;
 pub mod explain;
 mod front;
 mod journal;
+pub mod remedy;
 pub mod sweep;
 
 pub use mbs_redundancy as redundancy;

@@ -102,19 +102,6 @@ impl<'a, const D: usize> Looks<'a, D> {
         let seen = self.look.at(settings, (instants, step), (purse.left(), &of_one));
         self.purse.spent += seen.seconds;
         self.purse.spent += self.purse.of_rows(seen.values.len());
-        if std::env::var("DBG").is_ok() {
-            eprintln!(
-                "DBG {:?} {} tol {:?} step {:?} spent {:.4} left {:.4} n {} {:?}",
-                settings.formulation,
-                settings.integrator.name(),
-                settings.tolerance,
-                step,
-                seen.seconds,
-                self.purse.left(),
-                seen.values.len(),
-                seen.end
-            );
-        }
         self.pace.take(&seen.pace);
         seen
     }

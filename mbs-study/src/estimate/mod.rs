@@ -19,7 +19,7 @@
 pub(crate) mod differences;
 mod look;
 mod looks;
-mod purse;
+pub(crate) mod purse;
 
 use crate::auto::Clock;
 use crate::compare::results::output_scales;

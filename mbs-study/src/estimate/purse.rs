@@ -57,6 +57,11 @@ const fn of_unknown(formulation: FormulationKind) -> f64 {
     }
 }
 
+/// Nominal time of an iteration or a step of a run with so many coordinates and constraints [s].
+pub(crate) fn nominal_step(formulation: FormulationKind, unknowns: f64) -> f64 {
+    OF_STEP + of_unknown(formulation) * unknowns
+}
+
 /// What comparison runs may take, and have taken.
 #[derive(Debug)]
 pub(super) struct Purse {
@@ -82,7 +87,7 @@ impl Purse {
     ) -> Self {
         let of_run = (run.iterations + run.steps) as f64;
         let unknowns = (run.coordinates + run.constraints) as f64;
-        let one = OF_STEP + of_unknown(formulation) * unknowns;
+        let one = nominal_step(formulation, unknowns);
         let has_reactions = scene.outputs.iter().any(|o| o.quantity.row().needs_reactions);
         let row = if has_reactions { OF_REACTIONS * natural as f64 } else { 0.0 };
         let of_rows = run.steps as f64 * row;

@@ -9,6 +9,7 @@ mod doubtful;
 mod estimate;
 mod explain;
 mod redundancy;
+mod remedy;
 mod studies;
 mod sweep;
 

@@ -1,0 +1,160 @@
+//! What runs where a run stopped: other formulations, integrators and steps are tried, and the first that gets to the end is named.
+//!
+//! A trial may take so many iterations and steps, by their nominal times, and no clock is asked: every machine names the same.
+
+use crate::estimate::purse::nominal_step;
+use core::ops::ControlFlow;
+use mbs::inside::{Alarm, Stretch, continue_if, drive, step};
+use mbs::typed::{Simulation, StepObserver};
+use mbs::{FormulationKind, IntegratorKind, Method, Outcome, Precision, ResolvedMethod, StopError};
+use mbs_core::control::Accepted;
+use mbs_core::scene::{Dimension, Scene};
+use mbs_scene::format::few;
+
+/// Nominal time of a trial [s]: all together take about a second at most, which a user whose run stopped will wait. Chosen, not tuned.
+const A_TRIAL: f64 = 0.15;
+/// The step of the last trial, relative to that of the run [-].
+const SHORTER: f64 = 0.1;
+
+/// What is tried, in this order: the tree has no closing equations to lose, controlled steps follow what fixed ones pass over.
+const OTHERS: [(FormulationKind, IntegratorKind); 7] = [
+    (FormulationKind::RELATIVE, IntegratorKind::Trapezoidal),
+    (FormulationKind::MultiIndex, IntegratorKind::Trapezoidal),
+    (FormulationKind::RELATIVE, IntegratorKind::Radau5),
+    (FormulationKind::StateSpace, IntegratorKind::Trapezoidal),
+    (FormulationKind::Index3, IntegratorKind::Trapezoidal),
+    (FormulationKind::Index1, IntegratorKind::Trapezoidal),
+    (FormulationKind::Classical, IntegratorKind::Trapezoidal),
+];
+
+/// Tries other methods where a run has stopped in its motion, and puts the first that gets to the end before the hint of its error.
+///
+/// `scene` is the scene in `f64`, `method` what was asked for beside it, and `settings` what ran. Nothing is tried for a run in another
+/// precision, nor where the start, the scene or whoever watched the run is the reason.
+///
+/// Cost: each trial takes 0.15 s of nominal time at most, and there are eight.
+pub fn name_what_runs(
+    scene: &Scene<f64>,
+    (method, settings): (&Method, &ResolvedMethod),
+    outcome: &mut Outcome,
+) {
+    let Some(StopError::Step(..) | StopError::Energy { .. } | StopError::Friction { .. }) =
+        outcome.error
+    else {
+        return;
+    };
+    if settings.precision != Precision::F64 {
+        return;
+    }
+    let end = outcome.summary.end_time;
+    let tried = match scene.dimension {
+        Dimension::Planar => first::<2>(scene, (method, settings), end),
+        Dimension::Spatial => first::<3>(scene, (method, settings), end),
+    };
+    if let (Some(words), Some(error)) = (tried, &mut outcome.summary.error) {
+        error.hint = format!("{words}; else {}", error.hint);
+    }
+}
+
+/// The first that gets to the end, else the one that gets furthest beyond where the run stopped.
+fn first<const D: usize>(
+    scene: &Scene<f64>,
+    (method, ran): (&Method, &ResolvedMethod),
+    stopped: f64,
+) -> Option<String> {
+    let mut beyond: Option<(f64, String)> = None;
+    for (name, settings) in candidates(scene, (method, ran)) {
+        if ran.interrupt.is_set() {
+            return None;
+        }
+        let (reached, ended) = trial::<D>(scene, &settings);
+        if reached >= settings.duration && ended {
+            return Some(format!("{name}, which was tried, runs to the end"));
+        }
+        let is_further = beyond.as_ref().is_none_or(|(t, _)| reached > *t);
+        if ended && reached > stopped + settings.step_max && is_further {
+            beyond = Some((reached, name));
+        }
+    }
+    let (reached, name) = beyond?;
+    let reached = few(reached);
+    Some(format!("{name} was tried and runs beyond this, as far as it was tried ({reached} s)"))
+}
+
+/// The methods with their words: those that the scene takes, without the one that ran.
+fn candidates(
+    scene: &Scene<f64>,
+    (method, ran): (&Method, &ResolvedMethod),
+) -> Vec<(String, ResolvedMethod)> {
+    let asked = |formulation: FormulationKind, integrator: IntegratorKind| Method {
+        formulation: Some(formulation.name().to_owned()),
+        integrator: Some(integrator.name().to_owned()),
+        step_control: None,
+        energy_tolerance: None,
+        error_tolerance: None,
+        penalty: None,
+        tolerance: None,
+        threads: None,
+        ..method.clone()
+    };
+    let words = |(formulation, integrator): (FormulationKind, IntegratorKind)| match integrator {
+        IntegratorKind::Trapezoidal => format!("formulation {}", formulation.name()),
+        other => format!("formulation {} with integrator {}", formulation.name(), other.name()),
+    };
+    let is_other = |settings: &ResolvedMethod| {
+        (settings.formulation, settings.integrator, settings.rule)
+            != (ran.formulation, ran.integrator, ran.rule)
+    };
+    let others = OTHERS.iter().filter_map(|&(formulation, integrator)| {
+        let settings = ResolvedMethod::new(scene, &asked(formulation, integrator)).ok()?;
+        is_other(&settings).then(|| (words((formulation, integrator)), settings))
+    });
+    let shorter = Method {
+        step: Some(SHORTER * ran.step),
+        step_max: method.step_max.map(|step| SHORTER * step),
+        ..method.clone()
+    };
+    let shorter = ResolvedMethod::new(scene, &shorter).ok();
+    let shorter = shorter.map(|settings| (format!("step {} s", few(settings.step)), settings));
+    others.chain(shorter).collect()
+}
+
+/// How far a method gets [s], and whether that is no stop: it got to the end, or has had its time.
+fn trial<const D: usize>(scene: &Scene<f64>, settings: &ResolvedMethod) -> (f64, bool) {
+    let Ok(mut simulation) = Simulation::<f64, D>::new(scene, settings) else {
+        return (0.0, false);
+    };
+    let [coordinates, constraints, _] = simulation.sizes();
+    let one = nominal_step(settings.formulation, (coordinates + constraints) as f64);
+    let (lengths, is_controlled) = (settings.lengths(scene), simulation.is_controlled());
+    let stretches = (1..=settings.n_steps()).map(|k| {
+        let step = step(settings, &lengths, k);
+        if is_controlled { Stretch { fixed: None, ..step } } else { step }
+    });
+    let mut watch = Watch { alarm: Alarm::new(settings.energy_alarm), left: A_TRIAL / one };
+    let end = drive(&mut simulation, stretches, &settings.interrupt, &mut watch);
+    (simulation.state().t, end.is_ok())
+}
+
+/// Counts the work of a trial and listens to its alarm.
+struct Watch {
+    alarm: Alarm,
+    /// Iterations and steps that are left.
+    left: f64,
+}
+
+impl<const D: usize> StepObserver<f64, D> for Watch {
+    fn step(
+        &mut self,
+        now: &Simulation<f64, D>,
+        accepted: &Accepted<f64>,
+        is_last: bool,
+    ) -> Result<ControlFlow<()>, StopError> {
+        if let Some(stop) = self.alarm.rings(now, is_last) {
+            return Err(stop);
+        }
+        let report = &accepted.attempt.report;
+        self.left -= f64::from(report.iterations) + f64::from(report.steps);
+        Ok(continue_if(self.left > 0.0))
+    }
+}
