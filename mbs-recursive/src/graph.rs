@@ -5,14 +5,14 @@
 //!
 //! 1. guided joints, since their motion is prescribed;
 //! 2. revolute joints with an effect about their axis, since it acts along a coordinate; joints with a rotor; joints of couplings and of
-//!    effects on sums, which are sums of coordinates; joints that signals measure;
+//!    effects on sums, which are sums of coordinates; joints that signals measure. A free joint among them has its coordinates apart;
 //! 3. joints of bodies without mass, so that these end no branch where that can be avoided;
 //! 4. joints with few freedoms, so that few equations are left where the others are cut;
 //! 5. balls off the line of a thin rod, about which it has inertia in every direction;
 //! 6. joints near the ground; joints named first.
 //!
 //! What the ground does not reach starts from a root of its own, which is free: a body with a free joint to the ground, or
-//! the heaviest one. Links are always cut, free joints between moving bodies constrain nothing.
+//! the heaviest one. Links are always cut; other free joints between moving bodies constrain nothing.
 
 use crate::error::TreeError;
 use alloc::collections::BinaryHeap;
@@ -38,6 +38,8 @@ pub(crate) struct Branch {
     pub(crate) is_reversed: bool,
     /// The cluster is a point, which does not turn.
     pub(crate) is_point: bool,
+    /// A joint that is free has a link for each slide and one for its turn: something asks for one of its coordinates.
+    pub(crate) is_apart: bool,
 }
 
 /// The spanning tree of a scene.
@@ -82,7 +84,14 @@ pub(crate) fn span<T: Real>(
         let Some((root, joint)) = roots.next(scene, &growth.depth, node) else { break };
         let is_reversed = joint.is_some_and(|j| node(scene.joints[j].bodies[1]) == ground);
         let is_point = clusters.clusters[root].is_point;
-        growth.branches.push(Branch { cluster: root, parent: None, joint, is_reversed, is_point });
+        growth.branches.push(Branch {
+            cluster: root,
+            parent: None,
+            joint,
+            is_reversed,
+            is_point,
+            is_apart: false,
+        });
         growth.depth[root] = 1;
         growth.reach(root);
     }
@@ -121,14 +130,16 @@ struct Demands {
     coupling: Vec<Option<usize>>,
     /// Does a signal measure it?
     is_measured: Vec<bool>,
+    /// Is a coordinate of it a term of a sum, or measured? Angles between bodies are known without one.
+    is_apart: Vec<bool>,
 }
 
 impl Demands {
     fn new<T: Real>(scene: &Scene<T>, actions: &Actions<T>) -> Self {
         let n = scene.joints.len();
         let (effect, coupling) = (vec![None; n], vec![None; n]);
-        let is_measured = vec![false; n];
-        let mut new = Self { is_guided: vec![false; n], effect, coupling, is_measured };
+        let [is_measured, is_apart] = [vec![false; n], vec![false; n]];
+        let mut new = Self { is_guided: vec![false; n], effect, coupling, is_measured, is_apart };
         for guide in &scene.guides {
             new.is_guided[guide.joint.index()] = true;
         }
@@ -136,6 +147,7 @@ impl Demands {
             let terms = coupling.terms.iter().filter(|term| !term.factor.is_zero());
             for (joint, _) in terms.filter_map(|term| term.of.coordinate()) {
                 new.coupling[joint.index()].get_or_insert(i);
+                new.is_apart[joint.index()] = true;
             }
         }
         for signal in &scene.signals {
@@ -144,6 +156,7 @@ impl Demands {
                 signal.kind
             {
                 new.is_measured[joint.index()] = true;
+                new.is_apart[joint.index()] = true;
             }
         }
         for rotor in RotorInput::all(scene) {
@@ -157,6 +170,9 @@ impl Demands {
                 Action::Sum { terms, .. } => {
                     for joint in terms.iter().filter_map(carried_joint) {
                         new.effect[joint].get_or_insert(*effect);
+                    }
+                    for (joint, _) in terms.iter().filter_map(|term| term.coordinate) {
+                        new.is_apart[joint] = true;
                     }
                 }
                 _ => {}
@@ -183,7 +199,8 @@ fn edges<T: Real>(
     for (j, joint) in scene.joints.iter().enumerate() {
         let ends = joint.bodies.map(&node);
         let n_coordinates = joint.kind.n_coordinates(scene.dimension);
-        let is_loose = joint.kind.is_free() && !demands.is_guided[j];
+        let is_whole = !demands.is_apart[j] || joint.kind.is_of_point();
+        let is_loose = joint.kind.is_free() && !demands.is_guided[j] && is_whole;
         if ends[0] == ends[1] || n_coordinates == 0 || is_loose {
             continue;
         }
@@ -257,6 +274,7 @@ impl Growth {
                 is_reversed,
                 // what a joint holds turns: points on balls are parts of what they are joined to
                 is_point: false,
+                is_apart: true,
             });
             self.reach(child);
         }

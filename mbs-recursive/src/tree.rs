@@ -461,7 +461,7 @@ pub(crate) fn parts<T: Real>(scene: &Scene<T>, branch: &Branch, is_guided: bool)
     }
     let Some(joint) = branch.joint else { return vec![free] };
     let joint: &Joint<T> = &scene.joints[joint];
-    if joint.kind.is_free() && !is_guided {
+    if joint.kind.is_free() && !is_guided && !branch.is_apart {
         return vec![free];
     }
     let (turn, slide, ball) = if is_guided {
