@@ -11,6 +11,9 @@
 
 use crate::Real;
 
+/// The state of a controller without an integral: it has none.
+pub const NO_STATE: u32 = u32::MAX;
+
 /// What is done to a course.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FeedbackStep<T> {
@@ -83,7 +86,7 @@ pub enum FeedbackOperation<T> {
     Pid {
         /// The wanted course and the measured one.
         from: [u32; 2],
-        /// Which of the states.
+        /// Which of the states; [`NO_STATE`] where nothing is integrated.
         state: u32,
         /// Factors of difference, integral and rate.
         gains: [T; 3],

@@ -10,7 +10,7 @@
 
 use super::feedback::{Feedback, number};
 use crate::Real;
-use crate::feedback::{FeedbackOperation, chain, clamp, product};
+use crate::feedback::{FeedbackOperation, NO_STATE, chain, clamp, product};
 use crate::laws::guide;
 use crate::measure::{PreparedCurve, TermInput, within};
 use crate::scene::{
@@ -269,7 +269,8 @@ impl<T: Real> Node<T> {
                 feedback.push(to, FeedbackOperation::Integral { from: id(of), state, limits });
             }
             SignalKind::Pid { of: [wanted, measured], p, i, d, limit: largest } => {
-                let state = feedback.state(T::ZERO);
+                // what nothing counts is not integrated: it would never rest
+                let state = if i.is_zero() { NO_STATE } else { feedback.state(T::ZERO) };
                 let (from, gains) = ([id(wanted), id(measured)], [*p, *i, *d]);
                 let limit = limit(*largest, 1.0);
                 feedback.push(to, FeedbackOperation::Pid { from, state, gains, limit });

@@ -4,7 +4,7 @@ use super::{Look, ensure};
 use crate::check::LoadError;
 use crate::model::Model;
 use mbs_core::Real;
-use mbs_core::feedback::FeedbackOperation as Operation;
+use mbs_core::feedback::{FeedbackOperation as Operation, NO_STATE};
 use mbs_recursive::coupled::NONE;
 use mbs_recursive::space::Space;
 
@@ -27,8 +27,9 @@ impl<T: Real, S: Space<T>> Look<'_, '_, T, S> {
                 Operation::Lag { from, state, .. } | Operation::Integral { from, state, .. } => {
                     is_course(from) && is_state(state)
                 }
-                Operation::Pid { from: [target, measured], state, .. } => {
-                    is_course(target) && is_course(measured) && is_state(state)
+                Operation::Pid { from: [target, measured], state, gains, .. } => {
+                    let has_none = state == NO_STATE && gains[1].is_zero();
+                    is_course(target) && is_course(measured) && (is_state(state) || has_none)
                 }
                 Operation::Component { from, component } => is_course(from) && component < 3,
                 Operation::Force { from, on } => is_course(from) && is_measured(on),

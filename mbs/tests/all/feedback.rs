@@ -353,6 +353,17 @@ fn an_equilibrium_is_one_of_integrals_and_lags_too() {
             assert!(off.iter().all(|off| *off < 1e-8), "{dimension}, {formulation}: {row:?}");
         }
     }
+    // without an integral the spring of the controller yields: 5 / 40 rad
+    for i in ["", "i = 0.0\n"] {
+        let servo = SERVO.replace("i = 30.0\n", i);
+        let text = wheel(2, &format!("{servo}{push}"));
+        let text = text.replace("duration = 1.0", "duration = 1.0\nstart = \"equilibrium\"");
+        for formulation in TRAPEZOIDAL {
+            let row = end(&text, Way(formulation, "trapezoidal"), 1e-2, 1.0);
+            let off = [row[0] - 1.125, row[1], row[2] + 5.0].map(f64::abs);
+            assert!(off.iter().all(|off| *off < 1e-8), "{formulation}: {row:?}");
+        }
+    }
     // an integral of what nothing changes has no rest
     let ramp = asked("\"integral\"\nof = \"five\"", &constant("five", 5.0));
     let text = wheel(
