@@ -76,7 +76,8 @@ fn check(path: &Path) -> Result<Sizes, Failure> {
         let report = error.report(0.0, &Names::new(&scene));
         (json!(report), stopped("no start", &report, &error, &document))
     })?;
-    Ok((sizes, scene.sense_notes().map(|(_, note)| note).collect()))
+    let notes = scene.sense_notes().chain(scene.radii_notes());
+    Ok((sizes, notes.map(|(_, note)| note).collect()))
 }
 
 fn object(file: &str, checked: Result<Sizes, Failure>) -> Value {

@@ -20,25 +20,32 @@ enum Row {
     Contact(usize),
     /// The rope of `scene.couplings` with this number, and the factor of its length.
     Rope(usize, f64),
+    /// The strands of the belt of `scene.couplings` with this number, and their pretension [N].
+    Strands(usize, f64),
 }
 
 impl Row {
-    /// The contacts that roll and the ropes of a scene.
+    /// The contacts that roll, the ropes and the strands of a scene.
     fn all<T: Real>(scene: &Scene<T>) -> Vec<Self> {
         let rollings = scene.rollings.iter().enumerate();
         let contacts = rollings.filter(|(_, rolling)| rolling.kind.radius().is_some());
-        let ropes = scene.couplings.iter().enumerate().filter_map(|(i, coupling)| {
-            let length = coupling.line()?;
-            (coupling.kind == CouplingKind::Rope).then(|| Self::Rope(i, length.factor.to_f64()))
+        let ropes = scene.couplings.iter().enumerate();
+        let ropes = ropes.filter_map(|(i, coupling)| match &coupling.kind {
+            CouplingKind::Rope => Some(Self::Rope(i, coupling.line()?.factor.to_f64())),
+            CouplingKind::Strands { pretension } => Some(Self::Strands(i, pretension.to_f64())),
+            CouplingKind::General | CouplingKind::Mesh(_) => None,
         });
         contacts.map(|(i, _)| Self::Contact(i)).chain(ropes).collect()
     }
 
-    /// The force with which it holds the wrong way [N]: a contact's pull, a rope's push.
+    /// The force with which it holds the wrong way [N]: a contact's pull, the push of a rope or of a strand.
     fn force<T: Real, const D: usize>(self, reactions: &Reactions<T, D>) -> f64 {
         match self {
             Self::Contact(rolling) => -reactions.rolling_push(rolling).to_f64(),
             Self::Rope(coupling, factor) => factor * reactions.effort(coupling).to_f64(),
+            Self::Strands(coupling, pretension) => {
+                0.5 * reactions.effort(coupling).to_f64().abs() - pretension
+            }
         }
     }
 }
@@ -112,6 +119,11 @@ impl<T: Real, const D: usize> OneWayWatch<T, D> {
                 Row::Rope(i, _) => format!(
                     "the rope `{}` pushes at t = {t} s, by up to {most} N: what may go slack is a `spring-damper` with `pulls_only = true`",
                     scene.couplings[i].name
+                ),
+                Row::Strands(i, pretension) => format!(
+                    "a strand of the belt `{}` pushes at t = {t} s, by up to {most} N: its `pretension` of {} N is too small",
+                    scene.couplings[i].name,
+                    few(pretension)
                 ),
             })
         };

@@ -205,7 +205,7 @@ pub fn notes<T: Real>(
         }
     }
     notes.extend(crate::tilt::notes(scene).into_iter().map(|(_, note)| note));
-    notes.extend(scene.sense_notes().map(|(_, note)| note));
+    notes.extend(scene.sense_notes().chain(scene.radii_notes()).map(|(_, note)| note));
     notes.extend(scene.effort_notes());
     notes.extend(scene.reaction_notes());
     if change > REPORTED_CHANGE {

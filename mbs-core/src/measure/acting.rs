@@ -81,7 +81,8 @@ impl<T: Real> Scene<T> {
     pub fn lacking_forces(&self) -> impl Iterator<Item = (JointId, CouplingId)> {
         let lacking = self.couplings.iter().enumerate().filter(|(_, coupling)| {
             let is_rope = coupling.kind == CouplingKind::Rope;
-            let has_place = matches!(coupling.kind, CouplingKind::Mesh(_));
+            let has_place =
+                matches!(coupling.kind, CouplingKind::Mesh(_) | CouplingKind::Strands { .. });
             (coupling.drawn.is_some() || is_rope)
                 && !has_place
                 && Acting::of(self, coupling).is_none()

@@ -19,8 +19,8 @@ pub(crate) struct MeshedWheels<T: Real> {
     /// Moment on each wheel about the joint's axis for an effort of one.
     pub(crate) moments: [T; 2],
     /// The joints' axes, and a point on each, reference configuration [m].
-    axes: [Vector<T, 3>; 2],
-    points: [Vector<T, 3>; 2],
+    pub(super) axes: [Vector<T, 3>; 2],
+    pub(super) points: [Vector<T, 3>; 2],
 }
 
 impl<T: Real> MeshedWheels<T> {

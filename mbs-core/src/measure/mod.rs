@@ -17,6 +17,7 @@ mod mesh;
 mod rolling;
 #[cfg(feature = "alloc")]
 mod rotor;
+mod strands;
 #[cfg(feature = "alloc")]
 mod term;
 
@@ -39,5 +40,6 @@ pub(crate) use mesh::MeshedWheels;
 pub use rolling::RollingInput;
 #[cfg(feature = "alloc")]
 pub use rotor::RotorInput;
+pub(crate) use strands::Strands;
 #[cfg(feature = "alloc")]
 pub use term::TermInput;

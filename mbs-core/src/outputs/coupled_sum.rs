@@ -9,10 +9,11 @@
 //! length   force w n on the second point, -w n on the first:  n from the first to the second
 //! ```
 //!
-//! Of wheels with a pitch point the force of the teeth acts in place of the moments.
+//! Of wheels with a pitch point the force of the teeth acts in place of the moments, of a belt with a pretension that of its strands.
 
 use super::coordinate::Coordinate;
 use super::drawn_force::DrawnForce;
+use super::strand_force::StrandForce;
 use super::tooth_force::ToothForce;
 use super::wrench::{Applied, Wrench};
 use crate::Real;
@@ -40,6 +41,8 @@ pub(super) struct CoupledSum<T: Real, const D: usize> {
     scale: T,
     /// What acts in place of the terms' couples where its wheels have a pitch point.
     teeth: Option<Box<ToothForce<T, D>>>,
+    /// What acts in place of the terms' couples where its belt has a pretension.
+    strands: Option<Box<StrandForce<T, D>>>,
     /// What acts in place of the terms' forces where they act elsewhere on the drawn machine.
     drawn: Option<Box<DrawnForce<T, D>>>,
 }
@@ -84,6 +87,7 @@ impl<T: Real, const D: usize> CoupledSum<T, D> {
             sum.relation = input.relation;
         }
         sum.teeth = ToothForce::new(scene, model, coupling).map(Box::new);
+        sum.strands = StrandForce::new(scene, model, coupling).map(Box::new);
         sum.drawn = DrawnForce::new(scene, model, coupling).map(Box::new);
         sum
     }
@@ -107,7 +111,7 @@ impl<T: Real, const D: usize> CoupledSum<T, D> {
         let terms = terms.collect();
         bodies.sort_unstable();
         bodies.dedup();
-        Self { terms, relation: None, bodies, scale, teeth: None, drawn: None }
+        Self { terms, relation: None, bodies, scale, teeth: None, strands: None, drawn: None }
     }
 
     /// Is it an angle, without slides and lengths?
@@ -115,9 +119,13 @@ impl<T: Real, const D: usize> CoupledSum<T, D> {
         self.terms.iter().flat_map(|term| &term.parts).all(Part::is_angle)
     }
 
-    /// The force of its teeth, where it has a pitch point.
-    pub(super) fn teeth(&self) -> Option<&ToothForce<T, D>> {
-        self.teeth.as_deref()
+    /// Hands out what it does to bearings alone at an effort: what drives teeth apart, and the pretension of strands.
+    pub(super) fn load_bearings(&self, effort: T, state: &State<T>, take: impl FnMut(Applied<T>)) {
+        if let Some(teeth) = &self.teeth {
+            teeth.drive_apart(effort, state, take);
+        } else if let Some(strands) = &self.strands {
+            strands.draw_together(state, take);
+        }
     }
 
     /// The moving bodies that it acts on, ascending.
@@ -159,6 +167,9 @@ impl<T: Real, const D: usize> CoupledSum<T, D> {
     pub(super) fn apply(&self, effort: T, state: &State<T>, mut take: impl FnMut(Applied<T>)) {
         if let Some(teeth) = &self.teeth {
             return teeth.apply(effort, state, take);
+        }
+        if let Some(strands) = &self.strands {
+            return strands.apply(effort, state, take);
         }
         if let Some(drawn) = &self.drawn {
             let (mut end, mut about) = (0, T::ZERO);

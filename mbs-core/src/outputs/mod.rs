@@ -26,6 +26,7 @@ mod motion;
 mod quantity;
 mod reaction;
 mod rotor;
+mod strand_force;
 mod tooth_force;
 mod turns;
 mod wrench;

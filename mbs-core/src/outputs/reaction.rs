@@ -136,7 +136,7 @@ impl<T: Real, const D: usize> Reactions<T, D> {
         for block in &blocks {
             self.assemble(block, state);
             let mut residual = self.system.solve();
-            if self.drive_apart(block, state) {
+            if self.load_bearings(block, state) {
                 self.assemble(block, state);
                 residual = self.system.solve();
             }
@@ -288,19 +288,18 @@ impl<T: Real, const D: usize> Reactions<T, D> {
         }
     }
 
-    /// Applies what drives teeth apart at the efforts of a solved block, which it does not change; false: nothing does.
-    fn drive_apart(&mut self, block: &Block, state: &State<T>) -> bool {
+    /// Applies what couplings do to bearings alone at the efforts of a solved block, which it does not change; false: nothing does.
+    fn load_bearings(&mut self, block: &Block, state: &State<T>) -> bool {
         let Self { bodies, joints, missing, couplings, system, .. } = self;
         let of_joints: usize = block.joints.iter().map(|&j| joints[j].n_directions()).sum();
-        let mut is_driven = false;
+        let mut is_loaded = false;
         for (&i, &solved) in block.couplings.iter().zip(&system.solution()[of_joints..]) {
-            let Some(teeth) = couplings[i].teeth() else { continue };
-            teeth.drive_apart(solved / couplings[i].scale(), state, |applied| {
-                is_driven = true;
+            couplings[i].load_bearings(solved / couplings[i].scale(), state, |applied| {
+                is_loaded = true;
                 take_off(bodies, missing, applied);
             });
         }
-        is_driven
+        is_loaded
     }
 
     /// Stores the wrenches and efforts of a solved block and takes them off what its bodies miss.

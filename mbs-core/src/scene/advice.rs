@@ -1,6 +1,6 @@
 //! What to do about a fault of a scene.
 
-use crate::scene::{NotDrawn, SceneFault};
+use crate::scene::{NotDrawn, NotStrands, SceneFault};
 
 /// What a point mass takes.
 const POINT_TURNS: &str = "a point takes the joints `spherical` (plane: `revolute`), `distance` and `free` as their second body, forces, and \
@@ -65,6 +65,15 @@ impl SceneFault {
             Self::AlongNormal => "give the direction along which it may move",
             Self::Apart(_) => "move `center` or the plane's `point`, or leave `plane` out",
             Self::NoMesh => "leave it out, or name two joints with parallel axes",
+            Self::NotStrands(NotStrands::Wheels) => {
+                "leave it out: the motion is right without it, and reactions are marked"
+            }
+            Self::NotStrands(NotStrands::Planes(_)) => {
+                "move `at` of both joints into the plane of the belt"
+            }
+            Self::NotStrands(NotStrands::Inside(_)) => {
+                "write the radii in metres; both together are smaller than the distance of the axes"
+            }
             Self::OffPitch(_) => "write this place, or move it along the axes",
             Self::NoLine => "write `value` for the sum of a coupling",
             Self::NotDrawn(NotDrawn::Parallel) => {

@@ -50,6 +50,11 @@ pub enum CouplingKind<T> {
     Mesh(Mesh<T>),
     /// A rope, which cannot push: a run notes where this one would have to.
     Rope,
+    /// The strands of a belt: the bearings of both wheels carry their pull.
+    Strands {
+        /// Pull of each strand where the belt passes nothing on [N].
+        pretension: T,
+    },
 }
 
 /// Where two wheels with straight teeth touch.
@@ -250,6 +255,13 @@ impl Coupling<Number> {
     pub fn meshing_at(mut self, at: impl Into<Vector3>, pressure_angle: impl Into<Number>) -> Self {
         let pressure_angle = pressure_angle.into();
         self.kind = CouplingKind::Mesh(Mesh { at: at.into().0, pressure_angle });
+        self
+    }
+
+    /// The same belt with strands that pull by this force [N] where it passes nothing on: the bearings of its wheels carry them.
+    #[must_use]
+    pub fn tightened(mut self, pretension: impl Into<Number>) -> Self {
+        self.kind = CouplingKind::Strands { pretension: pretension.into() };
         self
     }
 

@@ -31,6 +31,17 @@ pub enum NotDrawn {
     PitchLine,
 }
 
+/// Why places and axes do not say where the strands of a belt are.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum NotStrands {
+    /// It is no belt of two wheels that turn about parallel axes in one body.
+    Wheels,
+    /// The joints stand this far apart along their axes [m].
+    Planes(f64),
+    /// The wheels are too large for the distance of their axes [m]: they have no common tangent.
+    Inside(f64),
+}
+
 /// What is drawn. Sizes are the factors of the first terms.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum DrawnKind {

@@ -1,6 +1,6 @@
 //! What can be wrong with a scene, and what to do about it.
 
-use super::{BodyId, Dimension, JointKind, NotDrawn};
+use super::{BodyId, Dimension, JointKind, NotDrawn, NotStrands};
 use crate::laws::relation::RelationFault;
 use crate::scene::SignalBreak;
 use core::fmt::{self, Display, Formatter};
@@ -115,6 +115,8 @@ pub enum SceneFault {
     PeriodicEnds([f64; 2]),
     /// A pitch point of a coupling that is not of two turns about parallel axes in one body.
     NoMesh,
+    /// A pretension of what has no strands.
+    NotStrands(NotStrands),
     /// A pitch point that does not divide the way between the axes as the factors do; where it is [m].
     OffPitch([f64; 3]),
     /// The length of a coupling without lines.
@@ -318,6 +320,17 @@ impl SceneFault {
             Self::NoMesh => {
                 write!(f, "is for two wheels on one body that turn about parallel axes")
             }
+            Self::NotStrands(NotStrands::Wheels) => {
+                write!(f, "is for a belt on two wheels that turn about parallel axes in one body")
+            }
+            Self::NotStrands(NotStrands::Planes(apart)) => write!(
+                f,
+                "needs both wheels in one plane, but their joints stand {apart:.6e} m apart along the axes"
+            ),
+            Self::NotStrands(NotStrands::Inside(distance)) => write!(
+                f,
+                "needs strands, but the axes are {distance:.6e} m apart, too near for wheels of these radii"
+            ),
             Self::OffPitch([x, y, z]) => write!(
                 f,
                 "is not where wheels with these factors touch, which is at [{x}, {y}, {z}]"

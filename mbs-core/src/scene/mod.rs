@@ -85,7 +85,7 @@ pub use data::{
 };
 pub use dimension::Dimension;
 #[cfg(feature = "alloc")]
-pub use drawn_kind::{Drawn, DrawnKind, NotDrawn, Sense};
+pub use drawn_kind::{Drawn, DrawnKind, NotDrawn, NotStrands, Sense};
 #[cfg(feature = "alloc")]
 pub use effect::{
     AxisFrame, CalspanCoefficients, LongitudinalSlip, PolynomialPiece, Road, RoadFeature, Signal,

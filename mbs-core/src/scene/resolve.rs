@@ -259,6 +259,9 @@ impl<T> Coupling<T> {
             kind: match &self.kind {
                 CouplingKind::General => CouplingKind::General,
                 CouplingKind::Rope => CouplingKind::Rope,
+                CouplingKind::Strands { pretension } => {
+                    CouplingKind::Strands { pretension: f(pretension) }
+                }
                 CouplingKind::Mesh(Mesh { at, pressure_angle }) => {
                     CouplingKind::Mesh(Mesh { at: all(at, f), pressure_angle: f(pressure_angle) })
                 }

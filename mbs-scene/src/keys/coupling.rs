@@ -52,10 +52,12 @@ fn rack() -> KeyTable {
 
 fn belt() -> KeyTable {
     let crossed = "Whether the belt is crossed: the wheels turn in opposite senses.";
+    let pretension = "Pull of each strand where the belt passes nothing on: the bearings then carry the strands.";
     let keys = vec![
         joints(2, "Turns of the wheels."),
         need("radii", Numbers(2), "m", "Radii of the wheels."),
         may("crossed", Flag, "", "false", crossed),
+        may("pretension", Number, "N", "none", pretension),
         sense(),
     ];
     let meaning = "A belt or chain on two wheels: r1 w1 = r2 w2 in the body that carries both.";

@@ -80,6 +80,10 @@ pub(crate) fn read<'a>(
     let kind = match (*kind, read_mesh(fields)?) {
         ("rope", _) => CouplingKind::Rope,
         (_, Some(mesh)) => CouplingKind::Mesh(mesh),
+        ("belt", None) => match fields.optional("pretension")? {
+            Some(pretension) => CouplingKind::Strands { pretension },
+            None => CouplingKind::General,
+        },
         _ => CouplingKind::General,
     };
     Ok(Coupling { name, terms, relation: None, value, motion, kind, drawn })

@@ -39,7 +39,7 @@ pub(super) fn no_start(scene: &Scene<f64>, error: &StopError, findings: &mut Vec
 }
 
 /// Axes that are taken as parallel, or as across each other, though they are off by a little; and couplings whose sense is not that of
-/// version 0.1, or is not drawn.
+/// version 0.1, or is not drawn, or whose wheels do not touch.
 pub(super) fn axes(scene: &Scene<f64>, findings: &mut Vec<Finding>) {
     for (joint, message) in mbs::inside::notes(scene) {
         let finding = Finding::new(Severity::Note, (Topic::Start, "axis-off"), message, "");
@@ -48,6 +48,10 @@ pub(super) fn axes(scene: &Scene<f64>, findings: &mut Vec<Finding>) {
     for (coupling, message) in scene.sense_notes() {
         let finding = Finding::new(Severity::Note, (Topic::Places, "coupling-sense"), message, "");
         findings.push(finding.at(Entry::Coupling(coupling.index()), "kind"));
+    }
+    for (coupling, message) in scene.radii_notes() {
+        let finding = Finding::new(Severity::Note, (Topic::Places, "coupling-radii"), message, "");
+        findings.push(finding.at(Entry::Coupling(coupling.index()), "radii"));
     }
 }
 

@@ -6,7 +6,7 @@ use crate::Real;
 use crate::algebra::{Vector, norm};
 use crate::inputs::SignalGraph;
 use crate::laws::relation::{self, MAX_ARGUMENTS, Relation, RelationFault};
-use crate::measure::{CouplingInput, MeshedWheels, TermInput, given_values};
+use crate::measure::{CouplingInput, MeshedWheels, Strands, TermInput, given_values};
 use crate::scene::{
     BodyId, CouplingKind, CouplingMeasure, CouplingTerm, Curve, Entry, Freedom, JointId, Mesh,
     Scene, SceneError, SceneFault,
@@ -33,6 +33,12 @@ pub(super) fn check<T: Real>(scene: &Scene<T>) -> Result<(), SceneError> {
                 return place.fault("at", SceneFault::NoMesh);
             }
             check_mesh(scene, &coupling.terms, mesh, place)?;
+        }
+        if let CouplingKind::Strands { pretension } = coupling.kind {
+            place.not_negative("pretension", pretension)?;
+            if let Err(fault) = Strands::new(scene, coupling) {
+                return place.fault("pretension", SceneFault::NotStrands(fault));
+            }
         }
     }
     Ok(())

@@ -1,6 +1,7 @@
 //! What a run notes of couplings that mean something else than in version 0.1.
 
 use crate::Real;
+use crate::measure::MeshedWheels;
 use crate::scene::{CouplingId, CouplingKind, DrawnKind, Quantity, Scene, Sense};
 use alloc::format;
 use alloc::string::String;
@@ -29,6 +30,31 @@ impl<T> Scene<T> {
 }
 
 impl<T: Real> Scene<T> {
+    /// Gears whose radii do not meet the distance of their axes: the motion has their ratio, the wheels do not touch.
+    pub fn radii_notes(&self) -> impl Iterator<Item = (CouplingId, String)> {
+        /// Distance of the radii from that of the axes, relative to that, which is none [-]. Chosen, not tuned: digits of a file.
+        const OFF: f64 = 1e-4;
+        let noted = self.couplings.iter().enumerate();
+        noted.filter_map(|(i, coupling)| {
+            let drawn = coupling.drawn.map(|drawn| drawn.kind);
+            let Some(DrawnKind::Gear { is_internal, has_radii: true }) = drawn else { return None };
+            let wheels = MeshedWheels::new(self, &coupling.terms)?;
+            let [first, second] = wheels.moments.map(T::abs);
+            let needed = if is_internal { (first - second).abs() } else { first + second };
+            let (needed, distance) = (needed.to_f64(), wheels.distance().to_f64());
+            let is_met = (needed - distance).abs() <= OFF * distance;
+            let of = if is_internal { "difference" } else { "sum" };
+            let note = || {
+                format!(
+                    "the axes of gear `{}` are {distance:.6} m apart, and the {of} of its `radii` is {needed:.6} m: the motion has their \
+                     ratio, the wheels do not touch",
+                    coupling.name
+                )
+            };
+            (!is_met).then(|| (CouplingId::new(i), note()))
+        })
+    }
+
     /// Outputs of reactions that lack the force of a coupling.
     pub fn reaction_notes(&self) -> impl Iterator<Item = String> {
         let reactions = self.outputs.iter().filter_map(|output| match output.quantity {
@@ -41,6 +67,9 @@ impl<T: Real> Scene<T> {
                 let of = &self.couplings[coupling.index()];
                 let (kind, remedy) = match of.drawn.map(|drawn| drawn.kind) {
                     Some(kind @ DrawnKind::Gear { .. }) => (kind.name(), "give its pitch point `at`"),
+                    Some(kind @ DrawnKind::Belt { .. }) => {
+                        (kind.name(), "give the `pretension` of its strands")
+                    }
                     Some(kind) => (kind.name(), "its `effort` has the size of that force"),
                     None => (
                         "rope",

@@ -37,6 +37,9 @@ impl Writer<'_> {
             keys.push("at", self.vector(&mesh.at));
             keys.push("pressure_angle", &mesh.pressure_angle);
         }
+        if let CouplingKind::Strands { pretension } = &coupling.kind {
+            keys.push("pretension", pretension);
+        }
         if let Some(law) = &coupling.motion {
             self.motion(&mut keys, law)?;
         }
