@@ -4,6 +4,7 @@
 pub mod allocations;
 mod dense;
 pub mod effects;
+pub mod machines;
 pub mod quantities;
 pub mod random;
 pub mod repository;

@@ -32,6 +32,7 @@ mod invariants;
 mod joint_limits;
 mod kinds;
 mod linear_system;
+mod machines;
 mod modes;
 mod observers;
 mod oracle;

@@ -1,0 +1,99 @@
+//! Random machines told in other ways move as they are drawn: bodies of joints swapped, axes reversed, another order, turned, in millimetres.
+
+use crate::common::{run, run_in};
+use mbs::{Method, Outcome};
+use mbs_testkit::machines::{KINDS, Telling, Ways, machine};
+use mbs_testkit::{Random, scene};
+
+/// Each way to tell a machine, and all of them.
+const WAYS: [(&str, Ways); 6] = {
+    let drawn =
+        Ways { swaps: false, reverses: false, shuffles: false, turns: false, millimetres: false };
+    [
+        ("swapped", Ways { swaps: true, ..drawn }),
+        ("reversed", Ways { reverses: true, ..drawn }),
+        ("shuffled", Ways { shuffles: true, ..drawn }),
+        ("turned", Ways { turns: true, ..drawn }),
+        ("in millimetres", Ways { millimetres: true, ..drawn }),
+        ("all", Ways { millimetres: true, ..Ways::ALL }),
+    ]
+};
+
+/// The vectors of a run's rows as they are drawn: places in metres, angular velocities.
+fn drawn(outcome: &Outcome, telling: &Telling, what: &str) -> Vec<Vec<[f64; 3]>> {
+    assert_eq!(outcome.error, None, "{what}");
+    let vectors = |row: &[f64]| {
+        let three = row.chunks_exact(3).enumerate();
+        let scaled = three.map(|(k, x)| {
+            let size = if k % 2 == 0 { telling.metre } else { 1.0 };
+            telling.back([x[0] / size, x[1] / size, x[2] / size])
+        });
+        scaled.collect()
+    };
+    outcome.rows().iter().map(|(_, row)| vectors(row)).collect()
+}
+
+/// The largest difference of two runs, in ranges of the outputs.
+fn apart(one: &[Vec<[f64; 3]>], other: &[Vec<[f64; 3]>]) -> f64 {
+    assert_eq!(one.len(), other.len());
+    let n = one[0].len();
+    let size = |of: &dyn Fn(usize) -> [f64; 3]| {
+        (0..one.len())
+            .map(|row| of(row).iter().map(|x| x * x).sum::<f64>().sqrt())
+            .fold(0.0, f64::max)
+    };
+    let ranges: Vec<f64> = (0..n)
+        .map(|k| size(&|row| core::array::from_fn(|i| one[row][k][i] - one[0][k][i])))
+        .collect();
+    // what hardly moves is measured by what moves most among its like
+    let most = |k: usize| (0..n).filter(|j| j % 2 == k % 2).map(|j| ranges[j]).fold(0.0, f64::max);
+    let relative = (0..n).map(|k| {
+        let off = size(&|row| core::array::from_fn(|i| one[row][k][i] - other[row][k][i]));
+        off / ranges[k].max(1e-3 * most(k))
+    });
+    relative.fold(0.0, f64::max)
+}
+
+/// The largest difference of ways to tell machines from how they are drawn, by a method, over machines of all kinds.
+fn differ(machines: u64, method: &dyn Fn(&mbs::core::scene::Scene<f64>) -> Outcome) -> f64 {
+    let mut worst = 0.0_f64;
+    for seed in 0..machines {
+        let mut random = Random::new(1000 + seed);
+        let machine = machine(&mut random, seed as usize % KINDS);
+        let mut moves = |ways: Ways, what: &str| {
+            let telling = Telling::new(&mut random, &machine, ways);
+            let text = telling.moving(&machine, seed);
+            drawn(&method(&scene(&text)), &telling, &format!("{} {what}\n{text}", machine.what))
+        };
+        let plain = moves(Ways::default(), "as drawn");
+        for (what, ways) in WAYS {
+            let off = apart(&plain, &moves(ways, what));
+            println!("{seed} {} {what}: {off:.1e}", machine.what);
+            worst = worst.max(off);
+        }
+    }
+    worst
+}
+
+#[test]
+fn machines_move_as_they_are_drawn_however_they_are_told() {
+    let method = |formulation: &str, integrator: &str, tolerance| Method {
+        formulation: Some(formulation.to_owned()),
+        integrator: Some(integrator.to_owned()),
+        step_max: Some(0.01),
+        tolerance,
+        ..Method::default()
+    };
+    let exact = method("recursive", "rk853", Some(1e-11));
+    let worst = differ(4 * KINDS as u64, &|scene| run(scene, &exact));
+    assert!(worst < 1e-9, "{worst:e} of a range");
+}
+
+#[test]
+fn every_formulation_steps_alike_however_a_machine_is_told() {
+    for formulation in mbs::FormulationKind::ALL.map(mbs::FormulationKind::name) {
+        let worst = differ(KINDS as u64, &|scene| run_in(scene, formulation, Some(1e-3)));
+        println!("{formulation}: {worst:e}");
+        assert!(worst < 1e-6, "{formulation}: {worst:e} of a range");
+    }
+}
