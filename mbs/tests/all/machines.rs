@@ -85,7 +85,7 @@ fn machines_move_as_they_are_drawn_however_they_are_told() {
         ..Method::default()
     };
     let exact = method("recursive", "rk853", Some(1e-11));
-    let worst = differ(4 * KINDS as u64, &|scene| run(scene, &exact));
+    let worst = differ(34 * KINDS as u64, &|scene| run(scene, &exact));
     assert!(worst < 1e-9, "{worst:e} of a range");
 }
 
