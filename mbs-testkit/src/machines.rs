@@ -118,6 +118,20 @@ impl Parts {
         plus(self.one, distance, WAY)
     }
 
+    /// Wheels of these radii in mesh, with their pitch point.
+    fn in_mesh(self, head: &'static str) -> Written {
+        let wheels = self.by_radii(head);
+        Box::new(move |told| {
+            format!("{}\nat = {:?}", wheels(told), told.place(self.apart(self.r1)))
+        })
+    }
+
+    /// A belt on wheels of these radii.
+    fn with_strands(self, head: &'static str) -> Written {
+        let wheels = self.by_radii(head);
+        Box::new(move |told| format!("{}\npretension = {:?}", wheels(told), 200.0 * told.metre))
+    }
+
     /// A coupling of both parts by their radii.
     fn by_radii(self, head: &'static str) -> Written {
         Box::new(move |told| {
@@ -146,7 +160,11 @@ fn gears(of: Parts, kind: usize) -> Machine {
     let arm = turn("arm", ["frame", "arm"], of.one);
     let slip = touching(["one", "two"], of.apart(of.r1), ACROSS);
     let (what, joints) = match kind {
-        0 => ("gears", vec![of.one(), turn("two", ["frame", "two"], other)]),
+        0 => {
+            let joints = vec![of.one(), turn("two", ["frame", "two"], other)];
+            let coupling = of.in_mesh("kind = \"gear\"");
+            return Machine { what: "gears", joints, coupling, slip };
+        }
         1 => ("planet on an arm", vec![of.one(), arm, turn("two", ["arm", "two"], other)]),
         2 => (
             "arms about both axes",
@@ -166,7 +184,7 @@ fn gears(of: Parts, kind: usize) -> Machine {
         _ => {
             let inside = Parts { r2: 0.4 * of.r1, ..of };
             let joints = vec![of.one(), turn("two", ["frame", "two"], of.apart(0.6 * of.r1))];
-            let coupling = inside.by_radii("kind = \"gear\"\nmesh = \"internal\"");
+            let coupling = inside.in_mesh("kind = \"gear\"\nmesh = \"internal\"");
             return Machine { what: "wheel in a ring", joints, coupling, slip };
         }
     };
@@ -185,7 +203,7 @@ fn belt(of: Parts, is_crossed: bool) -> Machine {
     Machine {
         what: if is_crossed { "crossed belt" } else { "belt" },
         joints: vec![of.one(), turn("two", ["frame", "two"], of.apart(d))],
-        coupling: of.by_radii(if is_crossed {
+        coupling: of.with_strands(if is_crossed {
             "kind = \"belt\"\ncrossed = true"
         } else {
             "kind = \"belt\""
@@ -429,6 +447,18 @@ impl Telling {
     /// The machine with masses, weight, springs, a motor on a controller, and speeds: of the same seed the same in whatever way it is told.
     #[must_use]
     pub fn moving(&self, machine: &Machine, seed: u64) -> String {
+        let outputs = machine.joints.iter().map(|joint| {
+            let body = joint.bodies[1];
+            ["position", "angular-velocity"].map(|quantity| {
+                format!("[[output]]\nname = \"{body} {quantity}\"\nbody = \"{body}\"\nquantity = \"{quantity}\"\n")
+            })
+        });
+        self.moving_with(machine, seed, &outputs.flatten().collect::<String>())
+    }
+
+    /// The same with other outputs.
+    #[must_use]
+    pub fn moving_with(&self, machine: &Machine, seed: u64, outputs: &str) -> String {
         let m = self.metre;
         let body = |name: &str, at: Vector| self.body(name, at, seed);
         let parts = self.parts(machine, body);
@@ -440,13 +470,6 @@ impl Telling {
             let (value, rate) = (0.0, rate * self.sense(joint));
             format!("[[initial]]\njoint = \"{joint}\"\nvalue = {value:?}\nrate = {rate:?}\n")
         });
-        let outputs = machine.joints.iter().map(|joint| {
-            let body = joint.bodies[1];
-            ["position", "angular-velocity"].map(|quantity| {
-                format!("[[output]]\nname = \"{body} {quantity}\"\nbody = \"{body}\"\nquantity = \"{quantity}\"\n")
-            })
-        });
-        let outputs: String = outputs.flatten().collect();
         format!(
             "[scene]\ndimension = 3\nduration = 0.2\ngravity = {gravity:?}\n{parts}{}\
              [[effect]]\nkind = \"torsion-spring\"\njoint = \"swing\"\nstiffness = {:?}\ndamping = {damping:?}\n\

@@ -8,6 +8,7 @@ use mbs_testkit::retell;
 mod analysis;
 mod andrews;
 mod axes;
+mod balance;
 mod balls;
 mod checkpoint;
 mod codes;

@@ -1,0 +1,341 @@
+//! Balance of every body of random machines: gravity, reactions, effects and couplings make its momenta change, by laws and places of the file alone.
+
+use crate::common::{run, run_in};
+use mbs::core::scene::{BodyId, CouplingMeasure, Inertia, Joint, Scene};
+use mbs::{Method, Outcome};
+use mbs_testkit::machines::{KINDS, Machine, Telling, Ways, machine};
+use mbs_testkit::{Random, scene};
+
+type Vector = [f64; 3];
+
+fn cross(a: Vector, b: Vector) -> Vector {
+    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+}
+
+fn dot(a: Vector, b: Vector) -> f64 {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+
+fn plus(a: Vector, s: f64, b: Vector) -> Vector {
+    [a[0] + s * b[0], a[1] + s * b[1], a[2] + s * b[2]]
+}
+
+fn size(a: Vector) -> f64 {
+    dot(a, a).sqrt()
+}
+
+fn unit(a: Vector) -> Vector {
+    a.map(|x| x / size(a))
+}
+
+fn three(row: &[f64]) -> Vector {
+    [row[0], row[1], row[2]]
+}
+
+/// A body at an instant, and what acts on it.
+#[derive(Debug, Clone, Default)]
+struct Placed {
+    center: Vector,
+    /// Its centre in the reference configuration.
+    drawn: Vector,
+    /// Rows of its rotation from there.
+    rotation: [Vector; 3],
+    force: Vector,
+    /// About its centre.
+    moment: Vector,
+    /// The largest force, or moment over a metre, that acts on it.
+    largest: f64,
+}
+
+impl Placed {
+    fn turned(&self, a: Vector) -> Vector {
+        self.rotation.map(|row| dot(row, a))
+    }
+
+    /// Where a point of it is.
+    fn at(&self, point: Vector) -> Vector {
+        plus(self.center, 1.0, self.turned(plus(point, -1.0, self.drawn)))
+    }
+
+    fn take(&mut self, at: Vector, force: Vector, moment: Vector) {
+        self.force = plus(self.force, 1.0, force);
+        let of_force = cross(plus(at, -1.0, self.center), force);
+        self.moment = plus(plus(self.moment, 1.0, moment), 1.0, of_force);
+        self.largest = self.largest.max(size(force)).max(size(moment));
+    }
+}
+
+/// Columns of a body and of a joint.
+const OF_BODY: usize = 21;
+const OF_JOINT: usize = 8;
+
+fn outputs(machine: &Machine) -> String {
+    let one = |of: &str, name: &str, quantity: &str| {
+        format!(
+            "[[output]]\nname = \"{of} {name} {quantity}\"\n{of} = \"{name}\"\nquantity = \"{quantity}\"\n"
+        )
+    };
+    let of_body =
+        ["position", "rotation-matrix", "acceleration", "angular-velocity", "angular-acceleration"];
+    let bodies =
+        machine.joints.iter().flat_map(|joint| of_body.map(|q| one("body", joint.bodies[1], q)));
+    let joints = machine.joints.iter().flat_map(|joint| {
+        ["value", "rate", "reaction"].map(|quantity| one("joint", joint.name, quantity))
+    });
+    let rest =
+        one("coupling", "link", "effort") + "[[output]]\nname = \"asked\"\nsignal = \"asked\"\n";
+    bodies.chain(joints).collect::<String>() + &rest
+}
+
+/// A machine at the end of a run.
+struct Instant<'a> {
+    scene: &'a Scene<f64>,
+    machine: &'a Machine,
+    telling: &'a Telling,
+    row: &'a [f64],
+    /// The ground last.
+    bodies: Vec<Placed>,
+}
+
+impl<'a> Instant<'a> {
+    fn new(
+        scene: &'a Scene<f64>,
+        machine: &'a Machine,
+        telling: &'a Telling,
+        row: &'a [f64],
+    ) -> Self {
+        let rotation = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+        let ground = Placed { rotation, ..Placed::default() };
+        let mut bodies = vec![ground; scene.bodies.len() + 1];
+        for (k, joint) in machine.joints.iter().enumerate() {
+            let of = &row[OF_BODY * k..];
+            let body =
+                scene.bodies.iter().position(|body| body.name == joint.bodies[1]).expect("a body");
+            bodies[body] = Placed {
+                center: three(of),
+                drawn: scene.bodies[body].center,
+                rotation: [3, 6, 9].map(|i| three(&of[i..])),
+                ..Placed::default()
+            };
+        }
+        Self { scene, machine, telling, row, bodies }
+    }
+
+    fn number(&self, body: BodyId) -> usize {
+        body.index().unwrap_or(self.scene.bodies.len())
+    }
+
+    fn named(&self, body: &str) -> usize {
+        let place = self.scene.bodies.iter().position(|of| of.name == body);
+        place.unwrap_or(self.scene.bodies.len())
+    }
+
+    /// A joint with value, rate and reaction.
+    fn joint(&self, name: &str) -> (&'a Joint<f64>, &'a [f64]) {
+        let place =
+            self.machine.joints.iter().position(|joint| joint.name == name).expect("a joint");
+        let joint = self.scene.joints.iter().find(|joint| joint.name == name).expect("a joint");
+        (joint, &self.row[OF_BODY * self.machine.joints.len() + OF_JOINT * place..])
+    }
+
+    /// The axis of a joint.
+    fn axis(&self, joint: &Joint<f64>) -> Vector {
+        self.bodies[self.number(joint.bodies[0])].turned(unit(joint.axes[0].expect("an axis")))
+    }
+
+    /// A wrench on the second of two bodies, its opposite on the first.
+    fn between(&mut self, bodies: [usize; 2], at: Vector, (force, moment): (Vector, Vector)) {
+        self.bodies[bodies[1]].take(at, force, moment);
+        self.bodies[bodies[0]].take(at, force.map(|x| -x), moment.map(|x| -x));
+    }
+
+    /// A force along a coordinate: on the second body at the joint's place, its opposite on the first.
+    fn along(&mut self, name: &str, effort: f64) {
+        let (joint, _) = self.joint(name);
+        let bodies = joint.bodies.map(|body| self.number(body));
+        let at = self.bodies[bodies[1]].at(joint.points[1]);
+        let axis = self.axis(joint).map(|x| effort * x);
+        let drawn = self.machine.joints.iter().find(|of| of.name == name).expect("a joint");
+        let wrench = if drawn.is_turn { ([0.0; 3], axis) } else { (axis, [0.0; 3]) };
+        self.between(bodies, at, wrench);
+    }
+
+    fn reactions(&mut self) {
+        for k in 0..self.machine.joints.len() {
+            let (joint, of) = self.joint(self.machine.joints[k].name);
+            let bodies = joint.bodies.map(|body| self.number(body));
+            let at = self.bodies[bodies[1]].at(joint.points[1]);
+            self.between(bodies, at, (three(&of[2..]), three(&of[5..])));
+        }
+    }
+
+    /// The springs and the motor that the machine is told with.
+    fn effects(&mut self) {
+        let (_, swing) = self.joint("swing");
+        self.along("swing", -30.0 * swing[0] - 0.3 * swing[1]);
+        self.along("one", *self.row.last().expect("a signal"));
+        let [from, to] = [[1.0, 2.0, 0.5], [0.2, 1.1, 0.1]];
+        let free = 0.8 * size(plus(from, -1.0, to));
+        let (frame, ground) = (self.named("frame"), self.named("ground"));
+        let from = self.telling.place(from);
+        let at = self.bodies[frame].at(self.telling.place(to));
+        let way = plus(at, -1.0, from);
+        let pull = unit(way).map(|x| -40.0 * (size(way) - free) * x);
+        self.bodies[frame].take(at, pull, [0.0; 3]);
+        self.bodies[ground].take(from, pull.map(|x| -x), [0.0; 3]);
+    }
+
+    /// What the coupling does where it acts on the drawn machine; by its coordinates where nothing says where that is.
+    fn coupling(&mut self, kind: usize) {
+        let effort = self.row[self.row.len() - 2];
+        let coupling = &self.scene.couplings[0];
+        let (one, wheels) = (self.joint("one").0, [self.named("one"), self.named("two")]);
+        let frame = self.named("frame");
+        // the sense of the joint's coordinate as a motion of the wheel
+        let sense = |joint: &Joint<f64>, body: usize| {
+            if self.number(joint.bodies[1]) == body { 1.0 } else { -1.0 }
+        };
+        let factors: Vec<f64> = coupling.terms.iter().map(|term| term.factor).collect();
+        let on_frame = |joint: &Joint<f64>| self.bodies[frame].at(joint.points[0]);
+        let (n, about) = (self.axis(one), sense(one, wheels[0]));
+        match kind {
+            0 | 4 => {
+                let two = self.joint("two").0;
+                let mbs::core::scene::CouplingKind::Mesh(mesh) = &coupling.kind else {
+                    panic!("no mesh")
+                };
+                let pitch = self.bodies[frame].at(mesh.at);
+                let way = |joint: &Joint<f64>| plus(pitch, -1.0, on_frame(joint));
+                let (r1, r2) = (way(one), way(two));
+                let force = cross(n, r1).map(|x| about * effort * x / dot(r1, r1));
+                let smaller = if size(r1) <= size(r2) { unit(r1).map(|x| -x) } else { unit(r2) };
+                let apart = size(force) * 20.0_f64.to_radians().tan();
+                self.between(
+                    [wheels[1], wheels[0]],
+                    pitch,
+                    (plus(force, apart, smaller), [0.0; 3]),
+                );
+            }
+            5 | 6 => {
+                let two = self.joint("two").0;
+                let [c1, c2] = [on_frame(one), on_frame(two)];
+                let [r1, r2] = [factors[0].abs(), factors[1].abs()];
+                let r2 = if kind == 6 { -r2 } else { r2 };
+                let way = plus(c2, -1.0, c1);
+                let c = (r1 - r2) / size(way);
+                for side in [1.0, -1.0] {
+                    let across = cross(n, unit(way)).map(|x| side * x);
+                    let m = plus(unit(way).map(|x| c * x), (1.0 - c * c).sqrt(), across);
+                    let ends = [plus(c1, r1, m), plus(c2, r2, m)];
+                    let along = unit(plus(ends[1], -1.0, ends[0]));
+                    let turns = dot(n, cross(m, along)).signum() * about;
+                    let pull = along.map(|x| (200.0 + 0.5 * effort * turns) * x);
+                    self.bodies[wheels[0]].take(ends[0], pull, [0.0; 3]);
+                    self.bodies[wheels[1]].take(ends[1], pull.map(|x| -x), [0.0; 3]);
+                }
+            }
+            11 => {
+                let (two, _) = self.joint("two");
+                let (along, at) = (sense(two, wheels[1]), on_frame(one));
+                let force = self.axis(two).map(|x| along * effort * x);
+                let moment = n.map(|x| -about * effort * factors[1] / factors[0] * x);
+                self.between(wheels, at, (force, moment));
+            }
+            14 => {
+                let CouplingMeasure::Length { points } = &coupling.terms[0].of else {
+                    panic!("no line")
+                };
+                let [rim, weight] =
+                    [0, 1].map(|k| self.bodies[self.number(points[k].0)].at(points[k].1));
+                let pull = unit(plus(weight, -1.0, rim)).map(|x| effort * x);
+                self.bodies[wheels[0]].take(rim, pull, [0.0; 3]);
+                self.bodies[wheels[1]].take(weight, pull.map(|x| -x), [0.0; 3]);
+            }
+            _ => {
+                let by = if (7..11).contains(&kind) { 1.0 } else { factors[0] };
+                for (term, factor) in coupling.terms.iter().zip(factors) {
+                    let joint = term.of.coordinate().expect("a coordinate").0;
+                    let name = self.scene.joints[joint.index()].name.clone();
+                    self.along(&name, factor * effort / by);
+                }
+            }
+        }
+    }
+
+    /// What is missing on a body, in parts of the largest force on any.
+    fn missing(&self) -> f64 {
+        let largest = self.bodies.iter().fold(0.0_f64, |most, body| most.max(body.largest));
+        let mut worst = 0.0_f64;
+        for (k, joint) in self.machine.joints.iter().enumerate() {
+            let of = &self.row[OF_BODY * k..];
+            let body = self.named(joint.bodies[1]);
+            let (data, placed) = (&self.scene.bodies[body], &self.bodies[body]);
+            let gravity = self.scene.gravity.expect("gravity");
+            let [a, w, alpha] = [12, 15, 18].map(|i| three(&of[i..]));
+            let force = plus(placed.force, data.mass, plus(gravity, -1.0, a));
+            let Inertia::Spatial([xx, yy, zz, xy, yz, zx]) = data.inertia else {
+                panic!("inertia")
+            };
+            let rows = [[xx, xy, zx], [xy, yy, yz], [zx, yz, zz]];
+            // R I R^T x
+            let r = &placed.rotation;
+            let times = |x: Vector| {
+                let own: Vector = core::array::from_fn(|i| (0..3).map(|j| r[j][i] * x[j]).sum());
+                placed.turned(rows.map(|row| dot(row, own)))
+            };
+            let momentum = plus(times(alpha), 1.0, cross(w, times(w)));
+            let moment = plus(placed.moment, -1.0, momentum);
+            worst = worst.max(size(force) / largest).max(size(moment) / largest);
+        }
+        worst
+    }
+}
+
+/// The largest part of a force that is missing on a body of so many machines, by a method.
+fn worst(machines: u64, method: &dyn Fn(&Scene<f64>) -> Outcome) -> f64 {
+    let mut worst = 0.0_f64;
+    for seed in 0..machines {
+        let mut random = Random::new(5000 + seed);
+        let kind = seed as usize % KINDS;
+        let machine = machine(&mut random, kind);
+        let telling = Telling::new(&mut random, &machine, Ways::ALL);
+        let text = telling.moving_with(&machine, seed, &outputs(&machine));
+        let scene = scene(&text);
+        let outcome = method(&scene);
+        assert_eq!(outcome.error, None, "{}\n{text}", machine.what);
+        let row = &outcome.rows().last().expect("a row").1;
+        let mut now = Instant::new(&scene, &machine, &telling, row);
+        now.reactions();
+        now.effects();
+        now.coupling(kind);
+        let missing = now.missing();
+        println!("{seed} {}: {missing:.1e}", machine.what);
+        worst = worst.max(missing);
+    }
+    worst
+}
+
+#[test]
+fn every_body_is_in_balance_in_relative_coordinates() {
+    let method = Method {
+        formulation: Some("recursive".to_owned()),
+        integrator: Some("rk853".to_owned()),
+        step_max: Some(0.05),
+        tolerance: Some(1e-11),
+        ..Method::default()
+    };
+    let worst = worst(20 * KINDS as u64, &|scene| run(scene, &method));
+    assert!(worst < 1e-9, "{worst:e} of the largest force");
+}
+
+#[test]
+fn every_body_is_in_balance_by_fixed_steps() {
+    for formulation in mbs::FormulationKind::ALL.map(mbs::FormulationKind::name) {
+        let worst = worst(2 * KINDS as u64, &|scene| run_in(scene, formulation, Some(1e-3)));
+        println!("{formulation}: {worst:e}");
+        // augmented ones leave velocities and accelerations open by what iterations leave
+        let allowed =
+            if formulation == "state-space" || formulation == "recursive" { 1e-9 } else { 1e-6 };
+        assert!(worst < allowed, "{formulation}: {worst:e} of the largest force");
+    }
+}
