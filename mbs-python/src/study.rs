@@ -310,7 +310,8 @@ fn matrix<'py>(py: Python<'py>, matrix: &Matrix) -> PyResult<Bound<'py, PyAny>> 
 #[pymethods]
 impl Mechanism {
     /// dx/dt = A x + B u, y = C x + D u about a state: `"equilibrium"`, `"initial"`, `"moving"`, what `equilibrium()` gives, or (q, v). The
-    /// states x are independent coordinates and their rates, then the states of signals.
+    /// states x are independent coordinates and their rates, then the states of signals. About a state that is neither a rest nor a steady
+    /// motion the matrices hold for the instant, and `unsteady` says why.
     #[pyo3(signature = (at = None, inputs = None, outputs = None))]
     fn linearize<'py>(
         &self,
@@ -322,7 +323,9 @@ impl Mechanism {
         let at = self.at(at)?;
         let s = self.linear(py, (at, [inputs, outputs]))?;
         let [a, b, c, d] = [&s.a, &s.b, &s.c, &s.d].map(|m| matrix(py, m));
-        values::make(py, "Linear", (a?, b?, c?, d?, s.states, s.inputs, s.outputs))
+        let unsteady = s.unsteady.map(|unsteady| value::object(py, &unsteady.to_json()));
+        let fields = (a?, b?, c?, d?, s.states, s.inputs, s.outputs);
+        values::make(py, "Linear", (fields, unsteady.transpose()?))
     }
 
     /// Eigenvalues of the motion about a state, with frequencies, damping ratios and shapes, from the slowest to the fastest.

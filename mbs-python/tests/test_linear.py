@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import pickle
 
 import multibody as mbs
 import numpy as np
@@ -38,6 +39,23 @@ def test_a_mass_on_a_spring_has_its_matrices(at: mbs.StateLike) -> None:
     assert np.abs(linear.C - [[1, 0], [0, 1], row, [0, 0]]).max() < EXACT
     assert np.abs(linear.D - [[0], [0], [1 / MASS], [0]]).max() < EXACT
     assert len(linear.states) == 2
+
+
+def test_matrices_of_an_instant_say_what_accelerates() -> None:
+    pendulum = mbs.Mechanism(scene("simple-pendulum"))
+    assert pendulum.linearize("equilibrium").unsteady is None
+    linear = pendulum.linearize("initial")
+    unsteady = linear.unsteady
+    assert unsteady is not None
+    state = pendulum.initial()
+    fall = pendulum.forward_dynamics(state.q, state.v, [0.0])[0]
+    assert unsteady["state"] == linear.states[0]
+    assert unsteady["unit"] == "rad/s^2"
+    assert unsteady["by"] == pytest.approx(fall, rel=1e-9)
+    a, b, c, d, states, inputs, outputs = linear
+    assert a.shape == (2, 2) and len(states) == 2
+    again = pickle.loads(pickle.dumps(linear))
+    assert again.unsteady == unsteady and again.states == states
 
 
 def test_inputs_and_outputs_are_chosen_by_name() -> None:

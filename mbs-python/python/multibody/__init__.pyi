@@ -72,6 +72,11 @@ class Linear(NamedTuple):
     inputs: list[str]
     outputs: list[str]
 
+    @property
+    def unsteady(self) -> dict[str, Any] | None:
+        """None about a rest and a motion that is steady in standing axes; else `state`, `by`, `unit`: which accelerates, or whose equation
+        changes, by how much. The matrices hold for the instant then."""
+
 class Rollout(NamedTuple):
     """Motions from many starts."""
 

@@ -43,9 +43,7 @@ class Modes(NamedTuple):
     summary: dict[str, Any]
 
 
-class Linear(NamedTuple):
-    """dx/dt = A x + B u, y = C x + D u about a state, in independent coordinates and their rates, then the states of signals."""
-
+class _Matrices(NamedTuple):
     A: Array
     B: Array
     C: Array
@@ -53,6 +51,23 @@ class Linear(NamedTuple):
     states: list[str]
     inputs: list[str]
     outputs: list[str]
+
+
+class Linear(_Matrices):
+    """dx/dt = A x + B u, y = C x + D u about a state, in independent coordinates and their rates, then the states of signals.
+
+    unsteady: None about a rest and a motion that is steady in standing axes; else which state accelerates or which equation changes, by how
+    much: the matrices hold for the instant."""
+
+    unsteady: dict[str, Any] | None
+
+    def __new__(cls, fields: tuple[Any, ...], unsteady: dict[str, Any] | None) -> Linear:
+        self = super().__new__(cls, *fields)
+        self.unsteady = unsteady
+        return self
+
+    def __getnewargs__(self) -> tuple[Any, ...]:
+        return tuple(self), self.unsteady
 
 
 class Rollout(NamedTuple):
