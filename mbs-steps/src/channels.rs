@@ -4,7 +4,7 @@ use crate::checkpoint::tape::{Tape, Walked, holds};
 use crate::simulation::Simulation;
 use crate::stop::StopError;
 use mbs_core::model::State;
-use mbs_core::natural::NaturalModel;
+use mbs_core::natural::{NaturalModel, RememberedAngle};
 use mbs_core::once::find;
 use mbs_core::outputs::{Forces, Measures, Target};
 use mbs_core::scene::Scene;
@@ -15,6 +15,8 @@ use mbs_core::{Real, instances};
 pub struct Channels<T: Real, const D: usize> {
     measures: Measures<T, D>,
     forces: Option<Forces<T, D>>,
+    /// The coordinates that the first state knows with their turns.
+    remembered: Vec<RememberedAngle<T>>,
     /// What has a reaction, an effort or a force that is an output and was not unique at some row: joints, then couplings, then rollings.
     not_unique: Vec<usize>,
     asked: Vec<usize>,
@@ -65,7 +67,8 @@ impl<T: Real, const D: usize> Channels<T, D> {
         let forces = Some(forces);
         let ends = [n_joints, n_both];
         let (write_at, track): (Write<T, D>, Track<T, D>) = (Self::write_here, Self::track_here);
-        Ok(Self { measures, forces, not_unique, asked, ends, outputs, write_at, track })
+        let remembered = model.remembered_coordinates(scene);
+        Ok(Self { measures, forces, remembered, not_unique, asked, ends, outputs, write_at, track })
     }
 
     /// Exchanges what forces are made of: the same scene with other effects has others.
@@ -97,7 +100,20 @@ impl<T: Real, const D: usize> Channels<T, D> {
             self.measures.track_with(state, |joint, number| simulation.coordinate(joint, number));
             return Ok(());
         }
+        if !self.measures.has_begun() {
+            self.begin(state);
+            return Ok(());
+        }
         self.measures.track(state).map_err(|error| simulation.explain(error))
+    }
+
+    /// Takes the turns of the first state from what it remembers: a search for an equilibrium may have turned a joint more than once.
+    fn begin(&mut self, state: &State<T>) {
+        let Self { measures, remembered, .. } = self;
+        measures.track_with(state, |joint, number| {
+            let angle = remembered.iter().find(|angle| angle.of == (joint, number))?;
+            Some(angle.sign * *state.memory.get(angle.place)?)
+        });
     }
 
     /// All components at the state of a simulation.
@@ -106,6 +122,9 @@ impl<T: Real, const D: usize> Channels<T, D> {
     /// As [`write_at`](Self::write_at).
     pub fn write(&mut self, now: &Simulation<T, D>, out: &mut [T]) -> Result<(), StopError> {
         self.measures.set_invariant_error(T::from_f64(now.invariant().error()));
+        if !self.measures.has_begun() {
+            self.track(now)?;
+        }
         self.write_at(now.state(), out)
     }
 
@@ -133,6 +152,9 @@ impl<T: Real, const D: usize> Channels<T, D> {
                     self.not_unique.push(asked);
                 }
             }
+        }
+        if !self.measures.has_begun() {
+            self.begin(state);
         }
         // A state that was tracked before: its turns are known.
         let _ = self.measures.write(state, self.forces.as_ref(), out);

@@ -3,7 +3,21 @@
 use super::layout::effect_of;
 use super::model::NaturalModel;
 use crate::Real;
+use crate::actions::{Action, Actions};
 use crate::model::Owner;
+use crate::scene::{Freedom, Scene};
+use alloc::vec::Vec;
+
+/// An angle of a joint that a state remembers.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct RememberedAngle<T> {
+    /// The joint, and the number of the coordinate.
+    pub of: (usize, usize),
+    /// Its sign beside what is remembered.
+    pub sign: T,
+    /// Where it is remembered: its place in [`State::memory`](crate::model::State::memory).
+    pub place: usize,
+}
 
 impl<T: Real, const D: usize> NaturalModel<T, D> {
     /// The place in [`State::memory`](crate::model::State::memory) of the angle that `scene.effects[effect]` measures, with
@@ -13,6 +27,46 @@ impl<T: Real, const D: usize> NaturalModel<T, D> {
         let first = self.angles.partition_point(|&(owner, _)| effect_of(owner) < effect);
         let &(owner, place) = self.angles.get(first)?;
         (owner == Owner::Effect(effect)).then_some(place as usize)
+    }
+
+    /// The coordinates of joints that a state remembers with their turns, for couplings and effects of a scene that has this model: of joints, and
+    /// in the plane of bushings between the bodies of a joint.
+    ///
+    /// Cost: one pass over the effects, which are prepared again.
+    #[must_use]
+    pub fn remembered_coordinates(&self, scene: &Scene<T>) -> Vec<RememberedAngle<T>> {
+        let coupled = self.coupled_angles();
+        let mut all: Vec<_> =
+            coupled.map(|(of, sign, place)| RememberedAngle { of, sign, place }).collect();
+        if self.angles.is_empty() {
+            return all;
+        }
+        // A scene that has a model has actions.
+        let actions = Actions::new(scene).map(|actions| actions.list).unwrap_or_default();
+        for (effect, action) in actions {
+            let Some(place) = self.memory_of_effect(effect) else { continue };
+            match action {
+                Action::Angle { joint, number, .. } => {
+                    all.push(RememberedAngle { of: (joint, number), sign: T::ONE, place });
+                }
+                Action::Turn { bodies, .. } => {
+                    for (joint, of) in scene.joints.iter().enumerate() {
+                        let sign = match of.bodies {
+                            same if same == bodies => T::ONE,
+                            [b, a] if [a, b] == bodies => -T::ONE,
+                            _ => continue,
+                        };
+                        let mut freedoms = of.kind.numbered(scene.dimension);
+                        let turn = freedoms.find(|(_, of)| matches!(of, Freedom::Turn(_)));
+                        if let Some((number, _)) = turn {
+                            all.push(RememberedAngle { of: (joint, number), sign, place });
+                        }
+                    }
+                }
+                _ => {}
+            }
+        }
+        all
     }
 
     /// The owner of each angle that a state remembers, with its place in [`State::memory`](crate::model::State::memory).

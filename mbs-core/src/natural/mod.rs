@@ -41,6 +41,7 @@ mod threaded;
 
 pub use affine::Affine;
 pub(crate) use affine::Shape;
+pub use angle_memory::RememberedAngle;
 pub use basis::INDEPENDENCE;
 pub(crate) use coordinate::{Coordinate, Places};
 pub use error::ModelError;

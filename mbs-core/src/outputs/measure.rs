@@ -95,6 +95,12 @@ impl<T: Real, const D: usize> Measures<T, D> {
         Ok(Self { channels, memory, n_values, n_components, invariant_error: T::ZERO })
     }
 
+    /// Has a state been tracked, or written?
+    #[must_use]
+    pub fn has_begun(&self) -> bool {
+        self.memory.last().is_some_and(|time| *time >= T::ZERO)
+    }
+
     /// Sets the error of the run's energy invariant that the next [`write`](Self::write) shows [J]. At first it is zero.
     pub fn set_invariant_error(&mut self, error: T) {
         self.invariant_error = error;

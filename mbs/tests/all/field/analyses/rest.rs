@@ -1,7 +1,8 @@
 //! Static equilibria: where they are, how far away, and what they leave out.
 
 use super::super::{field, read, text};
-use mbs::{Search, StaticEquilibrium};
+use crate::common::run_in;
+use mbs::{FormulationKind, Search, StaticEquilibrium};
 
 /// Ten digits: the search ends at rounding, and the stiffness of a pad is far above what rounding moves.
 const CLOSE: f64 = 1e-10;
@@ -194,5 +195,47 @@ fn a_wheel_with_a_weight_off_its_centre_rests_where_it_rolls_to() {
         let right = core::f64::consts::FRAC_PI_2;
         assert!((x - right).abs() < 1e-6 && (y - 1.0).abs() < CLOSE, "{x}, {y}");
         assert_eq!(found.unstable, Some(0));
+    }
+}
+
+/// 100 N m on 10 N m/rad: 10 rad, which is more than a turn.
+#[test]
+fn a_rest_beyond_a_turn_keeps_its_turns() {
+    let scene = |effects: &str| {
+        let text = format!(
+            "[scene]\ndimension = 2\nduration = 0.01\nstart = \"equilibrium\"\n\
+             [[body]]\nname = \"a\"\nmass = 1.0\ncenter = [0, 0]\ninertia = 0.1\n\
+             [[joint]]\nname = \"j\"\nkind = \"revolute\"\nbodies = [\"ground\", \"a\"]\nat = [0, 0]\n\
+             [[effect]]\nkind = \"torque\"\njoint = \"j\"\nvalue = 100.0\n{effects}\
+             [[output]]\nname = \"j\"\njoint = \"j\"\nquantity = \"value\"\n"
+        );
+        read(&text, "turns")
+    };
+    let spring = "[[effect]]\nkind = \"torsion-spring\"\njoint = \"j\"\nstiffness = 10.0\n";
+    let bushing = |bodies: &str| {
+        format!(
+            "[[effect]]\nkind = \"bushing\"\nbodies = {bodies}\nat = [0, 0]\nstiffness = [1e3, 1e3, 10.0]\n"
+        )
+    };
+    let sum = "[[effect]]\nkind = \"spring-damper\"\nterms = [{ joint = \"j\", factor = 1.0 }]\nstiffness = 10.0\n";
+    let wheel = "[[body]]\nname = \"b\"\nmass = 1.0\ncenter = [1, 0]\ninertia = 0.1\n\
+        [[joint]]\nname = \"k\"\nkind = \"revolute\"\nbodies = [\"ground\", \"b\"]\nat = [1, 0]\n\
+        [[coupling]]\nkind = \"gear\"\njoints = [\"j\", \"k\"]\nteeth = [20, 40]\n\
+        [[effect]]\nkind = \"torsion-spring\"\njoint = \"k\"\nstiffness = 40.0\n";
+    let all =
+        [spring, &bushing("[\"ground\", \"a\"]"), &bushing("[\"a\", \"ground\"]"), sum, wheel];
+    for effects in all {
+        let scene = scene(effects);
+        let found = StaticEquilibrium::new(&scene, Search::Down).expect("it rests");
+        let joint = found.joints[0].1[0];
+        assert!((joint - 10.0).abs() < 1e-9, "{effects}: {joint}");
+        for formulation in FormulationKind::ALL.map(FormulationKind::name) {
+            let outcome = run_in(&scene, formulation, Some(1e-3));
+            let ranges = outcome.ranges()[0];
+            assert!(
+                ranges.iter().all(|x| (x - 10.0).abs() < 1e-7),
+                "{formulation}, {effects}: {ranges:?}"
+            );
+        }
     }
 }
