@@ -58,7 +58,8 @@ fn compared(arguments: &Arguments) -> Result<Difference, Refusal> {
         let message = format!("`{}` is no name of a page", path.display());
         return Err(Refusal::new("usage", message, "give a file that ends with .html"));
     }
-    let (a, b) = (results(&arguments.a, &[])?, results(&arguments.b, &[])?);
+    let (a, mut b) = (results(&arguments.a, &[])?, results(&arguments.b, &[])?);
+    b.in_units_of(&a);
     let found = difference(&a, &b, &arguments.channel);
     let missing = |name: &&String| {
         let has = |table: &ResultTable| {

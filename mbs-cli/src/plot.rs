@@ -62,8 +62,11 @@ fn plotted(arguments: &Arguments) -> Result<String, Refusal> {
     }
     let runs: Result<Vec<_>, _> =
         arguments.runs.iter().map(|run| results(run, &arguments.set)).collect();
-    let runs: Vec<(String, ResultTable)> =
+    let mut runs: Vec<(String, ResultTable)> =
         arguments.runs.iter().map(|run| label(run)).zip(runs?).collect();
+    if let Some(((_, first), others)) = runs.split_first_mut() {
+        others.iter_mut().for_each(|(_, run)| run.in_units_of(first));
+    }
     let mut names = names(&runs, arguments.xy.as_ref().unwrap_or(&arguments.channel))?;
     if let Some(xy) = &arguments.xy {
         columns(&runs, xy)?;

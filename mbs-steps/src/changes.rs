@@ -4,6 +4,7 @@ use crate::record::{Channel, OutputChange};
 use crate::run::Outcome;
 use mbs_core::cluster::scene_length;
 use mbs_core::once::found;
+use mbs_core::outputs::in_radians;
 use mbs_core::scene::Scene;
 use mbs_core::{Real, instances};
 
@@ -85,16 +86,22 @@ impl<'a> OutputRanges<'a> {
             largest
         };
         let found: Vec<[f64; 2]> = self.parts.iter().map(extremes).collect();
-        let units: Vec<String> = self.parts.iter().map(|part| part.unit.clone()).collect();
+        // degrees count among radians
+        let of_unit = |(part, [_, size]): (&Part, &[f64; 2])| {
+            let (unit, n) = in_radians(&part.unit);
+            (unit.to_owned(), size / n)
+        };
+        let sizes: Vec<(String, f64)> = self.parts.iter().zip(&found).map(of_unit).collect();
         for (part, [range, _]) in self.parts.iter_mut().zip(&found) {
-            let same = units.iter().zip(&found).filter(|(unit, _)| **unit == part.unit);
-            let least = match part.unit.as_str() {
+            let (unit, n) = in_radians(&part.unit);
+            let same = sizes.iter().filter(|(other, _)| other == unit);
+            let least = match unit {
                 "m" => length,
                 "rad" => 1.0,
                 _ => 0.0,
             };
             part.range = *range;
-            part.floor = ROUNDING * same.map(|(_, [_, size])| *size).fold(least, f64::max);
+            part.floor = ROUNDING * (n * same.map(|(_, size)| *size).fold(least, f64::max));
         }
     }
 

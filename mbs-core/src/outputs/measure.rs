@@ -41,6 +41,8 @@ struct Recorded<T: Real, const D: usize> {
     axes: Option<OutputAxes<T, D>>,
     /// The vectors among its components whose magnitudes follow.
     vectors: Vec<Range<usize>>,
+    /// Which of its numbers are written in degrees.
+    degrees: Vec<usize>,
 }
 
 impl<T: Real, const D: usize> Recorded<T, D> {
@@ -52,6 +54,7 @@ impl<T: Real, const D: usize> Recorded<T, D> {
             n_components: components.len(),
             axes: OutputAxes::new(output, from.scene, from.model),
             vectors: vectors.into_iter().map(|vector| vector.places).collect(),
+            degrees: output.places_in_degrees(from.scene),
         }
     }
 
@@ -68,6 +71,9 @@ impl<T: Real, const D: usize> Recorded<T, D> {
         for (size, places) in sizes.iter_mut().zip(&self.vectors) {
             let square = components[places.clone()].iter().fold(T::ZERO, |sum, x| sum + *x * *x);
             *size = square.sqrt();
+        }
+        for &place in &self.degrees {
+            out[place] *= T::from_f64(180.0) / T::PI;
         }
     }
 }

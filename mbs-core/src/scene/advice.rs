@@ -51,6 +51,7 @@ impl SceneFault {
             Self::NoContact => "name a bumper, a limit or a tire",
             Self::NotATire => "name a tire, or leave the output out",
             Self::NoVector => "leave the key out, or choose a quantity with components x and y",
+            Self::NoAngle => "leave the key out, or choose an angle, its rate or its acceleration",
             Self::NoDeflection => "name a spring, a bumper, a limit or a tire",
             Self::UnknownCoordinate(_) => "count the joint's coordinates from 0",
             Self::NeedsCoordinate { .. } => "write one of these names",

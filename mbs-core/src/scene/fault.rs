@@ -84,6 +84,8 @@ pub enum SceneFault {
     NotATire,
     /// An output without a vector has no magnitude and no axes.
     NoVector,
+    /// An output without an angle has no unit of its own choice.
+    NoAngle,
     /// The coordinate is not there; the number of coordinates that the joint has.
     UnknownCoordinate(usize),
     /// The coordinate is a component of a rotation, which is no angle of its own.
@@ -287,6 +289,7 @@ impl SceneFault {
             Self::NoVector => {
                 write!(f, "the quantity has no vector, and so no magnitude and no axes")
             }
+            Self::NoAngle => write!(f, "is of angles, their rates and their accelerations alone"),
             Self::NoDeflection => {
                 write!(f, "is not known of this effect, which has neither a free value nor a gap")
             }

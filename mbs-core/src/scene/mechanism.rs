@@ -103,13 +103,16 @@ pub struct Output<T> {
     pub frame: Option<BodyId>,
     /// Has it a column with the magnitude of each of its vectors?
     pub magnitude: bool,
+    /// Are its angles in degrees: what has a unit of rad, rad/s or rad/s^2 by itself?
+    pub is_in_degrees: bool,
 }
 
 impl<T> Output<T> {
     /// An output without a name.
     #[must_use]
     pub const fn new(quantity: Quantity<T>) -> Self {
-        Self { name: String::new(), quantity, frame: None, magnitude: false }
+        let name = String::new();
+        Self { name, quantity, frame: None, magnitude: false, is_in_degrees: false }
     }
 }
 

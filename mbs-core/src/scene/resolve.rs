@@ -346,8 +346,9 @@ impl<T> RoadFeature<T> {
 
 impl<T> Output<T> {
     fn map<U>(&self, f: &mut impl FnMut(&T) -> U) -> Output<U> {
+        let Self { frame, magnitude, is_in_degrees, .. } = *self;
         let (name, quantity) = (self.name.clone(), self.quantity.map(f));
-        Output { name, quantity, frame: self.frame, magnitude: self.magnitude }
+        Output { name, quantity, frame, magnitude, is_in_degrees }
     }
 }
 

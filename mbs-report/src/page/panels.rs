@@ -5,6 +5,7 @@ use super::decimate::{envelope, kept};
 use super::motion::times_of;
 use super::pack::{Column, Pack, ends};
 use super::section::PlotFrame;
+use mbs::core::outputs::in_radians;
 use mbs::record::{ChannelSeries, DrawnForce, RunRecord};
 use serde::Serialize;
 use serde_json::{Value, json};
@@ -204,7 +205,8 @@ impl Panels {
             let columns = channel.components.iter().zip(channel.columns()).zip(&series.values);
             for ((component, column), values) in columns {
                 let range = extent(values).0;
-                let size = sizes.get(component.unit.as_str()).copied().unwrap_or(0.0);
+                let (unit, n) = in_radians(&component.unit);
+                let size = sizes.get(unit).map_or(0.0, |size| size * n);
                 if range <= STILL * size && values.len() > 1 && range.is_finite() {
                     let value = mbs_scene::format::significant(values[0]);
                     still.push(vec![column, format!("{value} {}", component.unit)]);
@@ -343,15 +345,17 @@ fn extent(values: &[f64]) -> (f64, f64) {
     ends(values).map_or((f64::INFINITY, 0.0), of)
 }
 
-/// The largest size among the channels of each unit; that of angles is at least a radian, beside which rounding is nothing.
+/// The largest size among the channels of each unit, degrees among radians; that of angles is at least a radian, beside which rounding is
+/// nothing.
 fn sizes(channels: &[ChannelSeries]) -> BTreeMap<&str, f64> {
     let mut sizes = BTreeMap::new();
     for series in channels {
         for (component, values) in series.channel.components.iter().zip(&series.values) {
             let (_, size) = extent(values);
-            let least = if component.unit == "rad" { 1.0 } else { 0.0_f64 };
-            let largest = sizes.entry(component.unit.as_str()).or_insert(least);
-            *largest = largest.max(size);
+            let (unit, n) = in_radians(&component.unit);
+            let least = if unit == "rad" { 1.0 } else { 0.0_f64 };
+            let largest = sizes.entry(unit).or_insert(least);
+            *largest = largest.max(size / n);
         }
     }
     sizes

@@ -21,7 +21,7 @@ mod table;
 mod value;
 
 pub use example::{Base, Example};
-pub(crate) use output::{FORMS, GLOBAL, ORIENTATION, OWN_BODY};
+pub(crate) use output::{DEGREES, FORMS, GLOBAL, ORIENTATION, OWN_BODY};
 pub(crate) use point::{DIRECTION, PLACE};
 pub(crate) use road::FEATURE;
 pub(crate) use scene::FILE;

@@ -19,6 +19,9 @@ pub(crate) const ORIENTATION: &str = "orientation";
 pub(crate) const GLOBAL: &str = "global";
 pub(crate) const OWN_BODY: &str = "body";
 
+/// The word for angles in degrees.
+pub(crate) const DEGREES: &str = "deg";
+
 /// What outputs are of.
 pub(super) const TARGETS: [TargetKind; 10] = [
     TargetKind::Point,
@@ -57,6 +60,8 @@ fn table(target: TargetKind) -> KeyTable {
     keys.push(frame(target));
     let magnitude = "Whether a vector has its magnitude as a column too, `NAME.abs`; a reaction `NAME.F` and `NAME.M`.";
     keys.push(may("magnitude", Flag, "", "false", magnitude));
+    let unit = "Angles, their rates and accelerations in degrees; of a quantity that has one.";
+    keys.push(may("unit", Word(vec![DEGREES]), "", "SI units", unit));
     if words.contains(&ORIENTATION) {
         let forms = FORMS.map(|(form, _)| form).to_vec();
         keys.push(may("as", Word(forms), "", "quaternion", "Form of an `orientation`."));

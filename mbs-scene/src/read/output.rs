@@ -1,6 +1,6 @@
 //! `[[output]]` and `[solver]`.
 
-use crate::keys::{FORMS, GLOBAL, ORIENTATION, OWN_BODY, of_target};
+use crate::keys::{DEGREES, FORMS, GLOBAL, ORIENTATION, OWN_BODY, of_target};
 use crate::read::ReadFault;
 use crate::read::error::OWNER;
 use crate::read::fields::{Fields, Read};
@@ -62,7 +62,12 @@ pub(crate) fn read(
     let Some(quantity) = Quantity::of(word.0, target) else { return unknown() };
     let magnitude = fields.flag("magnitude", false)?;
     let frame = fields.get("frame").map(|item| frame(fields, item, &quantity)).transpose()?;
-    Ok(Output { name: fields.name()?, quantity, frame, magnitude })
+    let unit = fields.get("unit").map(|_| fields.word("unit")).transpose()?;
+    if let Some(unit) = unit.filter(|unit| unit.0 != DEGREES) {
+        return fields.unknown_word("unit", unit, &[DEGREES]);
+    }
+    let is_in_degrees = unit.is_some();
+    Ok(Output { name: fields.name()?, quantity, frame, magnitude, is_in_degrees })
 }
 
 /// The body in whose axes an output has its components.

@@ -2,6 +2,7 @@
 
 use crate::run::Outcome;
 use core::fmt::{self, Display, Formatter};
+use mbs_core::outputs::in_radians;
 use serde_json::Value;
 use std::path::Path;
 
@@ -149,6 +150,20 @@ impl ResultTable {
             {
                 (column.peak, column.rms) = (min.abs().max(max.abs()), rms);
             }
+        }
+    }
+
+    /// Takes the units of another table where a column is in degrees in one of them and in radians in the other.
+    pub fn in_units_of(&mut self, other: &Self) {
+        for column in &mut self.columns {
+            let Some(same) = other.column(&column.name) else { continue };
+            let [(own, from), (required, to)] = [&column.unit, &same.unit].map(|x| in_radians(x));
+            if own != required || from.total_cmp(&to).is_eq() {
+                continue;
+            }
+            let numbers = column.values.iter_mut().chain([&mut column.peak, &mut column.rms]);
+            numbers.for_each(|x| *x *= to / from);
+            column.unit.clone_from(&same.unit);
         }
     }
 

@@ -15,6 +15,7 @@ mod codes;
 mod contact;
 mod control;
 mod couplings;
+mod degrees;
 mod drive_line;
 mod driven_wheels;
 mod energy;

@@ -51,6 +51,29 @@ pub fn magnitudes(components: &[Component]) -> Vec<Magnitude> {
     [("", "abs"), ("F", "F"), ("M", "M")].into_iter().filter_map(of).collect()
 }
 
+/// Units of angles, of their rates and accelerations; and the same in degrees.
+const ANGLES: [[&str; 2]; 3] = [["rad", "deg"], ["rad/s", "deg/s"], ["rad/s^2", "deg/s^2"]];
+
+/// The unit in degrees of what has a unit of rad, rad/s or rad/s^2; `None` of other units.
+pub(super) fn in_degrees(unit: &str) -> Option<&'static str> {
+    ANGLES.iter().find(|[radians, _]| *radians == unit).map(|[_, degrees]| *degrees)
+}
+
+/// The unit in radians of one in degrees, another one as it is; and how many of the given units are one of it [-].
+///
+/// Sizes of outputs in both units compare by it.
+///
+/// ```
+/// use mbs_core::outputs::in_radians;
+/// assert_eq!(in_radians("deg/s"), ("rad/s", 180.0 / core::f64::consts::PI));
+/// assert_eq!(in_radians("m"), ("m", 1.0));
+/// ```
+#[must_use]
+pub fn in_radians(unit: &str) -> (&str, f64) {
+    let found = ANGLES.iter().find(|[_, degrees]| *degrees == unit);
+    found.map_or((unit, 1.0), |[radians, _]| (*radians, 180.0 / core::f64::consts::PI))
+}
+
 /// Letters of the axes.
 const AXES: [&str; 3] = ["x", "y", "z"];
 

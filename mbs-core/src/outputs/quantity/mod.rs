@@ -11,7 +11,7 @@ mod seen;
 mod table;
 
 pub(super) use channel::Channel;
-pub use components::{Component, ComponentForm, Magnitude, magnitudes};
+pub use components::{Component, ComponentForm, Magnitude, in_radians, magnitudes};
 pub(super) use kind::{Instant, Maker};
 pub use row::{QuantityRow, RelativePoint, Target, TargetKind};
 

@@ -1,6 +1,6 @@
 //! Outputs by what they measure, and the components of a quantity.
 
-use super::components::{Component, ComponentForm, Magnitude, magnitudes};
+use super::components::{Component, ComponentForm, Magnitude, in_degrees, magnitudes};
 use super::effect_deflection::has_free_value;
 use super::{Quantity, RelativePoint, Target};
 use crate::effects::{ActsOn, Value};
@@ -13,12 +13,32 @@ use alloc::vec::Vec;
 super::list::list!(constructors);
 
 impl<T: Clone> Output<T> {
-    /// Its components in a scene: those of its quantity, then the magnitudes that it has columns for.
+    /// Its components in a scene: those of its quantity, then the magnitudes that it has columns for; in its units.
     ///
     /// # Panics
     /// As [`Quantity::components`].
     #[must_use]
     pub fn components(&self, scene: &Scene<T>) -> Vec<Component> {
+        let mut components = self.measured(scene);
+        for place in self.places_in_degrees(scene) {
+            let unit = &mut components[place].unit;
+            *unit = in_degrees(unit).unwrap_or_default().into();
+        }
+        components
+    }
+
+    /// The places of its components that it converts to degrees.
+    pub(crate) fn places_in_degrees(&self, scene: &Scene<T>) -> Vec<usize> {
+        if !self.is_in_degrees {
+            return Vec::new();
+        }
+        let components = self.measured(scene);
+        let is_angle = |place: &usize| in_degrees(&components[*place].unit).is_some();
+        (0..components.len()).filter(is_angle).collect()
+    }
+
+    /// Its components in the units in which they are measured.
+    fn measured(&self, scene: &Scene<T>) -> Vec<Component> {
         let mut components = self.quantity.components(scene);
         if self.magnitude {
             let of = |x: Magnitude| Component { label: x.label.into(), unit: x.unit };

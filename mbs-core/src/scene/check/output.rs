@@ -16,6 +16,9 @@ pub(super) fn check<T: Real>(
     if output.magnitude && magnitudes(&quantity.components(scene)).is_empty() {
         return place.fault("magnitude", SceneFault::NoVector);
     }
+    if output.is_in_degrees && output.places_in_degrees(scene).is_empty() {
+        return place.fault("unit", SceneFault::NoAngle);
+    }
     let Some(frame) = output.frame else { return Ok(()) };
     known_frame(scene, frame, ("frame", place))?;
     if magnitudes(&quantity.components(scene)).is_empty() {

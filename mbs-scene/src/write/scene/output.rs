@@ -1,7 +1,7 @@
 //! `[[output]]`.
 
 use super::{Keys, Node, WriteError, Writer};
-use crate::keys::{GLOBAL, OWN_BODY};
+use crate::keys::{DEGREES, GLOBAL, OWN_BODY};
 use mbs_core::outputs::{RelativePoint, Target};
 use mbs_core::scene::{BodyId, Number, Output};
 
@@ -48,6 +48,7 @@ impl Writer<'_> {
             keys.push("frame", self.axes(frame, output.quantity.target().own_body())?);
         }
         output.magnitude.then(|| keys.push("magnitude", Node::Bool(true)));
+        output.is_in_degrees.then(|| keys.push("unit", DEGREES));
         Ok(keys)
     }
 

@@ -3,7 +3,7 @@
 use super::{PLANAR, read, refused};
 use mbs_core::outputs::RelativePoint;
 use mbs_core::scene::*;
-use mbs_scene::SceneFile;
+use mbs_scene::{SceneFile, to_toml};
 
 const COUPLING: &str = "[[coupling]]\nname = \"mesh\"\nkind = \"gear\"\njoints = [\"pivot\", \"elbow\"]\nteeth = [40, 17]\n\
                         [[effect]]\nname = \"mount\"\nkind = \"bushing\"\nbodies = [\"ground\", \"upper\"]\nat = [0, 0]\nstiffness = [1, 1, 1]\n";
@@ -170,6 +170,42 @@ fn components_have_the_units_of_what_they_are_of() {
     assert_eq!(units(&format!("{orientation}\nas = \"rotation-vector\"")), [" rad"]);
     assert_eq!(units("effect = \"strut\"\nquantity = \"deflection\""), [" m"]);
     assert_eq!(units("joint = \"elbow\"\nquantity = \"power\""), [" W"]);
+}
+
+#[test]
+fn degrees_are_of_angles_alone() {
+    let angles = [
+        "joint = \"elbow\"",
+        "joint = \"elbow\"\nquantity = \"rate\"",
+        "body = \"lower\"\nquantity = \"angular-acceleration\"",
+        "coupling = \"mesh\"\nquantity = \"value\"",
+    ];
+    for output in angles {
+        let text = with(&format!("{output}\nunit = \"deg\""));
+        let scene = read(&text).unwrap_or_else(|e| panic!("{output}: {e}"));
+        assert!(scene.outputs.last().expect("an output").is_in_degrees, "{output}");
+        // and back
+        let file = SceneFile::parse(&text, "x.toml").expect("it reads");
+        let numbers = file.numbers().expect("it reads");
+        let again = to_toml(&numbers).expect("it is written");
+        assert!(again.contains("unit = \"deg\""), "{again}");
+        assert!(read(&again).expect("it reads back").outputs == scene.outputs);
+    }
+    let line = with("").lines().count();
+    let refusal = |output: &str| read(&with(output)).expect_err("it is refused");
+    for number in [
+        "joint = \"elbow\"\nquantity = \"reaction\"",
+        "body = \"lower\"\nat = [2, 0]",
+        "effect = \"strut\"\nquantity = \"rate\"",
+        "coupling = \"mesh\"\nquantity = \"power\"",
+    ] {
+        let n = number.lines().count();
+        let e = refusal(&format!("{number}\nunit = \"deg\""));
+        let message = "`unit` is of angles, their rates and their accelerations alone";
+        refused(&e, &format!("{}:8", line + n), message, "leave the key out");
+    }
+    let e = refusal("joint = \"elbow\"\nunit = \"degrees\"");
+    refused(&e, &format!("{}:8", line + 1), "unknown unit `degrees`", "choices: deg");
 }
 
 #[test]

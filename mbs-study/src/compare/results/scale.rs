@@ -2,6 +2,7 @@
 
 use super::data::OutputScale;
 use mbs::record::Channel;
+use mbs_core::outputs::in_radians;
 
 /// Least scale of an output, relative to the largest range of its unit [-]. Chosen, not tuned.
 pub const FLOOR: f64 = 1e-3;
@@ -37,16 +38,22 @@ pub fn output_scales(channels: &[Channel], rows: &[Vec<f64>], length: f64) -> Ve
         channels.iter().any(|channel| channel.name == scale.output && channel.is_of_run())
     };
     let judged = scales.iter().filter(|scale| !is_of_run(scale));
-    let ranges: Vec<(String, f64)> = judged.map(|s| (s.unit.clone(), s.range)).collect();
+    // degrees count among radians
+    let of_unit = |scale: &OutputScale| {
+        let (unit, n) = in_radians(&scale.unit);
+        (unit.to_owned(), scale.range / n)
+    };
+    let ranges: Vec<(String, f64)> = judged.map(of_unit).collect();
     for scale in scales.iter_mut().filter(|scale| !is_of_run(scale)) {
-        let least = match scale.unit.as_str() {
+        let (unit, n) = in_radians(&scale.unit);
+        let least = match unit {
             "m" => length,
             "rad" => 1.0,
             _ => 0.0,
         };
-        let same = ranges.iter().filter(|(unit, _)| *unit == scale.unit);
+        let same = ranges.iter().filter(|(other, _)| other == unit);
         let largest = same.fold(least, |most, (_, range)| most.max(*range));
-        let size = scale.range.max(FLOOR * largest);
+        let size = scale.range.max(FLOOR * (largest * n));
         scale.scale = (size > 0.0 && size.is_finite()).then_some(size);
     }
     scales

@@ -27,3 +27,22 @@ fn components_of_a_unit_share_the_largest_range_and_what_stands_still_has_a_floo
     assert!((largest - 0.1).abs() < 1e-12 && (rms - 0.1 / f64::sqrt(3.0)).abs() < 1e-12);
     assert!(row_distance(&scales, &rows[0], &[0.4, f64::NAN, 7.0, 9.0, 1.0])[0].is_nan());
 }
+
+#[test]
+fn degrees_have_the_scales_of_radians() {
+    let n = 180.0 / core::f64::consts::PI;
+    let both = |units: [&str; 3], n: f64| {
+        let channels = [("swing", units[0]), ("still", units[1]), ("rate", units[2])];
+        let channels = channels.map(|(name, unit)| channel(name, &[unit]));
+        output_scales(&channels, &[vec![0.0; 3], vec![4.0 * n, 0.0, 3.0]], 0.5)
+    };
+    let radians = both(["rad", "rad", "rad/s"], 1.0);
+    // one of two angles, or both
+    for (units, of_still) in [(["deg", "rad", "rad/s"], 1.0), (["deg", "deg", "rad/s"], n)] {
+        let degrees = both(units, n);
+        for (i, factor) in [n, of_still, 1.0].into_iter().enumerate() {
+            let [a, b] = [&degrees, &radians].map(|scales| scales[i].scale.expect("a size"));
+            assert!((a - factor * b).abs() <= 1e-12 * a, "{a} {b}");
+        }
+    }
+}
