@@ -1,8 +1,10 @@
 //! Every quantity that an output of a scene can have.
 
-use mbs_core::outputs::{QUANTITIES, Quantity, RelativePoint, Target, TargetKind};
+use mbs_core::outputs::{
+    QUANTITIES, Quantity, RelativePoint, Target, TargetKind, VehicleSide, WheelCarrier,
+};
 use mbs_core::scene::{
-    BodyId, CouplingId, EffectId, Inertia, JointId, Output, RollingId, Scene, SignalId,
+    BodyId, CouplingId, Dimension, EffectId, Inertia, JointId, Output, RollingId, Scene, SignalId,
 };
 
 /// All quantities of centres of mass, bodies, joints, couplings, effects and the scene, in the order of the table, but those of a run itself.
@@ -26,6 +28,16 @@ pub fn every(scene: &Scene<f64>) -> Vec<Quantity<f64>> {
             TargetKind::RelativeBody => {
                 let others = bodies().skip(1).chain(ground);
                 bodies().zip(others).map(|(a, b)| Target::RelativeBody(a.0, b.0)).collect()
+            }
+            TargetKind::WheelCarrier if scene.dimension == Dimension::Planar => Vec::new(),
+            TargetKind::WheelCarrier => {
+                let (up, forward) = ([0.0, 0.0, 1.0], [1.0, 0.0, 0.0]);
+                let of = |((body, _), (relative_to, _)): ((BodyId, _), (BodyId, [f64; 3]))| {
+                    let side = VehicleSide::Left;
+                    WheelCarrier { body, relative_to, side, up, forward, axis: None }
+                };
+                let pairs = bodies().zip(bodies().skip(1).chain(ground));
+                pairs.map(of).map(Target::WheelCarrier).collect()
             }
             TargetKind::Body => bodies().map(|(body, _)| Target::Body(body)).collect(),
             TargetKind::Joint => {

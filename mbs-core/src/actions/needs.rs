@@ -128,6 +128,9 @@ fn of_output<T: Copy>(scene: &Scene<T>, quantity: &Quantity<T>, mut take: impl F
         (Target::RelativeBody(body, other), _) => {
             [body, other].into_iter().for_each(|body| take(Need::Orientation(body)));
         }
+        (Target::WheelCarrier(of), _) => {
+            [of.body, of.relative_to].into_iter().for_each(|body| take(Need::Orientation(body)));
+        }
         (Target::Body(_), Quantity::BodyKineticEnergy { .. })
         | (Target::Joint(_), Quantity::Reaction { .. }) => {}
         (Target::Body(body), _) => take(Need::Orientation(body)),

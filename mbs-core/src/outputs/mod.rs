@@ -40,7 +40,7 @@ pub use forces::Forces;
 pub use measure::{Measures, start_values};
 pub use quantity::{
     Component, ComponentForm, Magnitude, QUANTITIES, Quantity, QuantityRow, RelativePoint, Target,
-    TargetKind, in_radians, magnitudes,
+    TargetKind, VehicleSide, WheelCarrier, in_radians, magnitudes,
 };
 pub use reaction::{LARGEST_BLOCK, Reactions};
 pub use turns::Turns;

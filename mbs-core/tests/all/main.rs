@@ -27,6 +27,7 @@ mod signals;
 mod start;
 mod sums;
 mod undetermined;
+mod wheel_angles;
 
 mod inputs {
     mod breaks;

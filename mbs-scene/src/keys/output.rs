@@ -1,9 +1,9 @@
 //! `[[output]]`, by the quantities of mbs-core.
 
 use super::table::{Key, KeyTable, listed, may, need};
-use super::value::KeyValue::{Flag, Name, Of, OfOr, Place, Word};
+use super::value::KeyValue::{Flag, Name, Of, OfOr, Place, Vector, Word};
 use super::value::Referent;
-use mbs_core::outputs::{QUANTITIES, TargetKind};
+use mbs_core::outputs::{QUANTITIES, TargetKind, VehicleSide};
 
 /// What `as` says of an orientation: the word, and the quantity that it means.
 pub(crate) const FORMS: [(&str, &str); 3] = [
@@ -23,11 +23,12 @@ pub(crate) const OWN_BODY: &str = "body";
 pub(crate) const DEGREES: &str = "deg";
 
 /// What outputs are of.
-pub(super) const TARGETS: [TargetKind; 10] = [
+pub(super) const TARGETS: [TargetKind; 11] = [
     TargetKind::Point,
     TargetKind::RelativePoint,
     TargetKind::Body,
     TargetKind::RelativeBody,
+    TargetKind::WheelCarrier,
     TargetKind::Joint,
     TargetKind::Coupling,
     TargetKind::Rolling,
@@ -100,6 +101,27 @@ fn owner(key: &'static str) -> Key {
             "its centre of mass",
             "The point of that body from which positions count.",
         ),
+        "side" => need(
+            key,
+            Word(VehicleSide::ALL.map(|(_, name)| name).to_vec()),
+            "",
+            "Where the wheel is.",
+        ),
+        "up" => may(key, Vector, "", "[0, 0, 1]", "Upwards in the vehicle, as it is drawn."),
+        "forward" => may(
+            key,
+            Vector,
+            "",
+            "[1, 0, 0]",
+            "Forward in the vehicle, as it is drawn; its part along `up` does not count.",
+        ),
+        "axis" => may(
+            key,
+            Vector,
+            "",
+            "across the vehicle; of `caster`, `up`",
+            "The wheel's axis, of `caster` the steering axis: a direction of the carrier, as it is drawn, in either sense.",
+        ),
         "joint" => need(key, Of(Referent::Joint), "", "The joint."),
         "coupling" => need(key, Of(Referent::Coupling), "", "The coupling."),
         "rolling" => need(key, Of(Referent::Rolling), "", "What rolls."),
@@ -115,6 +137,9 @@ const fn meaning(target: TargetKind) -> &'static str {
         TargetKind::RelativePoint => "A channel of a point of a body, seen from another body.",
         TargetKind::Body => "A channel of a body.",
         TargetKind::RelativeBody => "A channel of a body, seen from another body.",
+        TargetKind::WheelCarrier => {
+            "A channel of the carrier of a wheel, seen from the vehicle body: camber, toe and caster by ISO 8855. In space alone."
+        }
         TargetKind::Joint => {
             "A channel of a joint. Its reaction is what the first body does to the second."
         }

@@ -6,7 +6,9 @@ use crate::read::error::OWNER;
 use crate::read::fields::{Fields, Read};
 use crate::read::names::Names;
 use crate::read::tree::Item;
-use mbs_core::outputs::{QUANTITIES, Quantity, QuantityRow, RelativePoint, Target, TargetKind};
+use mbs_core::outputs::{
+    QUANTITIES, Quantity, QuantityRow, RelativePoint, Target, TargetKind, VehicleSide, WheelCarrier,
+};
 use mbs_core::scene::{BodyId, CouplingId, EffectId, Number, Output, RollingId, SolverTable};
 
 /// Keys that say what an output is of; one at most.
@@ -47,6 +49,10 @@ pub(crate) fn read(
         word.0 = meant;
     }
     let unknown = || {
+        let is_seen = |row: &&QuantityRow| row.has_name(word.0) && row.target.is_relative();
+        if fields.get("body").is_some() && !is_relative && QUANTITIES.iter().any(|x| is_seen(&x)) {
+            return fields.context.fault(fields.header, ReadFault::Missing { key: "relative_to" });
+        }
         let known: Vec<_> = rows.iter().map(|row| row.name).collect();
         fields.unknown_word("quantity", word, &known)
     };
@@ -122,6 +128,7 @@ fn target(
             Target::RelativePoint(RelativePoint { body, at, relative_to, origin })
         }
         TargetKind::Body => Target::Body(body()?),
+        TargetKind::WheelCarrier => Target::WheelCarrier(wheel(fields, [body()?, frame()?])?),
         TargetKind::RelativeBody => Target::RelativeBody(body()?, frame()?),
         TargetKind::Joint => Target::Joint(fields.context.joint(owner()?)?),
         TargetKind::Coupling => Target::Coupling(CouplingId::new(place(couplings, "couplings")?)),
@@ -130,6 +137,19 @@ fn target(
         TargetKind::Signal => Target::Signal(fields.context.signal(owner()?)?),
         TargetKind::Scene => Target::Scene,
     })
+}
+
+/// The carrier of a wheel, and the vehicle body.
+fn wheel(fields: &Fields<'_>, [body, relative_to]: [BodyId; 2]) -> Read<WheelCarrier<Number>> {
+    let word = fields.word("side")?;
+    let Some((side, _)) = VehicleSide::ALL.into_iter().find(|(_, name)| *name == word.0) else {
+        return fields.unknown_word("side", word, &VehicleSide::ALL.map(|(_, name)| name));
+    };
+    let or = |key, axis: [f64; 3]| {
+        fields.optional_vector(key).map(|x| x.unwrap_or(axis.map(Number::from)))
+    };
+    let (up, forward) = (or("up", [0.0, 0.0, 1.0])?, or("forward", [1.0, 0.0, 0.0])?);
+    Ok(WheelCarrier { body, relative_to, side, up, forward, axis: fields.optional_vector("axis")? })
 }
 
 pub(crate) fn read_solver(fields: &Fields<'_>) -> Read<SolverTable<Number>> {

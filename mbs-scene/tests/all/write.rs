@@ -52,6 +52,10 @@ fn every_quantity_of_the_table_reads_back_as_it_was_written() {
         let key = |key: &&str| match *key {
             "at" => "at = [1, 2, 3]\n".to_owned(),
             "origin" => "origin = [4, 5, 6]\n".to_owned(),
+            "side" => "side = \"right\"\n".to_owned(),
+            "up" => "up = [0, 1, 0]\n".to_owned(),
+            "forward" => "forward = [0, 0, 1]\n".to_owned(),
+            "axis" => "axis = [1, 0, 0.1]\n".to_owned(),
             owner => format!("{owner} = \"one\"\n"),
         };
         let keys: String = row.target.keys().iter().map(key).collect();

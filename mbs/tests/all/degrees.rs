@@ -1,7 +1,7 @@
-//! Outputs in degrees beside the same in radians: rows, statistics and units, and what stays in radians.
+//! Outputs in degrees beside the same in radians: rows, statistics and units. Angles of wheels beside rotation matrices.
 
 use crate::common::{by, run, scene};
-use mbs::core::outputs::Quantity;
+use mbs::core::outputs::{Quantity, VehicleSide, WheelCarrier};
 use mbs::core::scene::{BodyId, JointId, JointKind, Output, Scene};
 use mbs::results::{ResultTable, difference};
 use mbs::{FormulationKind, Method, Outcome};
@@ -11,6 +11,8 @@ use mbs_testkit::repository::field;
 const ROUNDING: f64 = 1e-14;
 /// The same of peaks, which are interpolated between steps [-].
 const PEAKS: f64 = 1e-12;
+/// Difference of an angle by one entry of a rotation and by all of its column [rad]: columns leave length one by the violation of steps.
+const VIOLATION: f64 = 1e-8;
 /// Degrees in a radian.
 const DEGREES: f64 = 180.0 / core::f64::consts::PI;
 
@@ -112,4 +114,43 @@ fn runs_in_degrees_and_in_radians_are_compared_in_one_unit() {
         assert!(found.is_within(ROUNDING), "{found:?}");
         assert_eq!(found.columns[0].unit, a.columns[0].unit);
     }
+}
+
+#[test]
+fn angles_of_a_wheel_are_those_of_its_rotation_in_the_vehicle_body_in_every_formulation() {
+    let base = scene("iltis-suspension");
+    let bodies = base.bodies.len();
+    let [vehicle, carrier] = [0, bodies - 1].map(BodyId::Body);
+    let (up, forward, axis) = ([0.0, 0.0, 1.0], [1.0, 0.0, 0.0], None);
+    let of = |side| WheelCarrier { body: carrier, relative_to: vehicle, side, up, forward, axis };
+    let [left, right] = [VehicleSide::Left, VehicleSide::Right].map(of);
+    let quantities = [
+        Quantity::RotationMatrix { body: vehicle },
+        Quantity::RotationMatrix { body: carrier },
+        Quantity::Camber(left),
+        Quantity::Toe(left),
+        Quantity::Caster(left),
+        Quantity::Camber(right),
+        Quantity::Toe(right),
+        Quantity::Caster(right),
+    ];
+    let scene = with(&base, &quantities, false);
+    let mut largest = 0.0_f64;
+    for formulation in FormulationKind::ALL.map(FormulationKind::name) {
+        let outcome = run(&scene, &Method { duration: Some(0.2), ..by(formulation) });
+        assert!(outcome.summary.completed, "{formulation}: {:?}", outcome.error);
+        for (t, row) in outcome.rows() {
+            let [o, b] = [&row[..9], &row[9..18]];
+            // R = R_o^T R_b, y to the left
+            let r = |i: usize, j: usize| (0..3).map(|k| o[3 * k + i] * b[3 * k + j]).sum::<f64>();
+            let (lean, turn) = (r(2, 1).asin(), (-r(0, 1)).atan2(r(1, 1)));
+            let tilt = (-r(0, 2)).atan2(r(2, 2));
+            let expected = [-lean, -turn, tilt, lean, turn, tilt];
+            for (found, expected) in row[18..].iter().zip(expected) {
+                assert!((found - expected).abs() < VIOLATION, "{formulation}, {t}: {row:?}");
+            }
+            largest = largest.max(lean.abs());
+        }
+    }
+    assert!(largest > 1e-3, "{largest}");
 }

@@ -31,6 +31,15 @@ macro_rules! list {
                 /// Angular velocity of a body against another body, in that body's axes [rad/s]; in the plane one number.
                 RelativeAngularVelocity in relative_angular_velocity;
             }
+            carrier {
+                /// Camber of a wheel, by ISO 8855 [rad]: how far its axis is from the plane across the vehicle's up, positive where the top of the
+                /// wheel leans outwards.
+                Camber in camber;
+                /// Toe of a wheel, by ISO 8855 [rad]: the turn of its axis about the vehicle's up, positive where the front of the wheel points inwards.
+                Toe in toe;
+                /// Caster of a wheel, by ISO 8855 [rad]: the lean of its steering axis as seen from the side, positive where its top leans backwards.
+                Caster in caster;
+            }
             of Body(body: BodyId) {
                 /// Angular velocity of a body [rad/s], global axes; in the plane one number. Of a thin rod that balls alone hold, the part across it.
                 AngularVelocity in angular_velocity;

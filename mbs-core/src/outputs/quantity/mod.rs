@@ -9,11 +9,12 @@ mod output;
 mod row;
 mod seen;
 mod table;
+mod wheel;
 
 pub(super) use channel::Channel;
 pub use components::{Component, ComponentForm, Magnitude, in_radians, magnitudes};
 pub(super) use kind::{Instant, Maker};
-pub use row::{QuantityRow, RelativePoint, Target, TargetKind};
+pub use row::{QuantityRow, RelativePoint, Target, TargetKind, VehicleSide, WheelCarrier};
 
 use crate::scene::{BodyId, CouplingId, EffectId, JointId, RollingId, SignalId};
 

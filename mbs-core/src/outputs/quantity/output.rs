@@ -2,7 +2,7 @@
 
 use super::components::{Component, ComponentForm, Magnitude, in_degrees, magnitudes};
 use super::effect_deflection::has_free_value;
-use super::{Quantity, RelativePoint, Target};
+use super::{Quantity, RelativePoint, Target, WheelCarrier};
 use crate::effects::{ActsOn, Value};
 use crate::scene::{
     BodyId, CouplingId, CouplingMeasure, CouplingTerm, DrawnKind, EffectId, Freedom, JointId,
@@ -104,6 +104,7 @@ impl<T: Clone> Quantity<T> {
             | Target::Body(_)
             | Target::Rolling(_)
             | Target::RelativeBody(..)
+            | Target::WheelCarrier(_)
             | Target::Scene => (&[][..], None),
         };
         form.of(scene.dimension, freedoms, measured)

@@ -14,6 +14,8 @@ pub enum Target<T> {
     Body(BodyId),
     /// A body, seen from another one.
     RelativeBody(BodyId, BodyId),
+    /// The carrier of a wheel, seen from the vehicle body.
+    WheelCarrier(WheelCarrier<T>),
     /// A joint.
     Joint(JointId),
     /// A coupling.
@@ -36,6 +38,7 @@ impl<T> Target<T> {
             Self::Point(body, _)
             | Self::RelativePoint(RelativePoint { body, .. })
             | Self::Body(body)
+            | Self::WheelCarrier(WheelCarrier { body, .. })
             | Self::RelativeBody(body, _) => Some(*body),
             Self::Joint(_)
             | Self::Coupling(_)
@@ -60,6 +63,38 @@ pub struct RelativePoint<T> {
     pub origin: [T; 3],
 }
 
+/// The carrier of a wheel, seen from the vehicle body. Directions are those of the reference configuration.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct WheelCarrier<T> {
+    /// The carrier.
+    pub body: BodyId,
+    /// The vehicle body, with which up and forward turn.
+    pub relative_to: BodyId,
+    /// Where the wheel is.
+    pub side: VehicleSide,
+    /// Upwards in the vehicle; its length does not matter.
+    pub up: [T; 3],
+    /// Forward in the vehicle; what of it is along `up` does not count.
+    pub forward: [T; 3],
+    /// A direction of the carrier, in either sense: of camber and toe the wheel's axis, of caster the steering axis; `None`: across the
+    /// vehicle, and up.
+    pub axis: Option<[T; 3]>,
+}
+
+/// A side of a vehicle, as seen by who looks forward with the head up.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum VehicleSide {
+    /// The left.
+    Left,
+    /// The right.
+    Right,
+}
+
+impl VehicleSide {
+    /// Both, with their names in scene files.
+    pub const ALL: [(Self, &'static str); 2] = [(Self::Left, "left"), (Self::Right, "right")];
+}
+
 /// What a kind of quantity is of.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum TargetKind {
@@ -71,6 +106,8 @@ pub enum TargetKind {
     Body,
     /// A body, seen from another one.
     RelativeBody,
+    /// The carrier of a wheel, seen from the vehicle body.
+    WheelCarrier,
     /// A joint.
     Joint,
     /// A coupling.
@@ -94,6 +131,7 @@ impl TargetKind {
             Self::RelativePoint => &["body", "at", "relative_to", "origin"],
             Self::Body => &["body"],
             Self::RelativeBody => &["body", "relative_to"],
+            Self::WheelCarrier => &["body", "relative_to", "side", "up", "forward", "axis"],
             Self::Joint => &["joint"],
             Self::Coupling => &["coupling"],
             Self::Rolling => &["rolling"],
@@ -108,7 +146,7 @@ impl TargetKind {
     /// Is it seen from another body?
     #[must_use]
     pub const fn is_relative(self) -> bool {
-        matches!(self, Self::RelativePoint | Self::RelativeBody)
+        matches!(self, Self::RelativePoint | Self::RelativeBody | Self::WheelCarrier)
     }
 }
 

@@ -6,6 +6,7 @@ macro_rules! quantities {
         point { $($(#[doc = $point_doc:literal])+ $Point:ident in $point:ident;)* }
         relative { $($(#[doc = $relative_doc:literal])+ $Relative:ident in $relative:ident;)* }
         turning { $($(#[doc = $turning_doc:literal])+ $Turning:ident in $turning:ident;)* }
+        carrier { $($(#[doc = $carrier_doc:literal])+ $Carrier:ident in $carrier:ident;)* }
         $(of $Target:ident($id:ident: $Id:ident) {
             $($(#[doc = $doc:literal])+ $Kind:ident in $module:ident;)*
         })*
@@ -14,6 +15,7 @@ macro_rules! quantities {
         $(mod $point;)*
         $(mod $relative;)*
         $(mod $turning;)*
+        $(mod $carrier;)*
         $($(mod $module;)*)*
         $(mod $scene;)*
 
@@ -43,6 +45,10 @@ macro_rules! quantities {
                     relative_to: BodyId,
                 },
             )*
+            $(
+                $(#[doc = $carrier_doc])+
+                $Carrier(WheelCarrier<T>),
+            )*
             $($(
                 $(#[doc = $doc])+
                 $Kind {
@@ -58,12 +64,13 @@ macro_rules! quantities {
 
         /// Every kind of quantity, in the order of the format.
         pub const QUANTITIES: &[QuantityRow] =
-            &[$($point::ROW,)* $($relative::ROW,)* $($turning::ROW,)* $($($module::ROW,)*)* $($scene::ROW,)*];
+            &[$($point::ROW,)* $($relative::ROW,)* $($turning::ROW,)* $($carrier::ROW,)* $($($module::ROW,)*)* $($scene::ROW,)*];
 
         const _: () = {
             $(assert!(matches!($point::ROW.target, TargetKind::Point));)*
             $(assert!(matches!($relative::ROW.target, TargetKind::RelativePoint));)*
             $(assert!(matches!($turning::ROW.target, TargetKind::RelativeBody));)*
+            $(assert!(matches!($carrier::ROW.target, TargetKind::WheelCarrier));)*
             $($(assert!(matches!($module::ROW.target, TargetKind::$Target));)*)*
             $(assert!(matches!($scene::ROW.target, TargetKind::Scene));)*
         };
@@ -76,6 +83,7 @@ macro_rules! quantities {
                     $(Self::$Point { .. } => &$point::ROW,)*
                     $(Self::$Relative(_) => &$relative::ROW,)*
                     $(Self::$Turning { .. } => &$turning::ROW,)*
+                    $(Self::$Carrier(_) => &$carrier::ROW,)*
                     $($(Self::$Kind { .. } => &$module::ROW,)*)*
                     $(Self::$Scene => &$scene::ROW,)*
                 }
@@ -98,6 +106,7 @@ macro_rules! quantities {
                     $(Target::RelativeBody(body, relative_to) if $turning::ROW.has_name(name) => {
                         Self::$Turning { body, relative_to }
                     })*
+                    $(Target::WheelCarrier(of) if $carrier::ROW.has_name(name) => Self::$Carrier(of),)*
                     $($(Target::$Target($id) if $module::ROW.has_name(name) => Self::$Kind { $id },)*)*
                     $(Target::Scene if $scene::ROW.has_name(name) => Self::$Scene,)*
                     _ => return None,
@@ -114,6 +123,7 @@ macro_rules! quantities {
                     $(Self::$Point { body, at } => Target::Point(*body, at.clone()),)*
                     $(Self::$Relative(of) => Target::RelativePoint(of.clone()),)*
                     $(Self::$Turning { body, relative_to } => Target::RelativeBody(*body, *relative_to),)*
+                    $(Self::$Carrier(of) => Target::WheelCarrier(of.clone()),)*
                     $($(Self::$Kind { $id } => Target::$Target(*$id),)*)*
                     $(Self::$Scene => Target::Scene,)*
                 }
@@ -134,6 +144,14 @@ macro_rules! quantities {
                     $(Self::$Turning { body, relative_to } => {
                         Quantity::$Turning { body: *body, relative_to: *relative_to }
                     })*
+                    $(Self::$Carrier(of) => Quantity::$Carrier(WheelCarrier {
+                        body: of.body,
+                        relative_to: of.relative_to,
+                        side: of.side,
+                        up: of.up.each_ref().map(&mut *f),
+                        forward: of.forward.each_ref().map(&mut *f),
+                        axis: of.axis.as_ref().map(|axis| axis.each_ref().map(f)),
+                    }),)*
                     $($(Self::$Kind { $id } => Quantity::$Kind { $id: *$id },)*)*
                     $(Self::$Scene => Quantity::$Scene,)*
                 }
@@ -148,6 +166,7 @@ macro_rules! constructors {
         point { $($(#[doc = $point_doc:literal])+ $Point:ident in $point:ident;)* }
         relative { $($(#[doc = $relative_doc:literal])+ $Relative:ident in $relative:ident;)* }
         turning { $($(#[doc = $turning_doc:literal])+ $Turning:ident in $turning:ident;)* }
+        carrier { $($(#[doc = $carrier_doc:literal])+ $Carrier:ident in $carrier:ident;)* }
         $(of $Target:ident($id:ident: $Id:ident) {
             $($(#[doc = $doc:literal])+ $Kind:ident in $module:ident;)*
         })*
@@ -177,6 +196,13 @@ macro_rules! constructors {
                     Self::new(Quantity::$Turning { body, relative_to })
                 }
             )*
+            $(
+                $(#[doc = $carrier_doc])+
+                #[must_use]
+                pub fn $carrier(of: WheelCarrier<Number>) -> Self {
+                    Self::new(Quantity::$Carrier(of))
+                }
+            )*
             $($(
                 $(#[doc = $doc])+
                 #[must_use]
@@ -201,6 +227,7 @@ macro_rules! channels {
         point { $($(#[doc = $point_doc:literal])+ $Point:ident in $point:ident;)* }
         relative { $($(#[doc = $relative_doc:literal])+ $Relative:ident in $relative:ident;)* }
         turning { $($(#[doc = $turning_doc:literal])+ $Turning:ident in $turning:ident;)* }
+        carrier { $($(#[doc = $carrier_doc:literal])+ $Carrier:ident in $carrier:ident;)* }
         $(of $Target:ident($id:ident: $Id:ident) {
             $($(#[doc = $doc:literal])+ $Kind:ident in $module:ident;)*
         })*
@@ -212,6 +239,7 @@ macro_rules! channels {
             $($Point(super::$point::$Point<T, D>),)*
             $($Relative(super::$relative::$Relative<T, D>),)*
             $($Turning(super::$turning::$Turning<T, D>),)*
+            $($Carrier(super::$carrier::$Carrier<T, D>),)*
             $($($Kind(super::$module::$Kind<T, D>),)*)*
             $($Scene(super::$scene::$Scene<T, D>),)*
         }
@@ -228,6 +256,7 @@ macro_rules! channels {
                     $(Quantity::$Turning { body, relative_to } => {
                         Self::$Turning(Measured::new([body, relative_to], from))
                     })*
+                    $(Quantity::$Carrier(of) => Self::$Carrier(Measured::new(of, from)),)*
                     $($(Quantity::$Kind { $id } => Self::$Kind(Measured::new($id, from)),)*)*
                     $(Quantity::$Scene => Self::$Scene(Measured::new((), from)),)*
                 }
@@ -238,6 +267,7 @@ macro_rules! channels {
                     $(Self::$Point(channel) => channel.write(now, out),)*
                     $(Self::$Relative(channel) => channel.write(now, out),)*
                     $(Self::$Turning(channel) => channel.write(now, out),)*
+                    $(Self::$Carrier(channel) => channel.write(now, out),)*
                     $($(Self::$Kind(channel) => channel.write(now, out),)*)*
                     $(Self::$Scene(channel) => channel.write(now, out),)*
                 }
@@ -248,6 +278,7 @@ macro_rules! channels {
                     $(Self::$Point(channel) => channel.followed(),)*
                     $(Self::$Relative(channel) => channel.followed(),)*
                     $(Self::$Turning(channel) => channel.followed(),)*
+                    $(Self::$Carrier(channel) => channel.followed(),)*
                     $($(Self::$Kind(channel) => channel.followed(),)*)*
                     $(Self::$Scene(channel) => channel.followed(),)*
                 }

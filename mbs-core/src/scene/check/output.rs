@@ -1,10 +1,10 @@
 //! Output channels: references and places.
 
 use super::reference::known_body;
-use super::vector::Place;
+use super::vector::{Place, is_parallel};
 use crate::Real;
-use crate::outputs::{Quantity, RelativePoint, Target, magnitudes};
-use crate::scene::{BodyId, Output, Scene, SceneError, SceneFault};
+use crate::outputs::{Quantity, RelativePoint, Target, WheelCarrier, magnitudes};
+use crate::scene::{BodyId, Dimension, Output, Scene, SceneError, SceneFault};
 
 pub(super) fn check<T: Real>(
     scene: &Scene<T>,
@@ -47,6 +47,7 @@ fn of_target<T: Real>(
             known_body(scene.surroundings(), body, place)?;
             known_frame(scene, relative_to, ("relative_to", place))
         }
+        Target::WheelCarrier(of) => of_wheel(scene, &of, place),
         Target::Body(body) => known_body(scene.surroundings(), body, place).map(drop),
         Target::Joint(joint) => match scene.joints.get(joint.index()) {
             None => place.fault("joint", SceneFault::UnknownReference),
@@ -82,6 +83,25 @@ fn of_target<T: Real>(
         }
         Target::Coupling(_) | Target::Rolling(_) | Target::Signal(_) | Target::Scene => Ok(()),
     }
+}
+
+/// Camber and the like are of space, about two directions that span a plane.
+fn of_wheel<T: Real>(
+    scene: &Scene<T>,
+    of: &WheelCarrier<T>,
+    place: Place,
+) -> Result<(), SceneError> {
+    if scene.dimension == Dimension::Planar {
+        return place.fault("quantity", SceneFault::NeedsSpatial);
+    }
+    known_body(scene.surroundings(), of.body, place)?;
+    known_frame(scene, of.relative_to, ("relative_to", place))?;
+    place.axis("up", of.up)?;
+    place.axis("forward", of.forward)?;
+    if is_parallel(of.up, of.forward) {
+        return place.fault("forward", SceneFault::ParallelAxes);
+    }
+    of.axis.map_or(Ok(()), |axis| place.axis("axis", axis))
 }
 
 /// A body that is there, or the ground.

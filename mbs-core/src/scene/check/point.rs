@@ -176,6 +176,7 @@ impl<T: Real> Points<'_, T> {
         match self.scene.outputs[output].quantity.target() {
             Target::RelativePoint(RelativePoint { relative_to, .. }) => relative_to != body,
             Target::RelativeBody(owner, _) => owner == body,
+            Target::WheelCarrier(of) => of.body == body,
             _ => true,
         }
     }

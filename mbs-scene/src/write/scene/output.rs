@@ -2,7 +2,7 @@
 
 use super::{Keys, Node, WriteError, Writer};
 use crate::keys::{DEGREES, GLOBAL, OWN_BODY};
-use mbs_core::outputs::{RelativePoint, Target};
+use mbs_core::outputs::{RelativePoint, Target, VehicleSide};
 use mbs_core::scene::{BodyId, Number, Output};
 
 impl Writer<'_> {
@@ -24,6 +24,17 @@ impl Writer<'_> {
             Target::RelativeBody(body, relative_to) => {
                 keys.push("body", self.body_name(body)?);
                 keys.push("relative_to", self.body_name(relative_to)?);
+            }
+            Target::WheelCarrier(of) => {
+                keys.push("body", self.body_name(of.body)?);
+                keys.push("relative_to", self.body_name(of.relative_to)?);
+                let name = VehicleSide::ALL.into_iter().find(|(side, _)| *side == of.side);
+                keys.push("side", name.map_or("left", |(_, name)| name));
+                keys.push("up", self.vector(&of.up));
+                keys.push("forward", self.vector(&of.forward));
+                if let Some(axis) = &of.axis {
+                    keys.push("axis", self.vector(axis));
+                }
             }
             Target::Joint(joint) => keys.push("joint", self.joint_name(joint)?),
             Target::Coupling(coupling) => {

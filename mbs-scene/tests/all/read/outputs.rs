@@ -98,8 +98,17 @@ fn outputs_may_be_seen_from_another_body() {
         &e,
         &format!("{}:12", line + 2),
         "unknown quantity `orientation`",
-        "choices: position, velocity, acceleration, distance, angular-velocity",
+        "choices: position, velocity, acceleration, distance, angular-velocity, camber, toe, caster",
     );
+    let e = refusal("body = \"lower\"\nquantity = \"camber\"\nside = \"left\"");
+    refused(&e, &format!("{}:1", line - 2), "`relative_to` is missing", "relative_to");
+    let e = refusal("body = \"lower\"\nrelative_to = \"upper\"\nquantity = \"toe\"");
+    refused(&e, &format!("{}:1", line - 2), "`side` is missing", "side");
+    let wheel = "body = \"lower\"\nrelative_to = \"upper\"\nquantity = \"toe\"\nside = ";
+    let e = refusal(&format!("{wheel}\"middle\""));
+    refused(&e, &format!("{}:8", line + 3), "unknown side `middle`", "choices: left, right");
+    let e = refusal(&format!("{wheel}\"left\""));
+    refused(&e, &format!("{}:12", line + 2), "`quantity` needs a spatial scene", "dimension = 3");
     let e = refusal("body = \"lower\"\nat = [2, 0]\norigin = [1, 0]");
     refused(&e, &format!("{}:1", line + 2), "`origin` has no meaning here", "keys");
 }

@@ -1,0 +1,27 @@
+//! Camber of a wheel.
+
+use super::kind::{Instant, Maker, Measured};
+use super::wheel::CarrierDirection;
+use super::{ComponentForm, QuantityRow, TargetKind, WheelCarrier};
+use crate::Real;
+
+pub(super) const ROW: QuantityRow =
+    QuantityRow::new("camber", TargetKind::WheelCarrier, ComponentForm::Number("rad"));
+
+/// The wheel's axis.
+#[derive(Debug, Clone)]
+pub(in crate::outputs) struct Camber<T: Real, const D: usize>(CarrierDirection<T, D>);
+
+impl<T: Real, const D: usize> Measured<T, D> for Camber<T, D> {
+    type Of = WheelCarrier<T>;
+
+    fn new(of: WheelCarrier<T>, from: &mut Maker<'_, T, D>) -> Self {
+        Self(CarrierDirection::new(&of, from, 1))
+    }
+
+    fn write(&self, now: &Instant<'_, T, D>, out: &mut [T]) {
+        // asin(R_zy), by its cosine too: R_zy may round above one
+        let [x, y, z] = self.0.parts(now.state);
+        out[0] = z.atan2((x * x + y * y).sqrt());
+    }
+}

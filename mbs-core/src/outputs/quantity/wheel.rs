@@ -1,0 +1,54 @@
+//! The directions of a wheel's carrier as seen from the vehicle body, by the terms of ISO 8855.
+//!
+//! ```text
+//! x forward, y inward, z up: axes that turn with the vehicle body
+//! R_xy = x.a,  R_yy = y.a,  R_zy = z.a      a: the wheel's axis, towards the vehicle's middle
+//! R_xz = x.s,  R_yz = y.s,  R_zz = z.s      s: the steering axis, upwards
+//! ```
+//!
+//! Inward is forward x up on the left, up x forward on the right: one set of formulas is of both sides. Axis and steering axis are directions
+//! of the carrier; where none is given they are y and z of the reference configuration, so that R is the rotation of the carrier in the
+//! vehicle body.
+
+use super::super::frame::{Frame, normalised};
+use super::kind::Maker;
+use super::{VehicleSide, WheelCarrier};
+use crate::Real;
+use crate::algebra::{Vector, cross};
+use crate::model::State;
+
+/// Carrier and vehicle body, and directions of both in the reference configuration.
+#[derive(Debug, Clone)]
+pub(in crate::outputs) struct CarrierDirection<T: Real, const D: usize> {
+    carrier: Frame<T, D>,
+    vehicle: Frame<T, D>,
+    /// Forward, inward and up.
+    axes: [Vector<T, 3>; 3],
+    /// Wheel's axis or steering axis.
+    direction: Vector<T, 3>,
+}
+
+impl<T: Real, const D: usize> CarrierDirection<T, D> {
+    /// With the direction that is axis number `i` of the vehicle body where none is given, and has a positive part along it.
+    pub(super) fn new(of: &WheelCarrier<T>, from: &Maker<'_, T, D>, i: usize) -> Self {
+        let [up, forward] = [of.up, of.forward].map(|x| normalised(&Vector::from(x)));
+        // what of forward is across up
+        let forward = normalised(&(forward - up * up.dot(&forward)));
+        let inward = match of.side {
+            VehicleSide::Left => cross(&forward, &up),
+            VehicleSide::Right => cross(&up, &forward),
+        };
+        let axes = [forward, inward, up];
+        let given = of.axis.map_or(axes[i], |axis| normalised(&Vector::from(axis)));
+        let direction = if given.dot(&axes[i]) < T::ZERO { -given } else { given };
+        let [carrier, vehicle] = [of.body, of.relative_to].map(|body| Frame::new(from.model, body));
+        Self { carrier, vehicle, axes, direction }
+    }
+
+    /// Its parts forward, inward and up.
+    pub(super) fn parts(&self, state: &State<T>) -> [T; 3] {
+        let now = self.carrier.rotation(&state.q) * self.direction;
+        let seen = self.vehicle.rotation(&state.q).transpose() * now;
+        self.axes.each_ref().map(|axis| axis.dot(&seen))
+    }
+}
