@@ -19,6 +19,7 @@ mod least;
 mod model;
 mod motion;
 mod moved_mass;
+mod output_table;
 mod outputs;
 mod quantities;
 mod reactions;

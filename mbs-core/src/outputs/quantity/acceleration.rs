@@ -1,12 +1,21 @@
 //! Acceleration of a material point.
 
 use super::kind::{Instant, Maker, Measured};
-use super::{ComponentForm, QuantityRow, TargetKind};
+use super::{ComponentForm, QuantityDefinition, QuantityRow, TargetKind};
 use crate::Real;
 use crate::natural::Affine;
 
-pub(super) const ROW: QuantityRow =
-    QuantityRow::new("acceleration", TargetKind::Point, ComponentForm::Vector("m/s^2"));
+pub(super) const ROW: QuantityRow = QuantityRow::new(
+    "acceleration",
+    TargetKind::Point,
+    ComponentForm::Vector("m/s^2"),
+    QuantityDefinition {
+        formula: "p''",
+        axes: "global",
+        sign: "along the axes",
+        contents: "The acceleration of the motion: zero at rest under gravity.",
+    },
+);
 
 /// The point.
 #[derive(Debug, Clone)]

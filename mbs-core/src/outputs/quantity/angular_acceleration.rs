@@ -2,12 +2,21 @@
 
 use super::super::frame::Frame;
 use super::kind::{Instant, Maker, Measured};
-use super::{ComponentForm, QuantityRow, TargetKind};
+use super::{ComponentForm, QuantityDefinition, QuantityRow, TargetKind};
 use crate::Real;
 use crate::scene::BodyId;
 
-pub(super) const ROW: QuantityRow =
-    QuantityRow::new("angular-acceleration", TargetKind::Body, ComponentForm::Axial("rad/s^2"));
+pub(super) const ROW: QuantityRow = QuantityRow::new(
+    "angular-acceleration",
+    TargetKind::Body,
+    ComponentForm::Axial("rad/s^2"),
+    QuantityDefinition {
+        formula: "ω'",
+        axes: "global",
+        sign: "right-handed; in the plane counterclockwise",
+        contents: "Of a thin rod that balls alone hold the part across it.",
+    },
+);
 
 /// The directions of the body.
 #[derive(Debug, Clone)]

@@ -2,12 +2,21 @@
 
 use super::super::inertia::{self, BodyInertia};
 use super::kind::{Instant, Maker, Measured};
-use super::{ComponentForm, QuantityRow, TargetKind};
+use super::{ComponentForm, QuantityDefinition, QuantityRow, TargetKind};
 use crate::Real;
 use alloc::vec::Vec;
 
-pub(super) const ROW: QuantityRow =
-    QuantityRow::new("angular-momentum", TargetKind::Scene, ComponentForm::Axial("kg m^2/s"));
+pub(super) const ROW: QuantityRow = QuantityRow::new(
+    "angular-momentum",
+    TargetKind::Scene,
+    ComponentForm::Axial("kg m^2/s"),
+    QuantityDefinition {
+        formula: "Σ (I ω + m (c - C) × (c' - C'))",
+        axes: "global",
+        sign: "right-handed; in the plane counterclockwise",
+        contents: "About the centre of mass of all. Without rotors.",
+    },
+);
 
 /// The bodies.
 #[derive(Debug, Clone)]

@@ -2,12 +2,22 @@
 
 use super::super::frame::Frame;
 use super::kind::{Instant, Maker, Measured};
-use super::{ComponentForm, QuantityRow, TargetKind};
+use super::{ComponentForm, QuantityDefinition, QuantityRow, TargetKind};
 use crate::Real;
 use crate::scene::BodyId;
 
-pub(super) const ROW: QuantityRow =
-    QuantityRow::new("angular-velocity", TargetKind::Body, ComponentForm::Axial("rad/s"));
+pub(super) const ROW: QuantityRow = QuantityRow::new(
+    "angular-velocity",
+    TargetKind::Body,
+    ComponentForm::Axial("rad/s"),
+    QuantityDefinition {
+        formula: "ω = 1/2 Σ u_k × u_k'",
+        axes: "global",
+        sign: "right-handed; in the plane counterclockwise",
+        contents: "u_k: the three directions of the body. Of a thin rod that balls alone \
+            hold the part across it.",
+    },
+);
 
 /// The directions of the body; of a thin rod that balls alone hold, the part across it.
 #[derive(Debug, Clone)]

@@ -2,12 +2,21 @@
 
 use super::super::inertia::BodyInertia;
 use super::kind::{Instant, Maker, Measured};
-use super::{ComponentForm, QuantityRow, TargetKind};
+use super::{ComponentForm, QuantityDefinition, QuantityRow, TargetKind};
 use crate::Real;
 use crate::scene::BodyId;
 
-pub(super) const ROW: QuantityRow =
-    QuantityRow::new("kinetic-energy", TargetKind::Body, ComponentForm::Number("J"));
+pub(super) const ROW: QuantityRow = QuantityRow::new(
+    "kinetic-energy",
+    TargetKind::Body,
+    ComponentForm::Number("J"),
+    QuantityDefinition {
+        formula: "(m c'·c' + ω·I ω)/2",
+        axes: "none: a number",
+        sign: "never negative",
+        contents: "Without rotors.",
+    },
+);
 
 /// The body; the ground has none.
 #[derive(Debug, Clone)]

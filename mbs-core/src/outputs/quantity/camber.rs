@@ -2,11 +2,20 @@
 
 use super::kind::{Instant, Maker, Measured};
 use super::wheel::CarrierDirection;
-use super::{ComponentForm, QuantityRow, TargetKind, WheelCarrier};
+use super::{ComponentForm, QuantityDefinition, QuantityRow, TargetKind, WheelCarrier};
 use crate::Real;
 
-pub(super) const ROW: QuantityRow =
-    QuantityRow::new("camber", TargetKind::WheelCarrier, ComponentForm::Number("rad"));
+pub(super) const ROW: QuantityRow = QuantityRow::new(
+    "camber",
+    TargetKind::WheelCarrier,
+    ComponentForm::Number("rad"),
+    QuantityDefinition {
+        formula: "asin R_zy",
+        axes: "x forward, y inward, z up, of the vehicle body",
+        sign: "positive: the top of the wheel leans outwards",
+        contents: "The wheel's axis in the vehicle body: a spin about it changes nothing.",
+    },
+);
 
 /// The wheel's axis.
 #[derive(Debug, Clone)]

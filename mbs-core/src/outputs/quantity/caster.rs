@@ -2,11 +2,20 @@
 
 use super::kind::{Instant, Maker, Measured};
 use super::wheel::CarrierDirection;
-use super::{ComponentForm, QuantityRow, TargetKind, WheelCarrier};
+use super::{ComponentForm, QuantityDefinition, QuantityRow, TargetKind, WheelCarrier};
 use crate::Real;
 
-pub(super) const ROW: QuantityRow =
-    QuantityRow::new("caster", TargetKind::WheelCarrier, ComponentForm::Number("rad"));
+pub(super) const ROW: QuantityRow = QuantityRow::new(
+    "caster",
+    TargetKind::WheelCarrier,
+    ComponentForm::Number("rad"),
+    QuantityDefinition {
+        formula: "atan2(-R_xz, R_zz)",
+        axes: "x forward, y inward, z up, of the vehicle body",
+        sign: "positive: the top of the steering axis leans backwards",
+        contents: "The steering axis in the vehicle body, as seen from the side.",
+    },
+);
 
 /// The steering axis.
 #[derive(Debug, Clone)]

@@ -2,12 +2,21 @@
 
 use super::super::inertia::{self, BodyInertia};
 use super::kind::{Instant, Maker, Measured};
-use super::{ComponentForm, QuantityRow, TargetKind};
+use super::{ComponentForm, QuantityDefinition, QuantityRow, TargetKind};
 use crate::Real;
 use alloc::vec::Vec;
 
-pub(super) const ROW: QuantityRow =
-    QuantityRow::new("center-of-mass", TargetKind::Scene, ComponentForm::Vector("m"));
+pub(super) const ROW: QuantityRow = QuantityRow::new(
+    "center-of-mass",
+    TargetKind::Scene,
+    ComponentForm::Vector("m"),
+    QuantityDefinition {
+        formula: "C = Σ m c/Σ m",
+        axes: "global",
+        sign: "from the origin of the scene",
+        contents: "The origin where bodies have no mass.",
+    },
+);
 
 /// The bodies.
 #[derive(Debug, Clone)]

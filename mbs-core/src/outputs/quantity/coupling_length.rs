@@ -2,12 +2,22 @@
 
 use super::super::coupled_sum::CoupledSum;
 use super::kind::{Instant, Maker, Measured};
-use super::{ComponentForm, QuantityRow, TargetKind};
+use super::{ComponentForm, QuantityDefinition, QuantityRow, TargetKind};
 use crate::Real;
 use crate::scene::CouplingId;
 
-pub(super) const ROW: QuantityRow =
-    QuantityRow::new("length", TargetKind::Coupling, ComponentForm::Length);
+pub(super) const ROW: QuantityRow = QuantityRow::new(
+    "length",
+    TargetKind::Coupling,
+    ComponentForm::Length,
+    QuantityDefinition {
+        formula: "Σ |r_(i+1) - r_i|",
+        axes: "none: a number",
+        sign: "never negative",
+        contents: "All lines of the coupling, over all their points. What a drum holds is \
+            not in it.",
+    },
+);
 
 /// The sum with the lines in it.
 #[derive(Debug, Clone)]

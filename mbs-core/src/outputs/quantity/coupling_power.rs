@@ -2,13 +2,26 @@
 
 use super::super::coupled_sum::CoupledSum;
 use super::kind::{Instant, Maker, Measured};
-use super::{ComponentForm, QuantityRow, TargetKind};
+use super::{ComponentForm, QuantityDefinition, QuantityRow, TargetKind};
 use crate::Real;
 use crate::measure::CouplingInput;
 use crate::scene::CouplingId;
 
-pub(super) const ROW: QuantityRow =
-    QuantityRow::new("power", TargetKind::Coupling, ComponentForm::Number("W")).of_reactions();
+pub(super) const ROW: QuantityRow = QuantityRow::new(
+    "power",
+    TargetKind::Coupling,
+    ComponentForm::Number("W"),
+    QuantityDefinition {
+        formula: "effort · rate",
+        axes: "none: a number",
+        sign: "positive: given by a driven coupling; passed to the part that the \
+            effort is named for",
+        contents: "Driven: λ times the rate of the sum. Gear, differential, belt, rack \
+            and screw: the effort times the rate of the first wheel, of its rim, \
+            or of the slide. Zero of others.",
+    },
+)
+.of_reactions();
 
 /// The coupling; with its sum, where that is driven, or the term that its effort does work on.
 #[derive(Debug, Clone)]

@@ -2,12 +2,21 @@
 
 use super::super::coupled_sum::CoupledSum;
 use super::kind::{Instant, Maker, Measured};
-use super::{ComponentForm, QuantityRow, TargetKind};
+use super::{ComponentForm, QuantityDefinition, QuantityRow, TargetKind};
 use crate::Real;
 use crate::scene::CouplingId;
 
-pub(super) const ROW: QuantityRow =
-    QuantityRow::new("rate", TargetKind::Coupling, ComponentForm::Measured("/s"));
+pub(super) const ROW: QuantityRow = QuantityRow::new(
+    "rate",
+    TargetKind::Coupling,
+    ComponentForm::Measured("/s"),
+    QuantityDefinition {
+        formula: "Σ c_k f_k' m_k'",
+        axes: "none: a number",
+        sign: "as the sum",
+        contents: "",
+    },
+);
 
 /// Its sum.
 #[derive(Debug, Clone)]

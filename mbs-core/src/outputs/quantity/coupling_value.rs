@@ -2,12 +2,22 @@
 
 use super::super::coupled_sum::CoupledSum;
 use super::kind::{Instant, Maker, Measured};
-use super::{ComponentForm, QuantityRow, TargetKind};
+use super::{ComponentForm, QuantityDefinition, QuantityRow, TargetKind};
 use crate::Real;
 use crate::scene::CouplingId;
 
-pub(super) const ROW: QuantityRow =
-    QuantityRow::new("value", TargetKind::Coupling, ComponentForm::Measured(""));
+pub(super) const ROW: QuantityRow = QuantityRow::new(
+    "value",
+    TargetKind::Coupling,
+    ComponentForm::Measured(""),
+    QuantityDefinition {
+        formula: "Σ c_k f_k(m_k); of a relation φ",
+        axes: "none: a number",
+        sign: "that of its factors",
+        contents: "Turns are counted. Zero, or `value` with its motion, up to the \
+            violation of constraints.",
+    },
+);
 
 /// Its sum.
 #[derive(Debug, Clone)]

@@ -2,11 +2,20 @@
 
 use super::kind::{Instant, Maker, Measured};
 use super::seen::SeenPoint;
-use super::{ComponentForm, QuantityRow, TargetKind};
+use super::{ComponentForm, QuantityDefinition, QuantityRow, TargetKind};
 use crate::Real;
 
-pub(super) const ROW: QuantityRow =
-    QuantityRow::new("distance", TargetKind::RelativePoint, ComponentForm::Number("m"));
+pub(super) const ROW: QuantityRow = QuantityRow::new(
+    "distance",
+    TargetKind::RelativePoint,
+    ComponentForm::Number("m"),
+    QuantityDefinition {
+        formula: "|p - o|",
+        axes: "none: a number",
+        sign: "never negative",
+        contents: "",
+    },
+);
 
 /// The point.
 #[derive(Debug, Clone)]

@@ -1,13 +1,24 @@
 //! Whether an effect that acts on one side only is in contact.
 
 use super::kind::{Instant, Maker, Measured};
-use super::{ComponentForm, QuantityRow, TargetKind};
+use super::{ComponentForm, QuantityDefinition, QuantityRow, TargetKind};
 use crate::Real;
 use crate::scene::EffectId;
 use core::marker::PhantomData;
 
-pub(super) const ROW: QuantityRow =
-    QuantityRow::new("contact", TargetKind::Effect, ComponentForm::Contact).of_effects();
+pub(super) const ROW: QuantityRow = QuantityRow::new(
+    "contact",
+    TargetKind::Effect,
+    ComponentForm::Contact,
+    QuantityDefinition {
+        formula: "1 where a gap is below zero, else 0",
+        axes: "none: a number",
+        sign: "none",
+        contents: "Of bumpers, limits and tires, and of lines that only pull, where they \
+            are taut.",
+    },
+)
+.of_effects();
 
 /// The effect.
 #[derive(Debug, Clone)]

@@ -1,14 +1,25 @@
 //! How far an effect is from its free value, or how deep in contact.
 
 use super::kind::{Instant, Maker, Measured};
-use super::{ComponentForm, QuantityRow, TargetKind};
+use super::{ComponentForm, QuantityDefinition, QuantityRow, TargetKind};
 use crate::Real;
 use crate::algebra::{Vector, norm};
 use crate::effects::Value;
 use crate::scene::{BodyId, EffectId, EffectKind};
 
-pub(super) const ROW: QuantityRow =
-    QuantityRow::new("deflection", TargetKind::Effect, ComponentForm::Deflection).of_effects();
+pub(super) const ROW: QuantityRow = QuantityRow::new(
+    "deflection",
+    TargetKind::Effect,
+    ComponentForm::Deflection,
+    QuantityDefinition {
+        formula: "m - free; of stops and tires the depth",
+        axes: "none: a number",
+        sign: "positive: longer than free; in contact",
+        contents: "Depth is zero out of contact. Of stops on both sides it is that of the \
+            deeper one. Zero of an effect that is switched off.",
+    },
+)
+.of_effects();
 
 /// The keys of free values.
 const FREE: [&str; 2] = ["free_length", "free_value"];

@@ -1,13 +1,24 @@
 //! Energy stored in an effect.
 
 use super::kind::{Instant, Maker, Measured};
-use super::{ComponentForm, QuantityRow, TargetKind};
+use super::{ComponentForm, QuantityDefinition, QuantityRow, TargetKind};
 use crate::Real;
 use crate::scene::EffectId;
 use core::marker::PhantomData;
 
-pub(super) const ROW: QuantityRow =
-    QuantityRow::new("energy", TargetKind::Effect, ComponentForm::Number("J")).of_effects();
+pub(super) const ROW: QuantityRow = QuantityRow::new(
+    "energy",
+    TargetKind::Effect,
+    ComponentForm::Number("J"),
+    QuantityDefinition {
+        formula: "V(m); of a constant force -F·r; of a rotor J q'^2/2",
+        axes: "none: a number",
+        sign: "as its potential",
+        contents: "What springs store, those of stops and tires among them. Dampers, \
+            friction, and forces that follow time or inputs have none.",
+    },
+)
+.of_effects();
 
 /// The effect.
 #[derive(Debug, Clone)]

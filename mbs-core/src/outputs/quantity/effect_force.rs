@@ -1,13 +1,27 @@
 //! Force of an effect.
 
 use super::kind::{Instant, Maker, Measured};
-use super::{ComponentForm, QuantityRow, TargetKind};
+use super::{ComponentForm, QuantityDefinition, QuantityRow, TargetKind};
 use crate::Real;
 use crate::scene::EffectId;
 use core::marker::PhantomData;
 
-pub(super) const ROW: QuantityRow =
-    QuantityRow::new("force", TargetKind::Effect, ComponentForm::Force).of_effects();
+pub(super) const ROW: QuantityRow = QuantityRow::new(
+    "force",
+    TargetKind::Effect,
+    ComponentForm::Force,
+    QuantityDefinition {
+        formula: "f; on bodies (F, M)",
+        axes: "of (F, M) global",
+        sign: "along a length positive: it pulls the ends together; on a joint and a \
+            sum positive against growth; (F, M) on the body, of two on the second",
+        contents: "One number where the effect measures one: the whole tension of its \
+            law, dampers included. An `actuator` or `torque` of positive value has \
+            a negative f. On bodies (force, torque, drag, tire, bushing): about \
+            the point of the effect on that body, as it has moved.",
+    },
+)
+.of_effects();
 
 /// The effect.
 #[derive(Debug, Clone)]

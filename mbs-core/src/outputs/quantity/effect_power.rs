@@ -1,13 +1,25 @@
 //! Power that an effect gives.
 
 use super::kind::{Instant, Maker, Measured};
-use super::{ComponentForm, QuantityRow, TargetKind};
+use super::{ComponentForm, QuantityDefinition, QuantityRow, TargetKind};
 use crate::Real;
 use crate::scene::EffectId;
 use core::marker::PhantomData;
 
-pub(super) const ROW: QuantityRow =
-    QuantityRow::new("power", TargetKind::Effect, ComponentForm::Number("W")).of_effects();
+pub(super) const ROW: QuantityRow = QuantityRow::new(
+    "power",
+    TargetKind::Effect,
+    ComponentForm::Number("W"),
+    QuantityDefinition {
+        formula: "-f m'; on bodies F·v + M·ω; of a rotor -J q'' q'",
+        axes: "none: a number",
+        sign: "positive: bodies get it",
+        contents: "What is stored is part of it: a spring gives as much as its energy \
+            falls. v is that of the point against the ground, also where the road \
+            moves.",
+    },
+)
+.of_effects();
 
 /// The effect.
 #[derive(Debug, Clone)]

@@ -1,13 +1,23 @@
 //! The rate of the number that an effect measures.
 
 use super::kind::{Instant, Maker, Measured};
-use super::{ComponentForm, QuantityRow, TargetKind};
+use super::{ComponentForm, QuantityDefinition, QuantityRow, TargetKind};
 use crate::Real;
 use crate::scene::EffectId;
 use core::marker::PhantomData;
 
-pub(super) const ROW: QuantityRow =
-    QuantityRow::new("rate", TargetKind::Effect, ComponentForm::Measured("/s")).of_effects();
+pub(super) const ROW: QuantityRow = QuantityRow::new(
+    "rate",
+    TargetKind::Effect,
+    ComponentForm::Measured("/s"),
+    QuantityDefinition {
+        formula: "m'",
+        axes: "none: a number",
+        sign: "as the value",
+        contents: "Zero at length zero.",
+    },
+)
+.of_effects();
 
 /// The effect.
 #[derive(Debug, Clone)]

@@ -1,15 +1,26 @@
 //! The number that an effect measures.
 
 use super::kind::{Instant, Maker, Measured};
-use super::{ComponentForm, QuantityRow, TargetKind};
+use super::{ComponentForm, QuantityDefinition, QuantityRow, TargetKind};
 use crate::Real;
 use crate::scene::EffectId;
 use core::marker::PhantomData;
 
-pub(super) const ROW: QuantityRow =
-    QuantityRow::new("value", TargetKind::Effect, ComponentForm::Measured(""))
-        .of_effects()
-        .or("length");
+pub(super) const ROW: QuantityRow = QuantityRow::new(
+    "value",
+    TargetKind::Effect,
+    ComponentForm::Measured(""),
+    QuantityDefinition {
+        formula: "m",
+        axes: "none: a number",
+        sign: "a length, or the coordinate of the joint",
+        contents: "Along a line its length over all points, with a `direction` the \
+            distance along it; on a joint its coordinate; on a sum the sum. Turns \
+            are counted.",
+    },
+)
+.of_effects()
+.or("length");
 
 /// The effect.
 #[derive(Debug, Clone)]

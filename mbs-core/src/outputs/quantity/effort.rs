@@ -1,14 +1,28 @@
 //! Effort of a coupling.
 
 use super::kind::{Instant, Maker, Measured};
-use super::{ComponentForm, QuantityRow, TargetKind};
+use super::{ComponentForm, QuantityDefinition, QuantityRow, TargetKind};
 use crate::Real;
 use crate::scene::CouplingId;
 
-pub(super) const ROW: QuantityRow =
-    QuantityRow::new("effort", TargetKind::Coupling, ComponentForm::Force)
-        .of_reactions()
-        .or("force");
+pub(super) const ROW: QuantityRow = QuantityRow::new(
+    "effort",
+    TargetKind::Coupling,
+    ComponentForm::Force,
+    QuantityDefinition {
+        formula: "λ times the factor of its kind",
+        axes: "none: a number",
+        sign: "gear, differential: torque on the first wheel along its coordinate; \
+            belt: positive where it turns the first wheel along its coordinate; \
+            rack, screw: along the slide; rope: positive where it pulls",
+        contents: "λ c_k f_k' is what acts on each term, from the balance of all bodies. \
+            Gear, differential: the torque on the first wheel. Belt: the \
+            difference of its strands. Rack, screw: the force along the slide. \
+            Rope: its tension. Others: λ. What drives teeth apart is not in it.",
+    },
+)
+.of_reactions()
+.or("force");
 
 /// The coupling, and its effort over its multiplier.
 #[derive(Debug, Clone)]

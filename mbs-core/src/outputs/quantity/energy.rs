@@ -3,13 +3,23 @@
 use super::super::inertia::{self, BodyInertia};
 use super::super::rotor::{self, RotorTorque};
 use super::kind::{Instant, Maker, Measured};
-use super::{ComponentForm, QuantityRow, TargetKind};
+use super::{ComponentForm, QuantityDefinition, QuantityRow, TargetKind};
 use crate::Real;
 use crate::algebra::Vector;
 use alloc::vec::Vec;
 
-pub(super) const ROW: QuantityRow =
-    QuantityRow::new("energy", TargetKind::Scene, ComponentForm::Number("J")).of_effects();
+pub(super) const ROW: QuantityRow = QuantityRow::new(
+    "energy",
+    TargetKind::Scene,
+    ComponentForm::Number("J"),
+    QuantityDefinition {
+        formula: "kinetic + potential energy",
+        axes: "none: a number",
+        sign: "as its parts",
+        contents: "",
+    },
+)
+.of_effects();
 
 /// The bodies, the rotors, and gravity [m/s^2].
 #[derive(Debug, Clone)]

@@ -1,12 +1,22 @@
 //! Error of the energy invariant, which the run watches from step to step.
 
 use super::kind::{Instant, Maker, Measured};
-use super::{ComponentForm, QuantityRow, TargetKind};
+use super::{ComponentForm, QuantityDefinition, QuantityRow, TargetKind};
 use crate::Real;
 use core::marker::PhantomData;
 
-pub(super) const ROW: QuantityRow =
-    QuantityRow::new("invariant-error", TargetKind::Scene, ComponentForm::Number("J")).of_the_run();
+pub(super) const ROW: QuantityRow = QuantityRow::new(
+    "invariant-error",
+    TargetKind::Scene,
+    ComponentForm::Number("J"),
+    QuantityDefinition {
+        formula: "Π(t) - Π(0), Π = T + V - W",
+        axes: "none: a number",
+        sign: "positive: energy has come from nowhere",
+        contents: "W: what dampers, motors, guides and inputs gave. Zero without a run.",
+    },
+)
+.of_the_run();
 
 /// What is handed to the measures.
 #[derive(Debug, Clone)]

@@ -2,13 +2,22 @@
 
 use super::super::coordinate::Coordinate;
 use super::kind::{Instant, Maker, Measured};
-use super::{ComponentForm, QuantityRow, TargetKind};
+use super::{ComponentForm, QuantityDefinition, QuantityRow, TargetKind};
 use crate::Real;
 use crate::scene::JointId;
 use alloc::vec::Vec;
 
-pub(super) const ROW: QuantityRow =
-    QuantityRow::new("acceleration", TargetKind::Joint, ComponentForm::Coordinates("/s^2"));
+pub(super) const ROW: QuantityRow = QuantityRow::new(
+    "acceleration",
+    TargetKind::Joint,
+    ComponentForm::Coordinates("/s^2"),
+    QuantityDefinition {
+        formula: "θ'', s''; of a ball ω_2' - ω_1'",
+        axes: "of a ball global",
+        sign: "as the coordinate",
+        contents: "",
+    },
+);
 
 /// Its coordinates.
 #[derive(Debug, Clone)]

@@ -3,14 +3,27 @@
 use super::super::coordinate::Coordinate;
 use super::super::wrench::Wrench;
 use super::kind::{Instant, Maker, Measured};
-use super::{ComponentForm, QuantityRow, TargetKind};
+use super::{ComponentForm, QuantityDefinition, QuantityRow, TargetKind};
 use crate::Real;
 use crate::algebra::Vector;
 use crate::scene::JointId;
 use alloc::vec::Vec;
 
-pub(super) const ROW: QuantityRow =
-    QuantityRow::new("effort", TargetKind::Joint, ComponentForm::Efforts).of_reactions();
+pub(super) const ROW: QuantityRow = QuantityRow::new(
+    "effort",
+    TargetKind::Joint,
+    ComponentForm::Efforts,
+    QuantityDefinition {
+        formula: "M·a, F·d; of a ball M",
+        axes: "of a ball global",
+        sign: "of the first body on the second, positive along growth of the \
+            coordinate",
+        contents: "F, M: the `reaction`; a: the axis of the coordinate; d: the slide. \
+            What a guide gives, zero of coordinates without one. Effects on the \
+            joint are not in it.",
+    },
+)
+.of_reactions();
 
 /// The joint and its coordinates.
 #[derive(Debug, Clone)]

@@ -3,12 +3,22 @@
 use super::super::coordinate::Coordinate;
 use super::joint_effort::JointEffort;
 use super::kind::{Instant, Maker, Measured};
-use super::{ComponentForm, QuantityRow, TargetKind};
+use super::{ComponentForm, QuantityDefinition, QuantityRow, TargetKind};
 use crate::Real;
 use crate::scene::JointId;
 
-pub(super) const ROW: QuantityRow =
-    QuantityRow::new("power", TargetKind::Joint, ComponentForm::Number("W")).of_reactions();
+pub(super) const ROW: QuantityRow = QuantityRow::new(
+    "power",
+    TargetKind::Joint,
+    ComponentForm::Number("W"),
+    QuantityDefinition {
+        formula: "Σ effort · rate",
+        axes: "none: a number",
+        sign: "positive: the guide gives",
+        contents: "Effects on the joint are not in it.",
+    },
+)
+.of_reactions();
 
 /// Most coordinates of a joint [-]: three slides and the three of a rotation.
 const MOST_COORDINATES: usize = 6;

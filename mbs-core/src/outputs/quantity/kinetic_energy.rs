@@ -3,12 +3,21 @@
 use super::super::inertia::{self, BodyInertia};
 use super::super::rotor::{self, RotorTorque};
 use super::kind::{Instant, Maker, Measured};
-use super::{ComponentForm, QuantityRow, TargetKind};
+use super::{ComponentForm, QuantityDefinition, QuantityRow, TargetKind};
 use crate::Real;
 use alloc::vec::Vec;
 
-pub(super) const ROW: QuantityRow =
-    QuantityRow::new("kinetic-energy", TargetKind::Scene, ComponentForm::Number("J"));
+pub(super) const ROW: QuantityRow = QuantityRow::new(
+    "kinetic-energy",
+    TargetKind::Scene,
+    ComponentForm::Number("J"),
+    QuantityDefinition {
+        formula: "Σ (m c'·c' + ω·I ω)/2 + Σ J q'^2/2",
+        axes: "none: a number",
+        sign: "never negative",
+        contents: "Bodies and rotors.",
+    },
+);
 
 /// The bodies, and the rotors.
 #[derive(Debug, Clone)]

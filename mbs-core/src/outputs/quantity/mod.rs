@@ -14,7 +14,9 @@ mod wheel;
 pub(super) use channel::Channel;
 pub use components::{Component, ComponentForm, Magnitude, in_radians, magnitudes};
 pub(super) use kind::{Instant, Maker};
-pub use row::{QuantityRow, RelativePoint, Target, TargetKind, VehicleSide, WheelCarrier};
+pub use row::{
+    QuantityDefinition, QuantityRow, RelativePoint, Target, TargetKind, VehicleSide, WheelCarrier,
+};
 
 use crate::scene::{BodyId, CouplingId, EffectId, JointId, RollingId, SignalId};
 

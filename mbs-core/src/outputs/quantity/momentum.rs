@@ -2,12 +2,21 @@
 
 use super::super::inertia::{self, BodyInertia};
 use super::kind::{Instant, Maker, Measured};
-use super::{ComponentForm, QuantityRow, TargetKind};
+use super::{ComponentForm, QuantityDefinition, QuantityRow, TargetKind};
 use crate::Real;
 use alloc::vec::Vec;
 
-pub(super) const ROW: QuantityRow =
-    QuantityRow::new("momentum", TargetKind::Scene, ComponentForm::Vector("kg m/s"));
+pub(super) const ROW: QuantityRow = QuantityRow::new(
+    "momentum",
+    TargetKind::Scene,
+    ComponentForm::Vector("kg m/s"),
+    QuantityDefinition {
+        formula: "Σ m c'",
+        axes: "global",
+        sign: "along the axes",
+        contents: "Rotors have none.",
+    },
+);
 
 /// The bodies.
 #[derive(Debug, Clone)]

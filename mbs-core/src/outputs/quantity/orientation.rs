@@ -2,12 +2,23 @@
 
 use super::super::coordinate::Coordinate;
 use super::kind::{Followed, Instant, Maker, Measured};
-use super::{ComponentForm, QuantityRow, TargetKind};
+use super::{ComponentForm, QuantityDefinition, QuantityRow, TargetKind};
 use crate::Real;
 use crate::scene::BodyId;
 
-pub(super) const ROW: QuantityRow =
-    QuantityRow::new("orientation", TargetKind::Body, ComponentForm::Orientation);
+pub(super) const ROW: QuantityRow = QuantityRow::new(
+    "orientation",
+    TargetKind::Body,
+    ComponentForm::Orientation,
+    QuantityDefinition {
+        formula: "(cos φ/2, n sin φ/2); in the plane φ",
+        axes: "global",
+        sign: "the sign of the quaternion follows from step to step; at first w is \
+            positive",
+        contents: "R is the turn by φ about n since the reference configuration. In the \
+            plane turns are counted.",
+    },
+);
 
 /// The angle or the quaternion, which is followed from step to step.
 #[derive(Debug, Clone)]

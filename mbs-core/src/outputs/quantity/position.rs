@@ -1,12 +1,22 @@
 //! Position of a material point.
 
 use super::kind::{Instant, Maker, Measured};
-use super::{ComponentForm, QuantityRow, TargetKind};
+use super::{ComponentForm, QuantityDefinition, QuantityRow, TargetKind};
 use crate::Real;
 use crate::natural::Affine;
 
-pub(super) const ROW: QuantityRow =
-    QuantityRow::new("position", TargetKind::Point, ComponentForm::Vector("m"));
+pub(super) const ROW: QuantityRow = QuantityRow::new(
+    "position",
+    TargetKind::Point,
+    ComponentForm::Vector("m"),
+    QuantityDefinition {
+        formula: "p",
+        axes: "global",
+        sign: "from the origin of the scene",
+        contents: "The point goes with its body from where it is in the reference \
+            configuration.",
+    },
+);
 
 /// The point.
 #[derive(Debug, Clone)]

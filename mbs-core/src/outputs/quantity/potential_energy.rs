@@ -2,14 +2,23 @@
 
 use super::super::inertia::{self, BodyInertia};
 use super::kind::{Instant, Maker, Measured};
-use super::{ComponentForm, QuantityRow, TargetKind};
+use super::{ComponentForm, QuantityDefinition, QuantityRow, TargetKind};
 use crate::Real;
 use crate::algebra::Vector;
 use alloc::vec::Vec;
 
-pub(super) const ROW: QuantityRow =
-    QuantityRow::new("potential-energy", TargetKind::Scene, ComponentForm::Number("J"))
-        .of_effects();
+pub(super) const ROW: QuantityRow = QuantityRow::new(
+    "potential-energy",
+    TargetKind::Scene,
+    ComponentForm::Number("J"),
+    QuantityDefinition {
+        formula: "-Σ m g·c + Σ V",
+        axes: "none: a number",
+        sign: "gravity is zero at the origin of the scene",
+        contents: "Gravity and what effects store.",
+    },
+)
+.of_effects();
 
 /// The bodies, and gravity [m/s^2].
 #[derive(Debug, Clone)]

@@ -1,13 +1,23 @@
 //! Proper acceleration of a material point: what an accelerometer there measures, in global axes.
 
 use super::kind::{Instant, Maker, Measured};
-use super::{ComponentForm, QuantityRow, TargetKind};
+use super::{ComponentForm, QuantityDefinition, QuantityRow, TargetKind};
 use crate::Real;
 use crate::algebra::{Vector, raised};
 use crate::natural::Affine;
 
-pub(super) const ROW: QuantityRow =
-    QuantityRow::new("proper-acceleration", TargetKind::Point, ComponentForm::Vector("m/s^2"));
+pub(super) const ROW: QuantityRow = QuantityRow::new(
+    "proper-acceleration",
+    TargetKind::Point,
+    ComponentForm::Vector("m/s^2"),
+    QuantityDefinition {
+        formula: "p'' - g",
+        axes: "global",
+        sign: "along the axes",
+        contents: "The reading of an accelerometer: at rest it points upwards, with the \
+            size of gravity.",
+    },
+);
 
 /// The point, and gravity [m/s^2].
 #[derive(Debug, Clone)]

@@ -2,13 +2,23 @@
 
 use super::super::coordinate::Coordinate;
 use super::kind::{Instant, Maker, Measured};
-use super::{ComponentForm, QuantityRow, TargetKind};
+use super::{ComponentForm, QuantityDefinition, QuantityRow, TargetKind};
 use crate::Real;
 use crate::scene::JointId;
 use alloc::vec::Vec;
 
-pub(super) const ROW: QuantityRow =
-    QuantityRow::new("rate", TargetKind::Joint, ComponentForm::Coordinates("/s"));
+pub(super) const ROW: QuantityRow = QuantityRow::new(
+    "rate",
+    TargetKind::Joint,
+    ComponentForm::Coordinates("/s"),
+    QuantityDefinition {
+        formula: "θ', s'; of a ball ω_2 - ω_1",
+        axes: "of a ball global",
+        sign: "as the coordinate",
+        contents: "Of a ball it is the difference of angular velocities, and not the rate \
+            of the rotation vector.",
+    },
+);
 
 /// Its coordinates.
 #[derive(Debug, Clone)]

@@ -2,11 +2,21 @@
 
 use super::kind::{Instant, Maker, Measured};
 use super::seen::SeenPoint;
-use super::{ComponentForm, QuantityRow, TargetKind};
+use super::{ComponentForm, QuantityDefinition, QuantityRow, TargetKind};
 use crate::Real;
 
-pub(super) const ROW: QuantityRow =
-    QuantityRow::new("acceleration", TargetKind::RelativePoint, ComponentForm::Vector("m/s^2"));
+pub(super) const ROW: QuantityRow = QuantityRow::new(
+    "acceleration",
+    TargetKind::RelativePoint,
+    ComponentForm::Vector("m/s^2"),
+    QuantityDefinition {
+        formula: "R_o^T (r'' - ω_o' × r - ω_o × (ω_o × r) - 2 ω_o × (r' - ω_o × r))",
+        axes: "of `relative_to`",
+        sign: "along the axes",
+        contents: "The acceleration that an observer on the other body sees: without what \
+            carries and without Coriolis.",
+    },
+);
 
 /// The point.
 #[derive(Debug, Clone)]

@@ -2,12 +2,21 @@
 
 use super::super::frame::Frame;
 use super::kind::{Instant, Maker, Measured};
-use super::{ComponentForm, QuantityRow, TargetKind};
+use super::{ComponentForm, QuantityDefinition, QuantityRow, TargetKind};
 use crate::Real;
 use crate::scene::BodyId;
 
-pub(super) const ROW: QuantityRow =
-    QuantityRow::new("angular-velocity", TargetKind::RelativeBody, ComponentForm::Axial("rad/s"));
+pub(super) const ROW: QuantityRow = QuantityRow::new(
+    "angular-velocity",
+    TargetKind::RelativeBody,
+    ComponentForm::Axial("rad/s"),
+    QuantityDefinition {
+        formula: "R_o^T (ω - ω_o)",
+        axes: "of `relative_to`",
+        sign: "right-handed; in the plane counterclockwise",
+        contents: "",
+    },
+);
 
 /// The body, and the one that it is seen from.
 #[derive(Debug, Clone)]

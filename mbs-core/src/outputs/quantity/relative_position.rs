@@ -2,11 +2,20 @@
 
 use super::kind::{Instant, Maker, Measured};
 use super::seen::SeenPoint;
-use super::{ComponentForm, QuantityRow, TargetKind};
+use super::{ComponentForm, QuantityDefinition, QuantityRow, TargetKind};
 use crate::Real;
 
-pub(super) const ROW: QuantityRow =
-    QuantityRow::new("position", TargetKind::RelativePoint, ComponentForm::Vector("m"));
+pub(super) const ROW: QuantityRow = QuantityRow::new(
+    "position",
+    TargetKind::RelativePoint,
+    ComponentForm::Vector("m"),
+    QuantityDefinition {
+        formula: "R_o^T r, r = p - o",
+        axes: "of `relative_to`",
+        sign: "from `origin` to the point",
+        contents: "",
+    },
+);
 
 /// The point.
 #[derive(Debug, Clone)]

@@ -2,11 +2,20 @@
 
 use super::kind::{Instant, Maker, Measured};
 use super::seen::SeenPoint;
-use super::{ComponentForm, QuantityRow, TargetKind};
+use super::{ComponentForm, QuantityDefinition, QuantityRow, TargetKind};
 use crate::Real;
 
-pub(super) const ROW: QuantityRow =
-    QuantityRow::new("velocity", TargetKind::RelativePoint, ComponentForm::Vector("m/s"));
+pub(super) const ROW: QuantityRow = QuantityRow::new(
+    "velocity",
+    TargetKind::RelativePoint,
+    ComponentForm::Vector("m/s"),
+    QuantityDefinition {
+        formula: "R_o^T (r' - ω_o × r)",
+        axes: "of `relative_to`",
+        sign: "along the axes",
+        contents: "The velocity that an observer on the other body sees.",
+    },
+);
 
 /// The point.
 #[derive(Debug, Clone)]

@@ -1,13 +1,24 @@
 //! Force on a body that rolls.
 
 use super::kind::{Instant, Maker, Measured};
-use super::{ComponentForm, QuantityRow, TargetKind};
+use super::{ComponentForm, QuantityDefinition, QuantityRow, TargetKind};
 use crate::Real;
 use crate::scene::RollingId;
 use core::marker::PhantomData;
 
-pub(super) const ROW: QuantityRow =
-    QuantityRow::new("force", TargetKind::Rolling, ComponentForm::Vector("N")).of_reactions();
+pub(super) const ROW: QuantityRow = QuantityRow::new(
+    "force",
+    TargetKind::Rolling,
+    ComponentForm::Vector("N"),
+    QuantityDefinition {
+        formula: "from the balance of each body, as `reaction`",
+        axes: "global",
+        sign: "of the ground, or of the other body, on what rolls",
+        contents: "At the lowest point, of a blade at its point: normal force and what \
+            hinders slip. Of dependent ones the smallest.",
+    },
+)
+.of_reactions();
 
 /// The rolling.
 #[derive(Debug, Clone)]

@@ -2,12 +2,22 @@
 
 use super::super::frame::Frame;
 use super::kind::{Instant, Maker, Measured};
-use super::{ComponentForm, QuantityRow, TargetKind};
+use super::{ComponentForm, QuantityDefinition, QuantityRow, TargetKind};
 use crate::Real;
 use crate::scene::BodyId;
 
-pub(super) const ROW: QuantityRow =
-    QuantityRow::new("rotation-matrix", TargetKind::Body, ComponentForm::Matrix);
+pub(super) const ROW: QuantityRow = QuantityRow::new(
+    "rotation-matrix",
+    TargetKind::Body,
+    ComponentForm::Matrix,
+    QuantityDefinition {
+        formula: "R_ij = e_i · u_j",
+        axes: "global",
+        sign: "the columns are the present directions of the axes of the reference \
+            configuration",
+        contents: "Row by row.",
+    },
+);
 
 /// The body.
 #[derive(Debug, Clone)]

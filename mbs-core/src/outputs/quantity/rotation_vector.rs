@@ -2,12 +2,22 @@
 
 use super::super::coordinate::Coordinate;
 use super::kind::{Followed, Instant, Maker, Measured};
-use super::{ComponentForm, QuantityRow, TargetKind};
+use super::{ComponentForm, QuantityDefinition, QuantityRow, TargetKind};
 use crate::Real;
 use crate::scene::BodyId;
 
-pub(super) const ROW: QuantityRow =
-    QuantityRow::new("rotation-vector", TargetKind::Body, ComponentForm::Axial("rad"));
+pub(super) const ROW: QuantityRow = QuantityRow::new(
+    "rotation-vector",
+    TargetKind::Body,
+    ComponentForm::Axial("rad"),
+    QuantityDefinition {
+        formula: "φ n; in the plane φ",
+        axes: "global, and the same in those of the body",
+        sign: "right-handed",
+        contents: "It grows continuously over whole turns. Its rate is the angular \
+            velocity where the axis stays.",
+    },
+);
 
 /// The vector, which is followed from step to step; in the plane the angle.
 #[derive(Debug, Clone)]

@@ -150,6 +150,19 @@ impl TargetKind {
     }
 }
 
+/// What a quantity is: docs/OUTPUTS.md is written from it, and has the letters.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct QuantityDefinition {
+    /// As it is computed.
+    pub formula: &'static str,
+    /// The axes of its components, where no `frame` is given.
+    pub axes: &'static str,
+    /// What a positive number means.
+    pub sign: &'static str,
+    /// What is in it, and what is not; empty: the formula says all.
+    pub contents: &'static str,
+}
+
 /// A kind of quantity.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
@@ -162,6 +175,8 @@ pub struct QuantityRow {
     pub target: TargetKind,
     /// Its components.
     pub components: ComponentForm,
+    /// What it is.
+    pub definition: QuantityDefinition,
     /// Is it read of reactions, which are not unique everywhere?
     pub needs_reactions: bool,
     /// Is it read of effects?
@@ -176,12 +191,14 @@ impl QuantityRow {
         name: &'static str,
         target: TargetKind,
         components: ComponentForm,
+        definition: QuantityDefinition,
     ) -> Self {
         Self {
             name,
             alias: None,
             target,
             components,
+            definition,
             needs_reactions: false,
             needs_effects: false,
             is_of_run: false,

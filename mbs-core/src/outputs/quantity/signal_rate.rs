@@ -1,13 +1,23 @@
 //! The rate of a signal.
 
 use super::kind::{Instant, Maker, Measured};
-use super::{ComponentForm, QuantityRow, TargetKind};
+use super::{ComponentForm, QuantityDefinition, QuantityRow, TargetKind};
 use crate::Real;
 use crate::scene::SignalId;
 use core::marker::PhantomData;
 
-pub(super) const ROW: QuantityRow =
-    QuantityRow::new("rate", TargetKind::Signal, ComponentForm::Measured("/s")).of_effects();
+pub(super) const ROW: QuantityRow = QuantityRow::new(
+    "rate",
+    TargetKind::Signal,
+    ComponentForm::Measured("/s"),
+    QuantityDefinition {
+        formula: "s'",
+        axes: "none: a number",
+        sign: "as the signal",
+        contents: "Zero of a measured rate and of what a controller asks for.",
+    },
+)
+.of_effects();
 
 /// The signal.
 #[derive(Debug, Clone)]

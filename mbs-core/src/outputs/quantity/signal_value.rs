@@ -1,13 +1,23 @@
 //! The value of a signal.
 
 use super::kind::{Instant, Maker, Measured};
-use super::{ComponentForm, QuantityRow, TargetKind};
+use super::{ComponentForm, QuantityDefinition, QuantityRow, TargetKind};
 use crate::Real;
 use crate::scene::SignalId;
 use core::marker::PhantomData;
 
-pub(super) const ROW: QuantityRow =
-    QuantityRow::new("value", TargetKind::Signal, ComponentForm::Measured("")).of_effects();
+pub(super) const ROW: QuantityRow = QuantityRow::new(
+    "value",
+    TargetKind::Signal,
+    ComponentForm::Measured(""),
+    QuantityDefinition {
+        formula: "s",
+        axes: "none: a number",
+        sign: "as the signal is made",
+        contents: "In the unit of what it measures or of its input, else `-`.",
+    },
+)
+.of_effects();
 
 /// The signal.
 #[derive(Debug, Clone)]

@@ -1,14 +1,24 @@
 //! Aligning torque of a tire.
 
 use super::kind::{Instant, Maker, Measured};
-use super::{ComponentForm, QuantityRow, TargetKind};
+use super::{ComponentForm, QuantityDefinition, QuantityRow, TargetKind};
 use crate::Real;
 use crate::scene::EffectId;
 use core::marker::PhantomData;
 
-pub(super) const ROW: QuantityRow =
-    QuantityRow::new("aligning-torque", TargetKind::Effect, ComponentForm::Tire("N m"))
-        .of_effects();
+pub(super) const ROW: QuantityRow = QuantityRow::new(
+    "aligning-torque",
+    TargetKind::Effect,
+    ComponentForm::Tire("N m"),
+    QuantityDefinition {
+        formula: "M_z v_x/v_e",
+        axes: "about n",
+        sign: "right-handed about n; at small slip it turns a wheel that rolls \
+            forward towards its motion",
+        contents: "The moment of the side force about the hub is not in it.",
+    },
+)
+.of_effects();
 
 /// The effect.
 #[derive(Debug, Clone)]

@@ -1,13 +1,24 @@
 //! Contact point of a tire.
 
 use super::kind::{Instant, Maker, Measured};
-use super::{ComponentForm, QuantityRow, TargetKind};
+use super::{ComponentForm, QuantityDefinition, QuantityRow, TargetKind};
 use crate::Real;
 use crate::scene::EffectId;
 use core::marker::PhantomData;
 
-pub(super) const ROW: QuantityRow =
-    QuantityRow::new("contact-point", TargetKind::Effect, ComponentForm::TirePoint).of_effects();
+pub(super) const ROW: QuantityRow = QuantityRow::new(
+    "contact-point",
+    TargetKind::Effect,
+    ComponentForm::TirePoint,
+    QuantityDefinition {
+        formula: "c - (d/cos γ) e, e = (n - (u·n) u)/cos γ",
+        axes: "global",
+        sign: "from the origin of the scene",
+        contents: "The lowest point of the disc, in its plane: c the centre, d its \
+            distance from the road. Above the road the point below it on the road.",
+    },
+)
+.of_effects();
 
 /// The effect.
 #[derive(Debug, Clone)]

@@ -1,13 +1,24 @@
 //! Load of a tire.
 
 use super::kind::{Instant, Maker, Measured};
-use super::{ComponentForm, QuantityRow, TargetKind};
+use super::{ComponentForm, QuantityDefinition, QuantityRow, TargetKind};
 use crate::Real;
 use crate::scene::EffectId;
 use core::marker::PhantomData;
 
-pub(super) const ROW: QuantityRow =
-    QuantityRow::new("load", TargetKind::Effect, ComponentForm::Tire("N")).of_effects();
+pub(super) const ROW: QuantityRow = QuantityRow::new(
+    "load",
+    TargetKind::Effect,
+    ComponentForm::Tire("N"),
+    QuantityDefinition {
+        formula: "F/cos γ, F = k x + c x', not negative",
+        axes: "along n",
+        sign: "positive: the road pushes the tire",
+        contents: "n: the road's normal. x = R - d/cos γ: how far the tire is pressed in. \
+            The damper fades in over 1 mm.",
+    },
+)
+.of_effects();
 
 /// The effect.
 #[derive(Debug, Clone)]

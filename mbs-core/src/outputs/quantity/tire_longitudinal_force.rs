@@ -1,14 +1,24 @@
 //! Force of a tire along its plane.
 
 use super::kind::{Instant, Maker, Measured};
-use super::{ComponentForm, QuantityRow, TargetKind};
+use super::{ComponentForm, QuantityDefinition, QuantityRow, TargetKind};
 use crate::Real;
 use crate::scene::EffectId;
 use core::marker::PhantomData;
 
-pub(super) const ROW: QuantityRow =
-    QuantityRow::new("longitudinal-force", TargetKind::Effect, ComponentForm::Tire("N"))
-        .of_effects();
+pub(super) const ROW: QuantityRow = QuantityRow::new(
+    "longitudinal-force",
+    TargetKind::Effect,
+    ComponentForm::Tire("N"),
+    QuantityDefinition {
+        formula: "-r load v_x/v_e + slip force",
+        axes: "along t = b × n",
+        sign: "positive along t: forward where the axis points to the left",
+        contents: "Rolling resistance and the force by slip. Rolling resistance acts at \
+            the hub, the force by slip at the radius below it.",
+    },
+)
+.of_effects();
 
 /// The effect.
 #[derive(Debug, Clone)]

@@ -1,13 +1,24 @@
 //! Side force of a tire.
 
 use super::kind::{Instant, Maker, Measured};
-use super::{ComponentForm, QuantityRow, TargetKind};
+use super::{ComponentForm, QuantityDefinition, QuantityRow, TargetKind};
 use crate::Real;
 use crate::scene::EffectId;
 use core::marker::PhantomData;
 
-pub(super) const ROW: QuantityRow =
-    QuantityRow::new("side-force", TargetKind::Effect, ComponentForm::Tire("N")).of_effects();
+pub(super) const ROW: QuantityRow = QuantityRow::new(
+    "side-force",
+    TargetKind::Effect,
+    ComponentForm::Tire("N"),
+    QuantityDefinition {
+        formula: "F_y(load, α, γ)",
+        axes: "along b",
+        sign: "positive along the axis u; at a positive slip angle it is negative",
+        contents: "b: u without its part along n. By slip angle and camber, less what \
+            sliding lengthways takes.",
+    },
+)
+.of_effects();
 
 /// The effect.
 #[derive(Debug, Clone)]

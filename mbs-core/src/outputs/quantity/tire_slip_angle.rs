@@ -1,13 +1,23 @@
 //! Slip angle of a tire.
 
 use super::kind::{Instant, Maker, Measured};
-use super::{ComponentForm, QuantityRow, TargetKind};
+use super::{ComponentForm, QuantityDefinition, QuantityRow, TargetKind};
 use crate::Real;
 use crate::scene::EffectId;
 use core::marker::PhantomData;
 
-pub(super) const ROW: QuantityRow =
-    QuantityRow::new("slip-angle", TargetKind::Effect, ComponentForm::Tire("rad")).of_effects();
+pub(super) const ROW: QuantityRow = QuantityRow::new(
+    "slip-angle",
+    TargetKind::Effect,
+    ComponentForm::Tire("rad"),
+    QuantityDefinition {
+        formula: "α = atan(v_y/v_e), v_e = √(v_x^2 + (0.1 m/s)^2)",
+        axes: "v_x along t at the hub, v_y along b at the contact point",
+        sign: "positive: the contact point slides along the axis u",
+        contents: "Zero above the road, and of a tire without a side force.",
+    },
+)
+.of_effects();
 
 /// The effect.
 #[derive(Debug, Clone)]

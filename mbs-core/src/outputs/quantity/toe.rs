@@ -2,11 +2,21 @@
 
 use super::kind::{Instant, Maker, Measured};
 use super::wheel::CarrierDirection;
-use super::{ComponentForm, QuantityRow, TargetKind, WheelCarrier};
+use super::{ComponentForm, QuantityDefinition, QuantityRow, TargetKind, WheelCarrier};
 use crate::Real;
 
-pub(super) const ROW: QuantityRow =
-    QuantityRow::new("toe", TargetKind::WheelCarrier, ComponentForm::Number("rad"));
+pub(super) const ROW: QuantityRow = QuantityRow::new(
+    "toe",
+    TargetKind::WheelCarrier,
+    ComponentForm::Number("rad"),
+    QuantityDefinition {
+        formula: "atan2(-R_xy, R_yy)",
+        axes: "x forward, y inward, z up, of the vehicle body",
+        sign: "positive: the front of the wheel points inwards",
+        contents: "The steering angle is part of it: to the left it is -toe of a left \
+            wheel, toe of a right one.",
+    },
+);
 
 /// The wheel's axis.
 #[derive(Debug, Clone)]

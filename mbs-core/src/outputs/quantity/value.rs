@@ -1,12 +1,23 @@
 //! Coordinates of a joint, which count turns.
 
 use super::kind::{Followed, Instant, Maker, Measured};
-use super::{ComponentForm, QuantityRow, TargetKind};
+use super::{ComponentForm, QuantityDefinition, QuantityRow, TargetKind};
 use crate::Real;
 use crate::scene::JointId;
 
-pub(super) const ROW: QuantityRow =
-    QuantityRow::new("value", TargetKind::Joint, ComponentForm::Coordinates(""));
+pub(super) const ROW: QuantityRow = QuantityRow::new(
+    "value",
+    TargetKind::Joint,
+    ComponentForm::Coordinates(""),
+    QuantityDefinition {
+        formula: "θ, s; of a ball φ n",
+        axes: "of a ball those of the first body",
+        sign: "the second body against the first, right-handed about the axis, \
+            positive along it",
+        contents: "Slides come before turns. Turns are counted, from `[[initial]]`, a \
+            guide or zero.",
+    },
+);
 
 /// Its coordinates, which are followed from step to step.
 #[derive(Debug, Clone)]

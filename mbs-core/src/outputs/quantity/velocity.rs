@@ -1,12 +1,16 @@
 //! Velocity of a material point.
 
 use super::kind::{Instant, Maker, Measured};
-use super::{ComponentForm, QuantityRow, TargetKind};
+use super::{ComponentForm, QuantityDefinition, QuantityRow, TargetKind};
 use crate::Real;
 use crate::natural::Affine;
 
-pub(super) const ROW: QuantityRow =
-    QuantityRow::new("velocity", TargetKind::Point, ComponentForm::Vector("m/s"));
+pub(super) const ROW: QuantityRow = QuantityRow::new(
+    "velocity",
+    TargetKind::Point,
+    ComponentForm::Vector("m/s"),
+    QuantityDefinition { formula: "p'", axes: "global", sign: "along the axes", contents: "" },
+);
 
 /// The point.
 #[derive(Debug, Clone)]
