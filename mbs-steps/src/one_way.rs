@@ -1,11 +1,12 @@
-//! Contacts that roll and would lift off, and ropes that would go slack: their rows hold both ways, and a run notes where they had to.
+//! Contacts that roll and cams that would lift off, and ropes that would go slack: their rows hold both ways, and a run notes where they
+//! had to.
 
 use crate::checkpoint::tape::{Tape, Walked};
 use crate::simulation::Simulation;
 use mbs_core::Real;
 use mbs_core::natural::NaturalModel;
 use mbs_core::outputs::Reactions;
-use mbs_core::scene::{CouplingKind, Scene};
+use mbs_core::scene::{Coupling, CouplingKind, Curve, Freedom, Scene};
 use mbs_scene::format::{few, significant};
 
 /// Force the wrong way that is noted, relative to the largest of the row so far [-]: more than steps leave of a force.
@@ -20,29 +21,38 @@ enum Row {
     Contact(usize),
     /// The rope of `scene.couplings` with this number, and the factor of its length.
     Rope(usize, f64),
+    /// The cam of `scene.couplings` with this number, and the factor of its follower: negative where the cam lifts it the other way.
+    Cam(usize, f64),
     /// The strands of the belt of `scene.couplings` with this number, and their pretension [N].
     Strands(usize, f64),
 }
 
 impl Row {
-    /// The contacts that roll, the ropes and the strands of a scene.
+    /// The contacts that roll, the ropes, the cams and the strands of a scene.
     fn all<T: Real>(scene: &Scene<T>) -> Vec<Self> {
         let rollings = scene.rollings.iter().enumerate();
         let contacts = rollings.filter(|(_, rolling)| rolling.kind.radius().is_some());
-        let ropes = scene.couplings.iter().enumerate();
-        let ropes = ropes.filter_map(|(i, coupling)| match &coupling.kind {
-            CouplingKind::Rope => Some(Self::Rope(i, coupling.line()?.factor.to_f64())),
-            CouplingKind::Strands { pretension } => Some(Self::Strands(i, pretension.to_f64())),
-            CouplingKind::General | CouplingKind::Mesh(_) => None,
+        let couplings = scene.couplings.iter().enumerate().filter_map(|(i, coupling)| {
+            Some(match (&coupling.kind, &coupling.terms[..]) {
+                (CouplingKind::Rope, _) => Self::Rope(i, coupling.line()?.factor.to_f64()),
+                (CouplingKind::Cam, [follower, shaft]) => {
+                    let is_below = shaft.curve.as_ref().is_some_and(Curve::is_below_zero);
+                    let factor = follower.factor.to_f64();
+                    Self::Cam(i, if is_below { -factor } else { factor })
+                }
+                (CouplingKind::Strands { pretension }, _) => Self::Strands(i, pretension.to_f64()),
+                _ => return None,
+            })
         });
-        contacts.map(|(i, _)| Self::Contact(i)).chain(ropes).collect()
+        contacts.map(|(i, _)| Self::Contact(i)).chain(couplings).collect()
     }
 
-    /// The force with which it holds the wrong way [N]: a contact's pull, the push of a rope or of a strand.
+    /// The force or moment with which it holds the wrong way [N, N m]: a contact's or a cam's pull, the push of a rope or of a strand.
     fn force<T: Real, const D: usize>(self, reactions: &Reactions<T, D>) -> f64 {
         match self {
             Self::Contact(rolling) => -reactions.rolling_push(rolling).to_f64(),
             Self::Rope(coupling, factor) => factor * reactions.effort(coupling).to_f64(),
+            Self::Cam(coupling, factor) => -factor * reactions.effort(coupling).to_f64(),
             Self::Strands(coupling, pretension) => {
                 0.5 * reactions.effort(coupling).to_f64().abs() - pretension
             }
@@ -98,7 +108,7 @@ impl<T: Real, const D: usize> OneWayWatch<T, D> {
         }
     }
 
-    /// Writes what is remembered, or reads it back; nothing where nothing rolls and no rope runs.
+    /// Writes what is remembered, or reads it back; nothing where nothing rolls, and no rope or cam runs.
     pub fn walk(&mut self, tape: &mut impl Tape) -> Walked {
         self.all.iter_mut().try_for_each(|held| {
             tape.option(&mut held.first, Tape::float)?;
@@ -125,8 +135,24 @@ impl<T: Real, const D: usize> OneWayWatch<T, D> {
                     scene.couplings[i].name,
                     few(pretension)
                 ),
+                Row::Cam(i, _) => {
+                    let (cam, unit) =
+                        (&scene.couplings[i], follower_unit(scene, &scene.couplings[i]));
+                    format!(
+                        "the cam `{}` pulls at t = {t} s, by up to {most} {unit}: what may lift off is a `limit` with this sum as its `terms`",
+                        cam.name
+                    )
+                }
             })
         };
         self.all.iter().filter_map(note).collect()
     }
+}
+
+/// What the follower of a cam is pushed with: a force on a slide, a moment on a turn.
+fn follower_unit<T>(scene: &Scene<T>, cam: &Coupling<T>) -> &'static str {
+    let follower = cam.terms.first().and_then(|term| term.of.coordinate());
+    let freedom = follower
+        .and_then(|(joint, number)| scene.joints[joint].kind.freedom(scene.dimension, number));
+    if matches!(freedom, Some(Freedom::Turn(_))) { "N m" } else { "N" }
 }

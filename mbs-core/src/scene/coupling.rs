@@ -55,6 +55,8 @@ pub enum CouplingKind<T> {
         /// Pull of each strand where the belt passes nothing on [N].
         pretension: T,
     },
+    /// A cam, which cannot pull its follower: a run notes where this one would have to. The terms are the follower and the shaft's curve.
+    Cam,
 }
 
 /// Where two wheels with straight teeth touch.
@@ -247,7 +249,8 @@ impl Coupling<Number> {
     pub fn cam([shaft, follower]: [JointId; 2], curve: Curve<Number>) -> Self {
         let of_shaft =
             CouplingTerm { curve: Some(curve), ..CouplingTerm::of_joint(shaft, 0, -1.0) };
-        Self::of(vec![CouplingTerm::of_joint(follower, 0, 1.0), of_shaft])
+        let terms = vec![CouplingTerm::of_joint(follower, 0, 1.0), of_shaft];
+        Self { kind: CouplingKind::Cam, ..Self::of(terms) }
     }
 
     /// The same two wheels, that touch at a pitch point [m] under a pressure angle [rad]: their bearings carry the force of the teeth.

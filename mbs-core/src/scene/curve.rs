@@ -1,5 +1,6 @@
 //! Curves: twice differentiable functions of one number.
 
+use crate::Real;
 use alloc::vec::Vec;
 
 /// A twice differentiable function.
@@ -21,4 +22,16 @@ pub enum TableEnds {
     Natural,
     /// At rest: the clamped spline, with no rate at both ends.
     Level,
+}
+
+impl<T> Curve<T> {
+    /// Is it a table of values that are zero or below, and not all zero?
+    #[must_use]
+    pub fn is_below_zero(&self) -> bool
+    where
+        T: Real,
+    {
+        let (Self::Table(rows) | Self::Periodic(rows)) = self else { return false };
+        rows.iter().all(|row| row[1] <= T::ZERO) && rows.iter().any(|row| row[1] < T::ZERO)
+    }
 }

@@ -262,6 +262,7 @@ impl<T> Coupling<T> {
                 CouplingKind::Strands { pretension } => {
                     CouplingKind::Strands { pretension: f(pretension) }
                 }
+                CouplingKind::Cam => CouplingKind::Cam,
                 CouplingKind::Mesh(Mesh { at, pressure_angle }) => {
                     CouplingKind::Mesh(Mesh { at: all(at, f), pressure_angle: f(pressure_angle) })
                 }

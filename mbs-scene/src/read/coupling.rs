@@ -79,6 +79,7 @@ pub(crate) fn read<'a>(
     let drawn = read_drawn(kind, fields)?;
     let kind = match (*kind, read_mesh(fields)?) {
         ("rope", _) => CouplingKind::Rope,
+        ("cam", _) => CouplingKind::Cam,
         (_, Some(mesh)) => CouplingKind::Mesh(mesh),
         ("belt", None) => match fields.optional("pretension")? {
             Some(pretension) => CouplingKind::Strands { pretension },

@@ -1,6 +1,6 @@
 //! `[[coupling]]`: what is drawn by its kind, everything else as the sum that it is.
 
-use super::{Keys, Node, WriteError, Writer, list};
+use super::{Keys, Node, WriteError, Writer, curve, list};
 use mbs_core::scene::{
     Coupling, CouplingKind, CouplingTerm, Drawn, DrawnKind, Freedom, JointId, Number,
 };
@@ -21,8 +21,8 @@ impl Writer<'_> {
             Some(drawn) => self.drawn(coupling, drawn)?,
             None => None,
         };
-        if let Some(drawn) = as_drawn {
-            keys.0.extend(drawn.0);
+        if let Some(written) = as_drawn.map_or_else(|| self.cam(coupling), |keys| Ok(Some(keys)))? {
+            keys.0.extend(written.0);
         } else {
             let is_rope = coupling.kind == CouplingKind::Rope;
             keys.push("kind", if is_rope { "rope" } else { "linear" });
@@ -106,6 +106,32 @@ impl Writer<'_> {
             keys.push("sense", "drawn");
         }
         Ok(written.then_some(keys))
+    }
+
+    /// The keys of a cam; `None`: it is none, or its kind has no keys for it.
+    fn cam(self, coupling: &Coupling<Number>) -> Result<Option<Keys>, WriteError> {
+        let is_cam = coupling.kind == CouplingKind::Cam && coupling.value.is_zero();
+        let [follower, shaft] = &coupling.terms[..] else { return Ok(None) };
+        let joints = [shaft, follower].map(|term| term.of.coordinate().map(|(joint, _)| joint));
+        let ([Some(turn), Some(lift)], Some(lifts)) = (joints, &shaft.curve) else {
+            return Ok(None);
+        };
+        let is_plain = follower.curve.is_none()
+            && [(follower, "1.0"), (shaft, "-1.0")]
+                .iter()
+                .all(|(term, x)| term.factor.text() == *x)
+            && [turn, lift].iter().all(|joint| {
+                let joint = self.scene.joints.get(joint.index());
+                joint.is_some_and(|joint| joint.kind.n_coordinates(self.scene.dimension) == 1)
+            });
+        if !is_cam || !is_plain || coupling.is_driven() {
+            return Ok(None);
+        }
+        let mut keys = Keys::default();
+        keys.push("kind", "cam");
+        keys.push("joints", list([self.joint_name(turn)?, self.joint_name(lift)?]));
+        curve(&mut keys, lifts);
+        Ok(Some(keys))
     }
 
     /// The terms of the sum that is drawn, in doubles; `None`: the scene is none.
