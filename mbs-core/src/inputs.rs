@@ -7,13 +7,14 @@ mod signals;
 pub use breaks::{SignalTime, SignalTimes};
 pub use feedback::Feedback;
 pub use signals::SignalGraph;
-pub(crate) use signals::curvatures;
 
 use crate::Real;
 use crate::feedback::FeedbackOperation;
 use crate::laws::guide;
-use crate::measure::TermInput;
-use crate::scene::{CouplingMeasure, Guide, JointId, Motion, NamedSignal, Signal, SignalId};
+use crate::measure::{TermInput, knots};
+use crate::scene::{
+    CouplingMeasure, Guide, Interpolation, JointId, Motion, NamedSignal, Signal, SignalId,
+};
 use crate::step::InputError;
 use alloc::vec::Vec;
 use core::ops::Range;
@@ -348,11 +349,13 @@ impl<T: Real> GuideInput<T> {
     /// Prepares a law.
     #[must_use]
     pub fn new(law: &Motion<T>) -> Self {
-        let curvature = match law {
-            Motion::Table { rows, ends } => curvatures(rows, *ends),
-            _ => Vec::new(),
+        let (way, rows, ends) = match law {
+            Motion::Table { rows, ends } => (Interpolation::Spline(*ends), rows, *ends),
+            Motion::Monotone { rows, ends } => (Interpolation::Monotone(*ends), rows, *ends),
+            _ => return Self { law: law.clone(), curvature: Vec::new(), offset: None },
         };
-        Self { law: law.clone(), curvature, offset: None }
+        let (rows, curvature) = knots(rows, way, false);
+        Self { law: Motion::Table { rows, ends }, curvature, offset: None }
     }
 
     /// The same law with `offset` added to its value.
@@ -373,7 +376,7 @@ impl<T: Real> GuideInput<T> {
         self.offset
     }
 
-    /// The law.
+    /// The law; of a table through its knots, with their [`curvature`](Self::curvature).
     #[must_use]
     pub fn law(&self) -> &Motion<T> {
         &self.law
@@ -389,7 +392,9 @@ impl<T: Real> GuideInput<T> {
     /// it begins with. Cost: one law; no allocation.
     pub fn at(&self, t: T, signals: &[[T; 3]]) -> [T; 3] {
         let m = match &self.law {
-            Motion::Table { rows, .. } => guide::spline(rows, &self.curvature, t),
+            Motion::Table { rows, .. } | Motion::Monotone { rows, .. } => {
+                guide::spline(rows, &self.curvature, t)
+            }
             Motion::Sine { amplitude, frequency, phase } => {
                 guide::sine(*amplitude, *frequency, *phase, t)
             }

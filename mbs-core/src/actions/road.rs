@@ -4,10 +4,10 @@ use super::Tables;
 use super::compile::{Compiler, part};
 use crate::Real;
 use crate::inputs::SignalInput;
+use crate::laws::Part;
 use crate::laws::road::{Feature, height};
-use crate::laws::{Part, guide};
-use crate::scene::RoadFeature;
-use alloc::vec;
+use crate::measure::knots;
+use crate::scene::{Interpolation, RoadFeature, TableEnds};
 use alloc::vec::Vec;
 
 impl<T: Real> Compiler<'_, T> {
@@ -51,19 +51,21 @@ impl<T: Real> Tables<T> {
                 RoadFeature::Bump { start, length, amplitude } => {
                     Feature::Bump { start: *start, length: *length, amplitude: *amplitude }
                 }
-                RoadFeature::Table(points) => self.spline(points),
+                RoadFeature::Table(points) => {
+                    self.spline(points, Interpolation::Spline(TableEnds::Natural))
+                }
+                RoadFeature::Shaped { points, shape } => self.spline(points, (*shape).into()),
             };
             self.features.push(feature);
         }
         part(first, self.features.len())
     }
 
-    fn spline(&mut self, points: &[[T; 2]]) -> Feature<T> {
+    fn spline(&mut self, points: &[[T; 2]], way: Interpolation) -> Feature<T> {
         let first = self.knots.len();
-        self.knots.extend_from_slice(points);
-        self.curvatures.resize(self.knots.len(), T::ZERO);
-        let scratch = &mut vec![T::ZERO; points.len()];
-        guide::spline_curvatures(points, &mut self.curvatures[first..], scratch);
+        let (knots, curvatures) = knots(points, way, false);
+        self.knots.extend(knots);
+        self.curvatures.extend(curvatures);
         Feature::Spline(part(first, self.knots.len()))
     }
 }

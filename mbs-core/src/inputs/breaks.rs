@@ -98,8 +98,8 @@ fn of_signals<T: Real>(signals: &SignalGraph<T>) -> impl Iterator<Item = Times<T
             let (ends, is_jump) =
                 ([rows.first()?[0], rows.last()?[0]], *interpolation == Interpolation::Hold);
             let times = match interpolation {
-                Interpolation::Spline(_) if *periodic => return None,
-                Interpolation::Spline(_) => ends.to_vec(),
+                Interpolation::Spline(_) | Interpolation::Monotone(_) if *periodic => return None,
+                Interpolation::Spline(_) | Interpolation::Monotone(_) => ends.to_vec(),
                 // the last row is the first of the next period
                 _ if *periodic => rows.iter().rev().skip(1).rev().map(|row| row[0]).collect(),
                 Interpolation::Linear => corners(rows, |row| (row[0], [row[1], T::ZERO, T::ZERO])),

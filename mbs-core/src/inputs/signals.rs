@@ -13,9 +13,7 @@ use crate::Real;
 use crate::feedback::{FeedbackOperation, NO_STATE, chain, clamp, product};
 use crate::laws::guide;
 use crate::measure::{PreparedCurve, TermInput, within};
-use crate::scene::{
-    Curve, Interpolation, NamedSignal, SignalId, SignalKind, TableEnds, first_of, signal_order,
-};
+use crate::scene::{Interpolation, NamedSignal, SignalId, SignalKind, first_of, signal_order};
 use alloc::vec;
 use alloc::vec::Vec;
 
@@ -135,29 +133,15 @@ impl<T: Real> SignalGraph<T> {
     }
 }
 
-/// The spline of a table, or the function of a curve.
+/// The function of a smooth table or of a curve.
 fn curve<T: Real>(kind: &SignalKind<T>) -> PreparedCurve<T> {
     match kind {
         SignalKind::Curve { curve, .. } => PreparedCurve::new(Some(curve)),
-        SignalKind::Table { rows, interpolation: Interpolation::Spline(ends), periodic } => {
-            if *periodic {
-                return PreparedCurve::new(Some(&Curve::Periodic(rows.clone())));
-            }
-            let curvature = curvatures(rows, *ends);
-            PreparedCurve::Spline { knots: rows.clone(), curvature, period: T::ZERO }
+        SignalKind::Table { rows, interpolation, periodic } if interpolation.ends().is_some() => {
+            PreparedCurve::table(rows, *interpolation, *periodic)
         }
         _ => PreparedCurve::Identity,
     }
-}
-
-/// Second derivatives at the knots of a spline.
-pub(crate) fn curvatures<T: Real>(rows: &[[T; 2]], ends: TableEnds) -> Vec<T> {
-    let (mut curvature, mut scratch) = (vec![T::ZERO; rows.len()], vec![T::ZERO; rows.len()]);
-    match ends {
-        TableEnds::Natural => guide::spline_curvatures(rows, &mut curvature, &mut scratch),
-        TableEnds::Level => guide::level_curvatures(rows, &mut curvature, &mut scratch),
-    }
-    curvature
 }
 
 /// The value of a signal among those of all; zero where there is none.
@@ -175,7 +159,7 @@ impl<T: Real> Node<T> {
                 held(inputs.get(self.input).copied().unwrap_or(*value))
             }
             SignalKind::Table { rows, interpolation, periodic } => match interpolation {
-                Interpolation::Spline(_) => self.curve.at(t),
+                Interpolation::Spline(_) | Interpolation::Monotone(_) => self.curve.at(t),
                 way => pieces(rows, (*way == Interpolation::Hold, *periodic), t),
             },
             SignalKind::Sine { amplitude, frequency, phase, offset } => {

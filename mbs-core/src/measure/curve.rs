@@ -110,13 +110,16 @@ fn taken_into<T: Real>(x: T, first: T, period: T) -> T {
 
 #[cfg(feature = "alloc")]
 pub use prepared::PreparedCurve;
+#[cfg(feature = "alloc")]
+pub(crate) use prepared::knots;
 
 #[cfg(feature = "alloc")]
 mod prepared {
     use super::{polynomial, polynomial_change, spline_change, spline_curve};
     use crate::Real;
     use crate::laws::guide;
-    use crate::scene::Curve;
+    use crate::measure::monotone::monotone;
+    use crate::scene::{Curve, Interpolation, TableEnds};
     use alloc::vec;
     use alloc::vec::Vec;
 
@@ -145,23 +148,25 @@ mod prepared {
             match curve {
                 None => Self::Identity,
                 Some(Curve::Polynomial(coefficients)) => Self::Polynomial(coefficients.clone()),
-                Some(Curve::Table(knots)) => {
-                    let mut curvature = vec![T::ZERO; knots.len()];
-                    let mut scratch = vec![T::ZERO; knots.len()];
-                    guide::spline_curvatures(knots, &mut curvature, &mut scratch);
-                    Self::Spline { knots: knots.clone(), curvature, period: T::ZERO }
-                }
-                Some(Curve::Periodic(knots)) => {
-                    let curvature = periodic_curvatures(knots);
-                    let ends = [knots.first(), knots.last()];
-                    let period = if let [Some(first), Some(last)] = ends {
-                        last[0] - first[0]
-                    } else {
-                        T::ZERO
-                    };
-                    Self::Spline { knots: knots.clone(), curvature, period }
+                Some(Curve::Table(rows)) => Self::table(rows, SPLINE, false),
+                Some(Curve::Periodic(rows)) => Self::table(rows, SPLINE, true),
+                Some(Curve::Shaped { rows, shape, periodic }) => {
+                    Self::table(rows, (*shape).into(), *periodic)
                 }
             }
+        }
+
+        /// Prepares a table; one that is held is taken as straight between its rows.
+        ///
+        /// Cost: one tridiagonal elimination.
+        #[must_use]
+        pub fn table(rows: &[[T; 2]], way: Interpolation, is_periodic: bool) -> Self {
+            let period = match rows {
+                [first, .., last] if is_periodic => last[0] - first[0],
+                _ => T::ZERO,
+            };
+            let (knots, curvature) = knots(rows, way, is_periodic);
+            Self::Spline { knots, curvature, period }
         }
 
         /// f, f' and f'' at `x`.
@@ -192,6 +197,32 @@ mod prepared {
         #[must_use]
         pub const fn is_identity(&self) -> bool {
             matches!(self, Self::Identity)
+        }
+    }
+
+    /// A natural spline.
+    const SPLINE: Interpolation = Interpolation::Spline(TableEnds::Natural);
+
+    /// Knots and second derivatives of the piecewise cubic function of a table, as [`guide::spline`] takes them.
+    pub(crate) fn knots<T: Real>(
+        rows: &[[T; 2]],
+        way: Interpolation,
+        is_periodic: bool,
+    ) -> (Vec<[T; 2]>, Vec<T>) {
+        let mut curvature = vec![T::ZERO; rows.len()];
+        let Some(ends) = way.ends() else { return (rows.to_vec(), curvature) };
+        if is_periodic {
+            curvature = periodic_curvatures(rows);
+        } else {
+            let mut scratch = vec![T::ZERO; rows.len()];
+            match ends {
+                TableEnds::Natural => guide::spline_curvatures(rows, &mut curvature, &mut scratch),
+                TableEnds::Level => guide::level_curvatures(rows, &mut curvature, &mut scratch),
+            }
+        }
+        match way {
+            Interpolation::Monotone(_) => monotone(rows, curvature, is_periodic),
+            _ => (rows.to_vec(), curvature),
         }
     }
 

@@ -14,6 +14,8 @@ mod given;
 #[cfg(feature = "alloc")]
 mod mesh;
 #[cfg(feature = "alloc")]
+mod monotone;
+#[cfg(feature = "alloc")]
 mod rolling;
 #[cfg(feature = "alloc")]
 mod rotor;
@@ -30,7 +32,7 @@ pub use coupling::CouplingInput;
 #[cfg(feature = "alloc")]
 pub use curve::PreparedCurve;
 #[cfg(feature = "alloc")]
-pub(crate) use curve::within;
+pub(crate) use curve::{knots, within};
 pub use curve::{polynomial, polynomial_change, spline_change, spline_curve};
 #[cfg(feature = "alloc")]
 pub use given::given_values;

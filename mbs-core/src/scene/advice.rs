@@ -86,6 +86,7 @@ impl SceneFault {
             Self::NoCarrier { .. } => "add that joint, or write the sum as `linear`",
             Self::PressureAngle(_) => "write it in radians: 20 degrees are 0.349",
             Self::PeriodicEnds(_) => "end the table with the value that it begins with",
+            Self::LinearTable => "write \"monotone\": it is smooth, and stays between its rows",
             Self::SumAtStart(_) => {
                 "change one of the initial values, or leave it out: the others determine it"
             }

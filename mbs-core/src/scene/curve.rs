@@ -1,9 +1,9 @@
-//! Curves: twice differentiable functions of one number.
+//! Curves, functions of one number, and how tables go between their rows.
 
 use crate::Real;
 use alloc::vec::Vec;
 
-/// A twice differentiable function.
+/// A function of one number.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Curve<T> {
     /// The natural cubic spline through (x, f); the end values are held outside.
@@ -12,9 +12,38 @@ pub enum Curve<T> {
     Periodic(Vec<[T; 2]>),
     /// c0 + c1 x + c2 x^2 + ...
     Polynomial(Vec<T>),
+    /// Through (x, f) without a spline.
+    Shaped {
+        /// The rows (x, f).
+        rows: Vec<[T; 2]>,
+        /// How it goes between them.
+        shape: CurveShape,
+        /// Does it repeat? Its last value is then its first.
+        periodic: bool,
+    },
 }
 
-/// How the spline of a table begins and ends.
+/// How a table goes between its rows that is no spline.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum CurveShape {
+    /// Twice differentiable, between the values of the neighbouring rows.
+    Monotone,
+    /// Straight.
+    Linear,
+}
+
+impl CurveShape {
+    /// Its name in scene files.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Monotone => "monotone",
+            Self::Linear => "linear",
+        }
+    }
+}
+
+/// How a spline or a monotone table begins and ends.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum TableEnds {
     /// Without curvature: the natural spline, which ends on a slope.
@@ -31,7 +60,15 @@ impl<T> Curve<T> {
     where
         T: Real,
     {
-        let (Self::Table(rows) | Self::Periodic(rows)) = self else { return false };
+        let (Self::Table(rows) | Self::Periodic(rows) | Self::Shaped { rows, .. }) = self else {
+            return false;
+        };
         rows.iter().all(|row| row[1] <= T::ZERO) && rows.iter().any(|row| row[1] < T::ZERO)
+    }
+
+    /// Has it corners, at which its slope jumps?
+    #[must_use]
+    pub const fn has_corners(&self) -> bool {
+        matches!(self, Self::Shaped { shape: CurveShape::Linear, .. })
     }
 }

@@ -170,6 +170,13 @@ pub enum Motion<T> {
         /// How it begins and ends.
         ends: TableEnds,
     },
+    /// Through (time, value), between the values of the neighbouring rows; the end values are held outside.
+    Monotone {
+        /// The rows [s, rad or m].
+        rows: Vec<[T; 2]>,
+        /// How it begins and ends.
+        ends: TableEnds,
+    },
     /// amplitude * sin(2 pi frequency t + phase)   [rad or m, Hz, rad].
     Sine {
         /// Amplitude [rad or m].

@@ -1,7 +1,7 @@
 //! What effects are described by: signals, axes, laws of users, polynomials and roads.
 
 use crate::laws::user::{UserBodyLaw, UserScalarLaw};
-use crate::scene::{BodyId, JointId, SignalId};
+use crate::scene::{BodyId, CurveShape, JointId, SignalId};
 use alloc::vec::Vec;
 
 /// A constant, a table over time (linear between the points, the end values held outside), or signals of the scene.
@@ -131,4 +131,11 @@ pub enum RoadFeature<T> {
     },
     /// Natural cubic spline through (x, z), level outside.
     Table(Vec<[T; 2]>),
+    /// Through (x, z) without a spline, level outside. Under tires none is straight between its points.
+    Shaped {
+        /// The points (x, z).
+        points: Vec<[T; 2]>,
+        /// How it goes between them.
+        shape: CurveShape,
+    },
 }

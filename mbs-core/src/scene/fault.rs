@@ -115,6 +115,8 @@ pub enum SceneFault {
     Apart(f64),
     /// A periodic curve has different values at its ends; both.
     PeriodicEnds([f64; 2]),
+    /// A table that is straight between its rows, where accelerations follow it.
+    LinearTable,
     /// A pitch point of a coupling that is not of two turns about parallel axes in one body.
     NoMesh,
     /// A pretension of what has no strands.
@@ -358,6 +360,9 @@ impl SceneFault {
             }
             Self::PeriodicEnds([first, last]) => {
                 write!(f, "begins with {first} and ends with {last}, but is periodic")
+            }
+            Self::LinearTable => {
+                write!(f, "makes corners at the rows, where accelerations would have no bound")
             }
             Self::SumAtStart([found, needed]) => {
                 write!(

@@ -76,7 +76,7 @@ pub use coupling::{Coupling, CouplingKind, Mesh};
 #[cfg(feature = "alloc")]
 pub use coupling_term::{BallAngle, CouplingMeasure, CouplingTerm};
 #[cfg(feature = "alloc")]
-pub use curve::{Curve, TableEnds};
+pub use curve::{Curve, CurveShape, TableEnds};
 #[cfg(feature = "alloc")]
 pub(crate) use data::Surroundings;
 #[cfg(feature = "alloc")]

@@ -237,6 +237,9 @@ impl<T> Motion<T> {
             Self::Table { rows: table, ends } => {
                 Motion::Table { rows: rows(table, f), ends: *ends }
             }
+            Self::Monotone { rows: table, ends } => {
+                Motion::Monotone { rows: rows(table, f), ends: *ends }
+            }
             Self::Sine { amplitude, frequency, phase } => {
                 Motion::Sine { amplitude: f(amplitude), frequency: f(frequency), phase: f(phase) }
             }
@@ -277,6 +280,9 @@ impl<T> Curve<T> {
             Self::Table(table) => Curve::Table(rows(table, f)),
             Self::Periodic(table) => Curve::Periodic(rows(table, f)),
             Self::Polynomial(list) => Curve::Polynomial(list.iter().map(f).collect()),
+            Self::Shaped { rows: table, shape, periodic } => {
+                Curve::Shaped { rows: rows(table, f), shape: *shape, periodic: *periodic }
+            }
         }
     }
 }
@@ -341,6 +347,9 @@ impl<T> RoadFeature<T> {
                 RoadFeature::Bump { start: f(start), length: f(length), amplitude: f(amplitude) }
             }
             Self::Table(points) => RoadFeature::Table(rows(points, f)),
+            Self::Shaped { points, shape } => {
+                RoadFeature::Shaped { points: rows(points, f), shape: *shape }
+            }
         }
     }
 }

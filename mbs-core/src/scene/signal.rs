@@ -11,7 +11,7 @@
 //! and the states x, belong to the mechanism: a step is made with them, and undone with them.
 
 use crate::Real;
-use crate::scene::{CouplingMeasure, Curve, SignalId, TableEnds};
+use crate::scene::{CouplingMeasure, Curve, CurveShape, SignalId, TableEnds};
 use alloc::string::String;
 use alloc::vec;
 use alloc::vec::Vec;
@@ -31,6 +31,8 @@ pub struct NamedSignal<T> {
 pub enum Interpolation {
     /// Cubic spline.
     Spline(TableEnds),
+    /// Twice differentiable, between the values of the neighbouring rows.
+    Monotone(TableEnds),
     /// Straight.
     Linear,
     /// The value of the last row that has passed.
@@ -38,13 +40,32 @@ pub enum Interpolation {
 }
 
 impl Interpolation {
+    /// How it begins and ends, where it is smooth; `None`: it is not.
+    #[must_use]
+    pub const fn ends(self) -> Option<TableEnds> {
+        match self {
+            Self::Spline(ends) | Self::Monotone(ends) => Some(ends),
+            Self::Linear | Self::Hold => None,
+        }
+    }
+
     /// Its name in scene files.
     #[must_use]
     pub const fn name(self) -> &'static str {
         match self {
             Self::Spline(_) => "spline",
+            Self::Monotone(_) => "monotone",
             Self::Linear => "linear",
             Self::Hold => "hold",
+        }
+    }
+}
+
+impl From<CurveShape> for Interpolation {
+    fn from(shape: CurveShape) -> Self {
+        match shape {
+            CurveShape::Monotone => Self::Monotone(TableEnds::Natural),
+            CurveShape::Linear => Self::Linear,
         }
     }
 }
@@ -253,7 +274,9 @@ impl<T> SignalKind<T> {
         match self {
             Self::Step { .. } => "give it `rise`",
             Self::Ramp { .. } => "give it `rounding`",
-            Self::Table { .. } => "give it `interpolation = \"spline\"`",
+            Self::Table { .. } | Self::Curve { .. } => {
+                "give it `interpolation = \"monotone\"`, or \"spline\""
+            }
             Self::Input { .. } => {
                 "give `input` in place of `signal`: it has rate and acceleration too"
             }
@@ -338,6 +361,7 @@ impl<T: Real> SignalKind<T> {
                 if rise.is_zero() && from != to && is_within(time) { at(true, time) } else { None }
             }
             Self::Clamp { .. } => Some((false, None)),
+            Self::Curve { curve, .. } if curve.has_corners() => Some((false, None)),
             Self::Input { .. } => Some((true, None)),
             kind if kind.is_feedback() => Some((true, None)),
             _ => None,

@@ -50,6 +50,7 @@ mod laws {
 
 mod measure {
     mod curve;
+    mod monotone;
 }
 
 mod natural {

@@ -113,7 +113,7 @@ impl<'a, T: Real, S: Space<T>> Collected<'a, T, S> {
                     }
                     _ => return Err(MovingSignal { signal: *signal }),
                 },
-                SceneLaw::Table { rows: table, .. } => {
+                SceneLaw::Table { rows: table, .. } | SceneLaw::Monotone { rows: table, .. } => {
                     let first = index(self.knots.len());
                     self.knots.extend_from_slice(table);
                     self.curvatures.extend_from_slice(guide.curvature());

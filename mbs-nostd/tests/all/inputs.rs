@@ -95,9 +95,19 @@ fn a_solver_of_fixed_capacity_takes_inputs_as_the_recursion_does() {
 
 #[test]
 fn a_table_with_level_ends_steps_from_bytes_as_it_does_on_the_host() {
+    let (rows, ends) = (vec![[0.0, 0.0], [0.05, 0.2], [0.1, 0.3]], TableEnds::Level);
+    steps_from_bytes(Motion::Table { rows, ends });
+}
+
+#[test]
+fn a_table_between_its_rows_steps_from_bytes_as_it_does_on_the_host() {
+    let rows = vec![[0.0, 0.0], [0.02, 0.0], [0.05, 0.2], [0.08, 0.2], [0.1, 0.3]];
+    steps_from_bytes(Motion::Monotone { rows, ends: TableEnds::Level });
+}
+
+fn steps_from_bytes(law: Motion<f64>) {
     let mut scene = file("guided-four-bar");
-    let rows = vec![[0.0, 0.0], [0.05, 0.2], [0.1, 0.3]];
-    scene.guides[0].law = Motion::Table { rows, ends: TableEnds::Level };
+    scene.guides[0].law = law;
     scene.initials.clear();
     let (host, mut state) = start::<Planar, 2>(&scene);
     let collected = Collected::new(&host, &state, &[]).expect("no signals");

@@ -69,7 +69,14 @@ fn file(name: &str) -> String {
 
 #[test]
 fn cams_and_ropes_have_the_bits_of_the_recursion_on_a_controller() {
-    assert_eq!(apart::<Planar, 2>(&file("cam-follower")), Ok(0.0));
+    let cam = file("cam-follower");
+    assert_eq!(apart::<Planar, 2>(&cam), Ok(0.0));
+    for way in ["monotone", "spline"] {
+        let periodic = "periodic = true\n";
+        let shaped = cam.replace(periodic, &format!("{periodic}interpolation = \"{way}\"\n"));
+        assert_ne!(shaped, cam);
+        assert_eq!(apart::<Planar, 2>(&shaped), Ok(0.0));
+    }
     assert_eq!(apart::<Planar, 2>(&file("crane")), Ok(0.0));
     assert_eq!(apart::<Planar, 2>(HOIST), Ok(0.0));
     assert_eq!(apart::<Spatial, 3>(WINCH), Ok(0.0));

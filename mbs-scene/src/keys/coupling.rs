@@ -1,6 +1,6 @@
 //! `[[coupling]]`, its terms, and lines over points.
 
-use super::guide::motion;
+use super::guide::{interpolation, motion};
 use super::table::{Key, KeyTable, inside, kinds, listed, may, name_or, need};
 use super::value::KeyValue::{
     Coordinate, Counts, Flag, Number, NumberOr, Numbers, Of, Place, Rows, Several, SomeNumbers,
@@ -155,10 +155,14 @@ fn screw() -> KeyTable {
     )
 }
 
-/// A curve of a number: a spline or a polynomial.
-pub(super) fn curve(table: &str) -> Vec<Key> {
+/// How a table of a curve goes between its rows.
+pub(super) const CURVE_WAYS: [&str; 3] = ["spline", "monotone", "linear"];
+
+/// A curve of a number: a table or a polynomial.
+pub(super) fn curve(table: &str, ways: &[&'static str]) -> Vec<Key> {
     vec![
         may("table", Rows, "", "none", table),
+        interpolation(ways.to_vec()),
         may("periodic", Flag, "", "false", "Whether the table repeats with its first and last x."),
         may(
             "coefficients",
@@ -172,7 +176,10 @@ pub(super) fn curve(table: &str) -> Vec<Key> {
 
 fn cam() -> KeyTable {
     let mut keys = vec![joints(2, "The shaft, the follower.")];
-    keys.extend(curve("Lift of the follower over the shaft: rows `[x, f]`, a cubic spline."));
+    keys.extend(curve(
+        "Lift of the follower over the shaft: rows `[x, f]`.",
+        &["spline", "monotone"],
+    ));
     listed("coupling", "A cam: x - f(a) = 0.", keys)
 }
 
@@ -250,7 +257,7 @@ pub(super) fn measure(of_ball: &str) -> Vec<Key> {
 fn term() -> KeyTable {
     let mut keys = measure("`\"swing\"` or `\"twist\"`");
     keys.push(may("factor", Number, "", "1", "Factor of the coordinate or length."));
-    keys.extend(curve("A curve of the coordinate or length: rows `[x, f]`, a cubic spline."));
+    keys.extend(curve("A curve of the coordinate or length: rows `[x, f]`.", &CURVE_WAYS));
     inside(
         "term",
         "A term of a sum: a coordinate of a joint or a length, from the reference configuration.",

@@ -55,22 +55,24 @@ fn initial() -> Vec<KeyTable> {
     vec![of_joint, of_body]
 }
 
+/// How a table goes between its rows, by words of which the first holds where none is written.
+pub(super) fn interpolation(words: Vec<&'static str>) -> Key {
+    let default = words[0];
+    let meaning = "Between the rows; `monotone` stays between the values of the neighbouring rows.";
+    may("interpolation", Word(words), "", default, meaning)
+}
+
 /// The keys that give a function of time.
 pub(super) fn motion(unit: &'static str) -> Vec<Key> {
     vec![
-        may(
-            "table",
-            Rows,
-            "s and rad or m",
-            "none",
-            "Rows `[time, value]`: a cubic spline, held outside.",
-        ),
+        may("table", Rows, "s and rad or m", "none", "Rows `[time, value]`, held outside."),
+        interpolation(vec!["spline", "monotone"]),
         may(
             "ends",
             Word(vec!["natural", "level"]),
             "",
             "natural",
-            "Ends of the spline: without curvature, or at rest.",
+            "Ends of the table: without curvature, or at rest.",
         ),
         may("sine", KeyValue::Table("sine"), "", "none", "A sine of time."),
         may("ramp", KeyValue::Table("ramp"), "", "none", "A constant rate."),

@@ -1,5 +1,6 @@
 //! `[road]`: features under the wheels.
 
+use super::guide::interpolation;
 use super::table::{Key, KeyTable, Standing, inside, kinds, may, need, once};
 use super::value::KeyValue::{Count, Number, Rows, TableOrTables, Word};
 
@@ -89,8 +90,11 @@ fn features() -> [(&'static str, KeyTable); 5] {
         (
             "table",
             of(
-                "Heights along the road: a cubic spline through points.",
-                vec![need("points", Rows, "m", "Points `[x, z]`.")],
+                "Heights along the road, through points.",
+                vec![
+                    need("points", Rows, "m", "Points `[x, z]`."),
+                    interpolation(vec!["spline", "monotone", "linear"]),
+                ],
             ),
         ),
     ]

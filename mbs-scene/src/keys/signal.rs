@@ -1,6 +1,7 @@
 //! `[[signal]]`.
 
-use super::coupling::{curve, measure};
+use super::coupling::{CURVE_WAYS, curve, measure};
+use super::guide::interpolation;
 use super::table::{Key, KeyTable, kinds, listed, may, need};
 use super::value::KeyValue::{Flag, Name, Number, Of, Rows, Some, SomeNumbers, Text, Word};
 use super::value::Referent;
@@ -74,12 +75,12 @@ fn of_signals() -> [(&'static str, KeyTable); 4] {
     let several = || need("of", Some(Referent::Signal), "", "The signals.");
     let factors = may("factors", SomeNumbers, "", "ones", "A factor for each.");
     let mut of_curve = vec![one()];
-    of_curve.extend(curve("Rows `[x, f]`: a cubic spline."));
+    of_curve.extend(curve("Rows `[x, f]`.", &CURVE_WAYS));
     let limits = vec![one(), number("lower", "Lower limit."), number("upper", "Upper limit.")];
     [
         ("sum", of("A sum of signals with factors.", vec![several(), factors])),
         ("product", of("A product of signals.", vec![several()])),
-        ("curve", of("A spline or a polynomial of a signal.", of_curve)),
+        ("curve", of("A table or a polynomial of a signal.", of_curve)),
         ("clamp", of("A signal within limits.", limits)),
     ]
 }
@@ -121,20 +122,14 @@ fn table() -> KeyTable {
         "Through the rows of a table, held outside.",
         vec![
             need("table", Rows, "s, value", "Rows `[time, value]`."),
-            may(
-                "interpolation",
-                Word(vec!["spline", "linear", "hold"]),
-                "",
-                "spline",
-                "Between the rows.",
-            ),
+            interpolation(vec!["spline", "monotone", "linear", "hold"]),
             may("periodic", Flag, "", "false", "Whether the table repeats."),
             may(
                 "ends",
                 Word(vec!["natural", "level"]),
                 "",
                 "natural",
-                "Ends of a spline: without curvature, or at rest.",
+                "Ends of a spline or of `monotone`: without curvature, or at rest.",
             ),
         ],
     )

@@ -17,6 +17,7 @@ use self::named::{Named, Needed};
 use crate::read::ReadFault;
 use crate::read::fields::{Context, Fields, Read};
 use crate::read::motion::read_motion;
+use crate::read::table;
 use crate::read::tree::{Item, Node};
 pub(crate) use carrier::{joint_to_add, no_carrier};
 use mbs_core::scene::{
@@ -394,7 +395,7 @@ fn read_term<'a>(
         term.unused(&["axis"])?;
     }
     let of = read_measure(&term, joints)?;
-    Ok(CouplingTerm { factor: term.number_or("factor", "1")?, of, curve: read_curve(&term)? })
+    Ok(CouplingTerm { factor: term.number_or("factor", "1")?, of, curve: table::of_curve(&term)? })
 }
 
 /// What `points`, or `joint` with `coordinate`, measure.
@@ -427,23 +428,10 @@ fn measured_coordinate<'a>(
 }
 
 pub(crate) fn need_curve(fields: &Fields<'_>) -> Read<Curve<Number>> {
-    match read_curve(fields)? {
+    match table::of_curve(fields)? {
         Some(curve) => Ok(curve),
         None => {
             fields.context.fault(fields.header, ReadFault::Missing { key: "table or coefficients" })
         }
     }
-}
-
-fn read_curve(fields: &Fields<'_>) -> Read<Option<Curve<Number>>> {
-    fields.exclusive("table", "coefficients")?;
-    let context = fields.context;
-    if let Some(item) = fields.get("coefficients") {
-        return Ok(Some(Curve::Polynomial(context.numbers(item)?)));
-    }
-    let Some(item) = fields.get("table") else { return Ok(None) };
-    let rows = context.list(item, "a list of rows [x, f]")?.iter();
-    let rows = rows.map(|row| context.numbers_of(row, "a row [x, f]")).collect::<Read<_>>()?;
-    let is_periodic = fields.flag("periodic", false)?;
-    Ok(Some(if is_periodic { Curve::Periodic(rows) } else { Curve::Table(rows) }))
 }

@@ -32,6 +32,7 @@ mod shape;
 mod signal;
 pub(crate) mod sweep;
 mod syntax;
+mod table;
 mod texts;
 pub(crate) mod tree;
 pub(crate) mod units;

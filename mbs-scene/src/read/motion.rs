@@ -2,7 +2,8 @@
 
 use crate::read::ReadFault;
 use crate::read::fields::{Fields, Read};
-use mbs_core::scene::{Guide, InitialCondition, InitialTarget, Joint, Motion, Number, TableEnds};
+use crate::read::table;
+use mbs_core::scene::{Guide, InitialCondition, InitialTarget, Joint, Motion, Number};
 
 pub(crate) fn read_initial(
     fields: &Fields<'_>,
@@ -64,7 +65,7 @@ pub(crate) fn read_guides(
     let is_of_body = fields.get("body").is_some();
     let fields = &fields.by("body", "joint")?;
     if !is_of_body && fields.get("table").is_none() {
-        fields.unused(&["ends"])?;
+        fields.unused(&["ends", "interpolation"])?;
     }
     // the free joint of a guided body has the body's name
     let of = if is_of_body { "body" } else { "joint" };
@@ -99,6 +100,9 @@ pub(crate) fn read_motion(fields: &Fields<'_>) -> Read<Option<Motion<Number>>> {
     for (i, one) in LAWS.iter().enumerate() {
         LAWS[i + 1..].iter().try_for_each(|other| fields.exclusive(one, other))?;
     }
+    if fields.get("table").is_none() {
+        fields.unused(&["interpolation"])?;
+    }
     let context = fields.context;
     let law = if let Some(item) = fields.get("sine") {
         let sine = context.table(
@@ -122,29 +126,9 @@ pub(crate) fn read_motion(fields: &Fields<'_>) -> Read<Option<Motion<Number>>> {
     } else if let Some(item) = fields.get("signal") {
         Motion::Signal(context.signal(item)?)
     } else if fields.get("table").is_some() {
-        Motion::Table { rows: read_table(fields)?, ends: read_ends(fields)? }
+        table::of_motion(fields)?
     } else {
         return Ok(None);
     };
     Ok(Some(law))
-}
-
-pub(crate) fn read_ends(fields: &Fields<'_>) -> Read<TableEnds> {
-    if fields.get("ends").is_none() {
-        return Ok(TableEnds::default());
-    }
-    match fields.word("ends")? {
-        ("natural", _) => Ok(TableEnds::Natural),
-        ("level", _) => Ok(TableEnds::Level),
-        word => fields.unknown_word("ends", word, &["natural", "level"]),
-    }
-}
-
-pub(crate) fn read_table(fields: &Fields<'_>) -> Read<Vec<[Number; 2]>> {
-    let context = fields.at("table");
-    context
-        .list(fields.need("table")?, "a list of rows [time, value]")?
-        .iter()
-        .map(|row| context.numbers_of(row, "a row [time, value]"))
-        .collect()
 }

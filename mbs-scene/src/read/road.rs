@@ -2,6 +2,7 @@
 
 use crate::keys::{self, FEATURE};
 use crate::read::fields::{Context, Fields, Read};
+use crate::read::table;
 use crate::read::tree::{Item, Node};
 use mbs_core::scene::{Number, Road, RoadFeature};
 
@@ -56,7 +57,7 @@ fn feature(fields: &Fields<'_>) -> Read<RoadFeature<Number>> {
         "ramp" => ramp(fields)?,
         "stairs" => stairs(fields)?,
         "bump" => bump(fields)?,
-        _ => RoadFeature::Table(points(fields)?),
+        _ => table::of_road(fields)?,
     })
 }
 
@@ -95,12 +96,6 @@ fn bump(fields: &Fields<'_>) -> Read<RoadFeature<Number>> {
     };
     let (start, length) = (fields.number("start")?, fields.number("length")?);
     Ok(RoadFeature::Bump { start, length, amplitude })
-}
-
-fn points(fields: &Fields<'_>) -> Read<Vec<[Number; 2]>> {
-    let context = fields.at("points");
-    let items = context.list(fields.need("points")?, "a list of points [x, z]")?;
-    items.iter().map(|item| context.numbers_of(item, "a point [x, z]")).collect()
 }
 
 /// The table of the file that gave feature `index` of a track of the scene.

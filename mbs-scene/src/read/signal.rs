@@ -2,9 +2,9 @@
 
 use crate::read::coupling::{need_curve, one, read_measure};
 use crate::read::fields::{Context, Fields, Read};
-use crate::read::motion::{read_ends, read_table};
+use crate::read::table;
 use crate::read::tree::{Item, Node};
-use mbs_core::scene::{Interpolation, Joint, NamedSignal, Number, SignalId, SignalKind};
+use mbs_core::scene::{Joint, NamedSignal, Number, SignalId, SignalKind};
 
 /// Reads a signal.
 pub(crate) fn read<'a>(
@@ -23,7 +23,10 @@ fn kind<'a>(
     let (number, or_zero) = (|key| fields.number(key), |key| fields.number_or_zero(key));
     Ok(match word {
         "constant" => SignalKind::Constant(number("value")?),
-        "table" => table(fields)?,
+        "table" => {
+            let (rows, interpolation, periodic) = table::of_signal(fields)?;
+            SignalKind::Table { rows, interpolation, periodic }
+        }
         "sine" => SignalKind::Sine {
             amplitude: number("amplitude")?,
             frequency: number("frequency")?,
@@ -101,27 +104,6 @@ fn feedback<'a>(
             limit: fields.optional("limit")?,
         },
     })
-}
-
-fn table(fields: &Fields<'_>) -> Read<SignalKind<Number>> {
-    let periodic = fields.flag("periodic", false)?;
-    let way = fields.get("interpolation").map(|_| fields.word("interpolation")).transpose()?;
-    let interpolation = match way {
-        None | Some(("spline", _)) => {
-            if periodic {
-                fields.exclusive("periodic", "ends")?;
-            }
-            Interpolation::Spline(read_ends(fields)?)
-        }
-        Some((name @ ("linear" | "hold"), _)) => {
-            fields.exclusive("interpolation", "ends")?;
-            if name == "hold" { Interpolation::Hold } else { Interpolation::Linear }
-        }
-        Some(word) => {
-            return fields.unknown_word("interpolation", word, &["spline", "linear", "hold"]);
-        }
-    };
-    Ok(SignalKind::Table { rows: read_table(fields)?, interpolation, periodic })
 }
 
 /// A coordinate of a joint, the length over points or an angle of a ball; or its rate. A joint without one is left to the scene's check.

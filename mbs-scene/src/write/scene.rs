@@ -211,6 +211,13 @@ fn curve(keys: &mut Keys, curve: &Curve<Number>) {
         Curve::Polynomial(coefficients) => {
             keys.push("coefficients", list(coefficients.iter().map(Node::from)));
         }
+        Curve::Shaped { rows: table, shape, periodic } => {
+            keys.push("table", rows(table));
+            keys.push("interpolation", shape.name());
+            if *periodic {
+                keys.push("periodic", Node::Bool(true));
+            }
+        }
     }
 }
 

@@ -76,7 +76,7 @@ fn guides<T>(scene: &Scene<T>) -> Vec<GuideEntry> {
     let mut entries = Vec::<GuideEntry>::new();
     for guide in &scene.guides {
         let law = match guide.law {
-            Motion::Table { .. } => "table",
+            Motion::Table { .. } | Motion::Monotone { .. } => "table",
             Motion::Sine { .. } => "sine",
             Motion::Input(_) => "input",
             Motion::Ramp { .. } => "ramp",

@@ -17,6 +17,13 @@ pub(super) fn check<T: Real>(scene: &Scene<T>) -> Result<(), SceneError> {
     for (i, coupling) in scene.couplings.iter().enumerate() {
         let place = scene.place(Entry::Coupling(i));
         check_terms(scene, &coupling.terms, place)?;
+        let curves = || coupling.terms.iter().filter_map(|term| term.curve.as_ref());
+        if curves().any(Curve::has_corners) {
+            // the keys of a cam's curve are its own, those of others stand in a term
+            let is_cam = coupling.kind == CouplingKind::Cam;
+            let field = if is_cam { "interpolation" } else { "terms" };
+            return place.fault(field, SceneFault::LinearTable);
+        }
         let is_ball = |term: &CouplingTerm<T>| matches!(term.of, CouplingMeasure::Ball { .. });
         if coupling.terms.iter().any(is_ball) {
             return place.fault("terms", SceneFault::BallHeld);
@@ -186,9 +193,10 @@ pub(super) fn check_curve<T: Real>(curve: &Curve<T>, place: Place) -> Result<(),
             }
             return coefficients.iter().try_for_each(|x| place.finite("coefficients", *x));
         }
-        Curve::Table(rows) | Curve::Periodic(rows) => rows,
+        Curve::Table(rows) | Curve::Periodic(rows) | Curve::Shaped { rows, .. } => rows,
     };
-    let needed = if matches!(curve, Curve::Periodic(_)) { 3 } else { 2 };
+    let is_periodic = matches!(curve, Curve::Periodic(_) | Curve::Shaped { periodic: true, .. });
+    let needed = if is_periodic { 3 } else { 2 };
     if rows.len() < needed {
         return place.fault("table", SceneFault::WrongCount { needed, found: rows.len() });
     }
@@ -196,7 +204,7 @@ pub(super) fn check_curve<T: Real>(curve: &Curve<T>, place: Place) -> Result<(),
     if let Some(i) = rows.windows(2).position(|pair| pair[1][0] <= pair[0][0]) {
         return place.fault("table", SceneFault::PointOrder(i + 1));
     }
-    if let (Curve::Periodic(_), [first, .., last]) = (curve, &rows[..])
+    if let (true, [first, .., last]) = (is_periodic, &rows[..])
         && first[1] != last[1]
     {
         let ends = [first[1], last[1]].map(T::to_f64);

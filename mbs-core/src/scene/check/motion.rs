@@ -4,11 +4,12 @@ use super::reference::known_body;
 use super::vector::{Place, check_times, is_planar};
 use crate::Real;
 use crate::cluster::Clusters;
-use crate::inputs::{GuideInput, SignalGraph, curvatures};
+use crate::inputs::{GuideInput, SignalGraph};
 use crate::laws::guide::{largest_rate, spline};
+use crate::measure::knots;
 use crate::scene::{
-    Entry, Guide, InitialCondition, InitialTarget, JointId, Motion, Scene, SceneError, SceneFault,
-    TableEnds,
+    Entry, Guide, InitialCondition, InitialTarget, Interpolation, JointId, Motion, Scene,
+    SceneError, SceneFault, TableEnds,
 };
 use alloc::vec;
 use alloc::vec::Vec;
@@ -61,7 +62,7 @@ fn check_movable<T: Real>(scene: &Scene<T>) -> Result<(), SceneError> {
 
 pub(super) fn check_law<T: Real>(law: &Motion<T>, place: Place) -> Result<(), SceneError> {
     match law {
-        Motion::Table { rows, .. } => {
+        Motion::Table { rows, .. } | Motion::Monotone { rows, .. } => {
             for row in rows {
                 place.finite("table", row[0])?;
                 place.finite("table", row[1])?;
@@ -87,23 +88,29 @@ const SLOPE: f64 = 1e-6;
 /// Tables that begin or end on a slope within a run of a duration: the rate jumps there, which is an impact.
 pub(super) fn check_ends<T: Real>(scene: &Scene<T>, duration: T) -> Result<(), SceneError> {
     for (i, guide) in scene.guides.iter().enumerate() {
-        if let Motion::Table { rows, ends: TableEnds::Natural } = &guide.law {
-            check_slopes(rows, duration, scene.place(Entry::Guide(i)))?;
-        }
+        let (rows, way) = match &guide.law {
+            Motion::Table { rows, ends } => (rows, Interpolation::Spline(*ends)),
+            Motion::Monotone { rows, ends } => (rows, Interpolation::Monotone(*ends)),
+            _ => continue,
+        };
+        check_slopes((rows, way), duration, scene.place(Entry::Guide(i)))?;
     }
     Ok(())
 }
 
-/// A natural spline that begins or ends on a slope within a run of a duration.
+/// A table without level ends that begins or ends on a slope within a run of a duration.
 pub(super) fn check_slopes<T: Real>(
-    rows: &[[T; 2]],
+    (rows, way): (&[[T; 2]], Interpolation),
     duration: T,
     place: Place,
 ) -> Result<(), SceneError> {
     let [Some(first), Some(last)] = [rows.first(), rows.last()] else { return Ok(()) };
-    let curvature = curvatures(rows, TableEnds::Natural);
-    let rate = |t| spline(rows, &curvature, t).rate;
-    let least = T::from_f64(SLOPE) * largest_rate(rows, &curvature);
+    if way.ends() != Some(TableEnds::Natural) {
+        return Ok(());
+    }
+    let (knots, curvature) = knots(rows, way, false);
+    let rate = |t| spline(&knots, &curvature, t).rate;
+    let least = T::from_f64(SLOPE) * largest_rate(&knots, &curvature);
     // a run that ends with its table ends in motion, to the rounding of its own last time
     let is_within = |t: T| t < duration * (T::ONE - T::EPSILON.sqrt());
     let is_begun = first[0] > T::ZERO && first[0] <= duration;

@@ -2,9 +2,11 @@
 
 use super::vector::{Place, is_planar};
 use crate::Real;
-use crate::laws::guide::spline_curvatures;
-use crate::scene::{EffectKind, Entry, Road, RoadFeature, Scene, SceneError, SceneFault};
-use alloc::vec;
+use crate::measure::knots;
+use crate::scene::{
+    CurveShape, EffectKind, Entry, Interpolation, Road, RoadFeature, Scene, SceneError, SceneFault,
+    TableEnds,
+};
 
 pub(super) fn check<T: Real>(scene: &Scene<T>) -> Result<(), SceneError> {
     let Road { left, right, speed } = &scene.road;
@@ -54,7 +56,7 @@ fn numbers<T: Real>(feature: &RoadFeature<T>, place: Place) -> Result<(), SceneE
             place.positive("length", *length)?;
             place.finite("amplitude", *amplitude)
         }
-        RoadFeature::Table(points) => {
+        RoadFeature::Table(points) | RoadFeature::Shaped { points, .. } => {
             if points.is_empty() {
                 return place.fault("points", SceneFault::WrongCount { needed: 1, found: 0 });
             }
@@ -95,7 +97,17 @@ fn hollow<T: Real>(feature: &RoadFeature<T>, wheel: T, place: Place) -> Result<(
             let k = T::TWO * T::PI / *length;
             ("length", amplitude.abs() * k * k)
         }
-        RoadFeature::Table(points) => ("points", largest_curvature(points)),
+        RoadFeature::Table(points) => {
+            ("points", largest_curvature(points, Interpolation::Spline(TableEnds::Natural)))
+        }
+        // without a wheel nothing rolls through corners
+        RoadFeature::Shaped { shape: CurveShape::Linear, .. } if wheel.is_zero() => return Ok(()),
+        RoadFeature::Shaped { shape: CurveShape::Linear, .. } => {
+            return place.fault("interpolation", SceneFault::LinearTable);
+        }
+        RoadFeature::Shaped { points, shape } => {
+            ("points", largest_curvature(points, (*shape).into()))
+        }
     };
     if curvature * wheel < T::ONE {
         return Ok(());
@@ -104,9 +116,7 @@ fn hollow<T: Real>(feature: &RoadFeature<T>, wheel: T, place: Place) -> Result<(
     place.fault(field, SceneFault::TightHollow { hollow, wheel: wheel.to_f64() })
 }
 
-/// Of a spline; its curvature is linear between the points.
-fn largest_curvature<T: Real>(points: &[[T; 2]]) -> T {
-    let (mut curvatures, mut scratch) = (vec![T::ZERO; points.len()], vec![T::ZERO; points.len()]);
-    spline_curvatures(points, &mut curvatures, &mut scratch);
-    curvatures.into_iter().fold(T::ZERO, T::max)
+/// Of a piecewise cubic function; its curvature is linear between the knots.
+fn largest_curvature<T: Real>(points: &[[T; 2]], way: Interpolation) -> T {
+    knots(points, way, false).1.into_iter().fold(T::ZERO, T::max)
 }

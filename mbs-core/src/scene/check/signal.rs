@@ -5,8 +5,8 @@ use super::motion::check_slopes;
 use super::vector::{Place, check_times};
 use crate::Real;
 use crate::scene::{
-    BallAngle, CouplingMeasure, Entry, Interpolation, Motion, Scene, SceneError, SceneFault,
-    SignalId, SignalKind, TableEnds, first_of, signal_breaks, signal_order,
+    BallAngle, CouplingMeasure, Entry, Motion, Scene, SceneError, SceneFault, SignalId, SignalKind,
+    first_of, signal_breaks, signal_order,
 };
 use alloc::vec;
 use alloc::vec::Vec;
@@ -196,11 +196,9 @@ pub(super) fn check_ends<T: Real>(scene: &Scene<T>, duration: T) -> Result<(), S
         }
         let kind = &scene.signals[signal].kind;
         open.extend_from_slice(kind.operands());
-        let natural = Interpolation::Spline(TableEnds::Natural);
-        if let SignalKind::Table { rows, interpolation, periodic: false } = kind
-            && *interpolation == natural
-        {
-            check_slopes(rows, duration, scene.place(Entry::Signal(signal.index())))?;
+        if let SignalKind::Table { rows, interpolation, periodic: false } = kind {
+            let place = scene.place(Entry::Signal(signal.index()));
+            check_slopes((rows, *interpolation), duration, place)?;
         }
     }
     Ok(())

@@ -55,6 +55,11 @@ fn feature(feature: &RoadFeature<Number>) -> Keys {
             keys.push("kind", "table");
             keys.push("points", list(points.iter().map(Node::from)));
         }
+        RoadFeature::Shaped { points, shape } => {
+            keys.push("kind", "table");
+            keys.push("points", list(points.iter().map(Node::from)));
+            keys.push("interpolation", shape.name());
+        }
     }
     keys
 }

@@ -1,9 +1,7 @@
 //! `[[signal]]`, and functions of time.
 
 use super::{Keys, Node, WriteError, Writer, curve, list};
-use mbs_core::scene::{
-    Interpolation, Motion, NamedSignal, Number, SignalId, SignalKind, TableEnds,
-};
+use mbs_core::scene::{Motion, NamedSignal, Number, SignalId, SignalKind, TableEnds};
 
 impl Writer<'_> {
     pub(super) fn signal_name(self, id: SignalId) -> Result<Node, WriteError> {
@@ -15,8 +13,11 @@ impl Writer<'_> {
     pub(super) fn motion(self, keys: &mut Keys, law: &Motion<Number>) -> Result<(), WriteError> {
         let mut parts = Keys::default();
         match law {
-            Motion::Table { rows, ends } => {
+            Motion::Table { rows, ends } | Motion::Monotone { rows, ends } => {
                 keys.push("table", list(rows.iter().map(Node::from)));
+                if matches!(law, Motion::Monotone { .. }) {
+                    keys.push("interpolation", "monotone");
+                }
                 if *ends == TableEnds::Level {
                     keys.push("ends", "level");
                 }
@@ -58,7 +59,7 @@ impl Writer<'_> {
                 if *periodic {
                     keys.push("periodic", Node::Bool(true));
                 }
-                if *interpolation == Interpolation::Spline(TableEnds::Level) {
+                if interpolation.ends() == Some(TableEnds::Level) {
                     keys.push("ends", "level");
                 }
             }

@@ -30,6 +30,7 @@ mod signals;
 mod slips;
 mod sums;
 mod sweep;
+mod tables;
 mod units;
 mod values;
 

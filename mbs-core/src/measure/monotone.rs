@@ -1,0 +1,170 @@
+//! Tables that stay between their neighbouring rows: the spline, where it does; elsewhere its slopes and curvatures at the rows are
+//! held within bounds, and two more knots lie between two rows.
+//!
+//! ```text
+//! on [x0, x1]:  h = x1 - x0,  D = (f1 - f0)/h,  knots x0 + h/4 and x1 - h/4;  slopes m, curvatures c of the two rows
+//! f' is a quadratic spline with the coefficients of its B-splines
+//! P0 = m0   P1 = m0 + c0 h/8   P2 = 3 D - e0 - e1   P3 = m1 - c1 h/8   P4 = m1,    e0 = (P0 + 3 P1)/4,  e1 = (3 P3 + P4)/4
+//! ```
+//!
+//! P2 is what leads from f0 to f1. B-splines are not negative: where no coefficient has another sign than D, neither has f', and f stays
+//! between f0 and f1. That holds for
+//!
+//! ```text
+//! m D >= 0      |c| h/8 <= |m| where c turns m down to the other sign      e0 + e1 between 0 and 3 D
+//! ```
+//!
+//! The first two are bounds of a row alone. For the third both rows of an interval are scaled by 3 D/(e0 + e1); a factor of a row keeps the
+//! first two, and a smaller one keeps the third. So each row takes the smaller factor of its two sides, and no order of the rows counts.
+//! Rows share m and c: f is twice differentiable. From rest to rest the largest third derivative is the least there is.
+
+use crate::Real;
+use alloc::vec;
+use alloc::vec::Vec;
+
+/// Way of the outer knots into an interval [-]: from rest to rest, the third derivative then has one size throughout.
+const INNER_KNOT: f64 = 0.25;
+/// Distance of two rows that counts as none, in units of rounding of their x [-]: no knots fit between them.
+const MIN_DISTANCE: f64 = 64.0;
+
+/// What a table has in place of its spline.
+struct Bounded {
+    /// Curvature at each row; `None`: that of the spline.
+    curvature: Vec<Option<f64>>,
+    /// The knots (x, f, f'') between a row and the next; `None`: none are needed.
+    between: Vec<Option<[[f64; 3]; 2]>>,
+}
+
+/// Knots and curvatures of a table that stays between its neighbouring rows, from those of its spline.
+///
+/// Cost: two passes over the rows.
+pub(super) fn monotone<T: Real>(
+    rows: &[[T; 2]],
+    curvature: Vec<T>,
+    is_periodic: bool,
+) -> (Vec<[T; 2]>, Vec<T>) {
+    let number = |(&[x, f], &c): (&[T; 2], &T)| [x, f, c].map(T::to_f64);
+    let spline: Vec<[f64; 3]> = rows.iter().zip(&curvature).map(number).collect();
+    let bounded = bounded(&spline, is_periodic, T::EPSILON.to_f64().max(f64::EPSILON));
+    let (mut knots, mut bends) = (Vec::new(), Vec::new());
+    for (i, row) in rows.iter().enumerate() {
+        knots.push(*row);
+        let of_spline = || curvature.get(i).copied().unwrap_or(T::ZERO);
+        bends.push(bounded.curvature[i].map_or_else(of_spline, T::from_f64));
+        for [x, f, c] in bounded.between.get(i).copied().flatten().into_iter().flatten() {
+            knots.push([x, f].map(T::from_f64));
+            bends.push(T::from_f64(c));
+        }
+    }
+    (knots, bends)
+}
+
+/// One side of a row: slope to the neighbour, and distance.
+#[derive(Clone, Copy)]
+struct Side {
+    slope: f64,
+    h: f64,
+    /// Is the neighbour too near for knots?
+    is_close: bool,
+}
+
+/// The rows (x, f, f'') of a spline, held within the bounds.
+fn bounded(spline: &[[f64; 3]], is_periodic: bool, rounding: f64) -> Bounded {
+    let side = |pair: &[[f64; 3]]| {
+        let ([x0, f0, _], [x1, f1, _]) = (pair[0], pair[1]);
+        let h = x1 - x0;
+        let is_close = h <= MIN_DISTANCE * rounding * x0.abs().max(x1.abs());
+        Side { slope: (f1 - f0) / h, h, is_close }
+    };
+    let sides: Vec<Side> = spline.windows(2).map(side).collect();
+    let n = sides.len();
+    if n == 0 {
+        return Bounded { curvature: vec![None; spline.len()], between: Vec::new() };
+    }
+    let beside = |i: usize| match i {
+        0 => [is_periodic.then(|| sides[n - 1]), Some(sides[0])],
+        i if i == n => [Some(sides[n - 1]), is_periodic.then(|| sides[0])],
+        i => [Some(sides[i - 1]), Some(sides[i])],
+    };
+    let of_spline: Vec<[f64; 2]> = (0..=n).map(|i| tangent(spline, &sides, i)).collect();
+    let of_rows: Vec<[f64; 2]> =
+        of_spline.iter().enumerate().map(|(i, &of)| of_row(of, beside(i))).collect();
+    // 3 D/(e0 + e1) of each interval
+    let factor = |(i, side): (usize, &Side)| {
+        let ends = end_sum(of_rows[i], side.h, 1.0) + end_sum(of_rows[i + 1], side.h, -1.0);
+        if ends.abs() > 3.0 * side.slope.abs() { 3.0 * side.slope / ends } else { 1.0 }
+    };
+    let factors: Vec<f64> = sides.iter().enumerate().map(factor).collect();
+    let at_row = |i: usize| {
+        let before = if i > 0 { Some(i - 1) } else { is_periodic.then(|| n - 1) };
+        let after = if i < n { Some(i) } else { is_periodic.then_some(0) };
+        let smallest = [before, after].into_iter().flatten().map(|k| factors[k]);
+        let smallest = smallest.fold(1.0, f64::min);
+        of_rows[i].map(|x| x * smallest)
+    };
+    let rows: Vec<[f64; 2]> = (0..=n).map(at_row).collect();
+    #[allow(clippy::float_cmp, reason = "is it the spline itself?")]
+    let is_kept = |i: usize| rows[i] == of_spline[i];
+    let knots = |i: usize| {
+        let needed = !(is_kept(i) && is_kept(i + 1) || sides[i].is_close);
+        needed.then(|| inner([spline[i], spline[i + 1]], [rows[i], rows[i + 1]], sides[i]))
+    };
+    Bounded {
+        curvature: (0..=n).map(|i| (!is_kept(i)).then_some(rows[i][1])).collect(),
+        between: (0..n).map(knots).collect(),
+    }
+}
+
+/// Slope and curvature of a spline at one of its knots.
+fn tangent(spline: &[[f64; 3]], sides: &[Side], i: usize) -> [f64; 2] {
+    let c = spline[i][2];
+    let slope = match (sides.get(i), spline.get(i + 1)) {
+        (Some(side), Some(next)) => side.slope - side.h * (2.0 * c + next[2]) / 6.0,
+        _ => {
+            let side = sides[i - 1];
+            side.slope + side.h * (spline[i - 1][2] + 2.0 * c) / 6.0
+        }
+    };
+    [slope, c]
+}
+
+/// Slope and curvature of a row within its own bounds.
+fn of_row([slope, c]: [f64; 2], [before, after]: [Option<Side>; 2]) -> [f64; 2] {
+    let sides = || [before, after].into_iter().flatten();
+    if sides().any(|side| side.is_close || side.slope == 0.0) {
+        return [0.0; 2];
+    }
+    let m = if sides().all(|side| side.slope * slope > 0.0) { slope } else { 0.0 };
+    let mut c = c;
+    if let Some(side) = after {
+        // P1 has the sign of D
+        let least = -8.0 * m.abs() / side.h;
+        c = side.slope.signum() * (side.slope.signum() * c).max(least);
+    }
+    if let Some(side) = before {
+        // P3 has the sign of D
+        let most = 8.0 * m.abs() / side.h;
+        c = side.slope.signum() * (side.slope.signum() * c).min(most);
+    }
+    [m, c]
+}
+
+/// e0 of a row at the left end of an interval, with the sign 1, or e1 of one at its right end, with -1.
+fn end_sum([m, c]: [f64; 2], h: f64, sign: f64) -> f64 {
+    m + sign * 3.0 * c * h / 32.0
+}
+
+/// The two knots (x, f, f'') in an interval.
+fn inner([a, b]: [[f64; 3]; 2], [first, last]: [[f64; 2]; 2], side: Side) -> [[f64; 3]; 2] {
+    let ([m0, c0], [m1, c1], h) = (first, last, side.h);
+    let (p1, p3) = (m0 + c0 * h / 8.0, m1 - c1 * h / 8.0);
+    let p2 = 3.0 * side.slope - end_sum(first, h, 1.0) - end_sum(last, h, -1.0);
+    // f'' at the knots: 2 (P2 - P1)/(3 h/4) and 2 (P3 - P2)/(3 h/4)
+    let [ca, cb] = [p2 - p1, p3 - p2].map(|step| 8.0 * step / (3.0 * h));
+    let way = INNER_KNOT * h;
+    let sixth = way * way / 6.0;
+    [
+        [a[0] + way, a[1] + way * m0 + sixth * (2.0 * c0 + ca), ca],
+        [b[0] - way, b[1] - way * m1 + sixth * (2.0 * c1 + cb), cb],
+    ]
+}
