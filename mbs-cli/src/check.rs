@@ -76,8 +76,8 @@ fn check(path: &Path) -> Result<Sizes, Failure> {
         let report = error.report(0.0, &Names::new(&scene));
         (json!(report), stopped("no start", &report, &error, &document))
     })?;
-    let notes = scene.sense_notes().chain(scene.radii_notes());
-    Ok((sizes, notes.map(|(_, note)| note).collect()))
+    let couplings = scene.sense_notes().chain(scene.radii_notes()).map(|(_, note)| note);
+    Ok((sizes, couplings.chain(scene.table_notes().into_iter().map(|note| note.text)).collect()))
 }
 
 fn object(file: &str, checked: Result<Sizes, Failure>) -> Value {

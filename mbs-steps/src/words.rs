@@ -208,6 +208,7 @@ pub fn notes<T: Real>(
     notes.extend(scene.sense_notes().chain(scene.radii_notes()).map(|(_, note)| note));
     notes.extend(scene.effort_notes());
     notes.extend(scene.reaction_notes());
+    notes.extend(scene.table_notes().into_iter().map(|note| note.text));
     if change > REPORTED_CHANGE {
         let most = moved.map(|body| format!(", most at body `{body}`")).unwrap_or_default();
         notes.push(format!(

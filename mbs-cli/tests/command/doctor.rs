@@ -52,3 +52,29 @@ fn a_scene_without_a_start_is_a_fault_and_one_that_cannot_be_read_is_refused() {
     let help = text(&run("doctor", &["--help"]).stdout);
     assert!(help.contains("docs/DOCTOR.md") && help.contains("--still"), "{help}");
 }
+
+#[test]
+fn run_check_and_doctor_note_a_spline_that_leaves_its_rows() {
+    let cam = std::fs::read_to_string(scene("cam-follower")).expect("a scene");
+    let (head, rest) = cam.split_once("table = [\n").expect("a table");
+    let (_, tail) = rest.split_once("\n]\n").expect("its end");
+    let turn = core::f64::consts::TAU;
+    let rows: Vec<String> = (0_u32..)
+        .zip([0.0, 0.0, 0.01, 0.01, 0.0, 0.0, 0.0])
+        .map(|(i, lift)| format!("[{:?}, {lift:?}]", turn * f64::from(i) / 6.0))
+        .collect();
+    let of = |way: &str| format!("{head}table = [{}]\n{way}{tail}", rows.join(", "));
+    let line = of("").lines().position(|line| line.starts_with("table =")).expect("a line") + 1;
+    for (way, is_noted) in [("", true), ("interpolation = \"monotone\"\n", false)] {
+        let file = written("leaves-rows.toml", &of(way));
+        let checked = text(&run("check", &[&file]).stdout);
+        let note = "note: the spline of `table` of coupling `lift` goes to f = 0.0120";
+        assert_eq!(checked.contains(note), is_noted, "{checked}");
+        let ran = text(&run("run", &[&file, "--duration", "0.01"]).stdout);
+        assert_eq!(ran.contains("the spline of `table` of coupling `lift`"), is_noted, "{ran}");
+        let found = done(&run_line(&format!("doctor {file} --json --duration 0.01")));
+        let findings = found["findings"].as_array().expect("a list");
+        let of_table = findings.iter().find(|finding| finding["code"] == "table-leaves-rows");
+        assert_eq!(of_table.map(|finding| finding["line"].clone()), is_noted.then(|| line.into()));
+    }
+}

@@ -62,6 +62,8 @@ mod shape;
 mod signal;
 #[cfg(feature = "alloc")]
 mod solver;
+#[cfg(feature = "alloc")]
+mod table_notes;
 
 #[cfg(feature = "alloc")]
 pub use crate::effects::{EffectKind, kinds::*};
@@ -121,3 +123,5 @@ pub use signal::{
 };
 #[cfg(feature = "alloc")]
 pub use solver::SolverTable;
+#[cfg(feature = "alloc")]
+pub use table_notes::TableNote;

@@ -7,7 +7,7 @@ use mbs::StopError;
 use mbs::inside::rank;
 use mbs_core::Cliques;
 use mbs_core::algebra::rotation_vector;
-use mbs_core::scene::{BodyId, Entry, InitialTarget, Motion, Scene};
+use mbs_core::scene::{BodyId, Entry, InitialTarget, Motion, Scene, TableNote};
 use mbs_scene::format::{counted, few};
 
 /// What assembly did.
@@ -39,7 +39,7 @@ pub(super) fn no_start(scene: &Scene<f64>, error: &StopError, findings: &mut Vec
 }
 
 /// Axes that are taken as parallel, or as across each other, though they are off by a little; and couplings whose sense is not that of
-/// version 0.1, or is not drawn, or whose wheels do not touch.
+/// version 0.1, or is not drawn, or whose wheels do not touch; and splines that leave the range of their rows.
 pub(super) fn axes(scene: &Scene<f64>, findings: &mut Vec<Finding>) {
     for (joint, message) in mbs::inside::notes(scene) {
         let finding = Finding::new(Severity::Note, (Topic::Start, "axis-off"), message, "");
@@ -52,6 +52,10 @@ pub(super) fn axes(scene: &Scene<f64>, findings: &mut Vec<Finding>) {
     for (coupling, message) in scene.radii_notes() {
         let finding = Finding::new(Severity::Note, (Topic::Places, "coupling-radii"), message, "");
         findings.push(finding.at(Entry::Coupling(coupling.index()), "radii"));
+    }
+    for TableNote { entry, key, text } in scene.table_notes() {
+        let finding = Finding::new(Severity::Note, (Topic::Places, "table-leaves-rows"), text, "");
+        findings.push(finding.at(entry, key));
     }
 }
 
