@@ -3,8 +3,8 @@
 use super::guide::{interpolation, motion};
 use super::table::{Key, KeyTable, inside, kinds, listed, may, name_or, need};
 use super::value::KeyValue::{
-    Coordinate, Counts, Flag, Number, NumberOr, Numbers, Of, Place, Rows, Several, SomeNumbers,
-    Vector, Word,
+    Coordinate, Counts, Flag, Number, NumberOr, Numbers, Of, Place, RowsOrFile, Several,
+    SomeNumbers, Vector, Word,
 };
 use super::value::{KeyValue, Referent};
 
@@ -161,7 +161,7 @@ pub(super) const CURVE_WAYS: [&str; 3] = ["spline", "monotone", "linear"];
 /// A curve of a number: a table or a polynomial.
 pub(super) fn curve(table: &str, ways: &[&'static str]) -> Vec<Key> {
     vec![
-        may("table", Rows, "", "none", table),
+        may("table", RowsOrFile, "", "none", table),
         interpolation(ways.to_vec()),
         may("periodic", Flag, "", "false", "Whether the table repeats with its first and last x."),
         may(

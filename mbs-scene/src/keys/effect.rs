@@ -1,7 +1,7 @@
 //! `[[effect]]`, by the table of effects of mbs-core.
 
 use super::table::{Key, KeyTable, Standing, inside, may, name_or, need};
-use super::value::KeyValue::{Flag, Number, NumberOr, Numbers, OneOrSome, Rows, Word};
+use super::value::KeyValue::{Flag, Number, NumberOr, Numbers, OneOrSome, Rows, RowsOrFile, Word};
 use super::value::{KeyValue, Referent};
 use mbs_core::effects::{Default, EFFECTS, Field, Form, Row, SignalForm};
 
@@ -155,7 +155,7 @@ fn signal(field: &'static Field, form: SignalForm, default: &Option<String>) -> 
         may(field.key, value, field.unit, &default, field.meaning.trim()),
         may(
             "table",
-            Rows,
+            RowsOrFile,
             field.unit,
             "none",
             "Rows `[time, value]` in place of a constant: linear, held outside.",

@@ -2,9 +2,10 @@
 
 use super::table::{Key, KeyTable, inside, listed, may, need};
 use super::value::KeyValue::{
-    Coordinate, Number, NumberOrVector, Of, Place, Rows, Some, SomeNumbers, Vector, Word,
+    Coordinate, Number, NumberOrVector, Of, Place, RowsOrFile, Some, SomeNumbers, Text, Texts,
+    Vector, Word,
 };
-use super::value::{KeyValue, Referent};
+use super::value::{KeyValue, Referent, TABLE_FILE};
 
 pub(super) fn tables() -> Vec<KeyTable> {
     let mut tables = initial();
@@ -65,7 +66,7 @@ pub(super) fn interpolation(words: Vec<&'static str>) -> Key {
 /// The keys that give a function of time.
 pub(super) fn motion(unit: &'static str) -> Vec<Key> {
     vec![
-        may("table", Rows, "s and rad or m", "none", "Rows `[time, value]`, held outside."),
+        may("table", RowsOrFile, "s and rad or m", "none", "Rows `[time, value]`, held outside."),
         interpolation(vec!["spline", "monotone"]),
         may(
             "ends",
@@ -112,6 +113,24 @@ fn guides() -> Vec<KeyTable> {
     vec![of_joint, of_body]
 }
 
+fn table_file() -> KeyTable {
+    inside(
+        TABLE_FILE,
+        "Columns of a CSV file in place of the rows of a table.",
+        vec![
+            need("file", Text, "", "The file, from the folder of the scene."),
+            need("columns", Texts, "", "The names of its columns, those of a row in their order."),
+            may(
+                "units",
+                Texts,
+                "",
+                "those of the file",
+                "Their units, where the first row of the file has none in brackets.",
+            ),
+        ],
+    )
+}
+
 fn functions() -> Vec<KeyTable> {
     vec![
         inside(
@@ -123,6 +142,7 @@ fn functions() -> Vec<KeyTable> {
                 may("phase", Number, "rad", "0", "Phase at t = 0."),
             ],
         ),
+        table_file(),
         inside("ramp", "rate t.", vec![need("rate", Number, "rad/s or m/s", "Rate.")]),
         inside(
             "motion input",

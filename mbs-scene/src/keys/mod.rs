@@ -28,6 +28,7 @@ pub(crate) use scene::FILE;
 pub(crate) use shape::{COLOURS, SHAPES};
 pub(crate) use sweep::FILE as SWEEP_FILE;
 pub use table::{Key, KeyTable, Standing};
+pub(crate) use value::TABLE_FILE;
 pub use value::{KeyValue, Referent};
 
 use mbs_core::outputs::TargetKind;

@@ -2,7 +2,7 @@
 
 use super::guide::interpolation;
 use super::table::{Key, KeyTable, Standing, inside, kinds, may, need, once};
-use super::value::KeyValue::{Count, Number, Rows, TableOrTables, Word};
+use super::value::KeyValue::{Count, Number, RowsOrFile, TableOrTables, Word};
 
 /// The header of a feature that stands inside `[road]`.
 pub(crate) const FEATURE: &str = "road feature";
@@ -92,7 +92,7 @@ fn features() -> [(&'static str, KeyTable); 5] {
             of(
                 "Heights along the road, through points.",
                 vec![
-                    need("points", Rows, "m", "Points `[x, z]`."),
+                    need("points", RowsOrFile, "m", "Points `[x, z]`."),
                     interpolation(vec!["spline", "monotone", "linear"]),
                 ],
             ),

@@ -3,7 +3,7 @@
 use super::coupling::{CURVE_WAYS, curve, measure};
 use super::guide::interpolation;
 use super::table::{Key, KeyTable, kinds, listed, may, need};
-use super::value::KeyValue::{Flag, Name, Number, Of, Rows, Some, SomeNumbers, Text, Word};
+use super::value::KeyValue::{Flag, Name, Number, Of, RowsOrFile, Some, SomeNumbers, Text, Word};
 use super::value::Referent;
 
 pub(super) fn tables() -> Vec<KeyTable> {
@@ -121,7 +121,7 @@ fn table() -> KeyTable {
         "signal",
         "Through the rows of a table, held outside.",
         vec![
-            need("table", Rows, "s, value", "Rows `[time, value]`."),
+            need("table", RowsOrFile, "s, value", "Rows `[time, value]`."),
             interpolation(vec!["spline", "monotone", "linear", "hold"]),
             may("periodic", Flag, "", "false", "Whether the table repeats."),
             may(

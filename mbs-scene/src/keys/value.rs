@@ -1,5 +1,8 @@
 //! What stands at a key.
 
+/// The header of a table whose rows stand in a file.
+pub(crate) const TABLE_FILE: &str = "table file";
+
 /// What stands at a key.
 #[derive(Debug, Clone, PartialEq, Eq)]
 #[non_exhaustive]
@@ -8,6 +11,8 @@ pub enum KeyValue {
     Name,
     /// A text.
     Text,
+    /// Texts, one or more.
+    Texts,
     /// A number.
     Number,
     /// A number, or one of these words.
@@ -40,6 +45,8 @@ pub enum KeyValue {
     SomeNumbers,
     /// Rows of numbers.
     Rows,
+    /// The same, or columns of a file.
+    RowsOrFile,
     /// The name of a part of the scene.
     Of(Referent),
     /// The same, or one of these words.
@@ -118,6 +125,7 @@ impl KeyValue {
         };
         match self {
             Self::Name | Self::Text => "text".to_owned(),
+            Self::Texts => "list of texts".to_owned(),
             Self::Number => "number".to_owned(),
             Self::NumberOr(of) => format!("number, or {}", words(of)),
             Self::Count => "whole number from 1".to_owned(),
@@ -135,6 +143,7 @@ impl KeyValue {
             Self::Numbers(n) => several(*n, "numbers"),
             Self::SomeNumbers => "number, or list of numbers".to_owned(),
             Self::Rows => "list of rows".to_owned(),
+            Self::RowsOrFile => format!("list of rows, or table: {TABLE_FILE}"),
             Self::Of(Referent::Body) => "body, or `\"ground\"`".to_owned(),
             Self::Of(part) => part.name().to_owned(),
             Self::OfOr(part, of) => format!("{}, or {}", part.name(), words(of)),

@@ -93,6 +93,7 @@ fn of_value(value: &KeyValue) -> Json {
     let numbers = || json!({ "type": "array", "items": number(), "minItems": 2, "maxItems": 3 });
     let vector = || any_of(vec![numbers(), table(keys::DIRECTION)]);
     let place = || any_of(vec![numbers(), text(), table(keys::PLACE)]);
+    let rows = || list(json!({ "type": "array", "items": any_of(vec![number(), vector()]) }), None);
     let name = |part: &Referent| match part {
         Referent::MovingBody => json!({ "type": "string", "not": { "enum": ["ground"] } }),
         _ => text(),
@@ -118,9 +119,9 @@ fn of_value(value: &KeyValue) -> Json {
         KeyValue::SomePlaces => list(place(), None),
         KeyValue::Numbers(n) => list(number(), Some(*n)),
         KeyValue::SomeNumbers => any_of(vec![number(), list(number(), None)]),
-        KeyValue::Rows => {
-            list(json!({ "type": "array", "items": any_of(vec![number(), vector()]) }), None)
-        }
+        KeyValue::Texts => list(text(), None),
+        KeyValue::Rows => rows(),
+        KeyValue::RowsOrFile => any_of(vec![rows(), table(keys::TABLE_FILE)]),
         KeyValue::Of(part) | KeyValue::OfOr(part, _) => name(part),
         KeyValue::Several(part, n) => list(name(part), Some(*n)),
         KeyValue::Some(part) => list(name(part), None),

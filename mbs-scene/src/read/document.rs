@@ -1,5 +1,6 @@
 //! A scene file as read, before the precision of the run is known.
 
+use super::columns;
 use super::include;
 use super::syntax;
 use super::texts::Texts;
@@ -42,7 +43,8 @@ impl SceneFile {
     ) -> Result<Self, ReadError> {
         let mut texts = Texts::new(file, text, folder.clone());
         let root = syntax::read(&texts, 0)?;
-        let root = include::resolve(&mut texts, root, folder.as_deref())?;
+        let mut root = include::resolve(&mut texts, root, folder.as_deref())?;
+        columns::resolve(&mut texts, &mut root)?;
         Ok(Self { texts, root, folder })
     }
 

@@ -1,6 +1,7 @@
 //! Reading of scene files: text → syntax tree with places → scene data in any precision.
 
 mod body;
+mod columns;
 mod coupling;
 mod document;
 mod edit;

@@ -1,7 +1,7 @@
 //! Rows of tables, and how a table goes between them.
 
 use super::ReadFault;
-use super::fields::{Fields, Read};
+use super::fields::{Context, Fields, Read};
 use mbs_core::scene::{
     Curve, CurveShape, Entry, Interpolation, Motion, Number, RoadFeature, SceneError, SceneFault,
     TableEnds,
@@ -45,14 +45,21 @@ fn ends(fields: &Fields<'_>) -> Read<TableEnds> {
 }
 
 /// Pairs of numbers at a key.
-fn rows(fields: &Fields<'_>, key: &'static str, form: [&'static str; 2]) -> Read<Vec<[Number; 2]>> {
-    let context = fields.at(key);
+fn rows<'a>(
+    (context, fields): (Context<'a>, &Fields<'a>),
+    key: &'static str,
+    form: [&'static str; 2],
+) -> Read<Vec<[Number; 2]>> {
     let items = context.list(fields.need(key)?, form[0])?;
     items.iter().map(|row| context.numbers_of(row, form[1])).collect()
 }
 
 fn over_time(fields: &Fields<'_>) -> Read<Vec<[Number; 2]>> {
-    rows(fields, "table", ["a list of rows [time, value]", "a row [time, value]"])
+    rows(
+        (fields.at("table"), fields),
+        "table",
+        ["a list of rows [time, value]", "a row [time, value]"],
+    )
 }
 
 /// The rows of a signal, how it goes between them, and whether it repeats.
@@ -105,7 +112,9 @@ pub(crate) fn of_curve(fields: &Fields<'_>) -> Read<Option<Curve<Number>>> {
         fields.unused(&["interpolation"])?;
         return Ok(None);
     }
-    let rows = rows(fields, "table", ["a list of rows [x, f]", "a row [x, f]"])?;
+    // of any units
+    let form = ["a list of rows [x, f]", "a row [x, f]"];
+    let rows = rows((context, fields), "table", form)?;
     let periodic = fields.flag("periodic", false)?;
     Ok(Some(match (shape(fields)?, periodic) {
         (Some(shape), periodic) => Curve::Shaped { rows, shape, periodic },
@@ -116,7 +125,8 @@ pub(crate) fn of_curve(fields: &Fields<'_>) -> Read<Option<Curve<Number>>> {
 
 /// Heights through points.
 pub(crate) fn of_road(fields: &Fields<'_>) -> Read<RoadFeature<Number>> {
-    let points = rows(fields, "points", ["a list of points [x, z]", "a point [x, z]"])?;
+    let form = ["a list of points [x, z]", "a point [x, z]"];
+    let points = rows((fields.at("points"), fields), "points", form)?;
     Ok(match shape(fields)? {
         Some(shape) => RoadFeature::Shaped { points, shape },
         None => RoadFeature::Table(points),

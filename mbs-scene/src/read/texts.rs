@@ -22,6 +22,8 @@ pub(crate) struct Text {
     pub(crate) by: Option<Span>,
     /// Is it a file, not a value from a command line?
     pub(crate) is_file: bool,
+    /// Has it the rows of a table, in columns?
+    pub(crate) is_table: bool,
     /// Where paths in it begin; `None`: the working directory.
     pub(crate) folder: Option<PathBuf>,
 }
@@ -66,6 +68,7 @@ impl Texts {
             prefix: String::new(),
             by: None,
             is_file: true,
+            is_table: false,
             folder: None,
         };
         self.0.first().unwrap_or(NONE)
@@ -112,6 +115,9 @@ impl Texts {
     fn includes(&self, span: &Span) -> Vec<String> {
         let line = |text: &Text| {
             let (file, place) = self.place(text.by.as_ref()?);
+            if text.is_table {
+                return Some(format!("for the table at {file}:{}", place.line));
+            }
             // the prefix of the includes before it stands before its own
             let outer = text.by.as_ref().map_or("", |by| &self.of(by).prefix);
             let prefix = text.prefix.strip_prefix(outer).unwrap_or(&text.prefix);

@@ -5,10 +5,10 @@ use std::fs;
 use std::path::PathBuf;
 
 /// A folder that is removed in the end.
-struct Folder(PathBuf);
+pub(super) struct Folder(PathBuf);
 
 impl Folder {
-    fn new(name: &str, files: &[(&str, &str)]) -> Self {
+    pub(super) fn new(name: &str, files: &[(&str, &str)]) -> Self {
         let path = std::env::temp_dir().join(format!("mbs-includes-{}-{name}", std::process::id()));
         fs::create_dir_all(&path).expect("a folder");
         for (name, text) in files {
@@ -17,11 +17,17 @@ impl Folder {
         Self(path)
     }
 
-    fn read(&self, name: &str) -> Result<SceneFile, ReadError> {
+    pub(super) fn add(&self, folder: &str, name: &str, text: &str) {
+        let folder = self.0.join(folder);
+        fs::create_dir_all(&folder).expect("a folder");
+        fs::write(folder.join(name), text).expect("a file");
+    }
+
+    pub(super) fn read(&self, name: &str) -> Result<SceneFile, ReadError> {
         SceneFile::read(self.0.join(name))
     }
 
-    fn refusal(&self, name: &str) -> String {
+    pub(super) fn refusal(&self, name: &str) -> String {
         let error = self.read(name).and_then(|file| file.scene::<f64>()).expect_err(name);
         error.render().replace(&format!("{}/", self.0.display()), "")
     }

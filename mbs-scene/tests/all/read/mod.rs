@@ -5,6 +5,7 @@ use mbs_core::scene::*;
 use mbs_scene::{ReadError, ReadFault, SceneFile, to_toml};
 
 mod balls;
+mod columns;
 mod couplings;
 mod effects;
 mod expression;

@@ -146,7 +146,9 @@ fn a_linear_table_is_refused_where_accelerations_follow_it() {
     let wheeled = with("ROAD", "linear", "spline").replace("[road]", tire);
     let e = read(&wheeled).unwrap_err();
     refused(&e, "78:17", corners, "write \"monotone\"");
-    assert!(read(&wheeled.replace("linear\"\n", "monotone\"\n")).is_ok());
+    let scene =
+        read(&wheeled.replace("interpolation = \"linear\"\n", "interpolation = \"monotone\"\n"));
+    assert!(scene.is_ok(), "{scene:?}");
 }
 
 #[test]
