@@ -89,6 +89,9 @@ macro_rules! delegate_model {
         ) {
             self.$model.write_jacobian(terms, element, rows);
         }
+        fn may_be_level(&self, row: usize) -> bool {
+            self.$model.may_be_level(row)
+        }
         #[inline]
         fn write_block(
             &self,

@@ -165,6 +165,10 @@ pub trait Model<T: Real>: Cliques + Sync {
     fn rows(&self, element: usize) -> Range<usize>;
     /// The Jacobian rows of one element, one after the other, each as long as the element's clique and in its order.
     fn write_jacobian(&self, terms: &Terms<T>, element: usize, rows: &mut [T]);
+    /// Can a row lose entries over whole ranges of motions, as where the curve of a coupling is level?
+    fn may_be_level(&self, _row: usize) -> bool {
+        false
+    }
     /// The block of one element in the tangent, packed lower triangle.
     fn write_block(
         &self,

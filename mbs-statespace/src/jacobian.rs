@@ -20,7 +20,7 @@ pub(crate) struct Jacobian<T> {
 
 impl<T: Real> Jacobian<T> {
     /// The pattern of `model`: what is not zero at one of two random configurations, since an entry that vanishes at both
-    /// vanishes everywhere but by a chance of no measure.
+    /// vanishes everywhere but by a chance of no measure. Rows of curves that are level over a range have all entries.
     pub(crate) fn new(model: &impl Model<T>) -> Self {
         let size = |e| model.rows(e).len() * model.clique(e).len();
         let largest = (0..model.n_elements()).map(size).max().unwrap_or(0);
@@ -48,8 +48,13 @@ impl<T: Real> Jacobian<T> {
             for e in 0..model.n_elements() {
                 let rows = &mut new.rows[..size(e)];
                 model.write_jacobian(&terms, e, rows);
-                for (is_filled, &x) in is_filled[at..].iter_mut().zip(rows.iter()) {
-                    *is_filled |= x != T::ZERO;
+                let k = model.clique(e).len().max(1);
+                let filled = is_filled[at..].chunks_exact_mut(k).zip(rows.chunks_exact(k));
+                for (row, (filled, values)) in model.rows(e).zip(filled) {
+                    let is_level = model.may_be_level(row);
+                    for (is_filled, &x) in filled.iter_mut().zip(values) {
+                        *is_filled |= is_level || x != T::ZERO;
+                    }
                 }
                 at += size(e);
             }

@@ -193,6 +193,16 @@ mod prepared {
             }
         }
 
+        /// Is its slope zero over a range: between rows, or where the end values are held?
+        #[must_use]
+        pub fn may_be_level(&self) -> bool {
+            let Self::Spline { knots, curvature, period } = self else { return false };
+            let is_flat = |i: usize| {
+                knots[i][1] == knots[i + 1][1] && [i, i + 1].iter().all(|&i| curvature[i].is_zero())
+            };
+            !(*period > T::ZERO) || (1..knots.len()).any(|i| is_flat(i - 1))
+        }
+
         /// Is it f(x) = x?
         #[must_use]
         pub const fn is_identity(&self) -> bool {

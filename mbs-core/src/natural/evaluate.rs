@@ -5,8 +5,9 @@ use super::group::index;
 use super::model::NaturalModel;
 use crate::Real;
 use crate::algebra::norm;
-use crate::elements::{Measurand, Span, combine, measured_value};
+use crate::elements::{Coupled, CoupledForm, Measurand, Span, combine, measured_value};
 use crate::inputs::Prescribed;
+use crate::measure::PreparedCurve;
 use crate::model::{Load, Model, Owner, ScalarForce, SignalValues, State, Tangent, Terms};
 use crate::step::StepError;
 use crate::team::Alone;
@@ -243,6 +244,18 @@ impl<T: Real, const D: usize> Model<T> for NaturalModel<T, D> {
         for (to, from) in rows.chunks_exact_mut(k.max(1)).zip(jacobian).take(group.rows.len()) {
             to.copy_from_slice(&from[..k]);
         }
+    }
+
+    fn may_be_level(&self, row: usize) -> bool {
+        let is_sum =
+            |of: &&Coupled<T>| of.row as usize == row && matches!(of.form, CoupledForm::Sum);
+        let mut sums = self.coupled.iter().filter(is_sum);
+        sums.any(|sum| {
+            let mut terms = sum.terms.of(&self.coupled_terms).iter();
+            terms.any(|term| {
+                self.curves.get(term.curve as usize).is_some_and(PreparedCurve::may_be_level)
+            })
+        })
     }
 
     #[inline]
