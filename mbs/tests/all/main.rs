@@ -58,6 +58,7 @@ mod states;
 mod statistics;
 mod steady;
 mod sums;
+mod tables;
 mod threads;
 mod tooth_forces;
 mod tree;
