@@ -40,6 +40,9 @@ struct Spline {
     axes: [&'static str; 2],
 }
 
+/// The features under the wheels of one side, and what an entry of them is.
+type Side<'a, T> = (fn(usize) -> Entry, &'a [RoadFeature<T>]);
+
 impl<T: Real> Scene<T> {
     /// The splines of a scene that leave the range of two neighbouring rows by more than a twentieth of the table's range.
     ///
@@ -122,7 +125,7 @@ impl<T: Real> Scene<T> {
     /// Roads; one that is the same under all wheels counts once.
     fn add_roads(&self, to: &mut Vec<Spline>) {
         let right = if self.road.left == self.road.right { &[][..] } else { &self.road.right };
-        let sides: [(fn(usize) -> Entry, &[RoadFeature<T>]); 2] =
+        let sides: [Side<'_, T>; 2] =
             [(Entry::RoadLeft, &self.road.left), (Entry::RoadRight, right)];
         for (entry, features) in sides {
             for (i, feature) in features.iter().enumerate() {

@@ -50,7 +50,7 @@ struct TableFile {
 }
 
 fn refused<R>(texts: &Texts, span: &Span, message: String, hint: impl Into<String>) -> Read<R> {
-    Err(texts.error(span, ReadFault::Columns(ExpressionFault { message, hint: hint.into() })))
+    Err(texts.error(span, ReadFault::Include(ExpressionFault { message, hint: hint.into() })))
 }
 
 fn replace(texts: &mut Texts, item: &mut Item) -> Read<()> {

@@ -145,10 +145,8 @@ pub enum ReadFault {
     },
     /// An expression that has no value.
     Expression(ExpressionFault),
-    /// A file that cannot be included; what is wrong, and what to do.
+    /// A file that cannot be included, or has no such table; what is wrong, and what to do.
     Include(ExpressionFault),
-    /// A table in a file that is none; what is wrong, and what to do.
-    Columns(ExpressionFault),
     /// A model of another format that cannot be a scene; what is wrong, and what to do.
     Model(ExpressionFault),
     /// A number with a unit of other dimensions than the key's.
@@ -327,10 +325,9 @@ impl Display for ReadFault {
             Self::GroundDoesNotMove => write!(f, "the ground does not move"),
             Self::NoOwnBody => write!(f, "this output is of no body, whose axes `body` would be"),
             Self::WrongType { expected, found } => write!(f, "expected {expected}, found {found}"),
-            Self::Expression(fault)
-            | Self::Include(fault)
-            | Self::Columns(fault)
-            | Self::Model(fault) => f.write_str(&fault.message),
+            Self::Expression(fault) | Self::Include(fault) | Self::Model(fault) => {
+                f.write_str(&fault.message)
+            }
             Self::OtherUnit { key, unit, text, found } => {
                 let unit =
                     if unit.is_empty() { "has no unit".into() } else { format!("is in {unit}") };
@@ -417,10 +414,7 @@ impl ReadFault {
             Self::NotUtf8 => "save the file as UTF-8".to_owned(),
             Self::Syntax { format: "JSON", line, .. } => hint_of_json(line),
             Self::Syntax { message, line, .. } => hint_of_toml(message, line),
-            Self::Expression(fault)
-            | Self::Include(fault)
-            | Self::Columns(fault)
-            | Self::Model(fault) => fault.hint.clone(),
+            Self::Expression(fault) | Self::Include(fault) | Self::Model(fault) => fault.hint.clone(),
             Self::OtherUnit { unit: "", .. } => "write a plain number".to_owned(),
             Self::OtherUnit { unit, .. } => format!("write a number in {unit}, or with such a unit"),
             Self::UnknownKey { key, known } => nearest_name(key, known, "keys"),

@@ -29,6 +29,11 @@ fn excess(curve: &PreparedCurve<f64>, rows: &[[f64; 2]]) -> f64 {
     rows.windows(2).map(of).fold(0.0, f64::max) / size
 }
 
+fn assert_near(found: [f64; 3], expected: [f64; 3]) {
+    let is_near = found.iter().zip(expected).all(|(x, y)| (x - y).abs() < 1e-14);
+    assert!(is_near, "{found:?} {expected:?}");
+}
+
 /// A cam with two dwells, in degrees and millimetres.
 const CAM: [[f64; 2]; 7] = [
     [0.0, 0.0],
@@ -65,9 +70,9 @@ fn a_buffer_never_pulls() {
     let spline = PreparedCurve::new(Some(&Curve::Table(BUFFER.to_vec())));
     let least = |curve: &PreparedCurve<f64>| range(curve, &BUFFER)[0];
     assert!((-33.0..-31.0).contains(&least(&spline)), "{}", least(&spline));
-    assert_eq!(least(&curve), 0.0);
+    assert!(least(&curve) >= 0.0);
     for x in [-5.0, 120.0, 500.0] {
-        assert_eq!(curve.at(x), if x < 0.0 { [100.0, 0.0, 0.0] } else { [0.0; 3] });
+        assert_near(curve.at(x), if x < 0.0 { [100.0, 0.0, 0.0] } else { [0.0; 3] });
     }
 }
 
@@ -218,7 +223,7 @@ fn a_linear_table_is_straight_and_repeats() {
     let shape = CurveShape::Linear;
     let rows = vec![[0.0_f64, 0.0], [1.0, 2.0], [3.0, 0.0]];
     let curve = PreparedCurve::new(Some(&Curve::Shaped { rows, shape, periodic: true }));
-    assert_eq!(curve.at(0.5), [1.0, 2.0, 0.0]);
-    assert_eq!(curve.at(5.0), [1.0, -1.0, 0.0]);
+    assert_near(curve.at(0.5), [1.0, 2.0, 0.0]);
+    assert_near(curve.at(5.0), [1.0, -1.0, 0.0]);
     assert!((curve.change(0.5, 3.0) - (curve.at(3.5)[0] - 1.0)).abs() < 1e-15);
 }
