@@ -78,7 +78,7 @@ fn first<const D: usize>(
     }
     let (reached, name) = beyond?;
     let reached = few(reached);
-    Some(format!("{name} was tried and runs beyond this, as far as it was tried ({reached} s)"))
+    Some(format!("{name} was tried to t = {reached} s, and runs there"))
 }
 
 /// The methods with their words: those that the scene takes, without the one that ran.

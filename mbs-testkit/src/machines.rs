@@ -1,4 +1,6 @@
-//! Random machines with couplings, as a user may write them: each can be told in several ways that mean the same.
+//! Random machines with couplings, as a user may write them: each can be worded in several ways that mean the same.
+
+pub mod kinds;
 
 use crate::Random;
 
@@ -42,8 +44,8 @@ fn slide(name: &'static str, bodies: [&'static str; 2], at: Vector) -> Drawn {
 /// How far parts slip where they touch, by the velocities of the bodies.
 pub type Slip = Box<dyn Fn(&dyn Fn(&str) -> Twist) -> f64>;
 
-/// The text of a coupling as it is told.
-pub type Written = Box<dyn Fn(&Telling) -> String>;
+/// The text of a coupling in a wording.
+pub type Written = Box<dyn Fn(&Wording) -> String>;
 
 /// A machine, and what it has to keep at zero: how far its parts slip where they touch, by the velocities of its bodies.
 pub struct Machine {
@@ -100,240 +102,8 @@ pub fn twists(joints: &[Drawn], rates: &[f64]) -> Vec<(&'static str, Twist)> {
 }
 
 const Z: Vector = [0.0, 0.0, 1.0];
-/// From one wheel to the next, and across.
-const WAY: Vector = [0.8, 0.6, 0.0];
-const ACROSS: Vector = [-0.6, 0.8, 0.0];
 
-/// Sizes of two parts, and where the first stands.
-#[derive(Debug, Clone, Copy)]
-struct Parts {
-    r1: f64,
-    r2: f64,
-    one: Vector,
-}
-
-impl Parts {
-    /// A place so far from the first part.
-    fn apart(&self, distance: f64) -> Vector {
-        plus(self.one, distance, WAY)
-    }
-
-    /// Wheels of these radii in mesh, with their pitch point.
-    fn in_mesh(self, head: &'static str) -> Written {
-        let wheels = self.by_radii(head);
-        Box::new(move |told| {
-            format!("{}\nat = {:?}", wheels(told), told.place(self.apart(self.r1)))
-        })
-    }
-
-    /// A belt on wheels of these radii.
-    fn with_strands(self, head: &'static str) -> Written {
-        let wheels = self.by_radii(head);
-        Box::new(move |told| format!("{}\npretension = {:?}", wheels(told), 200.0 * told.metre))
-    }
-
-    /// A coupling of both parts by their radii.
-    fn by_radii(self, head: &'static str) -> Written {
-        Box::new(move |told| {
-            let [r1, r2] = [self.r1, self.r2].map(|r| r * told.metre);
-            format!("{head}\njoints = [\"one\", \"two\"]\nradii = [{r1:?}, {r2:?}]")
-        })
-    }
-
-    fn one(&self) -> Drawn {
-        turn("one", ["frame", "one"], self.one)
-    }
-}
-
-/// The velocity of one body against another at a place, along a direction.
-fn touching(bodies: [&'static str; 2], place: Vector, along: Vector) -> Slip {
-    Box::new(move |v| {
-        let [a, b] = bodies.map(|body| v(body).at(place));
-        dot(plus(a, -1.0, b), along)
-    })
-}
-
-/// Two wheels in mesh.
-fn gears(of: Parts, kind: usize) -> Machine {
-    let other = of.apart(of.r1 + of.r2);
-    let coupling = of.by_radii("kind = \"gear\"");
-    let arm = turn("arm", ["frame", "arm"], of.one);
-    let slip = touching(["one", "two"], of.apart(of.r1), ACROSS);
-    let (what, joints) = match kind {
-        0 => {
-            let joints = vec![of.one(), turn("two", ["frame", "two"], other)];
-            let coupling = of.in_mesh("kind = \"gear\"");
-            return Machine { what: "gears", joints, coupling, slip };
-        }
-        1 => ("planet on an arm", vec![of.one(), arm, turn("two", ["arm", "two"], other)]),
-        2 => (
-            "arms about both axes",
-            vec![
-                of.one(),
-                arm,
-                turn("fork", ["arm", "fork"], other),
-                turn("two", ["fork", "two"], other),
-            ],
-        ),
-        3 => {
-            let joints =
-                vec![turn("one", ["frame", "arm"], of.one), turn("two", ["arm", "two"], other)];
-            let slip = touching(["frame", "two"], of.apart(of.r1), ACROSS);
-            return Machine { what: "sun held by the frame", joints, coupling, slip };
-        }
-        _ => {
-            let inside = Parts { r2: 0.4 * of.r1, ..of };
-            let joints = vec![of.one(), turn("two", ["frame", "two"], of.apart(0.6 * of.r1))];
-            let coupling = inside.in_mesh("kind = \"gear\"\nmesh = \"internal\"");
-            return Machine { what: "wheel in a ring", joints, coupling, slip };
-        }
-    };
-    Machine { what, joints, coupling, slip }
-}
-
-/// Two wheels whose strand runs straight from rim to rim.
-fn belt(of: Parts, is_crossed: bool) -> Machine {
-    let d = of.r1 + of.r2 + 0.5;
-    let r2 = if is_crossed { -of.r2 } else { of.r2 };
-    // a normal to the strand, which both rims have
-    let c = (of.r1 - r2) / d;
-    let n = plus(plus([0.0; 3], c, WAY), (1.0 - c * c).sqrt(), ACROSS);
-    let ends = [plus(of.one, of.r1, n), plus(of.apart(d), r2, n)];
-    let strand = plus(ends[1], -1.0, ends[0]);
-    Machine {
-        what: if is_crossed { "crossed belt" } else { "belt" },
-        joints: vec![of.one(), turn("two", ["frame", "two"], of.apart(d))],
-        coupling: of.with_strands(if is_crossed {
-            "kind = \"belt\"\ncrossed = true"
-        } else {
-            "kind = \"belt\""
-        }),
-        slip: Box::new(move |v| {
-            dot(v("one").at(ends[0]), strand) - dot(v("two").at(ends[1]), strand)
-        }),
-    }
-}
-
-/// A pinion with a rack along x, above it or below.
-fn rack(of: Parts, kind: usize) -> Machine {
-    let side = if kind == 0 { -of.r1 } else { of.r1 };
-    let line = plus(of.one, side, [0.0, 1.0, 0.0]);
-    let coupling = Box::new(move |told: &Telling| {
-        let radius = of.r1 * told.metre;
-        format!("kind = \"rack\"\njoints = [\"one\", \"two\"]\nradius = {radius:?}")
-    });
-    let along = plus(line, 0.7, [1.0, 0.0, 0.0]);
-    let on_cart = turn("one", ["cart", "one"], of.one);
-    let (what, joints, other) = match kind {
-        0 | 1 => ("rack", vec![of.one(), slide("two", ["frame", "two"], along)], "two"),
-        2 => (
-            "pinion on a cart, rack on the frame",
-            vec![
-                slide("cart", ["frame", "cart"], of.one),
-                on_cart,
-                slide("two", ["frame", "two"], along),
-            ],
-            "two",
-        ),
-        _ => (
-            "pinion on a cart that runs along a rack",
-            vec![slide("two", ["frame", "cart"], line), on_cart],
-            "frame",
-        ),
-    };
-    Machine { what, joints, coupling, slip: touching(["one", other], line, [1.0, 0.0, 0.0]) }
-}
-
-/// A screw that turns and a nut that slides.
-fn screw(of: Parts) -> Machine {
-    let lead = of.r1;
-    Machine {
-        what: "screw",
-        joints: vec![of.one(), Drawn { axis: Z, ..slide("two", ["frame", "two"], of.apart(1.0)) }],
-        coupling: Box::new(move |told| {
-            let lead = lead * told.metre;
-            format!("kind = \"screw\"\njoints = [\"one\", \"two\"]\nlead = {lead:?}")
-        }),
-        slip: Box::new(move |v| {
-            let frame = v("frame");
-            let turns = dot(plus(v("one").0, -1.0, frame.0), Z) / core::f64::consts::TAU;
-            let at = of.apart(1.0);
-            dot(plus(v("two").at(at), -1.0, frame.at(at)), Z) - lead * turns
-        }),
-    }
-}
-
-/// Wheels beside a cage, on the frame or one of them on the cage.
-fn differential(of: Parts, is_on_cage: bool) -> Machine {
-    let own = if is_on_cage { "cage" } else { "frame" };
-    Machine {
-        what: if is_on_cage { "sun on the carrier" } else { "half shafts" },
-        joints: vec![
-            turn("cage", ["frame", "cage"], of.one),
-            turn("one", [own, "one"], plus(of.one, 1.0, Z)),
-            turn("two", ["frame", "two"], plus(of.one, -1.0, Z)),
-        ],
-        coupling: Box::new(|_| {
-            "kind = \"differential\"\njoints = [\"one\", \"two\", \"cage\"]\nteeth = [20, 30]"
-                .to_owned()
-        }),
-        slip: Box::new(move |v| {
-            let [a, b] = ["one", "two"].map(|wheel| dot(plus(v(wheel).0, -1.0, v("cage").0), Z));
-            20.0 * a + 30.0 * b
-        }),
-    }
-}
-
-/// A drum and a weight on a slide, on a rope that leaves the drum at its rim.
-fn winch(of: Parts) -> Machine {
-    let (rim, weight) = (of.apart(of.r1), plus(of.apart(of.r1), -3.0, ACROSS));
-    Machine {
-        what: "winch",
-        joints: vec![of.one(), Drawn { axis: ACROSS, ..slide("two", ["frame", "two"], weight) }],
-        coupling: Box::new(move |told| {
-            // the line grows down from the rim as the drum turns against the sense of z
-            let radius = of.r1 * told.metre * told.sense("one");
-            format!(
-                "kind = \"rope\"\npoints = [{{ body = \"frame\", at = {:?} }}, {{ body = \"two\", at = {:?} }}]\n\
-                 drum = {{ joint = \"one\", radius = {radius:?} }}",
-                told.place(rim),
-                told.place(weight)
-            )
-        }),
-        slip: Box::new(move |v| {
-            let [drum, weight, frame] =
-                [("one", rim), ("two", weight), ("frame", weight)].map(|(body, at)| v(body).at(at));
-            let carried = v("frame").at(rim);
-            dot(plus(drum, -1.0, carried), ACROSS) - dot(plus(weight, -1.0, frame), ACROSS)
-        }),
-    }
-}
-
-/// How many kinds of machines there are.
-pub const KINDS: usize = 15;
-
-/// A machine of one of the kinds, with parts of random sizes, on a frame that turns on a base that slides.
-///
-/// # Panics
-/// Never.
-pub fn machine(random: &mut Random, kind: usize) -> Machine {
-    let mut size = || 0.6 + 0.4 * random.next();
-    let of = Parts { r1: size(), r2: size(), one: [0.3, size(), 0.0] };
-    let base = slide("base", ["ground", "base"], [0.0, size(), 0.0]);
-    let swing = turn("swing", ["base", "frame"], [-3.0, size(), 0.0]);
-    let mut machine = match kind {
-        0..5 => gears(of, kind),
-        5 | 6 => belt(of, kind == 6),
-        7..11 => rack(of, kind - 7),
-        11 => screw(of),
-        12 | 13 => differential(of, kind == 13),
-        _ => winch(of),
-    };
-    machine.joints.splice(0..0, [base, swing]);
-    machine
-}
-
-/// In which ways a machine is told otherwise than it is drawn.
+/// In which ways a machine is worded otherwise than it is drawn.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Ways {
     /// The bodies of joints in either order.
@@ -356,7 +126,7 @@ impl Ways {
 
 /// A machine in words: joints in any order, their bodies too, axes of any length and sense, the whole turned, in another unit.
 #[derive(Debug, Clone)]
-pub struct Telling {
+pub struct Wording {
     /// Units of length in a metre.
     pub metre: f64,
     /// The axes of the machine.
@@ -365,8 +135,8 @@ pub struct Telling {
     joints: Vec<(&'static str, bool, f64)>,
 }
 
-impl Telling {
-    /// Tells a machine in some ways.
+impl Wording {
+    /// Of a machine in some ways.
     pub fn new(random: &mut Random, machine: &Machine, ways: Ways) -> Self {
         let unit = |a: Vector| plus([0.0; 3], 1.0 / dot(a, a).sqrt(), a);
         let mut any = || [0; 3].map(|_| random.next());
@@ -444,7 +214,7 @@ impl Telling {
         format!("{bodies}{joints}[[coupling]]\nname = \"link\"\n{}\n", (machine.coupling)(self))
     }
 
-    /// The machine with masses, weight, springs, a motor on a controller, and speeds: of the same seed the same in whatever way it is told.
+    /// The machine with masses, weight, springs, a motor on a controller, and speeds: of the same seed the same in whatever way it is wording.
     #[must_use]
     pub fn moving(&self, machine: &Machine, seed: u64) -> String {
         let outputs = machine.joints.iter().map(|joint| {

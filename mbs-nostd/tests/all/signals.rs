@@ -339,7 +339,7 @@ fn a_solver_without_room_for_signals_says_what_it_lacks() {
     let tables = exported(ARM);
     let tables = RoomTables::<Planar>::read(&tables).expect("a model");
     let refused = Small::new(&tables.model()).expect_err("no room");
-    assert_eq!(refused, LoadError::Capacity { of: "states of signals", needed: 2, capacity: 0 });
+    assert_eq!(refused, LoadError::Capacity { of: "states of signals", needed: 1, capacity: 0 });
 }
 
 #[test]

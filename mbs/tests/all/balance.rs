@@ -1,9 +1,10 @@
 //! Balance of every body of random machines: gravity, reactions, effects and couplings make its momenta change, by laws and places of the file alone.
 
 use crate::common::{run, run_in};
-use mbs::core::scene::{BodyId, CouplingMeasure, Inertia, Joint, Scene};
+use mbs::core::scene::{BodyId, CouplingKind, CouplingMeasure, Inertia, Joint, Scene};
 use mbs::{Method, Outcome};
-use mbs_testkit::machines::{KINDS, Machine, Telling, Ways, machine};
+use mbs_testkit::machines::kinds::{KINDS, machine};
+use mbs_testkit::machines::{Machine, Ways, Wording};
 use mbs_testkit::{Random, scene};
 
 type Vector = [f64; 3];
@@ -91,7 +92,7 @@ fn outputs(machine: &Machine) -> String {
 struct Instant<'a> {
     scene: &'a Scene<f64>,
     machine: &'a Machine,
-    telling: &'a Telling,
+    wording: &'a Wording,
     row: &'a [f64],
     /// The ground last.
     bodies: Vec<Placed>,
@@ -101,7 +102,7 @@ impl<'a> Instant<'a> {
     fn new(
         scene: &'a Scene<f64>,
         machine: &'a Machine,
-        telling: &'a Telling,
+        wording: &'a Wording,
         row: &'a [f64],
     ) -> Self {
         let rotation = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
@@ -118,7 +119,7 @@ impl<'a> Instant<'a> {
                 ..Placed::default()
             };
         }
-        Self { scene, machine, telling, row, bodies }
+        Self { scene, machine, wording, row, bodies }
     }
 
     fn number(&self, body: BodyId) -> usize {
@@ -169,7 +170,7 @@ impl<'a> Instant<'a> {
         }
     }
 
-    /// The springs and the motor that the machine is told with.
+    /// The springs and the motor of the machine.
     fn effects(&mut self) {
         let (_, swing) = self.joint("swing");
         self.along("swing", -30.0 * swing[0] - 0.3 * swing[1]);
@@ -177,8 +178,8 @@ impl<'a> Instant<'a> {
         let [from, to] = [[1.0, 2.0, 0.5], [0.2, 1.1, 0.1]];
         let free = 0.8 * size(plus(from, -1.0, to));
         let (frame, ground) = (self.named("frame"), self.named("ground"));
-        let from = self.telling.place(from);
-        let at = self.bodies[frame].at(self.telling.place(to));
+        let from = self.wording.place(from);
+        let at = self.bodies[frame].at(self.wording.place(to));
         let way = plus(at, -1.0, from);
         let pull = unit(way).map(|x| -40.0 * (size(way) - free) * x);
         self.bodies[frame].take(at, pull, [0.0; 3]);
@@ -188,78 +189,99 @@ impl<'a> Instant<'a> {
     /// What the coupling does where it acts on the drawn machine; by its coordinates where nothing says where that is.
     fn coupling(&mut self, kind: usize) {
         let effort = self.row[self.row.len() - 2];
-        let coupling = &self.scene.couplings[0];
-        let (one, wheels) = (self.joint("one").0, [self.named("one"), self.named("two")]);
-        let frame = self.named("frame");
-        // the sense of the joint's coordinate as a motion of the wheel
-        let sense = |joint: &Joint<f64>, body: usize| {
-            if self.number(joint.bodies[1]) == body { 1.0 } else { -1.0 }
-        };
-        let factors: Vec<f64> = coupling.terms.iter().map(|term| term.factor).collect();
-        let on_frame = |joint: &Joint<f64>| self.bodies[frame].at(joint.points[0]);
-        let (n, about) = (self.axis(one), sense(one, wheels[0]));
         match kind {
-            0 | 4 => {
-                let two = self.joint("two").0;
-                let mbs::core::scene::CouplingKind::Mesh(mesh) = &coupling.kind else {
-                    panic!("no mesh")
-                };
-                let pitch = self.bodies[frame].at(mesh.at);
-                let way = |joint: &Joint<f64>| plus(pitch, -1.0, on_frame(joint));
-                let (r1, r2) = (way(one), way(two));
-                let force = cross(n, r1).map(|x| about * effort * x / dot(r1, r1));
-                let smaller = if size(r1) <= size(r2) { unit(r1).map(|x| -x) } else { unit(r2) };
-                let apart = size(force) * 20.0_f64.to_radians().tan();
-                self.between(
-                    [wheels[1], wheels[0]],
-                    pitch,
-                    (plus(force, apart, smaller), [0.0; 3]),
-                );
-            }
-            5 | 6 => {
-                let two = self.joint("two").0;
-                let [c1, c2] = [on_frame(one), on_frame(two)];
-                let [r1, r2] = [factors[0].abs(), factors[1].abs()];
-                let r2 = if kind == 6 { -r2 } else { r2 };
-                let way = plus(c2, -1.0, c1);
-                let c = (r1 - r2) / size(way);
-                for side in [1.0, -1.0] {
-                    let across = cross(n, unit(way)).map(|x| side * x);
-                    let m = plus(unit(way).map(|x| c * x), (1.0 - c * c).sqrt(), across);
-                    let ends = [plus(c1, r1, m), plus(c2, r2, m)];
-                    let along = unit(plus(ends[1], -1.0, ends[0]));
-                    let turns = dot(n, cross(m, along)).signum() * about;
-                    let pull = along.map(|x| (200.0 + 0.5 * effort * turns) * x);
-                    self.bodies[wheels[0]].take(ends[0], pull, [0.0; 3]);
-                    self.bodies[wheels[1]].take(ends[1], pull.map(|x| -x), [0.0; 3]);
-                }
-            }
-            11 => {
-                let (two, _) = self.joint("two");
-                let (along, at) = (sense(two, wheels[1]), on_frame(one));
-                let force = self.axis(two).map(|x| along * effort * x);
-                let moment = n.map(|x| -about * effort * factors[1] / factors[0] * x);
-                self.between(wheels, at, (force, moment));
-            }
-            14 => {
-                let CouplingMeasure::Length { points } = &coupling.terms[0].of else {
-                    panic!("no line")
-                };
-                let [rim, weight] =
-                    [0, 1].map(|k| self.bodies[self.number(points[k].0)].at(points[k].1));
-                let pull = unit(plus(weight, -1.0, rim)).map(|x| effort * x);
-                self.bodies[wheels[0]].take(rim, pull, [0.0; 3]);
-                self.bodies[wheels[1]].take(weight, pull.map(|x| -x), [0.0; 3]);
-            }
+            0 | 4 => self.teeth(effort),
+            5 | 6 => self.strands(effort, kind == 6),
+            11 => self.thread(effort),
+            14 => self.rope(effort),
             _ => {
-                let by = if (7..11).contains(&kind) { 1.0 } else { factors[0] };
-                for (term, factor) in coupling.terms.iter().zip(factors) {
+                let coupling = &self.scene.couplings[0];
+                let by = if (7..11).contains(&kind) { 1.0 } else { coupling.terms[0].factor };
+                for term in &coupling.terms {
                     let joint = term.of.coordinate().expect("a coordinate").0;
                     let name = self.scene.joints[joint.index()].name.clone();
-                    self.along(&name, factor * effort / by);
+                    self.along(&name, term.factor * effort / by);
                 }
             }
         }
+    }
+
+    /// The bodies of both wheels.
+    fn wheels(&self) -> [usize; 2] {
+        [self.named("one"), self.named("two")]
+    }
+
+    /// Where a joint of the frame stands.
+    fn on_frame(&self, joint: &Joint<f64>) -> Vector {
+        self.bodies[self.named("frame")].at(joint.points[0])
+    }
+
+    /// The axis of the first wheel, and the sense of its joint's coordinate as a motion of the wheel.
+    fn first(&self) -> (&'a Joint<f64>, Vector, f64) {
+        let one = self.joint("one").0;
+        (one, self.axis(one), self.sense(one, self.named("one")))
+    }
+
+    fn sense(&self, joint: &Joint<f64>, body: usize) -> f64 {
+        if self.number(joint.bodies[1]) == body { 1.0 } else { -1.0 }
+    }
+
+    /// At the pitch point along the tangent, and apart under 20 degrees.
+    fn teeth(&mut self, effort: f64) {
+        let (one, n, about) = self.first();
+        let two = self.joint("two").0;
+        let CouplingKind::Mesh(mesh) = &self.scene.couplings[0].kind else { panic!("no mesh") };
+        let pitch = self.bodies[self.named("frame")].at(mesh.at);
+        let [r1, r2] = [one, two].map(|joint| plus(pitch, -1.0, self.on_frame(joint)));
+        let force = cross(n, r1).map(|x| about * effort * x / dot(r1, r1));
+        let smaller = if size(r1) <= size(r2) { unit(r1).map(|x| -x) } else { unit(r2) };
+        let apart = size(force) * 20.0_f64.to_radians().tan();
+        let [one, two] = self.wheels();
+        self.between([two, one], pitch, (plus(force, apart, smaller), [0.0; 3]));
+    }
+
+    /// Along both common tangents, with 200 N and half of the difference.
+    fn strands(&mut self, effort: f64, is_crossed: bool) {
+        let (one, n, about) = self.first();
+        let [c1, c2] = [one, self.joint("two").0].map(|joint| self.on_frame(joint));
+        let [r1, r2] = [0, 1].map(|k| self.scene.couplings[0].terms[k].factor.abs());
+        let r2 = if is_crossed { -r2 } else { r2 };
+        let way = plus(c2, -1.0, c1);
+        let c = (r1 - r2) / size(way);
+        let wheels = self.wheels();
+        for side in [1.0, -1.0] {
+            let across = cross(n, unit(way)).map(|x| side * x);
+            let m = plus(unit(way).map(|x| c * x), (1.0 - c * c).sqrt(), across);
+            let ends = [plus(c1, r1, m), plus(c2, r2, m)];
+            let along = unit(plus(ends[1], -1.0, ends[0]));
+            let turns = dot(n, cross(m, along)).signum() * about;
+            let pull = along.map(|x| (200.0 + 0.5 * effort * turns) * x);
+            self.bodies[wheels[0]].take(ends[0], pull, [0.0; 3]);
+            self.bodies[wheels[1]].take(ends[1], pull.map(|x| -x), [0.0; 3]);
+        }
+    }
+
+    /// Along the axis of the screw on its nut, and about it.
+    fn thread(&mut self, effort: f64) {
+        let (one, n, about) = self.first();
+        let (two, wheels) = (self.joint("two").0, self.wheels());
+        let [per_turn, lead] = [0, 1].map(|k| self.scene.couplings[0].terms[k].factor);
+        let along = self.sense(two, wheels[1]);
+        let force = self.axis(two).map(|x| along * effort * x);
+        let moment = n.map(|x| -about * effort * lead / per_turn * x);
+        self.between(wheels, self.on_frame(one), (force, moment));
+    }
+
+    /// Along the line, at the rim on the drum.
+    fn rope(&mut self, effort: f64) {
+        let CouplingMeasure::Length { points } = &self.scene.couplings[0].terms[0].of else {
+            panic!("no line")
+        };
+        let [rim, weight] = [0, 1].map(|k| self.bodies[self.number(points[k].0)].at(points[k].1));
+        let pull = unit(plus(weight, -1.0, rim)).map(|x| effort * x);
+        let wheels = self.wheels();
+        self.bodies[wheels[0]].take(rim, pull, [0.0; 3]);
+        self.bodies[wheels[1]].take(weight, pull.map(|x| -x), [0.0; 3]);
     }
 
     /// What is missing on a body, in parts of the largest force on any.
@@ -298,13 +320,13 @@ fn worst(machines: u64, method: &dyn Fn(&Scene<f64>) -> Outcome) -> f64 {
         let mut random = Random::new(5000 + seed);
         let kind = seed as usize % KINDS;
         let machine = machine(&mut random, kind);
-        let telling = Telling::new(&mut random, &machine, Ways::ALL);
-        let text = telling.moving_with(&machine, seed, &outputs(&machine));
+        let wording = Wording::new(&mut random, &machine, Ways::ALL);
+        let text = wording.moving_with(&machine, seed, &outputs(&machine));
         let scene = scene(&text);
         let outcome = method(&scene);
         assert_eq!(outcome.error, None, "{}\n{text}", machine.what);
         let row = &outcome.rows().last().expect("a row").1;
-        let mut now = Instant::new(&scene, &machine, &telling, row);
+        let mut now = Instant::new(&scene, &machine, &wording, row);
         now.reactions();
         now.effects();
         now.coupling(kind);

@@ -1,11 +1,12 @@
-//! Random machines told in other ways move as they are drawn: bodies of joints swapped, axes reversed, another order, turned, in millimetres.
+//! Random machines in other words move as they are drawn: bodies of joints swapped, axes reversed, another order, turned, in millimetres.
 
 use crate::common::{run, run_in};
 use mbs::{Method, Outcome};
-use mbs_testkit::machines::{KINDS, Telling, Ways, machine};
+use mbs_testkit::machines::kinds::{KINDS, machine};
+use mbs_testkit::machines::{Ways, Wording};
 use mbs_testkit::{Random, scene};
 
-/// Each way to tell a machine, and all of them.
+/// Each way to word a machine, and all of them.
 const WAYS: [(&str, Ways); 6] = {
     let drawn =
         Ways { swaps: false, reverses: false, shuffles: false, turns: false, millimetres: false };
@@ -20,13 +21,13 @@ const WAYS: [(&str, Ways); 6] = {
 };
 
 /// The vectors of a run's rows as they are drawn: places in metres, angular velocities.
-fn drawn(outcome: &Outcome, telling: &Telling, what: &str) -> Vec<Vec<[f64; 3]>> {
+fn drawn(outcome: &Outcome, wording: &Wording, what: &str) -> Vec<Vec<[f64; 3]>> {
     assert_eq!(outcome.error, None, "{what}");
     let vectors = |row: &[f64]| {
         let three = row.chunks_exact(3).enumerate();
         let scaled = three.map(|(k, x)| {
-            let size = if k % 2 == 0 { telling.metre } else { 1.0 };
-            telling.back([x[0] / size, x[1] / size, x[2] / size])
+            let size = if k % 2 == 0 { wording.metre } else { 1.0 };
+            wording.back([x[0] / size, x[1] / size, x[2] / size])
         });
         scaled.collect()
     };
@@ -54,16 +55,16 @@ fn apart(one: &[Vec<[f64; 3]>], other: &[Vec<[f64; 3]>]) -> f64 {
     relative.fold(0.0, f64::max)
 }
 
-/// The largest difference of ways to tell machines from how they are drawn, by a method, over machines of all kinds.
+/// The largest difference of wordings of machines from how they are drawn, by a method, over machines of all kinds.
 fn differ(machines: u64, method: &dyn Fn(&mbs::core::scene::Scene<f64>) -> Outcome) -> f64 {
     let mut worst = 0.0_f64;
     for seed in 0..machines {
         let mut random = Random::new(1000 + seed);
         let machine = machine(&mut random, seed as usize % KINDS);
         let mut moves = |ways: Ways, what: &str| {
-            let telling = Telling::new(&mut random, &machine, ways);
-            let text = telling.moving(&machine, seed);
-            drawn(&method(&scene(&text)), &telling, &format!("{} {what}\n{text}", machine.what))
+            let wording = Wording::new(&mut random, &machine, ways);
+            let text = wording.moving(&machine, seed);
+            drawn(&method(&scene(&text)), &wording, &format!("{} {what}\n{text}", machine.what))
         };
         let plain = moves(Ways::default(), "as drawn");
         for (what, ways) in WAYS {
@@ -76,7 +77,7 @@ fn differ(machines: u64, method: &dyn Fn(&mbs::core::scene::Scene<f64>) -> Outco
 }
 
 #[test]
-fn machines_move_as_they_are_drawn_however_they_are_told() {
+fn machines_move_as_they_are_drawn_in_whatever_words() {
     let method = |formulation: &str, integrator: &str, tolerance| Method {
         formulation: Some(formulation.to_owned()),
         integrator: Some(integrator.to_owned()),
@@ -90,7 +91,7 @@ fn machines_move_as_they_are_drawn_however_they_are_told() {
 }
 
 #[test]
-fn every_formulation_steps_alike_however_a_machine_is_told() {
+fn every_formulation_steps_alike_in_whatever_words() {
     for formulation in mbs::FormulationKind::ALL.map(mbs::FormulationKind::name) {
         let worst = differ(KINDS as u64, &|scene| run_in(scene, formulation, Some(1e-3)));
         println!("{formulation}: {worst:e}");

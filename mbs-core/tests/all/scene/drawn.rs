@@ -1,7 +1,8 @@
 //! Couplings that are drawn, against velocities where their parts touch: places and axes alone, by an oracle of its own.
 
 use mbs_core::scene::{BodyId, CouplingMeasure};
-use mbs_testkit::machines::{KINDS, Telling, Ways, machine, twists};
+use mbs_testkit::machines::kinds::{KINDS, machine};
+use mbs_testkit::machines::{Ways, Wording, twists};
 use mbs_testkit::{Random, scene};
 
 #[test]
@@ -9,13 +10,13 @@ fn parts_of_what_is_drawn_do_not_slip_where_they_touch() {
     let mut random = Random::new(22);
     for k in 0..750 {
         let machine = machine(&mut random, k % KINDS);
-        let telling = Telling::new(&mut random, &machine, Ways::ALL);
+        let wording = Wording::new(&mut random, &machine, Ways::ALL);
         let body = |name: &str, _| {
             format!(
                 "[[body]]\nname = \"{name}\"\nmass = 1.0\ncenter = [0, 0, 0]\ninertia = [1, 1, 1, 0, 0, 0]\n"
             )
         };
-        let text = telling.parts(&machine, body);
+        let text = wording.parts(&machine, body);
         let scene = scene(&format!("[scene]\ndimension = 3\nduration = 1.0\n{text}"));
         let mut factor = None;
         for _ in 0..6 {
@@ -27,11 +28,11 @@ fn parts_of_what_is_drawn_do_not_slip_where_they_touch() {
             let rate = |joint: usize| {
                 let name = &scene.joints[joint].name;
                 let place = machine.joints.iter().position(|joint| joint.name == name);
-                telling.sense(name) * rates[place.expect("a joint")]
+                wording.sense(name) * rates[place.expect("a joint")]
             };
             let moving = |(body, at): &(BodyId, [f64; 3])| {
                 let name = body.index().map_or("ground", |body| &scene.bodies[body].name);
-                let at = telling.back(*at);
+                let at = wording.back(*at);
                 (at, of(name).at(at))
             };
             let measured = |of: &CouplingMeasure<f64>| match of {
