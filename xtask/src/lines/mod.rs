@@ -44,7 +44,7 @@ const STEPS: [&str; 1] = ["mbs_steps"];
 
 /// Most lines of those modules in any other crate, three precisions together: readings of a field or two, which are smaller than a call through
 /// a table. One model that is built outside its owner brings 50,000.
-const MOST_STRAY: u64 = 12_000;
+const MOST_STRAY: u64 = 14_000;
 
 /// Counts, prints the table, and with `keep` writes the counts into docs/PROFILES.md, whose bounds stay.
 #[allow(clippy::print_stdout, reason = "the table is what this job is for")]
