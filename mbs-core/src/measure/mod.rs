@@ -19,6 +19,7 @@ mod monotone;
 mod rolling;
 #[cfg(feature = "alloc")]
 mod rotor;
+#[cfg(feature = "alloc")]
 mod strands;
 #[cfg(feature = "alloc")]
 mod term;
@@ -42,6 +43,7 @@ pub(crate) use mesh::MeshedWheels;
 pub use rolling::RollingInput;
 #[cfg(feature = "alloc")]
 pub use rotor::RotorInput;
+#[cfg(feature = "alloc")]
 pub(crate) use strands::Strands;
 #[cfg(feature = "alloc")]
 pub use term::TermInput;

@@ -235,7 +235,8 @@ class Mechanism:
         outputs: Sequence[str] | None = None,
     ) -> Linear:
         """dx/dt = A x + B u, y = C x + D u about a state: `"equilibrium"`, `"initial"`, `"moving"`, what `equilibrium()` gives, or (q, v).
-        The states x are independent coordinates and their rates, then the states of signals."""
+        The states x are independent coordinates and their rates, then the states of signals. About a state that is neither a rest nor a
+        steady motion the matrices hold for the instant, and `unsteady` says why."""
     def accelerations(self, q: ArrayLike, v: ArrayLike, u: ArrayLike | None = None, *, time: float = 0.0, strict: bool = False) -> Array:
         """Accelerations (nv,) under all effects and inputs `u` (nu,), signals as they begin. All arguments are of one state, or of k
         states."""

@@ -209,6 +209,73 @@ fn what_a_rest_leaves_out_of_a_motion_is_listed_and_a_motion_has_it() {
     assert!(moving.modes.iter().any(|mode| (mode.imaginary - 18.973_666).abs() < 1e-6));
 }
 
+/// A mass of 10 kg on two slides of a driven hub: its own slider has `slider` kg, springs have 40 kN/m; it stands `x` from its drawn place, and its
+/// centre `e` further out.
+fn shaft((rate, slider): (f64, f64), [x, e]: [f64; 2], effects: &str) -> Scene<f64> {
+    let slide = |name: &str, bodies: [&str; 2], axis: &str, value: f64| {
+        format!(
+            "[[joint]]\nname = \"{name}\"\nkind = \"prismatic\"\nbodies = {bodies:?}\nat = [0, 0]\naxis = {axis}\n\
+             [[effect]]\nkind = \"torsion-spring\"\njoint = \"{name}\"\nstiffness = 4.0e4\n\
+             [[initial]]\njoint = \"{name}\"\nvalue = {value:?}\nrate = 0.0\n"
+        )
+    };
+    let text = format!(
+        "[scene]\ndimension = 2\nduration = 1.0\n\
+         [[body]]\nname = \"hub\"\nmass = 1.0\ncenter = [0, 0]\ninertia = 0.1\n\
+         [[body]]\nname = \"slider\"\nmass = {slider:?}\ncenter = [0, 0]\ninertia = 0.0\n\
+         [[body]]\nname = \"mass\"\nmass = 10.0\ncenter = [{e:?}, 0]\ninertia = 0.1\n\
+         [[joint]]\nname = \"axle\"\nkind = \"revolute\"\nbodies = [\"ground\", \"hub\"]\nat = [0, 0]\n\
+         [[guide]]\njoint = \"axle\"\nramp = {{ rate = {rate:?} }}\n{}{}{effects}",
+        slide("x", ["hub", "slider"], "[1, 0]", x),
+        slide("y", ["slider", "mass"], "[0, 1]", 0.0)
+    );
+    read(&text, "shaft")
+}
+
+/// m s² + (ci + ce) s + k − i ci Ω = 0 in axes that stand; s − i Ω in axes that turn. It grows beyond 189.7 rad/s.
+#[test]
+fn damping_in_turning_axes_makes_a_shaft_grow_beyond_its_limit() {
+    let (m, ci, ce, k) = (10.0_f64, 30.0, 60.0, 4e4);
+    let effects = ["x", "y"].map(|joint| {
+        format!("[[effect]]\nkind = \"torsion-spring\"\njoint = \"{joint}\"\ndamping = {ci:?}\n")
+    });
+    let outer = format!(
+        "[[effect]]\nkind = \"bushing\"\nbodies = [\"ground\", \"mass\"]\nat = [0, 0]\nstiffness = [0.0, 0.0, 0.0]\n\
+         damping = [{ce:?}, {ce:?}, 0.0]\n"
+    );
+    for (rate, grows) in [(100.0, false), (189.0, false), (191.0, true), (200.0_f64, true)] {
+        let found = modes(&shaft((rate, 0.0), [0.0; 2], &(effects.concat() + &outer)));
+        // √((ci + ce)² − 4 m (k − i ci Ω))
+        let (a, b) = ((ci + ce).powi(2) - 4.0 * m * k, 4.0 * m * ci * rate);
+        let size = f64::hypot(a, b);
+        let root = [((size + a) / 2.0).sqrt(), ((size - a) / 2.0).sqrt()];
+        let both = [1.0, -1.0].map(|sign| {
+            let s = [(-(ci + ce) + sign * root[0]) / (2.0 * m), sign * root[1] / (2.0 * m)];
+            [s[0], (s[1] - rate).abs()]
+        });
+        has(&found, &both);
+        assert_eq!(found.modes.iter().any(|mode| mode.real > 1e-6), grows, "{rate}");
+    }
+}
+
+/// x = m e Ω²/(k − (m + ms) Ω²) = 6.667111141e-4 m; its modes with the slider's mass in one direction.
+#[test]
+fn unbalance_is_a_steady_motion_where_the_shaft_bends_by_it_alone() {
+    let (m, ms, k, e, rate) = (10.0_f64, 0.001, 4e4, 1e-3, 40.0_f64);
+    let x = m * e * rate * rate / (k - (m + ms) * rate * rate);
+    assert!((x - 6.667_111_141e-4).abs() < 1e-13);
+    let found = modes(&shaft((rate, ms), [x, e], ""));
+    // ((m + ms) s² + k − (m + ms) Ω²)(m s² + k − m Ω²) + 4 m² Ω² s² = 0
+    let w = rate * rate;
+    let [kx, ky] = [k - (m + ms) * w, k - m * w];
+    let (a, b, c) = ((m + ms) * m, (m + ms) * ky + m * kx + 4.0 * m * m * w, kx * ky);
+    let root = (b * b - 4.0 * a * c).sqrt();
+    has(&found, &[(b - root) / (2.0 * a), (b + root) / (2.0 * a)].map(|s| [0.0, s.sqrt()]));
+    // elsewhere it accelerates
+    let off = Modes::new(&shaft((rate, ms), [0.0, e], ""), Place::Initial, Search::Down);
+    assert!(matches!(off, Err(StopError::NotSteady(_))), "{off:?}");
+}
+
 /// e^(A t) by its series for t/1024, squared ten times.
 fn exponential(a: &[Vec<f64>], t: f64) -> Vec<Vec<f64>> {
     let n = a.len();
