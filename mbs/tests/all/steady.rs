@@ -235,7 +235,7 @@ fn shaft((rate, slider): (f64, f64), [x, e]: [f64; 2], effects: &str) -> Scene<f
 /// m s² + (ci + ce) s + k − i ci Ω = 0 in axes that stand; s − i Ω in axes that turn. It grows beyond 189.7 rad/s.
 #[test]
 fn damping_in_turning_axes_makes_a_shaft_grow_beyond_its_limit() {
-    let (m, ci, ce, k) = (10.0_f64, 30.0, 60.0, 4e4);
+    let (m, ci, ce, k) = (10.0_f64, 30.0_f64, 60.0_f64, 4e4);
     let effects = ["x", "y"].map(|joint| {
         format!("[[effect]]\nkind = \"torsion-spring\"\njoint = \"{joint}\"\ndamping = {ci:?}\n")
     });
