@@ -10,6 +10,7 @@ pub mod explain;
 mod front;
 mod journal;
 pub mod remedy;
+mod stretches;
 pub mod sweep;
 
 pub use mbs_redundancy as redundancy;

@@ -3,8 +3,9 @@
 //! A trial may take so many iterations and steps, by their nominal times, and no clock is asked: every machine names the same.
 
 use crate::estimate::purse::nominal_step;
+use crate::stretches::stretches;
 use core::ops::ControlFlow;
-use mbs::inside::{Alarm, Stretch, continue_if, drive, step};
+use mbs::inside::{Alarm, continue_if, drive};
 use mbs::typed::{Simulation, StepObserver};
 use mbs::{FormulationKind, IntegratorKind, Method, Outcome, Precision, ResolvedMethod, StopError};
 use mbs_core::control::Accepted;
@@ -126,11 +127,7 @@ fn trial<const D: usize>(scene: &Scene<f64>, settings: &ResolvedMethod) -> (f64,
     };
     let [coordinates, constraints, _] = simulation.sizes();
     let one = nominal_step(settings.formulation, (coordinates + constraints) as f64);
-    let (lengths, is_controlled) = (settings.lengths(scene), simulation.is_controlled());
-    let stretches = (1..=settings.n_steps()).map(|k| {
-        let step = step(settings, &lengths, k);
-        if is_controlled { Stretch { fixed: None, ..step } } else { step }
-    });
+    let stretches = stretches(scene, settings, simulation.is_controlled());
     let mut watch = Watch { alarm: Alarm::new(settings.energy_alarm), left: A_TRIAL / one };
     let end = drive(&mut simulation, stretches, &settings.interrupt, &mut watch);
     (simulation.state().t, end.is_ok())

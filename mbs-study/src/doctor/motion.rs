@@ -11,8 +11,9 @@
 use super::basis::{Effort, places, stopped};
 use super::finding::{Finding, Severity, Topic, joint_names};
 use crate::redundancy::{Linkage, Loop, Part, Poses, Rank, loops};
+use crate::stretches::stretches;
 use core::ops::ControlFlow;
-use mbs::inside::{SAME_LENGTH, Stretch, drive, step};
+use mbs::inside::{SAME_LENGTH, drive};
 use mbs::typed::{Simulation, StepObserver};
 use mbs::{ResolvedMethod, StopError};
 use mbs_core::control::Accepted;
@@ -134,11 +135,7 @@ pub(super) fn watch<const D: usize>(
     let every = settings.duration / positions(linkage, effort);
     let clock = Instant::now();
     let has_time = || clock.elapsed().as_secs_f64() <= effort.seconds;
-    let (lengths, is_controlled) = (settings.lengths(scene), simulation.is_controlled());
-    let stretches = (1..=settings.n_steps()).map(|k| {
-        let step = step(settings, &lengths, k);
-        if is_controlled { Stretch { fixed: None, ..step } } else { step }
-    });
+    let stretches = stretches(scene, settings, simulation.is_controlled());
     let mut look =
         Look { watch: &mut watch, motion: &mut motion, every, next: every, has_time: &has_time };
     if let Err(stop) = drive(&mut simulation, stretches, &settings.interrupt, &mut look) {

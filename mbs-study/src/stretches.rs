@@ -1,0 +1,18 @@
+//! The stretches of a run that is looked at on its way, as a run makes them.
+
+use mbs::ResolvedMethod;
+use mbs::inside::{Stretch, step};
+use mbs_core::scene::Scene;
+
+/// The steps of a method; where it controls their lengths, the intervals between its rows.
+pub(crate) fn stretches(
+    scene: &Scene<f64>,
+    settings: &ResolvedMethod,
+    is_controlled: bool,
+) -> impl Iterator<Item = Stretch<f64>> {
+    let lengths = settings.lengths(scene);
+    (1..=settings.n_steps()).map(move |k| {
+        let step = step(settings, &lengths, k);
+        if is_controlled { Stretch { fixed: None, ..step } } else { step }
+    })
+}
