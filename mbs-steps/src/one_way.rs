@@ -1,5 +1,5 @@
-//! Contacts that roll and cams that would lift off, and ropes that would go slack: their rows hold both ways, and a run notes where they
-//! had to.
+//! Contacts that roll and cams that would lift off, ropes and strands that would go slack: their rows hold both ways, and a run notes where
+//! they had to.
 
 use crate::checkpoint::tape::{Tape, Walked};
 use crate::simulation::Simulation;

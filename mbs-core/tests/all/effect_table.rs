@@ -1,6 +1,7 @@
 //! The table of effects: what its fields say of each other, that values make the effect that they came from, and that
 //! docs/EFFECTS.md is written from it.
 
+use crate::document::written;
 use mbs_core::effects::{Default, EFFECTS, Field, Form, JointNeed, Row, Value};
 use mbs_core::scene::{Dimension, EffectKind};
 use mbs_testkit::effects;
@@ -82,14 +83,7 @@ fn the_document_has_the_fields_of_the_table() {
         let end = start + expected[start..].find("\n\n").expect("an end") + 1;
         expected.replace_range(start..end, &table(group));
     }
-    if std::env::var_os("MBS_WRITE_DOCS").is_some() {
-        std::fs::write(DOCUMENT, &expected).expect("the document");
-    } else {
-        assert!(
-            text == expected,
-            "run this test with MBS_WRITE_DOCS=1, and look at the difference"
-        );
-    }
+    written(DOCUMENT, (&text, &expected));
 }
 
 /// The kinds between two bodies, on a joint, on a sum, on one body, on a line over points.

@@ -8,6 +8,7 @@ mod balls;
 mod codes;
 mod control;
 mod coupling_kinds;
+mod document;
 mod effect_table;
 mod effects;
 mod efforts;

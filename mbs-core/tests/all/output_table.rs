@@ -1,5 +1,6 @@
 //! The table of quantities: what each says of itself, and that docs/OUTPUTS.md is written from it.
 
+use crate::document::written;
 use mbs_core::outputs::{ComponentForm, QUANTITIES, QuantityRow, TargetKind};
 use std::fmt::Write;
 
@@ -41,14 +42,7 @@ fn the_document_has_every_quantity_of_the_table() {
     let [start, end] = MARKS.map(|mark| text.find(mark).expect("a mark"));
     let start = start + MARKS[0].len();
     let expected = format!("{}{}{}", &text[..start], tables(), &text[end..]);
-    if std::env::var_os("MBS_WRITE_DOCS").is_some() {
-        std::fs::write(DOCUMENT, &expected).expect("the document");
-    } else {
-        assert!(
-            text == expected,
-            "run this test with MBS_WRITE_DOCS=1, and look at the difference"
-        );
-    }
+    written(DOCUMENT, (&text, &expected));
 }
 
 /// A table for each thing that a quantity is of.
