@@ -11,6 +11,9 @@ use crate::Real;
 
 /// Runs two pieces of work, at the same time where it has the hands.
 pub trait Team: Sync {
+    /// Is it always the caller's thread alone? What more threads need is not compiled for such a type.
+    const IS_ALONE: bool = false;
+
     /// The results of `a` and `b`. Both have ended when it returns; a panic of one is passed on.
     fn join<A: Send, B: Send>(
         &self,
@@ -27,6 +30,8 @@ pub trait Team: Sync {
 pub struct Alone;
 
 impl Team for Alone {
+    const IS_ALONE: bool = true;
+
     #[inline(always)]
     fn join<A: Send, B: Send>(
         &self,
@@ -42,6 +47,8 @@ impl Team for Alone {
 }
 
 impl<W: Team> Team for &W {
+    const IS_ALONE: bool = W::IS_ALONE;
+
     #[inline(always)]
     fn join<A: Send, B: Send>(
         &self,
@@ -68,7 +75,7 @@ pub fn on_stretches<W: Team, T: Send, const N: usize>(
     vectors: [&mut [T]; N],
     work: impl Fn(usize, [&mut [T]; N]) + Sync,
 ) {
-    if team.size() == 1 {
+    if W::IS_ALONE || team.size() == 1 {
         work(0, vectors);
     } else {
         cut(team, 0, vectors, &work);
@@ -81,22 +88,27 @@ fn cut<W: Team, T: Send, const N: usize>(
     vectors: [&mut [T]; N],
     work: &(impl Fn(usize, [&mut [T]; N]) + Sync),
 ) {
-    let len = vectors.first().map_or(0, |v| v.len());
+    let len = if let Some(vector) = vectors.first() { vector.len() } else { 0 };
     if len <= STRETCH {
         return work(first, vectors);
     }
     let half = len / 2;
+    let [left, right] = parted(vectors, half);
+    team.join(|| cut(team, first, left, work), || cut(team, first + half, right, work));
+}
+
+/// Each vector in two, at a place. A function by itself, which no piece of work is compiled with.
+fn parted<T, const N: usize>(vectors: [&mut [T]; N], at: usize) -> [[&mut [T]; N]; 2] {
     let mut right: [&mut [T]; N] = core::array::from_fn(|_| Default::default());
     let mut places = right.iter_mut();
     let left = vectors.map(|v| {
-        let (head, tail) = v.split_at_mut(half);
+        let (head, tail) = v.split_at_mut(at);
         if let Some(place) = places.next() {
             *place = tail;
         }
         head
     });
-    drop(places);
-    team.join(|| cut(team, first, left, work), || cut(team, first + half, right, work));
+    [left, right]
 }
 
 /// Most elements whose numbers one thread writes at a time [-]. Chosen, not tuned: no bit depends on it.
@@ -119,7 +131,7 @@ fn write_elements<W: Team, T: Send>(
     out: &mut [T],
     write: &(impl Fn(usize, &mut [T]) + Sync),
 ) {
-    if to - from > ELEMENTS && team.size() > 1 {
+    if !W::IS_ALONE && to - from > ELEMENTS && team.size() > 1 {
         let half = from + (to - from) / 2;
         let (left, right) = out.split_at_mut(starts[half] - starts[from]);
         team.join(

@@ -120,7 +120,12 @@ impl<T: Real, const D: usize> CoupledSum<T, D> {
     }
 
     /// Hands out what it does to bearings alone at an effort: what drives teeth apart, and the pretension of strands.
-    pub(super) fn load_bearings(&self, effort: T, state: &State<T>, take: impl FnMut(Applied<T>)) {
+    pub(super) fn load_bearings(
+        &self,
+        effort: T,
+        state: &State<T>,
+        take: &mut dyn FnMut(Applied<T>),
+    ) {
         if let Some(teeth) = &self.teeth {
             teeth.drive_apart(effort, state, take);
         } else if let Some(strands) = &self.strands {
@@ -164,7 +169,7 @@ impl<T: Real, const D: usize> CoupledSum<T, D> {
     }
 
     /// Hands out what it does to the bodies at an effort.
-    pub(super) fn apply(&self, effort: T, state: &State<T>, mut take: impl FnMut(Applied<T>)) {
+    pub(super) fn apply(&self, effort: T, state: &State<T>, take: &mut dyn FnMut(Applied<T>)) {
         if let Some(teeth) = &self.teeth {
             return teeth.apply(effort, state, take);
         }
@@ -176,7 +181,7 @@ impl<T: Real, const D: usize> CoupledSum<T, D> {
             if let Some(weight) = drawn.on_line(effort) {
                 let line = &self.terms[0].parts;
                 for part in line {
-                    part.apply(weight, state, |applied| {
+                    part.apply(weight, state, &mut |applied| {
                         let ends = (end, 2 * line.len());
                         take(drawn.moved(ends, applied, (state, &mut about)));
                         end += 1;
@@ -192,7 +197,7 @@ impl<T: Real, const D: usize> CoupledSum<T, D> {
                 None => term.evaluate(state).0[1],
             };
             let weight = term.factor * slope * effort;
-            term.parts.iter().for_each(|part| part.apply(weight, state, &mut take));
+            term.parts.iter().for_each(|part| part.apply(weight, state, take));
         }
     }
 
@@ -328,7 +333,7 @@ impl<T: Real, const D: usize> Part<T, D> {
     }
 
     /// Hands out what does the work `weight` times the rate.
-    pub(super) fn apply(&self, weight: T, state: &State<T>, mut take: impl FnMut(Applied<T>)) {
+    pub(super) fn apply(&self, weight: T, state: &State<T>, take: &mut dyn FnMut(Applied<T>)) {
         let [first, second] = self.bodies;
         let turning =
             |g: Vector<T, 3>| (Wrench { force: Vector::zeros(), moment: g * weight }, [None; 2]);

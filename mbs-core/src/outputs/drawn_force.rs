@@ -100,7 +100,7 @@ impl<T: Real, const D: usize> DrawnForce<T, D> {
         &self,
         (effort, about): (T, T),
         state: &State<T>,
-        mut take: impl FnMut(Applied<T>),
+        take: &mut dyn FnMut(Applied<T>),
     ) {
         match self {
             Self::Thread { bodies: [nut, screw], turn: (axis, place), slide, weights } => {

@@ -59,11 +59,11 @@ impl<T: Real, const D: usize> EffectWrenches<T, D> {
             // the second of two bodies comes last
             let mut last = Wrench::zero();
             let turned = |body| self.turned(body, state);
-            load.apply((state, &law_inputs), turned, |(_, _, wrench)| last = wrench);
+            load.apply((state, &law_inputs), &turned, &mut |(_, _, wrench)| last = wrench);
             sum.add(&last);
         }
         if let Some(rotor) = self.rotor(effect) {
-            rotor.apply(state, |(_, _, wrench)| sum = wrench);
+            rotor.apply(state, &mut |(_, _, wrench)| sum = wrench);
         }
         sum
     }
@@ -97,7 +97,7 @@ impl<T: Real, const D: usize> EffectWrenches<T, D> {
         let law_inputs = self.loads.law_inputs();
         let turned = |body| self.turned(body, state);
         let mut loads = self.loads_of(Some(effect));
-        loads.find_map(|load| load.tire((state, &law_inputs), turned)).unwrap_or_default()
+        loads.find_map(|load| load.tire((state, &law_inputs), &turned)).unwrap_or_default()
     }
 
     /// Value, rate and acceleration of a signal.
@@ -113,7 +113,7 @@ impl<T: Real, const D: usize> EffectWrenches<T, D> {
         let law_inputs = self.loads.law_inputs();
         let turned = |body| self.turned(body, state);
         let loads = self.loads_of(effect);
-        loads.fold(T::ZERO, |sum, load| sum + load.energy((state, &law_inputs), turned))
+        loads.fold(T::ZERO, |sum, load| sum + load.energy((state, &law_inputs), &turned))
     }
 
     /// Power that an effect gives to bodies [W].
@@ -124,7 +124,7 @@ impl<T: Real, const D: usize> EffectWrenches<T, D> {
         let law_inputs = self.loads.law_inputs();
         let turned = |body| self.turned(body, state);
         let loads = self.loads_of(Some(effect));
-        loads.fold(T::ZERO, |sum, load| sum + load.power((state, &law_inputs), turned))
+        loads.fold(T::ZERO, |sum, load| sum + load.power((state, &law_inputs), &turned))
     }
 
     /// An effect that is a rotor.

@@ -229,7 +229,7 @@ impl<T: Real, const D: usize> Reactions<T, D> {
         let mut take = |applied| take_off(bodies, missing, applied);
         let (loads, law_inputs) = loads.at(state);
         for load in loads {
-            load.apply((state, &law_inputs), |body| rotation_of(bodies, body), &mut take);
+            load.apply((state, &law_inputs), &|body| rotation_of(bodies, body), &mut take);
         }
         for rotor in rotors {
             rotor.apply(state, &mut take);
@@ -243,7 +243,7 @@ impl<T: Real, const D: usize> Reactions<T, D> {
         for &j in &block.joints {
             let joint = &joints[j];
             let turned = joint.bodies.map(|b| rotation_of(bodies, b));
-            joint.directions(&state.q, [&turned[0], &turned[1]], |w| directions.push(w));
+            joint.directions(&state.q, [&turned[0], &turned[1]], &mut |w| directions.push(w));
         }
         let n_columns = directions.len() + block.couplings.len();
         system.begin(block.bodies.len() * Self::ROWS, n_columns);
@@ -276,7 +276,7 @@ impl<T: Real, const D: usize> Reactions<T, D> {
         }
         for &i in &block.couplings {
             let coupling = &self.couplings[i];
-            coupling.apply(T::ONE / coupling.scale(), state, |(body, at, wrench)| {
+            coupling.apply(T::ONE / coupling.scale(), state, &mut |(body, at, wrench)| {
                 let BodyId::Body(b) = body else { return };
                 let arm = at.map_or_else(Vector::zeros, |at| at - bodies[b].at);
                 let entries = rows::<T, D>(&wrench.shifted(&arm), self.length);
@@ -294,7 +294,7 @@ impl<T: Real, const D: usize> Reactions<T, D> {
         let of_joints: usize = block.joints.iter().map(|&j| joints[j].n_directions()).sum();
         let mut is_loaded = false;
         for (&i, &solved) in block.couplings.iter().zip(&system.solution()[of_joints..]) {
-            couplings[i].load_bearings(solved / couplings[i].scale(), state, |applied| {
+            couplings[i].load_bearings(solved / couplings[i].scale(), state, &mut |applied| {
                 is_loaded = true;
                 take_off(bodies, missing, applied);
             });
@@ -327,7 +327,7 @@ impl<T: Real, const D: usize> Reactions<T, D> {
         for &i in &block.couplings {
             let effort = system.solution()[column] / couplings[i].scale();
             efforts[i] = (effort, system.is_determined(column));
-            couplings[i].apply(effort, state, |applied| take_off(bodies, missing, applied));
+            couplings[i].apply(effort, state, &mut |applied| take_off(bodies, missing, applied));
             column += 1;
         }
     }

@@ -37,7 +37,7 @@ impl<T: Real, const D: usize> RotorTorque<T, D> {
     }
 
     /// Hands out what it does to the bodies of its joint.
-    pub(super) fn apply(&self, state: &State<T>, take: impl FnMut(Applied<T>)) {
+    pub(super) fn apply(&self, state: &State<T>, take: &mut dyn FnMut(Applied<T>)) {
         self.of.apply(-self.inertia * state.a[self.unknown], state, take);
     }
 

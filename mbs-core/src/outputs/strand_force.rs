@@ -49,13 +49,13 @@ impl<T: Real, const D: usize> StrandForce<T, D> {
     }
 
     /// Hands out what turns the wheels at an effort.
-    pub(super) fn apply(&self, effort: T, state: &State<T>, take: impl FnMut(Applied<T>)) {
+    pub(super) fn apply(&self, effort: T, state: &State<T>, take: &mut dyn FnMut(Applied<T>)) {
         let half = self.difference * effort * T::HALF;
         self.hand_out(state, |is_about| if is_about { half } else { -half }, take);
     }
 
     /// Hands out what draws the wheels together.
-    pub(super) fn draw_together(&self, state: &State<T>, take: impl FnMut(Applied<T>)) {
+    pub(super) fn draw_together(&self, state: &State<T>, take: &mut dyn FnMut(Applied<T>)) {
         if !self.pretension.is_zero() {
             self.hand_out(state, |_| self.pretension, take);
         }
@@ -66,7 +66,7 @@ impl<T: Real, const D: usize> StrandForce<T, D> {
         &self,
         state: &State<T>,
         pull: impl Fn(bool) -> T,
-        mut take: impl FnMut(Applied<T>),
+        take: &mut dyn FnMut(Applied<T>),
     ) {
         let n = self.axis.direction(&state.q).moment;
         let places = self.places.each_ref().map(|place| raised(&place.value(&state.q)));

@@ -68,13 +68,18 @@ impl<T: Real, const D: usize> ToothForce<T, D> {
     }
 
     /// Hands out what turns the wheels at an effort.
-    pub(super) fn apply(&self, effort: T, state: &State<T>, take: impl FnMut(Applied<T>)) {
+    pub(super) fn apply(&self, effort: T, state: &State<T>, take: &mut dyn FnMut(Applied<T>)) {
         let (pitch, _, force) = self.at(effort, state);
         self.hand_out(pitch, force, take);
     }
 
     /// Hands out what drives the wheels apart at an effort; nothing without a pressure angle.
-    pub(super) fn drive_apart(&self, effort: T, state: &State<T>, take: impl FnMut(Applied<T>)) {
+    pub(super) fn drive_apart(
+        &self,
+        effort: T,
+        state: &State<T>,
+        take: &mut dyn FnMut(Applied<T>),
+    ) {
         if self.apart.is_zero() {
             return;
         }
@@ -87,7 +92,7 @@ impl<T: Real, const D: usize> ToothForce<T, D> {
     }
 
     /// A force on the first wheel at the pitch point, and its opposite on the second.
-    fn hand_out(&self, pitch: Vector<T, 3>, force: Vector<T, 3>, mut take: impl FnMut(Applied<T>)) {
+    fn hand_out(&self, pitch: Vector<T, 3>, force: Vector<T, 3>, take: &mut dyn FnMut(Applied<T>)) {
         let wrench = Wrench { force, moment: Vector::zeros() };
         take((self.wheels[0], Some(pitch), wrench));
         take((self.wheels[1], Some(pitch), wrench.scaled(-T::ONE)));

@@ -251,7 +251,7 @@ impl<T: Real, const D: usize> WrenchBasis<T, D> {
         &self,
         q: &[T],
         turned: [&Matrix<T, 3>; 2],
-        mut take: impl FnMut(Wrench<T>),
+        take: &mut dyn FnMut(Wrench<T>),
     ) {
         let input = match &self.transmission {
             Transmission::Joint(joint) => {

@@ -53,14 +53,14 @@ pub(crate) fn close(to: &mut String) {
 
 /// A constant table.
 fn table<X: Record>(name: &str, of: &str, list: &[X], to: &mut String) {
-    constants((name, of), list, X::source, to);
+    constants((name, of), list, &X::source, to);
 }
 
 /// A constant table whose entries are written by `write`.
 fn constants<X>(
     (name, of): (&str, &str),
     list: &[X],
-    write: impl Fn(&X, &mut String),
+    write: &dyn Fn(&X, &mut String),
     to: &mut String,
 ) {
     to.push_str(&format!("static {name}: [{of}; {}] = [", list.len()));
@@ -293,7 +293,7 @@ fn entries<T: Real + Record, X: Entry<T>>(name: &str, of: &str, list: &[X], to: 
     let write = |entry: &X, to: &mut String| {
         entry.numbers(&mut Source(to));
     };
-    constants((name, of), list, write, to);
+    constants((name, of), list, &write, to);
 }
 
 /// An expression of Rust being written.

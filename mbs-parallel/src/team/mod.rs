@@ -10,7 +10,7 @@ mod thread_team;
 pub use pool::Pool;
 pub use thread_team::ThreadTeam;
 
-use mbs_math::team::{Alone, Team};
+use mbs_math::team::Team;
 
 /// A team chosen at run time.
 #[derive(Debug, Clone, Default)]
@@ -40,7 +40,7 @@ impl Team for Threads {
         b: impl FnOnce() -> B + Send,
     ) -> (A, B) {
         match self {
-            Self::One => Alone.join(a, b),
+            Self::One => (a(), b()),
             Self::ThreadTeam(team) => team.join(a, b),
         }
     }

@@ -131,20 +131,37 @@ impl Team for ThreadTeam {
         a: impl FnOnce() -> A + Send,
         b: impl FnOnce() -> B + Send,
     ) -> (A, B) {
-        if self.shared.spare.load(Ordering::Relaxed) <= 0 {
-            return (a(), b());
+        let (mut a, mut b) = (Piece::Waits(a), Piece::Waits(b));
+        if self.shared.spare.load(Ordering::Relaxed) > 0 {
+            self.fork(&mut || a.run(), &mut || b.run());
+        } else {
+            a.run();
+            b.run();
         }
-        let (mut a, mut b) = (Some(a), Some(b));
-        let (mut of_a, mut of_b) = (None, None);
-        self.fork(&mut || of_a = a.take().map(|a| a()), &mut || of_b = b.take().map(|b| b()));
-        match (of_a, of_b) {
-            (Some(of_a), Some(of_b)) => (of_a, of_b),
+        match (a, b) {
+            (Piece::Done(a), Piece::Done(b)) => (a, b),
             _ => unreachable!("both have been run when the fork returns"),
         }
     }
 
     fn size(&self) -> usize {
         self.hands.threads.len() + 1
+    }
+}
+
+/// A piece of work, and its result once it has been run: small code, since there is a copy for each kind of work.
+enum Piece<F, R> {
+    Waits(F),
+    Runs,
+    Done(R),
+}
+
+impl<R, F: FnOnce() -> R> Piece<F, R> {
+    #[inline]
+    fn run(&mut self) {
+        if let Self::Waits(work) = std::mem::replace(self, Self::Runs) {
+            *self = Self::Done(work());
+        }
     }
 }
 

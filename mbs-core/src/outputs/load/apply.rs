@@ -28,8 +28,8 @@ impl<T: Real, const D: usize> Load<T, D> {
     pub(in crate::outputs) fn apply(
         &self,
         (state, law_inputs): (&State<T>, &LawInputs<'_, T>),
-        turned: impl Fn(BodyId) -> Matrix<T, 3>,
-        mut take: impl FnMut(Applied<T>),
+        turned: &dyn Fn(BodyId) -> Matrix<T, 3>,
+        take: &mut dyn FnMut(Applied<T>),
     ) {
         match self {
             Self::Between { bodies, gauge, law } => {

@@ -42,7 +42,7 @@ impl<T: Real, const D: usize> Load<T, D> {
     pub(in crate::outputs) fn energy(
         &self,
         (state, law_inputs): (&State<T>, &LawInputs<'_, T>),
-        turned: impl Fn(BodyId) -> Matrix<T, 3>,
+        turned: &dyn Fn(BodyId) -> Matrix<T, 3>,
     ) -> T {
         match self {
             Self::Between { law, .. } | Self::Sum { law, .. } => {
@@ -70,7 +70,7 @@ impl<T: Real, const D: usize> Load<T, D> {
     pub(in crate::outputs) fn tire(
         &self,
         (state, law_inputs): (&State<T>, &LawInputs<'_, T>),
-        turned: impl Fn(BodyId) -> Matrix<T, 3>,
+        turned: &dyn Fn(BodyId) -> Matrix<T, 3>,
     ) -> Option<TireForces<T>> {
         let Self::OnBody { body, point, frame, axis, law } = self else { return None };
         let axis = turned(BodyId::Body(*body)) * axis;
@@ -81,7 +81,7 @@ impl<T: Real, const D: usize> Load<T, D> {
     pub(in crate::outputs) fn power(
         &self,
         (state, law_inputs): (&State<T>, &LawInputs<'_, T>),
-        turned: impl Fn(BodyId) -> Matrix<T, 3>,
+        turned: &dyn Fn(BodyId) -> Matrix<T, 3>,
     ) -> T {
         match self {
             Self::Between { law, .. } | Self::Sum { law, .. } => {
@@ -91,7 +91,7 @@ impl<T: Real, const D: usize> Load<T, D> {
             Self::Constant { point, .. } | Self::Force { point, .. } => {
                 let mut power = T::ZERO;
                 let velocity = raised(&point.rate(&state.v));
-                self.apply((state, law_inputs), turned, |(_, _, wrench)| {
+                self.apply((state, law_inputs), turned, &mut |(_, _, wrench)| {
                     power += wrench.force.dot(&velocity);
                 });
                 power
@@ -103,7 +103,7 @@ impl<T: Real, const D: usize> Load<T, D> {
                     _ => Vector::zeros(),
                 };
                 let mut power = T::ZERO;
-                self.apply((state, law_inputs), turned, |(_, _, wrench)| {
+                self.apply((state, law_inputs), turned, &mut |(_, _, wrench)| {
                     power += wrench.force.dot(&velocity) + wrench.moment.dot(&omega);
                 });
                 power
