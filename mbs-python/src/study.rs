@@ -274,14 +274,12 @@ impl Mechanism {
             let (system, named) = match at {
                 At::Place(place, search) => {
                     let options = LinearizeOptions { place, search };
-                    let system = match mbs::linearize_steady(mechanism, &options) {
-                        Err(e) if is_frozen(&e) => mbs::linearize(mechanism, &options, none, none),
-                        found => found,
-                    };
-                    let by = if frozen { mbs::Modes::frozen } else { mbs::Modes::new };
+                    let by = if frozen { LinearSystem::frozen } else { LinearSystem::steady };
+                    let system = by(scene, &options)?;
                     let stopped =
                         |error| SimulationError::stopped(error, 0.0, &mbs::Names::new(scene));
-                    (system?, Some(by(scene, place, search).map_err(stopped)?))
+                    let named = mbs::Modes::of_system(&system, place).map_err(stopped)?;
+                    (system, Some(named))
                 }
                 At::State(q, v) => {
                     let found = mbs::linearize_steady_at(mechanism, (&mut tree, &q, &v));

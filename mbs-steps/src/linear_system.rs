@@ -93,6 +93,20 @@ impl LinearSystem {
         asked.at(scene, motions)?.or_not_steady(scene)
     }
 
+    /// As [`steady`](Self::steady), of any state: about one that is no steady motion the matrices of the instant, in axes that stand, with
+    /// [`unsteady`](Self::unsteady) saying why.
+    ///
+    /// # Errors
+    /// As for [`linearize`](crate::linearize).
+    pub fn frozen(scene: &Scene<f64>, options: &LinearizeOptions) -> Result<Self, SimulationError> {
+        let none = Some(&[][..]);
+        let asked = Asked { place: Some(options.place), inputs: none, outputs: none, turns: true };
+        let found = asked.about(scene, options)?;
+        let Some(unsteady) = found.unsteady else { return Ok(found) };
+        let standing = Asked { turns: false, ..asked }.about(scene, options)?;
+        Ok(Self { unsteady: Some(unsteady), ..standing })
+    }
+
     fn or_not_steady(self, scene: &Scene<f64>) -> Result<Self, SimulationError> {
         let Some(unsteady) = self.unsteady else { return Ok(self) };
         let stop = StopError::NotSteady(Box::new(unsteady));

@@ -81,16 +81,23 @@ impl Modes {
             let unsteady = found.unsteady.take();
             found = LinearSystem { unsteady, ..About::alone(scene, &placed, false).system()? };
         }
-        let values = found.eigenvalues()?;
+        Self::of_system(&found, place)
+    }
+
+    /// The modes of a system that was linearised about this place.
+    ///
+    /// # Errors
+    /// [`StopError::Eigenvalues`] where the iteration does not converge.
+    pub fn of_system(system: &LinearSystem, place: Place) -> Result<Self, StopError> {
         Ok(Self {
-            scene: found.scene,
+            scene: system.scene.clone(),
             place,
-            found: found.found,
-            left_out: found.left_out,
-            dof: found.n_freedoms,
-            unsteady: found.unsteady,
-            turning: found.turning,
-            modes: slowest_first(&values, found.noise),
+            found: system.found,
+            left_out: system.left_out.clone(),
+            dof: system.n_freedoms,
+            unsteady: system.unsteady.clone(),
+            turning: system.turning,
+            modes: slowest_first(&system.eigenvalues()?, system.noise),
         })
     }
 

@@ -75,6 +75,8 @@ impl<'a, const D: usize> About<'a, D> {
             let changed = || changing(&states, [&a, &later], at.linear.noise);
             unsteady = after.accelerating(&turned, (&later, &sizes)).or_else(changed);
         }
+        let is_rest = unsteady.is_none() && !sizes.has_motion() && at.linear.order() == a.rows;
+        let rest = is_rest.then(|| at.linear.state_matrix());
         let value = |place: usize| at.ports.values[place];
         let mut state_values: Vec<f64> = layout.state_rows(chosen).map(value).collect();
         if let Some(values) = &at.values {
@@ -102,6 +104,7 @@ impl<'a, const D: usize> About<'a, D> {
             turning: at.linear.turning,
             n_freedoms: at.linear.n_freedoms,
             noise: at.linear.noise,
+            rest,
         })
     }
 

@@ -84,8 +84,9 @@ impl LinearSystem {
         if n == 0 {
             return Ok(Vec::new());
         }
-        let by_columns: Vec<f64> = (0..n * n).map(|k| self.a[(k % n, k / n)]).collect();
-        mbs_linear::eigenvalues(n, &by_columns).ok_or(StopError::Eigenvalues)
+        let by_columns = || (0..n * n).map(|k| self.a[(k % n, k / n)]).collect();
+        let matrix = self.rest.clone().unwrap_or_else(by_columns);
+        mbs_linear::eigenvalues(n, &matrix).ok_or(StopError::Eigenvalues)
     }
 
     /// An eigenvector, with its largest component one.
