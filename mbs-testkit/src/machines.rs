@@ -44,7 +44,7 @@ fn slide(name: &'static str, bodies: [&'static str; 2], at: Vector) -> Drawn {
 /// How far parts slip where they touch, by the velocities of the bodies.
 pub type Slip = Box<dyn Fn(&dyn Fn(&str) -> Twist) -> f64>;
 
-/// The text of a coupling in a wording.
+/// The text of a coupling, or of what rolls, in a wording.
 pub type Written = Box<dyn Fn(&Wording) -> String>;
 
 /// A machine, and what it has to keep at zero: how far its parts slip where they touch, by the velocities of its bodies.
@@ -53,7 +53,7 @@ pub struct Machine {
     pub what: &'static str,
     /// Its joints.
     pub joints: Vec<Drawn>,
-    /// Its coupling.
+    /// Its coupling, or what rolls.
     pub coupling: Written,
     /// How far its parts slip.
     pub slip: Slip,
@@ -211,7 +211,7 @@ impl Wording {
                 self.turned(plus([0.0; 3], size, joint.axis)),
             );
         }
-        format!("{bodies}{joints}[[coupling]]\nname = \"link\"\n{}\n", (machine.coupling)(self))
+        format!("{bodies}{joints}{}\n", (machine.coupling)(self))
     }
 
     /// The machine with masses, weight, springs, a motor on a controller, and speeds: of the same seed the same in whatever way it is wording.

@@ -1,4 +1,4 @@
-//! The kinds of random machines: wheels in mesh, belts, racks, a screw, differentials, a winch.
+//! The kinds of random machines: wheels in mesh, belts, racks, a screw, differentials, a winch, wheels that roll.
 
 use super::{Drawn, Machine, Slip, Vector, Wording, Written, Z, dot, plus, slide, turn};
 use crate::Random;
@@ -6,6 +6,11 @@ use crate::Random;
 /// From one wheel to the next, and across.
 const WAY: Vector = [0.8, 0.6, 0.0];
 const ACROSS: Vector = [-0.6, 0.8, 0.0];
+/// What racks and wheels run along, and up from it.
+const X: Vector = [1.0, 0.0, 0.0];
+const Y: Vector = [0.0, 1.0, 0.0];
+/// How the text of a coupling begins.
+const LINK: &str = "[[coupling]]\nname = \"link\"";
 
 /// Sizes of two parts, and where the first stands.
 #[derive(Debug, Clone, Copy)]
@@ -41,7 +46,7 @@ impl Parts {
     fn by_radii(self, head: &'static str) -> Written {
         Box::new(move |wording| {
             let [r1, r2] = [self.r1, self.r2].map(|r| r * wording.metre);
-            format!("{head}\njoints = [\"one\", \"two\"]\nradii = [{r1:?}, {r2:?}]")
+            format!("{LINK}\n{head}\njoints = [\"one\", \"two\"]\nradii = [{r1:?}, {r2:?}]")
         })
     }
 
@@ -122,12 +127,12 @@ fn belt(of: Parts, is_crossed: bool) -> Machine {
 /// A pinion with a rack along x, above it or below.
 fn rack(of: Parts, kind: usize) -> Machine {
     let side = if kind == 0 { -of.r1 } else { of.r1 };
-    let line = plus(of.one, side, [0.0, 1.0, 0.0]);
+    let line = plus(of.one, side, Y);
     let coupling = Box::new(move |wording: &Wording| {
         let radius = of.r1 * wording.metre;
-        format!("kind = \"rack\"\njoints = [\"one\", \"two\"]\nradius = {radius:?}")
+        format!("{LINK}\nkind = \"rack\"\njoints = [\"one\", \"two\"]\nradius = {radius:?}")
     });
-    let along = plus(line, 0.7, [1.0, 0.0, 0.0]);
+    let along = plus(line, 0.7, X);
     let on_cart = turn("one", ["cart", "one"], of.one);
     let (what, joints, other) = match kind {
         0 | 1 => ("rack", vec![of.one(), slide("two", ["frame", "two"], along)], "two"),
@@ -146,7 +151,7 @@ fn rack(of: Parts, kind: usize) -> Machine {
             "frame",
         ),
     };
-    Machine { what, joints, coupling, slip: touching(["one", other], line, [1.0, 0.0, 0.0]) }
+    Machine { what, joints, coupling, slip: touching(["one", other], line, X) }
 }
 
 /// A screw that turns and a nut that slides.
@@ -157,7 +162,7 @@ fn screw(of: Parts) -> Machine {
         joints: vec![of.one(), Drawn { axis: Z, ..slide("two", ["frame", "two"], of.apart(1.0)) }],
         coupling: Box::new(move |wording| {
             let lead = lead * wording.metre;
-            format!("kind = \"screw\"\njoints = [\"one\", \"two\"]\nlead = {lead:?}")
+            format!("{LINK}\nkind = \"screw\"\njoints = [\"one\", \"two\"]\nlead = {lead:?}")
         }),
         slip: Box::new(move |v| {
             let frame = v("frame");
@@ -179,8 +184,8 @@ fn differential(of: Parts, is_on_cage: bool) -> Machine {
             turn("two", ["frame", "two"], plus(of.one, -1.0, Z)),
         ],
         coupling: Box::new(|_| {
-            "kind = \"differential\"\njoints = [\"one\", \"two\", \"cage\"]\nteeth = [20, 30]"
-                .to_owned()
+            let joints = "joints = [\"one\", \"two\", \"cage\"]";
+            format!("{LINK}\nkind = \"differential\"\n{joints}\nteeth = [20, 30]")
         }),
         slip: Box::new(move |v| {
             let [a, b] = ["one", "two"].map(|wheel| dot(plus(v(wheel).0, -1.0, v("cage").0), Z));
@@ -199,7 +204,7 @@ fn winch(of: Parts) -> Machine {
             // the line grows down from the rim as the drum turns against the sense of z
             let radius = of.r1 * wording.metre * wording.sense("one");
             format!(
-                "kind = \"rope\"\npoints = [{{ body = \"frame\", at = {:?} }}, {{ body = \"two\", at = {:?} }}]\n\
+                "{LINK}\nkind = \"rope\"\npoints = [{{ body = \"frame\", at = {:?} }}, {{ body = \"two\", at = {:?} }}]\n\
                  drum = {{ joint = \"one\", radius = {radius:?} }}",
                 wording.place(rim),
                 wording.place(weight)
@@ -214,8 +219,36 @@ fn winch(of: Parts) -> Machine {
     }
 }
 
-/// How many kinds of machines there are.
-pub const KINDS: usize = 15;
+/// A wheel that rolls without slipping: on a cart along the frame, or on an arm, on a plank that tilts.
+fn wheel(of: Parts, is_on_plank: bool) -> Machine {
+    let line = plus(of.one, -of.r1, Y);
+    let (what, joints, on) = if is_on_plank {
+        let arm = turn("arm", ["frame", "arm"], plus(plus(of.one, -1.0, X), 0.2, Y));
+        let plank = turn("two", ["frame", "two"], plus(plus(line, 0.9, X), -0.1, Y));
+        let joints = vec![arm, turn("one", ["arm", "one"], of.one), plank];
+        ("wheel on a plank", joints, "two")
+    } else {
+        let cart = slide("cart", ["frame", "cart"], of.one);
+        ("wheel under a cart", vec![cart, turn("one", ["cart", "one"], of.one)], "frame")
+    };
+    let coupling: Written = Box::new(move |wording| {
+        format!(
+            "[[rolling]]\nname = \"link\"\nkind = \"wheel\"\nbody = \"one\"\non = \"{on}\"\ncenter = {:?}\naxis = {:?}\nradius = {:?}\n\
+             plane = {{ point = {:?}, normal = {:?} }}",
+            wording.place(of.one),
+            wording.turned(Z),
+            of.r1 * wording.metre,
+            wording.place(line),
+            wording.turned(Y),
+        )
+    });
+    Machine { what, joints, coupling, slip: touching(["one", on], line, X) }
+}
+
+/// How many kinds of machines have a coupling; they come first.
+pub const COUPLED: usize = 15;
+/// How many kinds of machines there are. Those after the coupled ones roll.
+pub const KINDS: usize = 17;
 
 /// A machine of one of the kinds, with parts of random sizes, on a frame that turns on a base that slides.
 ///
@@ -232,7 +265,8 @@ pub fn machine(random: &mut Random, kind: usize) -> Machine {
         7..11 => rack(of, kind - 7),
         11 => screw(of),
         12 | 13 => differential(of, kind == 13),
-        _ => winch(of),
+        14 => winch(of),
+        _ => wheel(of, kind == 16),
     };
     machine.joints.splice(0..0, [base, swing]);
     machine

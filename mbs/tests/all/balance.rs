@@ -3,7 +3,7 @@
 use crate::common::{run, run_in};
 use mbs::core::scene::{BodyId, CouplingKind, CouplingMeasure, Inertia, Joint, Scene};
 use mbs::{Method, Outcome};
-use mbs_testkit::machines::kinds::{KINDS, machine};
+use mbs_testkit::machines::kinds::{COUPLED, machine};
 use mbs_testkit::machines::{Machine, Ways, Wording};
 use mbs_testkit::{Random, scene};
 
@@ -318,7 +318,7 @@ fn worst(machines: u64, method: &dyn Fn(&Scene<f64>) -> Outcome) -> f64 {
     let mut worst = 0.0_f64;
     for seed in 0..machines {
         let mut random = Random::new(5000 + seed);
-        let kind = seed as usize % KINDS;
+        let kind = seed as usize % COUPLED;
         let machine = machine(&mut random, kind);
         let wording = Wording::new(&mut random, &machine, Ways::ALL);
         let text = wording.moving_with(&machine, seed, &outputs(&machine));
@@ -346,14 +346,14 @@ fn every_body_is_in_balance_in_relative_coordinates() {
         tolerance: Some(1e-11),
         ..Method::default()
     };
-    let worst = worst(20 * KINDS as u64, &|scene| run(scene, &method));
+    let worst = worst(20 * COUPLED as u64, &|scene| run(scene, &method));
     assert!(worst < 1e-9, "{worst:e} of the largest force");
 }
 
 #[test]
 fn every_body_is_in_balance_by_fixed_steps() {
     for formulation in mbs::FormulationKind::ALL.map(mbs::FormulationKind::name) {
-        let worst = worst(2 * KINDS as u64, &|scene| run_in(scene, formulation, Some(1e-3)));
+        let worst = worst(2 * COUPLED as u64, &|scene| run_in(scene, formulation, Some(1e-3)));
         println!("{formulation}: {worst:e}");
         // augmented ones leave velocities and accelerations open by what iterations leave
         let allowed =

@@ -1,7 +1,7 @@
 //! Couplings that are drawn, against velocities where their parts touch: places and axes alone, by an oracle of its own.
 
 use mbs_core::scene::{BodyId, CouplingMeasure};
-use mbs_testkit::machines::kinds::{KINDS, machine};
+use mbs_testkit::machines::kinds::{COUPLED, machine};
 use mbs_testkit::machines::{Ways, Wording, twists};
 use mbs_testkit::{Random, scene};
 
@@ -9,7 +9,7 @@ use mbs_testkit::{Random, scene};
 fn parts_of_what_is_drawn_do_not_slip_where_they_touch() {
     let mut random = Random::new(22);
     for k in 0..750 {
-        let machine = machine(&mut random, k % KINDS);
+        let machine = machine(&mut random, k % COUPLED);
         let wording = Wording::new(&mut random, &machine, Ways::ALL);
         let body = |name: &str, _| {
             format!(
