@@ -48,9 +48,9 @@ impl Mechanism {
         state
     }
 
-    fn derivative(&self, y: &[f64], t: f64) -> Vec<f64> {
+    fn derivative(&self, y: &[f64], t: f64, among: &[bool]) -> Vec<f64> {
         let state = self.unpack(y, t);
-        let moved = self.evaluate(&state);
+        let moved = self.evaluate_among(&state, Some(among));
         let mut rates = Vec::with_capacity(y.len());
         for (f, a) in state.frames.iter().zip(&moved.accelerations) {
             let half = scale(0.5, f.w);
@@ -71,12 +71,21 @@ impl Mechanism {
             }
             rates.extend(of);
         }
+        for number in 0..self.scene.wheels.len() {
+            rates.extend([now.wheel(number).rate(&places), 0.0, 0.0]);
+        }
         rates.push(moved.power);
         rates
     }
 
     /// One step without projection; also the difference of the two best values, relative to `sizes` of the state.
-    fn extrapolate(&self, y: &[f64], first: &[f64], t: f64, h: f64) -> (Vec<f64>, Vec<f64>) {
+    fn extrapolate(
+        &self,
+        (y, first): (&[f64], &[f64]),
+        among: &[bool],
+        t: f64,
+        h: f64,
+    ) -> (Vec<f64>, Vec<f64>) {
         let mut table: Vec<Vec<f64>> = Vec::new();
         let mut second_best = Vec::new();
         for (k, &n) in PARTS.iter().enumerate() {
@@ -84,7 +93,7 @@ impl Mechanism {
             let mut before = y.to_vec();
             let mut at: Vec<f64> = y.iter().zip(first).map(|(y, f)| y + part * f).collect();
             for i in 1..n {
-                let rates = self.derivative(&at, t + part * i as f64);
+                let rates = self.derivative(&at, t + part * i as f64, among);
                 let next = before.iter().zip(&rates).map(|(y, f)| y + 2.0 * part * f).collect();
                 before = std::mem::replace(&mut at, next);
             }
@@ -112,10 +121,11 @@ impl Mechanism {
     #[must_use]
     pub fn step(&self, state: &State, h: f64) -> State {
         let y = Self::pack(state);
-        let first = self.derivative(&y, state.t);
-        let (next, _) = self.extrapolate(&y, &first, state.t, h);
+        let among = self.independent(state);
+        let first = self.derivative(&y, state.t, &among);
+        let (next, _) = self.extrapolate((&y, &first), &among, state.t, h);
         let mut next = self.unpack(&next, state.t + h);
-        self.project(&mut next);
+        self.project(&mut next, &among);
         next
     }
 
@@ -135,12 +145,13 @@ impl Mechanism {
         while state.t < end - 1e-12 * span {
             let length = h.min(end - state.t);
             let y = Self::pack(state);
-            let first = self.derivative(&y, state.t);
-            let (next, error) = self.extrapolate(&y, &first, state.t, length);
+            let among = self.independent(state);
+            let first = self.derivative(&y, state.t, &among);
+            let (next, error) = self.extrapolate((&y, &first), &among, state.t, length);
             let mut ratio = self.error_ratio(&y, &next, &error, span, tolerance);
             if ratio <= 1.0 {
                 let beyond = length * BEYOND;
-                let (next, error) = self.extrapolate(&y, &first, state.t, beyond);
+                let (next, error) = self.extrapolate((&y, &first), &among, state.t, beyond);
                 ratio = ratio.max(self.error_ratio(&y, &next, &error, span, tolerance));
             }
             if !ratio.is_finite() && length < 1e-9 * span {
@@ -153,7 +164,7 @@ impl Mechanism {
             };
             if ratio <= 1.0 {
                 *state = self.unpack(&next, state.t + length);
-                self.project(state);
+                self.project(state, &among);
                 // a step cut short by the end says nothing of longer ones
                 *h = if length < *h { h.max(length * factor) } else { length * factor };
             } else {

@@ -1,6 +1,6 @@
 //! Values over time and roads over x.
 
-use crate::scene::{Feature, Law, Signal, Spline};
+use crate::scene::{Curve, Feature, Law, Signal, Spline};
 use crate::vector::{Vector, add, scale};
 use core::f64::consts::PI;
 
@@ -44,6 +44,33 @@ impl Spline {
             knot[2] += weights[0] * bent[0].knots[k][2] + weights[1] * bent[1].knots[k][2];
         }
         Self { knots }
+    }
+
+    /// The cubic spline through points of increasing abscissae that repeats: value, slope and curvature are those of the first at the last.
+    #[must_use]
+    pub fn periodic(points: &[[f64; 2]]) -> Self {
+        let n = points.len();
+        if n < 3 {
+            return Self::natural(points);
+        }
+        let width = |i: usize| points[i % (n - 1) + 1][0] - points[i % (n - 1)][0];
+        let rise = |i: usize| {
+            let i = i % (n - 1);
+            (points[i + 1][1] - points[i][1]) / width(i)
+        };
+        let mut second = vec![0.0; n];
+        // Gauss-Seidel, as at an end that is bent
+        for _ in 0..200 {
+            for i in 0..n - 1 {
+                let before = i + n - 2;
+                let [h0, h1] = [width(before), width(i)];
+                let known = 6.0 * (rise(i) - rise(before));
+                let beside = h0 * second[before % (n - 1)] + h1 * second[(i + 1) % (n - 1)];
+                second[i] = (known - beside) / (2.0 * (h0 + h1));
+            }
+        }
+        second[n - 1] = second[0];
+        Self { knots: points.iter().zip(second).map(|(p, s)| [p[0], p[1], s]).collect() }
     }
 
     /// Values zero, a second derivative of one at one end, and none at the other.
@@ -92,12 +119,54 @@ impl Spline {
     }
 }
 
+/// The same abscissa within the first period of rows.
+fn within(first: f64, last: f64, x: f64) -> f64 {
+    first + (x - first).rem_euclid(last - first)
+}
+
+impl Curve {
+    /// Value and two derivatives.
+    #[must_use]
+    pub fn at(&self, x: f64) -> [f64; 3] {
+        match self {
+            Self::Spline(spline) => spline.at(x),
+            Self::Periodic(spline) => match spline.knots.as_slice() {
+                [first, .., last] => spline.at(within(first[0], last[0], x)),
+                _ => spline.at(x),
+            },
+            Self::Linear(rows, repeats) | Self::Hold(rows, repeats) => {
+                let Some((first, last)) = rows.first().zip(rows.last()) else { return [0.0; 3] };
+                let x = if *repeats { within(first[0], last[0], x) } else { x };
+                let i = rows.partition_point(|row| row[0] <= x);
+                if i == 0 {
+                    return [first[1], 0.0, 0.0];
+                }
+                let (Some([x1, f1]), [x0, f0]) = (rows.get(i), rows[i - 1]) else {
+                    return [last[1], 0.0, 0.0];
+                };
+                if matches!(self, Self::Hold(..)) {
+                    return [f0, 0.0, 0.0];
+                }
+                let slope = (f1 - f0) / (x1 - x0);
+                [f0 + slope * (x - x0), slope, 0.0]
+            }
+            Self::Polynomial(coefficients) => {
+                let mut sum = [0.0; 3];
+                for c in coefficients.iter().rev() {
+                    sum = [sum[0] * x + c, sum[1] * x + sum[0], sum[2] * x + 2.0 * sum[1]];
+                }
+                sum
+            }
+        }
+    }
+}
+
 impl Law {
     /// Value and two derivatives.
     #[must_use]
     pub fn at(&self, t: f64) -> [f64; 3] {
         match self {
-            Self::Spline(spline) => spline.at(t),
+            Self::Curve(curve) => curve.at(t),
             Self::Ramp(rate) => [rate * t, *rate, 0.0],
             Self::Sine([amplitude, frequency, phase]) => {
                 let w = 2.0 * PI * frequency;

@@ -1,7 +1,7 @@
 //! What each kind of joint forbids, and its coordinates.
 
 use crate::rows::{Places, Row, Seat};
-use crate::scene::{Joint, Kind};
+use crate::scene::{Carrier, Joint, Kind};
 use crate::vector::{
     Vector, across, add, compose, conjugate, cross, dot, logarithm, norm, scale, sub, unit,
 };
@@ -86,15 +86,6 @@ impl Joint {
         }
     }
 
-    /// The angle about an axis of both bodies, and its row; nearest to `near`.
-    fn turn(&self, places: &Places, a: Vector, near: f64) -> Row {
-        let x = across(a)[0];
-        let (axis, x1) = (places.direction(self.bodies[0], a), places.direction(self.bodies[0], x));
-        let x2 = places.direction(self.bodies[1], x);
-        let angle = dot(cross(axis, x1), x2).atan2(dot(x1, x2));
-        places.about(self.bodies, axis, self.bodies[0]).with_value(nearest(angle, near))
-    }
-
     fn universal(&self, places: &Places, near: [f64; 3]) -> Vec<Row> {
         let [a, b] = self.axes;
         let (a1, b1) = (places.direction(self.bodies[0], a), places.direction(self.bodies[0], b));
@@ -144,15 +135,17 @@ impl Joint {
         match self.kind {
             Kind::Weld | Kind::Distance => Vec::new(),
             Kind::Revolute if planar => vec![plane_turn()],
-            Kind::Revolute => vec![self.turn(places, a, near[0])],
+            Kind::Revolute => vec![turn_about(places, self.bodies, a, near[0])],
             Kind::Prismatic => vec![self.slide(places, a)],
-            Kind::Cylindrical => vec![self.slide(places, a), self.turn(places, a, near[0])],
+            Kind::Cylindrical => {
+                vec![self.slide(places, a), turn_about(places, self.bodies, a, near[0])]
+            }
             Kind::Universal => self.universal(places, near),
             Kind::Spherical => self.ball(places, turns, near),
             Kind::Planar => vec![
                 self.slide(places, d),
                 self.slide(places, cross(a, d)),
-                self.turn(places, a, near[0]),
+                turn_about(places, self.bodies, a, near[0]),
             ],
             Kind::Free if planar => {
                 vec![self.slide(places, EX), self.slide(places, EY), plane_turn()]
@@ -184,6 +177,15 @@ impl Joint {
     pub(crate) fn place(&self, places: &Places) -> Vector {
         places.seat(self.bodies[1], self.points[1]).p
     }
+}
+
+/// The angle about an axis of two bodies, and its row; nearest to `near`.
+pub(crate) fn turn_about(places: &Places, bodies: [Carrier; 2], a: Vector, near: f64) -> Row {
+    let x = across(a)[0];
+    let (axis, x1) = (places.direction(bodies[0], a), places.direction(bodies[0], x));
+    let x2 = places.direction(bodies[1], x);
+    let angle = dot(cross(axis, x1), x2).atan2(dot(x1, x2));
+    places.about(bodies, axis, bodies[0]).with_value(nearest(angle, near))
 }
 
 /// The angle from `x` to `y` about `axis`.

@@ -93,29 +93,29 @@ impl Now<'_> {
                 loads.along(&row, signal(force, self.t)[0]);
             }
             Effect::Bushing(bodies, at, [k, c]) => self.bushing(loads, *bodies, *at, k, c),
-            Effect::TorsionSpring(joint, [k, c, free]) => {
-                let row = self.turn(*joint);
+            Effect::TorsionSpring(sum, [k, c, free]) => {
+                let row = self.sum(sum);
                 let (x, rate) = (row.value - free, row.rate(p));
                 loads.along(&row, -(k * x + c * rate));
                 return (0.5 * k * x * x, k * x * rate);
             }
-            Effect::JointTorque(joint, torque) => {
-                loads.along(&self.turn(*joint), signal(torque, self.t)[0]);
+            Effect::JointTorque(sum, torque) => {
+                loads.along(&self.sum(sum), signal(torque, self.t)[0]);
             }
             // an inertia, no force
             Effect::Rotor(..) => {}
             Effect::BodyTorque(body, torque) => {
                 loads.wrench(Some(*body), ZERO, signal(torque, self.t));
             }
-            Effect::Limit(joint, [lower, upper, k, c]) => {
-                let row = self.turn(*joint);
+            Effect::Limit(sum, [lower, upper, k, c]) => {
+                let row = self.sum(sum);
                 let rate = row.rate(p);
                 let push = contact(*k, *c, lower - row.value, -rate)
                     - contact(*k, *c, row.value - upper, rate);
                 loads.along(&row, push);
             }
-            Effect::Friction(joint, [coulomb, sticking, stribeck, viscous, e]) => {
-                let row = self.turn(*joint);
+            Effect::Friction(sum, [coulomb, sticking, stribeck, viscous, e]) => {
+                let row = self.sum(sum);
                 let r = row.rate(p);
                 let ratio = r / stribeck;
                 let level = coulomb + (sticking - coulomb) / (1.0 + ratio * ratio);
@@ -191,7 +191,9 @@ impl Now<'_> {
             }
             turns
         };
-        (0..self.scene.joints.len()).map(of).collect()
+        let joints = (0..self.scene.joints.len()).map(of);
+        let wheels = (0..self.scene.wheels.len()).map(|i| [self.wheel(i).value, 0.0, 0.0]);
+        joints.chain(wheels).collect()
     }
 }
 

@@ -6,9 +6,11 @@
 //! mass-weighted change. It is made to be right and plain, not fast. `trial` alone knows the crates: it runs what is judged.
 
 mod advance;
+mod coupled;
 mod curvature;
 mod curves;
 mod dense;
+mod drawn;
 mod joints;
 mod laws;
 mod loads;
@@ -16,13 +18,17 @@ mod motion;
 mod names;
 mod node;
 mod outputs;
+mod parts;
 mod project;
 pub mod random;
 mod read;
+mod read_coupling;
+mod read_curve;
 mod read_effect;
 mod rows;
 pub mod scene;
 mod start;
+mod sums;
 pub mod trial;
 pub mod vector;
 mod wheel;

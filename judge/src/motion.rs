@@ -12,6 +12,9 @@ use crate::rows::{Frame, Places, Row};
 use crate::scene::{Effect, Scene};
 use crate::vector::{Vector, ZERO, add, cross, dot, product, sub, times, transpose};
 
+/// Largest part of a row of length one across all others that is none [-]: projected states leave less. Chosen, not tuned.
+const DEPENDENT: f64 = 1e-8;
+
 /// A state of motion.
 #[derive(Debug, Clone, PartialEq)]
 pub struct State {
@@ -19,7 +22,7 @@ pub struct State {
     pub t: f64,
     /// Bodies.
     pub frames: Vec<Frame>,
-    /// Single turns of each joint, or its rotation vector, with all turns.
+    /// Single turns of each joint, or its rotation vector, with all turns; then those that couplings count.
     pub turns: Vec<[f64; 3]>,
     /// Work of all that is not stored [J].
     pub work: f64,
@@ -32,8 +35,14 @@ pub struct Moved {
     pub accelerations: Vec<[f64; 6]>,
     /// Reaction of each joint: what its first body does to its second, at the joint's place, guide included.
     pub reactions: Vec<[f64; 6]>,
-    /// What a guide puts on the coordinate of each joint.
-    pub efforts: Vec<f64>,
+    /// What guides put on the coordinates of each joint.
+    pub efforts: Vec<[f64; 6]>,
+    /// The multiplier of each coupling.
+    pub couplings: Vec<f64>,
+    /// Is the multiplier of each coupling unique?
+    pub unique_couplings: Vec<bool>,
+    /// Do rows depend on each other?
+    pub is_redundant: bool,
     /// Is the reaction of each joint unique?
     pub unique: Vec<bool>,
     /// Does a body turn freely without inertia, as a thin rod about itself?
@@ -58,6 +67,17 @@ pub struct Mechanism {
     n: usize,
     /// Scale of each velocity: one over the root of its inertia.
     scales: Vec<f64>,
+}
+
+/// What a row belongs to.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Owner {
+    /// A joint.
+    Joint(usize),
+    /// A coupling.
+    Coupling(usize),
+    /// A guide of a coordinate of a joint.
+    Guide(usize, usize),
 }
 
 /// A saddle system as factored.
@@ -110,7 +130,8 @@ impl Mechanism {
             w: ZERO,
         };
         let frames = self.scene.bodies.iter().map(still).collect();
-        State { t: 0.0, frames, turns: vec![[0.0; 3]; self.scene.joints.len()], work: 0.0 }
+        let turns = vec![[0.0; 3]; self.scene.joints.len() + self.scene.wheels.len()];
+        State { t: 0.0, frames, turns, work: 0.0 }
     }
 
     pub(crate) fn columns(&self) -> &[[Option<usize>; 6]] {
@@ -133,18 +154,22 @@ impl Mechanism {
         Now { scene: &self.scene, places, frames: &state.frames, turns: &state.turns, t: state.t }
     }
 
-    /// All constraints, each with the joint that it belongs to; those of guides come last.
-    pub(crate) fn rows(&self, now: &Now<'_>) -> Vec<(usize, Row)> {
+    /// All constraints, each with what it belongs to.
+    pub(crate) fn rows(&self, now: &Now<'_>) -> Vec<(Owner, Row)> {
         let mut rows = Vec::new();
         for (j, joint) in self.scene.joints.iter().enumerate() {
-            rows.extend(joint.rows(now.places, self.scene.planar).into_iter().map(|row| (j, row)));
+            let own = joint.rows(now.places, self.scene.planar);
+            rows.extend(own.into_iter().map(|row| (Owner::Joint(j), row)));
+        }
+        for (k, coupling) in self.scene.couplings.iter().enumerate() {
+            rows.push((Owner::Coupling(k), now.coupling(coupling)));
         }
         for guide in &self.scene.guides {
-            let mut row = now.coordinates(guide.joint).swap_remove(0);
+            let mut row = now.coordinates(guide.joint).swap_remove(guide.coordinate);
             let [value, rate, acceleration] = guide.law.at(now.t);
             row.value -= value;
             row.given = [rate, acceleration];
-            rows.push((guide.joint, row));
+            rows.push((Owner::Guide(guide.joint, guide.coordinate), row));
         }
         rows
     }
@@ -172,9 +197,14 @@ impl Mechanism {
         0.5 * (mass * dot(frame.v, frame.v) + dot(frame.w, momentum))
     }
 
+    /// The gradient of a row, as scaled.
     pub(crate) fn dense_row(&self, row: &Row) -> Vec<(usize, f64)> {
+        self.dense_parts(&row.parts)
+    }
+
+    fn dense_parts(&self, parts: &[(Option<usize>, [f64; 6])]) -> Vec<(usize, f64)> {
         let mut entries = Vec::with_capacity(12);
-        for (body, part) in &row.parts {
+        for (body, part) in parts {
             let Some(b) = body else { continue };
             for (i, column) in self.columns[*b].iter().enumerate() {
                 if let Some(c) = column
@@ -187,9 +217,9 @@ impl Mechanism {
         entries
     }
 
-    /// Factors [[M, -Jᵀ], [J, 0]] as scaled, M = bodies + Σ I g gᵀ of rotors.
-    pub(crate) fn saddle(&self, places: &Places, rows: &[Row], rotors: &[(f64, Row)]) -> Saddle {
-        let mut matrix = Square::zero(self.n + rows.len());
+    /// M = bodies + Σ I g gᵀ of rotors, as scaled, with room for rows.
+    fn masses(&self, places: &Places, n_rows: usize, rotors: &[(f64, Row)]) -> Square {
+        let mut matrix = Square::zero(self.n + n_rows);
         for (b, of) in self.columns.iter().enumerate() {
             let inertia = self.inertia(b, places);
             for i in 0..6 {
@@ -212,18 +242,26 @@ impl Mechanism {
                 }
             }
         }
-        self.factor_with(matrix, rows)
+        matrix
     }
 
-    /// Adds rows to a matrix of the bodies, as scaled, and factors it.
-    pub(crate) fn factor_with(&self, mut matrix: Square, rows: &[Row]) -> Saddle {
+    /// Factors [[M, -Jᵀ], [J, 0]] as scaled.
+    pub(crate) fn saddle(&self, places: &Places, rows: &[Row], rotors: &[(f64, Row)]) -> Saddle {
+        self.factor_with(self.masses(places, rows.len(), rotors), rows, false)
+    }
+
+    /// Adds rows to a matrix of the bodies, as scaled, and factors it; do multipliers act where the machine says?
+    pub(crate) fn factor_with(&self, mut matrix: Square, rows: &[Row], seated: bool) -> Saddle {
         let mut row_scales = Vec::with_capacity(rows.len());
         for (k, row) in rows.iter().enumerate() {
             let entries = self.dense_row(row);
             let length = entries.iter().map(|e| e.1 * e.1).sum::<f64>().sqrt();
             let scale = if length > 0.0 { 1.0 / length } else { 1.0 };
-            for (c, x) in entries {
-                *matrix.at(self.n + k, c) += x * scale;
+            for (c, x) in &entries {
+                *matrix.at(self.n + k, *c) += x * scale;
+            }
+            let acts = row.acts.as_ref().filter(|_| seated);
+            for (c, x) in acts.map_or(entries, |parts| self.dense_parts(parts)) {
                 *matrix.at(c, self.n + k) -= x * scale;
             }
             row_scales.push(scale);
@@ -264,6 +302,11 @@ impl Mechanism {
     /// Accelerations, reactions, energies and power of a state.
     #[must_use]
     pub fn evaluate(&self, state: &State) -> Moved {
+        self.evaluate_among(state, None)
+    }
+
+    /// The same by some of the rows, from which the others follow.
+    pub(crate) fn evaluate_among(&self, state: &State, among: Option<&[bool]>) -> Moved {
         let places = self.places(state);
         let now = self.now(state, &places);
         let mut loads = now.loads();
@@ -281,42 +324,69 @@ impl Mechanism {
             let gyroscopic = cross(frame.w, momentum);
             (0..3).for_each(|i| on[b][i + 3] -= gyroscopic[i]);
         }
-        let (owners, rows): (Vec<usize>, Vec<Row>) = self.rows(&now).into_iter().unzip();
-        let saddle = self.saddle(&places, &rows, &rotors);
+        let all = self.rows(&now);
+        let kept = |i: usize| among.is_none_or(|kept| kept[i]);
+        let rows = all.into_iter().enumerate().filter(|(i, _)| kept(*i)).map(|(_, row)| row);
+        let (owners, rows): (Vec<Owner>, Vec<Row>) = rows.unzip();
+        let saddle = self.factor_with(self.masses(&places, rows.len(), &rotors), &rows, true);
         let right: Vec<f64> = rows.iter().map(|r| r.given[1] - r.bias).collect();
         let (accelerations, multipliers, unmet) = self.solve(&saddle, &on, &right);
-        let mut reactions = vec![[0.0; 6]; self.scene.joints.len()];
+        let mut moved = self.blank();
         for ((&owner, row), lambda) in owners.iter().zip(&rows).zip(&multipliers) {
-            let wrench = self.wrench(owner, row, *lambda, &places);
-            reactions[owner].iter_mut().zip(wrench).for_each(|(r, w)| *r += w);
             power += lambda * row.given[0];
+            let joint = match owner {
+                Owner::Coupling(k) => {
+                    moved.couplings[k] = *lambda;
+                    continue;
+                }
+                Owner::Guide(joint, coordinate) => {
+                    moved.efforts[joint][coordinate] = *lambda;
+                    joint
+                }
+                Owner::Joint(joint) => joint,
+            };
+            let wrench = self.wrench(joint, row, *lambda, &places);
+            moved.reactions[joint].iter_mut().zip(wrench).for_each(|(r, w)| *r += w);
         }
-        let mut efforts = vec![0.0; reactions.len()];
-        let first_guide = rows.len() - self.scene.guides.len();
-        for (&owner, lambda) in owners.iter().zip(&multipliers).skip(first_guide) {
-            efforts[owner] = *lambda;
-        }
-        let mut unique = vec![true; reactions.len()];
-        let mut idle = vec![false; state.frames.len()];
         for vector in saddle.factors.kernel() {
-            for (x, &owner) in vector[self.n..].iter().zip(&owners) {
-                unique[owner] &= x.abs() < 1e-6;
-            }
-            for (of, idle) in self.columns.iter().zip(&mut idle) {
-                *idle |= of.iter().flatten().any(|&c| vector[c].abs() > 1e-6);
-            }
+            self.open(&vector, &owners, &mut moved);
         }
         let least_pivot = saddle.factors.least_pivot;
+        Moved { accelerations, energy: [kinetic, potential], power, least_pivot, unmet, ..moved }
+    }
+
+    /// Nothing moves or acts, all unique.
+    fn blank(&self) -> Moved {
+        let (n_bodies, n_joints) = (self.scene.bodies.len(), self.scene.joints.len());
+        let n_couplings = self.scene.couplings.len();
         Moved {
-            accelerations,
-            reactions,
-            efforts,
-            unique,
-            idle,
-            energy: [kinetic, potential],
-            power,
-            least_pivot,
-            unmet,
+            accelerations: vec![[0.0; 6]; n_bodies],
+            reactions: vec![[0.0; 6]; n_joints],
+            efforts: vec![[0.0; 6]; n_joints],
+            couplings: vec![0.0; n_couplings],
+            unique_couplings: vec![true; n_couplings],
+            unique: vec![true; n_joints],
+            idle: vec![false; n_bodies],
+            is_redundant: false,
+            energy: [0.0; 2],
+            power: 0.0,
+            least_pivot: f64::INFINITY,
+            unmet: 0.0,
+        }
+    }
+
+    /// Marks what a vector of the kernel leaves open.
+    fn open(&self, vector: &[f64], owners: &[Owner], moved: &mut Moved) {
+        for (x, &owner) in vector[self.n..].iter().zip(owners) {
+            let is_open = x.abs() >= 1e-6;
+            moved.is_redundant |= is_open;
+            match owner {
+                Owner::Joint(joint) | Owner::Guide(joint, _) => moved.unique[joint] &= !is_open,
+                Owner::Coupling(k) => moved.unique_couplings[k] &= !is_open,
+            }
+        }
+        for (of, idle) in self.columns.iter().zip(&mut moved.idle) {
+            *idle |= of.iter().flatten().any(|&c| vector[c].abs() > 1e-6);
         }
     }
 
@@ -342,6 +412,33 @@ impl Mechanism {
         })
     }
 
+    /// Rows that do not follow from others, at a state that meets them all: within a step what follows would only nearly do so.
+    pub(crate) fn independent(&self, state: &State) -> Vec<bool> {
+        let places = self.places(state);
+        let rows = self.rows(&self.now(state, &places));
+        let mut left: Vec<Vec<f64>> = Vec::with_capacity(rows.len());
+        for (_, row) in &rows {
+            let mut dense = vec![0.0; self.n];
+            self.dense_row(row).into_iter().for_each(|(c, x)| dense[c] += x);
+            let size = norm_of(&dense);
+            dense.iter_mut().for_each(|x| *x /= size.max(f64::MIN_POSITIVE));
+            left.push(dense);
+        }
+        let mut kept = vec![false; rows.len()];
+        loop {
+            let free = (0..rows.len()).filter(|i| !kept[*i]);
+            let largest = free.max_by(|&i, &j| norm_of(&left[i]).total_cmp(&norm_of(&left[j])));
+            let Some(i) = largest.filter(|&i| norm_of(&left[i]) > DEPENDENT) else { return kept };
+            kept[i] = true;
+            let size = norm_of(&left[i]);
+            let unit: Vec<f64> = left[i].iter().map(|x| x / size).collect();
+            for (row, _) in left.iter_mut().zip(&kept).filter(|(_, kept)| !**kept) {
+                let along: f64 = row.iter().zip(&unit).map(|(x, u)| x * u).sum();
+                row.iter_mut().zip(&unit).for_each(|(x, u)| *x -= along * u);
+            }
+        }
+    }
+
     /// How many freedoms are left by the independent rows.
     #[must_use]
     pub fn freedoms(&self, state: &State) -> usize {
@@ -350,7 +447,11 @@ impl Mechanism {
             self.rows(&self.now(state, &places)).into_iter().map(|r| r.1).collect();
         let mut unit = Square::zero(self.n + rows.len());
         (0..self.n).for_each(|i| *unit.at(i, i) = 1.0);
-        let dependent = self.factor_with(unit, &rows).factors.kernel().len();
+        let dependent = self.factor_with(unit, &rows, false).factors.kernel().len();
         (self.n + dependent).saturating_sub(rows.len())
     }
+}
+
+fn norm_of(row: &[f64]) -> f64 {
+    row.iter().map(|x| x * x).sum::<f64>().sqrt()
 }

@@ -1,8 +1,8 @@
 //! What channels show.
 
 use crate::motion::{Mechanism, State};
-use crate::scene::Quantity;
-use crate::vector::{Quaternion, Vector, add, cross, norm, rotation};
+use crate::scene::{Coupled, Measure, Quantity};
+use crate::vector::{Quaternion, Vector, add, cross, norm, rotation, sub};
 
 impl Quantity {
     /// Names of those of a body's point.
@@ -19,6 +19,22 @@ impl Quantity {
     /// Names of those of a joint.
     pub const OF_JOINTS: &[&str] =
         &["value", "rate", "acceleration", "effort", "power", "reaction"];
+
+    /// Names of those of a coupling.
+    pub const OF_COUPLINGS: &[&str] = &["effort", "force", "value", "length", "rate", "power"];
+
+    /// That of a coupling.
+    pub(crate) fn of_coupling(name: &str, number: usize) -> Option<Self> {
+        let what = match name {
+            "effort" | "force" => Coupled::Effort,
+            "value" => Coupled::Value,
+            "length" => Coupled::Length,
+            "rate" => Coupled::Rate,
+            "power" => Coupled::Power,
+            _ => return None,
+        };
+        Some(Self::Coupling(number, what))
+    }
 
     /// That of a body, or of its point.
     pub(crate) fn of_body(name: &str, body: usize, at: Option<Vector>) -> Option<Self> {
@@ -74,6 +90,11 @@ impl Mechanism {
             Quantity::AngularVelocity(body) => {
                 places.of(Some(body)).w[if planar { 2 } else { 0 }..].to_vec()
             }
+            Quantity::RelativeAngularVelocity(body, other) => {
+                let [w, of_other] = [body, other].map(|b| places.of(Some(b)).w);
+                sub(w, of_other)[if planar { 2 } else { 0 }..].to_vec()
+            }
+            Quantity::Energy => vec![self.evaluate(state).energy.iter().sum()],
             Quantity::AngularAcceleration(body) => {
                 self.evaluate(state).accelerations[body][if planar { 5 } else { 3 }..].to_vec()
             }
@@ -84,35 +105,71 @@ impl Mechanism {
             Quantity::RotationMatrix(body) if planar => planar_matrix(state.frames[body].angle),
             Quantity::RotationMatrix(body) => rotation(state.frames[body].q).concat(),
             Quantity::KineticEnergy(body) => vec![self.kinetic_energy(body, state, &places)],
+            Quantity::Coupling(number, what) => vec![self.coupled(state, number, what)],
+            of_joint => self.of_joint(state, of_joint),
+        }
+    }
+
+    /// Components of a quantity of a joint.
+    fn of_joint(&self, state: &State, quantity: Quantity) -> Vec<f64> {
+        let places = self.places(state);
+        let coordinates = |joint: usize| self.now(state, &places).coordinates(joint);
+        match quantity {
             Quantity::JointAcceleration(joint) => {
                 let moved = self.evaluate(state).accelerations;
                 let of = |(body, part): &(Option<usize>, [f64; 6])| {
                     let gain = |b: usize| part.iter().zip(&moved[b]).map(|(x, a)| x * a).sum();
                     body.map_or(0.0, gain)
                 };
-                let rows = self.now(state, &places).coordinates(joint);
+                let rows = coordinates(joint);
                 rows.iter().map(|row| row.parts.iter().map(of).sum::<f64>() + row.bias).collect()
             }
             Quantity::Effort(joint) => {
-                let n = self.now(state, &places).coordinates(joint).len();
-                vec![self.evaluate(state).efforts[joint]; n]
+                let n = coordinates(joint).len();
+                self.evaluate(state).efforts[joint][..n].to_vec()
             }
             Quantity::Power(joint) => {
                 let rates = self.show(state, Quantity::Rate(joint));
-                vec![self.evaluate(state).efforts[joint] * rates.iter().sum::<f64>()]
+                let efforts = self.evaluate(state).efforts[joint];
+                vec![rates.iter().zip(efforts).map(|(rate, effort)| rate * effort).sum()]
             }
-            Quantity::Value(joint) => {
-                self.now(state, &places).coordinates(joint).iter().map(|row| row.value).collect()
+            Quantity::Value(joint) => coordinates(joint).iter().map(|row| row.value).collect(),
+            Quantity::Rate(joint) => {
+                coordinates(joint).iter().map(|row| row.rate(&places)).collect()
             }
-            Quantity::Rate(joint) => self
-                .now(state, &places)
-                .coordinates(joint)
-                .iter()
-                .map(|row| row.rate(&places))
-                .collect(),
             Quantity::Reaction(joint) => {
                 let r = self.evaluate(state).reactions[joint];
-                if planar { vec![r[0], r[1], r[5]] } else { r.to_vec() }
+                if self.scene.planar { vec![r[0], r[1], r[5]] } else { r.to_vec() }
+            }
+            _ => Vec::new(),
+        }
+    }
+
+    /// A number of a coupling.
+    fn coupled(&self, state: &State, number: usize, what: Coupled) -> f64 {
+        let places = self.places(state);
+        let now = self.now(state, &places);
+        let coupling = &self.scene.couplings[number];
+        match what {
+            Coupled::Value => now.sum(&coupling.terms).value,
+            Coupled::Rate => now.sum(&coupling.terms).rate(&places),
+            Coupled::Length => {
+                let lines = coupling.terms.iter().map(|term| match &term.measure {
+                    Measure::Length(points) => now.length(points).value,
+                    _ => 0.0,
+                });
+                lines.sum()
+            }
+            Coupled::Effort => coupling.gain * self.evaluate(state).couplings[number],
+            Coupled::Power => {
+                let multiplier = self.evaluate(state).couplings[number];
+                match coupling.passed {
+                    Some((joint, coordinate, arm)) => {
+                        let rate = now.coordinates(joint)[coordinate].rate(&places);
+                        coupling.gain * multiplier * arm * rate
+                    }
+                    None => multiplier * now.coupling(coupling).given[0],
+                }
             }
         }
     }

@@ -2,7 +2,7 @@
 
 use crate::motion::{Mechanism, State};
 use crate::rows::{Frame, Row};
-use crate::vector::{add, compose, exponential, normalised, scale};
+use crate::vector::{add, compose, exponential, normalised};
 
 impl Frame {
     /// Moves by a displacement and a rotation vector.
@@ -14,12 +14,13 @@ impl Frame {
 }
 
 impl Mechanism {
-    /// Brings a state onto its constraints; turns of joints are counted on.
-    pub fn project(&self, state: &mut State) {
+    /// Brings a state onto its constraints by some of the rows, from which the others follow; turns of joints are counted on.
+    pub(crate) fn project(&self, state: &mut State, among: &[bool]) {
         for _ in 0..2 {
             let places = self.places(state);
             let now = self.now(state, &places);
-            let rows: Vec<Row> = self.rows(&now).into_iter().map(|r| r.1).collect();
+            let all = self.rows(&now).into_iter().zip(among).filter(|(_, kept)| **kept);
+            let rows: Vec<Row> = all.map(|((_, row), _)| row).filter(|r| !r.of_rates).collect();
             let saddle = self.saddle(&places, &rows, &self.rotors(&now));
             let right: Vec<f64> = rows.iter().map(|r| -r.value).collect();
             let none = vec![[0.0; 6]; state.frames.len()];
@@ -27,14 +28,21 @@ impl Mechanism {
             state.frames.iter_mut().zip(&moves).for_each(|(f, m)| f.moved(m));
         }
         self.count_turns(state);
-        self.project_velocities(state, &[]);
+        self.project_velocities(state, Some(among), &[]);
     }
 
     /// Brings velocities onto the constraints, and on more rows that are to have rates.
-    pub(crate) fn project_velocities(&self, state: &mut State, held: &[Row]) -> f64 {
+    pub(crate) fn project_velocities(
+        &self,
+        state: &mut State,
+        among: Option<&[bool]>,
+        held: &[Row],
+    ) -> f64 {
         let places = self.places(state);
         let now = self.now(state, &places);
-        let mut rows: Vec<Row> = self.rows(&now).into_iter().map(|r| r.1).collect();
+        let kept = |i: usize| among.is_none_or(|kept| kept[i]);
+        let all = self.rows(&now).into_iter().enumerate().filter(|(i, _)| kept(*i));
+        let mut rows: Vec<Row> = all.map(|(_, (_, row))| row).collect();
         rows.extend_from_slice(held);
         let saddle = self.saddle(&places, &rows, &self.rotors(&now));
         let right: Vec<f64> = rows.iter().map(|r| r.given[0] - r.rate(&places)).collect();
@@ -42,7 +50,7 @@ impl Mechanism {
         let (changes, _, unmet) = self.solve(&saddle, &none, &right);
         for (frame, c) in state.frames.iter_mut().zip(&changes) {
             frame.v = add(frame.v, [c[0], c[1], c[2]]);
-            frame.w = add(frame.w, scale(1.0, [c[3], c[4], c[5]]));
+            frame.w = add(frame.w, [c[3], c[4], c[5]]);
         }
         unmet
     }

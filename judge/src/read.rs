@@ -2,11 +2,13 @@
 
 use crate::names::Names;
 use crate::node::{Node, Read, Table, fault, parse};
+use crate::read_coupling::Reader;
+use crate::read_curve::{coordinate, law, rows};
 use crate::read_effect;
 use crate::scene::{
-    Body, Feature, Guide, InitialCondition, Joint, Kind, Law, Output, Quantity, Scene, Spline,
+    Body, Feature, Guide, InitialCondition, Joint, Kind, Output, Quantity, Scene, Spline,
 };
-use crate::vector::{ZERO, across, add, dot, norm, scale, sub, unit};
+use crate::vector::{Vector, ZERO, across, add, dot, norm, scale, sub, unit};
 
 /// Reads a scene.
 ///
@@ -46,9 +48,11 @@ pub fn read(text: &str) -> Read<Scene> {
     let initials = root.tables("initial")?;
     scene.initials = initials.into_iter().map(|t| initial(t, &names)).collect::<Read<_>>()?;
     let guides = root.tables("guide")?;
-    scene.guides = guides.into_iter().map(|t| guide(t, &names)).collect::<Read<_>>()?;
+    let of = |t| guide(t, &names, &scene.joints);
+    scene.guides = guides.into_iter().map(of).collect::<Read<_>>()?;
+    let couplings = couplings(root.tables("coupling")?, &names, &mut scene)?;
     for table in root.tables("effect")? {
-        scene.effects.extend(read_effect::effect(table, &names)?);
+        scene.effects.extend(read_effect::effect(table, &names, &scene.joints)?);
     }
     if let Some(table) = root.table("road")? {
         road(table, &mut scene)?;
@@ -57,7 +61,10 @@ pub fn read(text: &str) -> Read<Scene> {
         scene.step = table.take("step").map(|n| n.number()).transpose()?;
     }
     let outputs = root.tables("output")?;
-    scene.outputs = outputs.into_iter().map(|t| output(t, &names)).collect::<Read<_>>()?;
+    scene.outputs = outputs
+        .into_iter()
+        .map(|t| output(t, &names, &couplings, &scene.bodies))
+        .collect::<Read<_>>()?;
     if scene.outputs.is_empty() {
         let is_shown = |j: &usize| scene.joints[*j].kind.coordinates(planar) != [0, 0];
         let shown = (0..scene.joints.len()).filter(is_shown);
@@ -80,6 +87,8 @@ fn body(mut table: Table) -> Read<Body> {
         let mut inertia = [0, 1, 2].map(|i| [0, 1, 2].map(|j| -mass / 12.0 * l[i] * l[j]));
         (0..3).for_each(|i| inertia[i][i] += mass / 12.0 * dot(l, l));
         Body { name, mass, center: scale(0.5, add(from, to)), inertia }
+    } else if let Some(center) = table.vector_or_none("point")? {
+        Body { name, mass, center, inertia: [ZERO; 3] }
     } else {
         let center = table.vector("center")?;
         let inertia = if table.planar {
@@ -128,6 +137,16 @@ fn joint(mut table: Table, name: String, names: &Names, all: &[Body]) -> Read<Jo
     Ok(Joint { name, kind, bodies, points, axes, hinged: hinge.is_some() })
 }
 
+/// Reads the couplings; their names.
+fn couplings(tables: Vec<Table>, names: &Names, scene: &mut Scene) -> Read<Vec<String>> {
+    let (mut wheels, planar) = (Vec::new(), scene.planar);
+    let mut reader = Reader { names, joints: &scene.joints, wheels: &mut wheels, planar };
+    let numbered = tables.into_iter().enumerate();
+    scene.couplings = numbered.map(|(i, table)| reader.coupling(table, i)).collect::<Read<_>>()?;
+    scene.wheels = wheels;
+    Ok(scene.couplings.iter().map(|coupling| coupling.name.clone()).collect())
+}
+
 fn initial(mut table: Table, names: &Names) -> Read<InitialCondition> {
     let initial = if let Some(Node::Text(name)) = table.take("body") {
         let velocity = match table.vector_or_none("at")? {
@@ -149,37 +168,12 @@ fn initial(mut table: Table, names: &Names) -> Read<InitialCondition> {
     Ok(initial)
 }
 
-fn rows(node: &Node) -> Read<Vec<[f64; 2]>> {
-    node.list()?
-        .iter()
-        .map(|row| match row.numbers()?.as_slice() {
-            &[t, x] => Ok([t, x]),
-            other => fault(format!("not a row: {other:?}")),
-        })
-        .collect()
-}
-
-fn guide(mut table: Table, names: &Names) -> Read<Guide> {
+fn guide(mut table: Table, names: &Names, joints: &[Joint]) -> Read<Guide> {
     let joint = names.joint(&table.text("joint")?)?;
-    let law = if let Some(mut sine) = table.table("sine")? {
-        Law::Sine([
-            sine.number("amplitude")?,
-            sine.number("frequency")?,
-            sine.number_or("phase", 0.0)?,
-        ])
-    } else if let Some(mut ramp) = table.table("ramp")? {
-        Law::Ramp(ramp.number("rate")?)
-    } else {
-        let points = rows(&table.need("table")?)?;
-        let ends = if table.has("ends") { table.text("ends")? } else { "natural".to_owned() };
-        Law::Spline(match ends.as_str() {
-            "natural" => Spline::natural(&points),
-            "level" => Spline::level(&points),
-            other => return fault(format!("no ends: {other}")),
-        })
-    };
+    let coordinate = coordinate(&mut table, joints[joint].kind)?.unwrap_or(0);
+    let Some(law) = law(&mut table)? else { return fault("a guide without a motion") };
     table.done("guide")?;
-    Ok(Guide { joint, law })
+    Ok(Guide { joint, coordinate, law })
 }
 
 fn road(mut table: Table, scene: &mut Scene) -> Read<()> {
@@ -240,14 +234,34 @@ fn feature(kind: &str, mut table: Table) -> Read<Vec<Feature>> {
     Ok(features)
 }
 
-fn output(mut table: Table, names: &Names) -> Read<Output> {
+/// `at`, or the centre of mass of a quantity of a point.
+fn place(table: &mut Table, kind: &str, body: usize, all: &[Body]) -> Read<Option<Vector>> {
+    let at = table.vector_or_none("at")?;
+    Ok(at.or_else(|| Quantity::OF_POINTS.contains(&kind).then(|| all[body].center)))
+}
+
+fn output(mut table: Table, names: &Names, couplings: &[String], all: &[Body]) -> Read<Output> {
     let name = table.text("name")?;
-    let kind = table.text("quantity")?;
-    let quantity = if let Some(Node::Text(joint)) = table.take("joint") {
+    let default = if table.has("coupling") { "effort" } else { "value" };
+    let kind = if table.has("quantity") { table.text("quantity")? } else { default.to_owned() };
+    let quantity = if let Some(Node::Text(coupling)) = table.take("coupling") {
+        let number = couplings.iter().position(|known| *known == coupling);
+        number.and_then(|number| Quantity::of_coupling(&kind, number))
+    } else if let Some(Node::Text(joint)) = table.take("joint") {
         Quantity::of_joint(&kind, names.joint(&joint)?)
+    } else if let Some(Node::Text(body)) = table.take("body") {
+        let body = names.body(&body)?;
+        match table.take("relative_to") {
+            Some(Node::Text(other)) if kind == "angular-velocity" => {
+                let global = table.has("frame") && table.text("frame")? == "global";
+                let other = names.body(&other)?;
+                global.then_some(Quantity::RelativeAngularVelocity(body, other))
+            }
+            Some(_) => None,
+            None => Quantity::of_body(&kind, body, place(&mut table, &kind, body, all)?),
+        }
     } else {
-        let body = names.body(&table.text("body")?)?;
-        Quantity::of_body(&kind, body, table.vector_or_none("at")?)
+        (kind == "energy").then_some(Quantity::Energy)
     };
     let Some(quantity) = quantity else { return fault(format!("no quantity `{kind}`")) };
     table.done("output")?;

@@ -2,12 +2,13 @@
 
 use crate::names::Names;
 use crate::node::{Node, Read, Table, fault};
-use crate::scene::{Calspan, Effect, Line, Tire};
+use crate::read_curve::effect_sum;
+use crate::scene::{Calspan, Effect, Joint, Line, Tire};
 use crate::vector::unit;
 
 /// An effect that is enabled.
 #[allow(clippy::too_many_lines, reason = "one arm for each kind")]
-pub(crate) fn effect(mut table: Table, names: &Names) -> Read<Option<Effect>> {
+pub(crate) fn effect(mut table: Table, names: &Names, joints: &[Joint]) -> Read<Option<Effect>> {
     table.take("name");
     let enabled = !matches!(table.take("enabled"), Some(Node::Flag(false)));
     let kind = table.text("kind")?;
@@ -48,7 +49,7 @@ pub(crate) fn effect(mut table: Table, names: &Names) -> Read<Option<Effect>> {
                 t.number_or("damping", 0.0)?,
                 t.number_or("free_value", 0.0)?,
             ];
-            Effect::TorsionSpring(names.joint(&t.text("joint")?)?, numbers)
+            Effect::TorsionSpring(effect_sum(t, names, joints)?, numbers)
         }
         "torque" => match t.take("body") {
             Some(Node::Text(body)) => {
@@ -59,7 +60,10 @@ pub(crate) fn effect(mut table: Table, names: &Names) -> Read<Option<Effect>> {
                 }
                 Effect::BodyTorque(names.body(&body)?, signal)
             }
-            _ => Effect::JointTorque(names.joint(&t.text("joint")?)?, t.signal(false)?),
+            _ => {
+                let sum = effect_sum(t, names, joints)?;
+                Effect::JointTorque(sum, t.signal(false)?)
+            }
         },
         "limit" => {
             let numbers = [
@@ -68,7 +72,7 @@ pub(crate) fn effect(mut table: Table, names: &Names) -> Read<Option<Effect>> {
                 t.number("stiffness")?,
                 t.number_or("damping", 0.0)?,
             ];
-            Effect::Limit(names.joint(&t.text("joint")?)?, numbers)
+            Effect::Limit(effect_sum(t, names, joints)?, numbers)
         }
         "friction" => {
             let coulomb = t.number("coulomb")?;
@@ -77,7 +81,7 @@ pub(crate) fn effect(mut table: Table, names: &Names) -> Read<Option<Effect>> {
             let stribeck = t.number_or("stribeck", 10.0 * regularisation)?;
             let numbers =
                 [coulomb, sticking, stribeck, t.number_or("viscous", 0.0)?, regularisation];
-            Effect::Friction(names.joint(&t.text("joint")?)?, numbers)
+            Effect::Friction(effect_sum(t, names, joints)?, numbers)
         }
         "force" => {
             let turns = matches!(t.take("frame"), Some(Node::Text(frame)) if frame == "body");

@@ -47,14 +47,18 @@ pub(crate) struct Seat {
 /// A row.
 #[derive(Debug, Clone)]
 pub(crate) struct Row {
-    /// Gradient by velocity and angular velocity of two bodies.
-    pub(crate) parts: [(Carrier, [f64; 6]); 2],
+    /// Gradient by velocity and angular velocity of bodies; of a joint, of its two bodies in their order.
+    pub(crate) parts: Vec<(Carrier, [f64; 6])>,
     /// The scalar.
     pub(crate) value: f64,
     /// Its second derivative without accelerations.
     pub(crate) bias: f64,
     /// Rate and acceleration that the row is to have.
     pub(crate) given: [f64; 2],
+    /// Does it hold rates alone?
+    pub(crate) of_rates: bool,
+    /// What a multiplier does to bodies, where that is not the gradient.
+    pub(crate) acts: Option<Vec<(Carrier, [f64; 6])>>,
 }
 
 const GROUND: Placed = Placed { center: ZERO, r: ZERO, turn: UNIT, v: ZERO, w: ZERO };
@@ -120,7 +124,7 @@ impl Places {
         }
         let parts =
             [(bodies[0], six(scale(-1.0, u), about_first)), (bodies[1], six(u, cross(s2.arm, u)))];
-        Row { parts, value: dot(u, d), bias, given: [0.0; 2] }
+        Row::new(parts.to_vec(), dot(u, d), bias)
     }
 
     /// Distance of two points, (d·d - L²)/(2 L).
@@ -149,7 +153,7 @@ impl Places {
         let normal = cross(u, w);
         let change = add(cross(cross(w1, u), w), cross(u, cross(w2, w)));
         let parts = [(bodies[0], six(ZERO, normal)), (bodies[1], six(ZERO, scale(-1.0, normal)))];
-        Row { parts, value: dot(u, w), bias: dot(change, sub(w1, w2)), given: [0.0; 2] }
+        Row::new(parts.to_vec(), dot(u, w), dot(change, sub(w1, w2)))
     }
 
     /// The angle whose rate is a · (ω2 - ω1), with a fixed in one of the bodies, or in space; the value is not known here.
@@ -157,11 +161,28 @@ impl Places {
         let [w1, w2] = bodies.map(|b| self.of(b).w);
         let parts = [(bodies[0], six(ZERO, scale(-1.0, a))), (bodies[1], six(ZERO, a))];
         let bias = dot(cross(self.of(owner).w, a), sub(w2, w1));
-        Row { parts, value: 0.0, bias, given: [0.0; 2] }
+        Row::new(parts.to_vec(), 0.0, bias)
     }
 }
 
 impl Row {
+    pub(crate) fn new(parts: Vec<(Carrier, [f64; 6])>, value: f64, bias: f64) -> Self {
+        Self { parts, value, bias, given: [0.0; 2], of_rates: false, acts: None }
+    }
+
+    /// A sum of rows with factors; each body has one part.
+    pub(crate) fn sum(rows: impl IntoIterator<Item = (f64, Self)>) -> Self {
+        let mut sum = Self::new(Vec::new(), 0.0, 0.0);
+        for (factor, row) in rows {
+            sum.value += factor * row.value;
+            sum.bias += factor * row.bias;
+            for (body, part) in row.parts {
+                add_part(&mut sum.parts, body, &part.map(|x| factor * x));
+            }
+        }
+        sum
+    }
+
     /// J v.
     pub(crate) fn rate(&self, places: &Places) -> f64 {
         let of = |(body, part): &(Carrier, [f64; 6])| {
@@ -174,6 +195,14 @@ impl Row {
     pub(crate) fn with_value(mut self, value: f64) -> Self {
         self.value = value;
         self
+    }
+}
+
+/// Adds to the part of a body.
+pub(crate) fn add_part(parts: &mut Vec<(Carrier, [f64; 6])>, body: Carrier, more: &[f64; 6]) {
+    match parts.iter_mut().find(|(b, _)| *b == body) {
+        Some((_, part)) => part.iter_mut().zip(more).for_each(|(x, y)| *x += y),
+        None => parts.push((body, *more)),
     }
 }
 

@@ -1,5 +1,6 @@
 //! What a scene says, as the judge reads it. A planar scene lies in the plane z = 0 of space.
 
+pub use crate::parts::{Carrier, Coupling, Curve, Law, Measure, Seat, Spline, Term, Wheel};
 use crate::vector::{Matrix, Vector};
 
 /// A scene.
@@ -19,6 +20,10 @@ pub struct Scene {
     pub bodies: Vec<Body>,
     /// Joints.
     pub joints: Vec<Joint>,
+    /// Couplings.
+    pub couplings: Vec<Coupling>,
+    /// Turns that couplings count, beside those of joints.
+    pub wheels: Vec<Wheel>,
     /// Guides.
     pub guides: Vec<Guide>,
     /// What is held at the start.
@@ -69,9 +74,6 @@ pub enum Kind {
     Distance,
 }
 
-/// A body, or the ground.
-pub type Carrier = Option<usize>;
-
 /// A joint.
 #[derive(Debug, Clone)]
 pub struct Joint {
@@ -120,30 +122,14 @@ impl Kind {
     }
 }
 
-/// A value over time.
-#[derive(Debug, Clone)]
-pub enum Law {
-    /// Cubic spline through (time, value), natural or level, the ends held.
-    Spline(Spline),
-    /// amplitude sin(2π f t + phase).
-    Sine([f64; 3]),
-    /// rate t.
-    Ramp(f64),
-}
-
-/// A cubic spline: abscissae, values and second derivatives.
-#[derive(Debug, Clone, Default)]
-pub struct Spline {
-    /// Abscissae, values, second derivatives.
-    pub knots: Vec<[f64; 3]>,
-}
-
 /// A guided joint.
 #[derive(Debug, Clone)]
 pub struct Guide {
     /// The joint.
     pub joint: usize,
-    /// Its coordinate over time.
+    /// The number of its coordinate.
+    pub coordinate: usize,
+    /// That coordinate over time.
     pub law: Law,
 }
 
@@ -212,16 +198,16 @@ pub enum Effect {
     Actuator(Line, Signal),
     /// Stiffness and damping along and about the axes of the first body.
     Bushing([Carrier; 2], Vector, [[f64; 6]; 2]),
-    /// Joint; stiffness, damping, free value.
-    TorsionSpring(usize, [f64; 3]),
-    /// Torque of a joint's first body on its second.
-    JointTorque(usize, Signal),
+    /// Sum; stiffness, damping, free value.
+    TorsionSpring(Vec<Term>, [f64; 3]),
+    /// Torque of a joint's first body on its second, or along a sum.
+    JointTorque(Vec<Term>, Signal),
     /// Torque on a body.
     BodyTorque(usize, Signal),
-    /// Joint; lower, upper, stiffness, damping.
-    Limit(usize, [f64; 4]),
-    /// Joint; coulomb, static, stribeck, viscous, regularisation.
-    Friction(usize, [f64; 5]),
+    /// Sum; lower, upper, stiffness, damping.
+    Limit(Vec<Term>, [f64; 4]),
+    /// Sum; coulomb, static, stribeck, viscous, regularisation.
+    Friction(Vec<Term>, [f64; 5]),
     /// Body, point, force; does it turn with the body?
     Force(usize, Vector, Signal, bool),
     /// Body, point; area times coefficient, density.
@@ -332,4 +318,25 @@ pub enum Quantity {
     Power(usize),
     /// Of a joint.
     Reaction(usize),
+    /// Of a coupling.
+    Coupling(usize, Coupled),
+    /// Of a body against another one, global axes.
+    RelativeAngularVelocity(usize, usize),
+    /// Of the scene: kinetic and stored.
+    Energy,
+}
+
+/// What a channel shows of a coupling.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Coupled {
+    /// What its drawn part feels.
+    Effort,
+    /// Its sum.
+    Value,
+    /// The length of its lines.
+    Length,
+    /// The rate of its sum.
+    Rate,
+    /// What it gives or passes on.
+    Power,
 }

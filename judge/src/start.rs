@@ -9,9 +9,9 @@
 //! that no step climbs, and no saddle is taken for the least change.
 
 use crate::dense::Square;
-use crate::motion::{Mechanism, State};
+use crate::motion::{Mechanism, Owner, State};
 use crate::rows::{Places, Row, six};
-use crate::scene::InitialCondition;
+use crate::scene::{Coupling, InitialCondition, Measure};
 use crate::vector::{
     UNIT, Vector, ZERO, compose, conjugate, cross, exponential, logarithm, product, rotation,
     scale, sub,
@@ -83,31 +83,45 @@ impl Mechanism {
             }
         }
         let mut state = trial.state;
-        state.turns = self.given_turns();
+        state.turns = self.given_turns(&state.turns);
         self.count_turns(&mut state);
         let places = self.places(&state);
         let held = self.held_rates(&state, &places);
-        if self.project_velocities(&mut state, &held) > 1e-8 {
+        if self.project_velocities(&mut state, None, &held) > 1e-8 {
             return Err(NoStart::Rates);
         }
         Ok(state)
     }
 
-    /// What turns of joints are counted from: what is held or guided, else zero.
-    fn given_turns(&self) -> Vec<[f64; 3]> {
-        let mut turns = vec![[0.0; 3]; self.scene.joints.len()];
-        let mut give = |joint: usize, value: &[f64]| {
+    /// What turns of joints are counted from: what is held or guided, those of couplings as they came to be, else zero.
+    fn given_turns(&self, found: &[[f64; 3]]) -> Vec<[f64; 3]> {
+        let n = self.scene.joints.len();
+        let mut turns = vec![[0.0; 3]; n];
+        turns.extend_from_slice(&found[n..]);
+        for term in self.scene.couplings.iter().flat_map(|c| &c.terms) {
+            if let Measure::Coordinate(joint, _) = term.measure {
+                turns[joint] = found[joint];
+            }
+        }
+        for coupling in &self.scene.couplings {
+            if let Some((joint, ..)) = coupling.passed {
+                turns[joint] = found[joint];
+            }
+        }
+        let mut give = |joint: usize, first: usize, value: &[f64]| {
             let turning = self.scene.joints[joint].turning(self.scene.planar);
             for (to, i) in turns[joint].iter_mut().zip(turning) {
-                *to = value.get(i).copied().unwrap_or(0.0);
+                if let Some(x) = i.checked_sub(first).and_then(|i| value.get(i)) {
+                    *to = *x;
+                }
             }
         };
         for guide in &self.scene.guides {
-            give(guide.joint, &[guide.law.at(0.0)[0]]);
+            give(guide.joint, guide.coordinate, &[guide.law.at(0.0)[0]]);
         }
         for initial in &self.scene.initials {
             if let InitialCondition::Joint { joint, value: Some(value), .. } = initial {
-                give(*joint, value);
+                give(*joint, 0, value);
             }
         }
         turns
@@ -125,7 +139,11 @@ impl Mechanism {
             }
         }
         for guide in &self.scene.guides {
-            note(guide.joint, 0, guide.law.at(0.0)[0]);
+            note(guide.joint, guide.coordinate, guide.law.at(0.0)[0]);
+        }
+        for coupling in &self.scene.couplings {
+            let unit = coupling.terms.iter().fold(0.0_f64, |a, term| a.max(term.factor.abs()));
+            largest = largest.max(given(coupling).abs() / unit.max(f64::MIN_POSITIVE));
         }
         largest
     }
@@ -133,10 +151,17 @@ impl Mechanism {
     /// Constraints, guides and held values at a share of what is written.
     fn start_rows(&self, state: &State, places: &Places, share: f64) -> Vec<Row> {
         let now = self.now(state, places);
-        let mut rows: Vec<Row> = self.rows(&now).into_iter().map(|r| r.1).collect();
-        let first_guide = rows.len() - self.scene.guides.len();
-        for (row, guide) in rows[first_guide..].iter_mut().zip(&self.scene.guides) {
-            row.value += (1.0 - share) * guide.law.at(0.0)[0];
+        let (mut rows, mut guides) = (Vec::new(), self.scene.guides.iter());
+        for (owner, mut row) in self.rows(&now) {
+            let whole = match owner {
+                Owner::Joint(_) => 0.0,
+                Owner::Coupling(k) => given(&self.scene.couplings[k]),
+                Owner::Guide(..) => guides.next().map_or(0.0, |guide| guide.law.at(0.0)[0]),
+            };
+            row.value += (1.0 - share) * whole;
+            if !row.of_rates {
+                rows.push(row);
+            }
         }
         for initial in &self.scene.initials {
             let InitialCondition::Joint { joint, value: Some(value), .. } = initial else {
@@ -244,7 +269,7 @@ impl Mechanism {
                 *matrix.at(i, i) += CURVED - 2.0 * curvature.least;
             }
         }
-        let saddle = self.factor_with(matrix, rows);
+        let saddle = self.factor_with(matrix, rows, false);
         let zero: Vec<f64> = rows.iter().map(|r| -r.value).collect();
         let loads: Vec<[f64; 6]> = self
             .balance(&trial.state, rows, &vec![0.0; rows.len()])
@@ -302,8 +327,9 @@ impl Mechanism {
                 InitialCondition::Body { body, velocity, angular } => {
                     let axes = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
                     let mut hold = |part: [f64; 6], x: f64| {
-                        let parts = [(Some(*body), part), (None, [0.0; 6])];
-                        rows.push(Row { parts, value: 0.0, bias: 0.0, given: [x, 0.0] });
+                        let mut row = Row::new(vec![(Some(*body), part)], 0.0, 0.0);
+                        row.given[0] = x;
+                        rows.push(row);
                     };
                     let some = if self.scene.planar { 2 } else { 3 };
                     if let Some([at, v]) = velocity {
@@ -319,4 +345,9 @@ impl Mechanism {
         }
         rows
     }
+}
+
+/// What the sum of a coupling is at the start.
+fn given(coupling: &Coupling) -> f64 {
+    coupling.value + coupling.law.as_ref().map_or(0.0, |law| law.at(0.0)[0])
 }

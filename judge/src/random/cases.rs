@@ -7,7 +7,7 @@ use super::effects::{Effects, KINDS};
 use super::mechanism::{PLANE, SPACE};
 use super::time_scale;
 use super::write::mechanism_of;
-use crate::scene::{Effect, Kind, Quantity};
+use crate::scene::{Effect, Kind, Measure, Quantity};
 use crate::vector::{cross, dot, norm, scale, sub, unit};
 
 /// A scene of the enumeration.
@@ -211,8 +211,9 @@ fn touch(draft: &mut Draft) {
             let before = norm(sub(line.points[1], line.points[0]));
             swap("clearance", before - now - 0.1)
         }
-        Effect::Limit(joint, _) => {
-            let now = mechanism.show(&start, Quantity::Value(*joint))[0];
+        Effect::Limit(sum, _) => {
+            let Measure::Coordinate(joint, _) = sum[0].measure else { return };
+            let now = mechanism.show(&start, Quantity::Value(joint))[0];
             swap("lower", now + 0.05)
                 .replace("upper = ", "upper = 1")
                 .replace("upper = 1-", "upper = 1")

@@ -17,6 +17,8 @@ pub(crate) struct Draft {
     pub(crate) gravity: Option<Vector>,
     pub(crate) bodies: Vec<Part>,
     pub(crate) links: Vec<Link>,
+    /// Kinds of couplings, with their text.
+    pub(crate) couplings: Vec<(String, String)>,
     /// Effects, roads and velocities of bodies, as text.
     pub(crate) blocks: Vec<String>,
     /// The largest of the drawn frequencies, in radians in T.

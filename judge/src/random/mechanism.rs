@@ -171,7 +171,7 @@ impl Draft {
     }
 
     /// Has the mechanism freedoms beside those that loops take, and is it far from a locked position?
-    fn moves(&self) -> bool {
+    pub(crate) fn moves(&self) -> bool {
         let Some(mechanism) = mechanism_of(self) else { return false };
         let reference = mechanism.reference();
         let freedoms = mechanism.freedoms(&reference);

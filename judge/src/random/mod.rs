@@ -5,6 +5,7 @@
 //! No seed is drawn again: where a loop would lock the mechanism, or a start cannot be met, that part is left out.
 
 mod cases;
+mod couplings;
 mod dice;
 mod draft;
 mod effects;
@@ -34,7 +35,9 @@ pub struct Drawn {
 pub fn scene(seed: u64) -> Drawn {
     let mut dice = Dice::new(seed);
     let mut draft = Draft::tree(&mut dice);
+    draft.train(&mut dice);
     draft.close(&mut dice);
+    draft.couple(&mut dice);
     draft.guide(&mut dice);
     draft.start(&mut dice);
     effects::draw(&mut dice, &mut draft);
@@ -79,7 +82,8 @@ pub fn kinds(text: &str) -> Vec<String> {
         scene.joints.iter().map(|j| format!("joint {:?}", j.kind).to_lowercase()).collect();
     kinds.extend(scene.effects.iter().map(|e| format!("effect {}", e.name())));
     kinds.push(if scene.planar { "in the plane" } else { "in space" }.to_owned());
-    let loops = scene.joints.len() - scene.bodies.len();
+    let loops = scene.joints.len().saturating_sub(scene.bodies.len());
+    kinds.extend(scene.couplings.iter().map(|c| format!("coupling {}", c.kind)));
     kinds.push(format!("{loops} loops"));
     if !scene.guides.is_empty() {
         kinds.push("guide".to_owned());

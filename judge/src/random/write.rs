@@ -92,11 +92,19 @@ impl Draft {
                 }
             }
         }
+        self.relations(&mut out);
+        self.outputs(&mut out);
+        out
+    }
+
+    /// Couplings, then effects and what else is text.
+    fn relations(&self, out: &mut String) {
+        for (i, (_, coupling)) in self.couplings.iter().enumerate() {
+            let _ = writeln!(out, "\n[[coupling]]\nname = \"c{i}\"\n{coupling}");
+        }
         for block in &self.blocks {
             let _ = writeln!(out, "\n{block}");
         }
-        self.outputs(&mut out);
-        out
     }
 
     fn geometry(&self, out: &mut String, link: &Link) {
@@ -131,6 +139,13 @@ impl Draft {
             let of_point = format!("{of}\nat = {at}");
             Quantity::OF_POINTS.iter().for_each(|quantity| output(&of_point, &name, quantity));
             Quantity::OF_BODIES.iter().for_each(|quantity| output(&of, &name, quantity));
+        }
+        for (i, (kind, _)) in self.couplings.iter().enumerate() {
+            for quantity in Quantity::OF_COUPLINGS {
+                if *quantity != "length" || kind == "rope" {
+                    output(&format!("coupling = \"c{i}\""), &format!("c{i}"), quantity);
+                }
+            }
         }
         for (i, link) in self.links.iter().enumerate() {
             let name = format!("j{i}");

@@ -3,7 +3,7 @@
 pub mod oracle;
 pub mod seeds;
 
-use crate::scene::Quantity;
+use crate::scene::{Coupled, Quantity};
 use crate::{Mechanism, State};
 use mbs::core::scene::Scene;
 use mbs::scene_file::SceneFile;
@@ -108,6 +108,7 @@ pub fn judge(text: &str, step: f64, steps: u32) -> Result<Judged, String> {
     };
     let is_unique = |q: Quantity| match q {
         Quantity::Reaction(j) | Quantity::Effort(j) | Quantity::Power(j) => begun.unique[j],
+        Quantity::Coupling(k, Coupled::Effort | Coupled::Power) => begun.unique_couplings[k],
         Quantity::Value(j) | Quantity::Rate(j) | Quantity::JointAcceleration(j) => !turns_idle(j),
         Quantity::AngularVelocity(b) | Quantity::AngularAcceleration(b) => !begun.idle[b],
         // the crates count from the nearest angle or quaternion
@@ -130,7 +131,7 @@ pub fn judge(text: &str, step: f64, steps: u32) -> Result<Judged, String> {
         least_pivot = least_pivot.min(mechanism.evaluate(&state).least_pivot);
         rows.push(show(&state).concat());
     }
-    let is_redundant = begun.unique.contains(&false);
+    let is_redundant = begun.is_redundant;
     Ok(Judged { mechanism, rows, time: 20.0 * step, channels, least_pivot, is_redundant })
 }
 
@@ -251,10 +252,14 @@ fn kind(quantity: Quantity) -> usize {
         | Quantity::Orientation(..)
         | Quantity::RotationVector(..)
         | Quantity::RotationMatrix(..) => 3,
-        Quantity::Rate(..) | Quantity::AngularVelocity(..) => 4,
-        Quantity::Reaction(..) | Quantity::Effort(..) => 5,
-        Quantity::KineticEnergy(..) => 6,
-        Quantity::Power(..) => 7,
+        Quantity::Rate(..)
+        | Quantity::AngularVelocity(..)
+        | Quantity::RelativeAngularVelocity(..) => 4,
+        Quantity::Coupling(_, Coupled::Value | Coupled::Length) => 3,
+        Quantity::Coupling(_, Coupled::Rate) => 4,
+        Quantity::Reaction(..) | Quantity::Effort(..) | Quantity::Coupling(_, Coupled::Effort) => 5,
+        Quantity::KineticEnergy(..) | Quantity::Energy => 6,
+        Quantity::Power(..) | Quantity::Coupling(_, Coupled::Power) => 7,
     }
 }
 
@@ -299,6 +304,7 @@ pub fn parts(judged: &Judged) -> Vec<Part> {
             },
             (
                 Quantity::AngularVelocity(_)
+                | Quantity::RelativeAngularVelocity(..)
                 | Quantity::AngularAcceleration(_)
                 | Quantity::Orientation(_)
                 | Quantity::RotationVector(_)

@@ -2,6 +2,7 @@
 
 mod closed;
 mod controller;
+mod machines;
 mod rules;
 mod trial;
 

@@ -1,0 +1,106 @@
+//! Laws, curves, sums and couplings of a scene, as the judge reads them.
+
+use crate::vector::Vector;
+
+/// A body, or the ground.
+pub type Carrier = Option<usize>;
+
+/// A cubic spline: abscissae, values and second derivatives.
+#[derive(Debug, Clone, Default)]
+pub struct Spline {
+    /// Abscissae, values, second derivatives.
+    pub knots: Vec<[f64; 3]>,
+}
+
+/// A function of one number.
+#[derive(Debug, Clone)]
+pub enum Curve {
+    /// A cubic spline, its ends held.
+    Spline(Spline),
+    /// A cubic spline that repeats.
+    Periodic(Spline),
+    /// Straight between its rows, the ends held; does it repeat?
+    Linear(Vec<[f64; 2]>, bool),
+    /// The value of the row before, the ends held; does it repeat?
+    Hold(Vec<[f64; 2]>, bool),
+    /// c0, c1, ... of increasing power.
+    Polynomial(Vec<f64>),
+}
+
+/// A value over time.
+#[derive(Debug, Clone)]
+pub enum Law {
+    /// Through the rows of a table.
+    Curve(Curve),
+    /// amplitude sin(2π f t + phase).
+    Sine([f64; 3]),
+    /// rate t.
+    Ramp(f64),
+}
+
+/// What a term of a sum measures, zero in the reference configuration.
+#[derive(Debug, Clone)]
+pub enum Measure {
+    /// A coordinate of a joint.
+    Coordinate(usize, usize),
+    /// The length of a line over points of bodies, less that in the reference configuration.
+    Length(Vec<(Carrier, Vector)>),
+    /// A turn of a body against another, by its number in the scene.
+    Wheel(usize),
+    /// The way of a point of the second body along an axis of the first.
+    Way([Carrier; 2], Vector, Vector),
+    /// The swing about an axis of a ball, or its twist.
+    Ball(usize, Vector, bool),
+}
+
+/// A term of a sum.
+#[derive(Debug, Clone)]
+pub struct Term {
+    /// What it measures.
+    pub measure: Measure,
+    /// Its factor.
+    pub factor: f64,
+    /// A function of what is measured.
+    pub curve: Option<Curve>,
+}
+
+/// A turn of a body against another about an axis that stands in both.
+#[derive(Debug, Clone)]
+pub struct Wheel {
+    /// The carrier, and the body that turns.
+    pub bodies: [Carrier; 2],
+    /// The unit axis in the reference configuration.
+    pub axis: Vector,
+}
+
+/// Where the force of a coupling acts, if the scene says so.
+#[derive(Debug, Clone)]
+pub enum Seat {
+    /// Nowhere: the torques of its coordinates alone.
+    Nowhere,
+    /// A thread between two bodies, along an axis of the carrier through a point: carrier, screw, nut.
+    Thread([Carrier; 3], Vector, Vector),
+    /// The end of a rope on the carrier of a drum, whose axis is about a joint: the joint's carrier, the drum, a point of the axis.
+    Drum([Carrier; 2], Vector, Vector, bool),
+}
+
+/// A sum that is zero.
+#[derive(Debug, Clone)]
+pub struct Coupling {
+    /// Its name.
+    pub name: String,
+    /// Its kind in scene files.
+    pub kind: String,
+    /// The terms of the sum.
+    pub terms: Vec<Term>,
+    /// What the sum is, beside the law.
+    pub value: f64,
+    /// What is added to the value over time.
+    pub law: Option<Law>,
+    /// Ratio of the effort that is shown to the multiplier.
+    pub gain: f64,
+    /// The coordinate that the effort is given to: joint, number, and its ratio to the way of the effort.
+    pub passed: Option<(usize, usize, f64)>,
+    /// Where its force acts.
+    pub seat: Seat,
+}

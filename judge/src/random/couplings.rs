@@ -1,0 +1,288 @@
+//! Couplings of a draft: trains of wheels, racks and threads with bodies of their own, and sums of coordinates that there are.
+
+use super::dice::Dice;
+use super::draft::Draft;
+use super::write::{name, starts, vector};
+use crate::scene::{Carrier, Kind};
+use crate::vector::{Vector, across, add, cross, scale, unit};
+
+/// Couplings of a train, with those of three wheels last.
+const TRAINS: [&str; 6] = ["gear", "belt", "gear on an arm", "rack", "differential", "screw"];
+/// Couplings of coordinates.
+const SUMS: [&str; 6] = ["ratio", "mimic", "linear", "cam", "rope", "cylindrical screw"];
+/// Trials of a coupling before it is left out.
+const TRIALS: usize = 6;
+
+impl Draft {
+    /// Now and then a train: bodies on one carrier with a coupling.
+    pub(crate) fn train(&mut self, dice: &mut Dice) {
+        if !dice.chance(0.3) {
+            return;
+        }
+        let kinds = TRAINS.len() - usize::from(self.planar);
+        let kind = TRAINS[dice.below(kinds)];
+        let base = Some(dice.below(self.bodies.len())).filter(|_| dice.chance(0.6));
+        let before = (self.bodies.len(), self.links.len());
+        let axis = if self.planar { [0.0, 0.0, 1.0] } else { dice.direction(false) };
+        let center = self.point(dice, base);
+        let text = match kind {
+            "rack" => self.rack(dice, base, axis, center),
+            "screw" => self.screw(dice, base, axis, center),
+            "differential" => self.differential(dice, base, axis, center),
+            _ => self.wheels(dice, base, axis, center, kind),
+        };
+        let word = kind.split(' ').next().unwrap_or(kind).to_owned();
+        self.couplings.push((word, text));
+        self.links[before.1..].iter_mut().for_each(|link| link.looped = true);
+        if !(self.moves() && starts(self)) {
+            self.couplings.pop();
+            self.bodies.truncate(before.0);
+            self.links.truncate(before.1);
+        }
+    }
+
+    /// Hangs a body that turns about an axis, in any sense.
+    fn turning(&mut self, dice: &mut Dice, base: Carrier, axis: Vector, at: Vector) -> usize {
+        self.hang(dice, base, Kind::Revolute, false);
+        self.along(dice, axis, at)
+    }
+
+    /// Gives the last joint an axis in any sense, and a place.
+    fn along(&mut self, dice: &mut Dice, axis: Vector, at: Vector) -> usize {
+        let size = if dice.chance(0.5) { 1.0 } else { -1.0 } * dice.between(0.5, 2.0);
+        let last = self.links.len() - 1;
+        let link = &mut self.links[last];
+        (link.axes[0], link.points) = (scale(size, axis), [at, at]);
+        last
+    }
+
+    /// A place beside another, across an axis.
+    fn beside(&self, dice: &mut Dice, axis: Vector, at: Vector) -> Vector {
+        let [x, y] = across(axis);
+        let (sine, cosine) = dice.between(-3.0, 3.0).sin_cos();
+        let off =
+            scale(self.length * dice.between(0.3, 0.8), add(scale(cosine, x), scale(sine, y)));
+        let off = if self.planar { [off[0], off[1], 0.0] } else { off };
+        add(at, off)
+    }
+
+    fn wheels(
+        &mut self,
+        dice: &mut Dice,
+        base: Carrier,
+        axis: Vector,
+        at: Vector,
+        kind: &str,
+    ) -> String {
+        let one = self.turning(dice, base, axis, at);
+        let mut carrier = base;
+        if kind == "gear on an arm" {
+            self.turning(dice, base, axis, at);
+            carrier = Some(self.bodies.len() - 1);
+        }
+        let beside = self.beside(dice, axis, at);
+        let two = self.turning(dice, carrier, axis, beside);
+        let mut pair = [one, two];
+        if dice.chance(0.5) {
+            pair.reverse();
+        }
+        let joints = format!("joints = [\"j{}\", \"j{}\"]", pair[0], pair[1]);
+        let radii = [0, 1].map(|_| self.length * dice.between(0.1, 0.4));
+        if kind == "belt" {
+            return format!(
+                "kind = \"belt\"\n{joints}\nradii = {radii:?}\ncrossed = {}",
+                dice.chance(0.3)
+            );
+        }
+        let teeth = [15 + dice.below(30), 15 + dice.below(30)];
+        let size = if dice.chance(0.5) {
+            format!("teeth = {teeth:?}")
+        } else {
+            format!("radii = {radii:?}")
+        };
+        let mesh = if dice.chance(0.3) { "internal" } else { "external" };
+        format!("kind = \"gear\"\n{joints}\n{size}\nmesh = \"{mesh}\"")
+    }
+
+    fn rack(&mut self, dice: &mut Dice, base: Carrier, axis: Vector, at: Vector) -> String {
+        let pinion = self.turning(dice, base, axis, at);
+        let place = self.beside(dice, axis, at);
+        let off = [0, 1, 2].map(|i| place[i] - at[i]);
+        // neither through the axis nor quite across the way to it
+        let along = unit(add(unit(cross(axis, off)), scale(0.5 / self.length, off)));
+        self.hang(dice, base, Kind::Prismatic, false);
+        let rack = self.along(dice, along, place);
+        let radius = self.length * dice.between(0.1, 0.4);
+        let radius = if dice.chance(0.3) { -radius } else { radius };
+        format!("kind = \"rack\"\njoints = [\"j{pinion}\", \"j{rack}\"]\nradius = {radius:?}")
+    }
+
+    fn screw(&mut self, dice: &mut Dice, base: Carrier, axis: Vector, at: Vector) -> String {
+        let turn = self.turning(dice, base, axis, at);
+        let place = self.beside(dice, axis, at);
+        self.hang(dice, base, Kind::Prismatic, false);
+        let slide = self.along(dice, axis, place);
+        let lead = self.length * dice.between(0.2, 1.0);
+        format!("kind = \"screw\"\njoints = [\"j{turn}\", \"j{slide}\"]\nlead = {lead:?}")
+    }
+
+    /// Two wheels and a cage; the second wheel stands in the cage or beside it.
+    fn differential(&mut self, dice: &mut Dice, base: Carrier, axis: Vector, at: Vector) -> String {
+        let cage = self.turning(dice, base, axis, at);
+        let body = Some(self.bodies.len() - 1);
+        let one = self.turning(dice, base, axis, at);
+        let carrier = if dice.chance(0.5) { body } else { base };
+        let two = self.turning(dice, carrier, axis, at);
+        let mut pair = [one, two];
+        if dice.chance(0.5) {
+            pair.reverse();
+        }
+        let teeth = [10 + dice.below(30), 10 + dice.below(30)];
+        format!(
+            "kind = \"differential\"\njoints = [\"j{}\", \"j{}\", \"j{cage}\"]\nteeth = {teeth:?}",
+            pair[0], pair[1]
+        )
+    }
+
+    /// Now and then a coupling of coordinates or points.
+    pub(crate) fn couple(&mut self, dice: &mut Dice) {
+        if !dice.chance(0.35) {
+            return;
+        }
+        for _ in 0..TRIALS {
+            let kind = SUMS[dice.below(SUMS.len())];
+            let Some((joints, text)) = self.sum(dice, kind) else { continue };
+            let word = match kind {
+                "ratio" => "gear",
+                "cylindrical screw" => "screw",
+                other => other,
+            };
+            self.couplings.push((word.to_owned(), text));
+            if self.moves() && starts(self) {
+                joints.into_iter().for_each(|j| self.links[j].looped = true);
+                return;
+            }
+            self.couplings.pop();
+        }
+    }
+
+    /// Coordinates with their units: joint, number, a turn or the length.
+    fn coordinates(&self, kinds: &[Kind]) -> Vec<(usize, usize, f64)> {
+        let mut list = Vec::new();
+        for (j, link) in self.links.iter().enumerate() {
+            let [slides, turns] = link.kind.coordinates(self.planar);
+            let spins = turns == 3;
+            if !kinds.is_empty() && !kinds.contains(&link.kind) {
+                continue;
+            }
+            list.extend((0..slides).map(|i| (j, i, self.length)));
+            list.extend((slides..slides + turns).filter(|_| !spins).map(|i| (j, i, 1.0)));
+        }
+        list
+    }
+
+    /// Two coordinates of different joints.
+    fn two(&self, dice: &mut Dice, kinds: &[Kind]) -> Option<[(usize, usize, f64); 2]> {
+        let list = self.coordinates(kinds);
+        if list.is_empty() {
+            return None;
+        }
+        let pair = [0, 1].map(|_| list[dice.below(list.len())]);
+        (pair[0].0 != pair[1].0).then_some(pair)
+    }
+
+    /// A coupling with the joints that it holds.
+    fn sum(&mut self, dice: &mut Dice, kind: &str) -> Option<(Vec<usize>, String)> {
+        let sign = if dice.chance(0.5) { 1.0 } else { -1.0 };
+        let factor = sign * dice.between(0.4, 2.0);
+        let single = [Kind::Revolute, Kind::Prismatic];
+        match kind {
+            "ratio" => {
+                let [(a, ..), (b, ..)] = self.two(dice, &[Kind::Revolute])?;
+                let text =
+                    format!("kind = \"gear\"\njoints = [\"j{a}\", \"j{b}\"]\nratio = {factor:?}");
+                Some((vec![a, b], text))
+            }
+            "mimic" => {
+                let [(a, _, u), (b, _, v)] = self.two(dice, &single)?;
+                let (factor, offset) = (factor * u / v, u * dice.between(-0.3, 0.3));
+                let offset = if dice.chance(0.5) { offset } else { 0.0 };
+                let text = format!(
+                    "kind = \"mimic\"\njoint = \"j{a}\"\nof = \"j{b}\"\nfactor = {factor:?}\noffset = {offset:?}"
+                );
+                Some((vec![a, b], text))
+            }
+            "linear" => {
+                let [(a, i, u), (b, k, v)] = self.two(dice, &[])?;
+                let law = if dice.chance(0.3) {
+                    let amplitude = 0.3 * dice.between(0.1, 1.0);
+                    let frequency = dice.between(0.05, 0.3) / self.time;
+                    format!("\nsine = {{ amplitude = {amplitude:?}, frequency = {frequency:?} }}")
+                } else {
+                    String::new()
+                };
+                let text = format!(
+                    "kind = \"linear\"\nterms = [{{ joint = \"j{a}\", coordinate = {i}, factor = {:?} }}, {{ joint = \"j{b}\", coordinate = {k}, factor = {:?} }}]{law}",
+                    1.0 / u,
+                    factor / v
+                );
+                Some((vec![a, b], text))
+            }
+            "cam" => {
+                let [(a, ..), (b, _, u)] = self.two(dice, &single)?;
+                if self.links[a].kind != Kind::Revolute {
+                    return None;
+                }
+                let curve = self.lift(dice, u);
+                let text = format!("kind = \"cam\"\njoints = [\"j{a}\", \"j{b}\"]\n{curve}");
+                Some((vec![a, b], text))
+            }
+            "rope" => Some((Vec::new(), self.rope(dice)?)),
+            _ => {
+                let (joint, ..) = *self.coordinates(&[Kind::Cylindrical]).first()?;
+                let lead = self.length * factor;
+                let text = format!("kind = \"screw\"\njoint = \"j{joint}\"\nlead = {lead:?}");
+                Some((vec![joint], text))
+            }
+        }
+    }
+
+    /// A lift in units of the follower: a polynomial, or a table that repeats.
+    fn lift(&self, dice: &mut Dice, unit: f64) -> String {
+        let mut size = |most: f64| unit * dice.between(-most, most);
+        if size(1.0) > 0.0 {
+            let numbers = [0.0, size(0.6), size(0.3), size(0.1)];
+            return format!("coefficients = {numbers:?}");
+        }
+        let turn = 2.0 * core::f64::consts::PI;
+        let first = size(0.2);
+        let mut rows = vec![[-0.3 * turn, first]];
+        rows.extend((1..6).map(|i| [turn * (f64::from(i) / 6.0 - 0.3), size(0.4)]));
+        rows.push([0.7 * turn, first]);
+        format!("table = {rows:?}\nperiodic = true")
+    }
+
+    /// A line over two or three points on different bodies, now and then with a drum.
+    fn rope(&mut self, dice: &mut Dice) -> Option<String> {
+        let mut points: Vec<(Carrier, Vector)> = Vec::new();
+        for _ in 0..2 + dice.below(2) {
+            let body = Some(dice.below(self.bodies.len())).filter(|_| dice.chance(0.7));
+            if points.last().is_some_and(|(last, _)| *last == body) {
+                return None;
+            }
+            points.push((body, self.point(dice, body)));
+        }
+        let one = |(body, at): &(Carrier, Vector)| {
+            format!("{{ body = \"{}\", at = {} }}", name(*body), vector(*at, self.planar))
+        };
+        let list: Vec<String> = points.iter().map(one).collect();
+        let mut text = format!("kind = \"rope\"\npoints = [{}]", list.join(", "));
+        let drums = self.coordinates(&[Kind::Revolute]);
+        if dice.chance(0.4) && !drums.is_empty() {
+            let joint = drums[dice.below(drums.len())].0;
+            let radius = self.length * dice.between(-0.3, 0.3);
+            text += &format!("\ndrum = {{ joint = \"j{joint}\", radius = {radius:?} }}");
+        }
+        Some(text)
+    }
+}
