@@ -25,6 +25,8 @@ mod read;
 mod read_coupling;
 mod read_curve;
 mod read_effect;
+mod read_rolling;
+mod rolling;
 mod rows;
 pub mod scene;
 mod start;

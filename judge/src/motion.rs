@@ -10,7 +10,7 @@ use crate::dense::{Factors, Square};
 use crate::loads::{Loads, Now};
 use crate::rows::{Frame, Places, Row};
 use crate::scene::{Effect, Scene};
-use crate::vector::{Vector, ZERO, add, cross, dot, product, sub, times, transpose};
+use crate::vector::{Vector, ZERO, add, cross, dot, product, scale, sub, times, transpose};
 
 /// Largest part of a row of length one across all others that is none [-]: projected states leave less. Chosen, not tuned.
 const DEPENDENT: f64 = 1e-8;
@@ -41,6 +41,10 @@ pub struct Moved {
     pub couplings: Vec<f64>,
     /// Is the multiplier of each coupling unique?
     pub unique_couplings: Vec<bool>,
+    /// The force on each body that rolls, at its contact.
+    pub contacts: Vec<Vector>,
+    /// Is that force unique?
+    pub unique_contacts: Vec<bool>,
     /// Do rows depend on each other?
     pub is_redundant: bool,
     /// Is the reaction of each joint unique?
@@ -70,12 +74,14 @@ pub struct Mechanism {
 }
 
 /// What a row belongs to.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Owner {
     /// A joint.
     Joint(usize),
     /// A coupling.
     Coupling(usize),
+    /// What rolls, along a direction on its body.
+    Rolling(usize, Vector),
     /// A guide of a coordinate of a joint.
     Guide(usize, usize),
 }
@@ -163,6 +169,10 @@ impl Mechanism {
         }
         for (k, coupling) in self.scene.couplings.iter().enumerate() {
             rows.push((Owner::Coupling(k), now.coupling(coupling)));
+        }
+        for (k, rolling) in self.scene.rollings.iter().enumerate() {
+            let own = now.rolling(rolling);
+            rows.extend(own.into_iter().map(|(along, row)| (Owner::Rolling(k, along), row)));
         }
         for guide in &self.scene.guides {
             let mut row = now.coordinates(guide.joint).swap_remove(guide.coordinate);
@@ -339,6 +349,10 @@ impl Mechanism {
                     moved.couplings[k] = *lambda;
                     continue;
                 }
+                Owner::Rolling(k, along) => {
+                    moved.contacts[k] = add(moved.contacts[k], scale(*lambda, along));
+                    continue;
+                }
                 Owner::Guide(joint, coordinate) => {
                     moved.efforts[joint][coordinate] = *lambda;
                     joint
@@ -358,13 +372,15 @@ impl Mechanism {
     /// Nothing moves or acts, all unique.
     fn blank(&self) -> Moved {
         let (n_bodies, n_joints) = (self.scene.bodies.len(), self.scene.joints.len());
-        let n_couplings = self.scene.couplings.len();
+        let (n_couplings, n_rollings) = (self.scene.couplings.len(), self.scene.rollings.len());
         Moved {
             accelerations: vec![[0.0; 6]; n_bodies],
             reactions: vec![[0.0; 6]; n_joints],
             efforts: vec![[0.0; 6]; n_joints],
             couplings: vec![0.0; n_couplings],
             unique_couplings: vec![true; n_couplings],
+            contacts: vec![ZERO; n_rollings],
+            unique_contacts: vec![true; n_rollings],
             unique: vec![true; n_joints],
             idle: vec![false; n_bodies],
             is_redundant: false,
@@ -383,6 +399,7 @@ impl Mechanism {
             match owner {
                 Owner::Joint(joint) | Owner::Guide(joint, _) => moved.unique[joint] &= !is_open,
                 Owner::Coupling(k) => moved.unique_couplings[k] &= !is_open,
+                Owner::Rolling(k, _) => moved.unique_contacts[k] &= !is_open,
             }
         }
         for (of, idle) in self.columns.iter().zip(&mut moved.idle) {

@@ -104,3 +104,31 @@ pub struct Coupling {
     /// Where its force acts.
     pub seat: Seat,
 }
+
+/// What touches a plane.
+#[derive(Debug, Clone, Copy)]
+pub enum Shape {
+    /// A thin disc: radius, unit axis.
+    Disc(f64, Vector),
+    /// A sphere: radius.
+    Ball(f64),
+    /// A blade along a unit direction.
+    Blade(Vector),
+}
+
+/// What rolls on a plane or cuts it.
+#[derive(Debug, Clone)]
+pub struct Rolling {
+    /// Its name.
+    pub name: String,
+    /// The body, and the one that the plane is fixed in.
+    pub bodies: [Carrier; 2],
+    /// Its shape.
+    pub shape: Shape,
+    /// Centre of the disc or ball, or the point of the blade.
+    pub center: Vector,
+    /// A point of the plane.
+    pub point: Vector,
+    /// The unit normal of the plane.
+    pub normal: Vector,
+}

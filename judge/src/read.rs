@@ -5,6 +5,7 @@ use crate::node::{Node, Read, Table, fault, parse};
 use crate::read_coupling::Reader;
 use crate::read_curve::{coordinate, law, rows};
 use crate::read_effect;
+use crate::read_rolling::rolling;
 use crate::scene::{
     Body, Feature, Guide, InitialCondition, Joint, Kind, Output, Quantity, Scene, Spline,
 };
@@ -50,7 +51,9 @@ pub fn read(text: &str) -> Read<Scene> {
     let guides = root.tables("guide")?;
     let of = |t| guide(t, &names, &scene.joints);
     scene.guides = guides.into_iter().map(of).collect::<Read<_>>()?;
-    let couplings = couplings(root.tables("coupling")?, &names, &mut scene)?;
+    couplings(root.tables("coupling")?, &names, &mut scene)?;
+    let rollings = root.tables("rolling")?.into_iter().enumerate();
+    scene.rollings = rollings.map(|(i, t)| rolling(t, &names, i)).collect::<Read<_>>()?;
     for table in root.tables("effect")? {
         scene.effects.extend(read_effect::effect(table, &names, &scene.joints)?);
     }
@@ -61,10 +64,7 @@ pub fn read(text: &str) -> Read<Scene> {
         scene.step = table.take("step").map(|n| n.number()).transpose()?;
     }
     let outputs = root.tables("output")?;
-    scene.outputs = outputs
-        .into_iter()
-        .map(|t| output(t, &names, &couplings, &scene.bodies))
-        .collect::<Read<_>>()?;
+    scene.outputs = outputs.into_iter().map(|t| output(t, &names, &scene)).collect::<Read<_>>()?;
     if scene.outputs.is_empty() {
         let is_shown = |j: &usize| scene.joints[*j].kind.coordinates(planar) != [0, 0];
         let shown = (0..scene.joints.len()).filter(is_shown);
@@ -137,14 +137,14 @@ fn joint(mut table: Table, name: String, names: &Names, all: &[Body]) -> Read<Jo
     Ok(Joint { name, kind, bodies, points, axes, hinged: hinge.is_some() })
 }
 
-/// Reads the couplings; their names.
-fn couplings(tables: Vec<Table>, names: &Names, scene: &mut Scene) -> Read<Vec<String>> {
+/// Reads the couplings.
+fn couplings(tables: Vec<Table>, names: &Names, scene: &mut Scene) -> Read<()> {
     let (mut wheels, planar) = (Vec::new(), scene.planar);
     let mut reader = Reader { names, joints: &scene.joints, wheels: &mut wheels, planar };
     let numbered = tables.into_iter().enumerate();
     scene.couplings = numbered.map(|(i, table)| reader.coupling(table, i)).collect::<Read<_>>()?;
     scene.wheels = wheels;
-    Ok(scene.couplings.iter().map(|coupling| coupling.name.clone()).collect())
+    Ok(())
 }
 
 fn initial(mut table: Table, names: &Names) -> Read<InitialCondition> {
@@ -240,12 +240,19 @@ fn place(table: &mut Table, kind: &str, body: usize, all: &[Body]) -> Read<Optio
     Ok(at.or_else(|| Quantity::OF_POINTS.contains(&kind).then(|| all[body].center)))
 }
 
-fn output(mut table: Table, names: &Names, couplings: &[String], all: &[Body]) -> Read<Output> {
+fn output(mut table: Table, names: &Names, scene: &Scene) -> Read<Output> {
     let name = table.text("name")?;
-    let default = if table.has("coupling") { "effort" } else { "value" };
+    let default = match (table.has("coupling"), table.has("rolling")) {
+        (true, _) => "effort",
+        (_, true) => "force",
+        _ => "value",
+    };
     let kind = if table.has("quantity") { table.text("quantity")? } else { default.to_owned() };
-    let quantity = if let Some(Node::Text(coupling)) = table.take("coupling") {
-        let number = couplings.iter().position(|known| *known == coupling);
+    let quantity = if let Some(Node::Text(rolling)) = table.take("rolling") {
+        let number = scene.rollings.iter().position(|known| known.name == rolling);
+        number.filter(|_| kind == "force").map(Quantity::Contact)
+    } else if let Some(Node::Text(coupling)) = table.take("coupling") {
+        let number = scene.couplings.iter().position(|known| known.name == coupling);
         number.and_then(|number| Quantity::of_coupling(&kind, number))
     } else if let Some(Node::Text(joint)) = table.take("joint") {
         Quantity::of_joint(&kind, names.joint(&joint)?)
@@ -258,7 +265,7 @@ fn output(mut table: Table, names: &Names, couplings: &[String], all: &[Body]) -
                 global.then_some(Quantity::RelativeAngularVelocity(body, other))
             }
             Some(_) => None,
-            None => Quantity::of_body(&kind, body, place(&mut table, &kind, body, all)?),
+            None => Quantity::of_body(&kind, body, place(&mut table, &kind, body, &scene.bodies)?),
         }
     } else {
         (kind == "energy").then_some(Quantity::Energy)

@@ -1,6 +1,8 @@
 //! What a scene says, as the judge reads it. A planar scene lies in the plane z = 0 of space.
 
-pub use crate::parts::{Carrier, Coupling, Curve, Law, Measure, Seat, Spline, Term, Wheel};
+pub use crate::parts::{
+    Carrier, Coupling, Curve, Law, Measure, Rolling, Seat, Shape, Spline, Term, Wheel,
+};
 use crate::vector::{Matrix, Vector};
 
 /// A scene.
@@ -24,6 +26,8 @@ pub struct Scene {
     pub couplings: Vec<Coupling>,
     /// Turns that couplings count, beside those of joints.
     pub wheels: Vec<Wheel>,
+    /// What rolls.
+    pub rollings: Vec<Rolling>,
     /// Guides.
     pub guides: Vec<Guide>,
     /// What is held at the start.
@@ -320,6 +324,8 @@ pub enum Quantity {
     Reaction(usize),
     /// Of a coupling.
     Coupling(usize, Coupled),
+    /// Of what rolls: the force on it at the contact.
+    Contact(usize),
     /// Of a body against another one, global axes.
     RelativeAngularVelocity(usize, usize),
     /// Of the scene: kinetic and stored.

@@ -154,7 +154,7 @@ impl Mechanism {
         let (mut rows, mut guides) = (Vec::new(), self.scene.guides.iter());
         for (owner, mut row) in self.rows(&now) {
             let whole = match owner {
-                Owner::Joint(_) => 0.0,
+                Owner::Joint(_) | Owner::Rolling(..) => 0.0,
                 Owner::Coupling(k) => given(&self.scene.couplings[k]),
                 Owner::Guide(..) => guides.next().map_or(0.0, |guide| guide.law.at(0.0)[0]),
             };

@@ -109,6 +109,13 @@ pub fn judge(text: &str, step: f64, steps: u32) -> Result<Judged, String> {
     let is_unique = |q: Quantity| match q {
         Quantity::Reaction(j) | Quantity::Effort(j) | Quantity::Power(j) => begun.unique[j],
         Quantity::Coupling(k, Coupled::Effort | Coupled::Power) => begun.unique_couplings[k],
+        Quantity::Contact(k) => begun.unique_contacts[k],
+        // zero but for what its terms are rounded by
+        Quantity::Coupling(k, Coupled::Rate) => mechanism.scene.couplings[k].law.is_some(),
+        Quantity::Coupling(k, Coupled::Value) => {
+            let coupling = &mechanism.scene.couplings[k];
+            coupling.law.is_some() || coupling.value.abs() > 0.0
+        }
         Quantity::Value(j) | Quantity::Rate(j) | Quantity::JointAcceleration(j) => !turns_idle(j),
         Quantity::AngularVelocity(b) | Quantity::AngularAcceleration(b) => !begun.idle[b],
         // the crates count from the nearest angle or quaternion
@@ -257,7 +264,10 @@ fn kind(quantity: Quantity) -> usize {
         | Quantity::RelativeAngularVelocity(..) => 4,
         Quantity::Coupling(_, Coupled::Value | Coupled::Length) => 3,
         Quantity::Coupling(_, Coupled::Rate) => 4,
-        Quantity::Reaction(..) | Quantity::Effort(..) | Quantity::Coupling(_, Coupled::Effort) => 5,
+        Quantity::Contact(..)
+        | Quantity::Reaction(..)
+        | Quantity::Effort(..)
+        | Quantity::Coupling(_, Coupled::Effort) => 5,
         Quantity::KineticEnergy(..) | Quantity::Energy => 6,
         Quantity::Power(..) | Quantity::Coupling(_, Coupled::Power) => 7,
     }

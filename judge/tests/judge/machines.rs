@@ -99,3 +99,20 @@ fn a_bar_comes_back_from_its_stop_with_its_energy() {
 fn a_disc_counts_its_turns() {
     ends("disc", &text("64-rotation-vector-by-steps"), 2.0, &[("turns", 0, 8.0)], CLOSE);
 }
+
+#[test]
+fn an_axle_of_two_wheels_rolls_round_its_circle() {
+    let right = [
+        ("place", 0, -0.378_401_248),
+        ("place", 1, 0.826_821_810),
+        ("left", 0, 12.0),
+        ("right", 0, 28.0),
+    ];
+    ends("axle", &text("21-axle-of-two-wheels"), 2.0, &right, DIGITS[0]);
+}
+
+#[test]
+fn slides_and_a_blade_move_as_another_program_says() {
+    let right = [("guide", 0, -0.322_743_35), ("slide", 0, -0.322_743_35)];
+    ends("blade", &text("65-violated-by-rounding"), 2.0, &right, DIGITS[0]);
+}
