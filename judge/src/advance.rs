@@ -26,6 +26,7 @@ impl Mechanism {
             y.extend(f.r.iter().chain(&f.q).chain([&f.angle]).chain(&f.v).chain(&f.w));
         }
         y.extend(state.turns.iter().flatten());
+        y.extend(&state.memory);
         y.push(state.work);
         y
     }
@@ -44,6 +45,8 @@ impl Mechanism {
         for (turns, y) in state.turns.iter_mut().zip(rest.chunks_exact(3)) {
             turns.copy_from_slice(y);
         }
+        let n = state.memory.len();
+        state.memory.copy_from_slice(&rest[rest.len() - 1 - n..rest.len() - 1]);
         state.work = rest.last().copied().unwrap_or(0.0);
         state
     }
@@ -74,6 +77,7 @@ impl Mechanism {
         for number in 0..self.scene.wheels.len() {
             rates.extend([now.wheel(number).rate(&places), 0.0, 0.0]);
         }
+        rates.extend(self.scene.signals.iter().map(|signal| now.memory_rate(&signal.source)));
         rates.push(moved.power);
         rates
     }
@@ -142,14 +146,19 @@ impl Mechanism {
     ) -> Result<(), Stop> {
         let span = end - state.t;
         let mut trials = 0;
+        let corners = self.corners();
         while state.t < end - 1e-12 * span {
-            let length = h.min(end - state.t);
+            // steps end where a signal jumps or bends
+            let next = corners.iter().find(|t| **t > state.t && **t < end);
+            let limit = next.copied().unwrap_or(end);
+            let length = h.min(limit - state.t);
+            let lands = next.is_some() && length >= limit - state.t;
             let y = Self::pack(state);
             let among = self.independent(state);
             let first = self.derivative(&y, state.t, &among);
             let (next, error) = self.extrapolate((&y, &first), &among, state.t, length);
             let mut ratio = self.error_ratio(&y, &next, &error, span, tolerance);
-            if ratio <= 1.0 {
+            if ratio <= 1.0 && !lands {
                 let beyond = length * BEYOND;
                 let (next, error) = self.extrapolate((&y, &first), &among, state.t, beyond);
                 ratio = ratio.max(self.error_ratio(&y, &next, &error, span, tolerance));
@@ -163,7 +172,8 @@ impl Mechanism {
                 0.2
             };
             if ratio <= 1.0 {
-                *state = self.unpack(&next, state.t + length);
+                let t = if lands { limit } else { state.t + length };
+                *state = self.unpack(&next, t);
                 self.project(state, &among);
                 // a step cut short by the end says nothing of longer ones
                 *h = if length < *h { h.max(length * factor) } else { length * factor };
@@ -212,7 +222,22 @@ impl Mechanism {
             }
             worst = worst.max(ratio);
         }
+        // states of signals, beside what they come to or change by
+        let n = self.scene.signals.len();
+        let first = error.len() - 1 - n;
+        for i in first..first + n {
+            let allowed = next[i].abs().max((next[i] - y[i]).abs()).max(1e-3);
+            worst = worst.max(error[i] / (tolerance * allowed));
+        }
         worst.max(1e-10)
+    }
+
+    /// Times at which signals jump or bend, in their order.
+    fn corners(&self) -> Vec<f64> {
+        let mut times = Vec::new();
+        self.scene.signals.iter().for_each(|signal| signal.source.corners(&mut times));
+        times.sort_by(f64::total_cmp);
+        times
     }
 
     /// A length of the mechanism: the largest distance of its points from each other's mean.

@@ -1,7 +1,6 @@
 //! Values over time and roads over x.
 
-use crate::scene::{Curve, Feature, Law, Signal, Spline};
-use crate::vector::{Vector, add, scale};
+use crate::scene::{Curve, Feature, Spline};
 use core::f64::consts::PI;
 
 impl Spline {
@@ -159,34 +158,6 @@ impl Curve {
             }
         }
     }
-}
-
-impl Law {
-    /// Value and two derivatives.
-    #[must_use]
-    pub fn at(&self, t: f64) -> [f64; 3] {
-        match self {
-            Self::Curve(curve) => curve.at(t),
-            Self::Ramp(rate) => [rate * t, *rate, 0.0],
-            Self::Sine([amplitude, frequency, phase]) => {
-                let w = 2.0 * PI * frequency;
-                let (s, c) = (w * t + phase).sin_cos();
-                [amplitude * s, amplitude * w * c, -amplitude * w * w * s]
-            }
-        }
-    }
-}
-
-/// Linear between the rows, held outside.
-pub(crate) fn signal(rows: &Signal, t: f64) -> Vector {
-    let i = rows.partition_point(|row| row.0 <= t);
-    if i == 0 {
-        return rows[0].1;
-    }
-    let Some(next) = rows.get(i) else { return rows[i - 1].1 };
-    let (t0, x0) = rows[i - 1];
-    let share = (t - t0) / (next.0 - t0);
-    add(scale(1.0 - share, x0), scale(share, next.1))
 }
 
 /// Height and two derivatives of a road.

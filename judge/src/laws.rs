@@ -1,6 +1,5 @@
 //! Forces: gravity, the bodies' own turning, and every effect of the contract.
 
-use crate::curves::signal;
 use crate::loads::{Loads, Now, contact};
 use crate::rows::Row;
 use crate::scene::{Carrier, Effect, Line};
@@ -90,7 +89,7 @@ impl Now<'_> {
             }
             Effect::Actuator(line, force) => {
                 let row = self.line(line);
-                loads.along(&row, signal(force, self.t)[0]);
+                loads.along(&row, self.given(force)[0]);
             }
             Effect::Bushing(bodies, at, [k, c]) => self.bushing(loads, *bodies, *at, k, c),
             Effect::TorsionSpring(sum, [k, c, free]) => {
@@ -100,12 +99,12 @@ impl Now<'_> {
                 return (0.5 * k * x * x, k * x * rate);
             }
             Effect::JointTorque(sum, torque) => {
-                loads.along(&self.sum(sum), signal(torque, self.t)[0]);
+                loads.along(&self.sum(sum), self.given(torque)[0]);
             }
             // an inertia, no force
             Effect::Rotor(..) => {}
             Effect::BodyTorque(body, torque) => {
-                loads.wrench(Some(*body), ZERO, signal(torque, self.t));
+                loads.wrench(Some(*body), ZERO, self.given(torque));
             }
             Effect::Limit(sum, [lower, upper, k, c]) => {
                 let row = self.sum(sum);
@@ -122,7 +121,7 @@ impl Now<'_> {
                 loads.along(&row, -(level * r / (r * r + e * e).sqrt() + viscous * r));
             }
             Effect::Force(body, at, force, turns) => {
-                let mut force = signal(force, self.t);
+                let mut force = self.given(force);
                 if *turns {
                     force = p.direction(Some(*body), force);
                 }

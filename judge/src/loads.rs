@@ -50,6 +50,8 @@ pub(crate) struct Now<'a> {
     pub(crate) frames: &'a [Frame],
     pub(crate) turns: &'a [[f64; 3]],
     pub(crate) t: f64,
+    /// States of signals.
+    pub(crate) memory: &'a [f64],
 }
 
 /// max(0, k x + c ẋ s), s = 3 r² - 2 r³, r = min(1, x / 1 mm).

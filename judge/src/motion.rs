@@ -24,6 +24,8 @@ pub struct State {
     pub frames: Vec<Frame>,
     /// Single turns of each joint, or its rotation vector, with all turns; then those that couplings count.
     pub turns: Vec<[f64; 3]>,
+    /// States of signals.
+    pub memory: Vec<f64>,
     /// Work of all that is not stored [J].
     pub work: f64,
 }
@@ -137,7 +139,8 @@ impl Mechanism {
         };
         let frames = self.scene.bodies.iter().map(still).collect();
         let turns = vec![[0.0; 3]; self.scene.joints.len() + self.scene.wheels.len()];
-        State { t: 0.0, frames, turns, work: 0.0 }
+        let memory = self.scene.signals.iter().map(|signal| signal.start).collect();
+        State { t: 0.0, frames, turns, memory, work: 0.0 }
     }
 
     pub(crate) fn columns(&self) -> &[[Option<usize>; 6]] {
@@ -157,7 +160,8 @@ impl Mechanism {
     }
 
     pub(crate) fn now<'a>(&'a self, state: &'a State, places: &'a Places) -> Now<'a> {
-        Now { scene: &self.scene, places, frames: &state.frames, turns: &state.turns, t: state.t }
+        let State { t, frames, turns, memory, .. } = state;
+        Now { scene: &self.scene, places, frames, turns, t: *t, memory }
     }
 
     /// All constraints, each with what it belongs to.

@@ -20,6 +20,8 @@ impl Quantity {
     pub const OF_JOINTS: &[&str] =
         &["value", "rate", "acceleration", "effort", "power", "reaction"];
 
+    /// Names of those of a signal.
+    pub const OF_SIGNALS: &[&str] = &["value", "rate"];
     /// Names of those of what rolls.
     pub const OF_ROLLINGS: &[&str] = &["force"];
     /// Names of those of a coupling.
@@ -107,6 +109,10 @@ impl Mechanism {
             Quantity::RotationMatrix(body) if planar => planar_matrix(state.frames[body].angle),
             Quantity::RotationMatrix(body) => rotation(state.frames[body].q).concat(),
             Quantity::KineticEnergy(body) => vec![self.kinetic_energy(body, state, &places)],
+            Quantity::Signal(number, is_rate) => {
+                let jet = self.now(state, &places).source(&self.scene.signals[number].source);
+                vec![jet[usize::from(is_rate)]]
+            }
             Quantity::Contact(number) => vector(self.evaluate(state).contacts[number]),
             Quantity::Coupling(number, what) => vec![self.coupled(state, number, what)],
             of_joint => self.of_joint(state, of_joint),

@@ -36,6 +36,8 @@ pub enum Law {
     Sine([f64; 3]),
     /// rate t.
     Ramp(f64),
+    /// A signal that follows time alone.
+    Signal(Box<Source>),
 }
 
 /// What a term of a sum measures, zero in the reference configuration.
@@ -131,4 +133,57 @@ pub struct Rolling {
     pub point: Vector,
     /// The unit normal of the plane.
     pub normal: Vector,
+}
+
+/// A number over time and of the motion.
+#[derive(Debug, Clone)]
+pub enum Source {
+    /// The same at all times.
+    Constant(f64),
+    /// A table over time.
+    Table(Curve),
+    /// Amplitude, frequency, phase, offset.
+    Sine([f64; 4]),
+    /// Amplitude, frequency, phase, offset, last frequency, duration.
+    Chirp([f64; 6]),
+    /// Rate, start, end.
+    Ramp([f64; 3]),
+    /// From, to, when it begins, how long it takes.
+    Step([f64; 4]),
+    /// Factors times numbers.
+    Sum(Vec<(f64, Self)>),
+    /// All multiplied.
+    Product(Vec<Self>),
+    /// A function of a number.
+    Of(Curve, Box<Self>),
+    /// Within limits.
+    Clamp(Box<Self>, [f64; 2]),
+    /// A measure, or its rate.
+    Measure(Measure, bool),
+    /// The state of a signal, which follows another one with a time constant.
+    Lag(usize, Box<Self>, f64),
+    /// The state of a signal, the integral of another one within limits.
+    Integral(usize, Box<Self>, [f64; 2]),
+    /// The state of a signal, target and measured, gains of difference, integral and rate, and the limit.
+    Pid(usize, [Box<Self>; 2], [f64; 3], f64),
+}
+
+/// A signal: its name, what it is, and its state at the start.
+#[derive(Debug, Clone)]
+pub struct Signal {
+    /// Its name.
+    pub name: String,
+    /// What it is.
+    pub source: Source,
+    /// Its state at the start.
+    pub start: f64,
+}
+
+/// A vector over time.
+#[derive(Debug, Clone)]
+pub enum Given {
+    /// Rows of time and vector, linear between them, held outside; one row is a constant.
+    Rows(Vec<(f64, Vector)>),
+    /// A signal for each component.
+    Named([Option<Box<Source>>; 3]),
 }

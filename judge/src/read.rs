@@ -6,6 +6,7 @@ use crate::read_coupling::Reader;
 use crate::read_curve::{coordinate, law, rows};
 use crate::read_effect;
 use crate::read_rolling::rolling;
+use crate::read_signal;
 use crate::scene::{
     Body, Feature, Guide, InitialCondition, Joint, Kind, Output, Quantity, Scene, Spline,
 };
@@ -48,14 +49,16 @@ pub fn read(text: &str) -> Read<Scene> {
     }
     let initials = root.tables("initial")?;
     scene.initials = initials.into_iter().map(|t| initial(t, &names)).collect::<Read<_>>()?;
+    let signals = root.tables("signal")?;
+    scene.signals = read_signal::Reader::new(signals, &names, &scene.joints)?.all()?;
     let guides = root.tables("guide")?;
-    let of = |t| guide(t, &names, &scene.joints);
+    let of = |t| guide(t, &names, &scene);
     scene.guides = guides.into_iter().map(of).collect::<Read<_>>()?;
     couplings(root.tables("coupling")?, &names, &mut scene)?;
     let rollings = root.tables("rolling")?.into_iter().enumerate();
     scene.rollings = rollings.map(|(i, t)| rolling(t, &names, i)).collect::<Read<_>>()?;
     for table in root.tables("effect")? {
-        scene.effects.extend(read_effect::effect(table, &names, &scene.joints)?);
+        scene.effects.extend(read_effect::effect(table, &names, &scene)?);
     }
     if let Some(table) = root.table("road")? {
         road(table, &mut scene)?;
@@ -140,9 +143,11 @@ fn joint(mut table: Table, name: String, names: &Names, all: &[Body]) -> Read<Jo
 /// Reads the couplings.
 fn couplings(tables: Vec<Table>, names: &Names, scene: &mut Scene) -> Read<()> {
     let (mut wheels, planar) = (Vec::new(), scene.planar);
-    let mut reader = Reader { names, joints: &scene.joints, wheels: &mut wheels, planar };
+    let Scene { joints, signals, .. } = &*scene;
+    let mut reader = Reader { names, joints, signals, wheels: &mut wheels, planar };
     let numbered = tables.into_iter().enumerate();
-    scene.couplings = numbered.map(|(i, table)| reader.coupling(table, i)).collect::<Read<_>>()?;
+    let couplings = numbered.map(|(i, table)| reader.coupling(table, i)).collect::<Read<_>>()?;
+    scene.couplings = couplings;
     scene.wheels = wheels;
     Ok(())
 }
@@ -168,10 +173,12 @@ fn initial(mut table: Table, names: &Names) -> Read<InitialCondition> {
     Ok(initial)
 }
 
-fn guide(mut table: Table, names: &Names, joints: &[Joint]) -> Read<Guide> {
+fn guide(mut table: Table, names: &Names, scene: &Scene) -> Read<Guide> {
     let joint = names.joint(&table.text("joint")?)?;
-    let coordinate = coordinate(&mut table, joints[joint].kind)?.unwrap_or(0);
-    let Some(law) = law(&mut table)? else { return fault("a guide without a motion") };
+    let coordinate = coordinate(&mut table, scene.joints[joint].kind)?.unwrap_or(0);
+    let Some(law) = law(&mut table, &scene.signals)? else {
+        return fault("a guide without a motion");
+    };
     table.done("guide")?;
     Ok(Guide { joint, coordinate, law })
 }
@@ -248,7 +255,10 @@ fn output(mut table: Table, names: &Names, scene: &Scene) -> Read<Output> {
         _ => "value",
     };
     let kind = if table.has("quantity") { table.text("quantity")? } else { default.to_owned() };
-    let quantity = if let Some(Node::Text(rolling)) = table.take("rolling") {
+    let quantity = if let Some(Node::Text(signal)) = table.take("signal") {
+        let number = scene.signals.iter().position(|known| known.name == signal);
+        number.map(|number| Quantity::Signal(number, kind == "rate"))
+    } else if let Some(Node::Text(rolling)) = table.take("rolling") {
         let number = scene.rollings.iter().position(|known| known.name == rolling);
         number.filter(|_| kind == "force").map(Quantity::Contact)
     } else if let Some(Node::Text(coupling)) = table.take("coupling") {

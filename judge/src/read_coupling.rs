@@ -4,7 +4,7 @@ use crate::drawn::{self, sense};
 use crate::names::Names;
 use crate::node::{Node, Read, Table, fault};
 use crate::read_curve::{curve, law, only, terms};
-use crate::scene::{Coupling, Joint, Kind, Measure, Seat, Term, Wheel};
+use crate::scene::{Coupling, Joint, Kind, Measure, Seat, Signal, Term, Wheel};
 use crate::sums::reference_length;
 use crate::vector::{Vector, dot, norm, scale, sub};
 use core::f64::consts::PI;
@@ -16,6 +16,7 @@ const AT_RIM: f64 = 1e-6;
 pub(crate) struct Reader<'a> {
     pub(crate) names: &'a Names,
     pub(crate) joints: &'a [Joint],
+    pub(crate) signals: &'a [Signal],
     pub(crate) wheels: &'a mut Vec<Wheel>,
     pub(crate) planar: bool,
 }
@@ -58,7 +59,7 @@ impl Reader<'_> {
             "linear" => Sum::plain(terms(t, self.names, self.joints)?, t.number_or("value", 0.0)?),
             other => return fault(format!("no coupling `{other}`")),
         };
-        let law = law(&mut table)?;
+        let law = law(&mut table, self.signals)?;
         table.done(&name)?;
         let Sum { terms, value, gain, passed, seat } = sum;
         if terms.iter().any(|term| matches!(term.measure, Measure::Ball(..))) {

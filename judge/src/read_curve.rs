@@ -2,7 +2,7 @@
 
 use crate::names::Names;
 use crate::node::{Node, Read, Table, fault};
-use crate::scene::{Carrier, Curve, Joint, Kind, Law, Measure, Spline, Term};
+use crate::scene::{Carrier, Curve, Joint, Kind, Law, Measure, Signal, Source, Spline, Term};
 use crate::vector::{Vector, unit};
 
 /// Rows of two numbers.
@@ -51,7 +51,10 @@ pub(crate) fn curve(table: &mut Table) -> Read<Option<Curve>> {
 }
 
 /// A law over time, if there is one.
-pub(crate) fn law(table: &mut Table) -> Read<Option<Law>> {
+pub(crate) fn law(table: &mut Table, signals: &[Signal]) -> Read<Option<Law>> {
+    if let Some(source) = signal(table, signals)? {
+        return Ok(Some(Law::Signal(Box::new(source))));
+    }
     if let Some(mut sine) = table.table("sine")? {
         let numbers = ["amplitude", "frequency"].map(|key| sine.number(key));
         let [amplitude, frequency] = numbers;
@@ -141,4 +144,17 @@ pub(crate) fn effect_sum(table: &mut Table, names: &Names, joints: &[Joint]) -> 
         return terms(table, names, joints);
     }
     Ok(vec![Term { measure: measure(table, names, joints)?, factor: 1.0, curve: None }])
+}
+
+/// `signal` by its name, if there is one.
+fn signal(table: &mut Table, signals: &[Signal]) -> Read<Option<Source>> {
+    let Some(node) = table.take("signal") else { return Ok(None) };
+    by_name(&node, signals).map(Some)
+}
+
+/// A signal by its name.
+pub(crate) fn by_name(node: &Node, signals: &[Signal]) -> Read<Source> {
+    let Node::Text(name) = node else { return fault("not the name of a signal") };
+    let found = signals.iter().find(|signal| signal.name == *name);
+    found.map_or_else(|| fault(format!("no signal `{name}`")), |one| Ok(one.source.clone()))
 }

@@ -3,12 +3,13 @@
 use crate::names::Names;
 use crate::node::{Node, Read, Table, fault};
 use crate::read_curve::effect_sum;
-use crate::scene::{Calspan, Effect, Joint, Line, Tire};
+use crate::read_signal::given;
+use crate::scene::{Calspan, Effect, Given, Line, Scene, Tire};
 use crate::vector::unit;
 
 /// An effect that is enabled.
 #[allow(clippy::too_many_lines, reason = "one arm for each kind")]
-pub(crate) fn effect(mut table: Table, names: &Names, joints: &[Joint]) -> Read<Option<Effect>> {
+pub(crate) fn effect(mut table: Table, names: &Names, scene: &Scene) -> Read<Option<Effect>> {
     table.take("name");
     let enabled = !matches!(table.take("enabled"), Some(Node::Flag(false)));
     let kind = table.text("kind")?;
@@ -37,7 +38,7 @@ pub(crate) fn effect(mut table: Table, names: &Names, joints: &[Joint]) -> Read<
                 [t.number("stiffness")?, t.number_or("damping", 0.0)?, t.number("clearance")?],
             )
         }
-        "actuator" => Effect::Actuator(line(t, names)?, t.signal(false)?),
+        "actuator" => Effect::Actuator(line(t, names)?, given(t, &scene.signals, false)?),
         "bushing" => {
             let stiffness = six(t, "stiffness")?;
             let damping = if t.has("damping") { six(t, "damping")? } else { [0.0; 6] };
@@ -49,20 +50,24 @@ pub(crate) fn effect(mut table: Table, names: &Names, joints: &[Joint]) -> Read<
                 t.number_or("damping", 0.0)?,
                 t.number_or("free_value", 0.0)?,
             ];
-            Effect::TorsionSpring(effect_sum(t, names, joints)?, numbers)
+            Effect::TorsionSpring(effect_sum(t, names, &scene.joints)?, numbers)
         }
         "torque" => match t.take("body") {
             Some(Node::Text(body)) => {
                 let planar = t.planar;
-                let mut signal = t.signal(!planar)?;
-                if planar {
-                    signal.iter_mut().for_each(|(_, v)| *v = [0.0, 0.0, v[0]]);
+                let mut torque = given(t, &scene.signals, !planar)?;
+                match &mut torque {
+                    _ if !planar => {}
+                    Given::Rows(rows) => {
+                        rows.iter_mut().for_each(|(_, v)| *v = [0.0, 0.0, v[0]]);
+                    }
+                    Given::Named(sources) => sources.swap(0, 2),
                 }
-                Effect::BodyTorque(names.body(&body)?, signal)
+                Effect::BodyTorque(names.body(&body)?, torque)
             }
             _ => {
-                let sum = effect_sum(t, names, joints)?;
-                Effect::JointTorque(sum, t.signal(false)?)
+                let sum = effect_sum(t, names, &scene.joints)?;
+                Effect::JointTorque(sum, given(t, &scene.signals, false)?)
             }
         },
         "limit" => {
@@ -72,7 +77,7 @@ pub(crate) fn effect(mut table: Table, names: &Names, joints: &[Joint]) -> Read<
                 t.number("stiffness")?,
                 t.number_or("damping", 0.0)?,
             ];
-            Effect::Limit(effect_sum(t, names, joints)?, numbers)
+            Effect::Limit(effect_sum(t, names, &scene.joints)?, numbers)
         }
         "friction" => {
             let coulomb = t.number("coulomb")?;
@@ -81,11 +86,16 @@ pub(crate) fn effect(mut table: Table, names: &Names, joints: &[Joint]) -> Read<
             let stribeck = t.number_or("stribeck", 10.0 * regularisation)?;
             let numbers =
                 [coulomb, sticking, stribeck, t.number_or("viscous", 0.0)?, regularisation];
-            Effect::Friction(effect_sum(t, names, joints)?, numbers)
+            Effect::Friction(effect_sum(t, names, &scene.joints)?, numbers)
         }
         "force" => {
             let turns = matches!(t.take("frame"), Some(Node::Text(frame)) if frame == "body");
-            Effect::Force(names.body(&t.text("body")?)?, t.vector("at")?, t.signal(true)?, turns)
+            Effect::Force(
+                names.body(&t.text("body")?)?,
+                t.vector("at")?,
+                given(t, &scene.signals, true)?,
+                turns,
+            )
         }
         "aero-drag" => {
             let numbers = [t.number("area_coefficient")?, t.number_or("density", 1.2)?];

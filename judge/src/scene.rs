@@ -1,7 +1,8 @@
 //! What a scene says, as the judge reads it. A planar scene lies in the plane z = 0 of space.
 
 pub use crate::parts::{
-    Carrier, Coupling, Curve, Law, Measure, Rolling, Seat, Shape, Spline, Term, Wheel,
+    Carrier, Coupling, Curve, Given, Law, Measure, Rolling, Seat, Shape, Signal, Source, Spline,
+    Term, Wheel,
 };
 use crate::vector::{Matrix, Vector};
 
@@ -32,6 +33,8 @@ pub struct Scene {
     pub guides: Vec<Guide>,
     /// What is held at the start.
     pub initials: Vec<InitialCondition>,
+    /// Signals.
+    pub signals: Vec<Signal>,
     /// Effects that are enabled.
     pub effects: Vec<Effect>,
     /// The road's features: left and right.
@@ -160,9 +163,6 @@ pub enum InitialCondition {
     },
 }
 
-/// A vector over time: rows of time and vector, linear between them, held outside; one row is a constant.
-pub type Signal = Vec<(f64, Vector)>;
-
 /// Two points, one a body.
 #[derive(Debug, Clone)]
 pub struct Line {
@@ -199,21 +199,21 @@ pub enum Effect {
     /// Stiffness, damping, clearance.
     Bumper(Line, [f64; 3]),
     /// A force along the line.
-    Actuator(Line, Signal),
+    Actuator(Line, Given),
     /// Stiffness and damping along and about the axes of the first body.
     Bushing([Carrier; 2], Vector, [[f64; 6]; 2]),
     /// Sum; stiffness, damping, free value.
     TorsionSpring(Vec<Term>, [f64; 3]),
     /// Torque of a joint's first body on its second, or along a sum.
-    JointTorque(Vec<Term>, Signal),
+    JointTorque(Vec<Term>, Given),
     /// Torque on a body.
-    BodyTorque(usize, Signal),
+    BodyTorque(usize, Given),
     /// Sum; lower, upper, stiffness, damping.
     Limit(Vec<Term>, [f64; 4]),
     /// Sum; coulomb, static, stribeck, viscous, regularisation.
     Friction(Vec<Term>, [f64; 5]),
     /// Body, point, force; does it turn with the body?
-    Force(usize, Vector, Signal, bool),
+    Force(usize, Vector, Given, bool),
     /// Body, point; area times coefficient, density.
     Drag(usize, Vector, [f64; 2]),
     /// Body, direction; speed, gain, limit.
@@ -222,6 +222,18 @@ pub enum Effect {
     Tire(Tire),
     /// Joint; the rotor's inertia times the square of its ratio.
     Rotor(usize, f64),
+}
+
+impl Shape {
+    /// Its kind in scene files.
+    #[must_use]
+    pub fn name(&self) -> &'static str {
+        match self {
+            Self::Disc(..) => "wheel",
+            Self::Ball(_) => "ball",
+            Self::Blade(_) => "blade",
+        }
+    }
 }
 
 impl Effect {
@@ -324,6 +336,8 @@ pub enum Quantity {
     Reaction(usize),
     /// Of a coupling.
     Coupling(usize, Coupled),
+    /// Of a signal: its value, or its rate.
+    Signal(usize, bool),
     /// Of what rolls: the force on it at the contact.
     Contact(usize),
     /// Of a body against another one, global axes.

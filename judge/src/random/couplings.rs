@@ -4,7 +4,7 @@ use super::dice::Dice;
 use super::draft::Draft;
 use super::write::{name, starts, vector};
 use crate::scene::{Carrier, Kind};
-use crate::vector::{Vector, across, add, cross, scale, unit};
+use crate::vector::{Vector, across, add, cross, norm, scale, sub, unit};
 
 /// Couplings of a train, with those of three wheels last.
 const TRAINS: [&str; 6] = ["gear", "belt", "gear on an arm", "rack", "differential", "screw"];
@@ -33,7 +33,7 @@ impl Draft {
         };
         let word = kind.split(' ').next().unwrap_or(kind).to_owned();
         self.couplings.push((word, text));
-        self.links[before.1..].iter_mut().for_each(|link| link.looped = true);
+        self.links[before.1..].iter_mut().for_each(|link| link.coupled = true);
         if !(self.moves() && starts(self)) {
             self.couplings.pop();
             self.bodies.truncate(before.0);
@@ -42,7 +42,13 @@ impl Draft {
     }
 
     /// Hangs a body that turns about an axis, in any sense.
-    fn turning(&mut self, dice: &mut Dice, base: Carrier, axis: Vector, at: Vector) -> usize {
+    pub(super) fn turning(
+        &mut self,
+        dice: &mut Dice,
+        base: Carrier,
+        axis: Vector,
+        at: Vector,
+    ) -> usize {
         self.hang(dice, base, Kind::Revolute, false);
         self.along(dice, axis, at)
     }
@@ -159,7 +165,7 @@ impl Draft {
             };
             self.couplings.push((word.to_owned(), text));
             if self.moves() && starts(self) {
-                joints.into_iter().for_each(|j| self.links[j].looped = true);
+                joints.into_iter().for_each(|j| self.links[j].coupled = true);
                 return;
             }
             self.couplings.pop();
@@ -172,7 +178,8 @@ impl Draft {
         for (j, link) in self.links.iter().enumerate() {
             let [slides, turns] = link.kind.coordinates(self.planar);
             let spins = turns == 3;
-            if !kinds.is_empty() && !kinds.contains(&link.kind) {
+            // a loop needs a joint that can be cut
+            if link.looped || (!kinds.is_empty() && !kinds.contains(&link.kind)) {
                 continue;
             }
             list.extend((0..slides).map(|i| (j, i, self.length)));
@@ -270,7 +277,18 @@ impl Draft {
             if points.last().is_some_and(|(last, _)| *last == body) {
                 return None;
             }
-            points.push((body, self.point(dice, body)));
+            let point = self.point(dice, body);
+            let is_near =
+                |(_, last): &(Carrier, Vector)| norm(sub(point, *last)) < 0.4 * self.length;
+            if points.last().is_some_and(is_near) {
+                return None;
+            }
+            points.push((body, point));
+        }
+        let bodies: Vec<Carrier> = points.iter().map(|point| point.0).collect();
+        for pair in bodies.windows(2) {
+            let one = pair[0].or(pair[1])?;
+            self.mark_loop(one, if pair[0].is_some() { pair[1] } else { None });
         }
         let one = |(body, at): &(Carrier, Vector)| {
             format!("{{ body = \"{}\", at = {} }}", name(*body), vector(*at, self.planar))

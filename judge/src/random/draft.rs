@@ -19,6 +19,8 @@ pub(crate) struct Draft {
     pub(crate) links: Vec<Link>,
     /// Kinds of couplings, with their text.
     pub(crate) couplings: Vec<(String, String)>,
+    /// What rolls, as text.
+    pub(crate) rollings: Vec<String>,
     /// Effects, roads and velocities of bodies, as text.
     pub(crate) blocks: Vec<String>,
     /// The largest of the drawn frequencies, in radians in T.
@@ -49,4 +51,6 @@ pub(crate) struct Link {
     pub(crate) rate: Option<Vec<f64>>,
     /// Does it take part in a loop?
     pub(crate) looped: bool,
+    /// Does a coupling or what rolls hold it?
+    pub(crate) coupled: bool,
 }

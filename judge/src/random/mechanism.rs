@@ -142,6 +142,7 @@ impl Draft {
             value: None,
             rate: None,
             looped: false,
+            coupled: false,
         }
     }
 
@@ -178,7 +179,7 @@ impl Draft {
         mechanism.evaluate(&reference).least_pivot > NEAR_LOCKED && freedoms >= 1
     }
 
-    fn mark_loop(&mut self, a: usize, b: Carrier) {
+    pub(crate) fn mark_loop(&mut self, a: usize, b: Carrier) {
         let path = |mut body: Carrier| {
             let mut list = Vec::new();
             while let Some(i) = body {
@@ -204,7 +205,8 @@ impl Draft {
                 Kind::Prismatic => 0.5 * self.length,
                 _ => continue,
             };
-            if !dice.chance(if self.links[i].looped { 0.04 } else { 0.15 }) {
+            let held = self.links[i].looped || self.links[i].coupled;
+            if !dice.chance(if held { 0.04 } else { 0.15 }) {
                 continue;
             }
             let law = match dice.below(3) {
@@ -230,7 +232,7 @@ impl Draft {
                 }
             };
             self.links[i].guide = Some(law);
-            if self.links[i].looped && !(self.moves() && starts(self)) {
+            if held && !(self.moves() && starts(self)) {
                 self.links[i].guide = None;
             }
         }
@@ -249,7 +251,8 @@ impl Draft {
     /// Values and rates of some joints, and now and then velocities of a body; what cannot be met is left out.
     pub(crate) fn start(&mut self, dice: &mut Dice) {
         for i in 0..self.links.len() {
-            let (planar, kind, looped) = (self.planar, self.links[i].kind, self.links[i].looped);
+            let (planar, kind) = (self.planar, self.links[i].kind);
+            let looped = self.links[i].looped || self.links[i].coupled;
             if self.links[i].guide.is_some() {
                 continue;
             }

@@ -10,6 +10,7 @@ mod dice;
 mod draft;
 mod effects;
 mod mechanism;
+mod rolling;
 mod write;
 
 use crate::read;
@@ -36,6 +37,7 @@ pub fn scene(seed: u64) -> Drawn {
     let mut dice = Dice::new(seed);
     let mut draft = Draft::tree(&mut dice);
     draft.train(&mut dice);
+    draft.roll(&mut dice);
     draft.close(&mut dice);
     draft.couple(&mut dice);
     draft.guide(&mut dice);
@@ -81,6 +83,7 @@ pub fn kinds(text: &str) -> Vec<String> {
     let mut kinds: Vec<String> =
         scene.joints.iter().map(|j| format!("joint {:?}", j.kind).to_lowercase()).collect();
     kinds.extend(scene.effects.iter().map(|e| format!("effect {}", e.name())));
+    kinds.extend(scene.rollings.iter().map(|r| format!("rolling {}", r.shape.name())));
     kinds.push(if scene.planar { "in the plane" } else { "in space" }.to_owned());
     let loops = scene.joints.len().saturating_sub(scene.bodies.len());
     kinds.extend(scene.couplings.iter().map(|c| format!("coupling {}", c.kind)));

@@ -102,6 +102,9 @@ impl Draft {
         for (i, (_, coupling)) in self.couplings.iter().enumerate() {
             let _ = writeln!(out, "\n[[coupling]]\nname = \"c{i}\"\n{coupling}");
         }
+        for (i, rolling) in self.rollings.iter().enumerate() {
+            let _ = writeln!(out, "\n[[rolling]]\nname = \"r{i}\"\n{rolling}");
+        }
         for block in &self.blocks {
             let _ = writeln!(out, "\n{block}");
         }
@@ -146,6 +149,9 @@ impl Draft {
                     output(&format!("coupling = \"c{i}\""), &format!("c{i}"), quantity);
                 }
             }
+        }
+        for i in 0..self.rollings.len() {
+            output(&format!("rolling = \"r{i}\""), &format!("r{i}"), "force");
         }
         for (i, link) in self.links.iter().enumerate() {
             let name = format!("j{i}");

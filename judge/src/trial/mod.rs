@@ -3,7 +3,7 @@
 pub mod oracle;
 pub mod seeds;
 
-use crate::scene::{Coupled, Quantity};
+use crate::scene::{Coupled, Output, Quantity};
 use crate::{Mechanism, State};
 use mbs::core::scene::Scene;
 use mbs::scene_file::SceneFile;
@@ -135,11 +135,35 @@ pub fn judge(text: &str, step: f64, steps: u32) -> Result<Judged, String> {
         mechanism
             .advance(&mut state, f64::from(i) * step, &mut h, TOLERANCE)
             .map_err(|e| format!("judge: {e:?}"))?;
-        least_pivot = least_pivot.min(mechanism.evaluate(&state).least_pivot);
+        let moved = mechanism.evaluate(&state);
+        if moved.unmet > 1e-9 {
+            return Err("judge: a force meets no inertia".to_owned());
+        }
+        least_pivot = least_pivot.min(moved.least_pivot);
         rows.push(show(&state).concat());
     }
+    let channels = followed(channels, &outputs, &rows);
     let is_redundant = begun.is_redundant;
     Ok(Judged { mechanism, rows, time: 20.0 * step, channels, least_pivot, is_redundant })
+}
+
+/// Channels without the vectors of bodies that have turned a whole turn, which count as who follows them does.
+fn followed(
+    mut channels: Vec<(usize, bool)>,
+    outputs: &[Output],
+    rows: &[Vec<f64>],
+) -> Vec<(usize, bool)> {
+    let mut at = 0;
+    for (channel, output) in channels.iter_mut().zip(outputs) {
+        let jumps = |pair: &[Vec<f64>]| {
+            (at..at + channel.0).any(|i| (pair[0][i] - pair[1][i]).abs() > core::f64::consts::PI)
+        };
+        if matches!(output.quantity, Quantity::RotationVector(_)) {
+            channel.1 &= !rows.windows(2).any(jumps);
+        }
+        at += channel.0;
+    }
+    channels
 }
 
 /// A scene as the crates read it.
@@ -262,8 +286,8 @@ fn kind(quantity: Quantity) -> usize {
         Quantity::Rate(..)
         | Quantity::AngularVelocity(..)
         | Quantity::RelativeAngularVelocity(..) => 4,
-        Quantity::Coupling(_, Coupled::Value | Coupled::Length) => 3,
-        Quantity::Coupling(_, Coupled::Rate) => 4,
+        Quantity::Coupling(_, Coupled::Value | Coupled::Length) | Quantity::Signal(_, false) => 3,
+        Quantity::Coupling(_, Coupled::Rate) | Quantity::Signal(_, true) => 4,
         Quantity::Contact(..)
         | Quantity::Reaction(..)
         | Quantity::Effort(..)

@@ -91,8 +91,10 @@ impl Tally {
             }
             Verdict::Stops { code, time, message } => {
                 let place = if *time > 0.0 { "run" } else { "start" };
-                // where the judge sees redundant rows too the refusal is right
-                let is_right = code == "rank-lost" && judged.is_redundant;
+                // where the judge sees redundant rows too the refusal is right, and that of rows on rates alone
+                let rolls = !judged.mechanism.scene.rollings.is_empty();
+                let is_right = (code == "rank-lost" && judged.is_redundant)
+                    || (code == "velocity-rows" && rolls && method[0] == "state-space");
                 let place = if is_right { "right" } else { place };
                 if !is_right {
                     let of = (method[0].to_owned(), code.clone());

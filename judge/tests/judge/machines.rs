@@ -116,3 +116,9 @@ fn slides_and_a_blade_move_as_another_program_says() {
     let right = [("guide", 0, -0.322_743_35), ("slide", 0, -0.322_743_35)];
     ends("blade", &text("65-violated-by-rounding"), 2.0, &right, DIGITS[0]);
 }
+
+#[test]
+fn a_force_follows_the_place_of_a_free_body() {
+    let right = [("place", 0, -0.032_079_646)];
+    ends("disc", &text("26-signal-on-a-free-body"), 0.3, &right, DIGITS[1]);
+}

@@ -4,6 +4,7 @@ mod closed;
 mod controller;
 mod machines;
 mod rules;
+mod signals;
 mod trial;
 
 use judge::{Mechanism, State};

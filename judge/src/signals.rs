@@ -1,0 +1,203 @@
+//! Values of signals with their rates, the rates of their states, and the times at which they jump or bend.
+
+use crate::loads::Now;
+use crate::scene::{Curve, Given, Law, Source};
+use crate::vector::{Vector, add, scale};
+use core::f64::consts::PI;
+
+/// A value and two derivatives by time.
+type Jet = [f64; 3];
+
+/// g(f) of a value over time.
+fn chain([value, slope, bend]: Jet, inner: Jet) -> Jet {
+    [value, slope * inner[1], bend * inner[1] * inner[1] + slope * inner[2]]
+}
+
+/// sin of an angle over time, by an amplitude.
+fn wave(amplitude: f64, offset: f64, angle: Jet) -> Jet {
+    let (s, c) = angle[0].sin_cos();
+    let [x, rate, bend] = chain([s, c, -s], angle).map(|x| amplitude * x);
+    [x + offset, rate, bend]
+}
+
+impl Source {
+    /// Value and rates at a time; `follows` has what the motion decides.
+    fn jet(&self, t: f64, follows: &dyn Fn(&Self) -> Jet) -> Jet {
+        match self {
+            Self::Constant(x) => [*x, 0.0, 0.0],
+            Self::Table(curve) => curve.at(t),
+            Self::Sine([amplitude, frequency, phase, offset]) => {
+                let w = 2.0 * PI * frequency;
+                wave(*amplitude, *offset, [w * t + phase, w, 0.0])
+            }
+            Self::Chirp([amplitude, from, phase, offset, to, duration]) => {
+                let (part, growth) = (t.min(*duration), (to - from) / duration);
+                let turns = from * part + 0.5 * growth * part * part + to * (t - part);
+                let growth = if t < *duration { growth } else { 0.0 };
+                let frequency = from + (to - from) / duration * part;
+                let angle = [turns + phase / (2.0 * PI), frequency, growth];
+                wave(*amplitude, *offset, angle.map(|x| 2.0 * PI * x))
+            }
+            Self::Ramp([rate, start, end]) => {
+                let moves = (*start..*end).contains(&t);
+                [rate * (t.clamp(*start, *end) - start), if moves { *rate } else { 0.0 }, 0.0]
+            }
+            Self::Step([from, to, at, rise]) => {
+                if t < *at {
+                    return [*from, 0.0, 0.0];
+                }
+                if t >= at + rise {
+                    return [*to, 0.0, 0.0];
+                }
+                let s = (t - at) / rise;
+                let smooth = Curve::Polynomial(vec![0.0, 0.0, 0.0, 10.0, -15.0, 6.0]).at(s);
+                let [x, slope, bend] = chain(smooth, [s, 1.0 / rise, 0.0]);
+                [from + (to - from) * x, (to - from) * slope, (to - from) * bend]
+            }
+            Self::Sum(terms) => terms.iter().fold([0.0; 3], |sum, (factor, source)| {
+                let x = source.jet(t, follows);
+                [0, 1, 2].map(|i| sum[i] + factor * x[i])
+            }),
+            Self::Product(factors) => factors.iter().fold([1.0, 0.0, 0.0], |[x, u, a], source| {
+                let [y, v, b] = source.jet(t, follows);
+                [x * y, u * y + x * v, a * y + 2.0 * u * v + x * b]
+            }),
+            Self::Of(curve, inner) => {
+                let inner = inner.jet(t, follows);
+                chain(curve.at(inner[0]), inner)
+            }
+            Self::Clamp(inner, [lower, upper]) => {
+                let x = inner.jet(t, follows);
+                if x[0] < *lower {
+                    [*lower, 0.0, 0.0]
+                } else if x[0] > *upper {
+                    [*upper, 0.0, 0.0]
+                } else {
+                    x
+                }
+            }
+            Self::Measure(..) | Self::Lag(..) | Self::Integral(..) | Self::Pid(..) => follows(self),
+        }
+    }
+
+    /// Adds the times at which it jumps or has a corner.
+    pub(crate) fn corners(&self, times: &mut Vec<f64>) {
+        match self {
+            Self::Table(Curve::Linear(rows, repeats) | Curve::Hold(rows, repeats)) => {
+                let period = rows[rows.len() - 1][0] - rows[0][0];
+                let periods = if *repeats { -PERIODS..=PERIODS } else { 0..=0 };
+                for k in periods {
+                    times.extend(rows.iter().map(|row| row[0] + f64::from(k) * period));
+                }
+            }
+            Self::Table(Curve::Spline(spline)) => {
+                times.extend(spline.knots.first().iter().chain(&spline.knots.last()).map(|k| k[0]));
+            }
+            Self::Ramp([_, start, end]) => times.extend([*start, *end]),
+            Self::Step([_, _, at, rise]) => times.extend([*at, at + rise]),
+            Self::Chirp([.., duration]) => times.push(*duration),
+            Self::Sum(terms) => terms.iter().for_each(|(_, source)| source.corners(times)),
+            Self::Product(factors) => factors.iter().for_each(|source| source.corners(times)),
+            Self::Of(_, inner)
+            | Self::Clamp(inner, _)
+            | Self::Lag(_, inner, _)
+            | Self::Integral(_, inner, _) => inner.corners(times),
+            Self::Pid(_, both, ..) => both.iter().for_each(|source| source.corners(times)),
+            _ => {}
+        }
+    }
+}
+
+/// Periods of a table, before and after the first, whose rows end steps. Chosen, not tuned.
+const PERIODS: i32 = 50;
+
+impl Law {
+    /// Value and two derivatives.
+    #[must_use]
+    pub fn at(&self, t: f64) -> [f64; 3] {
+        match self {
+            Self::Curve(curve) => curve.at(t),
+            Self::Ramp(rate) => [rate * t, *rate, 0.0],
+            Self::Sine([amplitude, frequency, phase]) => {
+                let w = 2.0 * PI * frequency;
+                wave(*amplitude, 0.0, [w * t + phase, w, 0.0])
+            }
+            Self::Signal(source) => source.jet(t, &|_| [0.0; 3]),
+        }
+    }
+}
+
+impl Now<'_> {
+    /// A signal's value and rates; the rate of what a controller asks for is none, nor is that of a rate.
+    pub(crate) fn source(&self, source: &Source) -> Jet {
+        source.jet(self.t, &|source| self.followed(source))
+    }
+
+    fn followed(&self, source: &Source) -> Jet {
+        match source {
+            Source::Measure(measure, is_rate) => {
+                let row = self.measure(measure);
+                let rate = row.rate(self.places);
+                if *is_rate { [rate, 0.0, 0.0] } else { [row.value, rate, 0.0] }
+            }
+            Source::Lag(slot, ..) | Source::Integral(slot, ..) => {
+                [self.memory[*slot], self.memory_rate(source), 0.0]
+            }
+            Source::Pid(.., limit) => [self.asked(source).clamp(-limit, *limit), 0.0, 0.0],
+            _ => [0.0; 3],
+        }
+    }
+
+    /// What a controller asks for, without its limit.
+    fn asked(&self, source: &Source) -> f64 {
+        let Source::Pid(slot, both, [p, i, d], _) = source else { return 0.0 };
+        let [e, rate] = self.difference(both);
+        p * e + i * self.memory[*slot] + d * rate
+    }
+
+    /// Target less measured, and the rate of that.
+    fn difference(&self, both: &[Box<Source>; 2]) -> [f64; 2] {
+        let [target, measured] = [0, 1].map(|k| self.source(&both[k]));
+        [target[0] - measured[0], target[1] - measured[1]]
+    }
+
+    /// The rate of a signal's state.
+    pub(crate) fn memory_rate(&self, source: &Source) -> f64 {
+        match source {
+            Source::Lag(slot, inner, time) => (self.source(inner)[0] - self.memory[*slot]) / time,
+            Source::Integral(slot, inner, [lower, upper]) => {
+                let (x, rate) = (self.memory[*slot], self.source(inner)[0]);
+                let stops = (x >= *upper && rate > 0.0) || (x <= *lower && rate < 0.0);
+                if stops { 0.0 } else { rate }
+            }
+            Source::Pid(_, both, [_, i, _], limit) => {
+                let (asked, [e, _]) = (self.asked(source), self.difference(both));
+                let further = asked.abs() >= *limit && asked * i * e > 0.0;
+                if further || *i == 0.0 { 0.0 } else { e }
+            }
+            _ => 0.0,
+        }
+    }
+
+    /// A vector over time.
+    pub(crate) fn given(&self, given: &Given) -> Vector {
+        match given {
+            Given::Rows(rows) => linear(rows, self.t),
+            Given::Named(sources) => {
+                [0, 1, 2].map(|i| sources[i].as_ref().map_or(0.0, |source| self.source(source)[0]))
+            }
+        }
+    }
+}
+
+/// Linear between the rows, held outside.
+fn linear(rows: &[(f64, Vector)], t: f64) -> Vector {
+    let i = rows.partition_point(|row| row.0 <= t);
+    if i == 0 {
+        return rows[0].1;
+    }
+    let Some(next) = rows.get(i) else { return rows[i - 1].1 };
+    let (t0, x0) = rows[i - 1];
+    let share = (t - t0) / (next.0 - t0);
+    add(scale(1.0 - share, x0), scale(share, next.1))
+}
