@@ -236,6 +236,29 @@ impl Shape {
     }
 }
 
+impl Source {
+    /// Its kind in scene files.
+    #[must_use]
+    pub fn name(&self) -> &'static str {
+        match self {
+            Self::Constant(_) => "constant",
+            Self::Table(_) => "table",
+            Self::Sine(_) => "sine",
+            Self::Chirp(_) => "chirp",
+            Self::Ramp(_) => "ramp",
+            Self::Step(_) => "step",
+            Self::Sum(_) => "sum",
+            Self::Product(_) => "product",
+            Self::Of(..) => "curve",
+            Self::Clamp(..) => "clamp",
+            Self::Measure(..) => "measure",
+            Self::Lag(..) => "lag",
+            Self::Integral(..) => "integral",
+            Self::Pid(..) => "pid",
+        }
+    }
+}
+
 impl Effect {
     /// Its kind in scene files, with where it acts.
     #[must_use]

@@ -173,7 +173,7 @@ impl Draft {
     }
 
     /// Coordinates with their units: joint, number, a turn or the length.
-    fn coordinates(&self, kinds: &[Kind]) -> Vec<(usize, usize, f64)> {
+    pub(super) fn coordinates(&self, kinds: &[Kind]) -> Vec<(usize, usize, f64)> {
         let mut list = Vec::new();
         for (j, link) in self.links.iter().enumerate() {
             let [slides, turns] = link.kind.coordinates(self.planar);

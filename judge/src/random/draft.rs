@@ -19,6 +19,8 @@ pub(crate) struct Draft {
     pub(crate) links: Vec<Link>,
     /// Kinds of couplings, with their text.
     pub(crate) couplings: Vec<(String, String)>,
+    /// Signals as text, each with whether its rate is shown.
+    pub(crate) signals: Vec<(String, bool)>,
     /// What rolls, as text.
     pub(crate) rollings: Vec<String>,
     /// Effects, roads and velocities of bodies, as text.

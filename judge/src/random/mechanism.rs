@@ -149,6 +149,8 @@ impl Draft {
     /// Up to two loops, each left out where it would lock the mechanism or come near to it.
     pub(crate) fn close(&mut self, dice: &mut Dice) {
         let n = dice.weighted(&[(0, 0.5), (1, 0.3), (2, 0.2)]);
+        // a loop through what rolls soon locks
+        let n = if self.rollings.is_empty() { n } else { 0 };
         for _ in 0..n {
             for _ in 0..8 {
                 let a = dice.below(self.bodies.len());

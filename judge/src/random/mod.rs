@@ -11,6 +11,7 @@ mod draft;
 mod effects;
 mod mechanism;
 mod rolling;
+mod signals;
 mod write;
 
 use crate::read;
@@ -43,6 +44,7 @@ pub fn scene(seed: u64) -> Drawn {
     draft.guide(&mut dice);
     draft.start(&mut dice);
     effects::draw(&mut dice, &mut draft);
+    draft.steer(&mut dice);
     // what turns a thin rod about itself meets no inertia
     while !draft.blocks.is_empty() && loads_unmet(&draft) {
         draft.blocks.pop();
@@ -84,6 +86,7 @@ pub fn kinds(text: &str) -> Vec<String> {
         scene.joints.iter().map(|j| format!("joint {:?}", j.kind).to_lowercase()).collect();
     kinds.extend(scene.effects.iter().map(|e| format!("effect {}", e.name())));
     kinds.extend(scene.rollings.iter().map(|r| format!("rolling {}", r.shape.name())));
+    kinds.extend(scene.signals.iter().map(|s| format!("signal {}", s.source.name())));
     kinds.push(if scene.planar { "in the plane" } else { "in space" }.to_owned());
     let loops = scene.joints.len().saturating_sub(scene.bodies.len());
     kinds.extend(scene.couplings.iter().map(|c| format!("coupling {}", c.kind)));

@@ -14,15 +14,15 @@ const UP: Vector = [0.0, 0.0, 1.0];
 impl Draft {
     /// Now and then a free body that rolls or slides, with all that touches the plane.
     pub(crate) fn roll(&mut self, dice: &mut Dice) {
-        if !dice.chance(0.3) {
+        if !dice.chance(0.25) {
             return;
         }
         let kind = KINDS[dice.below(if self.planar { 2 } else { 4 })];
         let before = (self.bodies.len(), self.links.len());
-        let on = Some(dice.below(self.bodies.len())).filter(|_| dice.chance(0.3));
+        let on = Some(dice.below(self.bodies.len())).filter(|_| dice.chance(0.2));
         self.hang(dice, None, Kind::Free, false);
         match kind {
-            "blade" => self.blade(dice, on),
+            "blade" => self.blade(dice),
             "axle" => self.axle(dice),
             _ => self.round(dice, kind == "ball", on),
         }
@@ -41,14 +41,14 @@ impl Draft {
         (body, add(self.bodies[body].center, off))
     }
 
-    fn blade(&mut self, dice: &mut Dice, on: Carrier) {
+    /// A blade on the ground: on a plane that turns it may come to stand upright.
+    fn blade(&mut self, dice: &mut Dice) {
         let (body, at) = self.last(dice);
         let p = self.planar;
         let direction = dice.direction(true);
         let tilt = if p { 0.0 } else { dice.between(-0.5, 0.5) };
         let text = format!(
-            "kind = \"blade\"\nbody = \"b{body}\"\non = \"{}\"\nat = {}\ndirection = {}",
-            name(on),
+            "kind = \"blade\"\nbody = \"b{body}\"\nat = {}\ndirection = {}",
             vector(at, p),
             vector([direction[0], direction[1], tilt], p)
         );

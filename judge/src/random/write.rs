@@ -99,6 +99,9 @@ impl Draft {
 
     /// Couplings, then effects and what else is text.
     fn relations(&self, out: &mut String) {
+        for (i, (signal, _)) in self.signals.iter().enumerate() {
+            let _ = writeln!(out, "\n[[signal]]\nname = \"s{i}\"\n{signal}");
+        }
         for (i, (_, coupling)) in self.couplings.iter().enumerate() {
             let _ = writeln!(out, "\n[[coupling]]\nname = \"c{i}\"\n{coupling}");
         }
@@ -148,6 +151,11 @@ impl Draft {
                 if *quantity != "length" || kind == "rope" {
                     output(&format!("coupling = \"c{i}\""), &format!("c{i}"), quantity);
                 }
+            }
+        }
+        for (i, (_, has_rate)) in self.signals.iter().enumerate() {
+            for quantity in &Quantity::OF_SIGNALS[..1 + usize::from(*has_rate)] {
+                output(&format!("signal = \"s{i}\""), &format!("s{i}"), quantity);
             }
         }
         for i in 0..self.rollings.len() {

@@ -1,0 +1,173 @@
+//! Signals of a draft: a servo on a coordinate, an engine that lags behind its curve, a force by waves and tables.
+
+use super::dice::Dice;
+use super::draft::Draft;
+
+/// What is drawn.
+const MACHINES: [&str; 3] = ["servo", "engine", "force"];
+/// Kinds of signals that follow time.
+const WAVES: [&str; 8] = ["sine", "chirp", "spline", "linear", "hold", "step", "ramp", "product"];
+
+impl Draft {
+    /// Now and then a machine that follows signals.
+    pub(crate) fn steer(&mut self, dice: &mut Dice) {
+        if !dice.chance(0.3) {
+            return;
+        }
+        let effect = match MACHINES[dice.below(MACHINES.len())] {
+            "servo" => self.servo(dice),
+            "engine" => self.engine(dice),
+            _ => Some(self.pushed(dice)),
+        };
+        if let Some(text) = effect {
+            self.blocks.push(format!("[[effect]]\nname = \"steered\"\n{text}"));
+        }
+    }
+
+    /// Adds a signal; is its rate shown?
+    fn signal(&mut self, text: String, has_rate: bool) -> String {
+        let name = format!("s{}", self.signals.len());
+        self.signals.push((text, has_rate));
+        name
+    }
+
+    /// A coordinate that no guide moves: as keys, its unit, its inertia and whether it turns.
+    fn free_coordinate(&self, dice: &mut Dice) -> Option<(String, f64, f64)> {
+        let list = self.coordinates(&[]);
+        let free: Vec<_> = list.iter().filter(|c| self.links[c.0].guide.is_none()).collect();
+        if free.is_empty() {
+            return None;
+        }
+        let (joint, number, unit) = *free[dice.below(free.len())];
+        let slides = self.links[joint].kind.coordinates(self.planar)[0];
+        let turns = number >= slides;
+        let l2 = 0.1 * self.length * self.length;
+        let inertia = self.mass * if turns { l2 } else { 1.0 };
+        Some((format!("joint = \"j{joint}\"\ncoordinate = {number}"), unit, inertia))
+    }
+
+    fn servo(&mut self, dice: &mut Dice) -> Option<String> {
+        let (of, unit, inertia) = self.free_coordinate(dice)?;
+        let frequency = dice.logarithmic(0.5, 3.0);
+        self.stiffest = self.stiffest.max(frequency);
+        let w = frequency / self.time;
+        let (p, d) = (inertia * w * w, inertia * w * dice.between(0.2, 1.0));
+        let i = if dice.chance(0.6) { 0.3 * p * w } else { 0.0 };
+        let measured = self.signal(format!("kind = \"measure\"\n{of}"), true);
+        let target = self.smooth(dice, 0.5 * unit);
+        let limit = if dice.chance(0.4) {
+            format!("\nlimit = {:?}", p * unit * dice.between(0.1, 1.0))
+        } else {
+            String::new()
+        };
+        let servo = self.signal(
+            format!(
+                "kind = \"pid\"\ntarget = \"{target}\"\nmeasured = \"{measured}\"\np = {p:?}\ni = {i:?}\nd = {d:?}{limit}"
+            ),
+            false,
+        );
+        Some(format!("kind = \"torque\"\n{of}\nsignal = \"{servo}\""))
+    }
+
+    /// A torque by a falling curve of a rate, which it follows with a delay.
+    fn engine(&mut self, dice: &mut Dice) -> Option<String> {
+        let (of, unit, inertia) = self.free_coordinate(dice)?;
+        let (rate, torque) = (unit / self.time, inertia * unit / (self.time * self.time));
+        let measured = self.signal(format!("kind = \"measure\"\n{of}\nquantity = \"rate\""), false);
+        let mut size = |share: f64| torque * share * dice.between(0.5, 1.0);
+        let curve = format!(
+            "kind = \"curve\"\nof = \"{measured}\"\ntable = [[{:?}, {:?}], [0.0, {:?}], [{:?}, {:?}]]",
+            -4.0 * rate,
+            size(0.6),
+            size(0.5),
+            4.0 * rate,
+            size(-0.5)
+        );
+        let asked = self.signal(curve, false);
+        let delay = self.time * dice.between(0.2, 1.0);
+        let lag = self.signal(format!("kind = \"lag\"\nof = \"{asked}\"\ntime = {delay:?}"), true);
+        let limits = [-0.3, 0.4].map(|x| x * torque);
+        let held = format!(
+            "kind = \"clamp\"\nof = \"{lag}\"\nlower = {:?}\nupper = {:?}",
+            limits[0], limits[1]
+        );
+        let held = self.signal(held, true);
+        let sum = format!("kind = \"sum\"\nof = [\"{held}\", \"{lag}\"]\nfactors = [1.0, 0.2]");
+        let sum = self.signal(sum, true);
+        Some(format!("kind = \"torque\"\n{of}\nsignal = \"{sum}\""))
+    }
+
+    /// A force on a body, a signal for each component.
+    fn pushed(&mut self, dice: &mut Dice) -> String {
+        let body = dice.below(self.bodies.len());
+        let at = self.point(dice, Some(body));
+        let unit = self.mass * self.length / (self.time * self.time);
+        let n = if self.planar { 2 } else { 3 };
+        let names: Vec<String> = (0..n).map(|_| self.wave(dice, unit)).collect();
+        format!(
+            "kind = \"force\"\nbody = \"b{body}\"\nat = {}\nsignal = {names:?}",
+            super::write::vector(at, self.planar)
+        )
+    }
+
+    /// A signal that is twice differentiable.
+    fn smooth(&mut self, dice: &mut Dice, size: f64) -> String {
+        let (amplitude, time) = (size * dice.between(0.2, 1.0), self.time);
+        let text = if dice.chance(0.5) {
+            format!(
+                "kind = \"sine\"\namplitude = {amplitude:?}\nfrequency = {:?}\noffset = {:?}",
+                dice.between(0.05, 0.3) / time,
+                size * dice.between(-0.5, 0.5)
+            )
+        } else {
+            let (at, rise) = (time * dice.between(0.0, 1.0), time * dice.between(1.0, 3.0));
+            format!("kind = \"step\"\nto = {amplitude:?}\nat = {at:?}\nrise = {rise:?}")
+        };
+        self.signal(text, true)
+    }
+
+    fn wave(&mut self, dice: &mut Dice, unit: f64) -> String {
+        let time = self.time;
+        let mut size = || unit * dice.between(-1.0, 1.0);
+        let sizes = [size(), size(), size(), size()];
+        let (f, g) = (dice.between(0.05, 0.4) / time, dice.between(0.05, 0.4) / time);
+        let start = time * dice.between(0.0, 1.0);
+        let text = match WAVES[dice.below(WAVES.len())] {
+            "sine" => format!(
+                "kind = \"sine\"\namplitude = {:?}\nfrequency = {f:?}\nphase = 0.4\noffset = {:?}",
+                sizes[0], sizes[1]
+            ),
+            "chirp" => format!(
+                "kind = \"chirp\"\namplitude = {:?}\nfrequency = {f:?}\nto_frequency = {g:?}\nduration = {:?}",
+                sizes[0],
+                3.0 * time
+            ),
+            "step" => format!(
+                "kind = \"step\"\nfrom = {:?}\nto = {:?}\nat = {start:?}",
+                sizes[0], sizes[1]
+            ),
+            "ramp" => format!(
+                "kind = \"ramp\"\nrate = {:?}\nstart = {start:?}\nend = {:?}",
+                sizes[0] / time,
+                start + time
+            ),
+            "product" => {
+                let one = self.smooth(dice, unit);
+                let two = self.smooth(dice, 1.0);
+                format!("kind = \"product\"\nof = [\"{one}\", \"{two}\"]")
+            }
+            how => {
+                let repeats = how != "spline" && dice.chance(0.4);
+                // a table that repeats ends with its first value
+                let size = |i: usize| if repeats && i == 3 { sizes[0] } else { sizes[i] };
+                let row = |i: usize| format!("[{:?}, {:?}]", 0.7 * i as f64 * time, size(i));
+                let rows: Vec<String> = (0..4).map(row).collect();
+                format!(
+                    "kind = \"table\"\ntable = [{}]\ninterpolation = \"{how}\"\nperiodic = {repeats}",
+                    rows.join(", ")
+                )
+            }
+        };
+        self.signal(text, true)
+    }
+}
