@@ -4,7 +4,7 @@ use crate::loads::{Loads, Now, contact};
 use crate::rows::Row;
 use crate::scene::{Carrier, Effect, Line};
 use crate::vector::{
-    Vector, ZERO, add, compose, conjugate, cross, dot, logarithm, norm, scale, sub, times,
+    Vector, ZERO, add, compose, conjugate, cross, dot, followed, norm, scale, sub, times,
     transpose, transposed_times,
 };
 use crate::wheel;
@@ -168,7 +168,8 @@ impl Now<'_> {
             [0.0, 0.0, -(k[5] * angle + c[5] * relative[2])]
         } else {
             let [q1, q2] = self.quaternions(bodies);
-            let phi = logarithm(compose(conjugate(q1), q2));
+            // the quaternions have followed their bodies, beyond half a turn too
+            let phi = followed(compose(conjugate(q1), q2));
             let inverse = inverse_tangent(phi);
             let rate = times(&inverse, transposed_times(&turn, relative));
             let load = [0, 1, 2].map(|i| k[i + 3] * phi[i] + c[i + 3] * rate[i]);

@@ -2,7 +2,7 @@
 
 use crate::motion::{Mechanism, State};
 use crate::scene::{Coupled, Measure, Quantity};
-use crate::vector::{Quaternion, Vector, add, cross, norm, rotation, sub};
+use crate::vector::{Vector, add, cross, followed, rotation, sub};
 
 impl Quantity {
     /// Names of those of a body's point.
@@ -105,7 +105,7 @@ impl Mechanism {
             Quantity::Orientation(body) if planar => vec![state.frames[body].angle],
             Quantity::Orientation(body) => state.frames[body].q.to_vec(),
             Quantity::RotationVector(body) if planar => vec![state.frames[body].angle],
-            Quantity::RotationVector(body) => rotation_vector(state.frames[body].q).to_vec(),
+            Quantity::RotationVector(body) => followed(state.frames[body].q).to_vec(),
             Quantity::RotationMatrix(body) if planar => planar_matrix(state.frames[body].angle),
             Quantity::RotationMatrix(body) => rotation(state.frames[body].q).concat(),
             Quantity::KineticEnergy(body) => vec![self.kinetic_energy(body, state, &places)],
@@ -189,14 +189,6 @@ impl Mechanism {
         let [kinetic, stored] = self.evaluate(state).energy;
         kinetic + stored - state.work
     }
-}
-
-/// The rotation vector of a quaternion that has followed a turn, below a whole one.
-fn rotation_vector([w, v @ ..]: Quaternion) -> Vector {
-    let sine = norm(v);
-    // at no turn 2 v
-    let share = if sine > 0.0 { 2.0 * sine.atan2(w) / sine } else { 2.0 };
-    v.map(|x| share * x)
 }
 
 /// The rotation matrix in the plane, row by row.

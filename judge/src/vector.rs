@@ -137,6 +137,15 @@ pub fn logarithm(q: Quaternion) -> Vector {
     if s < 1e-9 { scale(2.0, v) } else { scale(2.0 * s.atan2(q[0]) / s, v) }
 }
 
+/// The rotation vector of a quaternion that has followed a turn, below a whole one.
+#[must_use]
+pub fn followed([w, v @ ..]: Quaternion) -> Vector {
+    let sine = norm(v);
+    // at no turn 2 v
+    let share = if sine > 0.0 { 2.0 * sine.atan2(w) / sine } else { 2.0 };
+    v.map(|x| share * x)
+}
+
 /// The conjugate, which turns back.
 #[must_use]
 pub fn conjugate(q: Quaternion) -> Quaternion {
