@@ -25,7 +25,7 @@ impl Quantity {
     /// Names of those of what rolls.
     pub const OF_ROLLINGS: &[&str] = &["force"];
     /// Names of those of a coupling.
-    pub const OF_COUPLINGS: &[&str] = &["effort", "force", "value", "length", "rate", "power"];
+    pub const OF_COUPLINGS: &[&str] = &["effort", "value", "length", "rate", "power"];
 
     /// That of a coupling.
     pub(crate) fn of_coupling(name: &str, number: usize) -> Option<Self> {

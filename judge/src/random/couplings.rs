@@ -8,8 +8,15 @@ use crate::vector::{Vector, across, add, cross, norm, scale, sub, unit};
 
 /// Couplings of a train, with those of three wheels last.
 const TRAINS: [&str; 6] = ["gear", "belt", "gear on an arm", "rack", "differential", "screw"];
-/// Couplings of coordinates.
-const SUMS: [&str; 6] = ["ratio", "mimic", "linear", "cam", "rope", "cylindrical screw"];
+/// Couplings of coordinates, and how often each is tried: a cam or a screw fits few joints.
+const SUMS: [(&str, f64); 6] = [
+    ("ratio", 0.12),
+    ("mimic", 0.15),
+    ("linear", 0.15),
+    ("cam", 0.25),
+    ("rope", 0.13),
+    ("cylindrical screw", 0.2),
+];
 /// Trials of a coupling before it is left out.
 const TRIALS: usize = 6;
 
@@ -34,7 +41,7 @@ impl Draft {
         let word = kind.split(' ').next().unwrap_or(kind).to_owned();
         self.couplings.push((word, text));
         self.links[before.1..].iter_mut().for_each(|link| link.coupled = true);
-        if !(self.moves() && starts(self)) {
+        if !self.moves() {
             self.couplings.pop();
             self.bodies.truncate(before.0);
             self.links.truncate(before.1);
@@ -156,7 +163,7 @@ impl Draft {
             return;
         }
         for _ in 0..TRIALS {
-            let kind = SUMS[dice.below(SUMS.len())];
+            let kind = dice.weighted(&SUMS);
             let Some((joints, text)) = self.sum(dice, kind) else { continue };
             let word = match kind {
                 "ratio" => "gear",
@@ -164,7 +171,9 @@ impl Draft {
                 other => other,
             };
             self.couplings.push((word.to_owned(), text));
-            if self.moves() && starts(self) {
+            // a lift or an offset is not met in the reference configuration
+            let begins = !matches!(kind, "cam" | "mimic") || starts(self);
+            if begins && self.moves() {
                 joints.into_iter().for_each(|j| self.links[j].coupled = true);
                 return;
             }

@@ -258,7 +258,15 @@ impl Draft {
             if self.links[i].guide.is_some() {
                 continue;
             }
-            let size = if looped { 0.2 } else { 1.0 };
+            // beside couplings large values leave several least changes
+            let apart = self.couplings.is_empty() && self.rollings.is_empty();
+            let size = if looped {
+                0.2
+            } else if apart {
+                1.0
+            } else {
+                0.4
+            };
             let (value, rate) = (
                 self.numbers(dice, kind, size * 1.4, size * 0.4),
                 self.numbers(dice, kind, size * 1.5 / self.time, size * 0.7 / self.time),
@@ -278,6 +286,16 @@ impl Draft {
                 self.links[i].rate = None;
             }
         }
+        self.throw(dice);
+        if !starts(self) {
+            for link in &mut self.links {
+                (link.value, link.rate) = (None, None);
+            }
+        }
+    }
+
+    /// Now and then velocities of a body.
+    fn throw(&mut self, dice: &mut Dice) {
         if dice.chance(0.15) {
             let b = dice.below(self.bodies.len());
             let speed = self.length / self.time;
@@ -300,11 +318,6 @@ impl Draft {
             self.blocks.push(block);
             if !starts(self) {
                 self.blocks.pop();
-            }
-        }
-        if !starts(self) {
-            for link in &mut self.links {
-                (link.value, link.rate) = (None, None);
             }
         }
     }

@@ -2,7 +2,7 @@
 
 use super::dice::Dice;
 use super::draft::Draft;
-use super::write::{name, starts, vector};
+use super::write::{name, vector};
 use crate::scene::{Carrier, Kind};
 use crate::vector::{Vector, across, add, dot, scale, sub, unit};
 
@@ -27,7 +27,7 @@ impl Draft {
             _ => self.round(dice, kind == "ball", on),
         }
         self.links[before.1..].iter_mut().for_each(|link| link.coupled = true);
-        if !(self.moves() && starts(self)) {
+        if !self.moves() {
             self.rollings.clear();
             self.bodies.truncate(before.0);
             self.links.truncate(before.1);

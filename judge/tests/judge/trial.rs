@@ -18,6 +18,9 @@ fn the_judge_knows_every_quantity_of_the_table() {
     assert_eq!(of(TargetKind::Point), Quantity::OF_POINTS);
     assert_eq!(of(TargetKind::Body), Quantity::OF_BODIES);
     assert_eq!(of(TargetKind::Joint), Quantity::OF_JOINTS);
+    assert_eq!(of(TargetKind::Coupling), Quantity::OF_COUPLINGS);
+    assert_eq!(of(TargetKind::Rolling), Quantity::OF_ROLLINGS);
+    assert_eq!(of(TargetKind::Signal), Quantity::OF_SIGNALS);
 }
 
 #[test]
@@ -33,9 +36,10 @@ fn every_joint_with_every_effect_moves_as_the_judge_says_in_every_formulation() 
     assert!(tally.agree >= left_out);
 }
 
-/// Refusals among the first hundred seeds: formulation, code, seeds. The loop of seed 99 comes near a position where it locks, and the
-/// steps of `state-space` pass over it.
-const REFUSED: &[(&str, &str, &[u64])] = &[("state-space", "rank-lost", &[99])];
+/// Refusals among the first hundred seeds: formulation, code, seeds. All joints of a loop of seed 15 have effects. The loop of seed 98
+/// comes near a position where it locks, and the steps of `state-space` do not pass it.
+const REFUSED: &[(&str, &str, &[u64])] =
+    &[("recursive", "no-tree", &[15]), ("state-space", "not-converged", &[98])];
 
 #[test]
 fn the_first_hundred_random_scenes_move_as_the_judge_says_or_are_refused_as_listed() {
@@ -53,18 +57,23 @@ fn the_first_hundred_random_scenes_move_as_the_judge_says_or_are_refused_as_list
 }
 
 #[test]
-fn every_kind_is_in_a_twentieth_of_the_random_scenes_at_least() {
+fn every_kind_is_in_a_twentieth_or_a_hundredth_of_the_random_scenes_at_least() {
     let mut counts: BTreeMap<String, usize> = BTreeMap::new();
-    for seed in 1..=1000 {
+    for seed in 1..=400 {
         for kind in random::kinds(&random::scene(seed).text) {
             *counts.entry(kind).or_default() += 1;
         }
     }
-    crate::say(&format!("scenes of 1000 by kind: {counts:?}"));
-    let rare: Vec<_> = counts.iter().filter(|(_, n)| **n < 50).collect();
+    crate::say(&format!("scenes of 400 by kind: {counts:?}"));
+    // Ten kinds of couplings and thirteen of signals share half of the scenes.
+    let least = |kind: &str| match kind.split(' ').next() {
+        Some("coupling" | "signal" | "rolling") => 4,
+        _ => 20,
+    };
+    let rare: Vec<_> = counts.iter().filter(|(kind, n)| **n < least(kind)).collect();
     assert!(rare.is_empty(), "{rare:?}");
     // Nine kinds of joints and fifteen of effects, plane and space, three numbers of loops, guides, starts.
-    assert!(counts.len() >= 30, "{}", counts.len());
+    assert!(counts.len() >= 54, "{}", counts.len());
 }
 
 #[test]
