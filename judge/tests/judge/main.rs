@@ -3,6 +3,7 @@
 mod closed;
 mod controller;
 mod machines;
+mod rests;
 mod rules;
 mod signals;
 mod trial;
