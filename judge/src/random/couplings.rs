@@ -172,7 +172,7 @@ impl Draft {
             };
             self.couplings.push((word.to_owned(), text));
             // a lift or an offset is not met in the reference configuration
-            let begins = !matches!(kind, "cam" | "mimic") || starts(self);
+            let begins = !matches!(kind, "cam" | "mimic" | "linear") || starts(self);
             if begins && self.moves() {
                 joints.into_iter().for_each(|j| self.links[j].coupled = true);
                 return;
@@ -234,6 +234,8 @@ impl Draft {
                     let amplitude = 0.3 * dice.between(0.1, 1.0);
                     let frequency = dice.between(0.05, 0.3) / self.time;
                     format!("\nsine = {{ amplitude = {amplitude:?}, frequency = {frequency:?} }}")
+                } else if dice.chance(0.3) {
+                    format!("\nsignal = \"{}\"", self.smooth(dice, 0.3))
                 } else {
                     String::new()
                 };

@@ -199,43 +199,57 @@ impl Draft {
         }
     }
 
-    /// Guides on joints with one coordinate that are not in loops, and now and then on one that is.
+    /// Guides of all coordinates of joints that are not in loops, and now and then of one that is.
     pub(crate) fn guide(&mut self, dice: &mut Dice) {
         for i in 0..self.links.len() {
-            let size = match self.links[i].kind {
-                Kind::Revolute => 1.0,
-                Kind::Prismatic => 0.5 * self.length,
+            let slide = 0.5 * self.length;
+            let sizes: &[f64] = match self.links[i].kind {
+                Kind::Revolute => &[1.0],
+                Kind::Prismatic => &[slide],
+                Kind::Cylindrical => &[slide, 1.0],
+                Kind::Universal => &[1.0, 1.0],
                 _ => continue,
             };
             let held = self.links[i].looped || self.links[i].coupled;
             if !dice.chance(if held { 0.04 } else { 0.15 }) {
                 continue;
             }
-            let law = match dice.below(3) {
-                0 => {
-                    let (amplitude, frequency) =
-                        (size * dice.between(0.1, 0.6), dice.between(0.05, 0.3) / self.time);
-                    let phase = dice.between(-1.5, 1.5);
-                    format!(
-                        "sine = {{ amplitude = {amplitude:?}, frequency = {frequency:?}, phase = {phase:?} }}"
-                    )
-                }
-                1 => {
-                    format!("ramp = {{ rate = {:?} }}", size * dice.between(-0.5, 0.5) / self.time)
-                }
-                _ => {
-                    let row = |k: i32, dice: &mut Dice| {
-                        let t = 3.0 * self.time * f64::from(k);
-                        format!("[{t:?}, {:?}]", size * dice.between(-0.3, 0.3))
-                    };
-                    let rows: Vec<String> = (-1..6).map(|k| row(k, dice)).collect();
-                    let ends = if i % 2 == 0 { "\nends = \"level\"" } else { "" };
-                    format!("table = [{}]{ends}", rows.join(", "))
-                }
-            };
-            self.links[i].guide = Some(law);
+            let mut laws = sizes.iter().enumerate().map(|(k, size)| {
+                let law = self.law(dice, *size, i % 2 == 0);
+                format!("coordinate = {k}\n{law}")
+            });
+            // the first one follows the heading of the guide
+            let first = laws.next().unwrap_or_default();
+            let rest = laws.map(|law| format!("\n\n[[guide]]\njoint = \"j{i}\"\n{law}"));
+            let guide = first + &rest.collect::<String>();
+            self.links[i].guide = Some(guide);
             if held && !(self.moves() && starts(self)) {
                 self.links[i].guide = None;
+            }
+        }
+    }
+
+    /// The motion of a guide.
+    fn law(&mut self, dice: &mut Dice, size: f64, is_level: bool) -> String {
+        match dice.below(4) {
+            0 => {
+                let (amplitude, frequency) =
+                    (size * dice.between(0.1, 0.6), dice.between(0.05, 0.3) / self.time);
+                let phase = dice.between(-1.5, 1.5);
+                format!(
+                    "sine = {{ amplitude = {amplitude:?}, frequency = {frequency:?}, phase = {phase:?} }}"
+                )
+            }
+            1 => format!("ramp = {{ rate = {:?} }}", size * dice.between(-0.5, 0.5) / self.time),
+            2 => format!("signal = \"{}\"", self.smooth(dice, size)),
+            _ => {
+                let row = |k: i32, dice: &mut Dice| {
+                    let t = 3.0 * self.time * f64::from(k);
+                    format!("[{t:?}, {:?}]", size * dice.between(-0.3, 0.3))
+                };
+                let rows: Vec<String> = (-1..6).map(|k| row(k, dice)).collect();
+                let ends = if is_level { "\nends = \"level\"" } else { "" };
+                format!("table = [{}]{ends}", rows.join(", "))
             }
         }
     }

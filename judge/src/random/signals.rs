@@ -4,7 +4,7 @@ use super::dice::Dice;
 use super::draft::Draft;
 
 /// What is drawn.
-const MACHINES: [&str; 3] = ["servo", "engine", "force"];
+const MACHINES: [&str; 4] = ["servo", "engine", "force", "sum"];
 /// Kinds of signals that follow time.
 const WAVES: [&str; 8] = ["sine", "chirp", "spline", "linear", "hold", "step", "ramp", "product"];
 
@@ -17,6 +17,7 @@ impl Draft {
         let effect = match MACHINES[dice.below(MACHINES.len())] {
             "servo" => self.servo(dice),
             "engine" => self.engine(dice),
+            "sum" => self.on_sum(dice),
             _ => Some(self.pushed(dice)),
         };
         if let Some(text) = effect {
@@ -97,6 +98,45 @@ impl Draft {
         Some(format!("kind = \"torque\"\n{of}\nsignal = \"{sum}\""))
     }
 
+    /// A law on a sum of two coordinates, or of a coordinate and a length.
+    fn on_sum(&mut self, dice: &mut Dice) -> Option<String> {
+        let (one, unit, inertia) = self.free_coordinate(dice)?;
+        let (two, other, _) = self.free_coordinate(dice)?;
+        let factor = dice.between(-1.5, 1.5) * unit / other;
+        let second = if dice.chance(0.6) {
+            format!("{{ {}, factor = {factor:?} }}", two.replace('\n', ", "))
+        } else {
+            let body = dice.below(self.bodies.len());
+            let [a, b] = [None, Some(body)].map(|b| (b, self.point(dice, b)));
+            let [a, b] = [a, b].map(|(body, at)| {
+                let at = super::write::vector(at, self.planar);
+                format!("{{ body = \"{}\", at = {at} }}", super::write::name(body))
+            });
+            format!("{{ points = [{a}, {b}], factor = {:?} }}", 0.5 * unit / self.length)
+        };
+        let curve = if dice.chance(0.3) { ", coefficients = [0.0, 1.0, 0.2]" } else { "" };
+        let terms = format!("terms = [{{ {}{curve} }}, {second}]", one.replace('\n', ", "));
+        let frequency = dice.logarithmic(0.5, 3.0);
+        self.stiffest = self.stiffest.max(frequency);
+        let w = frequency / self.time;
+        let (k, c) = (inertia * w * w, inertia * w * dice.between(0.0, 0.5));
+        let law = match dice.below(3) {
+            0 => {
+                let free = unit * dice.between(-0.5, 0.5);
+                format!(
+                    "kind = \"torsion-spring\"\nstiffness = {k:?}\ndamping = {c:?}\nfree_value = {free:?}"
+                )
+            }
+            1 => format!("kind = \"torque\"\nvalue = {:?}", k * unit * dice.between(-0.5, 0.5)),
+            _ => format!(
+                "kind = \"limit\"\nlower = {:?}\nupper = {:?}\nstiffness = {k:?}\ndamping = {c:?}",
+                -0.3 * unit,
+                0.2 * unit
+            ),
+        };
+        Some(format!("{law}\n{terms}"))
+    }
+
     /// A force on a body, a signal for each component.
     fn pushed(&mut self, dice: &mut Dice) -> String {
         let body = dice.below(self.bodies.len());
@@ -111,7 +151,7 @@ impl Draft {
     }
 
     /// A signal that is twice differentiable.
-    fn smooth(&mut self, dice: &mut Dice, size: f64) -> String {
+    pub(super) fn smooth(&mut self, dice: &mut Dice, size: f64) -> String {
         let (amplitude, time) = (size * dice.between(0.2, 1.0), self.time);
         let text = if dice.chance(0.5) {
             format!(
