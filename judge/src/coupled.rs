@@ -3,10 +3,18 @@
 use crate::loads::Now;
 use crate::rows::{Row, add_part, six};
 use crate::scene::{Coupling, Measure, Seat};
-use crate::vector::{Vector, ZERO, add, cross, dot, scale, sub};
+use crate::vector::{Vector, ZERO, add, cross, dot, norm, scale, sub, unit};
 
 /// A part for each body: force and torque about its centre of mass.
 type Parts = Vec<(Option<usize>, [f64; 6])>;
+
+/// A strand of a belt: wheels, where it touches them, its direction, and the sense in which it turns the first about the axis.
+struct Strand {
+    bodies: [Option<usize>; 2],
+    ends: [Vector; 2],
+    along: Vector,
+    turns: f64,
+}
 
 impl Now<'_> {
     /// The row of a coupling: its sum, less what that is at a fraction of the given value.
@@ -18,14 +26,39 @@ impl Now<'_> {
             row.value -= value;
             row.given = [rate, acceleration];
         }
-        row.acts = self.seated(coupling, &row);
+        row.acts = self.seated(coupling, &row, 1.0);
         row
     }
 
-    /// What a multiplier does to bodies where the machine says where it acts; the same power in all motions that joints allow.
-    fn seated(&self, coupling: &Coupling, row: &Row) -> Option<Parts> {
+    /// What a multiplier of a sign does to bodies where the machine says where it acts; the same power in all motions that joints allow.
+    pub(crate) fn seated(&self, coupling: &Coupling, row: &Row, sign: f64) -> Option<Parts> {
         match &coupling.seat {
             Seat::Nowhere => None,
+            Seat::Teeth([carrier, one, two], axis, places, at, tangent, is_first) => {
+                let n = self.places.direction(*carrier, *axis);
+                let p = self.places.seat(*carrier, *at).p;
+                let [r1, r2] = places.map(|q| {
+                    let off = sub(p, self.places.seat(*carrier, q).p);
+                    sub(off, scale(dot(off, n), n))
+                });
+                let f = scale(coupling.terms.first()?.factor / dot(r1, r1), cross(n, r1));
+                // towards the axis of the smaller wheel
+                let inward = if *is_first { scale(-1.0, unit(r1)) } else { unit(r2) };
+                let f = add(f, scale(sign * tangent * norm(f), inward));
+                let mut parts = Parts::new();
+                self.wrench(&mut parts, *one, p, f, ZERO);
+                self.wrench(&mut parts, *two, p, scale(-1.0, f), ZERO);
+                Some(parts)
+            }
+            Seat::Strands(..) => {
+                let mut parts = Parts::new();
+                for strand in self.strands(coupling) {
+                    // half of the difference, where it turns the first wheel with the sum
+                    let half = 0.5 * strand.turns;
+                    self.pull(&mut parts, &strand, half);
+                }
+                Some(parts)
+            }
             Seat::Thread([carrier, screw, nut], point, axis) => {
                 let e = self.places.direction(*carrier, *axis);
                 let p = self.places.seat(*carrier, *point).p;
@@ -53,6 +86,46 @@ impl Now<'_> {
                 Some(parts)
             }
         }
+    }
+
+    /// The strands of a belt with a pretension: common tangents of its wheels.
+    fn strands(&self, coupling: &Coupling) -> Vec<Strand> {
+        let Seat::Strands([carrier, one, two], axis, places, [r1, r2], _) = &coupling.seat else {
+            return Vec::new();
+        };
+        let n = self.places.direction(*carrier, *axis);
+        let [c1, c2] = places.map(|q| self.places.seat(*carrier, q).p);
+        let off = sub(c2, c1);
+        let e = unit(off);
+        // a tangent touches at c₁ + r₁ u and c₂ - r₂ u, r₂ below zero of an open belt: u·(c₂ - c₁) = r₁ + r₂
+        let cosine = (r1 + r2) / norm(off);
+        let side = |s: f64| {
+            let u = add(scale(cosine, e), scale(s * (1.0 - cosine * cosine).sqrt(), cross(n, e)));
+            let ends = [add(c1, scale(*r1, u)), sub(c2, scale(*r2, u))];
+            let along = unit(sub(ends[1], ends[0]));
+            Strand { bodies: [*one, *two], ends, along, turns: dot(cross(u, along), n).signum() }
+        };
+        vec![side(1.0), side(-1.0)]
+    }
+
+    /// A strand pulls both of its ends.
+    fn pull(&self, parts: &mut Parts, strand: &Strand, force: f64) {
+        let [one, two] = strand.bodies;
+        self.wrench(parts, one, strand.ends[0], scale(force, strand.along), ZERO);
+        self.wrench(parts, two, strand.ends[1], scale(-force, strand.along), ZERO);
+    }
+
+    /// What couplings do to bodies whatever their efforts are: pretensions.
+    pub(crate) fn pretensions(&self) -> Parts {
+        let mut parts = Parts::new();
+        for coupling in &self.scene.couplings {
+            if let Seat::Strands(.., pretension) = coupling.seat {
+                for strand in self.strands(coupling) {
+                    self.pull(&mut parts, &strand, pretension);
+                }
+            }
+        }
+        parts
     }
 
     /// Adds a force at a place and a moment about it.

@@ -21,6 +21,7 @@ mod outputs;
 mod parts;
 mod project;
 pub mod random;
+mod rank;
 mod read;
 mod read_coupling;
 mod read_curve;

@@ -9,11 +9,8 @@
 use crate::dense::{Factors, Square};
 use crate::loads::{Loads, Now};
 use crate::rows::{Frame, Places, Row};
-use crate::scene::{Effect, Scene};
+use crate::scene::{Effect, Scene, Seat};
 use crate::vector::{Vector, ZERO, add, cross, dot, product, scale, sub, times, transpose};
-
-/// Largest part of a row of length one across all others that is none [-]: projected states leave less. Chosen, not tuned.
-const DEPENDENT: f64 = 1e-8;
 
 /// A state of motion.
 #[derive(Debug, Clone, PartialEq)]
@@ -91,7 +88,7 @@ pub(crate) enum Owner {
 /// A saddle system as factored.
 #[derive(Debug)]
 pub(crate) struct Saddle {
-    factors: Factors,
+    pub(crate) factors: Factors,
     row_scales: Vec<f64>,
     n: usize,
 }
@@ -332,6 +329,10 @@ impl Mechanism {
             kinetic += 0.5 * inertia * row.rate(&places).powi(2);
         }
         let Loads { mut on, potential, mut power } = loads;
+        for (body, part) in now.pretensions() {
+            let of = body.map(|b| &mut on[b]);
+            of.into_iter().flatten().zip(part).for_each(|(x, more)| *x += more);
+        }
         for (b, frame) in state.frames.iter().enumerate() {
             let momentum = times(&self.inertia(b, &places), frame.w);
             kinetic += self.kinetic_energy(b, state, &places);
@@ -341,10 +342,15 @@ impl Mechanism {
         let all = self.rows(&now);
         let kept = |i: usize| among.is_none_or(|kept| kept[i]);
         let rows = all.into_iter().enumerate().filter(|(i, _)| kept(*i)).map(|(_, row)| row);
-        let (owners, rows): (Vec<Owner>, Vec<Row>) = rows.unzip();
-        let saddle = self.factor_with(self.masses(&places, rows.len(), &rotors), &rows, true);
+        let (owners, mut rows): (Vec<Owner>, Vec<Row>) = rows.unzip();
+        let masses = self.masses(&places, rows.len(), &rotors);
+        let mut saddle = self.factor_with(masses.clone(), &rows, true);
         let right: Vec<f64> = rows.iter().map(|r| r.given[1] - r.bias).collect();
-        let (accelerations, multipliers, unmet) = self.solve(&saddle, &on, &right);
+        let (mut accelerations, mut multipliers, mut unmet) = self.solve(&saddle, &on, &right);
+        if self.turn_teeth(&now, &owners, &mut rows, &multipliers) {
+            saddle = self.factor_with(masses, &rows, true);
+            (accelerations, multipliers, unmet) = self.solve(&saddle, &on, &right);
+        }
         let mut moved = self.blank();
         for ((&owner, row), lambda) in owners.iter().zip(&rows).zip(&multipliers) {
             power += lambda * row.given[0];
@@ -371,6 +377,26 @@ impl Mechanism {
         }
         let least_pivot = saddle.factors.least_pivot;
         Moved { accelerations, energy: [kinetic, potential], power, least_pivot, unmet, ..moved }
+    }
+
+    /// Teeth are driven apart whatever the sense of their effort: rows whose multipliers are below zero; are there any?
+    fn turn_teeth(
+        &self,
+        now: &Now<'_>,
+        owners: &[Owner],
+        rows: &mut [Row],
+        multipliers: &[f64],
+    ) -> bool {
+        let mut any = false;
+        for ((owner, row), multiplier) in owners.iter().zip(rows).zip(multipliers) {
+            let Owner::Coupling(k) = owner else { continue };
+            let coupling = &self.scene.couplings[*k];
+            if matches!(coupling.seat, Seat::Teeth(..)) && *multiplier < 0.0 {
+                row.acts = now.seated(coupling, row, -1.0);
+                any = true;
+            }
+        }
+        any
     }
 
     /// Nothing moves or acts, all unique.
@@ -432,47 +458,4 @@ impl Mechanism {
             [row.value.abs().max(p), (row.rate(&places) - row.given[0]).abs().max(v)]
         })
     }
-
-    /// Rows that do not follow from others, at a state that meets them all: within a step what follows would only nearly do so.
-    pub(crate) fn independent(&self, state: &State) -> Vec<bool> {
-        let places = self.places(state);
-        let rows = self.rows(&self.now(state, &places));
-        let mut left: Vec<Vec<f64>> = Vec::with_capacity(rows.len());
-        for (_, row) in &rows {
-            let mut dense = vec![0.0; self.n];
-            self.dense_row(row).into_iter().for_each(|(c, x)| dense[c] += x);
-            let size = norm_of(&dense);
-            dense.iter_mut().for_each(|x| *x /= size.max(f64::MIN_POSITIVE));
-            left.push(dense);
-        }
-        let mut kept = vec![false; rows.len()];
-        loop {
-            let free = (0..rows.len()).filter(|i| !kept[*i]);
-            let largest = free.max_by(|&i, &j| norm_of(&left[i]).total_cmp(&norm_of(&left[j])));
-            let Some(i) = largest.filter(|&i| norm_of(&left[i]) > DEPENDENT) else { return kept };
-            kept[i] = true;
-            let size = norm_of(&left[i]);
-            let unit: Vec<f64> = left[i].iter().map(|x| x / size).collect();
-            for (row, _) in left.iter_mut().zip(&kept).filter(|(_, kept)| !**kept) {
-                let along: f64 = row.iter().zip(&unit).map(|(x, u)| x * u).sum();
-                row.iter_mut().zip(&unit).for_each(|(x, u)| *x -= along * u);
-            }
-        }
-    }
-
-    /// How many freedoms are left by the independent rows.
-    #[must_use]
-    pub fn freedoms(&self, state: &State) -> usize {
-        let places = self.places(state);
-        let rows: Vec<Row> =
-            self.rows(&self.now(state, &places)).into_iter().map(|r| r.1).collect();
-        let mut unit = Square::zero(self.n + rows.len());
-        (0..self.n).for_each(|i| *unit.at(i, i) = 1.0);
-        let dependent = self.factor_with(unit, &rows, false).factors.kernel().len();
-        (self.n + dependent).saturating_sub(rows.len())
-    }
-}
-
-fn norm_of(row: &[f64]) -> f64 {
-    row.iter().map(|x| x * x).sum::<f64>().sqrt()
 }

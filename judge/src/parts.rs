@@ -82,6 +82,11 @@ pub enum Seat {
     Nowhere,
     /// A thread between two bodies, along an axis of the carrier through a point: carrier, screw, nut.
     Thread([Carrier; 3], Vector, Vector),
+    /// Teeth that touch at a point of the carrier: carrier and wheels, axis, places of the axes, pitch point, tangent of the pressure
+    /// angle, and whether the first wheel is the smaller one.
+    Teeth([Carrier; 3], Vector, [Vector; 2], Vector, f64, bool),
+    /// Strands between two wheels: carrier and wheels, axis, places of the axes, radii with their signs, pretension.
+    Strands([Carrier; 3], Vector, [Vector; 2], [f64; 2], f64),
     /// The end of a rope on the carrier of a drum, whose axis is about a joint: the joint's carrier, the drum, a point of the axis.
     Drum([Carrier; 2], Vector, Vector, bool),
 }

@@ -85,7 +85,11 @@ impl Reader<'_> {
     }
 
     /// Two wheels on one carrier: factors times their turns about the first axis.
-    fn mesh(&mut self, [one, two]: [usize; 2], factors: [f64; 2]) -> Read<Sum> {
+    fn mesh(
+        &mut self,
+        [one, two]: [usize; 2],
+        factors: [f64; 2],
+    ) -> Read<(Sum, [Option<usize>; 3])> {
         let axis = drawn::axis(&self.joints[one], self.planar);
         let other = drawn::axis(&self.joints[two], self.planar);
         if dot(axis, other).abs() < 1.0 - 1e-9 {
@@ -100,7 +104,9 @@ impl Reader<'_> {
         ];
         let gain = factors[0] * sense(&self.joints[one], a, axis, self.planar);
         let number = only(&self.joints[one], self.planar)?;
-        Ok(Sum { terms, value: 0.0, gain, passed: Some((one, number, 1.0)), seat: Seat::Nowhere })
+        let passed = Some((one, number, 1.0));
+        let sum = Sum { terms, value: 0.0, gain, passed, seat: Seat::Nowhere };
+        Ok((sum, [carrier, a, b]))
     }
 
     fn gear(&mut self, t: &mut Table) -> Read<Sum> {
@@ -108,7 +114,14 @@ impl Reader<'_> {
             if t.has("teeth") { t.exactly("teeth")? } else { t.exactly("radii")? };
         let inner = t.has("mesh") && t.text("mesh")? == "internal";
         let joints = self.joints_of(t)?;
-        self.mesh(joints, [a, if inner { -b } else { b }])
+        let (mut sum, bodies) = self.mesh(joints, [a, if inner { -b } else { b }])?;
+        let angle = t.number_or("pressure_angle", PI / 9.0)?;
+        if let Some(at) = t.vector_or_none("at")? {
+            let axis = drawn::axis(&self.joints[joints[0]], self.planar);
+            let places = joints.map(|j| self.joints[j].points[0]);
+            sum.seat = Seat::Teeth(bodies, axis, places, at, angle.tan(), a.abs() < b.abs());
+        }
+        Ok(sum)
     }
 
     fn ratio(&self, t: &mut Table) -> Read<Sum> {
@@ -123,10 +136,19 @@ impl Reader<'_> {
         let [a, b]: [f64; 2] = t.exactly("radii")?;
         let crossed = matches!(t.take("crossed"), Some(Node::Flag(true)));
         let joints = self.joints_of(t)?;
-        let mut sum = self.mesh(joints, [a, if crossed { b } else { -b }])?;
+        let radii = [a, if crossed { b } else { -b }];
+        let (mut sum, bodies) = self.mesh(joints, radii)?;
         // the torque on the first wheel over its radius, and the speed of its rim
         sum.gain /= a;
         sum.passed = sum.passed.map(|(joint, number, _)| (joint, number, a));
+        if let Some(pull) = t.take("pretension") {
+            let axis = drawn::axis(&self.joints[joints[0]], self.planar);
+            let places = joints.map(|j| self.joints[j].points[0]);
+            if norm(sub(places[1], places[0])) <= (radii[0] + radii[1]).abs() {
+                return fault("a belt on wheels that are too near");
+            }
+            sum.seat = Seat::Strands(bodies, axis, places, radii, pull.number()?);
+        }
         Ok(sum)
     }
 

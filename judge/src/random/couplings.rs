@@ -103,8 +103,9 @@ impl Draft {
         let radii = [0, 1].map(|_| self.length * dice.between(0.1, 0.4));
         if kind == "belt" {
             return format!(
-                "kind = \"belt\"\n{joints}\nradii = {radii:?}\ncrossed = {}",
-                dice.chance(0.3)
+                "kind = \"belt\"\n{joints}\nradii = {radii:?}\ncrossed = {}{}",
+                dice.chance(0.3),
+                self.pretension(dice, pair, radii)
             );
         }
         let teeth = [15 + dice.below(30), 15 + dice.below(30)];
@@ -114,7 +115,27 @@ impl Draft {
             format!("radii = {radii:?}")
         };
         let mesh = if dice.chance(0.3) { "internal" } else { "external" };
-        format!("kind = \"gear\"\n{joints}\n{size}\nmesh = \"{mesh}\"")
+        let mut text = format!("kind = \"gear\"\n{joints}\n{size}\nmesh = \"{mesh}\"");
+        if kind == "gear" && size.starts_with("teeth") && teeth[0] != teeth[1] {
+            // the pitch point divides the distance of the axes
+            let [c1, c2] = pair.map(|j| self.links[j].points[0]);
+            let [a, b] = teeth.map(|n| n as f64);
+            let part = a / if mesh == "internal" { a - b } else { a + b };
+            let at = vector(add(c1, scale(part, sub(c2, c1))), self.planar);
+            text += &format!("\nat = {at}\npressure_angle = {:?}", dice.between(0.0, 0.5));
+        }
+        text
+    }
+
+    /// Now and then a pretension of wheels that stand apart.
+    fn pretension(&self, dice: &mut Dice, pair: [usize; 2], radii: [f64; 2]) -> String {
+        let unit = self.mass * self.length / (self.time * self.time);
+        let [c1, c2] = pair.map(|j| self.links[j].points[0]);
+        let is_near = radii[0] + radii[1] > 0.9 * norm(sub(c2, c1));
+        if is_near || dice.chance(0.3) {
+            return String::new();
+        }
+        format!("\npretension = {:?}", unit * dice.between(0.1, 2.0))
     }
 
     fn rack(&mut self, dice: &mut Dice, base: Carrier, axis: Vector, at: Vector) -> String {

@@ -68,6 +68,38 @@ fn bearings_carry_the_rope_and_the_thread() {
 }
 
 #[test]
+fn bearings_carry_teeth_and_strands() {
+    // 0.329 N m on a radius of 0.1 m; the teeth are driven apart by tan 20 degrees of that
+    let torque = 0.7 - 0.02 * 7.411_764_705_882_353 / 0.4;
+    let (across, apart) = (torque / 0.1, torque / 0.1 * 20.0_f64.to_radians().tan());
+    let outputs = "\n[[output]]\nname = \"first\"\njoint = \"one\"\nquantity = \"reaction\"\n\
+                   [[output]]\nname = \"second\"\njoint = \"two\"\nquantity = \"reaction\"\n";
+    let gear =
+        text("22-gear-joint-wheel-first").replace("teeth =", "at = [0.1, 0.0]\nteeth =") + outputs;
+    let right = [
+        ("first", 0, apart),
+        ("first", 1, across),
+        // the second joint names its wheel first
+        ("second", 0, apart),
+        ("second", 1, across),
+    ];
+    ends("teeth", &gear, 0.4, &right, CLOSE);
+    // strands at the cosine (0.1 - 0.15)/0.25 to the line of the axes: 2 S sin along it, the effort times the cosine across
+    let (cosine, effort) = (-0.2_f64, -torque / 0.1);
+    let along = 2.0 * 10.0 * (1.0 - cosine * cosine).sqrt();
+    let belt =
+        text("22-belt-axes-opposite").replace("radii =", "pretension = 10.0\nradii =") + outputs;
+    let right = [
+        ("first", 0, -along),
+        ("first", 1, -effort * cosine),
+        ("second", 0, along),
+        ("second", 1, effort * cosine),
+        ("mesh", 0, effort),
+    ];
+    ends("strands", &belt, 0.4, &right, CLOSE);
+}
+
+#[test]
 fn a_guided_cross_takes_the_moments_of_its_motors() {
     let right =
         [("effort", 0, -5.399_044_19), ("effort", 1, 1.102_128_63), ("power", 0, 16.795_604_76)];

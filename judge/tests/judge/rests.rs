@@ -154,3 +154,19 @@ fn a_wheel_is_driven_up_by_two_radians() {
     let m = mechanism(&text("27-error-stated-of-a-short-run"));
     near("axle", channel(&m, &run(&m, 0.2), "axle")[0], 2.0);
 }
+
+/// A thin rod has no inertia about itself: where a force and a rope act beside its line their moments balance, T 0.1 = 3 0.2.
+#[test]
+fn a_rope_beside_the_line_of_a_thin_rod_balances_a_force() {
+    let text = "[scene]\ndimension = 3\nduration = 0.1\n\
+        [[body]]\nname = \"rod\"\nmass = 1.0\nrod = { from = [-0.5, 0.0, 0.0], to = [0.5, 0.0, 0.0] }\n\
+        [[coupling]]\nname = \"rope\"\nkind = \"rope\"\npoints = [{ body = \"rod\", at = [0.0, 0.1, 0.0] }, \
+        { body = \"ground\", at = [0.0, 0.1, 1.0] }]\n\
+        [[effect]]\nkind = \"force\"\nbody = \"rod\"\nat = [0.0, 0.2, 0.0]\nvalue = [0.0, 0.0, -3.0]\n\
+        [[output]]\nname = \"tension\"\ncoupling = \"rope\"\n\
+        [[output]]\nname = \"center\"\nbody = \"rod\"\nquantity = \"acceleration\"\n";
+    let m = mechanism(text);
+    let start = m.start().expect("it starts");
+    near("tension", channel(&m, &start, "tension")[0], 6.0);
+    near("center", channel(&m, &start, "center")[2], 3.0);
+}
