@@ -294,10 +294,17 @@ impl Draft {
             return format!("coefficients = {numbers:?}");
         }
         let turn = 2.0 * core::f64::consts::PI;
+        // from a third of a turn before the reference configuration, where there is no lift
         let first = size(0.2);
-        let mut rows = vec![[-0.3 * turn, first]];
-        rows.extend((1..6).map(|i| [turn * (f64::from(i) / 6.0 - 0.3), size(0.4)]));
-        rows.push([0.7 * turn, first]);
+        let mut row = |i: i32| {
+            let x = turn * (f64::from(i) / 6.0 - 1.0 / 3.0);
+            match i {
+                0 | 6 => [x, first],
+                2 => [0.0, 0.0],
+                _ => [x, size(0.3)],
+            }
+        };
+        let rows: Vec<[f64; 2]> = (0..7).map(&mut row).collect();
         format!("table = {rows:?}\nperiodic = true")
     }
 
@@ -306,7 +313,9 @@ impl Draft {
         let mut points: Vec<(Carrier, Vector)> = Vec::new();
         for _ in 0..2 + dice.below(2) {
             let body = Some(dice.below(self.bodies.len())).filter(|_| dice.chance(0.7));
-            if points.last().is_some_and(|(last, _)| *last == body) {
+            // a rod has no inertia about itself, and an end beside its line would turn it
+            let is_rod = body.is_some_and(|b| self.bodies[b].rod.is_some());
+            if is_rod || points.last().is_some_and(|(last, _)| *last == body) {
                 return None;
             }
             let point = self.point(dice, body);

@@ -35,7 +35,11 @@ impl Draft {
     /// A coordinate that no guide moves: as keys, its unit, its inertia and whether it turns.
     fn free_coordinate(&self, dice: &mut Dice) -> Option<(String, f64, f64)> {
         let list = self.coordinates(&[]);
-        let free: Vec<_> = list.iter().filter(|c| self.links[c.0].guide.is_none()).collect();
+        // a force beside the line of a rod meets no inertia
+        let has_rod =
+            |j: usize| self.links[j].bodies.iter().flatten().any(|&b| self.bodies[b].rod.is_some());
+        let is_free = |j: usize| self.links[j].guide.is_none() && !has_rod(j);
+        let free: Vec<_> = list.iter().filter(|c| is_free(c.0)).collect();
         if free.is_empty() {
             return None;
         }
