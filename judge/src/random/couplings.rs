@@ -4,7 +4,7 @@ use super::dice::Dice;
 use super::draft::Draft;
 use super::write::{name, starts, vector};
 use crate::scene::{Carrier, Kind};
-use crate::vector::{Vector, across, add, cross, norm, scale, sub, unit};
+use crate::vector::{Vector, across, add, cross, dot, norm, scale, sub, unit};
 
 /// Couplings of a train, with those of three wheels last.
 const TRAINS: [&str; 6] = ["gear", "belt", "gear on an arm", "rack", "differential", "screw"];
@@ -331,17 +331,51 @@ impl Draft {
             let one = pair[0].or(pair[1])?;
             self.mark_loop(one, if pair[0].is_some() { pair[1] } else { None });
         }
+        let winch = if dice.chance(0.4) { self.winch(dice, &mut points) } else { None };
         let one = |(body, at): &(Carrier, Vector)| {
             format!("{{ body = \"{}\", at = {} }}", name(*body), vector(*at, self.planar))
         };
         let list: Vec<String> = points.iter().map(one).collect();
         let mut text = format!("kind = \"rope\"\npoints = [{}]", list.join(", "));
         let drums = self.coordinates(&[Kind::Revolute]);
-        if dice.chance(0.4) && !drums.is_empty() {
+        if let Some((joint, radius)) = winch {
+            text += &format!("\ndrum = {{ joint = \"j{joint}\", radius = {radius:?} }}");
+        } else if dice.chance(0.4) && !drums.is_empty() {
             let joint = drums[dice.below(drums.len())].0;
             let radius = self.length * dice.between(-0.3, 0.3);
             text += &format!("\ndrum = {{ joint = \"j{joint}\", radius = {radius:?} }}");
         }
         Some(text)
+    }
+
+    /// Lets a line begin where it leaves the rim of a drum: the joint, and the radius with its sign.
+    fn winch(&self, dice: &mut Dice, points: &mut [(Carrier, Vector)]) -> Option<(usize, f64)> {
+        let drums = self.coordinates(&[Kind::Revolute]);
+        let joint = drums.get(dice.below(drums.len().max(1)))?.0;
+        let link = &self.links[joint];
+        let side = dice.below(2);
+        let (carrier, next) = (link.bodies[side], points[1]);
+        let drum = link.bodies[1 - side]?;
+        if next.0 == carrier || next.0 == Some(drum) {
+            return None;
+        }
+        let axis = if self.planar { [0.0, 0.0, 1.0] } else { unit(link.axes[0]) };
+        let center = link.points[0];
+        let off = sub(next.1, center);
+        let across = sub(off, scale(dot(off, axis), axis));
+        let radius = self.length * dice.between(0.05, 0.25);
+        let cosine = radius / norm(across);
+        if cosine > 0.6 {
+            return None;
+        }
+        let e = unit(across);
+        let sine = (1.0 - cosine * cosine).sqrt() * if dice.chance(0.5) { 1.0 } else { -1.0 };
+        let arm = scale(radius, add(scale(cosine, e), scale(sine, cross(axis, e))));
+        points[0] = (carrier, add(center, arm));
+        // the pull on the rim turns the drum against its taking in
+        let pull = unit(sub(next.1, points[0].1));
+        let turn = dot(cross(arm, pull), axis);
+        let order = if side == 0 { 1.0 } else { -1.0 };
+        Some((joint, -order * turn.signum() * radius))
     }
 }

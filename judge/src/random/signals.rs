@@ -107,10 +107,10 @@ impl Draft {
         let (one, unit, inertia) = self.free_coordinate(dice)?;
         let (two, other, _) = self.free_coordinate(dice)?;
         let factor = dice.between(-1.5, 1.5) * unit / other;
-        let second = if dice.chance(0.6) {
+        let body = dice.below(self.bodies.len());
+        let second = if dice.chance(0.6) || self.bodies[body].rod.is_some() {
             format!("{{ {}, factor = {factor:?} }}", two.replace('\n', ", "))
         } else {
-            let body = dice.below(self.bodies.len());
             let [a, b] = [None, Some(body)].map(|b| (b, self.point(dice, b)));
             let [a, b] = [a, b].map(|(body, at)| {
                 let at = super::write::vector(at, self.planar);
