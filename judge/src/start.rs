@@ -83,6 +83,7 @@ impl Mechanism {
             }
         }
         let mut state = trial.state;
+        self.meet(&mut state);
         state.turns = self.given_turns(&state.turns);
         self.count_turns(&mut state);
         let places = self.places(&state);
@@ -90,7 +91,23 @@ impl Mechanism {
         if self.project_velocities(&mut state, None, &held) > 1e-8 {
             return Err(NoStart::Rates);
         }
+        // once more for what elimination left
+        self.project_velocities(&mut state, None, &held);
         Ok(state)
+    }
+
+    /// Meets all rows to rounding: beside a singular position rates have what is left of them many times over.
+    fn meet(&self, state: &mut State) {
+        for _ in 0..2 {
+            let places = self.places(state);
+            let rows = self.start_rows(state, &places, 1.0);
+            let saddle = self.saddle(&places, &rows, &[]);
+            let right: Vec<f64> = rows.iter().map(|row| -row.value).collect();
+            let none = vec![[0.0; 6]; state.frames.len()];
+            let (moves, _, _) = self.solve(&saddle, &none, &right);
+            state.frames.iter_mut().zip(&moves).for_each(|(frame, m)| frame.moved(m));
+            self.count_turns(state);
+        }
     }
 
     /// What turns of joints are counted from: what is held or guided, those of couplings as they came to be, else zero.
