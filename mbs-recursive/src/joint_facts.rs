@@ -4,7 +4,7 @@ use alloc::vec;
 use alloc::vec::Vec;
 use mbs_core::Real;
 use mbs_core::cluster::{Clusters, is_on_line};
-use mbs_core::scene::Scene;
+use mbs_core::scene::{BodyId, CouplingMeasure, Scene};
 
 /// Guides by joint, and thin rods without spin by cluster.
 pub(crate) struct JointFacts {
@@ -30,6 +30,20 @@ impl JointFacts {
                     || (joint.is_ball_at(i) && is_on_line(&rod, joint.points[i]));
                 is_idle[c] &= is_loose && guide[j].is_none();
             }
+        }
+        let mut ends_at = |body: BodyId, point: Option<[T; 3]>| {
+            let Some(c) = clusters.of(body) else { return };
+            let Some(rod) = clusters.clusters[c].rod else { return };
+            is_idle[c] &= point.is_some_and(|point| is_on_line(&rod, point));
+        };
+        for term in scene.couplings.iter().flat_map(|coupling| &coupling.terms) {
+            if let CouplingMeasure::Length { points } = &term.of {
+                points.iter().for_each(|&(body, point)| ends_at(body, Some(point)));
+            }
+        }
+        for rolling in &scene.rollings {
+            ends_at(rolling.body, None);
+            ends_at(rolling.on, None);
         }
         Self { guide, is_idle }
     }

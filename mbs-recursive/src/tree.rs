@@ -96,7 +96,7 @@ mbs_core::instances!(
 impl<T: Real, S: Space<T>> TreeModel<T, S> {
     /// Makes the tree of a scene that passed its check.
     ///
-    /// A thin rod in space that is held at points of its line by balls and distances alone, or is free, gets a sphere's inertia. It
+    /// A thin rod in space that is held at points of its line by balls, distances and ropes alone, or is free, gets a sphere's inertia. It
     /// starts without spin about itself, keeps none, and moves as the rod would.
     ///
     /// Cost: n log n in bodies and joints, and the elimination order of the loops.

@@ -1,5 +1,6 @@
 //! Ropes whose parts lose their length: every formulation stops there by name.
 
+use crate::common::run_in;
 use mbs::{Body, Coupling, Error, FormulationKind, GROUND, Joint, Mechanism, Method, Run};
 
 /// 3 kg and 2 kg on a rope over two points of the ground; the lighter one hangs half a metre below its point.
@@ -110,5 +111,32 @@ fn a_rope_that_would_have_to_push_is_noted_with_its_time_and_force() {
             .unwrap_or_else(|| panic!("{}: {noted:?}", kind.name()));
         let right = 5.0 * (0.1 * omega * omega - 9.81);
         assert!((most - right).abs() < 1e-2 * right, "{}: {most} {right}", kind.name());
+    }
+}
+
+/// A rod of no thickness hangs on a rope 0.1 m beside its line, and 3 N pull 0.2 m beside it: about the line T 0.1 = 3 0.2, across it
+/// 1 kg rises with T - 3 N.
+const ROD: &str = "[scene]\ndimension = 3\nduration = 0.005\n\
+    [[body]]\nname = \"rod\"\nmass = 1.0\nrod = { from = [-0.5, 0.0, 0.0], to = [0.5, 0.0, 0.0] }\n\
+    [[joint]]\nname = \"place\"\nkind = \"free\"\nbodies = [\"ground\", \"rod\"]\n\
+    [[coupling]]\nname = \"rope\"\nkind = \"rope\"\n\
+    points = [{ body = \"rod\", at = [0.0, 0.1, 0.0] }, { body = \"ground\", at = [0.0, 0.1, 1.0] }]\n\
+    [[effect]]\nkind = \"force\"\nbody = \"rod\"\nat = [0.0, 0.2, 0.0]\nvalue = [0.0, 0.0, -3.0]\n\
+    [[output]]\nname = \"tension\"\ncoupling = \"rope\"\nquantity = \"effort\"\n\
+    [[output]]\nname = \"rise\"\nbody = \"rod\"\nquantity = \"acceleration\"\n";
+
+#[test]
+fn a_thin_rod_that_a_rope_beside_its_line_turns_moves_rightly_or_has_no_tree() {
+    let scene = mbs_testkit::scene(ROD);
+    for formulation in FormulationKind::ALL.map(FormulationKind::name) {
+        let outcome = run_in(&scene, formulation, Some(1e-3));
+        if formulation == "recursive" {
+            assert_eq!(outcome.error.map(|error| error.code()), Some("no-tree"));
+            continue;
+        }
+        assert_eq!(outcome.error, None, "{formulation}");
+        let (_, row) = &outcome.rows()[0];
+        let off = (row[0] - 6.0).abs().max((row[3] - 3.0).abs());
+        assert!(off < 1e-9, "{formulation}: {row:?}");
     }
 }
