@@ -88,7 +88,7 @@ impl Spline {
     }
 
     /// Slope at a knot, from the side that lies within.
-    fn slope_at(&self, k: usize) -> f64 {
+    pub(crate) fn slope_at(&self, k: usize) -> f64 {
         let i = k.max(1);
         let ([t0, x0, s0], [t1, x1, s1]) = (self.knots[i - 1], self.knots[i]);
         let h = t1 - t0;

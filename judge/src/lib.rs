@@ -14,6 +14,7 @@ mod drawn;
 mod joints;
 mod laws;
 mod loads;
+mod monotone;
 mod motion;
 mod names;
 mod node;

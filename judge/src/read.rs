@@ -3,7 +3,7 @@
 use crate::names::Names;
 use crate::node::{Node, Read, Table, fault, parse};
 use crate::read_coupling::Reader;
-use crate::read_curve::{coordinate, law, rows};
+use crate::read_curve::{coordinate, law, rows, word};
 use crate::read_effect;
 use crate::read_rolling::rolling;
 use crate::read_signal;
@@ -234,7 +234,14 @@ fn feature(kind: &str, mut table: Table) -> Read<Vec<Feature>> {
             };
             vec![Feature::Bump([start, length, amplitude])]
         }
-        "table" => vec![Feature::Table(Spline::natural(&rows(&table.need("points")?)?))],
+        "table" => {
+            let spline = Spline::natural(&rows(&table.need("points")?)?);
+            vec![Feature::Table(match word(&mut table, "interpolation", "spline")?.as_str() {
+                "monotone" => Spline::monotone(&spline, false),
+                "spline" => spline,
+                other => return fault(format!("interpolation {other}")),
+            })]
+        }
         other => return fault(format!("no feature `{other}`")),
     };
     table.done("feature")?;

@@ -16,7 +16,7 @@ pub(crate) fn rows(node: &Node) -> Read<Vec<[f64; 2]>> {
         .collect()
 }
 
-fn word(table: &mut Table, key: &str, default: &str) -> Read<String> {
+pub(crate) fn word(table: &mut Table, key: &str, default: &str) -> Read<String> {
     if table.has(key) { table.text(key) } else { Ok(default.to_owned()) }
 }
 
@@ -34,7 +34,15 @@ fn tabled(table: &mut Table, rows: &[[f64; 2]]) -> Read<Curve> {
         ("spline", "level", false) => Curve::Spline(Spline::level(rows)),
         ("linear", ..) => Curve::Linear(rows.to_vec(), repeats),
         ("hold", ..) => Curve::Hold(rows.to_vec(), repeats),
-        // the contract bounds slopes and curvatures at the rows, and does not say by which rule
+        ("monotone", "natural", true) => {
+            Curve::Periodic(Spline::monotone(&Spline::periodic(rows), true))
+        }
+        ("monotone", "natural", false) => {
+            Curve::Spline(Spline::monotone(&Spline::natural(rows), false))
+        }
+        ("monotone", "level", false) => {
+            Curve::Spline(Spline::monotone(&Spline::level(rows), false))
+        }
         (other, ends, _) => return fault(format!("interpolation {other}, ends {ends}")),
     })
 }

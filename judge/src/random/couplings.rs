@@ -305,7 +305,8 @@ impl Draft {
             }
         };
         let rows: Vec<[f64; 2]> = (0..7).map(&mut row).collect();
-        format!("table = {rows:?}\nperiodic = true")
+        let how = if dice.chance(0.4) { "monotone" } else { "spline" };
+        format!("table = {rows:?}\ninterpolation = \"{how}\"\nperiodic = true")
     }
 
     /// A line over two or three points on different bodies, now and then with a drum.

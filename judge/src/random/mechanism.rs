@@ -249,7 +249,8 @@ impl Draft {
                 };
                 let rows: Vec<String> = (-1..6).map(|k| row(k, dice)).collect();
                 let ends = if is_level { "\nends = \"level\"" } else { "" };
-                format!("table = [{}]{ends}", rows.join(", "))
+                let how = if dice.chance(0.3) { "monotone" } else { "spline" };
+                format!("table = [{}]\ninterpolation = \"{how}\"{ends}", rows.join(", "))
             }
         }
     }

@@ -6,6 +6,7 @@ mod machines;
 mod rests;
 mod rules;
 mod signals;
+mod tables;
 mod trial;
 
 use judge::{Mechanism, State};
