@@ -21,7 +21,7 @@ pub mod states;
 mod steady;
 
 pub use crate::unsteady::Unsteady;
-pub(crate) use about::About;
+pub(crate) use about::{About, at_rest};
 pub use data::LinearSystem;
 pub use shapes::ModeShape;
 

@@ -4,8 +4,8 @@
 //! lambda = -zeta omega_0 +- i omega_0 sqrt(1 - zeta^2):   omega_0 = |lambda|,  zeta = -Re lambda / |lambda|
 //! ```
 
-use crate::equilibrium::{Search, workspace};
-use crate::linear_system::{About, LinearSystem};
+use crate::equilibrium::Search;
+use crate::linear_system::{About, LinearSystem, at_rest};
 use crate::mode::NOISE;
 pub use crate::mode::{Mode, slowest_first};
 use crate::placed::{Place, PlacedScene};
@@ -13,7 +13,7 @@ use crate::rest::{LeftOut, left_out_json};
 use crate::stop::StopError;
 use crate::unsteady::Unsteady;
 use mbs_core::scene::{Dimension, Scene};
-use mbs_linear::{Equilibrium, Linear, LinearOptions, Matrix, linearise, singular_values};
+use mbs_linear::{Equilibrium, Linear, Matrix, singular_values};
 use serde_json::{Value, json};
 
 /// The modes of a scene, with its names.
@@ -103,11 +103,8 @@ impl Modes {
 
     /// About an equilibrium, where the axes stand and all coordinates have the same eigenvalues.
     fn at_rest<const D: usize>(placed: PlacedScene<D>) -> Result<Self, StopError> {
-        let PlacedScene { scene, ready, found, left_out, instant } = placed;
-        let (model, state) = (&ready.model, &ready.start.state);
-        let how = (instant, &LinearOptions::default());
-        let linear = linearise(model, how, state, &mut workspace(model))
-            .map_err(|error| StopError::Linear(error).or_law(model.codes()))?;
+        let linear = at_rest(&placed)?;
+        let PlacedScene { scene, found, left_out, .. } = placed;
         Ok(Self {
             scene: scene.name,
             place: Place::Equilibrium,

@@ -1,4 +1,4 @@
-//! Random machines with couplings, as a user may write them: each can be worded in several ways that mean the same.
+//! Random machines with a coupling or a wheel that rolls, as a user may write them: each can be worded in several ways that mean the same.
 
 pub mod kinds;
 

@@ -5,8 +5,9 @@ use super::draft::Draft;
 
 /// What is drawn.
 const MACHINES: [&str; 4] = ["servo", "engine", "force", "sum"];
-/// Kinds of signals that follow time.
-const WAVES: [&str; 8] = ["sine", "chirp", "spline", "linear", "hold", "step", "ramp", "product"];
+/// Kinds of signals that follow time. The ramp stands twice: no other machine has one.
+const WAVES: [&str; 9] =
+    ["sine", "chirp", "spline", "linear", "hold", "step", "ramp", "ramp", "product"];
 
 impl Draft {
     /// Now and then a machine that follows signals.

@@ -13,7 +13,7 @@ use crate::unsteady::Unsteady;
 use mbs_core::model::State;
 use mbs_core::scene::Scene;
 use mbs_linear::{
-    Linear, LinearError, LinearOptions, LinearPorts, Ports, advance, linearise_ports,
+    Linear, LinearError, LinearOptions, LinearPorts, Ports, advance, linearise, linearise_ports,
 };
 
 /// What is linearised about which state.
@@ -75,8 +75,9 @@ impl<'a, const D: usize> About<'a, D> {
             let changed = || changing(&states, [&a, &later], at.linear.noise);
             unsteady = after.accelerating(&turned, (&later, &sizes)).or_else(changed);
         }
-        let is_rest = unsteady.is_none() && !sizes.has_motion() && at.linear.order() == a.rows;
-        let rest = is_rest.then(|| at.linear.state_matrix());
+        let is_rest = unsteady.is_none() && !sizes.has_motion();
+        let rest = is_rest.then(|| at_rest(placed)).transpose()?;
+        let rest = rest.filter(|linear| linear.order() == a.rows);
         let value = |place: usize| at.ports.values[place];
         let mut state_values: Vec<f64> = layout.state_rows(chosen).map(value).collect();
         if let Some(values) = &at.values {
@@ -103,8 +104,8 @@ impl<'a, const D: usize> About<'a, D> {
             unsteady,
             turning: at.linear.turning,
             n_freedoms: at.linear.n_freedoms,
-            noise: at.linear.noise,
-            rest,
+            noise: rest.as_ref().map_or(at.linear.noise, |linear| linear.noise),
+            rest: rest.map(|linear| linear.state_matrix()),
         })
     }
 
@@ -146,6 +147,17 @@ impl<'a, const D: usize> About<'a, D> {
         let not_unique = measured.not_unique(scene);
         Ok(At { layout, chosen, linear, ports, values, not_unique })
     }
+}
+
+/// The motion about a rest, in coordinates that have no names: its eigenvalues have all digits.
+///
+/// # Errors
+/// [`StopError`] where the motion cannot be linearised.
+pub(crate) fn at_rest<const D: usize>(placed: &PlacedScene<D>) -> Result<Linear<f64>, StopError> {
+    let (model, state) = (&placed.ready.model, &placed.ready.start.state);
+    let how = (placed.instant, &LinearOptions::default());
+    linearise(model, how, state, &mut workspace(model))
+        .map_err(|error| StopError::Linear(error).or_law(model.codes()))
 }
 
 impl At {

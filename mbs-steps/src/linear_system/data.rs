@@ -58,8 +58,8 @@ pub struct LinearSystem {
     pub turning: f64,
     /// Number of freedoms.
     pub(crate) n_freedoms: usize,
-    /// At a rest the same motion in the coordinates that it was linearised in, column by column: they are better conditioned than the
-    /// named ones, and its eigenvalues are those of A.
+    /// At a rest the same motion as modes of an equilibrium have it, column by column: in coordinates that are better conditioned than the
+    /// named ones. Its eigenvalues are those of A.
     pub(crate) rest: Option<Vec<f64>>,
     /// Rounding of squares of eigenvalues [1/s^2]: those of this size are zero.
     pub(crate) noise: f64,
