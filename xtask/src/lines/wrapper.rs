@@ -1,4 +1,4 @@
-//! A compiler that counts: in place of machine code each library of ours gives lines of LLVM's code before any optimisation.
+//! A compiler that counts: in place of machine code each library gives lines of LLVM's code before any optimisation.
 //!
 //! Cargo starts this program in place of rustc where `RUSTC_WRAPPER` names it. What cargo only checks then also makes code, whose lines
 //! are counted and which is taken away again: no machine code is made, so that a count takes a small share of a build.
@@ -57,16 +57,14 @@ pub fn as_compiler() -> Option<ExitCode> {
     Some(end)
 }
 
-/// The name of the library that is checked; `None` for one of other people's, a procedural macro, a build script, or a question of cargo's.
+/// The name of the library that is checked; `None` for a procedural macro, a build script, or a question of cargo's.
 fn counted(args: &[OsString]) -> Option<String> {
-    let folder = env::var_os("CARGO_MANIFEST_DIR")?;
-    let is_ours = Path::new(&folder).parent() == Path::new(env!("CARGO_MANIFEST_DIR")).parent();
     let is_checked = args.iter().any(|arg| {
         arg.to_str().is_some_and(|arg| arg.starts_with("--emit=") && !arg.contains("link"))
     });
     let name = after(args, "--crate-name")?;
     let kind = after(args, "--crate-type")?;
-    (is_ours && is_checked && kind != "proc-macro" && kind != "bin").then(|| name.to_owned())
+    (is_checked && kind != "proc-macro" && kind != "bin").then(|| name.to_owned())
 }
 
 /// The word behind an option.
