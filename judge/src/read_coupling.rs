@@ -153,7 +153,7 @@ impl Reader<'_> {
     }
 
     fn rack(&mut self, t: &mut Table) -> Read<Sum> {
-        let pair @ [pinion, rack] = self.joints_of(t)?;
+        let pair @ [_, rack] = self.joints_of(t)?;
         let radius = t.number("radius")?;
         let [turns, slides] = pair.map(|j| &self.joints[j]);
         let Some(sign) = drawn::rack_sense(turns, slides, self.planar) else {
@@ -169,7 +169,6 @@ impl Reader<'_> {
             Term { measure: way, factor: 1.0, curve: None },
             self.wheel([carrier, a], axis, -radius * sign),
         ];
-        let _ = pinion;
         Ok(Sum { gain, passed: Some((rack, 0, 1.0)), ..Sum::plain(terms, 0.0) })
     }
 
@@ -183,7 +182,7 @@ impl Reader<'_> {
             let terms = vec![Term::of(joint, 0, 1.0), Term::of(joint, 1, -lead)];
             return Ok(Sum { passed: Some((joint, 0, 1.0)), ..Sum::plain(terms, 0.0) });
         }
-        let pair @ [turn, slide] = self.joints_of(t)?;
+        let pair @ [_, slide] = self.joints_of(t)?;
         let [turns, slides] = pair.map(|j| &self.joints[j]);
         let axis = drawn::axis(turns, self.planar);
         let Some((carrier, [screw, nut])) = drawn::carrier(self.joints, pair, self.planar) else {
@@ -204,7 +203,6 @@ impl Reader<'_> {
             Term { measure: way, factor: 1.0, curve: None },
             self.wheel([carrier, screw], axis, -lead),
         ];
-        let _ = turn;
         Ok(Sum { gain, passed: Some((slide, 0, 1.0)), seat, ..Sum::plain(terms, 0.0) })
     }
 
