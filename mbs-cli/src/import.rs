@@ -2,18 +2,17 @@
 
 use crate::files;
 use crate::input;
-use crate::model::{self, ModelOptions, count, first_line};
+use crate::model::{self, ModelOptions, first_line};
 use crate::refusal::Refusal;
 use crate::say::{say, warn};
 use crate::status::REFUSED;
 use clap::Args;
-use mbs::models::{
-    FindingKind, ImportOptions, Imported, ModelFinding, ModelSizes, import, is_model,
-};
+use mbs::models::{FindingKind, ImportOptions, Imported, ModelFinding, import, is_model};
+use mbs::scene_file::ReadError;
 use mbs::scene_file::format::counted;
-use mbs::{Method, Precision, ResolvedMethod};
-use mbs_study::doctor::{Effort, Finding, Severity, examine};
-use serde_json::{Value, json};
+use mbs::{Error as _, SimulationError};
+use mbs_study::doctor::Finding;
+use mbs_study::imported::{StartFault, start_faults, to_json};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
@@ -74,9 +73,10 @@ fn imported(arguments: &Arguments) -> Result<ExitCode, Refusal> {
     let is_lost = arguments.strict && model.findings.iter().any(acts);
     let out = arguments.out.as_deref().filter(|_| !is_lost);
     let place = out.map_or_else(|| format!("scene of {name}"), |out| out.display().to_string());
-    let report = report(&name, &model) + &faults.text(&place, out.unwrap_or(&arguments.file));
+    let report =
+        report(&name, &model) + &fault_lines(&faults, &place, out.unwrap_or(&arguments.file));
     let (said, report) = match (&arguments.out, arguments.json) {
-        (_, true) => (object(&name, &model, &faults).to_string(), String::new()),
+        (_, true) => (to_json(&name, &model, faults.as_deref()).to_string(), String::new()),
         (Some(_), false) => (report, String::new()),
         (None, false) => (model.text.clone(), report),
     };
@@ -96,78 +96,46 @@ fn imported(arguments: &Arguments) -> Result<ExitCode, Refusal> {
     Ok(say(&said, ExitCode::SUCCESS))
 }
 
-/// What the doctor calls a fault of the start, with its line of the scene.
-struct StartFault {
-    finding: Finding,
-    line: Option<usize>,
-}
+/// What is wrong with the start; nothing where it was not looked at.
+type Faults = Option<Vec<StartFault>>;
 
-/// All of them; nothing where it was not asked.
-struct Faults(Option<Vec<StartFault>>);
-
-/// Joints up to which the doctor looks at a model with loops [-]: its time grows with their cube, and is a second here.
-const MOST_JOINTS: usize = 200;
-
-/// Has the scene a start? An open tree has one where nothing beyond a joint lacks inertia.
 fn faults(name: &str, model: &Imported) -> Result<Faults, Refusal> {
-    let refused = |error| Refusal::read("scene-refused", &error);
-    let document = model.scene_file(name).map_err(refused)?;
-    let scene = document.scene::<f64>().map_err(refused)?;
-    let tree = mbs::Tree::new(&scene);
-    if tree.is_ok_and(|mut tree| tree.loop_jacobian().rows == 0) {
-        return Ok(Faults(Some(Vec::new())));
-    }
-    if model.sizes.joints > MOST_JOINTS {
-        return Ok(Faults(None));
-    }
-    let overrides =
-        Method { precision: Some(Precision::F64.name().to_owned()), ..Method::default() };
-    let settings = ResolvedMethod::new(&scene, &overrides).map_err(|e| Refusal::settings(&e))?;
-    let effort = Effort { positions: 0, ..Effort::default() };
-    let found = examine(&scene, &settings, &effort).findings.into_iter();
-    let found = found.filter(|finding| finding.severity == Severity::Fault).map(|finding| {
-        let line = finding.place.map(|(entry, key)| document.place(entry, key).1.line);
-        StartFault { finding, line }
-    });
-    Ok(Faults(Some(found.collect())))
+    let refused = |error: SimulationError| match error.cause::<ReadError>() {
+        Some(error) => Refusal::read("scene-refused", error),
+        None => Refusal::new("settings-refused", &error, error.hint().unwrap_or_default()),
+    };
+    start_faults(name, model).map_err(refused)
 }
 
-impl Faults {
-    /// Lines of the report: `place` is the scene's, and the doctor takes `file`.
-    fn text(&self, place: &str, file: &Path) -> String {
-        let text = |StartFault { finding, line }: &StartFault| {
-            let Finding { code, message, remedy, .. } = finding;
-            let line = line.map(|line| format!(":{line}")).unwrap_or_default();
-            format!("{:<13} {place}{line}  {code}: {message}; {remedy}\n", "fault")
-        };
-        match &self.0 {
-            Some(found) => found.iter().map(text).collect(),
-            None => {
-                let file = file.display();
-                format!("{:<13} {place}  its start was not looked at: mbs doctor {file}\n", "large")
-            }
+/// Lines of the report on faults: `place` is the scene's, and the doctor takes `file`.
+fn fault_lines(faults: &Faults, place: &str, file: &Path) -> String {
+    let text = |StartFault { finding, line }: &StartFault| {
+        let Finding { code, message, remedy, .. } = finding;
+        let line = line.map(|line| format!(":{line}")).unwrap_or_default();
+        format!("{:<13} {place}{line}  {code}: {message}; {remedy}\n", "fault")
+    };
+    match faults {
+        Some(found) => found.iter().map(text).collect(),
+        None => {
+            let file = file.display();
+            format!("{:<13} {place}  its start was not looked at: mbs doctor {file}\n", "large")
         }
     }
-
-    /// The same as JSON; null where the start was not looked at.
-    fn list(&self) -> Value {
-        let object = |StartFault { finding, line }: &StartFault| {
-            let Finding { code, message, remedy, .. } = finding;
-            json!({ "code": code, "message": message, "remedy": remedy, "line": line })
-        };
-        self.0.as_ref().map(|found| found.iter().map(object).collect::<Vec<_>>()).into()
-    }
 }
 
-/// Could it act?
+/// Could it act, and not as the file has it?
 fn acts(finding: &ModelFinding) -> bool {
-    finding.kind != FindingKind::Appearance
+    matches!(finding.kind, FindingKind::Approximated | FindingKind::Ignored)
+}
+
+fn is_for_the_eye(finding: &ModelFinding) -> bool {
+    finding.kind == FindingKind::Appearance
 }
 
 /// The report for people.
 fn report(name: &str, model: &Imported) -> String {
     let mut text = first_line(name, model) + "\n";
-    for finding in model.findings.iter().filter(|finding| acts(finding)) {
+    for finding in model.findings.iter().filter(|finding| !is_for_the_eye(finding)) {
         let ModelFinding { kind, file, line, column, element, says } = finding;
         text += &format!("{:<13} {file}:{line}:{column}  {element}: {says}\n", word(*kind));
     }
@@ -181,7 +149,7 @@ fn report(name: &str, model: &Imported) -> String {
 /// What is for the eye alone, by what is said of it: how many elements each.
 fn for_the_eye(model: &Imported) -> Vec<(&str, usize)> {
     let mut list: Vec<(&str, usize)> = Vec::new();
-    let found = model.findings.iter().filter(|finding| !acts(finding));
+    let found = model.findings.iter().filter(|finding| is_for_the_eye(finding));
     for ModelFinding { says, .. } in found {
         match list.iter_mut().find(|(known, _)| known == says) {
             Some((_, n)) => *n += 1,
@@ -196,26 +164,6 @@ const fn word(kind: FindingKind) -> &'static str {
         FindingKind::Approximated => "approximated",
         FindingKind::Ignored => "ignored",
         FindingKind::Appearance => "for the eye",
+        FindingKind::Noted => "noted",
     }
-}
-
-/// The report for programs.
-fn object(name: &str, model: &Imported, faults: &Faults) -> Value {
-    let list = |kind| {
-        let found = model.findings.iter().filter(|finding| finding.kind == kind);
-        let found = found.map(|ModelFinding { file, line, column, element, says, .. }| {
-            json!({ "file": file, "line": line, "column": column, "element": element, "says": says })
-        });
-        found.collect::<Vec<_>>()
-    };
-    let ModelSizes { links, bodies, joints, couplings, inputs } = model.sizes;
-    json!({
-        "file": name,
-        "format": model.format.name(),
-        "mapped": { "links": links, "bodies": bodies, "joints": joints, "couplings": couplings, "inputs": inputs },
-        "approximated": list(FindingKind::Approximated),
-        "ignored": list(FindingKind::Ignored),
-        "appearance": count(model, FindingKind::Appearance),
-        "faults": faults.list(),
-    })
 }

@@ -4,6 +4,7 @@ use crate::refusal::Refusal;
 use clap::{Args, Parser, ValueEnum};
 use mbs::models::{BaseKind, FindingKind, ImportOptions, Imported, ModelSizes, Stops};
 use mbs::scene_file::format::counted;
+use mbs_study::imported::count;
 use std::path::{Path, PathBuf};
 
 /// How a model is read; elsewhere they are words of `--import`.
@@ -24,6 +25,9 @@ pub(crate) struct ModelOptions {
     /// A keyframe of an MJCF from which it starts. Default: as the model is drawn.
     #[arg(long, value_name = "NAME")]
     key: Option<String>,
+    /// An input JOINT.motor for each joint that moves and that no actuator of the file drives; the effort limit of the joint holds.
+    #[arg(long)]
+    motors: bool,
     /// Meshes whose mass is needed count as massless, and are reported.
     #[arg(long)]
     massless_meshes: bool,
@@ -101,6 +105,7 @@ pub(crate) fn options(model: &ModelOptions, folder: &Path) -> Result<ImportOptio
         keep_fixed: model.keep_fixed.clone(),
         key: model.key.clone(),
         no_outside: model.no_outside,
+        motors: model.motors,
         massless_meshes: model.massless_meshes,
         packages: model.package.iter().map(|text| package(text)).collect::<Result<_, _>>()?,
         ..ImportOptions::in_folder(folder.to_owned())
@@ -128,11 +133,6 @@ pub(crate) fn note(name: &str, model: &Imported) -> String {
         "{}; {approximated} approximated, {ignored} ignored: mbs import {name} lists them",
         first_line(name, model)
     )
-}
-
-/// How many findings are of a kind.
-pub(crate) fn count(model: &Imported, kind: FindingKind) -> usize {
-    model.findings.iter().filter(|finding| finding.kind == kind).count()
 }
 
 /// What the scene has.

@@ -17,5 +17,6 @@ pub(crate) fn ball(name: &str, element: &Element, [a, b]: [(usize, V3); 2]) -> R
             "give poses in which the loop is closed",
         ));
     }
-    Ok(Joint::new(name, element.at, Kind::Spherical, [a.0, b.0], a.1))
+    let joint = Joint::new(name, element.at, Kind::Spherical, [a.0, b.0], a.1);
+    Ok(Joint { closes: true, ..joint })
 }

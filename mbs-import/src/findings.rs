@@ -11,6 +11,8 @@ pub enum FindingKind {
     Ignored,
     /// Not at all: it is for the eye alone.
     Appearance,
+    /// As the file has it, where the format or what was asked for leaves a choice.
+    Noted,
 }
 
 /// What became of an element that is not in the scene as the file has it.
@@ -51,6 +53,16 @@ impl Findings {
         says: impl Into<String>,
     ) {
         self.0.push((FindingKind::Ignored, at, element.into(), says.into()));
+    }
+
+    /// A choice that was made where the file leaves one.
+    pub(crate) fn noted(
+        &mut self,
+        at: Origin,
+        element: impl Into<String>,
+        says: impl Into<String>,
+    ) {
+        self.0.push((FindingKind::Noted, at, element.into(), says.into()));
     }
 
     pub(crate) fn appearance(&mut self, at: Origin, element: impl Into<String>) {

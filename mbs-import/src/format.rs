@@ -21,4 +21,24 @@ impl ModelFormat {
             Self::Sdf => "SDF",
         }
     }
+
+    /// Names of the options that a reader of it takes, as Python and `mbs import` call them.
+    #[must_use]
+    pub const fn options(self) -> &'static [&'static str] {
+        match self {
+            Self::Urdf | Self::Sdf => &[
+                "balance",
+                "base",
+                "keep_fixed",
+                "limits",
+                "massless_meshes",
+                "motors",
+                "no_outside",
+                "packages",
+            ],
+            Self::Mjcf => {
+                &["balance", "key", "limits", "massless_meshes", "motors", "no_outside", "packages"]
+            }
+        }
+    }
 }

@@ -9,7 +9,7 @@ use crate::options::ImportOptions;
 use crate::robot::{Frame, GROUND, Kind, Link, Robot, Signal, What};
 use crate::source::{Fault, MOST_BYTES, Origin, Read, Sources};
 use crate::unread::unread;
-use crate::{mjcf, sdf, urdf, write, xml};
+use crate::{mjcf, motors, sdf, urdf, write, xml};
 use mbs_scene::{ReadError, SceneFile};
 use std::collections::HashSet;
 use std::path::{Path, PathBuf};
@@ -128,6 +128,7 @@ fn whole(
     }
     let mut root = xml::read(text, source)?;
     let format = format(&root)?;
+    fits(format, context.options).map_err(|(message, hint)| root.fault(message, hint))?;
     let (mut robot, table) = match format {
         ModelFormat::Urdf => (urdf::read(root.read(), context)?, urdf::TABLE),
         ModelFormat::Mjcf => {
@@ -140,6 +141,9 @@ fn whole(
         }
     };
     unread(&root, table, &mut context.findings);
+    if context.options.motors {
+        motors::add(&mut robot, &mut context.findings)?;
+    }
     let lumps = lump::lumps(&robot, context.options.balance, &mut context.findings)?;
     frames_of_parts(&mut robot, &lumps);
     let sizes = sizes(&robot, &lumps);
@@ -148,6 +152,35 @@ fn whole(
     robot.notes.extend(notes);
     robot.notes.push("Duration: 1 s, a choice.".into());
     Ok((format, write::scene(&robot, &lumps), sizes))
+}
+
+/// Has the format the options that are given? Else what is wrong, and what to do.
+fn fits(format: ModelFormat, options: &ImportOptions) -> Result<(), (String, String)> {
+    let given = [
+        ("base", options.base.is_some()),
+        ("key", options.key.is_some()),
+        ("keep_fixed", !options.keep_fixed.is_empty()),
+    ];
+    let (name, known) = (format.name(), format.options());
+    match given.iter().find(|(option, is_given)| *is_given && !known.contains(option)) {
+        None => Ok(()),
+        Some((option, _)) => {
+            let message = format!("`{option}` is no option of a file in {name}");
+            Err((message, format!("leave it out; options of {name}: {}", known.join(", "))))
+        }
+    }
+}
+
+/// The format of a model.
+///
+/// # Errors
+/// As [`import`], where the text is no XML or no model.
+pub fn model_format(bytes: &[u8], file: &str) -> Result<ModelFormat, ReadError> {
+    let mut sources = Sources::default();
+    let text = String::from_utf8_lossy(bytes);
+    let source = sources.add(file, &text, None);
+    let found = xml::read(&text, source).and_then(|root| format(&root));
+    found.map_err(|fault| sources.error(fault))
 }
 
 /// The format by the root element.

@@ -51,6 +51,8 @@ pub struct ImportOptions {
     pub packages: Vec<(String, PathBuf)>,
     /// Folders in which packages and models lie.
     pub package_path: Vec<PathBuf>,
+    /// Whether each joint that moves gets an input, where no actuator of the file drives it.
+    pub motors: bool,
     /// Whether meshes whose mass is needed count as massless, and are reported.
     pub massless_meshes: bool,
 }

@@ -74,6 +74,8 @@ pub(crate) struct Joint {
     /// Largest effort and rate of its drive.
     pub(crate) effort: Option<f64>,
     pub(crate) rate: Option<f64>,
+    /// Does it close a loop that the file writes as an equation?
+    pub(crate) closes: bool,
 }
 
 /// A coordinate of a joint.
@@ -201,9 +203,10 @@ pub(crate) enum What {
 /// Signals that formats have.
 #[derive(Debug, Clone)]
 pub(crate) enum Signal {
-    /// Set from outside.
+    /// Set from outside; its unit where it is known.
     Set {
         value: f64,
+        unit: &'static str,
     },
     Measure {
         of: Coordinate,
@@ -348,6 +351,7 @@ impl Joint {
             range: None,
             effort: None,
             rate: None,
+            closes: false,
         }
     }
 }

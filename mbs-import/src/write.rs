@@ -341,9 +341,12 @@ impl Writer<'_> {
 
     fn signal_law(&mut self, name: &str, signal: &Signal) {
         match signal {
-            Signal::Set { value } => {
+            Signal::Set { value, unit } => {
                 self.signal(name, "input");
                 self.key("value", number(*value));
+                if !unit.is_empty() {
+                    self.key("unit", quoted(unit));
+                }
             }
             Signal::Measure { of, is_rate } => {
                 self.signal(name, "measure");

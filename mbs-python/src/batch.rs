@@ -121,7 +121,8 @@ impl Mechanism {
         let k = states.len();
         let nu = self.shared.inputs.len();
         let given = u;
-        let (u, n_steps, many) = inputs(py, u, (k, nu), steps)?;
+        let taken = inputs(py, u, (k, nu), steps);
+        let (u, n_steps, many) = taken.map_err(|error| self.about_inputs(py, error))?;
         if let Some(client) = client {
             let words = PyDict::new(py);
             words.set_item("client", client)?;

@@ -2,16 +2,17 @@
 
 use crate::array::{Numbers, array, count, vector, wrong_shape};
 use crate::error::{Class, guarded, raised, refused, unknown_name, unread, usage};
+use crate::import::{self, Model, Read};
 use crate::value;
 use crate::values;
 use mbs::core::scene::{Output, Scene};
 use mbs::record::Channel;
 use mbs::scene_file::SceneFile;
-use mbs::{BodyId, EffectId, InputInfo, JointId, Method, SimulationError, Tree, TreeRange, models};
+use mbs::{BodyId, EffectId, InputInfo, JointId, Method, SimulationError, Tree, TreeRange};
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PySlice, PyString, PyTuple};
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
 /// A mechanism, checked and immutable. Threads may share it.
@@ -31,6 +32,7 @@ pub(crate) struct Shared {
     /// Names of the outputs with their units: the columns of runs but for magnitudes.
     pub(crate) columns: Vec<[String; 2]>,
     folder: Option<PathBuf>,
+    model: Option<Arc<Model>>,
     dof: OnceLock<usize>,
     /// At rest in the reference configuration.
     first: OnceLock<Tree>,
@@ -40,7 +42,8 @@ pub(crate) struct Shared {
 
 impl Mechanism {
     /// The mechanism of a scene file, checked.
-    pub(crate) fn new(py: Python<'_>, file: SceneFile, folder: Option<PathBuf>) -> PyResult<Self> {
+    pub(crate) fn new(py: Python<'_>, read: Read) -> PyResult<Self> {
+        let Read { file, folder, model } = read;
         let scene = file.scene::<f64>().map_err(|error| unread(py, &error))?;
         let mechanism =
             mbs::Mechanism::of_file(file.clone()).map_err(|error| unread(py, &error))?;
@@ -56,7 +59,8 @@ impl Mechanism {
         let columns = columns.collect();
         let (dof, first) = (OnceLock::new(), OnceLock::new());
         let trees = Mutex::new(Vec::new());
-        let shared = Shared { mechanism, file, scene, inputs, columns, folder, dof, first, trees };
+        let shared =
+            Shared { mechanism, file, scene, inputs, columns, folder, model, dof, first, trees };
         Ok(Self { shared: Arc::new(shared) })
     }
 
@@ -144,6 +148,25 @@ impl Mechanism {
         Err(usage(py, "unknown-name", &message, "inputs count from 0", "name"))
     }
 
+    /// A refusal of the number of inputs, which names them.
+    pub(crate) fn about_inputs(&self, py: Python<'_>, error: PyErr) -> PyErr {
+        let value = error.value(py);
+        let is = |field: &str, word: &str| {
+            let found = value.getattr(field).and_then(|found| found.extract::<String>());
+            found.is_ok_and(|found| found == word)
+        };
+        if is("code", "wrong-shape") && is("argument", "u") {
+            let names: Vec<&str> = self.shared.inputs.iter().map(|info| &*info.name).collect();
+            let hint = match names[..] {
+                [] => "the mechanism has no inputs; a model gets some by motors=True".to_owned(),
+                _ => format!("give a number for each of: {}", names.join(", ")),
+            };
+            // an exception of another class has no hint
+            let _ = value.setattr("hint", hint);
+        }
+        error
+    }
+
     /// The simulation of settings.
     pub(crate) fn simulation(&self, py: Python<'_>, method: &Method) -> PyResult<mbs::Simulation> {
         let built = guarded(py, || Ok(py.detach(|| self.shared.mechanism.simulate(method))))?;
@@ -165,36 +188,6 @@ impl Mechanism {
     }
 }
 
-/// The file of a source: a path, a text of more than one line, or a scene as a dict.
-fn read(source: &Bound<'_, PyAny>) -> PyResult<(SceneFile, Option<PathBuf>)> {
-    let py = source.py();
-    let refused = |error| unread(py, &error);
-    let text = match source.cast::<PyString>() {
-        Ok(text) => Some(text.to_string()).filter(|text| text.contains('\n')),
-        Err(_) if source.hasattr("keys")? => Some(value::json(source, "source")?),
-        Err(_) => None,
-    };
-    if let Some(text) = text {
-        let file = if models::is_model(text.as_bytes()) {
-            let folder = PathBuf::new();
-            let options = models::ImportOptions::in_folder(folder);
-            py.detach(|| models::scene_file(text.as_bytes(), "model", &options))
-                .map(|(file, _)| file)
-        } else {
-            SceneFile::parse(&text, "scene")
-        };
-        return Ok((file.map_err(refused)?, None));
-    }
-    let path: PathBuf = source.extract().map_err(|_| {
-        let message = format!("a mechanism is made of no {}", source.get_type());
-        let hint = "give a path, the text of a scene, or a dict";
-        usage(py, "wrong-type", &message, hint, "source")
-    })?;
-    let folder = path.parent().map(Path::to_owned);
-    let folder = folder.and_then(|folder| std::path::absolute(&folder).ok().or(Some(folder)));
-    Ok((py.detach(|| models::read(&path)).map_err(refused)?, folder))
-}
-
 /// Codes of joints without coordinates.
 const OF_JOINTS: [(&str, &str); 3] =
     [("cut-joint", "joint"), ("guided-joint", "joint"), ("no-coordinates", "joint")];
@@ -209,12 +202,26 @@ macro_rules! names {
 #[pymethods]
 impl Mechanism {
     #[new]
-    fn py_new(source: &Bound<'_, PyAny>) -> PyResult<Self> {
+    #[pyo3(signature = (source, **import_options))]
+    fn py_new(
+        source: &Bound<'_, PyAny>,
+        import_options: Option<&Bound<'_, PyDict>>,
+    ) -> PyResult<Self> {
         let py = source.py();
         guarded(py, || {
-            let (file, folder) = read(source)?;
-            Self::new(py, file, folder)
+            let read = import::read(source, import_options)?;
+            if let Some(model) = &read.model {
+                import::warn(py, model)?;
+            }
+            Self::new(py, read)
         })
+    }
+
+    /// What became of the elements of a model: the object of `mbs import --json`. None where the mechanism comes from a scene.
+    #[getter]
+    fn import_report<'py>(&self, py: Python<'py>) -> PyResult<Option<Bound<'py, PyAny>>> {
+        let model = self.shared.model.as_deref();
+        model.map(|model| guarded(py, || import::report(py, model))).transpose()
     }
 
     /// A builder of a scene: its parts are added by calls, and `done()` gives the mechanism.
@@ -392,7 +399,8 @@ impl Mechanism {
             }
             let file = mechanism.to_file();
             let file = file.map_err(|error| raised(py, &error.into(), Class::Usage))?;
-            Self::new(py, file, self.shared.folder.clone())
+            let (folder, model) = (self.shared.folder.clone(), self.shared.model.clone());
+            Self::new(py, Read { file, folder, model })
         })
     }
 
@@ -466,7 +474,8 @@ pub(crate) fn _restore(
         Some(folder) => SceneFile::parse_in(text, file, folder),
         None => SceneFile::parse(text, file),
     };
-    Mechanism::new(py, read.map_err(|error| unread(py, &error))?, folder)
+    let file = read.map_err(|error| unread(py, &error))?;
+    Mechanism::new(py, Read { file, folder, model: None })
 }
 
 /// An array of a list of vectors.

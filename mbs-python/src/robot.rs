@@ -43,6 +43,7 @@ impl Mechanism {
             out.copy_from_slice(tree.accelerations()?);
             Ok(())
         })
+        .map_err(|error| self.about_inputs(py, error))
     }
 
     /// Accelerations (nv,) under efforts along v and gravity alone, loops closed.

@@ -112,15 +112,23 @@ impl Simulation {
     }
 }
 
+impl Simulation {
+    /// The inputs of a call; another number of them is refused with their names.
+    fn inputs_of(&self, u: Option<&Bound<'_, PyAny>>, n: Option<usize>) -> PyResult<Vec<f64>> {
+        let Some(u) = u else { return Ok(Vec::new()) };
+        let this = self.this();
+        inputs(u, this.shared.inputs.len(), n).map_err(|error| this.about_inputs(u.py(), error))
+    }
+}
+
 /// A step that is refused or fails.
 fn stopped(py: Python<'_>, error: &SimulationError) -> PyErr {
     let arguments = [("bad-step", "dt"), ("input-refused", "u")];
     refused(py, error, Class::Stop, &arguments)
 }
 
-/// Inputs of a call: nothing, one row that is held, or a row for each of n steps.
-fn inputs(u: Option<&Bound<'_, PyAny>>, nu: usize, n: Option<usize>) -> PyResult<Vec<f64>> {
-    let Some(u) = u else { return Ok(Vec::new()) };
+/// Inputs of a call: one row that is held, or a row for each of n steps.
+fn inputs(u: &Bound<'_, PyAny>, nu: usize, n: Option<usize>) -> PyResult<Vec<f64>> {
     let numbers = Numbers::new(u, "u", false)?;
     let fits = match *numbers.shape() {
         [found] => found == nu,
@@ -174,7 +182,7 @@ impl Simulation {
 
     #[setter]
     fn set_u(&self, py: Python<'_>, values: &Bound<'_, PyAny>) -> PyResult<()> {
-        let all = inputs(Some(values), self.this().shared.inputs.len(), None)?;
+        let all = self.inputs_of(Some(values), None)?;
         let set = self.moving(py)?.simulation.set_inputs(&all);
         set.map_err(|error| refused(py, &error, Class::Usage, &[("input-refused", "u")]))
     }
@@ -202,7 +210,7 @@ impl Simulation {
     /// One step of `dt` [s], else of the method's step. `u` (nu,) holds from now on.
     #[pyo3(signature = (dt = None, u = None))]
     fn step(&self, py: Python<'_>, dt: Option<f64>, u: Option<&Bound<'_, PyAny>>) -> PyResult<()> {
-        let all = inputs(u, self.this().shared.inputs.len(), None)?;
+        let all = self.inputs_of(u, None)?;
         self.advance(py, |simulation| {
             let set = if all.is_empty() { Ok(()) } else { simulation.set_inputs(&all) };
             let dt = dt.unwrap_or_else(|| simulation.step_length());
@@ -227,7 +235,7 @@ impl Simulation {
         u: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<()> {
         let (n, nu) = (count(py, "n", n)?, self.this().shared.inputs.len());
-        let all = inputs(u, nu, Some(n))?;
+        let all = self.inputs_of(u, Some(n))?;
         self.advance(py, |simulation| {
             let dt = dt.unwrap_or_else(|| simulation.step_length());
             let step = |simulation: &mut mbs::Simulation, k: usize| {

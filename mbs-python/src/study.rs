@@ -1,15 +1,14 @@
 //! Analyses and studies: equilibrium, modes, linear system, doctor, explanation, comparison.
 
 use crate::array::{Numbers, array};
-use crate::error::{Class, raised, unknown_name, usage};
+use crate::error::{Class, guarded, raised, unknown_name, usage};
 use crate::mechanism::Mechanism;
 use crate::watch::{Progress, Reached, left, silent, whole};
 use crate::{settings, value, values};
-use mbs::Error as _;
 use mbs::core::scene::Entry;
 use mbs::{
     EquilibriumOptions, FormulationKind, Interrupt, LinearSystem, LinearizeOptions, Matrix, Method,
-    Place, Precision, ResolvedMethod, Search, SimulationError,
+    Place, Precision, ResolvedMethod, Search, SimulationError, Tree,
 };
 use mbs_study::compare::{self, Earlier, Request};
 use mbs_study::doctor::{Effort, examine, to_json};
@@ -213,52 +212,93 @@ fn json<'py>(py: Python<'py>, text: &str) -> PyResult<Bound<'py, PyAny>> {
 }
 
 /// What a linear system is about: a place, with how an equilibrium is sought, or a state.
-enum At {
+enum Where {
     Place(Place, Search),
     State(Vec<f64>, Vec<f64>),
+}
+
+/// A state, and the values of all inputs; without them those at which they begin.
+struct At {
+    state: Where,
+    inputs: Option<Vec<f64>>,
 }
 
 /// Names of inputs and of outputs; without them all.
 type Ports = [Option<Vec<String>>; 2];
 
 impl Mechanism {
-    fn at(&self, at: Option<&Bound<'_, PyAny>>) -> PyResult<At> {
-        let Some(at) = at else { return Ok(At::Place(Place::Equilibrium, Search::Down)) };
+    fn at(
+        &self,
+        py: Python<'_>,
+        at: Option<&Bound<'_, PyAny>>,
+        u: Option<&Bound<'_, PyAny>>,
+    ) -> PyResult<At> {
+        let held = |u: &Bound<'_, PyAny>| self.inputs_of(u);
+        let of = |state| Ok(At { state, inputs: u.map(held).transpose()? });
+        let Some(at) = at else { return of(Where::Place(Place::Equilibrium, Search::Down)) };
         if let Ok(name) = at.extract::<String>() {
-            return Ok(At::Place(place(at.py(), &name)?, Search::Down));
+            return of(Where::Place(place(py, &name)?, Search::Down));
         }
         if at.hasattr("is_stable")? {
             // it is sought again, as it was found
             let name: String = at.getattr("summary")?.get_item("search")?.extract()?;
-            return Ok(At::Place(Place::Equilibrium, search(at.py(), &name)?));
+            return of(Where::Place(Place::Equilibrium, search(py, &name)?));
+        }
+        let state = |q: &Bound<'_, PyAny>, v: &Bound<'_, PyAny>| {
+            let first = self.first(py)?;
+            let q = Numbers::row(q, "q", first.coordinates().len())?;
+            Ok::<_, PyErr>(Where::State(q, Numbers::row(v, "v", first.velocities().len())?))
+        };
+        if let Ok((q, v, own)) =
+            at.extract::<(Bound<'_, PyAny>, Bound<'_, PyAny>, Bound<'_, PyAny>)>()
+        {
+            if u.is_some() {
+                let hint = "give (q, v) beside u, or (q, v, u) alone";
+                return Err(usage(py, "usage", "u stands twice", hint, "u"));
+            }
+            return Ok(At { state: state(&q, &v)?, inputs: Some(held(&own)?) });
         }
         let wrong = |_| {
-            let hint = "give a name, an equilibrium, or (q, v)";
-            usage(at.py(), "wrong-type", "at is no state", hint, "at")
+            let hint = "give a name, an equilibrium, (q, v) or (q, v, u)";
+            usage(py, "wrong-type", "at is no state", hint, "at")
         };
         let (q, v): (Bound<'_, PyAny>, Bound<'_, PyAny>) = at.extract().map_err(wrong)?;
-        let first = self.first(at.py())?;
-        let q = Numbers::row(&q, "q", first.coordinates().len())?;
-        Ok(At::State(q, Numbers::row(&v, "v", first.velocities().len())?))
+        of(state(&q, &v)?)
+    }
+
+    /// Values of all inputs; another number of them is refused with their names.
+    pub(crate) fn inputs_of(&self, u: &Bound<'_, PyAny>) -> PyResult<Vec<f64>> {
+        let py = u.py();
+        Numbers::row(u, "u", self.shared.inputs.len()).map_err(|error| self.about_inputs(py, error))
+    }
+
+    /// This mechanism and its tree, with the inputs at these values.
+    fn held(&self, py: Python<'_>, inputs: Option<&[f64]>) -> PyResult<(mbs::Mechanism, Tree)> {
+        let mut mechanism = self.shared.mechanism.clone();
+        let Some(inputs) = inputs else { return Ok((mechanism, self.first(py)?.clone())) };
+        let made = guarded(py, || {
+            Ok(mechanism.set_inputs(inputs).and_then(|mechanism| mechanism.tree()))
+        })?;
+        let tree = made.map_err(|error| raised(py, &error, Class::Start))?;
+        Ok((mechanism, tree))
     }
 
     /// The linear system about a state.
     fn linear(&self, py: Python<'_>, (at, names): (At, Ports)) -> PyResult<LinearSystem> {
-        let (shared, mut tree) = (self.shared.clone(), self.first(py)?.clone());
+        let (mechanism, mut tree) = self.held(py, at.inputs.as_deref())?;
         let made = left(py, move || {
             let [inputs, outputs] = names.each_ref().map(|names| {
                 names.as_ref().map(|names| names.iter().map(String::as_str).collect::<Vec<_>>())
             });
             let (inputs, outputs) = (inputs.as_deref(), outputs.as_deref());
-            let mechanism = &shared.mechanism;
-            match at {
-                At::Place(place, search) => {
+            match at.state {
+                Where::Place(place, search) => {
                     let options = LinearizeOptions { place, search };
-                    mbs::linearize(mechanism, &options, inputs, outputs)
+                    mbs::linearize(&mechanism, &options, inputs, outputs)
                 }
-                At::State(q, v) => {
+                Where::State(q, v) => {
                     let state = (&mut tree, &q[..], &v[..]);
-                    mbs::linearize_at(mechanism, state, inputs, outputs)
+                    mbs::linearize_at(&mechanism, state, inputs, outputs)
                 }
             }
         })?;
@@ -267,29 +307,23 @@ impl Mechanism {
 
     /// Shapes about a state, the names of their states, and what the command says of a place.
     fn shapes(&self, py: Python<'_>, at: At, frozen: bool) -> PyResult<Shapes> {
-        let (shared, mut tree) = (self.shared.clone(), self.first(py)?.clone());
+        let (mechanism, mut tree) = self.held(py, at.inputs.as_deref())?;
+        let shared = self.shared.clone();
         let made = left(py, move || {
-            let (mechanism, scene, none) = (&shared.mechanism, &shared.scene, Some(&[][..]));
-            let is_frozen = |error: &SimulationError| frozen && error.code() == "not-steady";
-            let (system, named) = match at {
-                At::Place(place, search) => {
+            let (system, named) = match at.state {
+                Where::Place(place, search) => {
                     let options = LinearizeOptions { place, search };
-                    let by = if frozen { LinearSystem::frozen } else { LinearSystem::steady };
-                    let system = by(scene, &options)?;
-                    let stopped =
-                        |error| SimulationError::stopped(error, 0.0, &mbs::Names::new(scene));
+                    let by = if frozen { mbs::linearize_frozen } else { mbs::linearize_steady };
+                    let system = by(&mechanism, &options)?;
+                    let names = mbs::Names::new(&shared.scene);
+                    let stopped = |error| SimulationError::stopped(error, 0.0, &names);
                     let named = mbs::Modes::of_system(&system, place).map_err(stopped)?;
                     (system, Some(named))
                 }
-                At::State(q, v) => {
-                    let found = mbs::linearize_steady_at(mechanism, (&mut tree, &q, &v));
-                    let system = match found {
-                        Err(e) if is_frozen(&e) => {
-                            mbs::linearize_at(mechanism, (&mut tree, &q, &v), none, none)
-                        }
-                        found => found,
-                    };
-                    (system?, None)
+                Where::State(q, v) => {
+                    let by =
+                        if frozen { mbs::linearize_frozen_at } else { mbs::linearize_steady_at };
+                    (by(&mechanism, (&mut tree, &q, &v))?, None)
                 }
             };
             Ok((system.shapes()?, system.states, named))
@@ -307,18 +341,20 @@ fn matrix<'py>(py: Python<'py>, matrix: &Matrix) -> PyResult<Bound<'py, PyAny>> 
 
 #[pymethods]
 impl Mechanism {
-    /// dx/dt = A x + B u, y = C x + D u about a state: `"equilibrium"`, `"initial"`, `"moving"`, what `equilibrium()` gives, or (q, v). The
-    /// states x are independent coordinates and their rates, then the states of signals. About a state that is neither a rest nor a steady
-    /// motion the matrices hold for the instant, and `unsteady` says why.
-    #[pyo3(signature = (at = None, inputs = None, outputs = None))]
+    /// dx/dt = A x + B u, y = C x + D u about a state: `"equilibrium"`, `"initial"`, `"moving"`, what `equilibrium()` gives, (q, v), or
+    /// (q, v, u). `u` are the values of all inputs there, else those at which they begin. The states x are independent coordinates and their
+    /// rates, then the states of signals. About a state that is neither a rest nor a steady motion the matrices hold for the instant, and
+    /// `unsteady` says why.
+    #[pyo3(signature = (at = None, inputs = None, outputs = None, *, u = None))]
     fn linearize<'py>(
         &self,
         py: Python<'py>,
         at: Option<&Bound<'py, PyAny>>,
         inputs: Option<Vec<String>>,
         outputs: Option<Vec<String>>,
+        u: Option<&Bound<'py, PyAny>>,
     ) -> PyResult<Bound<'py, PyAny>> {
-        let at = self.at(at)?;
+        let at = self.at(py, at, u)?;
         let s = self.linear(py, (at, [inputs, outputs]))?;
         let [a, b, c, d] = [&s.a, &s.b, &s.c, &s.d].map(|m| matrix(py, m));
         let unsteady = s.unsteady.map(|unsteady| value::object(py, &unsteady.to_json()));
@@ -328,15 +364,17 @@ impl Mechanism {
 
     /// Eigenvalues of the motion about a state, with frequencies, damping ratios and shapes, from the slowest to the fastest.
     ///
-    /// About a state that is neither a rest nor a steady motion `frozen` gives the eigenvalues of the instant; else it is refused.
-    #[pyo3(signature = (at = None, *, frozen = false))]
+    /// `at` and `u` are those of `linearize`. About a state that is neither a rest nor a steady motion `frozen` gives the eigenvalues of the
+    /// instant; else it is refused.
+    #[pyo3(signature = (at = None, *, u = None, frozen = false))]
     fn modes<'py>(
         &self,
         py: Python<'py>,
         at: Option<&Bound<'py, PyAny>>,
+        u: Option<&Bound<'py, PyAny>>,
         frozen: bool,
     ) -> PyResult<Bound<'py, PyAny>> {
-        let at = self.at(at)?;
+        let at = self.at(py, at, u)?;
         let (shapes, states, named) = self.shapes(py, at, frozen)?;
         let pairs = shapes.iter().flat_map(|shape| &shape.states).flatten().copied();
         let (n, m) = (shapes.len(), states.len());

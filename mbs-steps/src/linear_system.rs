@@ -21,7 +21,7 @@ pub mod states;
 mod steady;
 
 pub use crate::unsteady::Unsteady;
-pub(crate) use about::{About, at_rest};
+pub(crate) use about::{About, Axes, at_rest};
 pub use data::LinearSystem;
 pub use shapes::ModeShape;
 
@@ -62,7 +62,8 @@ impl LinearSystem {
         inputs: Option<&[&str]>,
         outputs: Option<&[&str]>,
     ) -> Result<Self, SimulationError> {
-        Asked { place: Some(options.place), inputs, outputs, turns: false }.about(scene, options)
+        Asked { place: Some(options.place), inputs, outputs, axes: Axes::Standing }
+            .about(scene, options)
     }
 
     /// Linearises a scene about a rest or a steady motion, in axes that turn with it: its eigenvalues are those of the motion. Without
@@ -75,8 +76,7 @@ impl LinearSystem {
     /// # Errors
     /// As for [`linearize`](crate::linearize); `not-steady` where the state is neither a rest nor a steady motion.
     pub fn steady(scene: &Scene<f64>, options: &LinearizeOptions) -> Result<Self, SimulationError> {
-        let none = Some(&[][..]);
-        let asked = Asked { place: Some(options.place), inputs: none, outputs: none, turns: true };
+        let asked = Asked::alone(Some(options.place), Axes::Turning);
         asked.about(scene, options)?.or_not_steady(scene)
     }
 
@@ -88,9 +88,7 @@ impl LinearSystem {
         scene: &Scene<f64>,
         motions: &[RigidMotion<f64>],
     ) -> Result<Self, SimulationError> {
-        let none = Some(&[][..]);
-        let asked = Asked { place: None, inputs: none, outputs: none, turns: true };
-        asked.at(scene, motions)?.or_not_steady(scene)
+        Asked::alone(None, Axes::Turning).at(scene, motions)?.or_not_steady(scene)
     }
 
     /// As [`steady`](Self::steady), of any state: about one that is no steady motion the matrices of the instant, in axes that stand, with
@@ -99,12 +97,18 @@ impl LinearSystem {
     /// # Errors
     /// As for [`linearize`](crate::linearize).
     pub fn frozen(scene: &Scene<f64>, options: &LinearizeOptions) -> Result<Self, SimulationError> {
-        let none = Some(&[][..]);
-        let asked = Asked { place: Some(options.place), inputs: none, outputs: none, turns: true };
-        let found = asked.about(scene, options)?;
-        let Some(unsteady) = found.unsteady else { return Ok(found) };
-        let standing = Asked { turns: false, ..asked }.about(scene, options)?;
-        Ok(Self { unsteady: Some(unsteady), ..standing })
+        Asked::alone(Some(options.place), Axes::TurningOrStanding).about(scene, options)
+    }
+
+    /// As [`frozen`](Self::frozen), about a state whose bodies move as `motions` say, which meet the constraints.
+    ///
+    /// # Errors
+    /// As for [`linearize_at`](crate::linearize_at).
+    pub fn frozen_at(
+        scene: &Scene<f64>,
+        motions: &[RigidMotion<f64>],
+    ) -> Result<Self, SimulationError> {
+        Asked::alone(None, Axes::TurningOrStanding).at(scene, motions)
     }
 
     fn or_not_steady(self, scene: &Scene<f64>) -> Result<Self, SimulationError> {
@@ -123,7 +127,7 @@ impl LinearSystem {
         inputs: Option<&[&str]>,
         outputs: Option<&[&str]>,
     ) -> Result<Self, SimulationError> {
-        Asked { place: None, inputs, outputs, turns: false }.at(scene, motions)
+        Asked { place: None, inputs, outputs, axes: Axes::Standing }.at(scene, motions)
     }
 }
 
@@ -132,11 +136,15 @@ struct Asked<'a> {
     place: Option<Place>,
     inputs: Option<&'a [&'a str]>,
     outputs: Option<&'a [&'a str]>,
-    /// Are the axes those that turn with the motion?
-    turns: bool,
+    axes: Axes,
 }
 
 impl Asked<'_> {
+    /// Without inputs and outputs.
+    const fn alone(place: Option<Place>, axes: Axes) -> Self {
+        Self { place, inputs: Some(&[]), outputs: Some(&[]), axes }
+    }
+
     fn about(
         &self,
         scene: &Scene<f64>,
@@ -181,7 +189,7 @@ impl Asked<'_> {
         let stopped = |error| SimulationError::stopped(error, 0.0, &Names::new(scene));
         let columns = OutputColumns::new(scene, self.outputs)?;
         let inputs = InputPlaces::new(scene, &placed.ready.model, self.inputs)?;
-        let about = About { scene, placed, columns, inputs, turns: self.turns };
+        let about = About { scene, placed, columns, inputs, axes: self.axes };
         let found = about.system().map_err(stopped)?;
         Ok(LinearSystem { place: self.place, ..found })
     }

@@ -5,7 +5,7 @@
 //! ```
 
 use crate::equilibrium::Search;
-use crate::linear_system::{About, LinearSystem, at_rest};
+use crate::linear_system::{About, Axes, LinearSystem, at_rest};
 use crate::mode::NOISE;
 pub use crate::mode::{Mode, slowest_first};
 use crate::placed::{Place, PlacedScene};
@@ -76,12 +76,8 @@ impl Modes {
         if place == Place::Equilibrium {
             return Self::at_rest(placed);
         }
-        let mut found = About::alone(scene, &placed, true).system()?;
-        if found.unsteady.is_some() && is_frozen {
-            let unsteady = found.unsteady.take();
-            found = LinearSystem { unsteady, ..About::alone(scene, &placed, false).system()? };
-        }
-        Self::of_system(&found, place)
+        let axes = if is_frozen { Axes::TurningOrStanding } else { Axes::Turning };
+        Self::of_system(&About::alone(scene, &placed, axes).system()?, place)
     }
 
     /// The modes of a system that was linearised about this place.

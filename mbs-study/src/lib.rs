@@ -8,6 +8,7 @@ mod error;
 pub mod estimate;
 pub mod explain;
 mod front;
+pub mod imported;
 mod journal;
 pub mod remedy;
 mod stretches;

@@ -31,8 +31,8 @@ pub use front::{
     InputOwner, InputTableError, Joint, Mechanism, NamedSignal, Observer, Output, OutputFunction,
     Part, PathError, PointMotion, Pose, Rolling, Run, RunInputs, RunResult, SceneError, Simulation,
     SimulationError, Sizes, Snapshot, StepReport, Table, UnknownName, View, Wrench, equilibrium,
-    linearize, linearize_at, linearize_steady, linearize_steady_at, modes, run, run_with,
-    with_inputs,
+    linearize, linearize_at, linearize_frozen, linearize_frozen_at, linearize_steady,
+    linearize_steady_at, modes, run, run_with, with_inputs,
 };
 pub use interrupt::Interrupt;
 pub use linear_system::{LinearSystem, LinearizeOptions, ModeShape, Unsteady};

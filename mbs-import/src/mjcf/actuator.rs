@@ -320,7 +320,7 @@ fn laws(name: &str, actuator: &Actuator, pulled: &Transmission, model: &mut Mode
         return;
     }
     model.inputs.push(Some((model.robot.laws.len(), 1.0)));
-    let mut signal = model.signal(name, Signal::Set { value: 0.0 });
+    let mut signal = model.signal(name, Signal::Set { value: 0.0, unit: "" });
     if let Some([lower, upper]) = control {
         signal =
             model.signal(&format!("{name} control"), Signal::Clamp { of: signal, lower, upper });

@@ -75,7 +75,8 @@ fn closing(element: &Element, ending: &str, model: &mut Model<'_, '_, '_>) -> Re
     let number = model.robot.joints.len();
     let wanted = name(element, ending, &format!("{} {number}", element.name));
     let wanted = model.free_name(super::model::Sort::Joint, &wanted);
-    model.robot.joints.push(Joint::new(&wanted, element.at, kind, ends, place));
+    let joint = Joint::new(&wanted, element.at, kind, ends, place);
+    model.robot.joints.push(Joint { closes: true, ..joint });
     Ok(())
 }
 

@@ -83,7 +83,7 @@ fn start(key: &Element, model: &mut Model<'_, '_, '_>) -> Read<()> {
         let list = controls.list()?;
         for (input, control) in model.inputs.iter().zip(list) {
             let Some((law, _)) = input else { continue };
-            if let What::Signal(Signal::Set { value }) | What::Input { value, .. } =
+            if let What::Signal(Signal::Set { value, .. }) | What::Input { value, .. } =
                 &mut model.robot.laws[*law].what
             {
                 *value = control;

@@ -8,7 +8,7 @@
 from __future__ import annotations
 
 from ._multibody import Mechanism, Simulation, __version__
-from .errors import BusyError, MbsError, SceneError, StartError, StopError, UsageError
+from .errors import BusyError, MbsError, ModelWarning, SceneError, StartError, StopError, UsageError
 from .result import Result
 from .values import Derivatives, Equilibrium, Event, Finding, Linear, Modes, Rollout, State, Table
 
@@ -26,6 +26,7 @@ __all__ = [
     "Linear",
     "MbsError",
     "Mechanism",
+    "ModelWarning",
     "Modes",
     "Result",
     "Rollout",

@@ -14,6 +14,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from .errors import BusyError as BusyError
 from .errors import MbsError as MbsError
+from .errors import ModelWarning as ModelWarning
 from .errors import SceneError as SceneError
 from .errors import StartError as StartError
 from .errors import StopError as StopError
@@ -127,7 +128,7 @@ class Mechanism:
     A text has more than one line.
     """
 
-    def __init__(self, source: Source) -> None: ...
+    def __init__(self, source: Source, **import_options: Any) -> None: ...
     @staticmethod
     def build(name: str, dimension: Literal[2, 3] = 3) -> Builder:
         """A builder of a scene: its parts are added by calls, and `done()` gives the mechanism."""

@@ -67,3 +67,7 @@ class UsageError(MbsError, ValueError):
 
 class BusyError(MbsError, RuntimeError):
     """Another thread uses the simulation."""
+
+
+class ModelWarning(UserWarning):
+    """Something in a model can act and was left out; `Mechanism.import_report` lists it."""

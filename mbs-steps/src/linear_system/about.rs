@@ -16,14 +16,24 @@ use mbs_linear::{
     Linear, LinearError, LinearOptions, LinearPorts, Ports, advance, linearise, linearise_ports,
 };
 
+/// In which axes a motion is linearised.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Axes {
+    /// Those that stand.
+    Standing,
+    /// Those that turn with the motion; it is tested that the motion is steady in them.
+    Turning,
+    /// Those that turn, and where the motion is not steady in them those that stand: the system of the instant.
+    TurningOrStanding,
+}
+
 /// What is linearised about which state.
 pub(crate) struct About<'a, const D: usize> {
     pub(super) scene: &'a Scene<f64>,
     pub(super) placed: &'a PlacedScene<D>,
     pub(super) columns: OutputColumns,
     pub(super) inputs: InputPlaces,
-    /// Are the axes those that turn with the motion, and is it tested that it is steady in them?
-    pub(super) turns: bool,
+    pub(super) axes: Axes,
 }
 
 /// What is measured about a state.
@@ -40,9 +50,9 @@ struct At {
 
 impl<'a, const D: usize> About<'a, D> {
     /// Without inputs and outputs.
-    pub(crate) fn alone(scene: &'a Scene<f64>, placed: &'a PlacedScene<D>, turns: bool) -> Self {
+    pub(crate) fn alone(scene: &'a Scene<f64>, placed: &'a PlacedScene<D>, axes: Axes) -> Self {
         let (columns, inputs) = (OutputColumns::default(), InputPlaces::default());
-        Self { scene, placed, columns, inputs, turns }
+        Self { scene, placed, columns, inputs, axes }
     }
 
     /// The linear system of the placed state.
@@ -50,11 +60,23 @@ impl<'a, const D: usize> About<'a, D> {
     /// # Errors
     /// [`StopError`] where what is measured is not finite, or the motion cannot be linearised.
     pub(crate) fn system(&self) -> Result<LinearSystem, StopError> {
+        let found = self.system_in(self.axes != Axes::Standing)?;
+        match (self.axes, &found.unsteady) {
+            (Axes::TurningOrStanding, Some(_)) => {
+                let unsteady = found.unsteady;
+                Ok(LinearSystem { unsteady, ..self.system_in(false)? })
+            }
+            _ => Ok(found),
+        }
+    }
+
+    /// In axes that turn with the motion, or that stand.
+    fn system_in(&self, turns: bool) -> Result<LinearSystem, StopError> {
         let (scene, placed) = (self.scene, self.placed);
         let (model, state) = (&placed.ready.model, &placed.ready.start.state);
-        let at = self.measured(state, None)?;
+        let at = self.measured((state, turns), None)?;
         let sizes = at.sizes(model.length());
-        let is_tested = self.turns && sizes.has_motion();
+        let is_tested = turns && sizes.has_motion();
         let (layout, chosen) = (&at.layout, &at.chosen[..]);
         let turning = if is_tested {
             Turning::of(&placed.scene, (layout, chosen), (&at.ports.values, &sizes))
@@ -69,7 +91,7 @@ impl<'a, const D: usize> About<'a, D> {
             let h = sizes.later();
             let later = advance(model, h, state, &mut workspace(model))
                 .map_err(|error| StopError::Linear(error).or_law(model.codes()))?;
-            let after = self.measured(&later, Some(chosen))?;
+            let after = self.measured((&later, turns), Some(chosen))?;
             let turned = turning.after(h);
             let [later, ..] = after.matrices(&turned)?;
             let changed = || changing(&states, [&a, &later], at.linear.noise);
@@ -109,8 +131,12 @@ impl<'a, const D: usize> About<'a, D> {
         })
     }
 
-    /// Linearises about `state`, with these coordinates as states where they are given.
-    fn measured(&self, state: &State<f64>, given: Option<&[usize]>) -> Result<At, StopError> {
+    /// Linearises about `state`, in axes that turn or stand, with these coordinates as states where they are given.
+    fn measured(
+        &self,
+        (state, turns): (&State<f64>, bool),
+        given: Option<&[usize]>,
+    ) -> Result<At, StopError> {
         let (scene, model) = (&self.placed.scene, &self.placed.ready.model);
         let mut measured = Measured::new(scene, model, &self.columns)?;
         measured.count_from(state)?;
@@ -119,7 +145,7 @@ impl<'a, const D: usize> About<'a, D> {
         let mut chosen = given.unwrap_or_default().to_vec();
         let mut choose = |slopes: &[f64]| {
             let mut slopes = layout.slopes(slopes);
-            if self.turns && is_moving {
+            if turns && is_moving {
                 let rows = slopes.iter_mut().zip(&layout.of_vectors);
                 rows.filter(|(_, is)| **is).for_each(|(row, _)| row.fill(0.0));
             }

@@ -1,5 +1,6 @@
 //! The front door: a mechanism as a list of named parts, in code or from a file.
 
+mod held;
 mod mechanism;
 mod part;
 mod relative;
@@ -20,8 +21,8 @@ pub use mechanism::Mechanism;
 pub use part::{Id, Part};
 pub use simulation::{Simulation, Snapshot};
 pub use study::{
-    EquilibriumOptions, Run, RunResult, equilibrium, linearize, linearize_at, linearize_steady,
-    linearize_steady_at, modes, run, run_with,
+    EquilibriumOptions, Run, RunResult, equilibrium, linearize, linearize_at, linearize_frozen,
+    linearize_frozen_at, linearize_steady, linearize_steady_at, modes, run, run_with,
 };
 pub use table::Table;
 pub use values::{

@@ -248,6 +248,31 @@ pub fn linearize_steady_at(
     LinearSystem::steady_at(&scene, tree.motions())
 }
 
+/// As [`linearize_steady`], of any state: about one that is no steady motion the matrices of the instant, in axes that stand, and
+/// [`LinearSystem::unsteady`] says why.
+///
+/// # Errors
+/// As for [`linearize`].
+pub fn linearize_frozen(
+    m: &Mechanism,
+    options: &LinearizeOptions,
+) -> Result<LinearSystem, SimulationError> {
+    LinearSystem::frozen(&m.resolve_scene()?, options)
+}
+
+/// [`linearize_frozen`] about coordinates and velocities of a tree of the mechanism, as [`linearize_at`] takes them.
+///
+/// # Errors
+/// As for [`linearize_at`].
+pub fn linearize_frozen_at(
+    m: &Mechanism,
+    state: (&mut Tree, &[f64], &[f64]),
+) -> Result<LinearSystem, SimulationError> {
+    let (tree, q, v) = state;
+    let scene = at(m, (tree, q, v))?;
+    LinearSystem::frozen_at(&scene, tree.motions())
+}
+
 /// Moves a tree to a state; the scene that starts there.
 fn at(
     m: &Mechanism,

@@ -1,0 +1,83 @@
+//! What became of the elements of a model, and whether its scene has a start.
+
+use crate::doctor::{Effort, Finding, Severity, examine};
+use mbs::models::{FindingKind, Imported, ModelFinding, ModelSizes};
+use mbs::{Method, Precision, ResolvedMethod, SimulationError};
+use serde_json::{Value, json};
+
+/// What the doctor calls a fault of the start, with its line of the scene.
+#[derive(Debug, Clone)]
+pub struct StartFault {
+    /// What the doctor says.
+    pub finding: Finding,
+    /// Its line of the scene, where it has one.
+    pub line: Option<usize>,
+}
+
+/// Joints up to which the doctor looks at a model with loops [-]: its time grows with their cube, and is a second here.
+const MOST_JOINTS: usize = 200;
+
+/// Has the scene of a model a start? An open tree has one where nothing beyond a joint lacks inertia. `None`: it was not looked at, since
+/// the model is large. `name` is the file that messages show.
+///
+/// # Errors
+/// [`SimulationError`] for a scene that is refused.
+pub fn start_faults(
+    name: &str,
+    model: &Imported,
+) -> Result<Option<Vec<StartFault>>, SimulationError> {
+    let document = model.scene_file(name)?;
+    let scene = document.scene::<f64>()?;
+    let tree = mbs::Tree::new(&scene);
+    if tree.is_ok_and(|mut tree| tree.loop_jacobian().rows == 0) {
+        return Ok(Some(Vec::new()));
+    }
+    if model.sizes.joints > MOST_JOINTS {
+        return Ok(None);
+    }
+    let overrides =
+        Method { precision: Some(Precision::F64.name().to_owned()), ..Method::default() };
+    let settings = ResolvedMethod::new(&scene, &overrides)?;
+    let effort = Effort { positions: 0, ..Effort::default() };
+    let found = examine(&scene, &settings, &effort).findings.into_iter();
+    let found = found.filter(|finding| finding.severity == Severity::Fault).map(|finding| {
+        let line = finding.place.map(|(entry, key)| document.place(entry, key).1.line);
+        StartFault { finding, line }
+    });
+    Ok(Some(found.collect()))
+}
+
+/// How many findings are of a kind.
+#[must_use]
+pub fn count(model: &Imported, kind: FindingKind) -> usize {
+    model.findings.iter().filter(|finding| finding.kind == kind).count()
+}
+
+/// The object of `mbs import --json`: what was read, what is not in the scene as the file has it, and the faults of the start; null where
+/// that was not looked at.
+#[must_use]
+pub fn to_json(name: &str, model: &Imported, faults: Option<&[StartFault]>) -> Value {
+    let list = |kind| {
+        let found = model.findings.iter().filter(|finding| finding.kind == kind);
+        let found = found.map(|ModelFinding { file, line, column, element, says, .. }| {
+            json!({ "file": file, "line": line, "column": column, "element": element, "says": says })
+        });
+        found.collect::<Vec<_>>()
+    };
+    let object = |StartFault { finding, line }: &StartFault| {
+        let Finding { code, message, remedy, .. } = finding;
+        json!({ "code": code, "message": message, "remedy": remedy, "line": line })
+    };
+    let faults = faults.map(|faults| faults.iter().map(object).collect::<Vec<_>>());
+    let ModelSizes { links, bodies, joints, couplings, inputs } = model.sizes;
+    json!({
+        "file": name,
+        "format": model.format.name(),
+        "mapped": { "links": links, "bodies": bodies, "joints": joints, "couplings": couplings, "inputs": inputs },
+        "approximated": list(FindingKind::Approximated),
+        "ignored": list(FindingKind::Ignored),
+        "noted": list(FindingKind::Noted),
+        "appearance": count(model, FindingKind::Appearance),
+        "faults": faults,
+    })
+}

@@ -1,0 +1,90 @@
+//! Values at which the inputs of a mechanism begin.
+
+use super::failure::SimulationError;
+use super::inputs::{InputInfo, InputOwner};
+use super::mechanism::Mechanism;
+use mbs_core::effects::Value;
+use mbs_core::scene::{Effect, Motion, Number, Signal, SignalKind};
+
+impl Mechanism {
+    /// Lets its inputs begin at these values, in the order of [`inputs`](Self::inputs): what starts, rests or is linearised then is under
+    /// them.
+    ///
+    /// # Errors
+    /// [`SimulationError`] for a wrong number of values, one that is not finite, and as [`inputs`](Self::inputs). Nothing is set then.
+    ///
+    /// # Examples
+    /// A bar of 2 kg at 0.5 m, level, which its motor holds:
+    /// ```
+    /// use mbs::{Body, Effect, GROUND, Joint, Mechanism, Signal};
+    /// let mut m = Mechanism::planar("held bar");
+    /// m.set_gravity([0.0, -9.81]);
+    /// let bar = m.add(Body::planar([0.5, 0.0], 2.0, 0.1));
+    /// let pivot = m.add(Joint::revolute([GROUND, bar], [0.0, 0.0]));
+    /// m.add(Effect::torque(pivot, Signal::input(0.0)));
+    /// m.set_inputs(&[2.0 * 9.81 * 0.5])?;
+    /// assert!(m.tree()?.accelerations()?[0].abs() < 1e-12);
+    /// # Ok::<(), mbs::SimulationError>(())
+    /// ```
+    pub fn set_inputs(&mut self, values: &[f64]) -> Result<&mut Self, SimulationError> {
+        let inputs = self.inputs()?;
+        check(&inputs, values)?;
+        let scene = self.scene_mut();
+        for (info, value) in inputs.iter().zip(values) {
+            let (value, i) = (Number::from(*value), info.component);
+            match info.owner {
+                InputOwner::Effect(effect) => set_effect(&mut scene.effects[effect], i, &value),
+                InputOwner::Guide(guide) => {
+                    if let Motion::Input(start) = &mut scene.guides[guide].law {
+                        start[i] = value;
+                    }
+                }
+                InputOwner::Coupling { coupling, .. } => {
+                    if let Some(Motion::Input(start)) = &mut scene.couplings[coupling].motion {
+                        start[i] = value;
+                    }
+                }
+                InputOwner::Signal(signal) => {
+                    if let SignalKind::Input { value: start, .. } = &mut scene.signals[signal].kind
+                    {
+                        *start = value;
+                    }
+                }
+                _ => {
+                    let message = format!("the start of input `{}` cannot be set", info.name);
+                    return Err(SimulationError::new("input-refused", message, "leave it out"));
+                }
+            }
+        }
+        Ok(self)
+    }
+}
+
+/// As many values as inputs, all of them finite?
+fn check(inputs: &[InputInfo], values: &[f64]) -> Result<(), SimulationError> {
+    let names = || inputs.iter().map(|info| info.name.as_str()).collect::<Vec<_>>().join(", ");
+    if inputs.len() != values.len() {
+        let message = format!("{} values for {} inputs", values.len(), inputs.len());
+        let hint = format!("give a value for each of: {}", names());
+        return Err(SimulationError::new("input-refused", message, hint));
+    }
+    let bad = inputs.iter().zip(values).find(|(_, value)| !value.is_finite());
+    bad.map_or(Ok(()), |(info, value)| {
+        let message = format!("input `{}` is {value}", info.name);
+        Err(SimulationError::new("input-refused", message, "give a finite number"))
+    })
+}
+
+/// Sets one number of the input of an effect.
+fn set_effect(effect: &mut Effect<Number>, component: usize, value: &Number) {
+    let values = effect.kind.values().into_iter().map(|old| match old {
+        Value::Signal(Signal::Input(mut start)) => {
+            start[component] = value.clone();
+            Value::Signal(Signal::Input(start))
+        }
+        other => other,
+    });
+    if let Some(kind) = effect.kind.with(values) {
+        effect.kind = kind;
+    }
+}
