@@ -7,6 +7,7 @@ mod error;
 mod import;
 mod mechanism;
 mod readings;
+mod recording;
 mod robot;
 mod run;
 mod settings;
@@ -38,6 +39,7 @@ fn _multibody(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add("__version__", env!("CARGO_PKG_VERSION"))?;
     module.add_class::<mechanism::Mechanism>()?;
     module.add_class::<simulation::Simulation>()?;
+    module.add_class::<recording::Recording>()?;
     module.add_class::<run::Record>()?;
     module.add_class::<sweep::Sweep>()?;
     module.add_class::<sweep::Collection>()?;

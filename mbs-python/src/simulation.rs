@@ -1,8 +1,9 @@
 //! `Simulation`: a mechanism in motion.
 
-use crate::array::{Numbers, count, vector, wrong_shape};
+use crate::array::{Numbers, array, count, vector, wrong_shape};
 use crate::error::{Class, Fields, exception, guarded, raised, refused, usage};
 use crate::mechanism::Mechanism;
+use crate::recording::{Recording, Tape, poses};
 use crate::watch::{Ear, Reached, silent, whole};
 use crate::{settings, values};
 use mbs::{ContactEvent, EffectKind, InputId, Interrupt, Method, SimulationError, Snapshot, Tree};
@@ -11,7 +12,7 @@ use pyo3::exceptions::PyKeyboardInterrupt;
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict, PyTuple};
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::{Arc, Mutex, MutexGuard, TryLockError};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError, TryLockError, Weak};
 
 /// A mechanism in motion. One thread at a time: a second one gets a BusyError.
 #[pyclass(frozen, module = "multibody")]
@@ -31,6 +32,50 @@ pub(crate) struct Moving {
     tree: Option<Tree>,
     /// Is the tree where the simulation is?
     is_followed: bool,
+    /// What its motion is recorded on.
+    tapes: Vec<Weak<Mutex<Tape>>>,
+}
+
+impl Moving {
+    /// The recordings that are still wanted.
+    fn tapes(&mut self) -> Tapes {
+        self.tapes.retain(|tape| tape.strong_count() > 0);
+        Tapes(self.tapes.iter().filter_map(Weak::upgrade).collect())
+    }
+}
+
+/// What a motion is recorded on while it is stepped.
+struct Tapes(Vec<Arc<Mutex<Tape>>>);
+
+impl Tapes {
+    /// Takes an instant where one is due.
+    fn offer(&self, simulation: &mbs::Simulation) -> Result<(), SimulationError> {
+        let offer = |tape: &Arc<Mutex<Tape>>| {
+            tape.lock().unwrap_or_else(PoisonError::into_inner).offer(simulation)
+        };
+        self.0.iter().try_for_each(offer)
+    }
+
+    /// A step, which is recorded.
+    fn step(&self, simulation: &mut mbs::Simulation, dt: f64) -> Result<(), SimulationError> {
+        simulation.step(dt)?;
+        self.offer(simulation)
+    }
+
+    /// Steps to a time; where it is recorded, by steps of the method's length as long as they fit.
+    fn advance_to(
+        &self,
+        simulation: &mut mbs::Simulation,
+        time: f64,
+    ) -> Result<(), SimulationError> {
+        let h = simulation.step_length();
+        // what is left of less than one and a half steps is the other's
+        while !self.0.is_empty() && simulation.time() + 1.5 * h <= time {
+            self.step(simulation, h)?;
+        }
+        simulation.advance_to(time)?;
+        self.offer(simulation)
+    }
 }
 
 /// Steps in one call beyond which interrupts are heard [-]: shorter calls end by themselves.
@@ -52,7 +97,7 @@ impl Simulation {
         let py = mechanism.py();
         let (method, flag) = settings::interruptible(method);
         let simulation = mechanism.get().simulation(py, &method)?;
-        let moving = Moving { simulation, tree: None, is_followed: false };
+        let moving = Moving { simulation, tree: None, is_followed: false, tapes: Vec::new() };
         let mechanism = mechanism.clone().unbind();
         Ok(Self { mechanism, settings, flag, moving: Mutex::new(moving) })
     }
@@ -86,7 +131,7 @@ impl Simulation {
         read: impl FnOnce(&mut Tree) -> Result<R, SimulationError>,
     ) -> PyResult<R> {
         let mut moving = self.moving(py)?;
-        let Moving { simulation, tree, is_followed } = &mut *moving;
+        let Moving { simulation, tree, is_followed, .. } = &mut *moving;
         let tree = match tree {
             Some(tree) => tree,
             None => tree.insert(self.this().first(py)?.clone()),
@@ -104,11 +149,12 @@ impl Simulation {
     fn advance<R>(
         &self,
         py: Python<'_>,
-        advance: impl FnOnce(&mut mbs::Simulation) -> PyResult<R>,
+        advance: impl FnOnce(&mut mbs::Simulation, &Tapes) -> PyResult<R>,
     ) -> PyResult<R> {
         let mut moving = self.moving(py)?;
         moving.is_followed = false;
-        guarded(py, || advance(&mut moving.simulation))
+        let tapes = moving.tapes();
+        guarded(py, || advance(&mut moving.simulation, &tapes))
     }
 }
 
@@ -211,17 +257,18 @@ impl Simulation {
     #[pyo3(signature = (dt = None, u = None))]
     fn step(&self, py: Python<'_>, dt: Option<f64>, u: Option<&Bound<'_, PyAny>>) -> PyResult<()> {
         let all = self.inputs_of(u, None)?;
-        self.advance(py, |simulation| {
+        self.advance(py, |simulation, tapes| {
             let set = if all.is_empty() { Ok(()) } else { simulation.set_inputs(&all) };
             let dt = dt.unwrap_or_else(|| simulation.step_length());
             let made = match set {
                 Ok(()) if is_long(simulation, dt) => {
-                    whole(py, &self.flag, &silent(&Reached::default()), || simulation.step(dt))?
+                    let step = || tapes.step(simulation, dt);
+                    whole(py, &self.flag, &silent(&Reached::default()), step)?
                 }
-                Ok(()) => simulation.step(dt),
+                Ok(()) => tapes.step(simulation, dt),
                 Err(error) => Err(error),
             };
-            made.map(|_| ()).map_err(|error| stopped(py, &error))
+            made.map_err(|error| stopped(py, &error))
         })
     }
 
@@ -236,7 +283,7 @@ impl Simulation {
     ) -> PyResult<()> {
         let (n, nu) = (count(py, "n", n)?, self.this().shared.inputs.len());
         let all = self.inputs_of(u, Some(n))?;
-        self.advance(py, |simulation| {
+        self.advance(py, |simulation, tapes| {
             let dt = dt.unwrap_or_else(|| simulation.step_length());
             let step = |simulation: &mut mbs::Simulation, k: usize| {
                 if nu > 0
@@ -244,7 +291,7 @@ impl Simulation {
                 {
                     simulation.set_inputs(row)?;
                 }
-                simulation.step(dt)
+                tapes.step(simulation, dt)
             };
             let go = |simulation: &mut mbs::Simulation, heard: &mut dyn FnMut() -> PyResult<()>| {
                 for k in 0..n {
@@ -270,10 +317,26 @@ impl Simulation {
         })
     }
 
+    /// Records the motion from now on, for a page: `recording.page()`, `recording.save("motion.html")`. It begins anew where time goes back.
+    fn record(&self, py: Python<'_>) -> PyResult<Recording> {
+        let mut moving = self.moving(py)?;
+        let made = Recording::new(self.mechanism.clone_ref(py), &moving.simulation);
+        let (recording, tape) = made.map_err(|error| raised(py, &error, Class::Stop))?;
+        moving.tapes.push(Arc::downgrade(&tape));
+        Ok(recording)
+    }
+
+    /// Poses of all bodies, (bodies, 7): the centre of mass, then the quaternion (w, x, y, z) of the turn since the reference configuration.
+    fn poses<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        let n = self.this().shared.scene.bodies.len();
+        let poses = poses(&self.moving(py)?.simulation, n);
+        array(py, poses, &[n, 7])
+    }
+
     /// Steps to a time [s]; the last step is shorter where they do not fit.
     fn run_until(&self, py: Python<'_>, time: f64) -> PyResult<()> {
-        let go = |simulation: &mut mbs::Simulation| simulation.advance_to(time).map(|_| ());
-        self.advance(py, |simulation| {
+        self.advance(py, |simulation, tapes| {
+            let go = |simulation: &mut mbs::Simulation| tapes.advance_to(simulation, time);
             let done = if is_long(simulation, time - simulation.time()) {
                 whole(py, &self.flag, &silent(&Reached::default()), || go(simulation))?
             } else {
@@ -332,7 +395,7 @@ impl Simulation {
         let q = Numbers::row(q, "q", first.coordinates().len())?;
         let v = Numbers::row(v, "v", first.velocities().len())?;
         let mut moving = self.moving(py)?;
-        let Moving { simulation, tree, is_followed } = &mut *moving;
+        let Moving { simulation, tree, is_followed, .. } = &mut *moving;
         let tree = match tree {
             Some(tree) => tree,
             None => tree.insert(first.clone()),
@@ -359,7 +422,7 @@ impl Simulation {
         let mut simulation = self.moving(py)?.simulation.clone();
         let flag = Arc::new(AtomicBool::new(false));
         simulation.set_interrupt(Interrupt::new(flag.clone()));
-        let moving = Moving { simulation, tree: None, is_followed: false };
+        let moving = Moving { simulation, tree: None, is_followed: false, tapes: Vec::new() };
         Ok(Self {
             mechanism: self.mechanism.clone_ref(py),
             settings: self.settings.clone_ref(py),

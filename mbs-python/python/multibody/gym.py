@@ -15,6 +15,7 @@ from gymnasium.vector.utils import batch_space
 from numpy.typing import NDArray
 
 from . import MbsError, Mechanism, Simulation, StopError, UsageError
+from .render import Picture, Renderer, browser
 
 Array = NDArray[np.float64]
 Flags = NDArray[np.bool_]
@@ -29,12 +30,12 @@ class MechanismEnv(gymnasium.Env[Array, Array]):
     dt: time between actions [s], made in `substeps` equal steps. action: inputs by name, each with its least and largest value; an action
     beyond them is clipped. outputs: names of outputs to observe; None: q and v. reward, terminated: functions of observation, action and
     simulation; None: 0 and never. reset_noise: largest random change of each coordinate and velocity at a reset. max_steps: actions of an
-    episode; None: no end. settings: those of `Mechanism.simulate`. A step that cannot be made ends the episode: it is truncated, and
+    episode; None: no end. render_mode: `"rgb_array"` lets `render` draw the mechanism where it is, `size` wide and high, by
+    `multibody.render`. settings: those of `Mechanism.simulate`. A step that cannot be made ends the episode: it is truncated, and
     `info["error"]` has the error.
     """
 
-    metadata = {"render_modes": []}
-    render_mode = None
+    metadata = {"render_modes": ["rgb_array"]}
 
     def __init__(
         self,
@@ -42,6 +43,8 @@ class MechanismEnv(gymnasium.Env[Array, Array]):
         *,
         dt: float,
         action: Mapping[str, tuple[float, float]],
+        render_mode: str | None = None,
+        size: tuple[int, int] = (640, 480),
         substeps: int = 1,
         reward: Reward | None = None,
         terminated: Terminated | None = None,
@@ -57,6 +60,16 @@ class MechanismEnv(gymnasium.Env[Array, Array]):
         if outputs is not None and len(outputs) == 0:
             hint = "name an output, or leave outputs out"
             raise UsageError("outputs has no name", code="wrong-shape", argument="outputs", hint=hint)
+        if render_mode not in (None, "rgb_array"):
+            hint = 'give "rgb_array", or None'
+            raise UsageError(f"there is no render mode `{render_mode}`", code="unknown-name", argument="render_mode", hint=hint)
+        if render_mode is not None:
+            # an environment that cannot draw is refused here, not at its first picture
+            browser()
+        self.metadata = self.metadata | {"render_fps": max(1, round(1.0 / dt))}
+        self.render_mode = render_mode
+        self._size = size
+        self._renderer: Renderer | None = None
         self.mechanism = mechanism
         self._simulation = mechanism.simulate(step=dt / substeps, **settings)
         self._step, self._substeps = dt / substeps, substeps
@@ -88,6 +101,19 @@ class MechanismEnv(gymnasium.Env[Array, Array]):
     def step(self, action: Array) -> tuple[Array, float, bool, bool, dict[str, Any]]:
         self._advance(action)
         return self._outcome()
+
+    def render(self) -> Picture | None:  # type: ignore[override]
+        """The picture of the mechanism where it is, (height, width, 3); None without a `render_mode`."""
+        if self.render_mode is None:
+            return None
+        if self._renderer is None:
+            self._renderer = Renderer(self.mechanism, *self._size)
+        return self._renderer.picture(self._simulation)
+
+    def close(self) -> None:
+        if self._renderer is not None:
+            self._renderer.close()
+            self._renderer = None
 
     def _scatter(self) -> None:
         q, v = self.mechanism.initial()
