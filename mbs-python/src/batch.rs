@@ -92,8 +92,8 @@ fn rooms(k: usize, n_steps: usize, [n_q, n_v]: [usize; 2]) -> Option<([usize; 2]
 impl Mechanism {
     /// Motions from k starts by equal steps of `dt` [s], with all effects; `u` (k, steps, nu), or (steps, nu) for all, is held over each step.
     /// The numbers do not depend on the number of threads; 0: all processors. `client` is a client of Dask, or "ray": starts then go there in
-    /// chunks.
-    #[pyo3(signature = (q, v, u = None, dt = 1e-3, *, steps = None, threads = 0, client = None, integrator = "rk4"))]
+    /// chunks. `f_ext` are forces and moments on frames or bodies, {NAME: (force, moment)} or {NAME: (steps, 6)}, as in `accelerations`.
+    #[pyo3(signature = (q, v, u = None, dt = 1e-3, *, steps = None, threads = 0, client = None, integrator = "rk4", f_ext = None))]
     #[allow(clippy::too_many_arguments, reason = "they are keywords of Python")]
     fn rollout<'py>(
         &self,
@@ -106,7 +106,17 @@ impl Mechanism {
         threads: i64,
         client: Option<&Bound<'py, PyAny>>,
         integrator: &str,
+        f_ext: Option<&Bound<'py, PyAny>>,
     ) -> PyResult<Bound<'py, PyAny>> {
+        if let Some(f_ext) = f_ext {
+            let words = PyDict::new(py);
+            words.set_item("steps", steps)?;
+            words.set_item("threads", threads)?;
+            words.set_item("client", client)?;
+            words.set_item("integrator", integrator)?;
+            let rollout = py.import("multibody.external")?.getattr("rollout")?;
+            return rollout.call((self.clone(), f_ext, q, v, u, dt), Some(&words));
+        }
         let threads = count(py, "threads", threads)?;
         let steps = steps.map(|steps| count(py, "steps", steps)).transpose()?;
         if !(dt > 0.0 && dt.is_finite()) {

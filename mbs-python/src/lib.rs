@@ -4,6 +4,7 @@ mod array;
 mod batch;
 mod each;
 mod error;
+mod external;
 mod import;
 mod mechanism;
 mod readings;

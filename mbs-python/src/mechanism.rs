@@ -2,6 +2,7 @@
 
 use crate::array::{Numbers, array, count, vector, wrong_shape};
 use crate::error::{Class, guarded, raised, refused, unknown_name, unread, usage};
+use crate::external::Forces;
 use crate::import::{self, Model, Read};
 use crate::value;
 use crate::values;
@@ -31,8 +32,9 @@ pub(crate) struct Shared {
     pub(crate) inputs: Vec<InputInfo>,
     /// Names of the outputs with their units: the columns of runs but for magnitudes.
     pub(crate) columns: Vec<[String; 2]>,
-    folder: Option<PathBuf>,
-    model: Option<Arc<Model>>,
+    pub(crate) folder: Option<PathBuf>,
+    pub(crate) model: Option<Arc<Model>>,
+    pub(crate) forces: Forces,
     dof: OnceLock<usize>,
     /// At rest in the reference configuration.
     first: OnceLock<Tree>,
@@ -43,6 +45,11 @@ pub(crate) struct Shared {
 impl Mechanism {
     /// The mechanism of a scene file, checked.
     pub(crate) fn new(py: Python<'_>, read: Read) -> PyResult<Self> {
+        Self::with(py, read, Forces::default())
+    }
+
+    /// The mechanism of a scene file, some inputs of which are external forces.
+    pub(crate) fn with(py: Python<'_>, read: Read, forces: Forces) -> PyResult<Self> {
         let Read { file, folder, model } = read;
         let scene = file.scene::<f64>().map_err(|error| unread(py, &error))?;
         let mechanism =
@@ -60,7 +67,7 @@ impl Mechanism {
         let (dof, first) = (OnceLock::new(), OnceLock::new());
         let trees = Mutex::new(Vec::new());
         let shared =
-            Shared { mechanism, file, scene, inputs, columns, folder, model, dof, first, trees };
+            Shared { mechanism, file, scene, inputs, columns, folder, model, forces, dof, first, trees };
         Ok(Self { shared: Arc::new(shared) })
     }
 

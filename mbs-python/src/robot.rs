@@ -2,6 +2,7 @@
 
 use crate::array::{Numbers, array, point, vector, wrong_shape};
 use crate::error::{Class, raised, unknown_name, usage};
+use crate::external::add_efforts;
 use crate::mechanism::{Mechanism, pose};
 use crate::values;
 use mbs::{FrameTarget, InverseKinematicsEnd, Matrix, Tree, TreeError};
@@ -15,7 +16,8 @@ fn copy(matrix: &Matrix, out: &mut [f64]) {
 #[pymethods]
 impl Mechanism {
     /// Accelerations (nv,) under all effects and inputs `u` (nu,), signals as they begin. All arguments are of one state, or of k states.
-    #[pyo3(signature = (q, v, u = None, *, time = 0.0, strict = false))]
+    /// `f_ext` are forces and moments on frames or bodies, {NAME: (force, moment)}: global axes, at the origin of the frame.
+    #[pyo3(signature = (q, v, u = None, *, time = 0.0, f_ext = None, strict = false))]
     #[allow(clippy::too_many_arguments, reason = "they are keywords of Python")]
     fn accelerations<'py>(
         &self,
@@ -24,8 +26,10 @@ impl Mechanism {
         v: &Bound<'py, PyAny>,
         u: Option<&Bound<'py, PyAny>>,
         time: f64,
+        f_ext: Option<&Bound<'py, PyAny>>,
         strict: bool,
     ) -> PyResult<Bound<'py, PyAny>> {
+        let external = self.external(py, f_ext)?;
         let ([nq, nv], nu) = (self.sizes(py)?, self.shared.inputs.len());
         if !time.is_finite() {
             let message = format!("time is {time}");
@@ -41,45 +45,65 @@ impl Mechanism {
                 tree.set_inputs(x[2])?;
             }
             out.copy_from_slice(tree.accelerations()?);
+            if !external.is_empty() {
+                // accelerations are linear in efforts
+                let mut efforts = vec![0.0; out.len()];
+                let without = tree.forward_dynamics(&efforts)?.to_vec();
+                add_efforts(tree, &external, &mut efforts);
+                let with = tree.forward_dynamics(&efforts)?.iter().zip(&without);
+                out.iter_mut().zip(with).for_each(|(to, (with, without))| *to += with - without);
+            }
             Ok(())
         })
         .map_err(|error| self.about_inputs(py, error))
     }
 
-    /// Accelerations (nv,) under efforts along v and gravity alone, loops closed.
-    #[pyo3(signature = (q, v, effort, *, strict = false))]
+    /// Accelerations (nv,) under efforts along v, gravity and `f_ext` alone, loops closed.
+    #[pyo3(signature = (q, v, effort, *, f_ext = None, strict = false))]
+    #[allow(clippy::too_many_arguments, reason = "they are keywords of Python")]
     fn forward_dynamics<'py>(
         &self,
         py: Python<'py>,
         q: &Bound<'py, PyAny>,
         v: &Bound<'py, PyAny>,
         effort: &Bound<'py, PyAny>,
+        f_ext: Option<&Bound<'py, PyAny>>,
         strict: bool,
     ) -> PyResult<Bound<'py, PyAny>> {
+        let external = self.external(py, f_ext)?;
         let [nq, nv] = self.sizes(py)?;
         let arguments = [(q, "q", nq), (v, "v", nv), (effort, "effort", nv)];
         self.each(py, (&arguments, strict), &[nv], |tree, x, out| {
             tree.set(x[0], x[1])?;
-            out.copy_from_slice(tree.forward_dynamics(x[2])?);
+            out.copy_from_slice(x[2]);
+            add_efforts(tree, &external, out);
+            let efforts = out.to_vec();
+            out.copy_from_slice(tree.forward_dynamics(&efforts)?);
             Ok(())
         })
     }
 
-    /// Efforts (nv,) that make accelerations `a`: M a + bias.
-    #[pyo3(signature = (q, v, a, *, strict = false))]
+    /// Efforts (nv,) that make accelerations `a`: M a + bias, less what `f_ext` does.
+    #[pyo3(signature = (q, v, a, *, f_ext = None, strict = false))]
+    #[allow(clippy::too_many_arguments, reason = "they are keywords of Python")]
     fn inverse_dynamics<'py>(
         &self,
         py: Python<'py>,
         q: &Bound<'py, PyAny>,
         v: &Bound<'py, PyAny>,
         a: &Bound<'py, PyAny>,
+        f_ext: Option<&Bound<'py, PyAny>>,
         strict: bool,
     ) -> PyResult<Bound<'py, PyAny>> {
+        let external = self.external(py, f_ext)?;
         let [nq, nv] = self.sizes(py)?;
         let arguments = [(q, "q", nq), (v, "v", nv), (a, "a", nv)];
         self.each(py, (&arguments, strict), &[nv], |tree, x, out| {
             tree.set(x[0], x[1])?;
-            out.copy_from_slice(tree.inverse_dynamics(x[2])?);
+            let mut pushed = vec![0.0; out.len()];
+            add_efforts(tree, &external, &mut pushed);
+            let efforts = tree.inverse_dynamics(x[2])?.iter().zip(&pushed);
+            out.iter_mut().zip(efforts).for_each(|(to, (effort, pushed))| *to = effort - pushed);
             Ok(())
         })
     }
@@ -410,7 +434,7 @@ impl Mechanism {
     }
 
     /// Refuses the name of a frame.
-    fn no_frame(&self, py: Python<'_>, of: (&str, &str)) -> PyErr {
+    pub(crate) fn no_frame(&self, py: Python<'_>, of: (&str, &str)) -> PyErr {
         let scene = &self.shared.scene;
         let frames = scene.frames.iter().map(|frame| frame.name.as_str());
         let known: Vec<&str> =

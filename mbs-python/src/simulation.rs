@@ -11,6 +11,7 @@ use numpy::{PyArray1, PyArrayMethods};
 use pyo3::exceptions::PyKeyboardInterrupt;
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict, PyTuple};
+use std::ops::Range;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError, TryLockError, Weak};
 
@@ -159,11 +160,52 @@ impl Simulation {
 }
 
 impl Simulation {
-    /// The inputs of a call; another number of them is refused with their names.
-    fn inputs_of(&self, u: Option<&Bound<'_, PyAny>>, n: Option<usize>) -> PyResult<Vec<f64>> {
-        let Some(u) = u else { return Ok(Vec::new()) };
+    /// The inputs of a call, nothing where they stay; another number of them is refused with their names. Forces that are not named are
+    /// zero; without any they stay.
+    fn inputs_of(
+        &self,
+        py: Python<'_>,
+        (u, f_ext): (Option<&Bound<'_, PyAny>>, Option<&Bound<'_, PyAny>>),
+        n: Option<usize>,
+    ) -> PyResult<Vec<f64>> {
         let this = self.this();
-        inputs(u, this.shared.inputs.len(), n).map_err(|error| this.about_inputs(u.py(), error))
+        let (nu, forces) = (this.shared.inputs.len(), &this.shared.forces);
+        let external = this.external(py, f_ext)?;
+        forces.check(py, &external)?;
+        let present = self.moving(py)?.simulation.input_values().to_vec();
+        let mut all = match u {
+            None if f_ext.is_none() => return Ok(Vec::new()),
+            None => present,
+            Some(u) => {
+                let own = nu - forces.range().len();
+                let given = inputs(u, [nu, own], n).map_err(|error| this.about_inputs(py, error))?;
+                given.whole(own, forces.range(), &present)
+            }
+        };
+        if f_ext.is_some() {
+            all.chunks_exact_mut(nu.max(1)).for_each(|row| forces.write(&external, row));
+        }
+        Ok(all)
+    }
+}
+
+/// Rows of inputs: all of them, or all but the forces.
+struct InputRows {
+    numbers: Vec<f64>,
+    n: usize,
+}
+
+impl InputRows {
+    /// Rows of all inputs; the forces that a row lacks are those of now.
+    fn whole(self, own: usize, forces: Range<usize>, present: &[f64]) -> Vec<f64> {
+        if self.n != own || forces.is_empty() {
+            return self.numbers;
+        }
+        let whole = |row: &[f64]| {
+            let (before, after) = row.split_at(forces.start);
+            [before, &present[forces.clone()], after].concat()
+        };
+        self.numbers.chunks_exact(own.max(1)).flat_map(whole).collect()
     }
 }
 
@@ -173,19 +215,22 @@ fn stopped(py: Python<'_>, error: &SimulationError) -> PyErr {
     refused(py, error, Class::Stop, &arguments)
 }
 
-/// Inputs of a call: one row that is held, or a row for each of n steps.
-fn inputs(u: &Bound<'_, PyAny>, nu: usize, n: Option<usize>) -> PyResult<Vec<f64>> {
+/// Inputs of a call: one row that is held, or a row for each of n steps; a row has one of two numbers of inputs.
+fn inputs(u: &Bound<'_, PyAny>, sizes: [usize; 2], n: Option<usize>) -> PyResult<InputRows> {
     let numbers = Numbers::new(u, "u", false)?;
-    let fits = match *numbers.shape() {
-        [found] => found == nu,
-        [rows, found] => found == nu && n == Some(rows),
-        _ => false,
+    let found = match *numbers.shape() {
+        [found] => Some(found),
+        [rows, found] if n == Some(rows) => Some(found),
+        _ => None,
     };
-    if !fits {
-        let rows = n.map_or_else(String::new, |n| format!(" or ({n}, {nu})"));
-        return Err(wrong_shape(u.py(), "u", numbers.shape(), &format!("({nu},){rows}")));
+    match found.filter(|found| sizes.contains(found)) {
+        Some(n) => Ok(InputRows { numbers: numbers.into_data(), n }),
+        None => {
+            let nu = sizes[1];
+            let rows = n.map_or_else(String::new, |n| format!(" or ({n}, {nu})"));
+            Err(wrong_shape(u.py(), "u", numbers.shape(), &format!("({nu},){rows}")))
+        }
     }
-    Ok(numbers.into_data())
 }
 
 #[pymethods]
@@ -228,7 +273,7 @@ impl Simulation {
 
     #[setter]
     fn set_u(&self, py: Python<'_>, values: &Bound<'_, PyAny>) -> PyResult<()> {
-        let all = self.inputs_of(Some(values), None)?;
+        let all = self.inputs_of(py, (Some(values), None), None)?;
         let set = self.moving(py)?.simulation.set_inputs(&all);
         set.map_err(|error| refused(py, &error, Class::Usage, &[("input-refused", "u")]))
     }
@@ -253,10 +298,17 @@ impl Simulation {
         done.map_err(|error| raised(py, &error, Class::Stop))
     }
 
-    /// One step of `dt` [s], else of the method's step. `u` (nu,) holds from now on.
-    #[pyo3(signature = (dt = None, u = None))]
-    fn step(&self, py: Python<'_>, dt: Option<f64>, u: Option<&Bound<'_, PyAny>>) -> PyResult<()> {
-        let all = self.inputs_of(u, None)?;
+    /// One step of `dt` [s], else of the method's step. `u` (nu,) holds from now on. `f_ext` are forces as in `accelerations`, which hold
+    /// too; the mechanism is one of `with_forces`.
+    #[pyo3(signature = (dt = None, u = None, *, f_ext = None))]
+    fn step(
+        &self,
+        py: Python<'_>,
+        dt: Option<f64>,
+        u: Option<&Bound<'_, PyAny>>,
+        f_ext: Option<&Bound<'_, PyAny>>,
+    ) -> PyResult<()> {
+        let all = self.inputs_of(py, (u, f_ext), None)?;
         self.advance(py, |simulation, tapes| {
             let set = if all.is_empty() { Ok(()) } else { simulation.set_inputs(&all) };
             let dt = dt.unwrap_or_else(|| simulation.step_length());
@@ -272,17 +324,18 @@ impl Simulation {
         })
     }
 
-    /// `n` steps of `dt` [s] without Python in between. `u` is (nu,), which holds, or (n, nu), a row for each step.
-    #[pyo3(signature = (dt, n, u = None))]
+    /// `n` steps of `dt` [s] without Python in between. `u` is (nu,), which holds, or (n, nu), a row for each step; `f_ext` as in `step`.
+    #[pyo3(signature = (dt, n, u = None, *, f_ext = None))]
     fn steps(
         &self,
         py: Python<'_>,
         dt: Option<f64>,
         n: i64,
         u: Option<&Bound<'_, PyAny>>,
+        f_ext: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<()> {
         let (n, nu) = (count(py, "n", n)?, self.this().shared.inputs.len());
-        let all = self.inputs_of(u, Some(n))?;
+        let all = self.inputs_of(py, (u, f_ext), Some(n))?;
         self.advance(py, |simulation, tapes| {
             let dt = dt.unwrap_or_else(|| simulation.step_length());
             let step = |simulation: &mut mbs::Simulation, k: usize| {
