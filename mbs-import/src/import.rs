@@ -1,6 +1,7 @@
 //! A file of a model in, the text of a scene out.
 
 use crate::context::Context;
+use crate::coordinates::FileCoordinate;
 use crate::element::{Attribute, Element};
 use crate::findings::{Findings, ModelFinding};
 use crate::format::ModelFormat;
@@ -25,6 +26,8 @@ pub struct Imported {
     pub findings: Vec<ModelFinding>,
     /// How much it has.
     pub sizes: ModelSizes,
+    /// The coordinates of the file in its order: of an MJCF, those of `qpos` and `qvel`.
+    pub coordinates: Vec<FileCoordinate>,
     /// Where its text names files from.
     folder: Option<PathBuf>,
 }
@@ -103,10 +106,10 @@ pub fn import(bytes: &[u8], file: &str, options: &ImportOptions) -> Result<Impor
     let source = sources.add(file, text, None);
     let mut context = Context { sources, findings: Findings::default(), options };
     match whole(text, source, file, &mut context) {
-        Ok((format, text, sizes)) => {
+        Ok((format, text, sizes, coordinates)) => {
             let Context { sources, findings, .. } = context;
             let folder = options.scene_home().map(Path::to_owned);
-            Ok(Imported { format, text, findings: findings.list(&sources), sizes, folder })
+            Ok(Imported { format, text, findings: findings.list(&sources), sizes, coordinates, folder })
         }
         Err(fault) => Err(context.sources.error(fault)),
     }
@@ -117,7 +120,7 @@ fn whole(
     source: u16,
     file: &str,
     context: &mut Context<'_>,
-) -> Read<(ModelFormat, String, ModelSizes)> {
+) -> Read<(ModelFormat, String, ModelSizes, Vec<FileCoordinate>)> {
     if text.len() > MOST_BYTES {
         let message = format!("the file is larger than {} MiB", MOST_BYTES >> 20);
         return Err(Fault::new(
@@ -151,7 +154,8 @@ fn whole(
     robot.notes = vec![format!("{} model, from {file}.", format.name())];
     robot.notes.extend(notes);
     robot.notes.push("Duration: 1 s, a choice.".into());
-    Ok((format, write::scene(&robot, &lumps), sizes))
+    let coordinates = std::mem::take(&mut robot.coordinates);
+    Ok((format, write::scene(&robot, &lumps), sizes, coordinates))
 }
 
 /// Has the format the options that are given? Else what is wrong, and what to do.

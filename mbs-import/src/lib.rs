@@ -3,6 +3,7 @@
 mod beside;
 mod closing;
 mod context;
+mod coordinates;
 mod element;
 mod files;
 mod findings;
@@ -26,6 +27,7 @@ mod visual;
 mod write;
 mod xml;
 
+pub use coordinates::{FileCoordinate, FileMotion};
 pub use files::{read, scene_file};
 pub use findings::{FindingKind, ModelFinding};
 pub use format::ModelFormat;

@@ -1,5 +1,6 @@
 //! What the readers of all formats fill in: links and joints in global axes of the reference configuration.
 
+use crate::coordinates::FileCoordinate;
 use crate::inertia::Mass;
 use crate::pose::{Pose, V3};
 use crate::source::Origin;
@@ -22,6 +23,8 @@ pub(crate) struct Robot {
     pub(crate) gravity: [f64; 3],
     /// Values and rates at the start.
     pub(crate) start: Vec<Start>,
+    /// The coordinates of the file in its order, where the file gives them one.
+    pub(crate) coordinates: Vec<FileCoordinate>,
     /// Sentences for the head of the scene.
     pub(crate) notes: Vec<String>,
 }

@@ -3,7 +3,7 @@
 use crate::error::{raised, unread, usage};
 use crate::value;
 use mbs::SimulationError;
-use mbs::models::{self, BaseKind, ImportOptions, Imported, Stops};
+use mbs::models::{self, BaseKind, FileCoordinate, FileMotion, ImportOptions, Imported, Stops};
 use mbs::scene_file::{ReadError, SceneFile};
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
@@ -178,6 +178,26 @@ pub(crate) fn report<'py>(py: Python<'py>, (name, model): &Model) -> PyResult<Bo
     let refused = |error: SimulationError| raised(py, &error, crate::error::Class::Scene);
     let object = mbs_study::imported::to_json(name, model, faults.map_err(refused)?.as_deref());
     value::object(py, &object)
+}
+
+/// The coordinates of a file in its own order, where it is an MJCF.
+pub(crate) fn coordinates<'py>(
+    py: Python<'py>,
+    (_, model): &Model,
+) -> Option<PyResult<Bound<'py, PyAny>>> {
+    let word = |motion: FileMotion| match motion {
+        FileMotion::Single => "single",
+        FileMotion::Ball => "ball",
+        FileMotion::Free => "free",
+    };
+    let object = |of: &FileCoordinate| {
+        serde_json::json!({
+            "motion": word(of.motion), "joint": of.joint, "number": of.number,
+            "sign": of.sign, "zero": of.zero, "at": of.at, "turn": of.turn,
+        })
+    };
+    let list = || serde_json::Value::from(model.coordinates.iter().map(object).collect::<Vec<_>>());
+    (model.format == models::ModelFormat::Mjcf).then(|| value::object(py, &list()))
 }
 
 /// Warns where something that can act was left out.

@@ -3,6 +3,7 @@
 use super::compiler::Compiler;
 use super::defaults::Classes;
 use crate::context::{Context, Named};
+use crate::coordinates::{FileCoordinate, FileMotion};
 use crate::element::{Attribute, Element};
 use crate::inertia::Mass;
 use crate::pose::{Pose, V3};
@@ -75,6 +76,27 @@ impl Motion {
     pub(super) fn term(&self, factor: f64) -> (Term, f64) {
         let term = Term::new(self.coordinate(), factor * self.sign);
         (term, factor * self.zero)
+    }
+
+    /// Where its numbers in the file are in the scene.
+    pub(super) fn of_file(&self, robot: &Robot) -> FileCoordinate {
+        let joint = &robot.joints[self.joint];
+        let Pose { turn, at } = robot.links[joint.child].pose;
+        let motion = match self.moves {
+            Moves::Hinge | Moves::Slide => FileMotion::Single,
+            Moves::Ball => FileMotion::Ball,
+            Moves::Free => FileMotion::Free,
+        };
+        let row = |i: usize| [turn[(i, 0)], turn[(i, 1)], turn[(i, 2)]];
+        FileCoordinate {
+            motion,
+            joint: joint.name.clone(),
+            number: self.number.unwrap_or_default(),
+            sign: self.sign,
+            zero: self.zero,
+            at: at.into(),
+            turn: [row(0), row(1), row(2)],
+        }
     }
 
     /// A value of the file as one of the scene.
