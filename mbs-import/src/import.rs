@@ -109,7 +109,14 @@ pub fn import(bytes: &[u8], file: &str, options: &ImportOptions) -> Result<Impor
         Ok((format, text, sizes, coordinates)) => {
             let Context { sources, findings, .. } = context;
             let folder = options.scene_home().map(Path::to_owned);
-            Ok(Imported { format, text, findings: findings.list(&sources), sizes, coordinates, folder })
+            Ok(Imported {
+                format,
+                text,
+                findings: findings.list(&sources),
+                sizes,
+                coordinates,
+                folder,
+            })
         }
         Err(fault) => Err(context.sources.error(fault)),
     }

@@ -157,13 +157,17 @@ impl Mechanism {
     }
 
     /// For rollouts under forces: values at which inputs begin, places of those that are no forces, and those of each force.
-    fn _force_inputs<'py>(&self, py: Python<'py>) -> PyResult<(Vec<f64>, Vec<usize>, Bound<'py, PyDict>)> {
+    fn _force_inputs<'py>(
+        &self,
+        py: Python<'py>,
+    ) -> PyResult<(Vec<f64>, Vec<usize>, Bound<'py, PyDict>)> {
         let (inputs, forces) = (&self.shared.inputs, &self.shared.forces);
         let (range, n) = (forces.range(), forces.parts.len());
         let places = PyDict::new(py);
         for (k, name) in forces.names.iter().enumerate() {
             let first = forces.first + k * n;
-            places.set_item(name, ((first..first + n).collect::<Vec<_>>(), forces.parts.to_vec()))?;
+            places
+                .set_item(name, ((first..first + n).collect::<Vec<_>>(), forces.parts.to_vec()))?;
         }
         let own = (0..inputs.len()).filter(|i| !range.contains(i)).collect();
         Ok((inputs.iter().map(|info| info.start).collect(), own, places))

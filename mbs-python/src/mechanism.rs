@@ -66,8 +66,19 @@ impl Mechanism {
         let columns = columns.collect();
         let (dof, first) = (OnceLock::new(), OnceLock::new());
         let trees = Mutex::new(Vec::new());
-        let shared =
-            Shared { mechanism, file, scene, inputs, columns, folder, model, forces, dof, first, trees };
+        let shared = Shared {
+            mechanism,
+            file,
+            scene,
+            inputs,
+            columns,
+            folder,
+            model,
+            forces,
+            dof,
+            first,
+            trees,
+        };
         Ok(Self { shared: Arc::new(shared) })
     }
 

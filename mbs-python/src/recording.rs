@@ -4,9 +4,7 @@ use crate::array::{array, vector};
 use crate::error::{Class, guarded, raised, unknown_name};
 use crate::mechanism::Mechanism;
 use mbs::core::scene::{BodyId, Output, Scene};
-use mbs::record::{
-    Channel, ChannelSeries, N_POSE, Provenance, RecordedMotion, RunRecord,
-};
+use mbs::record::{Channel, ChannelSeries, N_POSE, Provenance, RecordedMotion, RunRecord};
 use mbs::{Method, ResolvedMethod, Simulation, SimulationError, run_document};
 use pyo3::prelude::*;
 use std::path::PathBuf;

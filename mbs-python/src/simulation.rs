@@ -178,7 +178,8 @@ impl Simulation {
             None => present,
             Some(u) => {
                 let own = nu - forces.range().len();
-                let given = inputs(u, [nu, own], n).map_err(|error| this.about_inputs(py, error))?;
+                let given =
+                    inputs(u, [nu, own], n).map_err(|error| this.about_inputs(py, error))?;
                 given.whole(own, forces.range(), &present)
             }
         };

@@ -54,7 +54,8 @@ pub(crate) fn read(root: &Element, context: &mut Context<'_>) -> Read<Robot> {
     keyframe::read(root, &mut model)?;
     weights::armatures(&mut model);
     body::frames(&mut model);
-    model.robot.coordinates = model.motions.iter().map(|motion| motion.of_file(&model.robot)).collect();
+    model.robot.coordinates =
+        model.motions.iter().map(|motion| motion.of_file(&model.robot)).collect();
     if model.touching > 1 && model.compiler.acts.contact {
         let says = format!(
             "{} of them could touch: there is no contact between bodies yet",

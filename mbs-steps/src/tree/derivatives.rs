@@ -5,10 +5,12 @@ use super::{
     AccelerationDerivatives, EffortDerivatives, Matrix, Tree, TreeError, TreeErrorKind, checked,
 };
 use crate::stop::StopError;
+use mbs_core::scene::{CouplingMeasure, CouplingTerm, JointKind};
 use mbs_recursive::own::{EffortSlopes, MovingColumns};
 
 impl Tree {
-    /// Derivatives of [`inverse_dynamics`](Self::inverse_dynamics) at accelerations, without loops.
+    /// Derivatives of [`inverse_dynamics`](Self::inverse_dynamics) at accelerations. Joints may follow others by constant ratios; other
+    /// loops are refused.
     ///
     /// ∂/∂q is along v, as a step of [`integrate`](Self::integrate): for a ball the turn about an axis of the second body, so it is
     /// square like the others. Effects are left out, as everywhere here.
@@ -32,7 +34,7 @@ impl Tree {
         accelerations: &[f64],
     ) -> Result<&EffortDerivatives, TreeError> {
         checked("accelerations", accelerations, self.v.len())?;
-        self.open("derivatives of efforts")?;
+        self.has_constant_rows("derivatives of efforts")?;
         self.place_accelerations(Some(accelerations));
         let to = &mut self.of_effort;
         let mut slopes = slopes_in([&mut to.q, &mut to.v, &mut to.acceleration]);
@@ -44,8 +46,8 @@ impl Tree {
         Ok(&self.of_effort)
     }
 
-    /// Derivatives of [`forward_dynamics`](Self::forward_dynamics) under efforts, without loops: ∂v̇/∂(q, v) = −M⁻¹ ∂τ/∂(q, v), ∂v̇/∂τ =
-    /// M⁻¹.
+    /// Derivatives of [`forward_dynamics`](Self::forward_dynamics) under efforts: ∂v̇/∂(q, v) = −K ∂τ/∂(q, v), ∂v̇/∂τ = K. In an open tree K
+    /// is M⁻¹. Where joints follow others by constant ratios, J v̇ = 0, it is M⁻¹ − M⁻¹ Jᵀ (J M⁻¹ Jᵀ)⁻¹ J M⁻¹; other loops are refused.
     ///
     /// ∂/∂q is along v, as in [`inverse_dynamics_derivatives`](Self::inverse_dynamics_derivatives). Efforts stay as they are, in the
     /// directions of v.
@@ -68,7 +70,7 @@ impl Tree {
         effort: &[f64],
     ) -> Result<&AccelerationDerivatives, TreeError> {
         checked("effort", effort, self.v.len())?;
-        self.open("derivatives of accelerations")?;
+        self.has_constant_rows("derivatives of accelerations")?;
         self.accelerate(Some(effort))?;
         let to = &mut self.by_effort;
         let mut slopes = slopes_in([&mut to.q, &mut to.v, &mut self.mass]);
@@ -89,7 +91,57 @@ impl Tree {
         for square in [&mut to.q.data, &mut to.v.data, &mut to.effort.data] {
             with!(&mut self.inner, t => t.own.solve(&self.mass.data, square));
         }
+        self.keep_rows();
         Ok(&self.by_effort)
+    }
+
+    /// Takes out of the derivatives what the rows of couplings forbid. With K = M⁻¹ and a constant row j each X becomes X − K jᵀ (j X) /
+    /// (j K jᵀ), K itself at last; a row that those before it contain changes nothing.
+    fn keep_rows(&mut self) {
+        /// What is left of j K jᵀ by rounding, where rows before it contain j [-].
+        const ROUNDING: f64 = 1e-12;
+        if self.loops.rows == 0 {
+            return;
+        }
+        let rows = self.loop_jacobian().clone();
+        let AccelerationDerivatives { q, v, effort } = &mut self.by_effort;
+        let product = |x: &Matrix, j: &[f64]| -> Vec<f64> {
+            (0..x.rows).map(|i| x.row(i).iter().zip(j).map(|(x, j)| x * j).sum()).collect()
+        };
+        let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
+        let inverse = effort.clone();
+        for j in (0..rows.rows).map(|row| rows.row(row)) {
+            let (pushed, whole) = (product(effort, j), dot(j, &product(&inverse, j)));
+            let size = dot(j, &pushed);
+            if size <= ROUNDING * whole {
+                continue;
+            }
+            for square in [&mut *q, &mut *v, &mut *effort] {
+                let n = square.columns;
+                let row = |c: usize| j.iter().enumerate().map(|(i, j)| j * square[(i, c)]).sum();
+                let moved: Vec<f64> = (0..n).map(row).collect();
+                for (i, pushed) in pushed.iter().enumerate() {
+                    let to = &mut square.data[i * n..][..n];
+                    to.iter_mut().zip(&moved).for_each(|(x, moved)| *x -= pushed * moved / size);
+                }
+            }
+        }
+    }
+
+    /// Refuses loops whose rows change with the position: of joints, of what rolls, of curves and lines.
+    fn has_constant_rows(&self, what: &'static str) -> Result<(), TreeError> {
+        let is_constant = |term: &CouplingTerm<f64>| {
+            let CouplingMeasure::Coordinate { joint, .. } = &term.of else { return false };
+            let kind = self.scene.joints[*joint].kind;
+            let is_angle = !matches!(kind, JointKind::Spherical | JointKind::Free);
+            is_angle && term.curve.is_none()
+        };
+        let mut couplings = self.scene.couplings.iter().flat_map(|coupling| &coupling.terms);
+        let has_cut = with!(&self.inner, t => t.model.cut_joints().next().is_some());
+        if !has_cut && self.scene.rollings.is_empty() && couplings.all(is_constant) {
+            return Ok(());
+        }
+        self.open(what)
     }
 
     /// Replaces the mass matrix by its factors.
