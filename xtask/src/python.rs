@@ -1,5 +1,6 @@
 //! `cargo xtask python`: the wheel of the Python package, and its tests in a clean virtual environment.
 
+use crate::pages;
 use crate::process::{self, output, run};
 use crate::summary::{self, LeftOut, Outcome};
 use crate::tally::{Tally, counted};
@@ -52,6 +53,8 @@ pub(crate) fn tests(
             remedy: "On Debian, as root: `apt-get install python3 python3-venv`.".to_owned(),
         }));
     };
+    // its pictures need one; what has none says so
+    let _ = pages::browser();
     let wheel = wheel(&build)?;
     pip(&tests, &["--no-deps", "--force-reinstall", &wheel.display().to_string()])?;
     let mut pytest = in_environment(&tests);

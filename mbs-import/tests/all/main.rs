@@ -2,4 +2,5 @@
 
 mod conventions;
 mod hostile;
+mod motors;
 mod pictures;

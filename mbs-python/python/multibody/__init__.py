@@ -7,7 +7,7 @@
 
 from __future__ import annotations
 
-from ._multibody import Mechanism, Simulation, __version__
+from ._multibody import Mechanism, Recording, Simulation, __version__
 from .errors import BusyError, MbsError, ModelWarning, SceneError, StartError, StopError, UsageError
 from .result import Result
 from .values import Derivatives, Equilibrium, Event, Finding, Linear, Modes, Rollout, State, Table
@@ -28,6 +28,7 @@ __all__ = [
     "Mechanism",
     "ModelWarning",
     "Modes",
+    "Recording",
     "Result",
     "Rollout",
     "SceneError",

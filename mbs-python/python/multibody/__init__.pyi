@@ -119,16 +119,47 @@ class Table:
     def failures(self) -> dict[int, tuple[str, str]]: ...
 
 Source = str | PathLike[str] | Mapping[str, Any]
-StateLike = State | Equilibrium | tuple[ArrayLike, ArrayLike] | Literal["equilibrium", "initial", "moving"]
+Place = Literal["equilibrium", "initial", "moving"]
+StateLike = State | Equilibrium | tuple[ArrayLike, ArrayLike] | tuple[ArrayLike, ArrayLike, ArrayLike] | Place
+Wrench = tuple[ArrayLike, ArrayLike] | ArrayLike
+"""A force and a moment, or six numbers."""
+Forces = Mapping[str, Wrench]
+"""Forces and moments by names of frames or bodies."""
 
 class Mechanism:
     """A mechanism, checked and immutable. Threads may share it.
 
     `source` is the path of a scene (TOML, JSON) or of a model (URDF, MJCF, SDF), the text of a scene, or a scene as a dict.
     A text has more than one line.
+
+    A model takes the options of `mbs import`: base ("fixed", "free"), limits (True, or stiffness and damping), balance, keep_fixed (names),
+    key (a keyframe), motors, massless_meshes, packages (folders by names), no_outside. A ModelWarning says where something that can act was
+    left out; `import_report` lists it.
     """
 
-    def __init__(self, source: Source, **import_options: Any) -> None: ...
+    def __init__(
+        self,
+        source: Source,
+        *,
+        base: Literal["fixed", "free"] | None = ...,
+        limits: bool | tuple[float, float] | None = ...,
+        balance: bool = ...,
+        keep_fixed: Sequence[str] = ...,
+        key: str | None = ...,
+        motors: bool = ...,
+        massless_meshes: bool = ...,
+        packages: Mapping[str, str | PathLike[str]] = ...,
+        no_outside: bool = ...,
+    ) -> None: ...
+    @property
+    def import_report(self) -> dict[str, Any] | None:
+        """."""
+    def from_qpos(self, qpos: ArrayLike, qvel: ArrayLike | None = None) -> State:
+        """."""
+    def to_qpos(self, q: ArrayLike, v: ArrayLike | None = None) -> tuple[Array, Array]:
+        """."""
+    def with_forces(self, *names: str) -> Mechanism:
+        """."""
     @staticmethod
     def build(name: str, dimension: Literal[2, 3] = 3) -> Builder:
         """A builder of a scene: its parts are added by calls, and `done()` gives the mechanism."""
@@ -226,7 +257,7 @@ class Mechanism:
         """A simulation at its start. None leaves a setting to the scene; its default is index-3 with steps of 1 ms."""
     def equilibrium(self, search: Literal["down", "near"] = "down") -> Equilibrium:
         """The static equilibrium: downhill to a stable one, or the one `near` the reference configuration."""
-    def modes(self, at: StateLike = "equilibrium", *, frozen: bool = False) -> Modes:
+    def modes(self, at: StateLike = "equilibrium", *, u: ArrayLike | None = None, frozen: bool = False) -> Modes:
         """Eigenvalues of the motion about a state, with frequencies, damping ratios and shapes, from the slowest to the fastest. About a
         state that is neither a rest nor a steady motion `frozen` gives the eigenvalues of the instant; else it is refused."""
     def linearize(
@@ -234,16 +265,31 @@ class Mechanism:
         at: StateLike = "equilibrium",
         inputs: Sequence[str] | None = None,
         outputs: Sequence[str] | None = None,
+        *,
+        u: ArrayLike | None = None,
     ) -> Linear:
         """dx/dt = A x + B u, y = C x + D u about a state: `"equilibrium"`, `"initial"`, `"moving"`, what `equilibrium()` gives, or (q, v).
         The states x are independent coordinates and their rates, then the states of signals. About a state that is neither a rest nor a
         steady motion the matrices hold for the instant, and `unsteady` says why."""
-    def accelerations(self, q: ArrayLike, v: ArrayLike, u: ArrayLike | None = None, *, time: float = 0.0, strict: bool = False) -> Array:
+    def accelerations(
+        self,
+        q: ArrayLike,
+        v: ArrayLike,
+        u: ArrayLike | None = None,
+        *,
+        time: float = 0.0,
+        f_ext: Forces | None = None,
+        strict: bool = False,
+    ) -> Array:
         """Accelerations (nv,) under all effects and inputs `u` (nu,), signals as they begin. All arguments are of one state, or of k
         states."""
-    def forward_dynamics(self, q: ArrayLike, v: ArrayLike, effort: ArrayLike, *, strict: bool = False) -> Array:
+    def forward_dynamics(
+        self, q: ArrayLike, v: ArrayLike, effort: ArrayLike, *, f_ext: Forces | None = None, strict: bool = False
+    ) -> Array:
         """Accelerations (nv,) under efforts along v and gravity alone, loops closed."""
-    def inverse_dynamics(self, q: ArrayLike, v: ArrayLike, a: ArrayLike, *, strict: bool = False) -> Array:
+    def inverse_dynamics(
+        self, q: ArrayLike, v: ArrayLike, a: ArrayLike, *, f_ext: Forces | None = None, strict: bool = False
+    ) -> Array:
         """Efforts (nv,) that make accelerations `a`: M a + bias."""
     def mass_matrix(self, q: ArrayLike, *, strict: bool = False) -> Array:
         """Mass matrix (nv, nv), loops open."""
@@ -294,6 +340,7 @@ class Mechanism:
         threads: int = 0,
         client: Any = None,
         integrator: str = "rk4",
+        f_ext: Forces | None = None,
     ) -> Rollout:
         """Motions from k starts by equal steps of `dt` [s], with all effects; `u` (k, steps, nu), or (steps, nu) for all, is held over each
         step. The numbers do not depend on the number of threads; 0: all processors. `client` is a client of Dask, or "ray": starts then go
@@ -334,6 +381,24 @@ class Event(NamedTuple):
     is_made: bool
     end: str | None
 
+class Recording:
+    """The motion of a simulation from where it was when `Simulation.record` was called: instants of its steps, 2400 at most, then every second
+    one and so on."""
+
+    @property
+    def times(self) -> Array:
+        """Times of the instants that are kept [s]."""
+    @property
+    def outputs(self) -> Array:
+        """All outputs at the instants, (instants, outputs)."""
+    def __getitem__(self, name: str) -> Array:
+        """An output at the instants, by its name."""
+    def __len__(self) -> int: ...
+    def page(self) -> str:
+        """The page of the motion: HTML that stands alone, as `mbs run` writes it."""
+    def save(self, path: str | PathLike[str]) -> None:
+        """Writes the page."""
+
 class Simulation:
     """A mechanism in motion. One thread at a time: a second one gets a BusyError."""
 
@@ -360,10 +425,14 @@ class Simulation:
     @property
     def events(self) -> list[Event]:
         """Contacts that began or ended since `watch_events`, a thousand at most."""
-    def step(self, dt: float | None = None, u: ArrayLike | None = None) -> None:
+    def step(self, dt: float | None = None, u: ArrayLike | None = None, *, f_ext: Forces | None = None) -> None:
         """One step of `dt` [s], else of the method's step. `u` (nu,) holds from now on."""
-    def steps(self, dt: float, n: int, u: ArrayLike | None = None) -> None:
+    def steps(self, dt: float | None, n: int, u: ArrayLike | None = None, *, f_ext: Forces | None = None) -> None:
         """`n` steps of `dt` [s] without Python in between. `u` is (nu,), which holds, or (n, nu), a row for each step."""
+    def record(self) -> Recording:
+        """."""
+    def poses(self) -> Array:
+        """."""
     def run_until(self, time: float) -> None:
         """Steps to a time [s]; the last step is shorter where they do not fit."""
     def set_input(self, name: str | int, value: float) -> None:

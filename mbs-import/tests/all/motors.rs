@@ -1,0 +1,45 @@
+//! Motors that a file does not have.
+
+use mbs_import::{FindingKind, ImportOptions, import};
+
+const ARM: &str = r#"<robot name="arm">
+  <link name="base"/>
+  <link name="upper"><inertial><mass value="2"/><inertia ixx="1" iyy="1" izz="1"/></inertial></link>
+  <link name="fore"><inertial><mass value="1"/><inertia ixx="1" iyy="1" izz="1"/></inertial></link>
+  <joint name="shoulder" type="revolute"><parent link="base"/><child link="upper"/><limit effort="50" lower="-1" upper="1"/></joint>
+  <joint name="elbow" type="prismatic"><parent link="upper"/><child link="fore"/><limit effort="0" lower="-1" upper="1"/></joint>
+</robot>"#;
+
+#[test]
+fn a_motor_is_an_input_within_the_effort_of_its_joint() {
+    let options = ImportOptions { motors: true, ..ImportOptions::default() };
+    let model = import(ARM.as_bytes(), "arm.urdf", &options).expect("a sound model");
+    assert_eq!(model.sizes.inputs, 2);
+    let limited = "name = \"shoulder.motor limited\"\nkind = \"clamp\"\nof = \"shoulder.motor\"\nlower = -50.0\nupper = 50.0\n";
+    assert!(model.text.contains(limited));
+    // a slide's force acts as it is: an effort of zero is that of exporters that know none
+    assert!(
+        model
+            .text
+            .contains("joint = \"elbow\"\ncoordinate = \"slide\"\nsignal = \"elbow.motor\"\n")
+    );
+    let noted: Vec<_> =
+        model.findings.iter().filter(|found| found.kind == FindingKind::Noted).collect();
+    assert_eq!(noted.len(), 1);
+    assert_eq!(noted[0].element, "joint[elbow]");
+    assert_eq!(
+        import(ARM.as_bytes(), "arm.urdf", &ImportOptions::default()).expect("sound").sizes.inputs,
+        0
+    );
+}
+
+#[test]
+fn an_option_that_the_format_does_not_have_is_refused() {
+    let options = ImportOptions { key: Some("home".into()), ..ImportOptions::default() };
+    let refused = import(ARM.as_bytes(), "arm.urdf", &options).expect_err("a URDF has no keyframe");
+    assert!(
+        refused.fault().contains("`key` is no option of a file in URDF"),
+        "{}",
+        refused.fault()
+    );
+}
