@@ -12,6 +12,8 @@ pub(crate) enum Count {
     Signed,
     /// Each as a volume: the centre from the centre of the surface, the rest from that centre. Dents count too, and holes do no harm.
     Unsigned,
+    /// None of them: the triangles are a thin shell, and the density is that of an area.
+    Shell,
 }
 
 /// A surface as something that has mass.
@@ -32,6 +34,22 @@ impl Surface<'_> {
         edges.into_iter().filter(|(_, sum)| *sum != 0).map(|(edge, _)| edge).min()
     }
 
+    /// Mass, centre and tensor at a density [kg/m³], or why there are none.
+    pub(crate) fn enclosed(&self, density: f64, count: Count) -> Result<Mass, String> {
+        if let (Count::Signed, Some(edge)) = (count, self.open_edge()) {
+            let place =
+                |i: usize| self.0.vertices[i].iter().map(f64::to_string).collect::<Vec<_>>();
+            let [a, b] = edge.map(|i| place(i).join(" "));
+            return Err(format!("its surface is open at the edge from {a} to {b}"));
+        }
+        // the density may be zero
+        let one = self.mass(1.0, count);
+        if one.mass <= 0.0 {
+            return Err("its surface encloses nothing, or is turned inside out".to_owned());
+        }
+        Ok(Mass { mass: one.mass * density, tensor: one.tensor * density, ..one })
+    }
+
     /// Mass, centre and tensor at a density [kg/m³]; a surface that is turned inside out has a mass below zero.
     pub(crate) fn mass(&self, density: f64, count: Count) -> Mass {
         let center = match count {
@@ -39,11 +57,18 @@ impl Surface<'_> {
                 self.sums(&v3(self.0.vertices.first().copied().unwrap_or_default()), count).1
             }
             Count::Unsigned => self.sums(&self.surface_center(), count).1,
+            Count::Shell => self.surface_center(),
         };
         // about the centre that was found; the sums of volumes differ where tetrahedra are not signed
-        let (volume, _, second) = self.sums(&center, count);
+        let (size, second) = match count {
+            Count::Shell => self.areas(&center),
+            _ => {
+                let (volume, _, second) = self.sums(&center, count);
+                (volume, second)
+            }
+        };
         let tensor = (M3::identity() * second.trace() - second) * density;
-        Mass { mass: volume * density, center, tensor }
+        Mass { mass: size * density, center, tensor }
     }
 
     fn vertex(&self, i: usize) -> V3 {
@@ -65,6 +90,20 @@ impl Surface<'_> {
         }
         let center = if volume == 0.0 { *origin } else { origin + first / volume };
         (volume, center, second)
+    }
+
+    /// Area, and its second moments about a point.
+    fn areas(&self, origin: &V3) -> (f64, M3) {
+        let (mut area, mut second) = (0.0, M3::zeros());
+        for triangle in &self.0.triangles {
+            let [a, b, c] = triangle.map(|i| self.vertex(i) - origin);
+            let part = (b - a).cross(&(c - a)).norm() / 2.0;
+            let sum = a + b + c;
+            area += part;
+            let squares = a * a.transpose() + b * b.transpose() + c * c.transpose();
+            second += (sum * sum.transpose() + squares) * (part / 12.0);
+        }
+        (area, second)
     }
 
     /// The centre of the triangles, by their areas.
@@ -108,6 +147,19 @@ f 1 4 3 2\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3/1 4/2/3 8//1 7\nf -5 -8 -4 -1\n"
             for (found, expected) in found.iter().zip(expected) {
                 assert!((found - expected).abs() < 1.0e-14, "{count:?}: {found} {expected}");
             }
+        }
+    }
+
+    #[test]
+    fn the_shell_of_a_box_is_six_plates() {
+        let mass = Surface(&of(BOX)).mass(0.5, Count::Shell);
+        // half lengths 0.5, 1 and 1.5 m
+        let (area, moments) = crate::shell::cuboid([0.5, 1.0, 1.5]);
+        let expected =
+            [&[area / 2.0, 0.5, 1.0, 1.5][..], &moments.map(|x| x * area / 2.0)].concat();
+        let found = [&[mass.mass][..], mass.center.as_slice(), &mass.six()].concat();
+        for (found, expected) in found.iter().zip(expected) {
+            assert!((found - expected).abs() < 1.0e-13, "{found} {expected}");
         }
     }
 

@@ -1,9 +1,11 @@
 //! Meshes, and the mass of geoms that are meshes.
 
 use super::defaults::{MAIN, View};
+use super::fitted::fitted;
 use super::model::Model;
-use crate::beside;
+use super::surface;
 use crate::element::{Attribute, Element};
+use crate::hull::hull;
 use crate::inertia::Mass;
 use crate::mesh::{Count, Surface};
 use crate::pose::{M3, Pose, V3, quaternion, v3};
@@ -11,7 +13,7 @@ use crate::robot::{FormKind, is_even};
 use crate::source::{Fault, Origin, Read};
 use crate::visual::mesh_file;
 use mbs_scene::{TriangleMesh, nearest_name};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 /// A geom that is a mesh, and whose mass counts.
 #[derive(Debug, Clone)]
@@ -19,19 +21,49 @@ pub(super) struct MeshGeom {
     pub(super) at: Origin,
     /// The name of the mesh.
     pub(super) mesh: Option<Attribute>,
-    /// A form that is fitted to the mesh, where it is one.
-    pub(super) is_fitted: bool,
+    /// How a form is fitted to the mesh, where it is one.
+    pub(super) fit: Option<Fit>,
     pub(super) mass: Option<f64>,
     pub(super) density: f64,
     /// Global.
     pub(super) pose: Pose,
 }
 
+/// A form that is fitted to a mesh.
+#[derive(Debug, Clone)]
+pub(super) struct Fit {
+    pub(super) kind: String,
+    /// The factor of its sizes.
+    pub(super) scale: f64,
+    pub(super) is_shell: bool,
+}
+
+/// What to do where the mass of a mesh is not computed.
+const HINT: &str = "write an <inertial> in its body, or mass=\"0\" here, or let --massless-meshes count it as massless";
+
+/// Attributes of meshes that say a mass: they are read, whether one follows from them or not.
+const ATTRIBUTES: [&str; 11] = [
+    "name",
+    "file",
+    "vertex",
+    "face",
+    "scale",
+    "inertia",
+    "refpos",
+    "refquat",
+    "maxhullvert",
+    "builtin",
+    "params",
+];
+
 /// Finds the meshes of a model; none is opened before its mass is asked for.
 pub(super) fn collect<'a>(root: &'a Element, model: &mut Model<'a, '_, '_>) -> Read<()> {
     for asset in root.each("asset") {
         for element in asset.each("mesh") {
             let view = model.classes.view(element, MAIN)?;
+            for name in ATTRIBUTES {
+                view.own(name);
+            }
             let stem = |file: &str| Some(Path::new(file.trim()).file_stem()?.to_str()?.to_owned());
             let name = view.own("name").map(|name| name.value.clone());
             if let Some(name) = name.or_else(|| stem(view.value("file")?)) {
@@ -45,12 +77,8 @@ pub(super) fn collect<'a>(root: &'a Element, model: &mut Model<'a, '_, '_>) -> R
 /// The mass of a geom, global.
 pub(super) fn mass(geom: &MeshGeom, model: &Model<'_, '_, '_>) -> Read<Mass> {
     let refused = |why: &str| {
-        let hint = "write an <inertial> in its body, or mass=\"0\" here, or let --massless-meshes count it as massless";
-        Fault::new(geom.at, format!("the mass of this geom follows from a mesh: {why}"), hint)
+        Fault::new(geom.at, format!("the mass of this geom follows from a mesh: {why}"), HINT)
     };
-    if geom.is_fitted {
-        return Err(refused("forms that are fitted to meshes are not computed"));
-    }
     let Some(name) = &geom.mesh else { return Err(refused("it has no `mesh`")) };
     let Some(element) = model.meshes.get(&name.value) else {
         let known: Vec<_> = model.meshes.keys().collect();
@@ -58,63 +86,45 @@ pub(super) fn mass(geom: &MeshGeom, model: &Model<'_, '_, '_>) -> Read<Mass> {
         return Err(name.fault(format!("unknown mesh `{}`", name.value), hint));
     };
     let view = model.classes.view(element, MAIN)?;
+    let (mesh, whole) = whole(&view, model)?.map_err(|why| refused(&why))?;
+    let Some(fit) = &geom.fit else {
+        let mass = geom.mass.unwrap_or(geom.density * whole.mass);
+        let own = Mass { mass, tensor: whole.tensor * (mass / whole.mass), ..whole };
+        return Ok(own.seen_from(&geom.pose));
+    };
+    let (frame, solid) =
+        fitted(&fit.kind, &mesh, &whole, &model.compiler).map_err(|why| refused(&why))?;
+    let own = solid.scaled(fit.scale).mass(fit.is_shell, geom.density, geom.mass);
+    Ok(own.seen_from(&geom.pose.then(&frame)))
+}
+
+/// The triangles of a mesh in the frame of a geom, with their mass at a density of one; or why there is none.
+fn whole(view: &View<'_>, model: &Model<'_, '_, '_>) -> Read<Result<(TriangleMesh, Mass), String>> {
     let is_exact = model.compiler.is_mesh_exact;
-    let count = match view.value("inertia").unwrap_or(if is_exact { "exact" } else { "legacy" }) {
-        "exact" => Count::Signed,
+    let word = view.value("inertia").unwrap_or(if is_exact { "exact" } else { "legacy" });
+    let count = match word {
+        "exact" | "convex" => Count::Signed,
         "legacy" => Count::Unsigned,
-        other => return Err(refused(&format!("the inertia `{other}` of meshes is not computed"))),
+        "shell" => Count::Shell,
+        other => return Ok(Err(format!("the inertia `{other}` of meshes is not computed"))),
     };
-    let mesh = placed(&view, surface(&view, model)?)?;
-    if mesh.triangles.is_empty() {
-        return Err(refused("it has no triangles; the hull of its vertices is not computed"));
-    }
-    if let (Count::Signed, Some([a, b])) = (count, Surface(&mesh).open_edge()) {
-        let [a, b] = [a, b]
-            .map(|i| mesh.vertices[i].iter().map(f64::to_string).collect::<Vec<_>>().join(" "));
-        return Err(refused(&format!("its surface is open at the edge from {a} to {b}")));
-    }
-    let whole = Surface(&mesh).mass(geom.density, count);
-    if whole.mass <= 0.0 {
-        return Err(refused("its surface encloses nothing, or is turned inside out"));
-    }
-    let mass = geom.mass.unwrap_or(whole.mass);
-    let own = Mass { mass, tensor: whole.tensor * (mass / whole.mass), ..whole };
-    Ok(own.seen_from(&geom.pose))
-}
-
-/// The triangles as they are written.
-fn surface(view: &View<'_>, model: &Model<'_, '_, '_>) -> Read<TriangleMesh> {
-    if let Some(vertex) = view.attribute("vertex") {
-        let numbers = vertex.list()?;
-        let face = view.attribute("face").map(Attribute::list).transpose()?.unwrap_or_default();
-        let vertices = numbers.chunks_exact(3).map(|x| [x[0], x[1], x[2]]).collect::<Vec<_>>();
-        let is_index = |x: &f64| x.fract() == 0.0 && (0.0..vertices.len() as f64).contains(x);
-        if numbers.len() % 3 != 0 || face.len() % 3 != 0 || !face.iter().all(is_index) {
-            return Err(vertex.fault(
-                "`vertex` or `face` is no list of triples, or a face has a vertex that is not there",
-                "write three numbers for each vertex, and three vertices, counted from 0, for each face",
-            ));
+    let mesh = surface::read(view, model)?;
+    let mesh = if mesh.triangles.is_empty() || word == "convex" {
+        // a limit that no hull reaches is none
+        let most = view.number_or("maxhullvert", -1.0)?;
+        let Some(hull) = hull(&mesh.vertices) else {
+            return Ok(Err("its vertices are in one plane, and have no hull".to_owned()));
+        };
+        if most >= 0.0 && hull.vertices.len() as f64 > most {
+            return Ok(Err("a hull with the vertices of `maxhullvert` is not computed".to_owned()));
         }
-        let triangles = face.chunks_exact(3).map(|x| [x[0] as usize, x[1] as usize, x[2] as usize]);
-        return Ok(TriangleMesh { triangles: triangles.collect(), vertices });
-    }
-    let file = view.attribute("file").ok_or_else(|| {
-        view.element.fault("the mesh has neither `file` nor `vertex`", "write file=\"...\"")
-    })?;
-    let name = place_of(&file.value, model);
-    let path = beside::find(file, &name, None, model.context)?;
-    TriangleMesh::read(&path)
-        .map_err(|why| file.fault(format!("`{}`: {why}", file.value), "give a mesh as STL or OBJ"))
-}
-
-/// The place of a file of a mesh, from the folder of the model.
-fn place_of(file: &str, model: &Model<'_, '_, '_>) -> PathBuf {
-    let name = Path::new(file.trim());
-    let name = match name.file_name().filter(|_| model.compiler.strip_path) {
-        Some(last) => Path::new(last),
-        None => name,
+        hull
+    } else {
+        mesh
     };
-    Path::new(&model.compiler.mesh_folder).join(name)
+    let mesh = placed(view, mesh)?;
+    let mass = Surface(&mesh).enclosed(1.0, count);
+    Ok(mass.map(|mass| (mesh, mass)))
 }
 
 /// What is drawn of a geom that is a mesh: its pose and form, or why it is not drawn.
@@ -128,7 +138,7 @@ pub(super) fn form(
     let Some(file) = view.attribute("file") else {
         return Ok(Err("meshes that the file itself writes are not drawn".to_owned()));
     };
-    let place = place_of(&file.value, model);
+    let place = surface::place_of(&file.value, model);
     let file = match mesh_file(&place.display().to_string(), model.context) {
         Ok(file) => file,
         Err(says) => return Ok(Err(says)),

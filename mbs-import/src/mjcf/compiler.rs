@@ -30,6 +30,8 @@ pub(super) struct Compiler {
     pub(super) mesh_folder: String,
     /// Does a mesh stand in that folder whatever its own path is?
     pub(super) strip_path: bool,
+    /// Are forms fitted to the boxes around meshes, and not to their inertias?
+    pub(super) fits_boxes: bool,
     /// Is the mass of a mesh that of the enclosed volume?
     pub(super) is_mesh_exact: bool,
     pub(super) gravity: [f64; 3],
@@ -64,6 +66,7 @@ impl Compiler {
             total_mass: None,
             mesh_folder: String::new(),
             strip_path: false,
+            fits_boxes: false,
             is_mesh_exact: false,
             gravity: [0.0, 0.0, -9.81],
             acts: Acts {
@@ -115,6 +118,7 @@ impl Compiler {
             self.from_geoms = [FromGeoms::Never, FromGeoms::Always, FromGeoms::Auto][is];
         }
         flag(element, "strippath", &mut self.strip_path)?;
+        flag(element, "fitaabb", &mut self.fits_boxes)?;
         flag(element, "exactmeshinertia", &mut self.is_mesh_exact)?;
         let folders = ["meshdir", "assetdir"].map(|name| element.value(name));
         if let Some(folder) = folders.into_iter().flatten().next() {

@@ -1,28 +1,17 @@
 //! Geoms: mass, and what is drawn.
 
-use super::asset::{self, MeshGeom};
+use super::asset::{self, Fit, MeshGeom};
 use super::defaults::View;
 use super::model::Model;
 use super::orientation::{from_to, pose};
 use crate::inertia::Mass;
-use crate::pose::{M3, Pose, V3, v3};
-use crate::robot::{Form, FormKind};
+use crate::pose::Pose;
+use crate::robot::Form;
+use crate::solid::Solid;
 use crate::source::Read;
-use core::f64::consts::PI;
 
 /// Groups that the format's own viewer shows; the others are for contact.
 const SEEN_GROUPS: f64 = 2.0;
-
-/// A solid along the z axis of its frame, with half lengths.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) enum Solid {
-    Sphere(f64),
-    /// Radius, half the length without the round ends.
-    Capsule(f64, f64),
-    Cylinder(f64, f64),
-    Ellipsoid([f64; 3]),
-    Box([f64; 3]),
-}
 
 /// What of a geom is needed.
 #[derive(Debug, Clone)]
@@ -33,88 +22,6 @@ pub(super) enum Geom {
     Mesh(MeshGeom),
     /// Neither.
     Nothing,
-}
-
-impl Solid {
-    pub(super) fn volume(&self) -> f64 {
-        match *self {
-            Self::Sphere(r) => 4.0 / 3.0 * PI * r.powi(3),
-            Self::Capsule(r, h) => 2.0 * PI * r * r * h + 4.0 / 3.0 * PI * r.powi(3),
-            Self::Cylinder(r, h) => 2.0 * PI * r * r * h,
-            Self::Ellipsoid([a, b, c]) => 4.0 / 3.0 * PI * a * b * c,
-            Self::Box([a, b, c]) => 8.0 * a * b * c,
-        }
-    }
-
-    /// Principal moments for each kilogram.
-    pub(super) fn moments(&self) -> [f64; 3] {
-        let squares = |[a, b, c]: [f64; 3], share: f64| {
-            [b * b + c * c, a * a + c * c, a * a + b * b].map(|x| x * share)
-        };
-        match *self {
-            Self::Sphere(r) => [0.4 * r * r; 3],
-            Self::Ellipsoid(half) => squares(half, 0.2),
-            Self::Box(half) => squares(half, 1.0 / 3.0),
-            Self::Cylinder(r, h) => {
-                let across = r * r / 4.0 + h * h / 3.0;
-                [across, across, r * r / 2.0]
-            }
-            Self::Capsule(r, h) => {
-                // the shares of the cylinder and of both ends together
-                let (middle, ends) = (2.0 * PI * r * r * h, 4.0 / 3.0 * PI * r.powi(3));
-                let all = middle + ends;
-                let (middle, ends) = (middle / all, ends / all);
-                let across = middle * (r * r / 4.0 + h * h / 3.0)
-                    + ends * (0.4 * r * r + h * h + 0.75 * r * h);
-                [across, across, middle * r * r / 2.0 + ends * 0.4 * r * r]
-            }
-        }
-    }
-
-    /// The area of its surface, and the moments of a shell for each kilogram; `None` of an ellipsoid, which has no closed form.
-    fn shell(&self) -> Option<(f64, [f64; 3])> {
-        // a tube with what closes it: area, moment across and along of the latter
-        let closed = |[r, h]: [f64; 2], [area, across, along]: [f64; 3]| {
-            let tube = 4.0 * PI * r * h;
-            let all = tube + area;
-            let [tube, ends] = [tube / all, area / all];
-            let across = tube * (r * r / 2.0 + h * h / 3.0) + ends * across;
-            (all, [across, across, tube * r * r + ends * along])
-        };
-        Some(match *self {
-            Self::Sphere(r) => (4.0 * PI * r * r, [2.0 / 3.0 * r * r; 3]),
-            Self::Capsule(r, h) => {
-                let ball = 2.0 / 3.0 * r * r;
-                closed([r, h], [4.0 * PI * r * r, ball + h * h + r * h, ball])
-            }
-            Self::Cylinder(r, h) => {
-                closed([r, h], [2.0 * PI * r * r, r * r / 4.0 + h * h, r * r / 2.0])
-            }
-            Self::Box(half) => {
-                let [a, b, c] = half;
-                let faces = [b * c, a * c, a * b];
-                let all: f64 = faces.iter().sum();
-                // the mean square along an axis: one on the faces across it, a third on the others
-                let square = |axis: usize| {
-                    let share = faces[axis] / all;
-                    half[axis] * half[axis] * (share + (1.0 - share) / 3.0)
-                };
-                let [x, y, z] = [0, 1, 2].map(square);
-                (8.0 * all, [y + z, x + z, x + y])
-            }
-            Self::Ellipsoid(_) => return None,
-        })
-    }
-
-    const fn form(&self) -> Option<FormKind> {
-        Some(match *self {
-            Self::Sphere(radius) => FormKind::Sphere { radius },
-            Self::Capsule(radius, half) => FormKind::Capsule { radius, length: 2.0 * half },
-            Self::Cylinder(radius, half) => FormKind::Cylinder { radius, length: 2.0 * half },
-            Self::Box([a, b, c]) => FormKind::Box([2.0 * a, 2.0 * b, 2.0 * c]),
-            Self::Ellipsoid(_) => return None,
-        })
-    }
 }
 
 /// Reads a geom in a frame that stands as `scope` says: its mass in global axes, and its form.
@@ -143,8 +50,14 @@ pub(super) fn read(
         view.attribute("size");
         let pose = scope.then(&pose(view, &model.compiler)?);
         let mesh = view.attribute("mesh").cloned();
-        let (at, is_fitted) = (view.element.at, !matches!(kind, "mesh" | "sdf"));
-        let geom = MeshGeom { at, mesh, is_fitted, mass: written, density, pose };
+        let scale = view.number_or("fitscale", 1.0)?;
+        let is_shell = view.value("shellinertia") == Some("true");
+        let fit = (!matches!(kind, "mesh" | "sdf")).then(|| Fit {
+            kind: kind.to_owned(),
+            scale,
+            is_shell,
+        });
+        let geom = MeshGeom { at: view.element.at, mesh, fit, mass: written, density, pose };
         if kind == "mesh" && group <= SEEN_GROUPS {
             draw(&geom, view, link, model)?;
         }
@@ -168,17 +81,7 @@ pub(super) fn read(
         return Ok(Geom::Nothing);
     }
     let is_shell = view.value("shellinertia") == Some("true");
-    let (size, moments) = match solid.shell().filter(|_| is_shell) {
-        Some(shell) => shell,
-        None => (solid.volume(), solid.moments()),
-    };
-    if is_shell && solid.shell().is_none() {
-        let says = "the shell of an ellipsoid: it counts as a solid of the same mass or density";
-        model.context.findings.ignored(view.element.at, view.element.label(), says);
-    }
-    let mass = written.unwrap_or(density * size);
-    let tensor = M3::from_diagonal(&v3(moments.map(|x| x * mass)));
-    Ok(Geom::Solid(Mass { mass, center: V3::zeros(), tensor }.seen_from(&frame)))
+    Ok(Geom::Solid(solid.mass(is_shell, density, written).seen_from(&frame)))
 }
 
 /// Adds what is drawn of a mesh.

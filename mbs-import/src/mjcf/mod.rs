@@ -7,6 +7,7 @@ mod body;
 mod compiler;
 mod defaults;
 mod equality;
+mod fitted;
 mod geom;
 mod include;
 mod joint;
@@ -14,6 +15,7 @@ mod keyframe;
 mod model;
 mod orientation;
 mod stops;
+mod surface;
 mod table;
 mod tendon;
 #[cfg(test)]

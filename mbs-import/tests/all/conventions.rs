@@ -87,7 +87,7 @@ fn numbers(value: &Value) -> Vec<f64> {
     }
 }
 
-/// The hull of a mesh is not computed; armature of a free body is in our body, not in that of the other program.
+/// MuJoCo keeps vertices of meshes in single precision; armature of a free body is in our body, not in that of the other program.
 const LEFT_OUT: [&str; 2] = ["mesh.xml", "armature_free.xml"];
 
 /// Compares all files of an ending; the number of bodies that were compared.

@@ -3,4 +3,6 @@
 mod conventions;
 mod hostile;
 mod motors;
+mod pendulum;
 mod pictures;
+mod weights;

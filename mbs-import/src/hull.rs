@@ -1,0 +1,231 @@
+//! The convex hull of points, as triangles.
+//!
+//! Each point outside is added in turn: triangles that it sees go, and it is joined to the edge of the rest (quickhull). Sides are decided without
+//! rounding, by points that are snapped to a fine grid: faces with many points of one plane need no tolerance.
+
+use mbs_scene::TriangleMesh;
+use std::collections::HashMap;
+
+/// Steps of the grid along the longest side of the points. A volume of three sides has 126 bits, with a sign less than an `i128` has.
+const GRID: f64 = (1_u64 << 40) as f64;
+
+/// A triangle of the hull while it grows.
+#[derive(Debug)]
+struct Face {
+    corners: [usize; 3],
+    /// Points that see it, and no face before it.
+    outside: Vec<usize>,
+    is_there: bool,
+}
+
+#[derive(Debug)]
+struct Hull {
+    points: Vec<[i128; 3]>,
+    faces: Vec<Face>,
+    /// The face on the left of each edge, which goes round its face against the clock as seen from outside.
+    edges: HashMap<[usize; 2], usize>,
+}
+
+/// The hull of points; `None` where all are in one plane.
+pub(crate) fn hull(points: &[[f64; 3]]) -> Option<TriangleMesh> {
+    let mut hull = Hull { points: snapped(points)?, faces: Vec::new(), edges: HashMap::new() };
+    let first = hull.first()?;
+    let mut open: Vec<usize> = (0..4).collect();
+    let all = (0..points.len()).filter(|point| !first.contains(point)).collect();
+    hull.assign(all, &open);
+    while let Some(face) = open.pop() {
+        if let Some(point) = hull.farthest(face) {
+            let added = hull.add(point, face);
+            open.extend(added);
+        }
+    }
+    Some(hull.surface(points))
+}
+
+/// The points on the grid; `None` where they are one point, or not finite.
+fn snapped(points: &[[f64; 3]]) -> Option<Vec<[i128; 3]>> {
+    let end = |axis: usize, pick: fn(f64, f64) -> f64| {
+        points.iter().map(|point| point[axis]).reduce(pick).unwrap_or(0.0)
+    };
+    let low = [0, 1, 2].map(|axis| end(axis, f64::min));
+    let sides = [0, 1, 2].map(|axis| end(axis, f64::max) - low[axis]);
+    let side = sides.into_iter().fold(0.0, f64::max);
+    let is_sound = side > 0.0 && side.is_finite();
+    let on_grid = |x: f64, low: f64| ((x - low) / side * GRID).round() as i128;
+    is_sound
+        .then(|| points.iter().map(|x| [0, 1, 2].map(|axis| on_grid(x[axis], low[axis]))).collect())
+}
+
+impl Hull {
+    fn minus(&self, a: usize, b: usize) -> [i128; 3] {
+        [0, 1, 2].map(|axis| self.points[a][axis] - self.points[b][axis])
+    }
+
+    /// Six times the volume between a triangle and a point; above zero where the point sees it from outside.
+    fn volume(&self, [a, b, c]: [usize; 3], point: usize) -> i128 {
+        let [u, v, w] = [b, c, point].map(|x| self.minus(x, a));
+        let cross = |i: usize, j: usize| u[i] * v[j] - u[j] * v[i];
+        cross(1, 2) * w[0] + cross(2, 0) * w[1] + cross(0, 1) * w[2]
+    }
+
+    /// Four points that enclose a volume, as the first faces.
+    fn first(&mut self) -> Option<[usize; 4]> {
+        let all = 0..self.points.len();
+        let a = all.clone().min_by_key(|i| self.points[*i])?;
+        let square = |x: [i128; 3]| x.iter().map(|x| x * x).sum::<i128>();
+        let b = all.clone().max_by_key(|i| square(self.minus(*i, a)))?;
+        // a choice by size needs no exact numbers
+        let line = self.minus(b, a).map(|x| x as f64);
+        let area = |i: &usize| {
+            let x = self.minus(*i, a).map(|x| x as f64);
+            let cross = |i: usize, j: usize| (x[i] * line[j] - x[j] * line[i]).powi(2);
+            cross(0, 1) + cross(1, 2) + cross(2, 0)
+        };
+        let c = all.clone().max_by(|i, k| area(i).total_cmp(&area(k)))?;
+        let d = all.max_by_key(|i| self.volume([a, b, c], *i).abs())?;
+        let volume = self.volume([a, b, c], d);
+        if volume == 0 {
+            return None;
+        }
+        let [b, c] = if volume > 0 { [c, b] } else { [b, c] };
+        for corners in [[a, b, c], [a, d, b], [b, d, c], [c, d, a]] {
+            self.push(corners);
+        }
+        Some([a, b, c, d])
+    }
+
+    fn push(&mut self, corners: [usize; 3]) -> usize {
+        let number = self.faces.len();
+        for i in 0..3 {
+            self.edges.insert([corners[i], corners[(i + 1) % 3]], number);
+        }
+        self.faces.push(Face { corners, outside: Vec::new(), is_there: true });
+        number
+    }
+
+    /// Gives each point to the first of some faces that it sees; those that see none are within.
+    fn assign(&mut self, points: Vec<usize>, faces: &[usize]) {
+        for point in points {
+            let sees = |face: &&usize| self.volume(self.faces[**face].corners, point) > 0;
+            if let Some(face) = faces.iter().find(sees).copied() {
+                self.faces[face].outside.push(point);
+            }
+        }
+    }
+
+    /// The farthest of the points that a face has.
+    fn farthest(&self, face: usize) -> Option<usize> {
+        let Face { corners, outside, is_there } = &self.faces[face];
+        let far = outside.iter().filter(|_| *is_there).copied();
+        far.max_by_key(|point| self.volume(*corners, *point))
+    }
+
+    /// Joins a point that sees a face to the hull; the new faces.
+    fn add(&mut self, point: usize, face: usize) -> Vec<usize> {
+        let mut seen = vec![face];
+        self.faces[face].is_there = false;
+        let (mut next, mut rim) = (0, Vec::new());
+        while let Some(face) = seen.get(next).copied() {
+            next += 1;
+            let corners = self.faces[face].corners;
+            for [from, to] in [0, 1, 2].map(|i| [corners[i], corners[(i + 1) % 3]]) {
+                let beside = self.edges[&[to, from]];
+                let is_seen = self.volume(self.faces[beside].corners, point) > 0;
+                if !is_seen {
+                    rim.push([from, to]);
+                } else if std::mem::replace(&mut self.faces[beside].is_there, false) {
+                    seen.push(beside);
+                }
+            }
+        }
+        let mut rest = Vec::new();
+        for face in seen {
+            rest.append(&mut self.faces[face].outside);
+        }
+        rest.retain(|other| *other != point);
+        let added: Vec<_> =
+            rim.into_iter().map(|[from, to]| self.push([from, to, point])).collect();
+        self.assign(rest, &added);
+        added
+    }
+
+    /// The triangles with the points that they have.
+    fn surface(&self, points: &[[f64; 3]]) -> TriangleMesh {
+        let mut mesh = TriangleMesh::default();
+        let mut numbers = HashMap::new();
+        for face in self.faces.iter().filter(|face| face.is_there) {
+            mesh.triangles.push(face.corners.map(|corner| {
+                *numbers.entry(corner).or_insert_with(|| {
+                    mesh.vertices.push(points[corner]);
+                    mesh.vertices.len() - 1
+                })
+            }));
+        }
+        mesh
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mesh::{Count, Surface};
+
+    fn volume(mesh: &TriangleMesh) -> f64 {
+        assert_eq!(Surface(mesh).open_edge(), None);
+        Surface(mesh).mass(1.0, Count::Signed).mass
+    }
+
+    /// Points of a grid in a box of 1, 2 and 3 m, in a mixed order.
+    fn grid(n: usize) -> Vec<[f64; 3]> {
+        let all = n * n * n;
+        let at = |i: usize| {
+            let i = i * 7919 % all;
+            let x = [i % n, i / n % n, i / n / n].map(|x| x as f64 / (n - 1) as f64);
+            [x[0], 2.0 * x[1], 3.0 * x[2]]
+        };
+        (0..all).map(at).collect()
+    }
+
+    #[test]
+    fn a_box_full_of_points_in_planes_and_lines_is_a_box() {
+        for n in [2, 3, 4, 11] {
+            let mesh = hull(&grid(n)).expect("a volume");
+            assert!((volume(&mesh) - 6.0).abs() < 1.0e-12, "{n}: {}", volume(&mesh));
+        }
+    }
+
+    #[test]
+    fn a_turned_and_shifted_box_is_the_same_box() {
+        let turn = crate::pose::roll_pitch_yaw([0.3, -0.7, 1.9]);
+        let points = grid(6).into_iter().map(|x| {
+            let x = turn * crate::pose::v3(x) * 1.0e-3;
+            [x[0] + 5.0, x[1] - 2.0, x[2]]
+        });
+        let mesh = hull(&points.collect::<Vec<_>>()).expect("a volume");
+        assert!((volume(&mesh) / 6.0e-9 - 1.0).abs() < 1.0e-8, "{}", volume(&mesh));
+    }
+
+    #[test]
+    fn every_point_is_within_the_hull_of_a_cloud() {
+        let mut dice = mbs_scene::Dice::new(5);
+        let points: Vec<[f64; 3]> =
+            (0..500).map(|_| [0, 1, 2].map(|_| dice.below(1000) as f64 / 1000.0)).collect();
+        let mesh = hull(&points).expect("a volume");
+        assert!((0.8..1.0).contains(&volume(&mesh)));
+        for [a, b, c] in &mesh.triangles {
+            let [a, b, c] = [a, b, c].map(|i| crate::pose::v3(mesh.vertices[*i]));
+            let normal = (b - a).cross(&(c - a));
+            for point in &points {
+                assert!(normal.dot(&(crate::pose::v3(*point) - a)) < 1.0e-12);
+            }
+        }
+    }
+
+    #[test]
+    fn points_of_one_plane_have_no_hull() {
+        let flat = |x: f64, y: f64| [x, y, 2.0 * x - y];
+        assert_eq!(hull(&[flat(0.0, 0.0), flat(1.0, 0.0), flat(0.0, 1.0), flat(1.0, 1.0)]), None);
+        assert_eq!(hull(&[]), None);
+        assert_eq!(hull(&[[1.0, 2.0, 3.0]; 9]), None);
+    }
+}

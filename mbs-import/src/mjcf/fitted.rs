@@ -1,0 +1,70 @@
+//! Forms that are fitted to meshes.
+
+use super::compiler::Compiler;
+use crate::inertia::Mass;
+use crate::pose::{M3, Pose, V3, v3};
+use crate::solid::Solid;
+use mbs_scene::TriangleMesh;
+
+/// A form of a kind that is fitted to a mesh, whose mass is known at some density, with the frame of the form in that of the mesh; or why there
+/// is none.
+pub(super) fn fitted(
+    kind: &str,
+    mesh: &TriangleMesh,
+    mass: &Mass,
+    compiler: &Compiler,
+) -> Result<(Pose, Solid), String> {
+    let (moments, axes) = principal(&mass.tensor);
+    let (center, half) = if compiler.fits_boxes {
+        let (center, half) = around(mesh, &axes, &mass.center);
+        (mass.center + axes * center, half)
+    } else {
+        // the box of the same mass and moments
+        let sum: f64 = moments.iter().sum();
+        let half = moments.map(|moment| (1.5 * (sum - 2.0 * moment).max(0.0) / mass.mass).sqrt());
+        (mass.center, half)
+    };
+    let solid = match (kind, compiler.fits_boxes) {
+        ("box", _) => Solid::Box(half),
+        ("ellipsoid", _) => Solid::Ellipsoid(half),
+        ("sphere", true) => Solid::Sphere(half.into_iter().fold(0.0, f64::max)),
+        ("sphere", false) => Solid::Sphere(half.iter().sum::<f64>() / 3.0),
+        ("cylinder", true) => Solid::Cylinder(half[0].max(half[1]), half[2]),
+        ("cylinder", false) => Solid::Cylinder(half[0].midpoint(half[1]), half[2]),
+        ("capsule", true) => {
+            let radius = half[0].max(half[1]);
+            Solid::Capsule(radius, (half[2] - radius).max(0.0))
+        }
+        ("capsule", false) => {
+            let radius = half[0].midpoint(half[1]);
+            Solid::Capsule(radius, (half[2] - radius / 2.0).max(0.0))
+        }
+        _ => return Err(format!("a `{kind}` is not fitted to meshes")),
+    };
+    Ok((Pose::new(axes, center), solid))
+}
+
+/// Principal moments, the largest first, and their axes.
+fn principal(tensor: &M3) -> ([f64; 3], M3) {
+    let eigen = tensor.symmetric_eigen();
+    let mut order = [0, 1, 2];
+    order.sort_by(|a, b| eigen.eigenvalues[*b].total_cmp(&eigen.eigenvalues[*a]));
+    let axes = order.map(|i| eigen.eigenvectors.column(i).into_owned());
+    // right-handed
+    let last = axes[0].cross(&axes[1]);
+    (order.map(|i| eigen.eigenvalues[i]), M3::from_columns(&[axes[0], axes[1], last]))
+}
+
+/// The box around the vertices along some axes at a place: its centre there, and its half lengths.
+fn around(mesh: &TriangleMesh, axes: &M3, at: &V3) -> (V3, [f64; 3]) {
+    let mut ends = [[f64::INFINITY; 3], [f64::NEG_INFINITY; 3]];
+    for vertex in &mesh.vertices {
+        let x = axes.transpose() * (v3(*vertex) - at);
+        for axis in 0..3 {
+            ends[0][axis] = ends[0][axis].min(x[axis]);
+            ends[1][axis] = ends[1][axis].max(x[axis]);
+        }
+    }
+    let [low, high] = ends.map(v3);
+    ((low + high) * 0.5, ((high - low) * 0.5).into())
+}

@@ -1,0 +1,131 @@
+//! Thin shells of the surfaces of simple forms, with half lengths: the area, and the moments for each kilogram.
+
+use core::f64::consts::PI;
+
+/// A shell.
+type Shell = (f64, [f64; 3]);
+
+/// A tube with what closes it: area, moment across and along of the latter.
+fn closed([r, h]: [f64; 2], [area, across, along]: [f64; 3]) -> Shell {
+    let tube = 4.0 * PI * r * h;
+    let all = tube + area;
+    let [tube, ends] = [tube / all, area / all];
+    let across = tube * (r * r / 2.0 + h * h / 3.0) + ends * across;
+    (all, [across, across, tube * r * r + ends * along])
+}
+
+/// Radius, and half the length without the round ends.
+pub(crate) fn capsule(r: f64, h: f64) -> Shell {
+    let ball = 2.0 / 3.0 * r * r;
+    closed([r, h], [4.0 * PI * r * r, ball + h * h + r * h, ball])
+}
+
+pub(crate) fn cylinder(r: f64, h: f64) -> Shell {
+    closed([r, h], [2.0 * PI * r * r, r * r / 4.0 + h * h, r * r / 2.0])
+}
+
+pub(crate) fn cuboid(half: [f64; 3]) -> Shell {
+    let [a, b, c] = half;
+    let faces = [b * c, a * c, a * b];
+    let all: f64 = faces.iter().sum();
+    // the mean square along an axis: one on the faces across it, a third on the others
+    let square = |axis: usize| {
+        let share = faces[axis] / all;
+        half[axis] * half[axis] * (share + (1.0 - share) / 3.0)
+    };
+    let [x, y, z] = [0, 1, 2].map(square);
+    (8.0 * all, [y + z, x + z, x + y])
+}
+
+/// An ellipsoid, by complete elliptic integrals.
+///
+/// With Q = n1²/a² + n2²/b² + n3²/c² on the unit sphere the area is abc ∫ √Q, and ∫ x² dA is a² abc ∫ n1² √Q. The theorem of Gauss on the
+/// sphere, for the fields n_i Q^(±1/2) e_i, gives both by R_F = ⟨Q^(-1/2)⟩ and R_D = 3 ⟨n_i² Q^(-3/2)⟩ of Carlson, ⟨⟩ the mean:
+/// k_i = ⟨n_i² Q^(-1/2)⟩ = (R_F - R_D / (3 a_i²)) / 2, ⟨√Q⟩ = Σ k_i / a_i², ⟨n_i² √Q⟩ = (⟨√Q⟩ + k_i / a_i²) / 4.
+pub(crate) fn ellipsoid(half: [f64; 3]) -> Shell {
+    let inverse = half.map(|a| 1.0 / (a * a));
+    let parts = [0, 1, 2].map(|i| {
+        let [z, x, y] = [0, 1, 2].map(|k| inverse[(i + k) % 3]);
+        let (first, second) = elliptic([x, y, z]);
+        z * (first - z * second / 3.0) / 2.0
+    });
+    let mean: f64 = parts.iter().sum();
+    let square = |i: usize| half[i] * half[i] * (1.0 + parts[i] / mean) / 4.0;
+    let [x, y, z] = [0, 1, 2].map(square);
+    (4.0 * PI * half.iter().product::<f64>() * mean, [y + z, x + z, x + y])
+}
+
+/// Carlson's integrals R_F and R_D of three numbers above zero, the third of which R_D has twice; by duplication.
+fn elliptic(numbers: [f64; 3]) -> (f64, f64) {
+    /// The errors of both go with the square of the spread that is left.
+    const SPREAD: f64 = 1.0e-9;
+    let [mut x, mut y, mut z] = numbers;
+    let (mut sum, mut factor) = (0.0, 1.0);
+    loop {
+        let mean = (x + y + 3.0 * z) / 5.0;
+        let spread = [x, y, z].iter().fold(0.0, |most: f64, x| most.max((x - mean).abs()));
+        if !(spread > SPREAD * mean) {
+            let first = 1.0 / ((x + y + z) / 3.0).sqrt();
+            return (first, 3.0 * sum + factor / (mean * mean.sqrt()));
+        }
+        let [a, b, c] = [x, y, z].map(f64::sqrt);
+        let lambda = a * b + b * c + c * a;
+        sum += factor / (c * (z + lambda));
+        factor /= 4.0;
+        [x, y, z] = [x, y, z].map(|x| (x + lambda) / 4.0);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The same by a sum over the sphere that is exact for smooth integrands: Gauss-Legendre points along, equal steps around.
+    fn by_points(half: [f64; 3]) -> Shell {
+        /// Points along and around: enough for fourteen digits of these ellipsoids.
+        const N: usize = 400;
+        let (mut area, mut squares) = (0.0, [0.0; 3]);
+        // the points of Fejer's first rule are cosines of equal steps
+        for i in 0..N {
+            let theta = (i as f64 + 0.5) * PI / N as f64;
+            let weights = (1..=N / 2)
+                .map(|j| 2.0 * (2.0 * j as f64 * theta).cos() / (4.0 * (j * j) as f64 - 1.0));
+            let weight = 2.0 / N as f64 * (1.0 - weights.sum::<f64>());
+            for k in 0..N {
+                let phi = (k as f64 + 0.5) * 2.0 * PI / N as f64;
+                let n = [theta.sin() * phi.cos(), theta.sin() * phi.sin(), theta.cos()];
+                let q: f64 = n.iter().zip(half).map(|(n, a)| (n / a) * (n / a)).sum();
+                let part = weight * 2.0 * PI / N as f64 * half.iter().product::<f64>() * q.sqrt();
+                area += part;
+                for (square, (n, a)) in squares.iter_mut().zip(n.iter().zip(half)) {
+                    *square += part * (n * a) * (n * a);
+                }
+            }
+        }
+        let [x, y, z] = squares.map(|square| square / area);
+        (area, [y + z, x + z, x + y])
+    }
+
+    #[test]
+    fn a_shell_of_an_ellipsoid_is_that_of_a_sum_over_its_points() {
+        for half in [[0.3, 0.2, 0.1], [1.0, 1.0, 0.2], [2.0, 0.5, 0.5], [0.7, 0.7, 0.7]] {
+            let (found, expected) = (ellipsoid(half), by_points(half));
+            let all =
+                [(found.0, expected.0)].into_iter().chain(found.1.into_iter().zip(expected.1));
+            for (found, expected) in all {
+                assert!((found / expected - 1.0).abs() < 1.0e-11, "{half:?}: {found} {expected}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_flat_ellipsoid_is_two_discs_and_a_thin_one_a_rod() {
+        let (area, [x, y, z]) = ellipsoid([3.0, 3.0, 1.0e-7]);
+        assert!((area / (18.0 * PI) - 1.0).abs() < 1.0e-12);
+        assert!([x - 2.25, y - 2.25, z - 4.5].iter().all(|x| x.abs() < 1.0e-12));
+        // its girth is a half circle: area π² a b, mean square of the length a²/4
+        let (area, [x, y, z]) = ellipsoid([2.0, 1.0e-7, 1.0e-7]);
+        assert!((area / (2.0e-7 * PI * PI) - 1.0).abs() < 1.0e-12);
+        assert!(x < 1.0e-13 && [y, z].iter().all(|x| (x - 1.0).abs() < 1.0e-12));
+    }
+}

@@ -1,0 +1,251 @@
+//! Masses that follow from forms and meshes. Values are closed forms, or those of the program that is named.
+
+use crate::pendulum::{TOLERANCE, acceleration, close, model, ten, whole};
+use mbs_import::{FindingKind, ImportOptions, import};
+
+/// MuJoCo keeps the vertices of meshes in single precision.
+const SINGLE: f64 = 1.0e-6;
+/// A tetrahedron at a corner of the origin.
+const CORNER: &str =
+    r#"vertex="0 0 0  0.4 0 0  0 0.3 0  0 0 0.2" face="0 2 1  0 1 3  1 2 3  0 3 2""#;
+
+fn mjcf(mesh: &str, geom: &str, compiler: &str) -> String {
+    format!(
+        r#"<mujoco><compiler {compiler}/><asset><mesh name="m" {mesh}/></asset><worldbody><body name="b" pos="0 0 1"><joint name="j" axis="0 1 0"/><geom mesh="m" contype="0" {geom}/></body></worldbody></mujoco>"#
+    )
+}
+
+/// Compares mass, centre and moments, those of the mass on their own scale.
+#[track_caller]
+fn agrees(text: &str, expected: [f64; 10], tolerance: f64) {
+    let found = ten(&whole(text, "m.xml"), "b");
+    let size = expected[4..].iter().fold(0.0, |most: f64, x| most.max(x.abs()));
+    for (i, (found, expected)) in found.iter().zip(expected).enumerate() {
+        let scale = if i == 0 {
+            expected
+        } else if i < 4 {
+            1.0
+        } else {
+            size
+        };
+        assert!(
+            (found - expected).abs() <= tolerance * scale,
+            "{i}: {found} for {expected}: {text}"
+        );
+    }
+}
+
+#[test]
+fn vertices_without_faces_are_their_hull() {
+    // a cube with points within and on its faces and edges: 8 kg, m a²/6
+    let text = mjcf(
+        r#"vertex="-1 -1 -1 1 -1 -1 -1 1 -1 1 1 -1 -1 -1 1 1 -1 1 -1 1 1 1 1 1 0 0 0 1 0 0 1 1 0 0 -1 -1" scale="0.1 0.1 0.1""#,
+        r#"type="mesh""#,
+        "",
+    );
+    let moment = 8.0 * 0.04 / 6.0;
+    agrees(&text, [8.0, 0.0, 0.0, 1.0, moment, moment, moment, 0.0, 0.0, 0.0], TOLERANCE);
+    let text = text.replace("axis=\"0 1 0\"", "axis=\"0 1 0\" pos=\"-0.1 0 0\"");
+    close(acceleration(&whole(&text, "m.xml"), "j"), 58.86, TOLERANCE, "cube");
+    // a tip on the cube, as a volume and as a shell: MuJoCo 4.0.0, and a pyramid of height 0.6 m by hand
+    let tip = r#"vertex="-1 -1 -1 1 -1 -1 -1 1 -1 1 1 -1 -1 -1 1 1 -1 1 -1 1 1 1 1 1 0 0 3" scale=".1 .2 .3""#;
+    let volume = [64.0, 0.0, 0.0, 1.1125, 4.854, 4.278, 0.96, 0.0, 0.0, 0.0];
+    for inertia in ["", r#" inertia="convex""#, r#" inertia="exact""#, r#" inertia="legacy""#] {
+        agrees(&mjcf(&format!("{tip}{inertia}"), r#"type="mesh""#, ""), volume, 1.0e-12);
+    }
+    let shell = [
+        1169.801607618664,
+        0.0,
+        0.0,
+        1.13754538,
+        127.73383104762718,
+        113.80930992815048,
+        28.512596486285094,
+        0.0,
+        0.0,
+        0.0,
+    ];
+    agrees(&mjcf(&format!(r#"{tip} inertia="shell""#), r#"type="mesh""#, ""), shell, 1.0e-8);
+}
+
+#[test]
+fn the_hull_of_a_mesh_with_dents_is_asked_for_by_its_inertia() {
+    // an L of 2 m and 1 m height: three cubes, and the hull half a cube more
+    let l = r#"vertex="0 0 0 2 0 0 2 1 0 1 1 0 1 2 0 0 2 0 0 0 1 2 0 1 2 1 1 1 1 1 1 2 1 0 2 1" face="0 2 1 0 3 2 0 4 3 0 5 4 6 7 8 6 8 9 6 9 10 6 10 11 0 1 7 0 7 6 1 2 8 1 8 7 2 3 9 2 9 8 3 4 10 3 10 9 4 5 11 4 11 10 5 0 6 5 6 11""#;
+    for (inertia, mass, center) in [("exact", 3000.0, 5.0 / 6.0), ("convex", 3500.0, 19.0 / 21.0)] {
+        let text = mjcf(&format!(r#"{l} inertia="{inertia}""#), r#"type="mesh""#, "");
+        let found = ten(&whole(&text, "m.xml"), "b");
+        close(found[0], mass, TOLERANCE, inertia);
+        close(found[1], center, TOLERANCE, inertia);
+    }
+}
+
+#[test]
+fn hulls_that_are_no_bodies_are_refused() {
+    for (mesh, says) in [
+        (r#"vertex="0 0 0 1 0 0 0 1 0 1 1 0""#, "its vertices are in one plane, and have no hull"),
+        (
+            r#"vertex="-1 -1 -1 1 -1 -1 -1 1 -1 1 1 -1 0 0 1" maxhullvert="4""#,
+            "a hull with the vertices of `maxhullvert` is not computed",
+        ),
+    ] {
+        let text = mjcf(mesh, r#"type="mesh""#, "");
+        let error = import(text.as_bytes(), "m.xml", &ImportOptions::default());
+        let fault = error.expect_err("refused").fault().to_string();
+        assert_eq!(fault, format!("the mass of this geom follows from a mesh: {says}"));
+    }
+}
+
+#[test]
+fn the_shell_of_a_mesh_has_the_area_of_its_triangles() {
+    let text = mjcf(&format!(r#"{CORNER} inertia="shell""#), r#"type="mesh" density="5""#, "");
+    // MuJoCo 4.0.0
+    let expected = [
+        1.040512533135511,
+        0.11411204,
+        0.08077871,
+        1.04744537,
+        0.008412628081402007,
+        0.012792398902489045,
+        0.01601604524513609,
+        0.0026861345029148506,
+        0.0012852802129148582,
+        0.0016966760419810341,
+    ];
+    agrees(&text, expected, SINGLE);
+}
+
+#[test]
+fn forms_are_fitted_to_the_inertia_or_the_box_of_a_mesh() {
+    // MuJoCo 4.0.0: mass, and moments xx, yy, zz
+    for (kind, compiler, expected) in [
+        (
+            "box",
+            "",
+            [5.577096406362992, 0.027188346717104253, 0.04182822425471229, 0.052285281351523785],
+        ),
+        (
+            "sphere",
+            "",
+            [3.830945986312027, 0.014438130617111097, 0.014438130617111097, 0.014438130617111099],
+        ),
+        (
+            "capsule",
+            "",
+            [5.386491793431093, 0.019954643070144648, 0.04615192977254727, 0.051054713308416454],
+        ),
+        (
+            "cylinder",
+            "",
+            [4.95467759816728, 0.01795864457051242, 0.03647381436025026, 0.03993890105568364],
+        ),
+        (
+            "ellipsoid",
+            "",
+            [2.9201608497653355, 0.008541471030970691, 0.013140724203131051, 0.016425905578482253],
+        ),
+        (
+            "box",
+            "fitaabb='true'",
+            [28.677444934043365, 0.4171544871398847, 0.6227708455832603, 0.7795617121864701],
+        ),
+        (
+            "sphere",
+            "fitaabb='true'",
+            [58.23706207564946, 1.3468937819943658, 1.3468937819943658, 1.3468937819943663],
+        ),
+        (
+            "capsule",
+            "fitaabb='true'",
+            [34.36821571821729, 0.4832112097710822, 0.6313825177260423, 0.6591125592903527],
+        ),
+        (
+            "cylinder",
+            "fitaabb='true'",
+            [45.20939123176574, 0.7612751243190553, 1.1323750550184442, 1.201825859258728],
+        ),
+        (
+            "ellipsoid",
+            "fitaabb='true'",
+            [15.015475054752745, 0.13105294722106794, 0.19564923133542744, 0.24490653480248956],
+        ),
+        (
+            "box",
+            "fitaabb='false'",
+            [5.577096406362992, 0.027188346717104253, 0.04182822425471229, 0.052285281351523785],
+        ),
+    ] {
+        let text = mjcf(CORNER, &format!(r#"type="{kind}""#), compiler);
+        let found = ten(&whole(&text, "m.xml"), "b");
+        for (found, expected) in [0, 4, 5, 6].map(|i| found[i]).into_iter().zip(expected) {
+            assert!(
+                (found / expected - 1.0).abs() < SINGLE,
+                "{kind} {compiler}: {found} for {expected}"
+            );
+        }
+    }
+    let text = mjcf(CORNER, r#"type="box""#, "");
+    // at 0.3 it is 54.1068871, with the arm turned
+    let found = ten(&whole(&text, "m.xml"), "b");
+    close(found[1], 0.1, TOLERANCE, "centre");
+    for (geom, mass) in
+        [(r#"type="box" mass="3""#, 3.0), (r#"type="box" fitscale="2""#, 8.0 * found[0])]
+    {
+        close(ten(&whole(&mjcf(CORNER, geom, ""), "m.xml"), "b")[0], mass, TOLERANCE, geom);
+    }
+    // a shell of the box that is fitted to the solid: MuJoCo 4.0.0
+    let shell = ten(&whole(&mjcf(CORNER, r#"type="box" shellinertia="true""#, ""), "m.xml"), "b");
+    close(shell[0], 208.69343618442605, SINGLE, "shell");
+    let shell = ten(
+        &whole(&mjcf(&format!(r#"{CORNER} inertia="shell""#), r#"type="box""#, ""), "m.xml"),
+        "b",
+    );
+    close(shell[0], 11.743565356604618, SINGLE, "box of a shell");
+}
+
+#[test]
+fn the_shell_of_an_ellipsoid_is_exact() {
+    let text = r#"<mujoco><worldbody><body name="b" pos="0 0 1"><joint name="j" axis="1 0 0"/><geom type="ellipsoid" pos="0 0 -0.1" size="0.3 0.2 0.1" density="8" shellinertia="true"/></body></worldbody></mujoco>"#;
+    let expected = [3.910572, 0.0, 0.0, 0.9, 0.064162, 0.114219, 0.145905, 0.0, 0.0, 0.0];
+    agrees(text, expected, 5.0e-6);
+}
+
+#[test]
+fn a_mesh_whose_mass_does_not_count_is_for_the_eye() {
+    for mesh in [
+        CORNER.to_owned() + r#" inertia="shell" refpos="1 0 0" maxhullvert="8""#,
+        r#"builtin="sphere" params="2""#.to_owned(),
+    ] {
+        for (inertial, geom) in [
+            (r#"<inertial pos="0.1 0 0" mass="2" diaginertia="0.02 0.02 0.02"/>"#, ""),
+            (r#"<geom size="0.1"/>"#, r#"mass="0""#),
+        ] {
+            let text = mjcf(&mesh, &format!(r#"type="mesh" conaffinity="0" {geom}"#), "");
+            let text = text.replace("<geom mesh", &format!("{inertial}<geom mesh"));
+            let model = model(&text, "m.xml", &ImportOptions::default());
+            let acts = model.findings.iter().find(|x| x.kind != FindingKind::Appearance);
+            assert_eq!(acts, None, "{mesh}");
+        }
+    }
+}
+
+#[test]
+fn a_built_in_cone_is_computed_and_others_are_named() {
+    // MuJoCo 4.0.0
+    let cone = mjcf(r#"builtin="cone" params="8 0.5""#, r#"type="mesh""#, "");
+    let found = ten(&whole(&cone, "m.xml"), "b");
+    close(found[0], 3299.83159, SINGLE, "mass");
+    close(found[3], 1.0 - 0.2142857, SINGLE, "centre");
+    // a pyramid on a square
+    let tip = mjcf(r#"builtin="cone" params="4 0""#, r#"type="mesh""#, "");
+    close(ten(&whole(&tip, "m.xml"), "b")[0], 4000.0 / 3.0, TOLERANCE, "pyramid");
+    let ball = mjcf(r#"builtin="sphere" params="2""#, r#"type="mesh""#, "");
+    let error = import(ball.as_bytes(), "m.xml", &ImportOptions::default()).expect_err("refused");
+    let shown = error.render();
+    assert!(shown.contains("the built-in mesh `sphere` is not computed"), "{shown}");
+    assert!(shown.contains("<inertial>") && shown.contains("--massless-meshes"), "{shown}");
+    let options = ImportOptions { massless_meshes: true, ..ImportOptions::default() };
+    let other = ball.replace("<geom mesh", r#"<geom size="0.1" contype="0"/><geom mesh"#);
+    let says = "a mesh counts as massless (--massless-meshes)";
+    assert!(model(&other, "m.xml", &options).findings.iter().any(|x| x.says == says));
+}
