@@ -67,7 +67,7 @@ impl Attribute {
 
     /// Is it true?
     pub(crate) fn flag(&self) -> Read<bool> {
-        match self.value.trim() {
+        match self.value.trim().to_ascii_lowercase().as_str() {
             "true" | "1" => Ok(true),
             "false" | "0" => Ok(false),
             other => {

@@ -31,6 +31,13 @@ pub(crate) fn stops(
     }
 }
 
+/// Why a joint whose ends are written gets no range.
+pub(crate) fn no_range(lower: f64, upper: f64) -> String {
+    format!(
+        "`lower` {lower} is not below `upper` {upper}: no range is taken; write type=\"fixed\" where the joint does not move"
+    )
+}
+
 /// Dry friction that is written in `dynamics`; nothing where it is zero.
 pub(crate) fn friction(
     (at, path): (Origin, &str),

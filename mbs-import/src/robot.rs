@@ -287,6 +287,11 @@ pub(crate) struct Start {
     pub(crate) rate: Vec<f64>,
 }
 
+/// The name that a link or a frame has in the scene, which calls by `ground` what does not move.
+pub(crate) fn scene_name(name: &str, what: &str) -> String {
+    if name == "ground" { format!("{name}-{what}") } else { name.to_owned() }
+}
+
 /// Are the factors along all axes the same?
 pub(crate) fn is_even(scale: [f64; 3]) -> bool {
     scale.map(f64::to_bits) == [scale[0].to_bits(); 3]
@@ -327,9 +332,7 @@ impl Coupling {
 impl Link {
     /// A link at the origin, without mass.
     pub(crate) fn new(name: &str, at: Origin) -> Self {
-        // the scene's own name for what does not move
-        let name = if name == "ground" { "ground-link" } else { name };
-        Self { name: name.to_owned(), at, pose: Pose::identity(), mass: None }
+        Self { name: scene_name(name, "link"), at, pose: Pose::identity(), mass: None }
     }
 }
 

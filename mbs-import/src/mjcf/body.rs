@@ -9,7 +9,7 @@ use super::orientation::{euler, pose};
 use crate::element::Element;
 use crate::inertia::{Mass, tensor};
 use crate::pose::{Pose, V3, v3};
-use crate::robot::{Frame, GROUND, Link};
+use crate::robot::{Frame, GROUND, Link, scene_name};
 use crate::source::{Fault, Read};
 
 /// Copies that one `replicate` makes.
@@ -291,7 +291,7 @@ impl<'a> Walk<'_, 'a, '_, '_> {
 pub(super) fn frames(model: &mut Model<'_, '_, '_>) {
     for site in std::mem::take(&mut model.sites) {
         // bodies have the same names at times
-        let name = model.free_name(Sort::Link, &site.name);
+        let name = model.free_name(Sort::Link, &scene_name(&site.name, "frame"));
         model.robot.frames.push(Frame { name, link: site.link, pose: site.pose });
     }
 }

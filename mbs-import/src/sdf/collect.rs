@@ -1,25 +1,32 @@
-//! The frames of models and of those in them, and their links.
+//! The frames of the world, of models and of those in them, and their links.
 
 use super::frames::{Frames, MODEL, Node, WORLD};
+use super::part::{self, Part};
 use super::pose::pose;
 use super::scope::{Scope, VERSION, version};
-use crate::context::Named;
+use crate::context::{Context, Named};
 use crate::element::Element;
 use crate::pose::Pose;
 use crate::robot::{Link, Robot};
-use crate::source::{Read, Sources};
+use crate::source::Read;
+use std::collections::HashSet;
 
-/// A model of the file with its scope.
+/// The world or a model of the file with its scope.
 pub(super) type Model<'a> = (&'a Element, Scope);
 
 /// What is found so far.
-pub(super) struct Collector<'a, 'r> {
+pub(super) struct Collector<'a, 'r, 'c> {
     /// Inner models stand before those that they are in.
     pub(super) models: Vec<Model<'a>>,
+    /// Models that are URDFs.
+    pub(super) parts: Vec<Part<'a>>,
     pub(super) frames: Frames,
-    names: Named,
+    link_names: Named,
+    joint_names: Named,
+    /// Names of joints in the scene.
+    shown: HashSet<String>,
     robot: &'r mut Robot,
-    sources: &'r Sources,
+    context: &'r Context<'c>,
 }
 
 /// The full name of a name in a scope.
@@ -32,10 +39,27 @@ fn filled<'a>(element: &'a Element, name: &str) -> Option<&'a str> {
     element.value(name).filter(|value| !value.is_empty())
 }
 
-impl<'a, 'r> Collector<'a, 'r> {
-    pub(super) fn new(robot: &'r mut Robot, sources: &'r Sources) -> Self {
-        let names = Named::new("link", 1);
-        Self { models: Vec::new(), frames: Frames::default(), names, robot, sources }
+impl<'a, 'r, 'c> Collector<'a, 'r, 'c> {
+    /// `hidden` is what names in the scene leave out.
+    pub(super) fn new(hidden: String, robot: &'r mut Robot, context: &'r Context<'c>) -> Self {
+        Self {
+            models: Vec::new(),
+            parts: Vec::new(),
+            frames: Frames::new(hidden),
+            link_names: Named::new("link", 1),
+            joint_names: Named::new("joint", 0),
+            shown: HashSet::new(),
+            robot,
+            context,
+        }
+    }
+
+    /// Frames and joints of the world, when all models are there.
+    pub(super) fn world(&mut self, world: &'a Element, scope: Scope) -> Read<()> {
+        self.named_frames(world, &scope)?;
+        self.joints(world, &scope)?;
+        self.models.push((world, scope));
+        Ok(())
     }
 
     /// A model, which stands in the frame `outer`, with all that is in it.
@@ -50,9 +74,12 @@ impl<'a, 'r> Collector<'a, 'r> {
         let (own, in_frame) = pose(model)?;
         let around = outer.strip_suffix(MODEL).unwrap_or("");
         let relative_to = in_frame.map_or_else(|| outer.to_owned(), |name| scoped(around, name));
-        let mut first = self.links(model, &prefix)?;
-        self.named_frames(model, &prefix)?;
-        self.joints(model, &prefix)?;
+        let mut first = self.links(model, &scope)?;
+        self.named_frames(model, &scope)?;
+        self.joints(model, &scope)?;
+        if let Some(root) = part::root(model) {
+            first = Some(self.part(root, &scope)?);
+        }
         for inner in model.each("model") {
             let inside = format!("{prefix}{}::", inner.need("name")?.value);
             first.get_or_insert(format!("{inside}{MODEL}"));
@@ -75,51 +102,92 @@ impl<'a, 'r> Collector<'a, 'r> {
     }
 
     /// The name of the first link.
-    fn links(&mut self, model: &Element, prefix: &str) -> Read<Option<String>> {
+    fn links(&mut self, model: &Element, scope: &Scope) -> Read<Option<String>> {
         let mut first = None;
         for element in model.each("link") {
-            let name = format!("{prefix}{}", element.need("name")?.value);
-            let number = self.names.add(&name, element.at, self.sources)?;
-            first.get_or_insert_with(|| name.clone());
+            let name = format!("{}{}", scope.prefix, element.need("name")?.value);
             let (pose, in_frame) = pose(element)?;
-            let relative_to = scoped(prefix, in_frame.unwrap_or(MODEL));
+            let relative_to = scoped(&scope.prefix, in_frame.unwrap_or(MODEL));
+            let number = self.robot.links.len();
+            let link = Link::new(self.frames.plain(&name), element.at);
+            self.robot.links.push(link);
             let node =
                 Node { at: element.at, relative_to, pose, attached_to: None, link: Some(number) };
-            self.frames.add(name.clone(), node);
-            self.robot.links.push(Link {
-                name,
-                at: element.at,
-                pose: Pose::identity(),
-                mass: None,
-            });
+            self.link(&name, node, scope)?;
+            first.get_or_insert(name);
         }
         Ok(first)
     }
 
-    fn named_frames(&mut self, model: &Element, prefix: &str) -> Read<()> {
+    /// Adds the frame of a link.
+    fn link(&mut self, name: &str, node: Node, scope: &Scope) -> Read<()> {
+        self.link_names.add(self.frames.plain(name), node.at, &self.context.sources)?;
+        if let (true, Some(number)) = (scope.is_static, node.link) {
+            self.frames.add_still(number);
+        }
+        self.frames.add(name.to_owned(), node);
+        Ok(())
+    }
+
+    fn named_frames(&mut self, model: &Element, scope: &Scope) -> Read<()> {
+        let own = if scope.is_world() { WORLD } else { MODEL };
         for element in model.each("frame") {
-            let attached = filled(element, "attached_to").unwrap_or(MODEL);
-            self.hung(element, prefix, scoped(prefix, attached))?;
+            let attached = filled(element, "attached_to").unwrap_or(own);
+            let name = format!("{}{}", scope.prefix, element.need("name")?.value);
+            let node = self.hung(element, scope, scoped(&scope.prefix, attached))?;
+            self.frames.add(name, node);
         }
         Ok(())
     }
 
-    fn joints(&mut self, model: &Element, prefix: &str) -> Read<()> {
+    fn joints(&mut self, model: &Element, scope: &Scope) -> Read<()> {
         for element in model.each("joint") {
             let child = element.children.iter().find(|child| child.name == "child");
             let child = child.map_or("", |child| child.text.trim());
-            self.hung(element, prefix, scoped(prefix, child))?;
+            let name = format!("{}{}", scope.prefix, element.need("name")?.value);
+            let node = self.hung(element, scope, scoped(&scope.prefix, child))?;
+            self.joint(name, node)?;
         }
+        Ok(())
+    }
+
+    /// Adds the frame of a joint, and finds the joint's name in the scene.
+    fn joint(&mut self, name: String, node: Node) -> Read<()> {
+        let plain = self.frames.plain(&name);
+        // one of the world and one of the only model may have the same name
+        let is_taken = !self.shown.insert(plain.to_owned());
+        let shown = if is_taken { format!("{WORLD}::{plain}") } else { plain.to_owned() };
+        self.joint_names.add(&name, node.at, &self.context.sources)?;
+        self.frames.add_joint(name, shown, node);
         Ok(())
     }
 
     /// A frame that moves with another one, and stands in it unless its pose says otherwise.
-    fn hung(&mut self, element: &Element, prefix: &str, on: String) -> Read<()> {
-        let name = format!("{prefix}{}", element.need("name")?.value);
+    fn hung(&self, element: &Element, scope: &Scope, on: String) -> Read<Node> {
         let (pose, in_frame) = pose(element)?;
-        let relative_to = in_frame.map_or_else(|| on.clone(), |name| scoped(prefix, name));
-        let node = Node { at: element.at, relative_to, pose, attached_to: Some(on), link: None };
-        self.frames.add(name, node);
-        Ok(())
+        let relative_to = in_frame.map_or_else(|| on.clone(), |name| scoped(&scope.prefix, name));
+        Ok(Node { at: element.at, relative_to, pose, attached_to: Some(on), link: None })
+    }
+
+    /// A URDF in place of a model; the full name of its root link.
+    fn part(&mut self, root: &'a Element, scope: &Scope) -> Read<String> {
+        let (model, shown) = (scope.model(), self.frames.plain(&scope.prefix).to_owned());
+        let part = Part::read(root, (model.clone(), shown), self.robot, self.context)?;
+        for (name, number) in part.links() {
+            let Link { at, pose, .. } = self.robot.links[number];
+            let (relative_to, link) = (model.clone(), Some(number));
+            let node = Node { at, relative_to, pose, attached_to: None, link };
+            self.link(&format!("{}{name}", scope.prefix), node, scope)?;
+        }
+        for (name, at, child) in part.joints() {
+            let on = format!("{}{child}", scope.prefix);
+            let attached_to = Some(on.clone());
+            let node =
+                Node { at, relative_to: on, pose: Pose::identity(), attached_to, link: None };
+            self.joint(format!("{}{name}", scope.prefix), node)?;
+        }
+        let trunk = format!("{}{}", scope.prefix, part.trunk());
+        self.parts.push(part);
+        Ok(trunk)
     }
 }

@@ -17,19 +17,30 @@ pub(super) fn read(
     robot: &mut Robot,
     context: &mut Context<'_>,
 ) -> Read<()> {
-    if let Some(joint) = model.child("drake:joint") {
+    if scope.is_static {
+        model.each("drake:joint").for_each(Element::read_whole);
+    }
+    if let Some(joint) = model.child("drake:joint").filter(|_| !scope.is_static) {
         let hint = "write it as a <joint> of the format, and a planar one as two prismatic joints and a revolute one";
         return Err(joint.fault("a joint of another program is not read", hint));
     }
     for (i, element) in model.each("drake:ball_constraint").enumerate() {
         let ends = points(element, "drake:ball_constraint", scope, frames)?;
-        let name = format!("{}ball constraint {}", scope.prefix, i + 1);
+        if are_still(&ends, frames) {
+            element.read_whole();
+            continue;
+        }
+        let name = format!("{}ball constraint {}", frames.plain(&scope.prefix), i + 1);
         robot.joints.push(ball(&name, element, ends)?);
     }
     for (i, element) in model.each("drake:distance_constraint").enumerate() {
         let word = "drake:distance_constraint";
         let [a, b] = points(element, word, scope, frames)?;
-        let name = format!("{}distance constraint {}", scope.prefix, i + 1);
+        if are_still(&[a, b], frames) {
+            element.read_whole();
+            continue;
+        }
+        let name = format!("{}distance constraint {}", frames.plain(&scope.prefix), i + 1);
         let wanted = element
             .child(&format!("{word}_distance"))
             .map(|child| child.content().number())
@@ -44,7 +55,9 @@ pub(super) fn read(
         robot.joints.push(Joint::new(&name, element.at, Kind::Distance(b.1), [a.0, b.0], a.1));
     }
     for (i, element) in model.each("drake:linear_bushing_rpy").enumerate() {
-        bushing(element, (i, scope), frames, robot)?;
+        if !bushing(element, (i, scope), frames, robot)? {
+            continue;
+        }
         let says = "moments by roll, pitch and yaw in a frame halfway there; here by a rotation vector in the first frame";
         context.findings.approximated(element.at, "drake:linear_bushing_rpy", says);
     }
@@ -61,16 +74,25 @@ fn points(element: &Element, word: &str, scope: &Scope, frames: &Frames) -> Read
     Ok([point("body_A", "p_AP")?, point("body_B", "p_BQ")?])
 }
 
-/// A spring in six directions between two frames that coincide.
+/// Do both points move with nothing?
+fn are_still(ends: &[(usize, V3); 2], frames: &Frames) -> bool {
+    ends.iter().all(|(link, _)| frames.is_still(*link))
+}
+
+/// A spring in six directions between two frames that coincide; was it added? Between what does not move there is none.
 fn bushing(
     element: &Element,
     (i, scope): (usize, &Scope),
     frames: &Frames,
     robot: &mut Robot,
-) -> Read<()> {
+) -> Read<bool> {
     let frame = |word: &str| placed(element, word, scope, frames);
     let [(a, first), (c, second)] =
         [frame("drake:bushing_frameA")?, frame("drake:bushing_frameC")?];
+    if frames.is_still(a) && frames.is_still(c) {
+        element.read_whole();
+        return Ok(false);
+    }
     if (first.at - second.at).norm() > CLOSED
         || (first.turn - second.turn).norm() > CLOSED
         || !is_global(&first.turn)
@@ -92,8 +114,9 @@ fn bushing(
         stiffness: six("stiffness")?,
         damping: six("damping")?,
     };
-    robot.laws.push(Law { name: format!("{}bushing {}", scope.prefix, i + 1), what });
-    Ok(())
+    let name = format!("{}bushing {}", frames.plain(&scope.prefix), i + 1);
+    robot.laws.push(Law { name, what });
+    Ok(true)
 }
 
 fn is_global(turn: &crate::pose::M3) -> bool {

@@ -1,10 +1,11 @@
 //! The graph of frames: links, joints, frames and models, each placed in another.
 
 use crate::pose::Pose;
+use crate::robot::GROUND;
 use crate::source::{Fault, Origin, Read};
 use mbs_scene::nearest_name;
 use std::cell::RefCell;
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 
 /// The frame of the world.
 pub(super) const WORLD: &str = "world";
@@ -29,11 +30,48 @@ pub(super) struct Node {
 pub(super) struct Frames {
     nodes: HashMap<String, Node>,
     places: RefCell<HashMap<String, Pose>>,
+    /// Joints by their full names: the full name of the frame of each, and its name in the scene.
+    joints: HashMap<String, [String; 2]>,
+    /// Links of static models.
+    still: HashSet<usize>,
+    /// What names in the scene leave out: the name of the only model, `outer::`, or nothing.
+    hidden: String,
 }
 
 impl Frames {
+    pub(super) fn new(hidden: String) -> Self {
+        Self { hidden, ..Self::default() }
+    }
+
     pub(super) fn add(&mut self, name: String, node: Node) {
         self.nodes.insert(name, node);
+    }
+
+    /// Adds a joint with its name in the scene. Files before 1.7 give it the name of a link at times; the name is then that of the link.
+    pub(super) fn add_joint(&mut self, name: String, shown: String, node: Node) {
+        let is_taken = self.nodes.contains_key(&name);
+        let own = if is_taken { format!("{name}_joint") } else { name.clone() };
+        self.add(own.clone(), node);
+        self.joints.insert(name, [own, shown]);
+    }
+
+    /// The full name of the frame of a joint by its own full name, and the name of the joint in the scene.
+    pub(super) fn joint(&self, name: &str) -> Option<[&str; 2]> {
+        self.joints.get(name).map(|[own, shown]| [own.as_str(), shown.as_str()])
+    }
+
+    /// A full name, or the beginning of one, as the scene has it.
+    pub(super) fn plain<'a>(&self, name: &'a str) -> &'a str {
+        name.strip_prefix(self.hidden.as_str()).unwrap_or(name)
+    }
+
+    pub(super) fn add_still(&mut self, link: usize) {
+        self.still.insert(link);
+    }
+
+    /// Is a link the ground, or a part of a static model?
+    pub(super) fn is_still(&self, link: usize) -> bool {
+        link == GROUND || self.still.contains(&link)
     }
 
     /// The full name of a name that stands in a scope; its prefix ends with `::` or is empty.
@@ -62,7 +100,7 @@ impl Frames {
         if !self.nodes.contains_key(name) {
             return Err(Fault::new(
                 at,
-                format!("unknown frame `{name}`"),
+                format!("unknown frame `{}`", self.plain(name)),
                 "name a frame of this model",
             ));
         }
@@ -123,7 +161,9 @@ impl Frames {
         found.ok_or_else(|| {
             let by = chain.last().and_then(|by| self.nodes.get(*by));
             let at = by.map_or(Origin::start_of(0), |node| node.at);
-            let known: Vec<&str> = self.nodes.keys().map(String::as_str).collect();
+            let mut known: Vec<&str> = self.nodes.keys().map(|known| self.plain(known)).collect();
+            known.sort_unstable();
+            let name = self.plain(name);
             let hint = nearest_name(name, &known, "frames");
             Fault::new(at, format!("unknown link, joint, frame or model `{name}`"), hint)
         })
@@ -131,8 +171,11 @@ impl Frames {
 
     fn circle(&self, chain: &[&str], at: &str) -> Fault {
         let start = chain.iter().position(|name| *name == at).unwrap_or(0);
-        let ring: Vec<_> =
-            chain[start..].iter().chain([&at]).map(|name| format!("`{name}`")).collect();
+        let ring: Vec<_> = chain[start..]
+            .iter()
+            .chain([&at])
+            .map(|name| format!("`{}`", self.plain(name)))
+            .collect();
         let place = self.nodes.get(at).map_or(Origin::start_of(0), |node| node.at);
         Fault::new(
             place,

@@ -1,6 +1,7 @@
 //! Models of other files: they stand where the `include` stood, with its name, pose and the like.
 
 use super::frames::MODEL;
+use super::part;
 use super::scope::{VERSION, missing, version};
 use crate::beside::{Included, first, home, places};
 use crate::context::Context;
@@ -50,9 +51,15 @@ impl Includer<'_, '_> {
         let uri = include.child("uri").ok_or_else(|| missing(include, "uri"))?.content();
         let path = self.path(&uri)?;
         let mut root = self.included.open(&uri, path, include.at, self.context)?;
+        if root.name == "robot" {
+            self.included.close();
+            let mut model = part::model(root);
+            self.own(include, &mut model)?;
+            return Ok(Some(model));
+        }
         if root.name != "sdf" {
             let message = format!("the root element of `{}` is `{}`", uri.value, root.name);
-            return Err(uri.fault(message, "include a model in an SDF file"));
+            return Err(uri.fault(message, "include a model in an SDF or URDF file"));
         }
         self.inside(&mut root)?;
         self.included.close();
@@ -145,6 +152,9 @@ fn described(place: PathBuf) -> PathBuf {
 fn merged(include: &Element, model: Element, is_in_model: bool) -> Read<Vec<Element>> {
     let refused =
         |why: &str| include.fault(why, "leave out merge=\"true\": names then begin with its name");
+    if part::is_part(&model) {
+        return Err(refused("a URDF that is merged"));
+    }
     if !is_in_model {
         return Err(refused("a model that is merged into the world"));
     }

@@ -1,12 +1,11 @@
 //! Joints: kinds, axes, springs, ends, followers, screws.
 
 use super::frames::Frames;
-use super::link::number;
-use super::scope::{Scope, link};
+use super::scope::{Scope, link, number};
 use crate::context::Context;
 use crate::element::Element;
 use crate::laws;
-use crate::pose::{V3, direction, v3};
+use crate::pose::{V3, direction, unit, v3};
 use crate::robot::{Coordinate, Coupling, Joint, Kind, Law, Robot, Target, Term, What};
 use crate::source::{Fault, Read};
 
@@ -40,7 +39,9 @@ pub(super) fn read(
             format!("types are {known}, gearbox"),
         )
     })?;
-    let name = format!("{}{name}", scope.prefix);
+    let full = format!("{}{name}", scope.prefix);
+    let [own, shown] = known(frames, &full, element)?;
+    let name = shown.to_owned();
     let is_kept = kind == Kind::Fixed && context.options.keep_fixed.contains(&name);
     let kind = if is_kept { Kind::Weld } else { kind };
     let ends = [end(element, "parent", scope, frames)?, end(element, "child", scope, frames)?];
@@ -48,7 +49,10 @@ pub(super) fn read(
         return Err(element
             .fault(format!("joint `{name}` joins a link to itself"), "give it another child"));
     }
-    let own = name.as_str();
+    if is_still(element, scope, frames)? {
+        element.read_whole();
+        return Ok(());
+    }
     let place = frames.place(own)?;
     let mut joint = Joint::new(&name, element.at, kind, ends, place.at);
     let axes: Vec<&Element> =
@@ -71,7 +75,11 @@ pub(super) fn read(
         joint.axes.push(direction_of(axis, own, scope, frames)?);
     }
     if let ([axis], Kind::Revolute | Kind::Prismatic) = (&axes[..needed], kind) {
-        limits(axis, word.value.trim() != "continuous", &mut joint)?;
+        let has_range = word.value.trim() != "continuous";
+        if let Some(says) = limits(axis, has_range, &mut joint)? {
+            let path = format!("joint[{name}]/{}/limit", axis.name);
+            context.findings.approximated(axis.at, path, says);
+        }
     }
     robot.joints.push(joint);
     for (i, axis) in axes[..needed].iter().enumerate() {
@@ -82,6 +90,19 @@ pub(super) fn read(
         robot.couplings.push(screw(element, number, &name)?);
     }
     Ok(())
+}
+
+/// The full name of the frame of a joint by its own full name, and its name in the scene.
+pub(super) fn known<'a>(frames: &'a Frames, full: &str, element: &Element) -> Read<[&'a str; 2]> {
+    frames.joint(full).ok_or_else(|| {
+        element.fault(format!("unknown joint `{}`", frames.plain(full)), "name a joint of the file")
+    })
+}
+
+/// Does a joint join what does not move? Within static models it does nothing.
+pub(super) fn is_still(element: &Element, scope: &Scope, frames: &Frames) -> Read<bool> {
+    let ends = [end(element, "parent", scope, frames)?, end(element, "child", scope, frames)?];
+    Ok(ends.iter().all(|link| frames.is_still(*link)))
 }
 
 /// The link of an end, which is the ground where it is the world.
@@ -112,30 +133,33 @@ pub(super) fn direction_of(
     scope: &Scope,
     frames: &Frames,
 ) -> Read<V3> {
-    let xyz = axis
-        .child("xyz")
-        .ok_or_else(|| axis.fault("the axis has no <xyz>", "write <xyz>0 0 1</xyz>"))?;
-    let content = xyz.content();
-    let numbers = v3(content.numbers()?);
-    let unit = direction(&numbers)
-        .ok_or_else(|| content.fault("the axis has no direction", "write a direction, as 0 0 1"))?;
+    let xyz = axis.child("xyz");
+    let along = match xyz.map(Element::content) {
+        Some(content) => direction(&v3(content.numbers()?)).ok_or_else(|| {
+            content.fault("the axis has no direction", "write a direction, as 0 0 1")
+        })?,
+        // the format's default
+        None => unit(2),
+    };
     let is_of_model = match axis.child("use_parent_model_frame") {
         Some(flag) => flag.content().flag()?,
         // before 1.5 all axes were in the frame of the model
         None => scope.version < [1, 5],
     };
-    let frame = match xyz.value("expressed_in").filter(|name| !name.is_empty()) {
-        Some(name) => frames.full(&scope.prefix, name, xyz.at)?,
+    let named = xyz.and_then(|xyz| xyz.value("expressed_in")).filter(|name| !name.is_empty());
+    let frame = match named {
+        Some(name) => frames.full(&scope.prefix, name, axis.at)?,
         None if is_of_model && scope.version < [1, 7] => scope.model(),
         None => joint.to_owned(),
     };
-    Ok(frames.place(&frame)?.turn * unit)
+    Ok(frames.place(&frame)?.turn * along)
 }
 
-fn limits(axis: &Element, has_range: bool, joint: &mut Joint) -> Read<()> {
+/// Ends, effort and rate; why there is no range, where one end or both are written.
+fn limits(axis: &Element, has_range: bool, joint: &mut Joint) -> Read<Option<String>> {
     /// From here on the format means that there is no end.
     const NONE: f64 = 1.0e16;
-    let Some(limit) = axis.child("limit") else { return Ok(()) };
+    let Some(limit) = axis.child("limit") else { return Ok(None) };
     let value = |name: &str| -> Read<Option<f64>> {
         let Some(child) = limit.child(name) else { return Ok(None) };
         // published files write inf where they mean none
@@ -147,12 +171,18 @@ fn limits(axis: &Element, has_range: bool, joint: &mut Joint) -> Read<()> {
         Ok(Some(x).filter(|x| x.abs() < NONE))
     };
     let (lower, upper) = (value("lower")?, value("upper")?);
-    if let (Some(lower), Some(upper), true) = (lower, upper, has_range) {
-        joint.range = (lower < upper).then_some([lower, upper]);
-    }
     joint.effort = value("effort")?.filter(|x| *x > 0.0);
     joint.rate = value("velocity")?.filter(|x| *x > 0.0);
-    Ok(())
+    Ok(match (lower, upper) {
+        (None, None) => None,
+        _ if !has_range => None,
+        (Some(lower), Some(upper)) if lower < upper => {
+            joint.range = Some([lower, upper]);
+            None
+        }
+        (Some(lower), Some(upper)) => Some(laws::no_range(lower, upper)),
+        _ => Some("one end alone: no range is taken, which has two ends here".to_owned()),
+    })
 }
 
 /// Springs, damping, friction, stops and mimicry about an axis.
@@ -229,12 +259,24 @@ fn screw(element: &Element, joint: usize, name: &str) -> Read<Coupling> {
     })
 }
 
-/// The number of a joint by its full name.
-pub(super) fn find(robot: &Robot, scope: &Scope, element: &Element, name: &str) -> Read<usize> {
-    let full = format!("{}{name}", scope.prefix);
-    robot.joints.iter().position(|joint| joint.name == full).ok_or_else(|| {
+/// Where names of joints stand, and what they mean.
+pub(super) struct Names<'a> {
+    pub(super) scope: &'a Scope,
+    pub(super) frames: &'a Frames,
+}
+
+/// The number of a joint by its name.
+pub(super) fn find(robot: &Robot, of: &Names<'_>, element: &Element, name: &str) -> Read<usize> {
+    let full = format!("{}{name}", of.scope.prefix);
+    let shown = of.frames.joint(&full).map(|[_, shown]| shown);
+    let found = robot.joints.iter().position(|joint| Some(joint.name.as_str()) == shown);
+    found.ok_or_else(|| {
+        if shown.is_some() {
+            let message = format!("joint `{name}` is in a static model, and does not move");
+            return Fault::new(element.at, message, "leave out this <mimic>");
+        }
         let names: Vec<_> = robot.joints.iter().map(|joint| joint.name.as_str()).collect();
-        let hint = mbs_scene::nearest_name(&full, &names, "joints");
+        let hint = mbs_scene::nearest_name(of.frames.plain(&full), &names, "joints");
         Fault::new(element.at, format!("unknown joint `{name}`"), hint)
     })
 }

@@ -1,30 +1,33 @@
 //! Links: inertia, and what is drawn.
 
 use super::pose::pose;
+use super::scope::number;
+use super::weight::{self, Place};
 use crate::context::Context;
-use crate::element::Element;
+use crate::element::{Attribute, Element};
 use crate::inertia::{Mass, tensor};
-use crate::pose::{Pose, V3};
+use crate::pose::V3;
 use crate::robot::{self, Form, FormKind, Robot};
 use crate::source::Read;
 use crate::visual::mesh_form;
 
 /// The inertia of a link, in its own axes.
-pub(super) fn mass(element: &Element, path: &str, context: &mut Context<'_>) -> Read<Option<Mass>> {
+pub(super) fn mass(
+    element: &Element,
+    place: &Place<'_>,
+    context: &mut Context<'_>,
+) -> Read<Option<Mass>> {
     let Some(inertial) = element.child("inertial") else {
         let says = "no <inertial>: the format's 1 kg with moments of 1 kg m^2";
-        context.findings.approximated(element.at, path, says);
+        context.findings.approximated(element.at, element.label(), says);
         return Ok(Some(Mass {
             mass: 1.0,
             center: V3::zeros(),
             tensor: tensor([1.0, 1.0, 1.0, 0.0, 0.0, 0.0]),
         }));
     };
-    if inertial.value("auto") == Some("true") {
-        let hint = "write <mass> and <inertia> with numbers";
-        return Err(
-            inertial.fault("masses that another program computes from forms are not read", hint)
-        );
+    if inertial.attribute("auto").map_or(Ok(false), Attribute::flag)? {
+        return weight::mass(element, inertial, place, context).map(Some);
     }
     let (at, _) = pose(inertial)?;
     let mass = number(inertial, "mass", 1.0)?;
@@ -41,15 +44,10 @@ pub(super) fn mass(element: &Element, path: &str, context: &mut Context<'_>) -> 
     Ok(Some(local.seen_from(&at)))
 }
 
-/// The number in a child, or what stands for it.
-pub(super) fn number(element: &Element, name: &str, default: f64) -> Read<f64> {
-    element.child(name).map_or(Ok(default), |child| child.content().number())
-}
-
 /// The forms of `visual` that are drawn.
 pub(super) fn shapes(
     element: &Element,
-    link: usize,
+    (link, place): (usize, &Place<'_>),
     robot: &mut Robot,
     context: &mut Context<'_>,
 ) -> Read<()> {
@@ -66,8 +64,7 @@ pub(super) fn shapes(
             }
         };
         let Some(kind) = kind else { continue };
-        let (local, _) = pose(visual)?;
-        let pose: Pose = robot.links[link].pose.then(&local);
+        let pose = robot.links[link].pose.then(&place.pose(visual)?);
         let colour = visual.child("material").and_then(colour);
         robot.shapes.push(Form { link, pose, kind, colour });
     }

@@ -6,10 +6,12 @@ mod frames;
 mod include;
 mod joint;
 mod link;
+mod part;
 mod pose;
 mod relations;
 mod scope;
 mod table;
+mod weight;
 
 pub(crate) use include::include;
 pub(crate) use table::TABLE;
@@ -18,11 +20,13 @@ use crate::context::Context;
 use crate::element::Element;
 use crate::options::BaseKind;
 use crate::pose::v3;
-use crate::robot::{Frame, GROUND, Joint, Kind, Law, Link, Robot, Target, What};
+use crate::robot::{Frame, GROUND, Joint, Kind, Law, Link, Robot, Target, What, scene_name};
 use crate::source::Read;
 use collect::{Collector, Model};
 use frames::{Frames, WORLD};
+use part::Part;
 use scope::{Scope, is_gearbox, version};
+use weight::Place;
 
 /// Reads the root element `sdf`.
 pub(crate) fn read(root: &Element, context: &mut Context<'_>) -> Read<Robot> {
@@ -42,15 +46,26 @@ pub(crate) fn read(root: &Element, context: &mut Context<'_>) -> Read<Robot> {
         Some(_) => "Gravity: the world's.".to_owned(),
         None => "Gravity: 0 0 -9.8, the format's default.".to_owned(),
     });
-    let mut collector = Collector::new(&mut robot, &context.sources);
+    // the names of the only model stand alone
+    let hidden = match tops[..] {
+        [only] => format!("{}::", only.need("name")?.value),
+        _ => String::new(),
+    };
+    let mut collector = Collector::new(hidden, &mut robot, context);
     for top in &tops {
-        let own = top.need("name")?;
-        let prefix = if tops.len() == 1 { String::new() } else { format!("{}::", own.value) };
-        let scope = Scope { prefix, version, is_static: false };
-        collector.model(top, scope, WORLD)?;
+        let prefix = format!("{}::", top.need("name")?.value);
+        collector.model(top, Scope { prefix, version, is_static: false }, WORLD)?;
     }
-    let Collector { models, frames, .. } = collector;
+    if let Some(world) = world {
+        let scope = Scope { prefix: String::new(), version, is_static: false };
+        collector.world(world, scope)?;
+    }
+    let Collector { models, parts, frames, .. } = collector;
     links(&models, &frames, &mut robot, context)?;
+    let trunks: Vec<_> = parts.iter().map(Part::trunk_link).collect();
+    for part in parts {
+        part.add(&frames, &mut robot, context)?;
+    }
     for (model, scope) in &models {
         for element in model.each("joint").filter(|element| !is_gearbox(element)) {
             joint::read(element, scope, &frames, &mut robot, context)?;
@@ -60,7 +75,7 @@ pub(crate) fn read(root: &Element, context: &mut Context<'_>) -> Read<Robot> {
         relations::read(model, scope, &frames, &mut robot)?;
         drake::read(model, scope, &frames, &mut robot, context)?;
     }
-    base(&models, &mut robot, context);
+    base(&frames, &trunks, &mut robot, context);
     Ok(robot)
 }
 
@@ -76,22 +91,37 @@ fn links(
             let name = format!("{}{}", scope.prefix, element.need("name")?.value);
             let Some(number) = frames.link(&name)? else { continue };
             let pose = frames.place(&name)?;
-            let path = element.label();
-            let mass = link::mass(element, &path, context)?;
-            let link = &mut robot.links[number];
-            link.pose = pose;
-            link.mass = mass.map(|mass| mass.seen_from(&pose));
-            link::shapes(element, number, robot, context)?;
+            robot.links[number].pose = pose;
+            let place = Place { name: &name, scope, frames };
+            link::shapes(element, (number, &place), robot, context)?;
+            if scope.is_static {
+                // of what does not move the masses do not act
+                let own = ["inertial", "gravity"].into_iter().flat_map(|name| element.each(name));
+                own.for_each(Element::read_whole);
+                continue;
+            }
+            let mass = link::mass(element, &place, context)?;
+            robot.links[number].mass = mass.map(|mass| mass.seen_from(&pose));
             gravity(element, number, robot)?;
         }
         for element in model.each("frame") {
-            let name = format!("{}{}", scope.prefix, element.need("name")?.value);
-            let link = frames.link(&name)?.unwrap_or(GROUND);
-            let pose = frames.place(&name)?;
+            let full = format!("{}{}", scope.prefix, element.need("name")?.value);
+            let link = frames.link(&full)?.unwrap_or(GROUND);
+            let pose = frames.place(&full)?;
+            let mut name = scene_name(frames.plain(&full), "frame");
+            if scope.is_world() && is_taken(&name, robot) {
+                name = format!("{WORLD}::{name}");
+            }
             robot.frames.push(Frame { name, link, pose });
         }
     }
     Ok(())
+}
+
+/// Does a link or a frame have a name?
+fn is_taken(name: &str, robot: &Robot) -> bool {
+    let mut links = robot.links.iter().map(|link| &link.name);
+    links.any(|link| link == name) || robot.frames.iter().any(|frame| frame.name == name)
 }
 
 /// A link without gravity is held by its weight, upward.
@@ -108,17 +138,11 @@ fn gravity(element: &Element, link: usize, robot: &mut Robot) -> Read<()> {
 }
 
 /// What hangs on nothing moves freely; a static model is the ground's.
-fn base(models: &[Model<'_>], robot: &mut Robot, context: &Context<'_>) {
-    for (model, scope) in models.iter().filter(|(_, scope)| scope.is_static) {
-        for element in model.each("link") {
-            let name = element.value("name").map(|name| format!("{}{name}", scope.prefix));
-            let link = robot.links.iter().position(|link| Some(&link.name) == name.as_ref());
-            if let Some(link) = link {
-                hold(robot, link, Kind::Fixed, "static");
-            }
-        }
-    }
+fn base(frames: &Frames, trunks: &[usize], robot: &mut Robot, context: &Context<'_>) {
     for link in 1..robot.links.len() {
+        if frames.is_still(link) {
+            hold(robot, link, Kind::Fixed, "static");
+        }
         // older files call a link so, and mean what does not move
         if robot.links[link].name.rsplit("::").next() == Some(WORLD) {
             hold(robot, link, Kind::Fixed, "ground");
@@ -129,9 +153,9 @@ fn base(models: &[Model<'_>], robot: &mut Robot, context: &Context<'_>) {
     let mut is_held = vec![false; robot.links.len()];
     is_held[GROUND] = true;
     let mut roots = Vec::new();
-    for (link, carrier) in carriers.into_iter().enumerate() {
-        // the first link of those that are joined
-        if !std::mem::replace(&mut is_held[carrier], true) {
+    // the root of a URDF, else the first link of those that are joined
+    for link in trunks.iter().copied().chain(0..carriers.len()) {
+        if !std::mem::replace(&mut is_held[carriers[link]], true) {
             hold(robot, link, kind, "base");
             roots.push(format!("`{}`", robot.links[link].name));
         }

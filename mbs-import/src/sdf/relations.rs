@@ -1,9 +1,8 @@
 //! What relates joints to each other: gearboxes and mimicry.
 
 use super::frames::Frames;
-use super::joint::{coordinate, direction_of, find};
-use super::link::number;
-use super::scope::{Scope, is_gearbox, link, missing};
+use super::joint::{Names, coordinate, direction_of, find, is_still, known};
+use super::scope::{Scope, is_gearbox, link, missing, number};
 use crate::element::Element;
 use crate::pose::V3;
 use crate::robot::{Coupling, Kind, Law, Robot, Target, Term, What};
@@ -13,12 +12,21 @@ use crate::source::Read;
 pub(super) fn read(model: &Element, scope: &Scope, frames: &Frames, robot: &mut Robot) -> Read<()> {
     for element in model.each("joint") {
         if is_gearbox(element) {
+            if is_still(element, scope, frames)? {
+                element.read_whole();
+                continue;
+            }
             let coupling = gearbox(element, scope, frames, robot)?;
             robot.couplings.push(coupling);
             continue;
         }
+        if is_still(element, scope, frames)? {
+            continue;
+        }
+        let of = Names { scope, frames };
         let name = &element.need("name")?.value;
-        let follower = find(robot, scope, element, name)?;
+        let follower = find(robot, &of, element, name)?;
+        let shown = robot.joints[follower].name.clone();
         for (i, axis) in ["axis", "axis2"].into_iter().enumerate() {
             let Some(mimic) = element.child(axis).and_then(|axis| axis.child("mimic")) else {
                 continue;
@@ -29,11 +37,11 @@ pub(super) fn read(model: &Element, scope: &Scope, frames: &Frames, robot: &mut 
                 (value("multiplier", 1.0)?, value("offset", 0.0)?, value("reference", 0.0)?);
             let of_leader = coordinate(
                 &robot.joints,
-                find(robot, scope, mimic, &leader.value)?,
+                find(robot, &of, mimic, &leader.value)?,
                 usize::from(mimic.value("axis") == Some("axis2")),
             );
             robot.couplings.push(Coupling::follows(
-                &format!("{}{name}", scope.prefix),
+                &shown,
                 [coordinate(&robot.joints, follower, i), of_leader],
                 factor,
                 offset - factor * reference,
@@ -41,10 +49,10 @@ pub(super) fn read(model: &Element, scope: &Scope, frames: &Frames, robot: &mut 
         }
         if let Some(mimic) = element.child("drake:mimic") {
             let leader = mimic.need("joint")?;
-            let leader = find(robot, scope, mimic, &leader.value)?;
+            let leader = find(robot, &of, mimic, &leader.value)?;
             let factor = mimic.number_or("multiplier", 1.0)?;
             robot.couplings.push(Coupling::follows(
-                &format!("{}{name}", scope.prefix),
+                &shown,
                 [follower, leader].map(|joint| coordinate(&robot.joints, joint, 0)),
                 factor,
                 mimic.number_or("offset", 0.0)?,
@@ -71,15 +79,15 @@ fn reflected(element: &Element, joint: usize, robot: &mut Robot) -> Read<()> {
 
 /// Angles of two links against a third: that of the child is minus the ratio times that of the parent.
 fn gearbox(element: &Element, scope: &Scope, frames: &Frames, robot: &Robot) -> Read<Coupling> {
-    let name = &element.need("name")?.value;
-    let own = frames.full(&scope.prefix, name, element.at)?;
+    let full = format!("{}{}", scope.prefix, element.need("name")?.value);
+    let [own, shown] = known(frames, &full, element)?;
     let link = |word: &str| link(element, word, scope, frames);
     let [parent, child, reference] =
         [link("parent")?, link("child")?, link("gearbox_reference_body")?];
     let ratio = number(element, "gearbox_ratio", 1.0)?;
     let axis = |word: &str| -> Read<V3> {
         let axis = element.child(word).ok_or_else(|| missing(element, word))?;
-        direction_of(axis, &own, scope, frames)
+        direction_of(axis, own, scope, frames)
     };
     let first = turn(element, robot, [reference, parent], &axis("axis")?)?;
     let second = turn(element, robot, [reference, child], &axis("axis2")?)?;
@@ -87,7 +95,7 @@ fn gearbox(element: &Element, scope: &Scope, frames: &Frames, robot: &Robot) -> 
         Term::new(coordinate(&robot.joints, joint, 0), sign * factor)
     };
     Ok(Coupling {
-        name: format!("{}{name}", scope.prefix),
+        name: shown.to_owned(),
         terms: vec![term(second, 1.0), term(first, ratio)],
         value: 0.0,
     })

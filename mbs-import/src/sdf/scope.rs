@@ -1,6 +1,6 @@
 //! Where names stand, and what all readers of the format ask of elements.
 
-use super::frames::{Frames, MODEL};
+use super::frames::{Frames, MODEL, WORLD};
 use crate::element::{Attribute, Element};
 use crate::pose::{Pose, V3, v3};
 use crate::robot::GROUND;
@@ -12,16 +12,21 @@ pub(super) const VERSION: &str = "version of its file";
 /// Where names stand.
 #[derive(Debug, Clone)]
 pub(super) struct Scope {
-    /// What stands before full names: `outer::`, or nothing.
+    /// What stands before full names: `outer::`, or in the world nothing.
     pub(super) prefix: String,
     pub(super) version: [u32; 2],
     pub(super) is_static: bool,
 }
 
 impl Scope {
-    /// The full name of the frame of its model.
+    /// Is it that of the world, and of no model?
+    pub(super) const fn is_world(&self) -> bool {
+        self.prefix.is_empty()
+    }
+
+    /// The full name of the frame of its model, or of the world.
     pub(super) fn model(&self) -> String {
-        format!("{}{MODEL}", self.prefix)
+        if self.is_world() { WORLD.to_owned() } else { format!("{}{MODEL}", self.prefix) }
     }
 }
 
@@ -42,6 +47,11 @@ pub(super) fn is_gearbox(element: &Element) -> bool {
         .attributes
         .iter()
         .any(|attribute| attribute.name == "type" && attribute.value.trim() == "gearbox")
+}
+
+/// The number in a child, or what stands for it.
+pub(super) fn number(element: &Element, name: &str, default: f64) -> Read<f64> {
+    element.child(name).map_or(Ok(default), |child| child.content().number())
 }
 
 /// The three numbers in a child.

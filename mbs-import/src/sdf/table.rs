@@ -1,6 +1,6 @@
 //! What becomes of the elements and attributes of SDF.
 
-use crate::table::Treatment::{Appearance, Approximated, Ignored, Mapped, Refused};
+use crate::table::Treatment::{Appearance, Approximated, Ignored, Mapped};
 use crate::table::{Row, row};
 
 /// Why contact is left out.
@@ -18,8 +18,6 @@ pub(crate) const TABLE: &[Row] = &[
     row("gravity", "", Mapped),
     row("world/physics", " *", Ignored(OTHER)),
     row("joint/physics", " *", Ignored(OTHER)),
-    row("world/joint", " *", Ignored("a joint of the world, between models, is not read")),
-    row("world/frame", " *", Ignored("a frame of the world is not read")),
     row("scene", " *", Appearance),
     row("gui", " *", Appearance),
     row("light", " *", Appearance),
@@ -47,13 +45,13 @@ pub(crate) const TABLE: &[Row] = &[
     row("frame", " name attached_to", Mapped),
     row("pose", " relative_to frame degrees rotation_format", Mapped),
     row("inertial", "", Mapped),
-    row("inertial", "auto", Refused),
-    row("inertial/density", "", Ignored("of use to masses that are computed from forms alone")),
+    row("inertial", "auto", Mapped),
+    row("inertial/density", "", Ignored("of use with auto=\"true\" alone")),
     row("inertial/frame", " *", Ignored("frames of older versions")),
     row(
         "auto_inertia_params",
         " *",
-        Ignored("of use to masses that are computed from forms alone"),
+        Ignored("settings of another program's computation of masses"),
     ),
     row("mass", "", Mapped),
     row("inertia", "", Mapped),

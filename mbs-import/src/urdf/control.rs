@@ -86,7 +86,7 @@ fn input(
         );
         return Ok(());
     }
-    let law_name = format!("{} effort", name.value);
+    let law_name = format!("{} effort", robot.joints[number].name);
     if robot.laws.iter().any(|law| law.name == law_name) {
         return Ok(());
     }

@@ -1,5 +1,6 @@
 //! Loops and rotors in elements of another program: `drake:...`.
 
+use super::root::WORLD;
 use crate::closing::ball;
 use crate::context::Named;
 use crate::element::Element;
@@ -8,7 +9,7 @@ use crate::robot::{Coordinate, GROUND, Kind, Law, Robot, Target, What};
 use crate::source::Read;
 
 /// Adds the balls that close loops.
-pub(super) fn loops(root: &Element, links: &Named, robot: &mut Robot) -> Read<()> {
+pub(super) fn loops(root: &Element, links: &Named, prefix: &str, robot: &mut Robot) -> Read<()> {
     const WORD: &str = "drake:ball_constraint";
     for (i, element) in root.each(WORD).enumerate() {
         let need = |part: &str| {
@@ -19,13 +20,13 @@ pub(super) fn loops(root: &Element, links: &Named, robot: &mut Robot) -> Read<()
         };
         let point = |body: &str, at: &str| -> Read<(usize, V3)> {
             let link = need(body)?.need("name")?;
-            let is_ground = link.value == "world" && links.get("world").is_none();
+            let is_ground = link.value == WORLD && links.get(WORLD).is_none();
             let link = if is_ground { GROUND } else { links.find(&link.value, link.at)? };
             let at = v3(need(at)?.need("value")?.numbers()?);
             Ok((link, robot.links[link].pose.point(&at)))
         };
         let ends = [point("body_A", "p_AP")?, point("body_B", "p_BQ")?];
-        robot.joints.push(ball(&format!("ball constraint {}", i + 1), element, ends)?);
+        robot.joints.push(ball(&format!("{prefix}ball constraint {}", i + 1), element, ends)?);
     }
     Ok(())
 }

@@ -21,8 +21,13 @@ const TYPES: [(&str, Kind); 7] = [
 ];
 
 /// A joint in the frame of its parent, and the pose of its own frame there.
-pub(super) fn read(element: &Element, links: &Named, context: &Context<'_>) -> Read<(Joint, Pose)> {
-    let name = &element.need("name")?.value;
+pub(super) fn read(
+    element: &Element,
+    prefix: &str,
+    links: &Named,
+    context: &Context<'_>,
+) -> Read<(Joint, Pose)> {
+    let name = &format!("{prefix}{}", element.need("name")?.value);
     let word = element.need("type")?;
     let kind = TYPES.iter().find(|(name, _)| *name == word.value.trim()).map(|(_, kind)| *kind);
     let kind = kind.ok_or_else(|| {
@@ -69,6 +74,17 @@ pub(super) fn read(element: &Element, links: &Named, context: &Context<'_>) -> R
     Ok((joint, origin(element)?))
 }
 
+/// Why a joint with a `limit` gets no range.
+fn no_range(limit: &Element) -> Read<String> {
+    let [lower, upper] = ["lower", "upper"].map(|name| limit.number_or(name, 0.0));
+    let (lower, upper) = (lower?, upper?);
+    if limit.attribute("lower").is_none() && limit.attribute("upper").is_none() {
+        let says = "neither `lower` nor `upper`: no range is taken; the format's default is 0 to 0, which holds the joint";
+        return Ok(says.to_owned());
+    }
+    Ok(laws::no_range(lower, upper))
+}
+
 /// The axis in the joint's frame; the format's default is x.
 fn axis(element: &Element) -> Read<V3> {
     let Some(xyz) = element.child("axis").and_then(|axis| axis.attribute("xyz")) else {
@@ -105,8 +121,12 @@ pub(super) fn laws(
         return Ok(());
     }
     let of = Coordinate { joint: number, number: None };
-    if let Some(limit) = element.child("limit").filter(|_| joint.range.is_some()) {
-        laws::stops((limit.at, &path), (&name, of.clone()), None, robot, context);
+    if let Some(limit) = element.child("limit") {
+        if joint.range.is_some() {
+            laws::stops((limit.at, &path), (&name, of.clone()), None, robot, context);
+        } else if element.value("type") != Some("continuous") {
+            context.findings.approximated(limit.at, format!("{path}/limit"), no_range(limit)?);
+        }
     }
     if let Some(dynamics) = element.child("dynamics") {
         let [damping, friction] =
@@ -135,13 +155,14 @@ pub(super) fn laws(
     Ok(())
 }
 
-/// Followers follow joints with one coordinate, and not each other in a circle.
-pub(super) fn check_mimics(robot: &Robot) -> Read<()> {
+/// Followers, which are the couplings from a number on, follow joints with one coordinate, and not each other in a circle.
+pub(super) fn check_mimics(robot: &Robot, first: usize) -> Read<()> {
+    let couplings = &robot.couplings[first..];
     let leader = |joint: usize| {
         let of = |coupling: &&Coupling| coupling.terms[0].of.joint == joint;
-        robot.couplings.iter().find(of).map(|coupling| coupling.terms[1].of.joint)
+        couplings.iter().find(of).map(|coupling| coupling.terms[1].of.joint)
     };
-    for coupling in &robot.couplings {
+    for coupling in couplings {
         let [follower, first] = [0, 1].map(|i| coupling.terms[i].of.joint);
         let at = robot.joints[follower].at;
         if !matches!(robot.joints[first].kind, Kind::Revolute | Kind::Prismatic) {

@@ -92,7 +92,7 @@ fn a_model_of_another_file_is_found_or_refused_with_the_chain() {
     for (uri, message) in [
         ("https://a/b", "m.sdf:2:10: models are not fetched by `https://`"),
         ("model://none", "m.sdf:2:10: there is no model `model://none`"),
-        ("../mimic.urdf", "m.sdf:2:10: the root element of `../mimic.urdf` is `robot`"),
+        ("../ref.xml", "m.sdf:2:10: the root element of `../ref.xml` is `mujoco`"),
     ] {
         assert_eq!(with(uri, false), Err(message.to_owned()));
     }
