@@ -34,14 +34,15 @@ impl Surface<'_> {
         edges.into_iter().filter(|(_, sum)| *sum != 0).map(|(edge, _)| edge).min()
     }
 
-    /// Mass, centre and tensor at a density [kg/m³], or why there are none.
+    /// Where the surface is open, in words; `None` where it is closed.
+    pub(crate) fn opening(&self) -> Option<String> {
+        let place = |i: usize| self.0.vertices[i].iter().map(f64::to_string).collect::<Vec<_>>();
+        let [a, b] = self.open_edge()?.map(|i| place(i).join(" "));
+        Some(format!("its surface is open at the edge from {a} to {b}"))
+    }
+
+    /// Mass, centre and tensor at a density [kg/m³], or why there are none. An open surface counts with its opening closed from the centre.
     pub(crate) fn enclosed(&self, density: f64, count: Count) -> Result<Mass, String> {
-        if let (Count::Signed, Some(edge)) = (count, self.open_edge()) {
-            let place =
-                |i: usize| self.0.vertices[i].iter().map(f64::to_string).collect::<Vec<_>>();
-            let [a, b] = edge.map(|i| place(i).join(" "));
-            return Err(format!("its surface is open at the edge from {a} to {b}"));
-        }
         // the density may be zero
         let one = self.mass(1.0, count);
         if one.mass <= 0.0 {
@@ -53,13 +54,10 @@ impl Surface<'_> {
     /// Mass, centre and tensor at a density [kg/m³]; a surface that is turned inside out has a mass below zero.
     pub(crate) fn mass(&self, density: f64, count: Count) -> Mass {
         let center = match count {
-            Count::Signed => {
-                self.sums(&v3(self.0.vertices.first().copied().unwrap_or_default()), count).1
-            }
-            Count::Unsigned => self.sums(&self.surface_center(), count).1,
+            Count::Signed | Count::Unsigned => self.sums(&self.surface_center(), count).1,
             Count::Shell => self.surface_center(),
         };
-        // about the centre that was found; the sums of volumes differ where tetrahedra are not signed
+        // about the centre that was found; the sums of volumes differ where tetrahedra are not signed, and of open surfaces
         let (size, second) = match count {
             Count::Shell => self.areas(&center),
             _ => {

@@ -4,6 +4,7 @@ use crate::coordinates::FileCoordinate;
 use crate::inertia::Mass;
 use crate::pose::{Pose, V3};
 use crate::source::Origin;
+use std::collections::HashSet;
 
 /// The link that is the ground.
 pub(crate) const GROUND: usize = 0;
@@ -368,6 +369,17 @@ impl Robot {
         let at = Origin::start_of(source);
         let ground = Link { name: "ground".into(), at, pose: Pose::identity(), mass: None };
         Self { name: name.to_owned(), links: vec![ground], ..Self::default() }
+    }
+
+    /// Gives links and frames that have the same name other ones: the scene names both of one kind.
+    pub(crate) fn rename_alike(&mut self) {
+        let mut taken = HashSet::new();
+        let links = self.links.iter_mut().map(|link| &mut link.name);
+        for name in links.chain(self.frames.iter_mut().map(|frame| &mut frame.name)) {
+            while !taken.insert(name.clone()) {
+                name.push('~');
+            }
+        }
     }
 
     /// The link that carries each, over some of the joints, from child to parent. The ground carries all that is joined to it.

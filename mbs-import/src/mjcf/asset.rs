@@ -75,7 +75,7 @@ pub(super) fn collect<'a>(root: &'a Element, model: &mut Model<'a, '_, '_>) -> R
 }
 
 /// The mass of a geom, global.
-pub(super) fn mass(geom: &MeshGeom, model: &Model<'_, '_, '_>) -> Read<Mass> {
+pub(super) fn mass(geom: &MeshGeom, model: &mut Model<'_, '_, '_>) -> Read<Mass> {
     let refused = |why: &str| {
         Fault::new(geom.at, format!("the mass of this geom follows from a mesh: {why}"), HINT)
     };
@@ -85,8 +85,13 @@ pub(super) fn mass(geom: &MeshGeom, model: &Model<'_, '_, '_>) -> Read<Mass> {
         let hint = nearest_name(&name.value, &known, "meshes");
         return Err(name.fault(format!("unknown mesh `{}`", name.value), hint));
     };
-    let view = model.classes.view(element, MAIN)?;
-    let (mesh, whole) = whole(&view, model)?.map_err(|why| refused(&why))?;
+    let classes = model.classes;
+    let view = classes.view(element, MAIN)?;
+    let (mesh, count, whole) = whole(&view, model)?.map_err(|why| refused(&why))?;
+    if let (Count::Signed, Some(opening)) = (count, Surface(&mesh).opening()) {
+        let says = format!("{opening}: its volume is that of tetrahedra from its centre");
+        model.context.findings.approximated(geom.at, "geom", says);
+    }
     let Some(fit) = &geom.fit else {
         let mass = geom.mass.unwrap_or(geom.density * whole.mass);
         let own = Mass { mass, tensor: whole.tensor * (mass / whole.mass), ..whole };
@@ -98,8 +103,11 @@ pub(super) fn mass(geom: &MeshGeom, model: &Model<'_, '_, '_>) -> Read<Mass> {
     Ok(own.seen_from(&geom.pose.then(&frame)))
 }
 
-/// The triangles of a mesh in the frame of a geom, with their mass at a density of one; or why there is none.
-fn whole(view: &View<'_>, model: &Model<'_, '_, '_>) -> Read<Result<(TriangleMesh, Mass), String>> {
+/// The triangles of a mesh in the frame of a geom, how they count, and their mass at a density of one.
+type Whole = (TriangleMesh, Count, Mass);
+
+/// A mesh with its mass, or why it has none.
+fn whole(view: &View<'_>, model: &Model<'_, '_, '_>) -> Read<Result<Whole, String>> {
     let is_exact = model.compiler.is_mesh_exact;
     let word = view.value("inertia").unwrap_or(if is_exact { "exact" } else { "legacy" });
     let count = match word {
@@ -124,7 +132,7 @@ fn whole(view: &View<'_>, model: &Model<'_, '_, '_>) -> Read<Result<(TriangleMes
     };
     let mesh = placed(view, mesh)?;
     let mass = Surface(&mesh).enclosed(1.0, count);
-    Ok(mass.map(|mass| (mesh, mass)))
+    Ok(mass.map(|mass| (mesh, count, mass)))
 }
 
 /// What is drawn of a geom that is a mesh: its pose and form, or why it is not drawn.

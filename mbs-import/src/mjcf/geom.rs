@@ -32,7 +32,7 @@ pub(super) fn read(
     model: &mut Model<'_, '_, '_>,
 ) -> Read<Geom> {
     let kind = view.value("type").unwrap_or("sphere");
-    for name in ["name", "class", "rgba"] {
+    for name in ["name", "class", "rgba", "shellinertia", "fitscale"] {
         view.own(name);
     }
     let group = view.number_or("group", 0.0)?;

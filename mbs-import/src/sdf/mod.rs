@@ -76,6 +76,7 @@ pub(crate) fn read(root: &Element, context: &mut Context<'_>) -> Read<Robot> {
         drake::read(model, scope, &frames, &mut robot, context)?;
     }
     base(&frames, &trunks, &mut robot, context);
+    robot.rename_alike();
     Ok(robot)
 }
 

@@ -133,7 +133,7 @@ fn mesh(form: &Element, density: f64, context: &Context<'_>) -> Read<Mass> {
     if scale.iter().product::<f64>() < 0.0 {
         surface.triangles.iter_mut().for_each(|triangle| triangle.swap(0, 1));
     }
-    Surface(&surface)
-        .enclosed(density, Count::Signed)
-        .map_err(|why| form.fault(format!("a mass follows from this mesh: {why}"), HINT))
+    let surface = Surface(&surface);
+    let mass = surface.opening().map_or_else(|| surface.enclosed(density, Count::Signed), Err);
+    mass.map_err(|why| form.fault(format!("a mass follows from this mesh: {why}"), HINT))
 }

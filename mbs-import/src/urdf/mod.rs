@@ -30,6 +30,7 @@ pub(crate) fn read(root: &Element, context: &mut Context<'_>) -> Read<Robot> {
     let trunk = tree.trunk;
     tree.add(root, &Pose::identity(), &mut robot, context)?;
     base(&mut robot, trunk, context)?;
+    robot.rename_alike();
     Ok(robot)
 }
 

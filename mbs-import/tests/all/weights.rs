@@ -1,6 +1,6 @@
 //! Masses that follow from forms and meshes. Values are closed forms, or those of the program that is named.
 
-use crate::pendulum::{TOLERANCE, acceleration, close, model, ten, whole};
+use crate::pendulum::{TOLERANCE, acceleration, close, model, scene_of, ten, whole};
 use mbs_import::{FindingKind, ImportOptions, import};
 
 /// MuJoCo keeps the vertices of meshes in single precision.
@@ -94,6 +94,19 @@ fn hulls_that_are_no_bodies_are_refused() {
         let fault = error.expect_err("refused").fault().to_string();
         assert_eq!(fault, format!("the mass of this geom follows from a mesh: {says}"));
     }
+}
+
+#[test]
+fn an_open_surface_is_closed_from_its_centre_and_listed() {
+    let open = CORNER.replace("  0 3 2", "");
+    let text = mjcf(&format!(r#"{open} inertia="exact""#), r#"type="mesh""#, "");
+    let model = model(&text, "m.xml", &ImportOptions::default());
+    let acts = model.findings.iter().find(|x| x.kind == FindingKind::Approximated);
+    assert!(acts.is_some_and(|x| x.says.starts_with("its surface is open at the edge from 0 0 0")));
+    // MuJoCo 4.0.0
+    let found = ten(&scene_of(&model), "b");
+    close(found[0], 2.666666852103343, SINGLE, "mass");
+    close(found[4], 0.012863284140707002, SINGLE, "moment");
 }
 
 #[test]

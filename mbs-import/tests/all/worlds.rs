@@ -106,6 +106,15 @@ fn links_and_frames_called_ground_have_other_names_in_the_scene() {
 }
 
 #[test]
+fn a_name_that_stands_for_ground_may_be_taken() {
+    let urdf = PART.replace("\"rod\"", "\"ground\"").replace("\"base\"", "\"ground-link\"");
+    close(acceleration(&whole(&urdf, "part.urdf"), "pin"), SWING, TOLERANCE, "URDF");
+    let arm = arm().replace("base", "ground").replace("'rod'", "'ground-link'");
+    let arm = arm.replace(">rod<", ">ground-link<");
+    swings(&format!("<model name='m'>{arm}{}</model>", bolt("ground")), "pin", SWING);
+}
+
+#[test]
 fn what_is_in_a_static_model_does_nothing() {
     let screw = "<joint name='s' type='screw'><parent>base</parent><child>rod</child><axis><xyz>0 0 1</xyz></axis></joint>";
     let follows = PIN.replace("</axis>", "<mimic joint='pin'><multiplier>2</multiplier></mimic><dynamics><damping>1</damping></dynamics></axis>");
