@@ -47,6 +47,17 @@ impl Attribute {
         self.value.split_ascii_whitespace().map(|word| self.word(word)).collect()
     }
 
+    /// Takes over as many numbers as are written, at most `all` of them.
+    pub(crate) fn merge(&self, all: &mut [f64]) -> Read<()> {
+        let list = self.list()?;
+        if list.len() > all.len() {
+            let message = format!("`{}` has {} numbers", self.name, list.len());
+            return Err(self.fault(message, format!("write {} numbers at most", all.len())));
+        }
+        all.iter_mut().zip(list).for_each(|(own, written)| *own = written);
+        Ok(())
+    }
+
     /// Exactly `N` numbers.
     pub(crate) fn numbers<const N: usize>(&self) -> Read<[f64; N]> {
         let list = self.list()?;

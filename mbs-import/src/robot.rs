@@ -117,6 +117,14 @@ pub(crate) struct Coupling {
     pub(crate) value: f64,
 }
 
+/// A polynomial of degree three between two values, by increasing power.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Piece {
+    pub(crate) lower: f64,
+    pub(crate) upper: f64,
+    pub(crate) coefficients: [f64; 4],
+}
+
 /// What a law acts on.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) enum Target {
@@ -145,6 +153,12 @@ pub(crate) enum What {
         stiffness: f64,
         damping: f64,
         free: f64,
+    },
+    /// A spring or a damper by pieces of a polynomial of a sum, or of its rate.
+    Polynomial {
+        terms: Vec<Term>,
+        pieces: Vec<Piece>,
+        of_rate: bool,
     },
     /// A spring that is slack below its free value.
     Pull {
@@ -235,6 +249,22 @@ pub(crate) enum Signal {
     Lag {
         of: String,
         time: f64,
+        /// At the start.
+        value: f64,
+    },
+    Product {
+        of: Vec<String>,
+    },
+    /// The first by the second; one where both are zero.
+    Quotient {
+        of: [String; 2],
+    },
+    /// The integral of a signal, which stops at the ends of its range.
+    Integral {
+        of: String,
+        range: Option<[f64; 2]>,
+        /// At the start.
+        value: f64,
     },
 }
 

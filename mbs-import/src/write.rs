@@ -1,10 +1,10 @@
 //! The scene text of a model.
 
+mod law;
+
 use crate::lump::Lumps;
 use crate::pose::{M3, V3};
-use crate::robot::{
-    Form, FormKind, GROUND, Joint, Kind, Robot, Signal, Target, Term, What, is_even,
-};
+use crate::robot::{Form, FormKind, GROUND, Joint, Kind, Robot, Target, Term, is_even};
 use mbs_scene::quoted;
 use std::fmt::Write;
 
@@ -232,161 +232,6 @@ impl Writer<'_> {
         }
     }
 
-    fn numbers(&mut self, keys: &[(&str, f64)]) {
-        for (key, x) in keys {
-            self.key(key, number(*x));
-        }
-    }
-
-    fn law(&mut self, name: &str, what: &What) {
-        match what {
-            What::Spring { on, stiffness, damping, free } => {
-                self.effect(name, "torsion-spring", on);
-                self.numbers(&[("stiffness", *stiffness), ("damping", *damping)]);
-                if *free != 0.0 {
-                    self.key("free_value", number(*free));
-                }
-            }
-            What::Pull { on, stiffness, free } => {
-                self.effect(name, "torsion-spring", on);
-                self.numbers(&[("stiffness", *stiffness), ("free_value", *free)]);
-                self.key("pulls_only", "true");
-            }
-            What::Friction { on, coulomb } => {
-                self.effect(name, "friction", on);
-                self.key("coulomb", number(*coulomb));
-            }
-            What::Rotor { on, inertia } => {
-                self.effect(name, "rotor", on);
-                self.numbers(&[("inertia", *inertia), ("ratio", 1.0)]);
-            }
-            What::Limit { on, lower, upper, stiffness, damping } => {
-                self.effect(name, "limit", on);
-                self.numbers(&[("lower", *lower), ("upper", *upper)]);
-                self.numbers(&[("stiffness", *stiffness), ("damping", *damping)]);
-            }
-            What::RangeLimit { on, stiffness } => {
-                self.effect(name, "limit", on);
-                self.key("range", "true");
-                if let Some([stiffness, damping]) = stiffness {
-                    self.numbers(&[("stiffness", *stiffness), ("damping", *damping)]);
-                }
-            }
-            What::Held { on, value } => self.drive(name, on, *value),
-            What::Input { on, value } => {
-                self.drive(name, on, *value);
-                self.key("input", "true");
-            }
-            What::Driven { on, signal } => {
-                self.effect(name, word_of_drive(on), on);
-                self.key("signal", quoted(signal));
-            }
-            What::Push { link, at, turns, signals } => {
-                self.push((name, *link), at.as_ref(), *turns, signals);
-            }
-            What::Bushing { links, place, stiffness, damping } => {
-                self.bushing(name, (*links, place), [stiffness, damping]);
-            }
-            What::Signal(signal) => self.signal_law(name, signal),
-        }
-    }
-
-    fn bushing(
-        &mut self,
-        name: &str,
-        (links, place): ([usize; 2], &V3),
-        [stiffness, damping]: [&[f64; 6]; 2],
-    ) {
-        let bodies = links.map(|link| self.body(link)).join(", ");
-        self.table("effect");
-        self.key("name", quoted(name));
-        self.key("kind", quoted("bushing"));
-        self.key("bodies", format!("[{bodies}]"));
-        self.key("at", vector(place));
-        self.key("stiffness", list(*stiffness));
-        self.key("damping", list(*damping));
-    }
-
-    /// A force at a place, or without one a moment, whose components follow signals.
-    fn push(
-        &mut self,
-        (name, link): (&str, usize),
-        at: Option<&V3>,
-        turns: bool,
-        signals: &[String; 3],
-    ) {
-        let (body, kind) = (self.body(link), if at.is_some() { "force" } else { "torque" });
-        self.table("effect");
-        self.key("name", quoted(name));
-        self.key("kind", quoted(kind));
-        self.key("body", body);
-        if let Some(at) = at {
-            self.key("at", vector(at));
-        }
-        let signals = signals.each_ref().map(|signal| quoted(signal)).join(", ");
-        self.key("signal", format!("[{signals}]"));
-        if turns {
-            self.key("frame", quoted("body"));
-        }
-    }
-
-    /// A force or moment of a value.
-    fn drive(&mut self, name: &str, on: &Target, value: f64) {
-        self.effect(name, word_of_drive(on), on);
-        match on {
-            Target::Coordinate(_) | Target::Sum(_) => self.key("value", number(value)),
-            Target::Point { direction, .. } => self.key("value", vector(&(direction * value))),
-        }
-    }
-
-    fn signal_law(&mut self, name: &str, signal: &Signal) {
-        match signal {
-            Signal::Set { value, unit } => {
-                self.signal(name, "input");
-                self.key("value", number(*value));
-                if !unit.is_empty() {
-                    self.key("unit", quoted(unit));
-                }
-            }
-            Signal::Measure { of, is_rate } => {
-                self.signal(name, "measure");
-                self.target(&Target::Coordinate(of.clone()));
-                if *is_rate {
-                    self.key("quantity", quoted("rate"));
-                }
-            }
-            Signal::MeasureLine { line, is_rate } => {
-                let points = self.line_points(line);
-                self.signal(name, "measure");
-                self.key("points", points);
-                if *is_rate {
-                    self.key("quantity", quoted("rate"));
-                }
-            }
-            Signal::Constant { value } => {
-                self.signal(name, "constant");
-                self.key("value", number(*value));
-            }
-            Signal::Sum { of } => {
-                self.signal(name, "sum");
-                let names: Vec<_> = of.iter().map(|(name, _)| quoted(name)).collect();
-                self.key("of", format!("[{}]", names.join(", ")));
-                self.key("factors", list(of.iter().map(|(_, factor)| *factor)));
-            }
-            Signal::Clamp { of, lower, upper } => {
-                self.signal(name, "clamp");
-                self.key("of", quoted(of));
-                self.key("lower", number(*lower));
-                self.key("upper", number(*upper));
-            }
-            Signal::Lag { of, time } => {
-                self.signal(name, "lag");
-                self.key("of", quoted(of));
-                self.key("time", number(*time));
-            }
-        }
-    }
-
     fn start(&mut self) {
         for start in &self.robot.start {
             let joint = self.joint_name(start.joint);
@@ -416,14 +261,6 @@ impl Writer<'_> {
                 }
             }
         }
-    }
-}
-
-/// A drive on a body is a force or a torque.
-const fn word_of_drive(on: &Target) -> &'static str {
-    match on {
-        Target::Point { .. } => "force",
-        Target::Coordinate(_) | Target::Sum(_) => "torque",
     }
 }
 

@@ -6,6 +6,8 @@ use super::geom::{self, Geom};
 use super::joint::{self, Written};
 use super::model::{Model, Site, Sort};
 use super::orientation::{euler, pose};
+use super::size::Size;
+use super::weights;
 use crate::element::Element;
 use crate::inertia::{Mass, tensor};
 use crate::pose::{Pose, V3, v3};
@@ -28,6 +30,8 @@ struct Scope {
     ending: String,
     /// Whether the body does not move.
     is_still: bool,
+    /// Of all that stands in it.
+    size: Size,
 }
 
 /// What a body has besides other bodies.
@@ -36,7 +40,8 @@ struct Own {
     joints: Vec<Written>,
     inertial: Option<Mass>,
     geoms: Vec<Mass>,
-    meshes: Vec<MeshGeom>,
+    /// With the place about which they grow.
+    meshes: Vec<(MeshGeom, Size, V3)>,
     gravity_share: f64,
 }
 
@@ -45,8 +50,14 @@ pub(super) fn read<'a>(root: &'a Element, model: &mut Model<'a, '_, '_>) -> Read
     let mut walk = Walk { model, parts: 0, numbers: 0 };
     for world in root.each("worldbody") {
         let frame = Pose::identity();
-        let scope =
-            Scope { link: GROUND, frame, class: MAIN, ending: String::new(), is_still: true };
+        let scope = Scope {
+            link: GROUND,
+            frame,
+            class: MAIN,
+            ending: String::new(),
+            is_still: true,
+            size: Size::ONE,
+        };
         let scope = Scope { class: walk.class(world, &scope)?, ..scope };
         let mut own = Own::default();
         walk.own(world, &scope, &mut own)?;
@@ -113,15 +124,20 @@ impl<'a> Walk<'_, 'a, '_, '_> {
                         "joint" => classes.view(child.read(), scope.class)?,
                         _ => View::plain(child.read()),
                     };
-                    own.joints.push(joint::read(&view, name, &scope.frame, self.model)?);
+                    let place = (&scope.frame, scope.size);
+                    own.joints.push(joint::read(&view, name, place, self.model)?);
                 }
                 "geom" => {
                     self.part(child)?;
                     let view = classes.view(child.read(), scope.class)?;
+                    let (drawn, about) = (self.model.robot.shapes.len(), scope.frame.at);
                     match geom::read(&view, scope.link, &scope.frame, self.model)? {
-                        Geom::Solid(mass) => own.geoms.push(mass),
-                        Geom::Mesh(mesh) => own.meshes.push(mesh),
+                        Geom::Solid(mass) => own.geoms.push(scope.size.of_mass(&mass, &about)),
+                        Geom::Mesh(mesh) => own.meshes.push((mesh, scope.size, about)),
                         Geom::Nothing => {}
+                    }
+                    for form in &mut self.model.robot.shapes[drawn..] {
+                        scope.size.grow(form, &about);
                     }
                 }
                 "site" => self.site(child.read(), scope)?,
@@ -173,7 +189,11 @@ impl<'a> Walk<'_, 'a, '_, '_> {
         } else {
             name
         };
-        let frame = scope.frame.then(&pose(&View::plain(element), &self.model.compiler)?);
+        let own_pose = scope.size.pose(pose(&View::plain(element), &self.model.compiler)?);
+        let frame = scope.frame.then(&own_pose);
+        if scope.size != Size::ONE {
+            self.model.sizes.insert(link, scope.size);
+        }
         self.model.robot.links.push(Link { name, at: element.at, pose: frame, mass: None });
         let mut inner = Scope {
             link,
@@ -181,6 +201,7 @@ impl<'a> Walk<'_, 'a, '_, '_> {
             class: self.class(element, scope)?,
             ending: scope.ending.clone(),
             is_still: false,
+            size: scope.size,
         };
         let mut own = Own { gravity_share: element.number_or("gravcomp", 0.0)?, ..Own::default() };
         self.own(element, &inner, &mut own)?;
@@ -209,13 +230,13 @@ impl<'a> Walk<'_, 'a, '_, '_> {
             return Ok(own.inertial.unwrap_or_else(Mass::none));
         }
         let mut sum = sum;
-        for mesh in own.meshes.iter().filter(|_| !is_still) {
+        for (mesh, size, about) in own.meshes.iter().filter(|_| !is_still) {
             if self.model.context.options.massless_meshes {
                 let says = "a mesh counts as massless (--massless-meshes)";
                 let label = format!("{}/geom", element.label());
                 self.model.context.findings.ignored(mesh.at, label, says);
             } else {
-                sum = sum.with(&asset::mass(mesh, self.model)?);
+                sum = sum.with(&size.of_mass(&asset::mass(mesh, self.model)?, about));
             }
         }
         Ok(sum)
@@ -232,12 +253,15 @@ impl<'a> Walk<'_, 'a, '_, '_> {
         let six = match element.attribute("fullinertia") {
             // the file has xx yy zz xy xz yz
             Some(full) => {
-                full.numbers::<6>().map(|[xx, yy, zz, xy, xz, yz]| [xx, yy, zz, xy, yz, xz])?
+                let [xx, yy, zz, xy, xz, yz] = full.numbers()?;
+                let six = [xx, yy, zz, xy, yz, xz];
+                weights::check_written(full, &tensor(six))?;
+                six
             }
             None => [xx, yy, zz, 0.0, 0.0, 0.0],
         };
         let own = Mass { mass: value, center: V3::zeros(), tensor: tensor(six) };
-        Ok(own.seen_from(&frame))
+        Ok(scope.size.of_mass(&own.seen_from(&frame), &scope.frame.at))
     }
 
     fn site(&mut self, element: &'a Element, scope: &Scope) -> Read<()> {
@@ -248,9 +272,10 @@ impl<'a> Walk<'_, 'a, '_, '_> {
             None => pose(&view, &self.model.compiler)?,
         };
         let Some(name) = self.name(element, scope) else { return Ok(()) };
-        let frame = scope.frame.then(&frame);
+        let frame = scope.frame.then(&scope.size.pose(frame));
         self.model.site_names.add(&name, element.at, &self.model.context.sources)?;
-        self.model.sites.push(Site { name, link: scope.link, pose: frame });
+        let (link, size) = (scope.link, scope.size);
+        self.model.sites.push(Site { name, link, pose: frame, size });
         Ok(())
     }
 
@@ -260,8 +285,9 @@ impl<'a> Walk<'_, 'a, '_, '_> {
         let class = self.class(element, scope)?;
         if element.name == "frame" {
             element.attribute("name");
-            let frame = scope.frame.then(&pose(&view, &self.model.compiler)?);
-            return Ok(vec![Scope { frame, class, ..scope.clone() }]);
+            let own = scope.size.pose(pose(&view, &self.model.compiler)?);
+            let (frame, size) = (scope.frame.then(&own), scope.size.of_frame(element)?);
+            return Ok(vec![Scope { frame, class, size, ..scope.clone() }]);
         }
         let count = element.need("count")?;
         let number = count.number()?;
@@ -269,7 +295,7 @@ impl<'a> Walk<'_, 'a, '_, '_> {
             let hint = format!("write a whole number from 1 to {MAX_COPIES}");
             return Err(count.fault("no number of copies", hint));
         }
-        let offset = v3(element.numbers_or("offset", [0.0; 3])?);
+        let offset = v3(element.numbers_or("offset", [0.0; 3])?) * scope.size.length;
         let angles = element.numbers_or::<3>("euler", [0.0; 3])?;
         let separator = element.value("sep").unwrap_or("");
         let mut scopes = Vec::new();

@@ -3,6 +3,9 @@
 use crate::element::{Attribute, Element};
 use crate::source::Read;
 
+/// What helps where the format's own program makes something of the file.
+pub(super) const SAVED: &str = "write the model as its own program compiles it, and give that file: in Python mujoco.mj_saveLastXML(\"model.xml\", mujoco.MjModel.from_xml_path(\"...\"))";
+
 /// Where the inertia of a body comes from.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum FromGeoms {

@@ -13,7 +13,8 @@ pub(super) const MAIN: usize = 0;
 /// What a class says of the elements of each name, what its parents say included.
 #[derive(Debug, Clone, Default)]
 struct Class<'a> {
-    values: HashMap<(&'a str, &'a str), &'a Attribute>,
+    /// Each as often as a class on the way writes it, the innermost last.
+    values: HashMap<(&'a str, &'a str), Vec<&'a Attribute>>,
     /// Elements of actuators: one kind changes what another starts from, so they count in their order.
     actuators: Vec<&'a Element>,
 }
@@ -58,7 +59,8 @@ impl<'a> Classes<'a> {
                 if matches!(is_used, Some(Treatment::Mapped | Treatment::Approximated)) {
                     // it is for those that come: whether one of them asks is of no account
                     child.attribute(&attribute.name);
-                    self.classes[number].values.insert((&child.name, &attribute.name), attribute);
+                    let values = &mut self.classes[number].values;
+                    values.entry((&child.name, &attribute.name)).or_default().push(attribute);
                 }
             }
         }
@@ -151,7 +153,17 @@ impl<'a> View<'a> {
 
     /// What its class writes.
     pub(super) fn inherited(&self, name: &str) -> Option<&'a Attribute> {
-        self.class.and_then(|class| class.values.get(&(self.kind, name)).copied())
+        self.class.and_then(|class| class.values.get(&(self.kind, name))?.last().copied())
+    }
+
+    /// Up to `N` numbers: a list that is shorter leaves the others as an outer class has them.
+    pub(super) fn merged<const N: usize>(&self, name: &str, default: [f64; N]) -> Read<[f64; N]> {
+        let classes = self.class.and_then(|class| class.values.get(&(self.kind, name)));
+        let mut all = default;
+        for written in classes.into_iter().flatten().copied().chain(self.own(name)) {
+            written.merge(&mut all)?;
+        }
+        Ok(all)
     }
 
     pub(super) fn attribute(&self, name: &str) -> Option<&'a Attribute> {

@@ -1,7 +1,9 @@
 //! Equalities: loops and couplings, hard here.
 
-use super::model::{Model, Site, Tendon};
-use crate::element::Element;
+use super::compiler::SAVED;
+use super::model::{Model, Moves, Site, Tendon};
+use super::size::Size;
+use crate::element::{Attribute, Element};
 use crate::pose::{Pose, V3, quaternion, v3};
 use crate::robot::{Coupling, GROUND, Joint, Kind, Term};
 use crate::source::Read;
@@ -46,6 +48,14 @@ pub(super) fn read<'a>(root: &'a Element, model: &mut Model<'a, '_, '_>) -> Read
     Ok(())
 }
 
+/// Refuses what follows from lengths that a frame scales.
+fn grown_fault(word: &Attribute, size: Size) -> Read<()> {
+    if size == Size::ONE {
+        return Ok(());
+    }
+    Err(word.fault("an equality of what stands in a frame with a scale", SAVED))
+}
+
 fn name(element: &Element, ending: &str, wanted: &str) -> String {
     element.value("name").map_or_else(|| wanted.to_owned(), |name| format!("{name}{ending}"))
 }
@@ -88,12 +98,15 @@ fn closing_place(
     model: &Model<'_, '_, '_>,
 ) -> Read<V3> {
     let links = &model.robot.links;
+    let size = |link: usize| model.sizes.get(&link).copied().unwrap_or(Size::ONE);
+    let point = |link: usize, at: [f64; 3]| links[link].pose.point(&(v3(at) * size(link).length));
     if !is_weld {
-        return Ok(links[first].pose.point(&v3(element.need("anchor")?.numbers()?)));
+        return Ok(point(first, element.need("anchor")?.numbers()?));
     }
     // the anchor of a weld is in the second body
-    let place = links[second].pose.point(&v3(element.numbers_or("anchor", [0.0; 3])?));
+    let place = point(second, element.numbers_or("anchor", [0.0; 3])?);
     if let Some(relative) = element.attribute("relpose") {
+        grown_fault(relative, size(first))?;
         let [x, y, z, a, b, c, d] = relative.numbers()?;
         // a quaternion of zeros stands for the pose as drawn
         if let Some(turn) = quaternion([a, b, c, d]) {
@@ -130,12 +143,19 @@ fn apart_fault(element: &Element, apart: f64) -> crate::source::Fault {
 /// The same for two tendons, or for one, each a sum of coordinates; `false` where no sum is equal.
 fn tendons(element: &Element, ending: &str, model: &mut Model<'_, '_, '_>) -> Read<bool> {
     let [constant, slope, rest @ ..] = polynomial(element)?;
-    let first = model.tendon(element.need("tendon1")?, ending)?.clone();
-    let second = element.attribute("tendon2").map(|name| model.tendon(name, ending).cloned());
-    let Tendon::Sum(mut terms, _) = first else { return Ok(false) };
+    let first = model.tendon(element.need("tendon1")?, ending)?.1.clone();
+    let second = element.attribute("tendon2").map(|name| Ok(model.tendon(name, ending)?.1.clone()));
+    if first.is_grown {
+        let message = "an equality of what stands in a frame with a scale";
+        return Err(element.fault(message, SAVED));
+    }
+    let mut terms = first.terms;
+    if terms.is_empty() {
+        return Ok(false);
+    }
     match second.transpose()? {
         None => {}
-        Some(Tendon::Sum(others, _)) if rest == [0.0; 3] => {
+        Some(Tendon { terms: others, .. }) if rest == [0.0; 3] && !others.is_empty() => {
             let others = others.into_iter();
             terms.extend(others.map(|term| Term { factor: -slope * term.factor, ..term }));
         }
@@ -160,12 +180,20 @@ fn polynomial(element: &Element) -> Read<[f64; 5]> {
 
 /// y − y₀ = a₀ + a₁ (x − x₀) + ..., or y − y₀ = a₀ without a second joint.
 fn coupling(element: &Element, ending: &str, model: &mut Model<'_, '_, '_>) -> Read<()> {
-    let first = model.single(element.need("joint1")?, ending)?.clone();
+    let word = element.need("joint1")?;
+    let first = model.single(word, ending)?.clone();
+    if first.moves == Moves::Slide {
+        grown_fault(word, first.size)?;
+    }
     let all = polynomial(element)?;
     let [constant, slope, rest @ ..] = all;
     let mut terms = vec![Term::new(first.coordinate(), first.sign)];
     if let Some(second) = element.attribute("joint2") {
-        let second = model.single(second, ending)?;
+        let word = second;
+        let second = model.single(word, ending)?;
+        if second.moves == Moves::Slide {
+            grown_fault(word, second.size)?;
+        }
         let of = second.coordinate();
         // of the scene's coordinate, which may grow against the file's
         let signed = |power: i32, a: f64| a * second.sign.powi(power);

@@ -3,6 +3,9 @@
 use super::compiler::word;
 use super::defaults::View;
 use super::model::{Model, Motion, Moves, Sort};
+use super::passive;
+use super::size::Size;
+use super::strength::Strength;
 use crate::pose::{Pose, V3, direction, v3};
 use crate::robot::{GROUND, Joint, Kind, Link, What};
 use crate::source::{Fault, Origin, Read};
@@ -16,8 +19,6 @@ const RIGHT_ANGLE: f64 = 1.0e-9;
 pub(super) struct Written {
     motion: Motion,
     place: V3,
-    stiffness: f64,
-    damping: f64,
     friction: f64,
     limited_ball: bool,
 }
@@ -37,34 +38,48 @@ fn moves(view: &View<'_>) -> Read<Moves> {
     })
 }
 
-/// Stiffness, damping, friction and armature.
-fn strengths(view: &View<'_>, name: &str) -> Read<[f64; 4]> {
-    let number = |name| view.number_or(name, 0.0);
-    let all =
-        [number("stiffness")?, number("damping")?, number("frictionloss")?, number("armature")?];
+/// Friction and armature.
+fn strengths(view: &View<'_>, name: &str) -> Read<[f64; 2]> {
+    let all = [view.number_or("frictionloss", 0.0)?, view.number_or("armature", 0.0)?];
     if all.iter().any(|x| *x < 0.0) {
         return Err(view.element.fault(
-            format!("stiffness, damping, frictionloss or armature of joint `{name}` is below zero"),
+            format!("frictionloss or armature of joint `{name}` is below zero"),
             "write zero or more",
         ));
     }
     Ok(all)
 }
 
+/// Time and damping ratio from which spring and damper follow.
+fn timed(view: &View<'_>) -> Read<Option<[f64; 2]>> {
+    let Some(word) = view.attribute("springdamper") else { return Ok(None) };
+    match word.numbers()? {
+        [0.0, 0.0] => Ok(None),
+        [time, ratio] if time > 0.0 && ratio > 0.0 => Ok(Some([time, ratio])),
+        _ => Err(word.fault(
+            "`springdamper` has a number that is not above zero",
+            "write a time and a damping ratio, both above zero",
+        )),
+    }
+}
+
 /// Reads `joint` or `freejoint`, in a frame that stands as `scope` says.
 pub(super) fn read(
     view: &View<'_>,
     name: String,
-    scope: &Pose,
+    (scope, size): (&Pose, Size),
     model: &mut Model<'_, '_, '_>,
 ) -> Read<Written> {
     let at = view.element.at;
     view.own("class");
     let moves = moves(view)?;
     let settings = &model.compiler;
-    let is_hinge = moves == Moves::Hinge;
-    let angle = |x: f64| if is_hinge { settings.angle(x) } else { x };
-    let place = scope.point(&v3(view.numbers_or("pos", [0.0; 3])?));
+    let angle = |x: f64| match moves {
+        Moves::Hinge => settings.angle(x),
+        Moves::Slide => x * size.length,
+        Moves::Ball | Moves::Free => x,
+    };
+    let place = scope.point(&(v3(view.numbers_or("pos", [0.0; 3])?) * size.length));
     let axis = v3(view.numbers_or("axis", [0.0, 0.0, 1.0])?);
     let is_single = matches!(moves, Moves::Hinge | Moves::Slide);
     let axis = match direction(&axis) {
@@ -86,11 +101,19 @@ pub(super) fn read(
     view.attribute("solimplimit");
     let is_clamped =
         view.is_limited("actuatorfrclimited", "actuatorfrcrange", settings.auto_limits)?;
-    let effort = view.numbers("actuatorfrcrange")?.filter(|_| is_clamped);
-    let [stiffness, damping, friction, armature] = strengths(view, &name)?;
+    let is_slide = moves == Moves::Slide;
+    let [force, mass] =
+        if is_slide { [0, 1].map(|power| size.force_by(power)) } else { [size.moment(); 2] };
+    let effort = view.numbers::<2>("actuatorfrcrange")?.filter(|_| is_clamped);
+    let effort = effort.map(|range| range.map(|end| end * force));
+    let [friction, armature] = strengths(view, &name)?;
+    let [friction, armature] = [friction * force, armature * mass];
     let acts = settings.acts;
-    let of = |acts: bool, x: f64| if acts { x } else { 0.0 };
-    let timed = view.numbers::<2>("springdamper")?.filter(|pair| pair[0] > 0.0 && pair[1] > 0.0);
+    let [stiffness, damping] = [("stiffness", acts.spring), ("damping", acts.damper)]
+        .map(|(name, acts)| Strength::read(view, name).map(|of| of.where_it(acts)));
+    let grown = |power| if is_slide { size.force_by(power) } else { size.moment() };
+    let strengths = [stiffness?.grown(grown), damping?.grown(grown)];
+    let timed = timed(view)?;
     Ok(Written {
         limited_ball: range.is_some() && !is_single,
         motion: Motion {
@@ -108,11 +131,11 @@ pub(super) fn read(
             axis,
             stops: (range.is_some() && is_single && acts.limit).then_some(stops),
             timed,
+            strengths,
+            size,
         },
         place,
-        stiffness: of(acts.spring, stiffness),
-        damping: of(acts.damper, damping),
-        friction: of(acts.friction, friction),
+        friction: if acts.friction { friction } else { 0.0 },
     })
 }
 
@@ -251,27 +274,22 @@ fn add(
             let note = format!("Joint {}: {} in the file is 0 here.", motion.name, motion.zero);
             model.robot.notes.push(note);
         }
+        if motion.timed.is_none() {
+            passive::add(&motion, motion.strengths, model);
+        }
         if motion.is_single() {
             single(read, &motion, model)
         } else {
-            several(read, &motion, place, ends, model)
+            several(read, &motion, model)
         }
         model.motions.push(motion);
     }
     Ok(())
 }
 
-/// Spring, damping, friction and armature of a hinge or a slide.
+/// Friction and armature of a hinge or a slide.
 fn single(read: &Written, motion: &Motion, model: &mut Model<'_, '_, '_>) {
     let (name, on) = (&motion.name, motion.target());
-    let (stiffness, damping) = (read.stiffness, read.damping);
-    if motion.timed.is_none() && (stiffness > 0.0 || damping > 0.0) {
-        let free = if stiffness > 0.0 { motion.in_scene(motion.spring) } else { 0.0 };
-        model.law(
-            &format!("{name} spring"),
-            What::Spring { on: on.clone(), stiffness, damping, free },
-        );
-    }
     if read.friction > 0.0 {
         let says = "frictionloss is a soft constraint there; here it is friction that falls to zero below a rate of 1e-3";
         model.context.findings.approximated(motion.at, format!("joint[{name}]"), says);
@@ -287,33 +305,9 @@ fn single(read: &Written, motion: &Motion, model: &mut Model<'_, '_, '_>) {
     }
 }
 
-/// Spring and damping of a ball or a free joint.
-fn several(
-    read: &Written,
-    motion: &Motion,
-    place: V3,
-    ends: [usize; 2],
-    model: &mut Model<'_, '_, '_>,
-) {
+/// What else a ball or a free joint has.
+fn several(read: &Written, motion: &Motion, model: &mut Model<'_, '_, '_>) {
     let label = format!("joint[{}]", motion.name);
-    let is_free = motion.moves == Moves::Free;
-    if read.stiffness > 0.0 || read.damping > 0.0 {
-        let along = |x: f64| [if is_free { x } else { 0.0 }; 3].into_iter().chain([x; 3]);
-        let six = |x: f64| {
-            let mut all = [0.0; 6];
-            all.iter_mut().zip(along(x)).for_each(|(a, b)| *a = b);
-            all
-        };
-        let says = "spring and damping of a ball act as those of a bushing";
-        model.context.findings.approximated(motion.at, label.as_str(), says);
-        let what = What::Bushing {
-            links: ends,
-            place,
-            stiffness: six(read.stiffness),
-            damping: six(read.damping),
-        };
-        model.law(&format!("{} spring", motion.name), what);
-    }
     if read.friction > 0.0 {
         let says = "frictionloss of a joint with several coordinates does not act here";
         model.context.findings.ignored(motion.at, label.as_str(), says);

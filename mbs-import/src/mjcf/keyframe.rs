@@ -82,13 +82,16 @@ fn start(key: &Element, model: &mut Model<'_, '_, '_>) -> Read<()> {
     if let Some(controls) = key.attribute("ctrl") {
         let list = controls.list()?;
         for (input, control) in model.inputs.iter().zip(list) {
-            let Some((law, _)) = input else { continue };
+            let Some(law) = input.law else { continue };
             if let What::Signal(Signal::Set { value, .. }) | What::Input { value, .. } =
-                &mut model.robot.laws[*law].what
+                &mut model.robot.laws[law].what
             {
-                *value = control;
+                *value = control * input.factor;
             }
         }
+    }
+    if let Some(states) = key.attribute("act") {
+        activations(states, model)?;
     }
     let mut turned = vec![M3::identity(); model.robot.links.len()];
     for joint in 0..model.robot.joints.len() {
@@ -118,6 +121,35 @@ fn start(key: &Element, model: &mut Model<'_, '_, '_>) -> Read<()> {
     Ok(())
 }
 
+/// Activations of the actuators that have some, in their order.
+fn activations(word: &Attribute, model: &mut Model<'_, '_, '_>) -> Read<()> {
+    let list = word.list()?;
+    let counts: Option<Vec<_>> = model.inputs.iter().map(|input| input.activations).collect();
+    let Some(counts) = counts else {
+        let says =
+            "activations of actuators that do not act here are among them: they start at zero";
+        model.context.findings.ignored(word.at, "keyframe/key@act", says);
+        return Ok(());
+    };
+    let needed: usize = counts.iter().sum();
+    if list.len() != needed {
+        let message = format!("`act` has {} numbers, and the model {needed}", list.len());
+        return Err(word.fault(message, "write a number for each actuator with an activation"));
+    }
+    let mut rest = &list[..];
+    for (input, count) in model.inputs.iter().zip(counts) {
+        let (own, others) = rest.split_at(count);
+        rest = others;
+        let (Some(law), [first]) = (input.activation, own) else { continue };
+        if let What::Signal(Signal::Lag { value, .. } | Signal::Integral { value, .. }) =
+            &mut model.robot.laws[law].what
+        {
+            *value = *first * input.factor;
+        }
+    }
+    Ok(())
+}
+
 /// The start of a joint of the scene, and how it turns its child, in axes of the reference configuration.
 fn joint_start(
     joint: usize,
@@ -141,9 +173,11 @@ fn joint_start(
         let place = motion.number.unwrap_or(0);
         match motion.moves {
             Moves::Hinge | Moves::Slide => {
-                let x = q.map_or(0.0, |q| motion.in_scene(q[0]));
+                let is_slide = motion.moves == Moves::Slide;
+                let length = if is_slide { motion.size.length } else { 1.0 };
+                let x = q.map_or(0.0, |q| motion.in_scene(q[0] * length));
                 value[place] = x;
-                rate[place] = v.map_or(0.0, |v| v[0] * motion.sign);
+                rate[place] = v.map_or(0.0, |v| v[0] * length * motion.sign);
                 if motion.moves == Moves::Hinge {
                     turn = crate::pose::about(&motion.axis, x * motion.sign);
                 }

@@ -2,6 +2,8 @@
 
 use super::compiler::Compiler;
 use super::defaults::Classes;
+use super::size::Size;
+use super::strength::Strength;
 use crate::context::{Context, Named};
 use crate::coordinates::{FileCoordinate, FileMotion};
 use crate::element::{Attribute, Element};
@@ -55,6 +57,10 @@ pub(super) struct Motion {
     pub(super) stops: Option<[f64; 2]>,
     /// Time and damping ratio from which its spring follows.
     pub(super) timed: Option<[f64; 2]>,
+    /// Of the frames in which it stands.
+    pub(super) size: Size,
+    /// Its spring and its damper, where they act.
+    pub(super) strengths: [Strength; 2],
 }
 
 impl Motion {
@@ -117,14 +123,36 @@ pub(super) struct Site {
     pub(super) name: String,
     pub(super) link: usize,
     pub(super) pose: Pose,
+    /// Of the frames in which it stands.
+    pub(super) size: Size,
 }
 
-/// A tendon that is a sum of coordinates, or nothing that the scene can pull.
+/// A tendon; without terms it is nothing that the scene can pull.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Tendon {
+    pub(super) name: String,
+    pub(super) terms: Vec<Term>,
+    /// Its length in the reference configuration.
+    pub(super) drawn: f64,
+    /// Ends of its length.
+    pub(super) range: Option<[f64; 2]>,
+    /// Ends of the force of all its actuators.
+    pub(super) effort: Option<[f64; 2]>,
+    /// Is any part of it in a frame with a scale?
+    pub(super) is_grown: bool,
+}
+
+/// What a keyframe sets of an actuator.
 #[derive(Debug, Clone)]
-pub(super) enum Tendon {
-    /// Terms, and the length in the reference configuration.
-    Sum(Vec<Term>, f64),
-    Other,
+pub(super) struct Control {
+    /// The law of its input.
+    pub(super) law: Option<usize>,
+    /// The law of its activation.
+    pub(super) activation: Option<usize>,
+    /// Factor of its control and its activation in the file.
+    pub(super) factor: f64,
+    /// How many numbers its activation has in the file, if that is known.
+    pub(super) activations: Option<usize>,
 }
 
 /// The model while it is read.
@@ -138,6 +166,8 @@ pub(super) struct Model<'a, 'b, 'c> {
     pub(super) bodies: Named,
     /// The links of the bodies: massless ones between joints have numbers too.
     pub(super) body_links: Vec<usize>,
+    /// Sizes of links that stand in frames with a scale.
+    pub(super) sizes: HashMap<usize, Size>,
     pub(super) joints: Named,
     pub(super) motions: Vec<Motion>,
     pub(super) site_names: Named,
@@ -148,8 +178,8 @@ pub(super) struct Model<'a, 'b, 'c> {
     pub(super) masses: Vec<(usize, Mass, f64)>,
     /// Endings of names that `replicate` gives, by the name without one.
     pub(super) copies: HashMap<String, Vec<String>>,
-    /// Laws of inputs with their factor to the control of the file, by the number of the actuator.
-    pub(super) inputs: Vec<Option<(usize, f64)>>,
+    /// By the number of the actuator.
+    pub(super) inputs: Vec<Control>,
     /// Geoms that could touch others.
     pub(super) touching: usize,
     names: HashSet<(Sort, String)>,
@@ -169,6 +199,7 @@ impl<'a, 'b, 'c> Model<'a, 'b, 'c> {
             robot,
             bodies: Named::new("body", 0),
             body_links: Vec::new(),
+            sizes: HashMap::new(),
             joints: Named::new("joint", 0),
             motions: Vec::new(),
             site_names: Named::new("site", 0),
@@ -240,10 +271,10 @@ impl<'a, 'b, 'c> Model<'a, 'b, 'c> {
         Ok(&self.motions[number])
     }
 
-    /// A tendon by its name.
-    pub(super) fn tendon(&self, name: &Attribute, ending: &str) -> Read<&Tendon> {
+    /// A tendon by its name, with its number.
+    pub(super) fn tendon(&self, name: &Attribute, ending: &str) -> Read<(usize, &Tendon)> {
         let number = self.tendon_names.find_copy(name.value.trim(), ending, name.at)?;
-        Ok(&self.tendons[number])
+        Ok((number, &self.tendons[number]))
     }
 
     /// The endings of the copies that an element names, or none: what names a copied thing by its plain name is copied with it.

@@ -3,6 +3,7 @@
 //! Mass matrix of a tree by composite bodies, factored as M = Lᵀ L along the branches, without fill.
 
 use super::model::{Model, Moves};
+use super::passive;
 use crate::inertia::Mass;
 use crate::options::Stops;
 use crate::pose::{M3, V3, direction, unit};
@@ -43,17 +44,20 @@ pub(super) fn add(factor: &Lazy, model: &mut Model<'_, '_, '_>) {
     let moved = factor.map(|factor| factor.moved(model.motions.len()));
     for number in 0..model.motions.len() {
         let motion = model.motions[number].clone();
-        if let (Some([time, ratio]), true) = (motion.timed, motion.is_single()) {
+        if let Some([time, ratio]) = motion.timed {
             let inertia = moved.as_ref().map_or(0.0, |moved| moved[number]);
             let stiffness = inertia / (time * ratio).powi(2);
             let damping = 2.0 * inertia / time;
-            let free = motion.in_scene(motion.spring);
             let says = format!(
                 "springdamper: stiffness {stiffness:e} and damping {damping:e} by the inertia as drawn"
             );
             model.context.findings.approximated(motion.at, format!("joint[{}]", motion.name), says);
-            let name = format!("{} spring", motion.name);
-            model.law(&name, What::Spring { on: motion.target(), stiffness, damping, free });
+            let [mut spring, mut damper] = motion.strengths;
+            // what grows faster stays as it is written
+            (spring.0[0], damper.0[0]) = (stiffness, damping);
+            let acts = model.compiler.acts;
+            let strengths = [spring.where_it(acts.spring), damper.where_it(acts.damper)];
+            passive::add(&motion, strengths, model);
         }
         let (Some(solref), Some(range)) = (motion.stops, motion.range) else { continue };
         let by_file = moved.as_ref().map(|moved| stop(solref, moved[number]));
@@ -140,13 +144,15 @@ impl Factor {
         Some(Self { of: of.collect(), rows, tree })
     }
 
-    /// What each joint of the file moves while others give way: one over the diagonal of the inverse of M.
+    /// What each joint of the file moves while others give way: one over the diagonal of the inverse of M, of several coordinates over its mean.
     fn moved(&self, motions: usize) -> Vec<f64> {
-        let mut found = vec![0.0; motions];
+        let mut found = vec![(0.0, 0.0); motions];
         for (number, column) in self.tree.columns.iter().enumerate() {
-            found[column.motion] = 1.0 / self.softness(&[(number, 1.0)]);
+            let (count, softness) = &mut found[column.motion];
+            *count += 1.0;
+            *softness += self.softness(&[(number, 1.0)]);
         }
-        found
+        found.into_iter().map(|(count, softness)| count / softness).collect()
     }
 
     /// What a sum moves, 1 / J M⁻¹ Jᵀ; `None` where it moves nothing.

@@ -1,10 +1,16 @@
 //! Tendons: springs and dampers on sums of coordinates, or on the length of a line.
 
+use super::compiler::SAVED;
 use super::defaults::{MAIN, View};
+use super::flywheel;
 use super::model::{Model, Tendon};
+use super::size::Size;
+use super::springs;
 use super::stops::{Factor, Lazy, stop};
-use crate::element::Element;
+use super::strength::Strength;
+use crate::element::{Attribute, Element};
 use crate::options::Stops;
+use crate::pose::V3;
 use crate::robot::{Coordinate, Target, Term, What};
 use crate::source::{Fault, Read};
 use mbs_core::algebra::norm;
@@ -12,6 +18,8 @@ use mbs_core::algebra::norm;
 /// What a tendon pulls: terms, their length as drawn, and that without tension in the springs of the joints.
 struct Pulled {
     terms: Vec<Term>,
+    /// Is a part of it in a frame with a scale?
+    is_grown: bool,
     drawn: f64,
     slack: f64,
 }
@@ -40,10 +48,11 @@ pub(super) fn read<'a>(
 
 /// A sum of coordinates.
 fn fixed(element: &Element, ending: &str, model: &Model<'_, '_, '_>) -> Read<Pulled> {
-    let mut pulled = Pulled { terms: Vec::new(), drawn: 0.0, slack: 0.0 };
+    let mut pulled = Pulled { terms: Vec::new(), is_grown: false, drawn: 0.0, slack: 0.0 };
     for child in element.each("joint") {
         let motion = model.single(child.need("joint")?, ending)?;
         let factor = child.need("coef")?.number()?;
+        pulled.is_grown |= motion.size != Size::ONE;
         let (term, length) = motion.term(factor);
         pulled.drawn += length;
         pulled.slack += factor * motion.spring;
@@ -54,32 +63,52 @@ fn fixed(element: &Element, ending: &str, model: &Model<'_, '_, '_>) -> Read<Pul
     Ok(pulled)
 }
 
-/// A line over sites; `None` where it winds around a geom or has pulleys, and pulls nothing by itself.
+/// Lines over sites, with a new one behind each pulley; `None` where it winds around a geom, and pulls nothing by itself.
 fn spatial(view: &View<'_>, ending: &str, model: &Model<'_, '_, '_>) -> Read<Option<Pulled>> {
     let element = view.element;
-    if let Some(winding) = element.children.iter().find(|child| child.name != "site") {
+    if let Some(winding) = element.children.iter().find(|child| child.name == "geom") {
         if acts(view)? {
             return Err(winding_fault(winding));
         }
         element.read_whole();
         return Ok(None);
     }
-    let mut line = Vec::new();
-    let mut drawn = 0.0;
-    for child in element.each("site") {
-        let site = model.site(child.need("site")?, ending)?;
-        let point = (site.link, site.pose.at);
-        if let Some((_, last)) = line.last() {
-            drawn += norm(&(point.1 - last));
-        }
-        line.push(point);
-    }
-    if line.len() < 2 {
-        return Err(element.fault("a tendon of fewer than two sites", "name two sites or more"));
-    }
     let none = Coordinate { joint: 0, number: None };
-    let terms = vec![Term { line, ..Term::new(none, 1.0) }];
-    Ok(Some(Pulled { terms, drawn, slack: drawn }))
+    let mut terms = vec![Term::new(none.clone(), 1.0)];
+    let mut is_grown = false;
+    for child in &element.children {
+        match child.name.as_str() {
+            "site" => {
+                let site = model.site(child.read().need("site")?, ending)?;
+                let last = terms.len() - 1;
+                is_grown |= site.size != Size::ONE;
+                terms[last].line.push((site.link, site.pose.at));
+            }
+            "pulley" => {
+                let word = child.read().need("divisor")?;
+                let divisor = word.number()?;
+                if divisor <= 0.0 {
+                    return Err(word.fault(
+                        "a divisor that is not above zero",
+                        "write 2 for a block with two strands",
+                    ));
+                }
+                terms.push(Term::new(none.clone(), 1.0 / divisor));
+            }
+            _ => {}
+        }
+    }
+    terms.retain(|term| !term.line.is_empty());
+    if terms.is_empty() || terms.iter().any(|term| term.line.len() < 2) {
+        return Err(element.fault("a strand of fewer than two sites", "name two sites or more"));
+    }
+    let drawn = terms.iter().map(|term| term.factor * length(&term.line)).sum();
+    Ok(Some(Pulled { terms, is_grown, drawn, slack: drawn }))
+}
+
+/// The length of a line as it is drawn.
+pub(super) fn length(line: &[(usize, V3)]) -> f64 {
+    line.windows(2).map(|ends| norm(&(ends[1].1 - ends[0].1))).sum()
 }
 
 fn winding_fault(winding: &Element) -> Fault {
@@ -119,15 +148,26 @@ fn laws(
     };
     model.tendon_names.add(&name, element.at, &model.context.sources)?;
     let label = format!("tendon/{}[{name}]", element.name);
+    let auto = model.compiler.auto_limits;
+    let is_clamped = view.is_limited("actuatorfrclimited", "actuatorfrcrange", auto)?;
+    let effort = view.numbers("actuatorfrcrange")?.filter(|_| is_clamped);
     let Some(pulled) = pulled.filter(|pulled| !pulled.terms.is_empty()) else {
-        model.tendons.push(Tendon::Other);
+        model.tendons.push(Tendon { name, ..Tendon::default() });
         let says = "a tendon that has no law of its own, and no length here";
         model.context.findings.ignored(element.at, label, says);
         return Ok(());
     };
-    model.tendons.push(Tendon::Sum(pulled.terms.clone(), pulled.drawn));
+    let is_limited = view.is_limited("limited", "range", auto)?;
+    let range = view.numbers::<2>("range")?.filter(|_| is_limited);
+    let is_grown = pulled.is_grown;
+    if is_grown && (acts(view)? || range.is_some()) {
+        let message = "a tendon over joints or sites in a frame with a scale";
+        return Err(element.fault(message, SAVED));
+    }
+    let (terms, drawn) = (pulled.terms.clone(), pulled.drawn);
+    model.tendons.push(Tendon { name: name.clone(), terms, drawn, range, effort, is_grown });
     let on = Target::Sum(pulled.terms.clone());
-    spring(view, &name, &pulled, on.clone(), model)?;
+    spring(view, &name, &pulled, &on, model)?;
     let friction = view.number_or("frictionloss", 0.0)?;
     if friction > 0.0 && model.compiler.acts.friction {
         let says = "frictionloss is a soft constraint there; here it is friction that falls to zero below a rate of 1e-3";
@@ -135,34 +175,23 @@ fn laws(
         model.law(&format!("{name} friction"), What::Friction { on, coulomb: friction });
     }
     let armature = view.number_or("armature", 0.0)?;
-    match &pulled.terms[..] {
-        _ if armature == 0.0 => {}
-        [only] if only.line.is_empty() => {
-            let on = Target::Coordinate(only.of.clone());
-            let inertia = armature * only.factor * only.factor;
-            model.law(&format!("{name} armature"), What::Rotor { on, inertia });
-        }
-        _ => {
-            let says = "armature of a tendon over several joints does not act here";
-            model.context.findings.ignored(element.at, label.as_str(), says);
-        }
+    if armature != 0.0 {
+        flywheel::add(&format!("{name} armature"), &pulled.terms, armature, model);
     }
-    ends(view, (&name, label), &pulled, factor, model)
+    ends(view, (&name, label), (&pulled, range), factor, model)
 }
 
 /// The ends of the length of a tendon: stops of the inertia that it moves, as those of a joint.
 fn ends(
     view: &View<'_>,
     (name, label): (&str, String),
-    pulled: &Pulled,
+    (pulled, range): (&Pulled, Option<[f64; 2]>),
     factor: &Lazy,
     model: &mut Model<'_, '_, '_>,
 ) -> Read<()> {
-    let is_limited = view.is_limited("limited", "range", model.compiler.auto_limits)?;
-    let (range, solref) =
-        (view.numbers::<2>("range")?, view.numbers_or("solreflimit", [0.02, 1.0])?);
+    let solref = view.numbers_or("solreflimit", [0.02, 1.0])?;
     view.attribute("solimplimit");
-    let Some(range) = range.filter(|_| is_limited && model.compiler.acts.limit) else {
+    let Some(range) = range.filter(|_| model.compiler.acts.limit) else {
         return Ok(());
     };
     let factor = factor.get_or_init(|| Factor::new(model)).as_ref();
@@ -190,56 +219,33 @@ fn spring(
     view: &View<'_>,
     name: &str,
     pulled: &Pulled,
-    on: Target,
+    on: &Target,
     model: &mut Model<'_, '_, '_>,
 ) -> Read<()> {
     let acts = model.compiler.acts;
-    let [stiffness, damping] = [view.number_or("stiffness", 0.0)?, view.number_or("damping", 0.0)?];
-    let stiffness = if acts.spring { stiffness } else { 0.0 };
-    let damping = if acts.damper { damping } else { 0.0 };
-    let lengths = view.attribute("springlength").map(|length| length.list()).transpose()?;
-    if stiffness <= 0.0 && damping <= 0.0 {
-        return Ok(());
-    }
-    let (element, label) = (view.element, format!("tendon/{}[{name}]", view.element.name));
-    let free = match lengths.as_deref() {
-        Some([x]) if *x != -1.0 => *x,
-        Some([x, y, ..]) if x == y && *x != -1.0 => *x,
-        Some([lower, upper, ..]) if lower < upper && stiffness > 0.0 => {
-            let ends = [lower - pulled.drawn, upper - pulled.drawn];
-            slack_between(name, ends, stiffness, &pulled.terms, model);
-            if damping > 0.0 {
-                let what = What::Spring { on, stiffness: 0.0, damping, free: 0.0 };
-                model.law(&format!("{name} damper"), what);
-            }
-            return Ok(());
-        }
+    let stiffness = Strength::read(view, "stiffness")?.where_it(acts.spring);
+    let damping = Strength::read(view, "damping")?.where_it(acts.damper);
+    let word = view.attribute("springlength");
+    let ends = match word.map(Attribute::list).transpose()?.as_deref() {
+        Some([length]) if *length != -1.0 => [*length; 2],
+        Some([lower, upper]) if [*lower, *upper] != [-1.0; 2] => [*lower, *upper],
         _ => {
             let is_line = pulled.terms.iter().any(|term| !term.line.is_empty());
             let is_bent = model.motions.iter().any(|motion| motion.spring != motion.zero);
-            if stiffness > 0.0 && is_line && is_bent {
+            if stiffness != Strength::NONE && is_line && is_bent {
                 let says = "its spring is free as the model is drawn; there where the springs of the joints are";
-                model.context.findings.approximated(element.at, label, says);
+                let label = format!("tendon/{}[{name}]", view.element.name);
+                model.context.findings.approximated(view.element.at, label, says);
             }
-            pulled.slack
+            [pulled.slack; 2]
         }
     };
-    let what = What::Spring { on, stiffness, damping, free: free - pulled.drawn };
-    model.law(&format!("{name} spring"), what);
+    if let Some(word) = word.filter(|_| !(ends[0] <= ends[1])) {
+        return Err(
+            word.fault("the second length is below the first", "write the shorter length first")
+        );
+    }
+    let ends = ends.map(|end| end - pulled.drawn);
+    springs::add(name, on, [stiffness, damping], ends, model);
     Ok(())
-}
-
-/// A spring that is slack between two lengths: one that pulls above them, and one that pulls at the sum with the other sign below.
-fn slack_between(
-    name: &str,
-    [lower, upper]: [f64; 2],
-    stiffness: f64,
-    terms: &[Term],
-    model: &mut Model<'_, '_, '_>,
-) {
-    let others = terms.iter().map(|term| Term { factor: -term.factor, ..term.clone() });
-    let others = Target::Sum(others.collect());
-    let on = Target::Sum(terms.to_vec());
-    model.law(&format!("{name} above"), What::Pull { on, stiffness, free: upper });
-    model.law(&format!("{name} below"), What::Pull { on: others, stiffness, free: -lower });
 }

@@ -1,11 +1,15 @@
 //! What actuators pull: sums of coordinates, or forces and moments on a body.
 
-use super::model::{Model, Motion, Moves, Tendon};
+use super::model::{Model, Motion, Moves};
+use super::size::Size;
 use crate::element::Element;
 use crate::pose::{M3, V3, direction, v3};
 use crate::robot::{GROUND, Kind, Signal, Term, What};
 use crate::source::Read;
 use mbs_core::algebra::cross;
+
+/// Why an actuator does not act: what it does there is not known here.
+const GROWN: &str = "it pulls a tendon, a site or a ball in a frame with a scale";
 
 /// Distance of the two forces of a couple [m]: with it a moment of 1 N m is two forces of 1 N.
 const ARM: f64 = 1.0;
@@ -20,16 +24,18 @@ pub(super) struct Transmission {
     pub(super) pushes: Vec<Push>,
     /// Whether its length stays zero.
     pub(super) has_length: bool,
-    /// Ends of the effort of its joint.
-    pub(super) effort: Option<[f64; 2]>,
+    /// The number of its tendon, where that limits all its actuators together.
+    pub(super) rope: Option<usize>,
     pub(super) range: Option<[f64; 2]>,
+    /// Of the frames in which it stands, and whether it is a slide.
+    pub(super) size: (Size, bool),
     pub(super) label: String,
 }
 
 /// A force at a place of a link, or without a place a moment.
 #[derive(Debug, Clone)]
 pub(super) struct Push {
-    link: usize,
+    pub(super) link: usize,
     at: Option<V3>,
     /// In global axes, of the reference configuration where it turns with the link.
     value: V3,
@@ -53,18 +59,28 @@ pub(super) fn transmission(
         }
     }
     if let Some(tendon) = element.attribute("tendon") {
-        return Ok(match model.tendon(tendon, ending)? {
-            Tendon::Sum(terms, drawn) if !terms.is_empty() => Ok(Transmission {
-                terms: terms.clone(),
-                drawn: *drawn,
-                gear: gear[0],
-                ..none(&tendon.value)
-            }),
-            _ => Err("its tendon is no sum of coordinates".into()),
-        });
+        let (number, found) = model.tendon(tendon, ending)?;
+        if found.is_grown {
+            return Ok(Err(GROWN.into()));
+        }
+        if found.terms.is_empty() {
+            return Ok(Err("its tendon is no sum of coordinates".into()));
+        }
+        return Ok(Ok(Transmission {
+            terms: found.terms.clone(),
+            drawn: found.drawn,
+            gear: gear[0],
+            has_length: true,
+            rope: found.effort.map(|_| number),
+            range: found.range,
+            ..none(&tendon.value)
+        }));
     }
     if let Some(site) = element.attribute("site") {
         let found = model.site(site, ending)?;
+        if found.size != Size::ONE {
+            return Ok(Err(GROWN.into()));
+        }
         if let Some(other) = element.attribute("refsite") {
             let other = model.site(other, ending)?;
             if model.robot.carriers(|joint| joint.kind == Kind::Fixed)[other.link] != GROUND {
@@ -99,8 +115,9 @@ fn none(label: &str) -> Transmission {
         gear: 1.0,
         pushes: Vec::new(),
         has_length: false,
-        effort: None,
+        rope: None,
         range: None,
+        size: (Size::ONE, false),
         label: label.to_owned(),
     }
 }
@@ -123,10 +140,13 @@ fn of_joint(
             drawn,
             gear: gear[0],
             has_length: true,
-            effort: motion.effort,
             range: motion.range,
+            size: (motion.size, motion.moves == Moves::Slide),
             ..none(&motion.name)
         });
+    }
+    if motion.size != Size::ONE {
+        return Err(GROWN.into());
     }
     let joint = &model.robot.joints[motion.joint];
     let carriers = model.robot.carriers(|joint| joint.kind == Kind::Fixed);

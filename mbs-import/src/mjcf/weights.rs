@@ -1,16 +1,56 @@
 //! What settings of the whole model do to the inertias of its bodies.
 
 use super::model::{Model, Moves};
+use crate::element::Attribute;
 use crate::inertia::{Mass, SLACK};
 use crate::pose::{M3, v3};
 use crate::robot::{GROUND, Kind, Target, What};
-use crate::source::Read;
+use crate::source::{Fault, Read};
+
+/// Rounding of the moments of a tensor, relative to the largest.
+const ROUNDING: f64 = 1.0e-14;
+
+/// Refuses moments below zero, which no setting mends.
+pub(super) fn check_written(word: &Attribute, tensor: &M3) -> Read<()> {
+    let moments = tensor.symmetric_eigen().eigenvalues;
+    if moments.min() >= -ROUNDING * moments.amax() {
+        return Ok(());
+    }
+    let message =
+        format!("the inertia has principal moments {}, one of them below zero", listed(tensor));
+    Err(word.fault(
+        message,
+        "write the inertia of the part: all of its principal moments are above zero",
+    ))
+}
+
+/// Principal moments, rising.
+fn listed(tensor: &M3) -> String {
+    let mut moments: Vec<f64> = tensor.symmetric_eigen().eigenvalues.iter().copied().collect();
+    moments.sort_by(f64::total_cmp);
+    format!("{moments:?}")
+}
 
 /// Bounds, balances and scales the masses of all bodies, and gives them to the links.
 pub(super) fn settle(model: &mut Model<'_, '_, '_>) -> Read<()> {
     let mut masses = std::mem::take(&mut model.masses);
+    let carriers = model.robot.carriers(|joint| joint.kind == Kind::Fixed);
     for (link, mass, _) in &mut masses {
+        let written = mass.tensor;
         bound(mass, model.compiler.bound_mass, model.compiler.bound_inertia);
+        let is_mended = model.compiler.balance || model.context.options.balance;
+        let is_raised = mass.tensor != written && carriers[*link] != GROUND;
+        if is_raised && !is_mended && !is_possible(mass) {
+            let link = &model.robot.links[*link];
+            let message = format!(
+                "body `{}` has principal moments {}, which `boundinertia` raises to {}, and no body has those",
+                link.name,
+                listed(&written),
+                listed(&mass.tensor)
+            );
+            let hint = "write the inertia of the part, or balanceinertia=\"true\" in <compiler>";
+            return Err(Fault::new(link.at, message, hint));
+        }
         if model.compiler.balance && balance(mass) {
             let link = &model.robot.links[*link];
             let says =
@@ -32,7 +72,8 @@ pub(super) fn settle(model: &mut Model<'_, '_, '_>) -> Read<()> {
         if mass != Mass::none() {
             model.robot.links[link].mass = Some(mass);
         }
-        if lift != 0.0 && mass.mass > 0.0 {
+        // what stands needs no force
+        if lift != 0.0 && mass.mass > 0.0 && carriers[link] != GROUND {
             // a force against gravity at the centre of mass
             let weight = v3(model.compiler.gravity) * (-lift * mass.mass);
             let name = format!("{} gravcomp", model.robot.links[link].name);
@@ -99,10 +140,15 @@ fn bound(mass: &mut Mass, least_mass: f64, least_moment: f64) {
 
 /// Sets moments that no body has to their mean; did it?
 fn balance(mass: &mut Mass) -> bool {
-    let moments = mass.tensor.symmetric_eigen().eigenvalues;
-    let is_possible = 2.0 * moments.max() <= moments.sum() + SLACK * moments.max();
+    let is_possible = is_possible(mass);
     if !is_possible {
-        mass.tensor = M3::identity() * (moments.sum() / 3.0);
+        mass.tensor = M3::identity() * (mass.tensor.trace() / 3.0);
     }
     !is_possible
+}
+
+/// Is no moment larger than the sum of the others?
+fn is_possible(mass: &Mass) -> bool {
+    let moments = mass.tensor.symmetric_eigen().eigenvalues;
+    2.0 * moments.max() <= moments.sum() + SLACK * moments.max()
 }
