@@ -143,6 +143,7 @@ fn whole(
         ModelFormat::Urdf => (urdf::read(root.read(), context)?, urdf::TABLE),
         ModelFormat::Mjcf => {
             mjcf::include(&mut root, context)?;
+            mjcf::attach(&mut root, context)?;
             (mjcf::read(root.read(), context)?, mjcf::TABLE)
         }
         ModelFormat::Sdf => {

@@ -1,6 +1,7 @@
 //! The tree of bodies, with `frame` and `replicate`.
 
 use super::asset::{self, MeshGeom};
+use super::compiler::SAVED;
 use super::defaults::{MAIN, View};
 use super::geom::{self, Geom};
 use super::joint::{self, Written};
@@ -141,13 +142,14 @@ impl<'a> Walk<'_, 'a, '_, '_> {
                     }
                 }
                 "site" => self.site(child.read(), scope)?,
-                "composite" | "flexcomp" | "attach" => {
+                "attach" => {
+                    let message = "`attach` without a <model> in <asset>";
+                    return Err(child.fault(message, "name the file of the other model there"));
+                }
+                "composite" | "flexcomp" => {
                     let message =
                         format!("`{}` makes bodies, which this reader does not make", child.name);
-                    return Err(child.fault(
-                        message,
-                        "save the compiled model with the format's own program, and give that file",
-                    ));
+                    return Err(child.fault(message, SAVED));
                 }
                 _ => {}
             }
@@ -302,7 +304,8 @@ impl<'a> Walk<'_, 'a, '_, '_> {
         let mut at = V3::zeros();
         let width = format!("{}", number - 1.0).len();
         for copy in 0..number as usize {
-            let turned = euler(angles.map(|angle| angle * copy as f64), &self.model.compiler);
+            let turned =
+                euler(angles.map(|angle| angle * copy as f64), self.model.compiler.of(element.at));
             let frame = scope.frame.then(&Pose::new(turned, at));
             at += turned * offset;
             // the endings of inner copies come first

@@ -1,10 +1,17 @@
 //! Settings of the whole model: `compiler` and `option`.
 
 use crate::element::{Attribute, Element};
-use crate::source::Read;
+use crate::source::{Origin, Read};
+use std::collections::HashMap;
 
 /// What helps where the format's own program makes something of the file.
 pub(super) const SAVED: &str = "write the model as its own program compiles it, and give that file: in Python mujoco.mj_saveLastXML(\"model.xml\", mujoco.MjModel.from_xml_path(\"...\"))";
+
+/// Its attribute with the numbers of the texts of which it is made.
+pub(super) const SOURCES: &str = "sources";
+
+/// The element in which the settings of attached models stay; no file can have this name.
+pub(super) const ATTACHED: &str = "attached model";
 
 /// Where the inertia of a body comes from.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -39,6 +46,8 @@ pub(super) struct Compiler {
     pub(super) is_mesh_exact: bool,
     pub(super) gravity: [f64; 3],
     pub(super) acts: Acts,
+    /// Those of attached models, by the numbers of their texts.
+    attached: HashMap<u16, Self>,
 }
 
 /// What `option/flag` leaves on.
@@ -82,14 +91,43 @@ impl Compiler {
                 clamp: true,
                 contact: true,
             },
+            attached: HashMap::new(),
         };
         for element in root.each("compiler") {
             settings.compiler(element)?;
+        }
+        for element in root.each(ATTACHED) {
+            settings.attach(element)?;
         }
         for element in root.each("option") {
             settings.option(element)?;
         }
         Ok(settings)
+    }
+
+    /// Those that hold at a place: an attached model has its own.
+    pub(super) fn of(&self, at: Origin) -> &Self {
+        self.attached.get(&at.source).unwrap_or(self)
+    }
+
+    /// Takes the settings of an attached model, where none of them is of the whole.
+    fn attach(&mut self, model: &Element) -> Read<()> {
+        let own = Self::read(model)?;
+        let of_all = |one: &Self| {
+            let bounds = [one.bound_mass, one.bound_inertia, one.groups[0], one.groups[1]];
+            (bounds, one.from_geoms, one.balance, one.total_mass, one.is_mesh_exact)
+        };
+        if of_all(&own) != of_all(self) {
+            let message = "an attached model whose <compiler> has other settings for masses";
+            return Err(model.fault(message, SAVED));
+        }
+        let sources = model.value(SOURCES).unwrap_or_default();
+        for source in sources.split(' ').filter_map(|number| number.parse().ok()) {
+            self.attached.insert(source, Self { attached: HashMap::new(), ..own.clone() });
+        }
+        // what that one attaches has settings of its own
+        self.attached.extend(own.attached);
+        Ok(())
     }
 
     /// An angle in radians.

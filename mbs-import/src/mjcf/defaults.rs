@@ -1,5 +1,6 @@
 //! Defaults by classes: what an element does not write, its class does.
 
+use super::compiler::ATTACHED;
 use super::table::TABLE;
 use crate::element::{Attribute, Element};
 use crate::source::{Fault, Origin, Read};
@@ -41,7 +42,24 @@ impl<'a> Classes<'a> {
             }
             classes.add(element, MAIN)?;
         }
+        classes.attached(root)?;
         Ok(classes)
+    }
+
+    /// The classes of attached models, which inherit nothing from those of this one.
+    fn attached(&mut self, root: &'a Element) -> Read<()> {
+        for model in root.each(ATTACHED) {
+            let name = model.need("class")?;
+            self.classes.push(Class::default());
+            let number = self.classes.len() - 1;
+            self.names.insert(&name.value, (number, name.at));
+            for element in model.each("default") {
+                element.attribute("class");
+                self.add(element, number)?;
+            }
+            self.attached(model)?;
+        }
+        Ok(())
     }
 
     /// Its own elements first, then the classes in it, which start as copies.

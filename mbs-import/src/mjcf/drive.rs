@@ -49,7 +49,7 @@ fn add(
     let label = format!("actuator/{}", element.label());
     let found = if !model.compiler.acts.actuation {
         Err("actuation is disabled in the file".into())
-    } else if let Some(why) = actuator.refusal(model.compiler.auto_limits) {
+    } else if let Some(why) = actuator.refusal(model.compiler.of(element.at).auto_limits) {
         Err(format!("{why}: the actuator does not act here"))
     } else {
         let found = transmission(element, &actuator.gear, ending, model)?;
@@ -90,19 +90,20 @@ fn add(
         None => format!("{} {}", pulled.label, element.name),
     };
     own(&name, &actuator, &pulled, model);
-    laws(&name, &actuator, &pulled, shared, model);
+    let auto = model.compiler.of(element.at).auto_limits;
+    laws((&name, auto), &actuator, &pulled, shared, model);
     Ok(())
 }
 
 /// The input, the signals that follow from it, and the effort that follows from those.
 fn laws(
-    name: &str,
+    (name, auto): (&str, bool),
     actuator: &Actuator,
     pulled: &Transmission,
     shared: &mut Shared,
     model: &mut Model<'_, '_, '_>,
 ) {
-    let (gear, auto) = (pulled.gear, model.compiler.auto_limits);
+    let gear = pulled.gear;
     let control = actuator.control_range(pulled.range, auto).filter(|_| model.compiler.acts.clamp);
     let force = actuator.force_range(auto);
     let (gains, biases) = (actuator.gains(), actuator.biases());

@@ -73,7 +73,7 @@ pub(super) fn read(
     let at = view.element.at;
     view.own("class");
     let moves = moves(view)?;
-    let settings = &model.compiler;
+    let settings = model.compiler.of(at);
     let angle = |x: f64| match moves {
         Moves::Hinge => settings.angle(x),
         Moves::Slide => x * size.length,
@@ -108,7 +108,7 @@ pub(super) fn read(
     let effort = effort.map(|range| range.map(|end| end * force));
     let [friction, armature] = strengths(view, &name)?;
     let [friction, armature] = [friction * force, armature * mass];
-    let acts = settings.acts;
+    let acts = model.compiler.acts;
     let [stiffness, damping] = [("stiffness", acts.spring), ("damping", acts.damper)]
         .map(|(name, acts)| Strength::read(view, name).map(|of| of.where_it(acts)));
     let grown = |power| if is_slide { size.force_by(power) } else { size.moment() };

@@ -3,6 +3,7 @@
 
 mod actuator;
 mod asset;
+mod attach;
 mod body;
 mod compiler;
 mod defaults;
@@ -30,6 +31,7 @@ mod tests;
 mod transmission;
 mod weights;
 
+pub(crate) use attach::attach;
 pub(crate) use include::include;
 pub(crate) use table::TABLE;
 

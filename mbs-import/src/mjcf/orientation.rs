@@ -17,6 +17,7 @@ pub(super) fn pose(view: &View<'_>, compiler: &Compiler) -> Read<Pose> {
 
 /// The orientation of an element: what it writes itself comes before what its class writes, in whatever words.
 pub(super) fn turn(view: &View<'_>, compiler: &Compiler) -> Read<M3> {
+    let compiler = compiler.of(view.element.at);
     let own: Vec<_> = WORDS.iter().filter_map(|word| view.own(word)).collect();
     let inherited = WORDS.iter().rev().find_map(|word| view.inherited(word));
     match (&own[..], inherited) {

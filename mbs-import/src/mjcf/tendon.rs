@@ -148,7 +148,7 @@ fn laws(
     };
     model.tendon_names.add(&name, element.at, &model.context.sources)?;
     let label = format!("tendon/{}[{name}]", element.name);
-    let auto = model.compiler.auto_limits;
+    let auto = model.compiler.of(element.at).auto_limits;
     let is_clamped = view.is_limited("actuatorfrclimited", "actuatorfrcrange", auto)?;
     let effort = view.numbers("actuatorfrcrange")?.filter(|_| is_clamped);
     let Some(pulled) = pulled.filter(|pulled| !pulled.terms.is_empty()) else {
