@@ -27,6 +27,8 @@ pub(super) struct Actuator {
     pub(super) armature: f64,
     pub(super) damping: Strength,
     inherit: f64,
+    /// The length of the rod from a crank to its slider.
+    pub(super) crank_length: Option<f64>,
     /// What acts and has no counterpart.
     pub(super) lost: Vec<String>,
 }
@@ -62,6 +64,7 @@ impl Actuator {
             armature: 0.0,
             damping: Strength::NONE,
             inherit: 0.0,
+            crank_length: None,
             lost: Vec::new(),
         }
     }
@@ -203,6 +206,9 @@ impl Actuator {
         self.armature = element.number_or("armature", self.armature)?;
         if let Some(damping) = element.attribute("damping") {
             damping.merge(&mut self.damping.0)?;
+        }
+        if let Some(length) = element.attribute("cranklength") {
+            self.crank_length = Some(length.number()?);
         }
         if element.number_or("delay", 0.0)? > 0.0 {
             self.lost.push("delay".into());

@@ -1,6 +1,7 @@
 //! Drives: the input of each actuator, the signals that follow from it, and the effort that follows from those.
 
 use super::actuator::{Actuator, Dynamics};
+use super::crank;
 use super::defaults::is_actuator;
 use super::effort::{self, Pull, Shared};
 use super::flywheel;
@@ -52,7 +53,12 @@ fn add(
     } else if let Some(why) = actuator.refusal(model.compiler.of(element.at).auto_limits) {
         Err(format!("{why}: the actuator does not act here"))
     } else {
-        let found = transmission(element, &actuator.gear, ending, model)?;
+        let found = if element.attribute("cranksite").is_some() {
+            let of = (actuator.crank_length, ending);
+            crank::slide(element, actuator.gear[0], of, model)?
+        } else {
+            transmission(element, &actuator.gear, ending, model)?
+        };
         let found: Result<_, String> = found.and_then(|pulled| {
             let (size, is_slide) = pulled.size;
             let grown = actuator.grown(size, is_slide);

@@ -6,6 +6,7 @@ mod asset;
 mod attach;
 mod body;
 mod compiler;
+mod crank;
 mod defaults;
 mod drive;
 mod effort;

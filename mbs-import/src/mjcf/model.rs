@@ -127,6 +127,13 @@ pub(super) struct Site {
     pub(super) size: Size,
 }
 
+impl Site {
+    /// Does it stand in a frame with a scale?
+    pub(super) fn is_grown(&self) -> bool {
+        self.size != Size::ONE
+    }
+}
+
 /// A tendon; without terms it is nothing that the scene can pull.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Tendon {

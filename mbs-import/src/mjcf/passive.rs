@@ -3,7 +3,12 @@
 use super::model::{Model, Motion, Moves};
 use super::springs;
 use super::strength::Strength;
+use crate::pose::v3;
 use crate::robot::What;
+
+/// Corners of a tetrahedron: Σ r = 0 and Σ (r² E − r rᵀ) = 8 E, so that forces −c v at them are a moment −8 c ω about their middle.
+const CORNERS: [[f64; 3]; 4] =
+    [[1.0, 1.0, 1.0], [1.0, -1.0, -1.0], [-1.0, 1.0, -1.0], [-1.0, -1.0, 1.0]];
 
 /// Adds the spring and the damper of a joint.
 pub(super) fn add(motion: &Motion, strengths: [Strength; 2], model: &mut Model<'_, '_, '_>) {
@@ -31,25 +36,31 @@ fn several(motion: &Motion, strengths: [Strength; 2], model: &mut Model<'_, '_, 
             })
         },
     );
-    if stiffness == 0.0 && damping == 0.0 {
-        return;
-    }
     let is_free = motion.moves == Moves::Free;
-    // along x, y, z, then about them
-    let six = |x: f64| {
-        let slide = if is_free { x } else { 0.0 };
-        [slide, slide, slide, x, x, x]
-    };
-    if damping > 0.0 {
-        let says = "damping of a ball acts as that of a bushing";
-        model.context.findings.approximated(motion.at, label.as_str(), says);
-    }
     let joint = &model.robot.joints[motion.joint];
-    let what = What::Bushing {
-        links: [joint.parent, joint.child],
-        place: joint.place,
-        stiffness: six(stiffness),
-        damping: six(damping),
-    };
-    model.law(&format!("{} spring", motion.name), what);
+    let (links, place) = ([joint.parent, joint.child], joint.place);
+    if stiffness > 0.0 {
+        let slide = if is_free { stiffness } else { 0.0 };
+        let six = [slide, slide, slide, stiffness, stiffness, stiffness];
+        let what = What::Bushing { links, place, stiffness: six, damping: [0.0; 6] };
+        model.law(&format!("{} spring", motion.name), what);
+    }
+    if damping > 0.0 {
+        for (number, corner) in CORNERS.into_iter().enumerate() {
+            // of a ball the moment is −8 c a² ω, of a free joint the force is −4 c v beside it
+            let (arm, c) = if is_free {
+                (core::f64::consts::FRAC_1_SQRT_2, damping / 4.0)
+            } else {
+                (1.0, damping / 8.0)
+            };
+            let place = place + v3(corner) * arm;
+            let what = What::Bushing {
+                links,
+                place,
+                stiffness: [0.0; 6],
+                damping: [c, c, c, 0.0, 0.0, 0.0],
+            };
+            model.law(&format!("{} damping {}", motion.name, number + 1), what);
+        }
+    }
 }

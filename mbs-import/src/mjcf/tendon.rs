@@ -81,7 +81,7 @@ fn spatial(view: &View<'_>, ending: &str, model: &Model<'_, '_, '_>) -> Read<Opt
             "site" => {
                 let site = model.site(child.read().need("site")?, ending)?;
                 let last = terms.len() - 1;
-                is_grown |= site.size != Size::ONE;
+                is_grown |= site.is_grown();
                 terms[last].line.push((site.link, site.pose.at));
             }
             "pulley" => {

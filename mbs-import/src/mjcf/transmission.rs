@@ -9,7 +9,7 @@ use crate::source::Read;
 use mbs_core::algebra::cross;
 
 /// Why an actuator does not act: what it does there is not known here.
-const GROWN: &str = "it pulls a tendon, a site or a ball in a frame with a scale";
+pub(super) const GROWN: &str = "it pulls a tendon, a site or a ball in a frame with a scale";
 
 /// Distance of the two forces of a couple [m]: with it a moment of 1 N m is two forces of 1 N.
 const ARM: f64 = 1.0;
@@ -73,12 +73,12 @@ pub(super) fn transmission(
             has_length: true,
             rope: found.effort.map(|_| number),
             range: found.range,
-            ..none(&tendon.value)
+            ..Transmission::none(&tendon.value)
         }));
     }
     if let Some(site) = element.attribute("site") {
         let found = model.site(site, ending)?;
-        if found.size != Size::ONE {
+        if found.is_grown() {
             return Ok(Err(GROWN.into()));
         }
         if let Some(other) = element.attribute("refsite") {
@@ -92,33 +92,36 @@ pub(super) fn transmission(
                 Push { link: found.link, at: None, value: moment, turns: false },
             ];
             pushes.retain(|push| push.value != V3::zeros());
-            return Ok(Ok(Transmission { pushes, has_length: true, ..none(&site.value) }));
+            return Ok(Ok(Transmission {
+                pushes,
+                has_length: true,
+                ..Transmission::none(&site.value)
+            }));
         }
         let [force, moment] = halves(gear).map(|half| found.pose.turn * half);
         let pushes = turning(found.link, found.pose.at, force, moment);
-        return Ok(Ok(Transmission { pushes, ..none(&site.value) }));
+        return Ok(Ok(Transmission { pushes, ..Transmission::none(&site.value) }));
     }
-    let words = ["cranksite", "slidersite", "body"];
-    let word = words.into_iter().find(|word| element.attribute(word).is_some());
-    Ok(Err(match word {
-        Some("body") => "`body`: it pulls what a body touches".into(),
-        Some(word) => format!("`{word}`: a crank and its slider are not read"),
+    Ok(Err(match element.attribute("body") {
+        Some(_) => "`body`: it pulls what a body touches".into(),
         None => "it says nothing that it pulls".into(),
     }))
 }
 
-/// One that pulls nothing yet.
-fn none(label: &str) -> Transmission {
-    Transmission {
-        terms: Vec::new(),
-        drawn: 0.0,
-        gear: 1.0,
-        pushes: Vec::new(),
-        has_length: false,
-        rope: None,
-        range: None,
-        size: (Size::ONE, false),
-        label: label.to_owned(),
+impl Transmission {
+    /// One that pulls nothing yet.
+    pub(super) fn none(label: &str) -> Self {
+        Self {
+            terms: Vec::new(),
+            drawn: 0.0,
+            gear: 1.0,
+            pushes: Vec::new(),
+            has_length: false,
+            rope: None,
+            range: None,
+            size: (Size::ONE, false),
+            label: label.to_owned(),
+        }
     }
 }
 
@@ -142,7 +145,7 @@ fn of_joint(
             has_length: true,
             range: motion.range,
             size: (motion.size, motion.moves == Moves::Slide),
-            ..none(&motion.name)
+            ..Transmission::none(&motion.name)
         });
     }
     if motion.size != Size::ONE {
@@ -169,7 +172,7 @@ fn of_joint(
     } else {
         pushes.extend(turning(link, pose.at, V3::zeros(), pose.turn * moment));
     }
-    Ok(Transmission { pushes, has_length: !is_free, ..none(&motion.name) })
+    Ok(Transmission { pushes, has_length: !is_free, ..Transmission::none(&motion.name) })
 }
 
 /// A force and a moment that turn with a link. The moment is a couple: F and −F, with d across the moment and F = m × d / d².
