@@ -49,6 +49,8 @@ impl Tape {
             halve(&mut self.times, 1);
             halve(&mut self.poses, n_poses);
             halve(&mut self.rows, n_columns);
+            // the last of an even number went
+            self.since = self.stride;
             self.stride *= 2;
         }
         Ok(())

@@ -38,7 +38,7 @@ fn an_option_that_the_format_does_not_have_is_refused() {
     let options = ImportOptions { key: Some("home".into()), ..ImportOptions::default() };
     let refused = import(ARM.as_bytes(), "arm.urdf", &options).expect_err("a URDF has no keyframe");
     assert!(
-        refused.fault().contains("`key` is no option of a file in URDF"),
+        refused.to_string().contains("`key` is no option of a file in URDF"),
         "{}",
         refused.fault()
     );

@@ -153,13 +153,14 @@ class Mechanism:
     ) -> None: ...
     @property
     def import_report(self) -> dict[str, Any] | None:
-        """."""
+        """What became of the elements of a model: the object of `mbs import --json`. None where the mechanism comes from a scene."""
     def from_qpos(self, qpos: ArrayLike, qvel: ArrayLike | None = None) -> State:
-        """."""
+        """The state of an MJCF's `qpos` and `qvel`, as MuJoCo orders them; without `qvel` at rest."""
     def to_qpos(self, q: ArrayLike, v: ArrayLike | None = None) -> tuple[Array, Array]:
-        """."""
+        """`qpos` and `qvel` of an MJCF, as MuJoCo orders them, of q and v; without v at rest."""
     def with_forces(self, *names: str) -> Mechanism:
-        """."""
+        """The mechanism with forces and moments on frames or bodies as inputs `NAME.force.x` ... `NAME.moment.z`: its simulations take
+        `f_ext` in their steps. `u` may then have the inputs of this mechanism alone."""
     @staticmethod
     def build(name: str, dimension: Literal[2, 3] = 3) -> Builder:
         """A builder of a scene: its parts are added by calls, and `done()` gives the mechanism."""
@@ -258,8 +259,9 @@ class Mechanism:
     def equilibrium(self, search: Literal["down", "near"] = "down") -> Equilibrium:
         """The static equilibrium: downhill to a stable one, or the one `near` the reference configuration."""
     def modes(self, at: StateLike = "equilibrium", *, u: ArrayLike | None = None, frozen: bool = False) -> Modes:
-        """Eigenvalues of the motion about a state, with frequencies, damping ratios and shapes, from the slowest to the fastest. About a
-        state that is neither a rest nor a steady motion `frozen` gives the eigenvalues of the instant; else it is refused."""
+        """Eigenvalues of the motion about a state, with frequencies, damping ratios and shapes, from the slowest to the fastest. `at` and
+        `u` are those of `linearize`. About a state that is neither a rest nor a steady motion `frozen` gives the eigenvalues of the
+        instant; else it is refused."""
     def linearize(
         self,
         at: StateLike = "equilibrium",
@@ -268,9 +270,10 @@ class Mechanism:
         *,
         u: ArrayLike | None = None,
     ) -> Linear:
-        """dx/dt = A x + B u, y = C x + D u about a state: `"equilibrium"`, `"initial"`, `"moving"`, what `equilibrium()` gives, or (q, v).
-        The states x are independent coordinates and their rates, then the states of signals. About a state that is neither a rest nor a
-        steady motion the matrices hold for the instant, and `unsteady` says why."""
+        """dx/dt = A x + B u, y = C x + D u about a state: `"equilibrium"`, `"initial"`, `"moving"`, what `equilibrium()` gives, (q, v), or
+        (q, v, u). `u` are the values of all inputs there, else those at which they begin. The states x are independent coordinates and
+        their rates, then the states of signals. About a state that is neither a rest nor a steady motion the matrices hold for the instant,
+        and `unsteady` says why."""
     def accelerations(
         self,
         q: ArrayLike,
@@ -282,15 +285,15 @@ class Mechanism:
         strict: bool = False,
     ) -> Array:
         """Accelerations (nv,) under all effects and inputs `u` (nu,), signals as they begin. All arguments are of one state, or of k
-        states."""
+        states. `f_ext` are forces and moments on frames or bodies, {NAME: (force, moment)}: global axes, at the origin of the frame."""
     def forward_dynamics(
         self, q: ArrayLike, v: ArrayLike, effort: ArrayLike, *, f_ext: Forces | None = None, strict: bool = False
     ) -> Array:
-        """Accelerations (nv,) under efforts along v and gravity alone, loops closed."""
+        """Accelerations (nv,) under efforts along v, gravity and `f_ext` alone, loops closed."""
     def inverse_dynamics(
         self, q: ArrayLike, v: ArrayLike, a: ArrayLike, *, f_ext: Forces | None = None, strict: bool = False
     ) -> Array:
-        """Efforts (nv,) that make accelerations `a`: M a + bias."""
+        """Efforts (nv,) that make accelerations `a`: M a + bias, less what `f_ext` does."""
     def mass_matrix(self, q: ArrayLike, *, strict: bool = False) -> Array:
         """Mass matrix (nv, nv), loops open."""
     def bias(self, q: ArrayLike, v: ArrayLike, *, strict: bool = False) -> Array:
@@ -344,7 +347,8 @@ class Mechanism:
     ) -> Rollout:
         """Motions from k starts by equal steps of `dt` [s], with all effects; `u` (k, steps, nu), or (steps, nu) for all, is held over each
         step. The numbers do not depend on the number of threads; 0: all processors. `client` is a client of Dask, or "ray": starts then go
-        there in chunks."""
+        there in chunks. `f_ext` are forces and moments on frames or bodies, {NAME: (force, moment)} or {NAME: (steps, 6)}, as in
+        `accelerations`."""
     def compare(
         self,
         methods: Sequence[str] | None = None,
@@ -426,13 +430,17 @@ class Simulation:
     def events(self) -> list[Event]:
         """Contacts that began or ended since `watch_events`, a thousand at most."""
     def step(self, dt: float | None = None, u: ArrayLike | None = None, *, f_ext: Forces | None = None) -> None:
-        """One step of `dt` [s], else of the method's step. `u` (nu,) holds from now on."""
+        """One step of `dt` [s], else of the method's step. `u` (nu,) holds from now on. `f_ext` are forces as in `accelerations`, which
+        hold too; the mechanism is one of `with_forces`."""
     def steps(self, dt: float | None, n: int, u: ArrayLike | None = None, *, f_ext: Forces | None = None) -> None:
-        """`n` steps of `dt` [s] without Python in between. `u` is (nu,), which holds, or (n, nu), a row for each step."""
+        """`n` steps of `dt` [s] without Python in between. `u` is (nu,), which holds, or (n, nu), a row for each step; `f_ext` as in
+        `step`."""
     def record(self) -> Recording:
-        """."""
+        """Records the motion from now on, for a page: `recording.page()`, `recording.save("motion.html")`. It begins anew where time goes
+        back."""
     def poses(self) -> Array:
-        """."""
+        """Poses of all bodies, (bodies, 7): the centre of mass, then the quaternion (w, x, y, z) of the turn since the reference
+        configuration."""
     def run_until(self, time: float) -> None:
         """Steps to a time [s]; the last step is shorter where they do not fit."""
     def set_input(self, name: str | int, value: float) -> None:

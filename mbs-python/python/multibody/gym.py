@@ -82,8 +82,8 @@ class MechanismEnv(gymnasium.Env[Array, Array]):
         self._count = 0
         low, high = np.array(list(action.values()), dtype=np.float64).reshape(-1, 2).T
         self.action_space = gymnasium.spaces.Box(low, high, dtype=np.float64)
-        size = self._observation().size
-        self.observation_space = gymnasium.spaces.Box(-np.inf, np.inf, (size,), dtype=np.float64)
+        n = self._observation().size
+        self.observation_space = gymnasium.spaces.Box(-np.inf, np.inf, (n,), dtype=np.float64)
 
     @property
     def simulation(self) -> Simulation:
@@ -102,7 +102,7 @@ class MechanismEnv(gymnasium.Env[Array, Array]):
         self._advance(action)
         return self._outcome()
 
-    def render(self) -> Picture | None:  # type: ignore[override]
+    def render(self) -> Picture | None:
         """The picture of the mechanism where it is, (height, width, 3); None without a `render_mode`."""
         if self.render_mode is None:
             return None

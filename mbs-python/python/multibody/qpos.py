@@ -45,7 +45,8 @@ def qpos(mechanism: Mechanism, q: ArrayLike, v: ArrayLike | None) -> tuple[Array
     joints = _joints(mechanism)
     q = _numbers("q", q, mechanism.nq)
     v = np.zeros(mechanism.nv) if v is None else _numbers("v", v, mechanism.nv)
-    positions, speeds = [], []
+    positions: list[Any] = []
+    speeds: list[Any] = []
     for joint in joints:
         of_q, of_v = mechanism.coordinates(joint["joint"])
         first, turn = joint["number"], joint["turn"]
@@ -102,7 +103,8 @@ def _quaternion(turn: Array) -> Array:
         q = np.empty(4)
         q[0] = m[k, j] - m[j, k]
         q[1 + i], q[1 + j], q[1 + k] = 1.0 + squares[largest], m[j, i] + m[i, j], m[k, i] + m[i, k]
-    return q / np.linalg.norm(q)
+    unit: Array = q / np.linalg.norm(q)
+    return unit
 
 
 def _conjugate(q: Array) -> Array:

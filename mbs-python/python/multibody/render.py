@@ -11,6 +11,7 @@ import os
 import select
 import shutil
 import subprocess
+import sys
 import tempfile
 import time
 from pathlib import Path
@@ -41,6 +42,14 @@ SWITCHES = (
     "--disable-sync",
     "--remote-debugging-pipe",
 )
+BEGIN = """
+import fcntl, os, sys
+files = [fcntl.fcntl(int(file), fcntl.F_DUPFD, 10) for file in sys.argv[1:3]]
+for file, to in zip(files, (3, 4)):
+    os.dup2(file, to, inheritable=True)
+os.execvp(sys.argv[3], sys.argv[3:])
+"""
+"""Begins the browser, which reads what is asked from its file 3 and answers on its file 4."""
 FULL = "body > :not(main), main > :not(#view), #view > :not(.stage) { display: none !important } #view, main, body { margin: 0; padding: 0; border: 0; max-width: none } #view > .stage { height: 100vh; border-radius: 0 }"
 """Style with which the drawing fills the window."""
 SCRIPT = """
@@ -135,11 +144,9 @@ class _Browser:
         to_read, self._to = os.pipe()
         self._from, to_write = os.pipe()
         command = [browser(), *SWITCHES, f"--user-data-dir={profile}", f"--window-size={size[0]},{size[1]}", "about:blank"]
-        # the browser reads what is asked from its third file, and answers on its fourth
-        shell = ["/bin/sh", "-c", f'exec "$@" 3<&{to_read} 4>&{to_write}', "sh", *command]
-        files = to_read, to_write
-        quiet = subprocess.DEVNULL
-        self._process = subprocess.Popen(shell, stdin=quiet, stdout=quiet, stderr=quiet, pass_fds=files, start_new_session=True)
+        files, quiet = (to_read, to_write), subprocess.DEVNULL
+        begin = [sys.executable, "-S", "-E", "-c", BEGIN, *map(str, files), *command]
+        self._process = subprocess.Popen(begin, stdin=quiet, stdout=quiet, stderr=quiet, pass_fds=files, start_new_session=True)
         for file in files:
             os.close(file)
         self._left, self._number, self._session = b"", 0, ""
