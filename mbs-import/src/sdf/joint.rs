@@ -55,7 +55,32 @@ pub(super) fn read(
     }
     let place = frames.place(own)?;
     let mut joint = Joint::new(&name, element.at, kind, ends, place.at);
-    let axes: Vec<&Element> =
+    let axes = axes_of(element, &name, kind)?;
+    let number = robot.joints.len();
+    for axis in &axes {
+        joint.axes.push(direction_of(axis, own, scope, frames)?);
+    }
+    if let ([axis], Kind::Revolute | Kind::Prismatic) = (&axes[..], kind) {
+        let has_range = word.value.trim() != "continuous";
+        if let Some(says) = limits(axis, has_range, &mut joint)? {
+            let path = format!("joint[{name}]/{}/limit", axis.name);
+            context.findings.approximated(axis.at, path, says);
+        }
+    }
+    robot.joints.push(joint);
+    for (i, axis) in axes.iter().enumerate() {
+        let of = coordinate(&robot.joints, number, i);
+        laws(axis, of, robot, context)?;
+    }
+    if kind == Kind::Cylindrical {
+        robot.couplings.push(screw(element, number, &name)?);
+    }
+    Ok(())
+}
+
+/// The axes that a joint of a kind has.
+fn axes_of<'a>(element: &'a Element, name: &str, kind: Kind) -> Read<Vec<&'a Element>> {
+    let mut axes: Vec<&Element> =
         ["axis", "axis2"].into_iter().filter_map(|word| element.child(word)).collect();
     let needed = match kind {
         Kind::Revolute | Kind::Prismatic | Kind::Cylindrical => 1,
@@ -70,26 +95,8 @@ pub(super) fn read(
     if needed == 0 {
         axes.iter().for_each(|axis| axis.read_whole());
     }
-    let number = robot.joints.len();
-    for axis in &axes[..needed] {
-        joint.axes.push(direction_of(axis, own, scope, frames)?);
-    }
-    if let ([axis], Kind::Revolute | Kind::Prismatic) = (&axes[..needed], kind) {
-        let has_range = word.value.trim() != "continuous";
-        if let Some(says) = limits(axis, has_range, &mut joint)? {
-            let path = format!("joint[{name}]/{}/limit", axis.name);
-            context.findings.approximated(axis.at, path, says);
-        }
-    }
-    robot.joints.push(joint);
-    for (i, axis) in axes[..needed].iter().enumerate() {
-        let of = coordinate(&robot.joints, number, i);
-        laws(axis, of, robot, context)?;
-    }
-    if kind == Kind::Cylindrical {
-        robot.couplings.push(screw(element, number, &name)?);
-    }
-    Ok(())
+    axes.truncate(needed);
+    Ok(axes)
 }
 
 /// The full name of the frame of a joint by its own full name, and its name in the scene.

@@ -130,90 +130,39 @@ fn the_shell_of_a_mesh_has_the_area_of_its_triangles() {
 
 #[test]
 fn forms_are_fitted_to_the_inertia_or_the_box_of_a_mesh() {
-    // MuJoCo 4.0.0: mass, and moments xx, yy, zz
-    for (kind, compiler, expected) in [
-        (
-            "box",
-            "",
-            [5.577096406362992, 0.027188346717104253, 0.04182822425471229, 0.052285281351523785],
-        ),
-        (
-            "sphere",
-            "",
-            [3.830945986312027, 0.014438130617111097, 0.014438130617111097, 0.014438130617111099],
-        ),
-        (
-            "capsule",
-            "",
-            [5.386491793431093, 0.019954643070144648, 0.04615192977254727, 0.051054713308416454],
-        ),
-        (
-            "cylinder",
-            "",
-            [4.95467759816728, 0.01795864457051242, 0.03647381436025026, 0.03993890105568364],
-        ),
-        (
-            "ellipsoid",
-            "",
-            [2.9201608497653355, 0.008541471030970691, 0.013140724203131051, 0.016425905578482253],
-        ),
-        (
-            "box",
-            "fitaabb='true'",
-            [28.677444934043365, 0.4171544871398847, 0.6227708455832603, 0.7795617121864701],
-        ),
-        (
-            "sphere",
-            "fitaabb='true'",
-            [58.23706207564946, 1.3468937819943658, 1.3468937819943658, 1.3468937819943663],
-        ),
-        (
-            "capsule",
-            "fitaabb='true'",
-            [34.36821571821729, 0.4832112097710822, 0.6313825177260423, 0.6591125592903527],
-        ),
-        (
-            "cylinder",
-            "fitaabb='true'",
-            [45.20939123176574, 0.7612751243190553, 1.1323750550184442, 1.201825859258728],
-        ),
-        (
-            "ellipsoid",
-            "fitaabb='true'",
-            [15.015475054752745, 0.13105294722106794, 0.19564923133542744, 0.24490653480248956],
-        ),
-        (
-            "box",
-            "fitaabb='false'",
-            [5.577096406362992, 0.027188346717104253, 0.04182822425471229, 0.052285281351523785],
-        ),
+    // mass, and moments xx, yy, zz: MuJoCo 4.0.0
+    for line in [
+        "box false 5.577096406362992 0.027188346717104253 0.04182822425471229 0.052285281351523785",
+        "sphere false 3.830945986312027 0.014438130617111097 0.014438130617111097 0.014438130617111099",
+        "capsule false 5.386491793431093 0.019954643070144648 0.04615192977254727 0.051054713308416454",
+        "cylinder false 4.95467759816728 0.01795864457051242 0.03647381436025026 0.03993890105568364",
+        "ellipsoid false 2.9201608497653355 0.008541471030970691 0.013140724203131051 0.016425905578482253",
+        "box true 28.677444934043365 0.4171544871398847 0.6227708455832603 0.7795617121864701",
+        "sphere true 58.23706207564946 1.3468937819943658 1.3468937819943658 1.3468937819943663",
+        "capsule true 34.36821571821729 0.4832112097710822 0.6313825177260423 0.6591125592903527",
+        "cylinder true 45.20939123176574 0.7612751243190553 1.1323750550184442 1.201825859258728",
+        "ellipsoid true 15.015475054752745 0.13105294722106794 0.19564923133542744 0.24490653480248956",
     ] {
-        let text = mjcf(CORNER, &format!(r#"type="{kind}""#), compiler);
-        let found = ten(&whole(&text, "m.xml"), "b");
-        for (found, expected) in [0, 4, 5, 6].map(|i| found[i]).into_iter().zip(expected) {
-            assert!(
-                (found / expected - 1.0).abs() < SINGLE,
-                "{kind} {compiler}: {found} for {expected}"
-            );
+        let words: Vec<_> = line.split(' ').collect();
+        let [geom, compiler] = [format!("type='{}'", words[0]), format!("fitaabb='{}'", words[1])];
+        let found = ten(&whole(&mjcf(CORNER, &geom, &compiler), "m.xml"), "b");
+        for (found, expected) in [0, 4, 5, 6].map(|i| found[i]).into_iter().zip(&words[2..]) {
+            let expected: f64 = expected.parse().expect("number");
+            assert!((found / expected - 1.0).abs() < SINGLE, "{line}: {found}");
         }
     }
-    let text = mjcf(CORNER, r#"type="box""#, "");
-    // at 0.3 it is 54.1068871, with the arm turned
-    let found = ten(&whole(&text, "m.xml"), "b");
-    close(found[1], 0.1, TOLERANCE, "centre");
-    for (geom, mass) in
-        [(r#"type="box" mass="3""#, 3.0), (r#"type="box" fitscale="2""#, 8.0 * found[0])]
-    {
-        close(ten(&whole(&mjcf(CORNER, geom, ""), "m.xml"), "b")[0], mass, TOLERANCE, geom);
-    }
-    // a shell of the box that is fitted to the solid: MuJoCo 4.0.0
-    let shell = ten(&whole(&mjcf(CORNER, r#"type="box" shellinertia="true""#, ""), "m.xml"), "b");
-    close(shell[0], 208.69343618442605, SINGLE, "shell");
-    let shell = ten(
-        &whole(&mjcf(&format!(r#"{CORNER} inertia="shell""#), r#"type="box""#, ""), "m.xml"),
-        "b",
-    );
-    close(shell[0], 11.743565356604618, SINGLE, "box of a shell");
+}
+
+#[test]
+fn a_form_that_is_fitted_has_a_mass_a_scale_and_a_shell_of_its_own() {
+    let mass = |mesh: &str, geom: &str| ten(&whole(&mjcf(mesh, geom, ""), "m.xml"), "b")[0];
+    let own = mass(CORNER, r#"type="box""#);
+    close(mass(CORNER, r#"type="box" mass="3""#), 3.0, TOLERANCE, "mass");
+    close(mass(CORNER, r#"type="box" fitscale="2""#), 8.0 * own, TOLERANCE, "fitscale");
+    // a shell of the box that is fitted to the solid, and a box that is fitted to a shell: MuJoCo 4.0.0
+    close(mass(CORNER, r#"type="box" shellinertia="true""#), 208.69343618442605, SINGLE, "shell");
+    let shell = format!(r#"{CORNER} inertia="shell""#);
+    close(mass(&shell, r#"type="box""#), 11.743565356604618, SINGLE, "box of a shell");
 }
 
 #[test]
