@@ -10,7 +10,8 @@ use crate::options::ImportOptions;
 use crate::robot::{Frame, GROUND, Kind, Link, Robot, Signal, What};
 use crate::source::{Fault, MOST_BYTES, Origin, Read, Sources};
 use crate::unread::unread;
-use crate::{mjcf, motors, sdf, urdf, write, xml};
+use crate::usd::is_usd;
+use crate::{mjcf, motors, sdf, urdf, usd, write, xml};
 use mbs_scene::{ReadError, SceneFile};
 use std::collections::HashSet;
 use std::path::{Path, PathBuf};
@@ -61,13 +62,15 @@ pub struct ModelSizes {
     pub inputs: usize,
 }
 
-/// Does a text look like a model, and not like a scene? Its first character is `<`, or `<` with a zero beside it.
+/// Does a text look like a model, and not like a scene? Its first character is `<`, or `<` with a zero beside it, or it is a file of USD.
 #[must_use]
 pub fn is_model(bytes: &[u8]) -> bool {
     let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
     match bytes {
         // UTF-16, which the reader refuses by name
         [0xff, 0xfe, b'<', 0, ..] | [0xfe, 0xff, 0, b'<', ..] => true,
+        // of USD too
+        _ if is_usd(bytes) => true,
         _ => bytes.iter().find(|byte| !byte.is_ascii_whitespace()) == Some(&b'<'),
     }
 }
@@ -93,6 +96,10 @@ pub fn is_model(bytes: &[u8]) -> bool {
 /// ```
 pub fn import(bytes: &[u8], file: &str, options: &ImportOptions) -> Result<Imported, ReadError> {
     let mut sources = Sources::default();
+    if is_usd(bytes) {
+        let source = sources.add(file, "", None);
+        return Err(sources.error(usd::refusal(source)));
+    }
     let text = match core::str::from_utf8(bytes) {
         Ok(text) => text,
         Err(error) => {

@@ -26,6 +26,7 @@ mod source;
 mod table;
 mod unread;
 mod urdf;
+mod usd;
 mod visual;
 mod write;
 mod xml;

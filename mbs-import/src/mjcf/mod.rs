@@ -5,6 +5,7 @@ mod actuator;
 mod asset;
 mod attach;
 mod body;
+mod built_in;
 mod compiler;
 mod crank;
 mod defaults;

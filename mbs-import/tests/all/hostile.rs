@@ -67,6 +67,10 @@ fn what_cannot_be_meant_is_refused_at_its_place() {
         import(b"\xff\xfe<\0", "a", &ImportOptions::default())
             .is_err_and(|e| e.fault().to_string() == "not UTF-8 text")
     );
+    for usd in [&b"#usda 1.0\n()"[..], b"PXR-USDC\0\x08\xff"] {
+        let error = import(usd, "robot.usd", &ImportOptions::default()).expect_err("refused");
+        assert!(mbs_import::is_model(usd) && error.render().contains("export the robot as URDF"));
+    }
 }
 
 #[test]

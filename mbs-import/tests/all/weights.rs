@@ -192,22 +192,39 @@ fn a_mesh_whose_mass_does_not_count_is_for_the_eye() {
 }
 
 #[test]
-fn a_built_in_cone_is_computed_and_others_are_named() {
-    // MuJoCo 4.0.0
-    let cone = mjcf(r#"builtin="cone" params="8 0.5""#, r#"type="mesh""#, "");
-    let found = ten(&whole(&cone, "m.xml"), "b");
-    close(found[0], 3299.83159, SINGLE, "mass");
-    close(found[3], 1.0 - 0.2142857, SINGLE, "centre");
-    // a pyramid on a square
-    let tip = mjcf(r#"builtin="cone" params="4 0""#, r#"type="mesh""#, "");
-    close(ten(&whole(&tip, "m.xml"), "b")[0], 4000.0 / 3.0, TOLERANCE, "pyramid");
-    let ball = mjcf(r#"builtin="sphere" params="2""#, r#"type="mesh""#, "");
-    let error = import(ball.as_bytes(), "m.xml", &ImportOptions::default()).expect_err("refused");
-    let shown = error.render();
-    assert!(shown.contains("the built-in mesh `sphere` is not computed"), "{shown}");
+fn built_in_meshes_of_few_points_are_computed_and_others_are_named() {
+    let built_in = |words: &str| mjcf(&format!("builtin={words}"), r#"type="mesh""#, "");
+    // mass and height of the centre: MuJoCo 4.0.0, and the last a pyramid on a square
+    for (words, mass, height) in [
+        (r#""cone" params="8 0.5""#, 3299.8315890630092, -0.214285714),
+        (r#""sphere" params="0""#, 2536.1504726624075, 0.0),
+        (r#""sphere" params="1""#, 3658.712126251761, 0.0),
+        (r#""sphere" params="2""#, 4047.0446616510244, 0.0),
+        (r#""sphere" params="3""#, 4152.740778128605, 0.0),
+        (r#""sphere" params="4""#, 4179.738957796405, 0.0),
+        (r#""hemisphere" params="2""#, 1785.6405784234898, 0.354278848),
+        (r#""cone" params="4 0""#, 4000.0 / 3.0, -0.5),
+    ] {
+        let found = ten(&whole(&built_in(words), "m.xml"), "b");
+        assert!((found[0] / mass - 1.0).abs() < SINGLE, "{words}: {}", found[0]);
+        close(found[3], 1.0 + height, SINGLE, words);
+    }
+    for (words, says) in [
+        (r#""wedge" params="4 4 1 1 0""#, "the built-in mesh `wedge` is not computed"),
+        (r#""sphere" params="5""#, "`params` of the built-in mesh `sphere` do not fit"),
+        (r#""cone" params="2 1""#, "`params` of the built-in mesh `cone` do not fit"),
+        (r#""hemisphere""#, "`params` of the built-in mesh `hemisphere` do not fit"),
+    ] {
+        let error = import(built_in(words).as_bytes(), "m.xml", &ImportOptions::default());
+        let shown = error.expect_err("refused").render();
+        assert!(shown.contains(says), "{shown}");
+    }
+    let wedge = built_in(r#""wedge" params="4 4 1 1 0""#);
+    let shown = import(wedge.as_bytes(), "m.xml", &ImportOptions::default());
+    let shown = shown.expect_err("refused").render();
     assert!(shown.contains("<inertial>") && shown.contains("--massless-meshes"), "{shown}");
     let options = ImportOptions { massless_meshes: true, ..ImportOptions::default() };
-    let other = ball.replace("<geom mesh", r#"<geom size="0.1" contype="0"/><geom mesh"#);
+    let other = wedge.replace("<geom mesh", r#"<geom size="0.1" contype="0"/><geom mesh"#);
     let says = "a mesh counts as massless (--massless-meshes)";
     assert!(model(&other, "m.xml", &options).findings.iter().any(|x| x.says == says));
 }

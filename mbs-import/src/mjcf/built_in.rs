@@ -1,0 +1,97 @@
+//! Meshes that the format makes: those that are the hull of few points.
+
+use super::defaults::View;
+use crate::element::Attribute;
+use crate::source::Read;
+use core::f64::consts::TAU;
+
+/// Most corners of a cone. Chosen, not tuned.
+const MAX_CORNERS: f64 = 10_000.0;
+/// Most rows of a hemisphere. Chosen, not tuned: it has two points for each square of a row.
+const MAX_ROWS: f64 = 100.0;
+/// Most times that a sphere is divided: those of the format.
+const MAX_DIVISIONS: f64 = 4.0;
+
+/// The vertices of the mesh that an attribute names.
+pub(super) fn built_in(word: &Attribute, view: &View<'_>) -> Read<Vec<[f64; 3]>> {
+    let kind = word.value.trim();
+    let params = view.attribute("params").map(Attribute::list).transpose()?.unwrap_or_default();
+    let is_whole = |x: f64, least: f64, most: f64| x.fract() == 0.0 && (least..=most).contains(&x);
+    let (vertices, form) = match (kind, &params[..]) {
+        ("cone", &[n, r]) if is_whole(n, 3.0, MAX_CORNERS) && r >= 0.0 => (cone(n, r), ""),
+        ("sphere", &[n]) if is_whole(n, 0.0, MAX_DIVISIONS) => (sphere(n as usize), ""),
+        ("hemisphere", &[n]) if is_whole(n, 1.0, MAX_ROWS) => (hemisphere(n as i32), ""),
+        ("cone", _) => (Vec::new(), "3 corners or more, and the radius of the top"),
+        ("sphere", _) => (Vec::new(), "how often it is divided, 0 to 4 times"),
+        ("hemisphere", _) => (Vec::new(), "the number of its rows, 1 to 100"),
+        _ => {
+            return Err(word.fault(
+                format!(
+                    "a mass follows from this mesh, and the built-in mesh `{kind}` is not computed"
+                ),
+                "write an <inertial> in the body of its geom, or mass=\"0\" at the geom, or let --massless-meshes count it as massless",
+            ));
+        }
+    };
+    if !form.is_empty() {
+        let message = format!("`params` of the built-in mesh `{kind}` do not fit");
+        return Err(word.fault(message, format!("write in `params`: {form}")));
+    }
+    Ok(vertices)
+}
+
+/// Two rings around the z axis: at -1 with radius 1, and at 1 with another.
+fn cone(corners: f64, top: f64) -> Vec<[f64; 3]> {
+    let ring = |radius: f64, z: f64| {
+        (0..corners as usize).map(move |i| {
+            let (sine, cosine) = (TAU * i as f64 / corners).sin_cos();
+            [radius * cosine, radius * sine, z]
+        })
+    };
+    ring(1.0, -1.0).chain(ring(top, 1.0)).collect()
+}
+
+/// A direction of unit length.
+fn unit(x: [f64; 3]) -> [f64; 3] {
+    let length = x.iter().map(|x| x * x).sum::<f64>().sqrt();
+    x.map(|x| x / length)
+}
+
+/// An icosahedron, whose triangles are divided into four, some times; all points are at a distance of one.
+fn sphere(divisions: usize) -> Vec<[f64; 3]> {
+    let golden = 0.5 + 1.25_f64.sqrt();
+    let mut points: Vec<[f64; 3]> = Vec::new();
+    for [a, b] in [[-1.0, golden], [1.0, golden], [-1.0, -golden], [1.0, -golden]] {
+        points.extend([[a, b, 0.0], [0.0, a, b], [b, 0.0, a]].map(unit));
+    }
+    let distance =
+        |a: &[f64; 3], b: &[f64; 3]| a.iter().zip(b).map(|(a, b)| (a - b) * (a - b)).sum::<f64>();
+    for _ in 0..divisions {
+        // edges of the triangles differ by less than a fifth; other pairs are farther apart by half
+        let first = points[0];
+        let least = points[1..].iter().map(|x| distance(x, &first)).fold(f64::INFINITY, f64::min);
+        let mut middles = Vec::new();
+        for (i, a) in points.iter().enumerate() {
+            for b in points[..i].iter().filter(|b| distance(a, b) < 2.0 * least) {
+                middles.push(unit([a[0] + b[0], a[1] + b[1], a[2] + b[2]]));
+            }
+        }
+        points.append(&mut middles);
+    }
+    points
+}
+
+/// The upper half of an octahedron with points in rows, all at a distance of one, and the centre.
+fn hemisphere(rows: i32) -> Vec<[f64; 3]> {
+    let n = rows + 1;
+    let mut points = vec![[0.0; 3]];
+    for x in -n..=n {
+        for y in -n..=n {
+            let z = n - x.abs() - y.abs();
+            if z >= 0 {
+                points.push(unit([x, y, z].map(f64::from)));
+            }
+        }
+    }
+    points
+}
