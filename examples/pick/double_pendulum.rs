@@ -28,6 +28,7 @@ pub fn double_pendulum() -> Scene<f64> {
         mass: 1.0,
         center: [(from[0] + to[0]) / 2.0, 0.0, 0.0],
         inertia: Inertia::Rod { from, to },
+        gravity_scale: None,
     };
     let revolute = |name: &str, bodies: [BodyId; 2], at: [f64; 3]| Joint {
         name: name.into(),

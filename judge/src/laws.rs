@@ -43,8 +43,9 @@ impl Now<'_> {
         let mut loads = Loads { on: vec![[0.0; 6]; self.frames.len()], potential: 0.0, power: 0.0 };
         for (b, body) in self.scene.bodies.iter().enumerate() {
             let placed = self.places.of(Some(b));
-            loads.wrench(Some(b), scale(body.mass, self.scene.gravity), ZERO);
-            loads.potential -= body.mass * dot(self.scene.gravity, placed.r);
+            let weight = scale(body.mass * body.gravity_scale, self.scene.gravity);
+            loads.wrench(Some(b), weight, ZERO);
+            loads.potential -= dot(weight, placed.r);
         }
         for effect in &self.scene.effects {
             let before = loads.on.clone();

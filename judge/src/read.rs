@@ -82,6 +82,7 @@ pub fn read(text: &str) -> Read<Scene> {
 fn body(mut table: Table) -> Read<Body> {
     let name = table.text("name")?;
     let mass = table.number("mass")?;
+    let gravity_scale = table.number_or("gravity_scale", 1.0)?;
     let body = if let Some(mut rod) = table.table("rod")? {
         // a uniform slender rod: m/12 (L² E - l lᵀ)
         let (from, to) = (rod.vector("from")?, rod.vector("to")?);
@@ -89,9 +90,9 @@ fn body(mut table: Table) -> Read<Body> {
         let l = sub(to, from);
         let mut inertia = [0, 1, 2].map(|i| [0, 1, 2].map(|j| -mass / 12.0 * l[i] * l[j]));
         (0..3).for_each(|i| inertia[i][i] += mass / 12.0 * dot(l, l));
-        Body { name, mass, center: scale(0.5, add(from, to)), inertia }
+        Body { name, mass, center: scale(0.5, add(from, to)), inertia, gravity_scale }
     } else if let Some(center) = table.vector_or_none("point")? {
-        Body { name, mass, center, inertia: [ZERO; 3] }
+        Body { name, mass, center, inertia: [ZERO; 3], gravity_scale }
     } else {
         let center = table.vector("center")?;
         let inertia = if table.planar {
@@ -100,7 +101,7 @@ fn body(mut table: Table) -> Read<Body> {
             let [xx, yy, zz, xy, yz, zx] = table.exactly("inertia")?;
             [[xx, xy, zx], [xy, yy, yz], [zx, yz, zz]]
         };
-        Body { name, mass, center, inertia }
+        Body { name, mass, center, inertia, gravity_scale }
     };
     table.done("body")?;
     Ok(body)

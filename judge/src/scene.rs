@@ -56,6 +56,8 @@ pub struct Body {
     pub center: Vector,
     /// Inertia about the centre of mass, global axes [kg m²].
     pub inertia: Matrix,
+    /// Factor of gravity.
+    pub gravity_scale: f64,
 }
 
 /// The kinds of joint.

@@ -40,7 +40,13 @@ fn chain<T: Real>(n: usize, dimension: Dimension) -> Scene<T> {
             }
         };
         let center = [x + 0.05, 0.01, 0.0].map(T::from_f64);
-        scene.bodies.push(Body { name: String::new(), mass: T::ONE, center, inertia });
+        scene.bodies.push(Body {
+            name: String::new(),
+            mass: T::ONE,
+            center,
+            inertia,
+            gravity_scale: None,
+        });
         let body = BodyId::Body(i);
         let axis = [[0.0, 0.0, 1.0], [0.0, 0.6, 0.8], [0.1, 0.9, -0.2]][i % 3];
         let axis = (dimension == Dimension::Spatial).then_some(axis);
@@ -58,6 +64,7 @@ fn four_bars(n: usize) -> Scene<f64> {
         mass: 1.0,
         center: [0.5 * (from[0] + to[0]), 0.5 * (from[1] + to[1]), 0.0],
         inertia: Inertia::Rod { from, to },
+        gravity_scale: None,
     };
     for i in 0..=n {
         let x = i as f64;

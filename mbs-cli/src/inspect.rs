@@ -7,7 +7,7 @@ use clap::Args;
 use mbs::scene_file::nearest_name;
 use mbs::{
     Error, FrameMotion, InitialCondition, JointId, Matrix, Mechanism, Method, Number, ReadError,
-    Tree, TreeError,
+    Tree, TreeError, TreeErrorKind,
 };
 use serde_json::{Map, Value, json};
 use std::path::{Path, PathBuf};
@@ -21,7 +21,7 @@ Exit status:
   1  the scene, the state or the usage was refused";
 
 /// What can be asked for.
-const QUANTITIES: [&str; 10] = [
+const QUANTITIES: [&str; 11] = [
     "accelerations",
     "efforts",
     "gravity",
@@ -30,10 +30,12 @@ const QUANTITIES: [&str; 10] = [
     "loops",
     "momentum",
     "frames",
+    "centers",
     "jacobians",
     "derivatives",
 ];
-/// How many of them are computed where nothing is asked for: the last ones are large, and the last is of open trees alone.
+/// How many of them are computed where nothing is asked for: the next one is known by frames, the others are large, and the last is of
+/// open trees alone.
 const DEFAULT: usize = 8;
 
 /// Arguments of `mbs inspect`.
@@ -48,7 +50,7 @@ pub(crate) struct Arguments {
     /// Value of a joint with one coordinate, and its rate; may be repeated. Other joints stay as they are drawn, or follow a loop. Default: the start of the scene.
     #[arg(long, value_name = "NAME=VALUE[,RATE]", allow_hyphen_values = true)]
     joint: Vec<String>,
-    /// What is computed: accelerations, efforts (that keep all rates), gravity, bias, mass-matrix, loops, momentum, frames, jacobians (of all frames), derivatives (of accelerations). Default: all but the last two.
+    /// What is computed: accelerations, efforts (that keep all rates), gravity, bias, mass-matrix, loops, momentum, frames (of a body without a frame of its name its centre of mass), centers (of mass of all bodies), jacobians (of all frames), derivatives (of accelerations). Default: all but the last three.
     #[arg(long, value_name = "LIST", value_delimiter = ',')]
     what: Vec<String>,
     /// Print one JSON object on standard output and nothing else.
@@ -90,9 +92,12 @@ fn inspected(arguments: &Arguments) -> Result<Value, Refusal> {
         mechanism.clear_initial_conditions();
         begin(&mut mechanism, &given)?;
     }
-    let simulation = mechanism.simulate(&Method::default()).map_err(|error| refused(&error))?;
     let mut tree = mechanism.tree().map_err(|error| refused(&error))?;
-    tree.follow(&simulation).map_err(|error| refused(&error))?;
+    if tree.inertia_fault().is_some() {
+        start(&mechanism.with_fictitious_masses(), &mut tree)?;
+    } else {
+        start(&mechanism, &mut tree)?;
+    }
     let (rows, efforts) = rows(&mechanism, &tree, &given)?;
     let is_default =
         |word: &str| arguments.what.is_empty() && QUANTITIES[..DEFAULT].contains(&word);
@@ -103,7 +108,8 @@ fn inspected(arguments: &Arguments) -> Result<Value, Refusal> {
     object.insert("q".into(), json!(tree.coordinates()));
     object.insert("v".into(), json!(tree.velocities()));
     for word in QUANTITIES.into_iter().filter(|word| is_asked(word)) {
-        let value = quantity(word, &mut tree, &efforts).map_err(|error| refused(&error))?;
+        let value =
+            quantity(word, &mut tree, &efforts).map_err(|error| uncomputed(word, &error))?;
         if !is_finite(&value) {
             let message = format!("{word} at this state are no finite numbers");
             let hint = "give smaller efforts and rates";
@@ -112,6 +118,22 @@ fn inspected(arguments: &Arguments) -> Result<Value, Refusal> {
         object.insert(word.replace('-', "_"), value);
     }
     Ok(Value::Object(object))
+}
+
+/// Puts a tree where a mechanism starts.
+fn start(mechanism: &Mechanism, tree: &mut Tree) -> Result<(), Refusal> {
+    let simulation = mechanism.simulate(&Method::default()).map_err(|error| refused(&error))?;
+    tree.follow(&simulation).map_err(|error| refused(&error))
+}
+
+/// A quantity that there is not.
+fn uncomputed(word: &str, error: &TreeError) -> Refusal {
+    let hint = error.hint().unwrap_or_default();
+    let hint = match error.kind {
+        TreeErrorKind::NoInertia(_) => format!("{hint}: --what frames,jacobians"),
+        _ => hint,
+    };
+    Refusal::new("state-refused", format!("{word}: {error}"), hint)
 }
 
 fn quantity(word: &str, tree: &mut Tree, efforts: &[f64]) -> Result<Value, TreeError> {
@@ -136,7 +158,8 @@ fn quantity(word: &str, tree: &mut Tree, efforts: &[f64]) -> Result<Value, TreeE
                 "q": matrix(&slopes.q), "v": matrix(&slopes.v), "effort": matrix(&slopes.effort),
             })
         }
-        _ => frames(tree),
+        "centers" => frames(tree.centers()),
+        _ => frames(tree.frames()),
     })
 }
 
@@ -149,14 +172,14 @@ fn jacobians(tree: &mut Tree) -> Value {
     names.iter().filter_map(of).collect::<Map<_, _>>().into()
 }
 
-fn frames(tree: &mut Tree) -> Value {
+fn frames<'a>(all: impl Iterator<Item = (&'a str, FrameMotion)>) -> Value {
     let value = |frame: FrameMotion| {
         json!({
             "position": frame.position, "rotation": frame.rotation,
             "velocity": frame.velocity, "angular_velocity": frame.angular_velocity,
         })
     };
-    tree.frames().map(|(name, frame)| (name.to_owned(), value(frame))).collect::<Map<_, _>>().into()
+    all.map(|(name, frame)| (name.to_owned(), value(frame))).collect::<Map<_, _>>().into()
 }
 
 fn matrix(matrix: &Matrix) -> Value {
@@ -417,10 +440,11 @@ fn text(object: &Value) -> String {
             out += &format!("{:<32}{}\n", key.replace('_', " "), numbers_text(value));
         }
     }
-    if let Some(frames) = object["frames"].as_object() {
-        out += "\nframe                                    x            y            z\n";
-        for (name, frame) in frames {
-            out += &format!("{name:<32}{}\n", numbers_text(&frame["position"]));
+    for (key, title) in [("frames", "frame"), ("centers", "centre of mass")] {
+        let Some(places) = object[key].as_object() else { continue };
+        out += &format!("\n{title:<32}{:>13}{:>13}{:>13}\n", 'x', 'y', 'z');
+        for (name, place) in places {
+            out += &format!("{name:<32}{}\n", numbers_text(&place["position"]));
         }
     }
     out

@@ -24,6 +24,17 @@ pub struct Cluster<T: Real> {
     pub is_point: bool,
 }
 
+impl<T: Real> Cluster<T> {
+    /// The masses on which gravity acts [kg], each with its place: one, unless gravity has a factor on some body.
+    pub fn weights(&self, scene: &Scene<T>) -> Vec<(T, Vector<T, 3>)> {
+        let bodies = || self.bodies.iter().map(|&b| &scene.bodies[b]);
+        if bodies().all(|body| body.gravity_scale.is_none()) {
+            return vec![(self.mass, self.center)];
+        }
+        bodies().map(|body| (body.gravitational_mass(), body.mass_properties().1)).collect()
+    }
+}
+
 /// All clusters.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Clusters<T: Real> {

@@ -11,7 +11,7 @@ use crate::robot::{Frame, GROUND, Kind, Link, Robot, Signal, What};
 use crate::source::{Fault, MOST_BYTES, Origin, Read, Sources};
 use crate::unread::unread;
 use crate::usd::is_usd;
-use crate::{mjcf, motors, sdf, urdf, usd, write, xml};
+use crate::{gravity, mjcf, motors, sdf, urdf, usd, write, xml};
 use mbs_scene::{ReadError, SceneFile};
 use std::collections::HashSet;
 use std::path::{Path, PathBuf};
@@ -159,11 +159,12 @@ fn whole(
         }
     };
     unread(&root, table, &mut context.findings);
+    gravity::part(&mut robot);
     if context.options.motors {
         motors::add(&mut robot, &mut context.findings)?;
     }
     let lumps = lump::lumps(&robot, context.options.balance, &mut context.findings)?;
-    frames_of_parts(&mut robot, &lumps);
+    frames_of_links(&mut robot);
     let sizes = sizes(&robot, &lumps);
     let notes = std::mem::take(&mut robot.notes);
     robot.notes = vec![format!("{} model, from {file}.", format.name())];
@@ -242,13 +243,11 @@ fn first_macro(root: &Element) -> Option<&Attribute> {
     None
 }
 
-/// A link that another one carries keeps its name as a frame.
-fn frames_of_parts(robot: &mut Robot, lumps: &Lumps) {
+/// Every link is a frame of the scene, with its own axes.
+fn frames_of_links(robot: &mut Robot) {
     let mut names: HashSet<String> = robot.frames.iter().map(|frame| frame.name.clone()).collect();
-    for (link, lump) in lumps.of.iter().enumerate().filter(|(link, _)| *link != GROUND) {
-        let Link { name, pose, .. } = &robot.links[link];
-        let is_carried = lumps.lumps[*lump].carrier != link;
-        if is_carried && names.insert(name.clone()) {
+    for (link, Link { name, pose, .. }) in robot.links.iter().enumerate() {
+        if link != GROUND && names.insert(name.clone()) {
             robot.frames.push(Frame { name: name.clone(), link, pose: *pose });
         }
     }

@@ -8,6 +8,7 @@ mod element;
 mod files;
 mod findings;
 mod format;
+mod gravity;
 mod hull;
 mod import;
 mod inertia;

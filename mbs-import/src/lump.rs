@@ -15,6 +15,8 @@ pub(crate) struct Lump {
     /// The link that carries the others and gives the body its name.
     pub(crate) carrier: usize,
     pub(crate) mass: Mass,
+    /// Factor of gravity, the same of all links that have mass.
+    pub(crate) gravity_scale: f64,
 }
 
 /// The bodies of a model.
@@ -34,7 +36,7 @@ pub(crate) fn lumps(robot: &Robot, balance: bool, findings: &mut Findings) -> Re
     for link in 0..robot.links.len() {
         if carriers[link] == link {
             number[link] = found.lumps.len();
-            found.lumps.push(Lump { carrier: link, mass: Mass::none() });
+            found.lumps.push(Lump { carrier: link, mass: Mass::none(), gravity_scale: 1.0 });
         }
     }
     for (link, carrier) in carriers.iter().enumerate() {
@@ -42,6 +44,9 @@ pub(crate) fn lumps(robot: &Robot, balance: bool, findings: &mut Findings) -> Re
         if let Some(mass) = &robot.links[link].mass {
             let lump = &mut found.lumps[number[*carrier]];
             lump.mass = lump.mass.with(mass);
+            if mass.mass > 0.0 {
+                lump.gravity_scale = robot.links[link].gravity_scale;
+            }
         }
     }
     for lump in &mut found.lumps[1..] {

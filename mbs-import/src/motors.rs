@@ -36,7 +36,6 @@ fn driven(robot: &Robot) -> Vec<bool> {
                     let of_lines = |term: &&Term| term.line.is_empty();
                     terms.iter().filter(of_lines).for_each(|term| driven[term.of.joint] = true);
                 }
-                Target::Point { .. } => {}
             },
             What::Push { link, .. } => {
                 let is_pushed = |joint: &Joint| {

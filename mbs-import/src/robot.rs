@@ -39,6 +39,8 @@ pub(crate) struct Link {
     pub(crate) pose: Pose,
     /// In global axes; `None` where the file writes no inertia.
     pub(crate) mass: Option<Mass>,
+    /// Factor of gravity on it.
+    pub(crate) gravity_scale: f64,
 }
 
 /// The kinds of joints that formats have.
@@ -130,12 +132,6 @@ pub(crate) struct Piece {
 pub(crate) enum Target {
     Coordinate(Coordinate),
     Sum(Vec<Term>),
-    /// A point of a link, in global axes of the reference configuration, and the direction along which it acts.
-    Point {
-        link: usize,
-        place: V3,
-        direction: V3,
-    },
 }
 
 /// An effect or a signal of the scene.
@@ -185,11 +181,6 @@ pub(crate) enum What {
     RangeLimit {
         on: Target,
         stiffness: Option<[f64; 2]>,
-    },
-    /// A moment or force that stays.
-    Held {
-        on: Target,
-        value: f64,
     },
     /// A moment or force that is set from outside.
     Input {
@@ -363,7 +354,13 @@ impl Coupling {
 impl Link {
     /// A link at the origin, without mass.
     pub(crate) fn new(name: &str, at: Origin) -> Self {
-        Self { name: scene_name(name, "link"), at, pose: Pose::identity(), mass: None }
+        Self {
+            name: scene_name(name, "link"),
+            at,
+            pose: Pose::identity(),
+            mass: None,
+            gravity_scale: 1.0,
+        }
     }
 }
 
@@ -397,7 +394,7 @@ impl Robot {
     /// A model with the ground alone.
     pub(crate) fn new(name: &str, source: u16) -> Self {
         let at = Origin::start_of(source);
-        let ground = Link { name: "ground".into(), at, pose: Pose::identity(), mass: None };
+        let ground = Link { name: "ground".into(), ..Link::new("", at) };
         Self { name: name.to_owned(), links: vec![ground], ..Self::default() }
     }
 

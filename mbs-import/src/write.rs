@@ -2,6 +2,7 @@
 
 mod law;
 
+use crate::gravity::is_same;
 use crate::lump::Lumps;
 use crate::pose::{M3, V3};
 use crate::robot::{Form, FormKind, GROUND, Joint, Kind, Robot, Target, Term, is_even};
@@ -84,6 +85,9 @@ impl Writer<'_> {
             self.key("mass", number(lump.mass.mass));
             self.key("center", vector(&center));
             self.key("inertia", list(lump.mass.six()));
+            if !is_same(lump.gravity_scale, 1.0) {
+                self.key("gravity_scale", number(lump.gravity_scale));
+            }
         }
     }
 
@@ -203,11 +207,6 @@ impl Writer<'_> {
             Target::Sum(terms) => {
                 let terms = self.terms(terms);
                 self.key("terms", terms);
-            }
-            Target::Point { link, place, .. } => {
-                let body = self.body(*link);
-                self.key("body", body);
-                self.key("at", vector(place));
             }
         }
     }

@@ -159,17 +159,30 @@ impl Mechanism {
         })
     }
 
-    /// Jacobian (6, nv) of a body's point, which is at `at` in the reference configuration: linear, then angular, global axes.
-    #[pyo3(signature = (body, at, q, *, strict = false))]
+    /// Jacobian (6, nv) of a frame's origin by (frame, q), of a point that moves with a body or a frame by (name, at, q), which is at `at` in
+    /// the reference configuration: linear, then angular, global axes.
+    #[pyo3(signature = (body, at = None, q = None, *, strict = false))]
     fn jacobian<'py>(
         &self,
         py: Python<'py>,
         body: &str,
-        at: &Bound<'py, PyAny>,
-        q: &Bound<'py, PyAny>,
+        at: Option<&Bound<'py, PyAny>>,
+        q: Option<&Bound<'py, PyAny>>,
         strict: bool,
     ) -> PyResult<Bound<'py, PyAny>> {
-        let ([nq, nv], body, at) = (self.sizes(py)?, self.body(py, body)?, self.point(at)?);
+        let [nq, nv] = self.sizes(py)?;
+        let Some(last) = q.or(at) else {
+            return Err(usage(py, "missing", "q is missing", "give the coordinates", "q"));
+        };
+        let (q, at) = (last, at.filter(|_| q.is_some()));
+        let place = self.first(py)?.frame_place(body);
+        let (body, at) = match at {
+            Some(at) => {
+                let body = place.map_or_else(|_| self.body(py, body), |(body, _)| Ok(body))?;
+                (body, self.point(at)?)
+            }
+            None => place.map_err(|_| self.no_frame(py, ("frame", body)))?,
+        };
         let at_rest = vec![0.0; nv];
         self.each(py, (&[(q, "q", nq)], strict), &[6, nv], |tree, x, out| {
             tree.set(x[0], &at_rest)?;
@@ -269,7 +282,8 @@ impl Mechanism {
         })
     }
 
-    /// A frame at a state: position (3,), rotation (3, 3), velocity (3,), angular_velocity (3,), in global axes.
+    /// A frame at a state: position (3,), rotation (3, 3), velocity (3,), angular_velocity (3,), in global axes; of a body without a frame of
+    /// its name the centre of mass.
     #[pyo3(signature = (name, q, v = None))]
     fn frame<'py>(
         &self,
@@ -350,8 +364,8 @@ impl Mechanism {
         })
     }
 
-    /// Coordinates (nq,) in which a frame, or the centre of mass of a body by its name, is at a position (3,) with a rotation (3, 3), from `q`
-    /// on. What is left out is free; loops stay closed.
+    /// Coordinates (nq,) in which a frame is at a position (3,) with a rotation (3, 3), from `q` on; of a body without a frame of its name it is
+    /// the centre of mass. What is left out is free; loops stay closed.
     #[pyo3(signature = (frame, q = None, *, position = None, rotation = None))]
     fn inverse_kinematics<'py>(
         &self,
@@ -362,24 +376,17 @@ impl Mechanism {
         rotation: Option<&Bound<'py, PyAny>>,
     ) -> PyResult<Bound<'py, PyAny>> {
         let first = self.first(py)?;
-        let (body, at) =
-            first.frame_place(frame).map_err(|_| self.no_frame(py, ("frame", frame)))?;
+        first.frame_place(frame).map_err(|_| self.no_frame(py, ("frame", frame)))?;
         let start =
             q.map_or_else(|| Ok(first.coordinates().to_vec()), |q| self.coordinates_of(q))?;
-        let reference = self.with_tree(py, |tree| tree.frame(frame).map(|frame| frame.rotation))?;
-        let reference = reference.map_err(|_| self.no_frame(py, ("frame", frame)))?;
         let position = position.map(|x| Numbers::row(x, "position", 3)).transpose()?;
         let rotation = rotation.map(rows).transpose()?;
-        let target = FrameTarget {
-            position: position.map(|x| [x[0], x[1], x[2]]),
-            // of the body, from the reference configuration
-            rotation: rotation.map(|rows| product(&rows, &reference)),
-        };
+        let target = FrameTarget { position: position.map(|x| [x[0], x[1], x[2]]), rotation };
         let at_rest = vec![0.0; first.velocities().len()];
         let found = self.with_tree(py, |tree| {
             py.detach(|| {
                 tree.set(&start, &at_rest)?;
-                let found = tree.inverse_kinematics(body, at, &target)?;
+                let found = tree.inverse_kinematics_of(frame, &target)?;
                 Ok::<_, TreeError>((found, tree.coordinates().to_vec()))
             })
         })?;
@@ -404,13 +411,6 @@ fn rows(value: &Bound<'_, PyAny>) -> PyResult<[[f64; 3]; 3]> {
         ([3, 3], &[a, b, c, d, e, f, g, h, i]) => Ok([[a, b, c], [d, e, f], [g, h, i]]),
         (shape, _) => Err(wrong_shape(value.py(), "rotation", shape, "(3, 3)")),
     }
-}
-
-/// a bᵀ.
-fn product(a: &[[f64; 3]; 3], b: &[[f64; 3]; 3]) -> [[f64; 3]; 3] {
-    core::array::from_fn(|i| {
-        core::array::from_fn(|j| a[i].iter().zip(&b[j]).map(|(x, y)| x * y).sum())
-    })
 }
 
 impl Mechanism {

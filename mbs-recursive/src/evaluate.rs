@@ -92,7 +92,7 @@ pub(crate) fn accelerations_ahead<T: Real, S: Space<T>>(
     finish(m, options, level, s)
 }
 
-/// The same under efforts along the freedoms, and without effects.
+/// The same under efforts along the freedoms; the loads are those of gravity.
 #[cfg(feature = "alloc")]
 pub(crate) fn accelerations_under<T: Real, S: Space<T>>(
     m: &TreeSlices<'_, T, S>,
@@ -101,6 +101,9 @@ pub(crate) fn accelerations_under<T: Real, S: Space<T>>(
     s: &mut Store<'_, T, S>,
 ) -> Result<T, Fault<T>> {
     let mut condensed = begin(m, s)?;
+    for load in m.loads {
+        load.apply(&s.instant(m), condensed)?;
+    }
     inverse::add_efforts(m.links, s.placed, efforts, condensed)?;
     core::mem::swap(&mut s.condensed, &mut condensed);
     finish(m, options, level, s)

@@ -23,6 +23,8 @@ pub mod curves;
 mod cut;
 pub mod energy_balance;
 #[cfg(feature = "alloc")]
+mod enough_inertia;
+#[cfg(feature = "alloc")]
 mod error;
 mod evaluate;
 pub mod explicit;
@@ -74,6 +76,8 @@ pub mod trapezoidal;
 mod tree;
 #[cfg(feature = "alloc")]
 mod turns;
+#[cfg(feature = "alloc")]
+mod weights;
 
 #[cfg(feature = "alloc")]
 pub use error::{LanesError, TreeError};

@@ -74,8 +74,11 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         efforts: &mut [T],
     ) {
         let none = Loops { loops: &[], rows: &[], ..self.mechanism().loops };
-        let has_effects = terms == EffortTerms::WithEffects;
-        let loads = if has_effects { &self.loads[..] } else { &[] };
+        let loads = match terms {
+            EffortTerms::WithEffects => &self.loads[..],
+            EffortTerms::WithoutEffects | EffortTerms::Gravity => self.weights(),
+            EffortTerms::Inertia => &[],
+        };
         let m = TreeSlices { loads, loops: none, ..self.mechanism() };
         let mut s = workspace.store();
         self.place_in(state, &mut s);
@@ -117,7 +120,7 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         state: &mut TreeState<T>,
         workspace: &mut Workspace<T, S>,
     ) -> Result<(), StepError> {
-        let m = TreeSlices { loads: &[], ..self.mechanism() };
+        let m = TreeSlices { loads: self.weights(), ..self.mechanism() };
         let mut s = workspace.store();
         s.z.copy_from_slice(&state.z);
         s.v.copy_from_slice(&state.v);

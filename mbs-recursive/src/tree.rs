@@ -1,20 +1,16 @@
 //! [`TreeModel`]: a scene as a tree of links with cut joints. Built once; constant from then on.
 
 use crate::closed_loop::ClosedLoop;
-use crate::coupled::Couplings;
 use crate::coupling_tables::CouplingTables;
 use crate::error::TreeError;
-use crate::fault::Fault;
 use crate::feedback::{FeedbackMeasure, FeedbackSlices};
 use crate::graph::{Branch, span};
 use crate::indexing::own;
 use crate::joint_facts::JointFacts;
-use crate::link::{ArticulatedInertia, Link, LinkKind, LinkMotion, LinkRotor};
+use crate::link::{Link, LinkKind, LinkRotor};
 use crate::loads::Load;
-use crate::loops::{LoopStore, Loops, Regularisation, index};
+use crate::loops::{Loops, index};
 use crate::order::Order;
-use crate::passes;
-use crate::plan::Plan;
 use crate::rows::Row;
 use crate::slices::{Inputs, TreeSlices};
 use crate::space::{Numbers, Space};
@@ -63,9 +59,12 @@ pub struct TreeModel<T: Real, S: Space<T>> {
     /// What else signals measure.
     pub(crate) measures: Vec<FeedbackMeasure<T>>,
     pub(crate) order: Order,
+    /// Forces at centres of mass where gravity has a factor, then the effects.
     pub(crate) loads: Vec<Load<T, S>>,
+    /// How many of them are parts of gravity.
+    pub(crate) n_weights: usize,
     pub(crate) rotors: Vec<LinkRotor<T>>,
-    /// The effect of the scene that each load comes from.
+    /// The effect of the scene that each load comes from; those of gravity come from none.
     pub(crate) effects: Vec<usize>,
     pub(crate) prescribed: Prescribed<T>,
     pub(crate) tables: Tables<T>,
@@ -85,8 +84,11 @@ pub struct TreeModel<T: Real, S: Space<T>> {
     pub(crate) owner_of_link: Vec<Owner>,
 }
 
+/// A tree, and why it has no accelerations, if it has none.
+type Built<T, S> = Result<(TreeModel<T, S>, Option<TreeError>), TreeError>;
+
 #[cfg(feature = "instances")]
-type New<T, S> = fn(&Scene<T>) -> Result<TreeModel<T, S>, TreeError>;
+type New<T, S> = fn(&Scene<T>, bool) -> Built<T, S>;
 #[cfg(feature = "instances")]
 mbs_core::instances!(
     NEW: New<T, S> = TreeModel::<T, S>::build,
@@ -104,14 +106,27 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
     /// # Errors
     /// [`TreeError`] names the body or joint.
     pub fn new(scene: &Scene<T>) -> Result<Self, TreeError> {
-        #[cfg(feature = "instances")]
-        if T::HAS_INSTANCES {
-            return mbs_core::once::found::<New<T, S>>(NEW)(scene);
-        }
-        Self::build(scene)
+        Ok(Self::made(scene, true)?.0)
     }
 
-    fn build(scene: &Scene<T>) -> Result<Self, TreeError> {
+    /// The same where joints may meet no inertia: then with the fault for which it has no accelerations. Places, velocities, Jacobians
+    /// and the efforts of given accelerations need none.
+    ///
+    /// # Errors
+    /// [`TreeError`] names the body or joint.
+    pub fn with_lack(scene: &Scene<T>) -> Result<(Self, Option<TreeError>), TreeError> {
+        Self::made(scene, false)
+    }
+
+    fn made(scene: &Scene<T>, needs_inertia: bool) -> Built<T, S> {
+        #[cfg(feature = "instances")]
+        if T::HAS_INSTANCES {
+            return mbs_core::once::found::<New<T, S>>(NEW)(scene, needs_inertia);
+        }
+        Self::build(scene, needs_inertia)
+    }
+
+    fn build(scene: &Scene<T>, needs_inertia: bool) -> Built<T, S> {
         if scene.dimension.count() != S::DIMENSION {
             return Err(TreeError::Dimension);
         }
@@ -125,8 +140,10 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         for branch in &graph.branches {
             tree.add_branch((scene, &facts), *branch);
         }
-        tree.check_ends()?;
-        tree.check_inertia()?;
+        let lack = tree.check_ends().and_then(|()| tree.check_inertia()).err();
+        if let Some(lack) = lack.filter(|_| needs_inertia) {
+            return Err(lack);
+        }
         for &cut in &graph.cuts {
             tree.add_loop(scene, cut);
         }
@@ -135,9 +152,10 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         tree.add_feedback(scene)?;
         let Self { links, loops, rows, couplings, .. } = &mut tree;
         tree.order = Order::new(links, loops, (rows, couplings));
+        tree.add_weights(scene);
         tree.add_loads(scene, &list)?;
         tree.add_rotors(scene)?;
-        Ok(tree)
+        Ok((tree, lack))
     }
 
     fn ground(
@@ -180,6 +198,7 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
             measures: Vec::new(),
             order: Order::default(),
             loads: Vec::new(),
+            n_weights: 0,
             rotors: Vec::new(),
             effects: Vec::new(),
             prescribed,
@@ -250,69 +269,6 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         self.seats.push(TreePlace { branch, link: parent, first });
     }
 
-    /// No branch may end without mass.
-    fn check_ends(&self) -> Result<(), TreeError> {
-        let mut is_heavy: Vec<bool> = self.links.iter().map(|l| l.mass > T::ZERO).collect();
-        for (i, link) in self.links.iter().enumerate().skip(1) {
-            let tensor = S::body_inertia(T::ZERO, &S::Point::zero(), &link.tensor, &S::identity());
-            is_heavy[i] |= S::size(&tensor).0 > T::ZERO;
-        }
-        for i in (1..self.links.len()).rev() {
-            if is_heavy[i] {
-                is_heavy[self.links[i].parent as usize] = true;
-            }
-        }
-        for seat in &self.seats {
-            let is_guided = self.links[seat.link as usize].kind.is_guided();
-            if !is_heavy[seat.link as usize] && !is_guided {
-                let body = self.clusters.clusters[seat.branch.cluster].bodies[0];
-                return Err(TreeError::MasslessEnd { body });
-            }
-        }
-        Ok(())
-    }
-
-    /// Every joint of the tree must meet inertia in the reference configuration.
-    fn check_inertia(&self) -> Result<(), TreeError> {
-        let n = self.links.len();
-        let mut z = vec![T::ZERO; self.n_coordinates];
-        self.write_reference(&mut z);
-        let v = vec![T::ZERO; self.n_freedoms];
-        let guides = vec![[T::ZERO; 3]; self.prescribed.n_guides()];
-        let mut placed = vec![LinkMotion::<T, S>::ground(); n];
-        let mut condensed = vec![ArticulatedInertia::<T, S>::empty(); n];
-        own(passes::kinematics(&self.links, (&z, &v, &guides), &mut placed));
-        passes::inertias(&self.links, &placed, &mut condensed);
-        let plan = Plan {
-            stations: &[],
-            passes: &[],
-            pairs: &[],
-            ends: &[],
-            couplings: &[],
-            updates: &[],
-        };
-        let couplings = Couplings::none();
-        let none = Loops { loops: &[], rows: &[], plan, floor: self.floor, couplings };
-        let mut store = LoopStore {
-            k: &mut [],
-            slopes: &mut [],
-            l: &mut [],
-            lambda: &mut [],
-            blocks: &mut [],
-            gains: &mut [],
-            heads: &mut [],
-            scales: &mut [],
-            pivots: &mut [],
-        };
-        let setting = (&none, Regularisation::Fixed(T::ZERO), &S::Motion::zero());
-        match passes::condense(&self.links, &placed, setting, &mut condensed, &mut store) {
-            Err(Fault::NoInertia(fault)) => {
-                Err(TreeError::NoInertia { owner: self.owner_of_link[fault.link as usize] })
-            }
-            _ => Ok(()),
-        }
-    }
-
     /// Writes the coordinates of the reference configuration.
     pub(crate) fn write_reference(&self, z: &mut [T]) {
         z.fill(T::ZERO);
@@ -377,7 +333,7 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         self.tables.codes()
     }
 
-    /// The index of the scene's effect that each load of the mechanism comes from.
+    /// The index of the scene's effect that each load of the mechanism comes from. Those of gravity have one that no scene has.
     #[must_use]
     pub fn effect_of_load(&self) -> &[usize] {
         &self.effects

@@ -29,7 +29,9 @@ pub fn start_faults(
     let document = model.scene_file(name)?;
     let scene = document.scene::<f64>()?;
     let tree = mbs::Tree::new(&scene);
-    if tree.is_ok_and(|mut tree| tree.loop_jacobian().rows == 0) {
+    let has_start =
+        |mut tree: mbs::Tree| tree.inertia_fault().is_none() && tree.loop_jacobian().rows == 0;
+    if tree.is_ok_and(has_start) {
         return Ok(Some(Vec::new()));
     }
     if model.sizes.joints > MOST_JOINTS {

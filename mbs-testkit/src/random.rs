@@ -96,7 +96,7 @@ pub fn tree(seed: u64, dimension: Dimension, n: usize) -> Scene<f64> {
         let mass = 1.5 + random.next();
         let inertia = random.inertia(dimension, mass);
         let center = plus(place, random.point(dimension, 0.4));
-        bodies.push(Body { name: format!("body-{i}"), mass, center, inertia });
+        bodies.push(Body { name: format!("body-{i}"), mass, center, inertia, gravity_scale: None });
         let kind = match dimension {
             Dimension::Planar => PLANAR_KINDS[random.below(PLANAR_KINDS.len())],
             Dimension::Spatial => SPATIAL_KINDS[random.below(SPATIAL_KINDS.len())],
@@ -265,7 +265,7 @@ pub fn split(scene: &Scene<f64>) -> Scene<f64> {
                 };
                 let name = format!("{} {i}", joint.name);
                 let center = joint.points[0];
-                split.bodies.push(Body { name, mass: 0.0, center, inertia });
+                split.bodies.push(Body { name, mass: 0.0, center, inertia, gravity_scale: None });
             }
             let kind = match freedom {
                 Freedom::Slide(_) => JointKind::Prismatic,

@@ -35,6 +35,7 @@ fn four_bar(dimension: Dimension) -> Scene<f64> {
         } else {
             Inertia::Spatial([0.4, 0.3, 0.5, 0.0, 0.0, 0.0])
         },
+        gravity_scale: None,
     };
     let joint = |name: &str, kind: JointKind, bodies: [BodyId; 2], at: [f64; 3], axes| Joint {
         name: name.into(),

@@ -39,8 +39,7 @@ fn keys<'a>(value: &'a Value, found: &mut BTreeSet<&'a str>) {
     }
 }
 
-const ALL_QUANTITIES: &str =
-    "accelerations,efforts,gravity,bias,mass-matrix,loops,momentum,frames,jacobians,derivatives";
+const ALL_QUANTITIES: &str = "accelerations,efforts,gravity,bias,mass-matrix,loops,momentum,frames,centers,jacobians,derivatives";
 
 #[test]
 fn json_keys_are_those_of_the_contract() {

@@ -23,6 +23,7 @@ mod help;
 mod hostile;
 mod inputs;
 mod lean;
+mod link_frames;
 mod manual;
 mod models;
 mod new;

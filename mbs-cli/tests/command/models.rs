@@ -9,7 +9,7 @@ pub(crate) fn arm() -> String {
     path.display().to_string()
 }
 
-fn file(name: &str) -> PathBuf {
+pub(crate) fn file(name: &str) -> PathBuf {
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("models");
     std::fs::create_dir_all(&folder).expect("a folder");
     folder.join(name)

@@ -101,9 +101,11 @@ impl<'a, T: Real> Builder<'a, T> {
             let mut group = GroupDraft::new(Owner::Body(cluster.bodies[0]));
             group.mass = Some((basis.entities.clone(), basis.mass_matrix(cluster)));
             if let Some(g) = self.scene.gravity {
-                let weight = Vector::<T, 3>::from(g) * cluster.mass;
-                for (e, coef) in basis.point(&cluster.center) {
-                    group.forces.push((e, super::row_builder::lifted(coef, &weight)));
+                for (mass, at) in cluster.weights(self.scene) {
+                    let weight = Vector::<T, 3>::from(g) * mass;
+                    for (e, coef) in basis.point(&at) {
+                        group.forces.push((e, super::row_builder::lifted(coef, &weight)));
+                    }
                 }
             }
             group.rows = rows;

@@ -1,9 +1,11 @@
 //! Masses in motion: energy and momentum of bodies at a state.
 //!
 //! ```text
-//! E = 1/2 sum (m c'.c' + omega.I omega),   V = -sum m g.c,   P = sum m c'
+//! E = 1/2 sum (m c'.c' + omega.I omega),   V = -sum s m g.c,   P = sum m c'
 //! L = sum (I omega + m (c - C) x (c' - C'))      C: the centre of mass of all
 //! ```
+//!
+//! s is the factor of gravity on the body.
 
 use super::frame::Frame;
 use crate::Real;
@@ -19,6 +21,8 @@ pub(super) struct BodyInertia<T: Real, const D: usize> {
     pub(super) center: Affine<T, D>,
     /// Mass [kg].
     pub(super) mass: T,
+    /// The mass on which gravity acts [kg].
+    weight: T,
     /// Reference configuration, about the centre of mass [kg m^2].
     pub(super) inertia: Matrix<T, 3>,
 }
@@ -29,7 +33,7 @@ impl<T: Real, const D: usize> BodyInertia<T, D> {
         let (mass, center, inertia) = scene.bodies[body].mass_properties();
         let me = BodyId::Body(body);
         let (frame, center) = (Frame::new(model, me), model.point(me, center.into()));
-        Self { frame, center, mass, inertia }
+        Self { frame, center, mass, weight: scene.bodies[body].gravitational_mass(), inertia }
     }
 
     /// Its centre of mass and the velocity of that.
@@ -65,7 +69,7 @@ pub(super) fn potential_energy<T: Real, const D: usize>(
     state: &State<T>,
 ) -> T {
     let height = |body: &BodyInertia<T, D>| gravity.dot(&body.center(state)[0]);
-    bodies.iter().fold(T::ZERO, |sum, body| sum - body.mass * height(body))
+    bodies.iter().fold(T::ZERO, |sum, body| sum - body.weight * height(body))
 }
 
 /// The momentum of bodies [kg m/s].

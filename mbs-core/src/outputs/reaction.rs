@@ -37,7 +37,6 @@ pub struct Reactions<T: Real, const D: usize> {
     bodies: Vec<Placed<T, D>>,
     /// Of each body, what the unsolved joints must give about its centre of mass.
     missing: Vec<Wrench<T>>,
-    gravity: Vector<T, 3>,
     /// The joints, then the contacts that roll.
     joints: Vec<WrenchBasis<T, D>>,
     n_joints: usize,
@@ -62,6 +61,8 @@ pub struct Reactions<T: Real, const D: usize> {
 #[derive(Debug, Clone)]
 struct Placed<T: Real, const D: usize> {
     body: BodyInertia<T, D>,
+    /// What gravity makes of it [m/s^2].
+    gravity: Vector<T, 3>,
     /// At the state: rotation and centre of mass.
     turned: Matrix<T, 3>,
     at: Vector<T, 3>,
@@ -101,7 +102,6 @@ impl<T: Real, const D: usize> Reactions<T, D> {
         Ok(Self {
             bodies: (0..scene.bodies.len()).map(|b| Placed::new(scene, model, b)).collect(),
             missing: vec![Wrench::zero(); scene.bodies.len()],
-            gravity: scene.gravity.map_or_else(Vector::zeros, Vector::from),
             loads: Loads::new(scene, model).map_err(ModelError::from)?.0,
             rotors: RotorTorque::all(scene, model),
             length: model.length(),
@@ -128,7 +128,7 @@ impl<T: Real, const D: usize> Reactions<T, D> {
     /// allocation.
     pub fn update(&mut self, state: &State<T>) {
         for (body, missing) in self.bodies.iter_mut().zip(&mut self.missing) {
-            *missing = body.update(state, &self.gravity);
+            *missing = body.update(state);
         }
         self.apply_loads(state);
         self.residual = T::ZERO;
@@ -347,7 +347,9 @@ fn take_off<T: Real, const D: usize>(
 
 impl<T: Real, const D: usize> Placed<T, D> {
     fn new(scene: &Scene<T>, model: &NaturalModel<T, D>, body: usize) -> Self {
+        let gravity = scene.gravity.map_or_else(Vector::zeros, Vector::<T, 3>::from);
         Self {
+            gravity: scene.bodies[body].gravity_scale.map_or(gravity, |scale| gravity * scale),
             body: BodyInertia::new(scene, model, body),
             turned: Matrix::<T, 3>::identity(),
             at: Vector::zeros(),
@@ -355,8 +357,8 @@ impl<T: Real, const D: usize> Placed<T, D> {
     }
 
     /// Places the body; what all joints and effects together must give: [m (c'' - g); I omega' + omega x I omega].
-    fn update(&mut self, state: &State<T>, gravity: &Vector<T, 3>) -> Wrench<T> {
-        let BodyInertia { frame, center, mass, inertia } = &self.body;
+    fn update(&mut self, state: &State<T>) -> Wrench<T> {
+        let BodyInertia { frame, center, mass, inertia, .. } = &self.body;
         let r = frame.rotation(&state.q);
         let omega = frame.turning(&state.q, &state.v);
         let alpha = frame.turning(&state.q, &state.a);
@@ -364,7 +366,7 @@ impl<T: Real, const D: usize> Placed<T, D> {
         self.turned = r;
         self.at = raised(&center.value(&state.q));
         Wrench {
-            force: (raised(&center.rate(&state.a)) - gravity) * *mass,
+            force: (raised(&center.rate(&state.a)) - self.gravity) * *mass,
             moment: inertia * alpha + cross(&omega, &(inertia * omega)),
         }
     }

@@ -27,13 +27,12 @@ impl Body<Number> {
     pub fn rod(from: impl Into<Vector3>, to: impl Into<Vector3>, mass: impl Into<Number>) -> Self {
         let (from, to) = (from.into().0, to.into().0);
         let center = core::array::from_fn(|i| Number::HALF * (from[i].clone() + to[i].clone()));
-        Self { name: String::new(), mass: mass.into(), center, inertia: Inertia::Rod { from, to } }
+        Self::of((mass.into(), center), Inertia::Rod { from, to })
     }
 
     /// A point [m] with a mass [kg], which has no orientation.
     pub fn point(at: impl Into<Vector3>, mass: impl Into<Number>) -> Self {
-        let (mass, center) = (mass.into(), at.into().0);
-        Self { name: String::new(), mass, center, inertia: Inertia::Point }
+        Self::of((mass.into(), at.into().0), Inertia::Point)
     }
 
     /// A planar body: centre of mass [m], mass [kg], moment of inertia about the centre [kg m^2].
@@ -42,8 +41,7 @@ impl Body<Number> {
         mass: impl Into<Number>,
         inertia: impl Into<Number>,
     ) -> Self {
-        let inertia = Inertia::Planar(inertia.into());
-        Self { name: String::new(), mass: mass.into(), center: center.into().0, inertia }
+        Self::of((mass.into(), center.into().0), Inertia::Planar(inertia.into()))
     }
 
     /// A spatial body: centre of mass [m], mass [kg], [Ixx, Iyy, Izz, Ixy, Iyz, Izx] about the centre in global axes, products as in
@@ -53,8 +51,18 @@ impl Body<Number> {
         mass: impl Into<Number>,
         inertia: [I; 6],
     ) -> Self {
-        let inertia = Inertia::Spatial(inertia.map(Into::into));
-        Self { name: String::new(), mass: mass.into(), center: center.into().0, inertia }
+        Self::of((mass.into(), center.into().0), Inertia::Spatial(inertia.map(Into::into)))
+    }
+
+    /// The same with gravity times a factor; zero: it has no weight.
+    #[must_use]
+    pub fn with_gravity_scale(mut self, scale: impl Into<Number>) -> Self {
+        self.gravity_scale = Some(scale.into());
+        self
+    }
+
+    fn of((mass, center): (Number, [Number; 3]), inertia: Inertia<Number>) -> Self {
+        Self { name: String::new(), mass, center, inertia, gravity_scale: None }
     }
 }
 

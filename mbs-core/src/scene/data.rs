@@ -27,6 +27,8 @@ pub struct Body<T> {
     pub center: [T; 3],
     /// Inertia about the centre of mass.
     pub inertia: Inertia<T>,
+    /// Factor of gravity on the body: zero for none. `None`: one.
+    pub gravity_scale: Option<T>,
 }
 
 /// Inertia about the centre of mass.

@@ -253,7 +253,7 @@ impl SceneFault {
             Self::CoincidentPoints => write!(f, "has both points in the same place"),
             Self::PointsDiffer => write!(f, "has two different places"),
             Self::DuplicateName(i) => write!(f, "repeats the name of number {}", i + 1),
-            Self::NameOfBody(i) => write!(f, "is the name of body {}", i + 1),
+            Self::NameOfBody(i) => write!(f, "is the name of body {}, on which it is not", i + 1),
             Self::ReservedName => write!(f, "is empty or reserved"),
             Self::UnknownReference => write!(f, "points to something that is not in the scene"),
             Self::NeedsMovingBody => write!(f, "is the ground, which does not move"),

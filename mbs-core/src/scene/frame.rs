@@ -6,7 +6,8 @@ use alloc::string::String;
 /// A named place with axes, which moves with its body or stands on the ground.
 #[derive(Debug, Clone, PartialEq)]
 pub struct BodyFrame<T> {
-    /// Unique name among the frames and bodies: it stands wherever a body's name does.
+    /// Unique name among the frames and the other bodies: it stands wherever a body's name does. Of its own body's name it is the place
+    /// that stands for this body.
     pub name: String,
     /// Its body, or the ground.
     pub body: BodyId,

@@ -6,6 +6,11 @@ use crate::scene::{Body, Inertia};
 
 impl<T: Real> Body<T> {
     /// Mass, centre and inertia about the centre.
+    /// The mass on which gravity acts [kg].
+    pub(crate) fn gravitational_mass(&self) -> T {
+        self.gravity_scale.map_or(self.mass, |scale| self.mass * scale)
+    }
+
     pub(crate) fn mass_properties(&self) -> (T, Vector<T, 3>, Matrix<T, 3>) {
         let center = Vector::from(self.center);
         let mut inertia = Matrix::<T, 3>::zeros();

@@ -170,7 +170,8 @@ impl<T> Body<T> {
             Inertia::Point => Inertia::Point,
         };
         let (mass, center) = (f(&self.mass), all(&self.center, f));
-        Body { name: self.name.clone(), mass, center, inertia }
+        let gravity_scale = self.gravity_scale.as_ref().map(f);
+        Body { name: self.name.clone(), mass, center, inertia, gravity_scale }
     }
 }
 

@@ -196,7 +196,7 @@ impl<'a> Walk<'_, 'a, '_, '_> {
         if scope.size != Size::ONE {
             self.model.sizes.insert(link, scope.size);
         }
-        self.model.robot.links.push(Link { name, at: element.at, pose: frame, mass: None });
+        self.model.robot.links.push(Link { pose: frame, ..Link::new(&name, element.at) });
         let mut inner = Scope {
             link,
             frame,

@@ -175,7 +175,7 @@ pub(super) fn join(
             body
         } else {
             let name = model.free_name(Sort::Link, &format!("{body_name}~{number}"));
-            model.robot.links.push(Link { name, at: first.motion.at, pose, mass: None });
+            model.robot.links.push(Link { pose, ..Link::new(&name, first.motion.at) });
             model.robot.links.len() - 1
         };
         add(own, &group, [from, to], model)?;

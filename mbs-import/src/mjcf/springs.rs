@@ -62,6 +62,5 @@ fn terms(on: &Target, factor: f64) -> Vec<Term> {
             terms.map(|term| Term { factor: factor * term.factor, ..term }).collect()
         }
         Target::Coordinate(of) => vec![Term::new(of.clone(), factor)],
-        Target::Point { .. } => Vec::new(),
     }
 }

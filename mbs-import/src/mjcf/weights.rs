@@ -1,10 +1,10 @@
 //! What settings of the whole model do to the inertias of its bodies.
 
-use super::model::{Model, Moves};
+use super::model::{Model, Moves, Sort};
 use crate::element::Attribute;
 use crate::inertia::{Mass, SLACK};
-use crate::pose::{M3, v3};
-use crate::robot::{GROUND, Kind, Target, What};
+use crate::pose::{M3, Pose};
+use crate::robot::{GROUND, Joint, Kind, Link};
 use crate::source::{Fault, Read};
 
 /// Rounding of the moments of a tensor, relative to the largest.
@@ -72,14 +72,7 @@ pub(super) fn settle(model: &mut Model<'_, '_, '_>) -> Read<()> {
         if mass != Mass::none() {
             model.robot.links[link].mass = Some(mass);
         }
-        // what stands needs no force
-        if lift != 0.0 && mass.mass > 0.0 && carriers[link] != GROUND {
-            // a force against gravity at the centre of mass
-            let weight = v3(model.compiler.gravity) * (-lift * mass.mass);
-            let name = format!("{} gravcomp", model.robot.links[link].name);
-            let on = Target::Point { link, place: mass.center, direction: weight };
-            model.law(&name, What::Held { on, value: 1.0 });
-        }
+        model.robot.links[link].gravity_scale = 1.0 - lift;
     }
     Ok(())
 }
@@ -114,16 +107,26 @@ pub(super) fn armatures(model: &mut Model<'_, '_, '_>) {
             continue;
         }
         let added = Mass { mass, center: place, tensor: M3::identity() * moment };
-        model.robot.links[link].mass = Some(own.with(&added));
         let body = model.robot.links[link].name.clone();
         let note = format!("Body {body}: armature {armature} of joint {} is in it.", motion.name);
         model.robot.notes.push(note);
         if mass > 0.0 {
-            let weight = v3(model.compiler.gravity) * -mass;
-            let on = Target::Point { link, place, direction: weight };
-            model.law(&format!("{} armature", motion.name), What::Held { on, value: 1.0 });
+            weightless(model, (link, &format!("{} armature", motion.name)), added);
+        } else {
+            model.robot.links[link].mass = Some(own.with(&added));
         }
     }
+}
+
+/// A mass without weight as a link of its own, fixed to another one.
+fn weightless(model: &mut Model<'_, '_, '_>, (to, name): (usize, &str), mass: Mass) {
+    let name = model.free_name(Sort::Link, name);
+    let (at, number, place) = (model.robot.links[to].at, model.robot.links.len(), mass.center);
+    let pose = Pose::new(M3::identity(), place);
+    let link = Link { pose, mass: Some(mass), gravity_scale: 0.0, ..Link::new(&name, at) };
+    model.robot.links.push(link);
+    let name = model.free_name(Sort::Joint, &name);
+    model.robot.joints.push(Joint::new(&name, at, Kind::Fixed, [to, number], place));
 }
 
 /// Raises mass and principal moments to the least that settings allow.

@@ -19,8 +19,7 @@ pub(crate) use table::TABLE;
 use crate::context::Context;
 use crate::element::Element;
 use crate::options::BaseKind;
-use crate::pose::v3;
-use crate::robot::{Frame, GROUND, Joint, Kind, Law, Link, Robot, Target, What, scene_name};
+use crate::robot::{Frame, GROUND, Joint, Kind, Link, Robot, scene_name};
 use crate::source::Read;
 use collect::{Collector, Model};
 use frames::{Frames, WORLD};
@@ -103,7 +102,10 @@ fn links(
             }
             let mass = link::mass(element, &place, context)?;
             robot.links[number].mass = mass.map(|mass| mass.seen_from(&pose));
-            gravity(element, number, robot)?;
+            if let Some(gravity) = element.child("gravity") {
+                robot.links[number].gravity_scale =
+                    if gravity.content().flag()? { 1.0 } else { 0.0 };
+            }
         }
         for element in model.each("frame") {
             let full = format!("{}{}", scope.prefix, element.need("name")?.value);
@@ -123,19 +125,6 @@ fn links(
 fn is_taken(name: &str, robot: &Robot) -> bool {
     let mut links = robot.links.iter().map(|link| &link.name);
     links.any(|link| link == name) || robot.frames.iter().any(|frame| frame.name == name)
-}
-
-/// A link without gravity is held by its weight, upward.
-fn gravity(element: &Element, link: usize, robot: &mut Robot) -> Read<()> {
-    let Some(gravity) = element.child("gravity") else { return Ok(()) };
-    let mass = robot.links[link].mass.filter(|mass| mass.mass > 0.0);
-    if let (false, Some(mass)) = (gravity.content().flag()?, mass) {
-        let weight = v3(robot.gravity) * -mass.mass;
-        let on = Target::Point { link, place: mass.center, direction: weight };
-        let name = format!("{} without gravity", robot.links[link].name);
-        robot.laws.push(Law { name, what: What::Held { on, value: 1.0 } });
-    }
-    Ok(())
 }
 
 /// What hangs on nothing moves freely; a static model is the ground's.

@@ -58,13 +58,12 @@ impl Writer<'_> {
                     self.numbers(&[("stiffness", *stiffness), ("damping", *damping)]);
                 }
             }
-            What::Held { on, value } => self.drive(name, on, *value),
             What::Input { on, value } => {
                 self.drive(name, on, *value);
                 self.key("input", "true");
             }
             What::Driven { on, signal } => {
-                self.effect(name, word_of_drive(on), on);
+                self.effect(name, "torque", on);
                 self.key("signal", quoted(signal));
             }
             What::Push { link, at, turns, signals } => {
@@ -118,11 +117,8 @@ impl Writer<'_> {
 
     /// A force or moment of a value.
     fn drive(&mut self, name: &str, on: &Target, value: f64) {
-        self.effect(name, word_of_drive(on), on);
-        match on {
-            Target::Coordinate(_) | Target::Sum(_) => self.key("value", number(value)),
-            Target::Point { direction, .. } => self.key("value", vector(&(direction * value))),
-        }
+        self.effect(name, "torque", on);
+        self.key("value", number(value));
     }
 
     fn signal_of(&mut self, name: &str, kind: &str, of: &[String]) {
@@ -195,13 +191,5 @@ impl Writer<'_> {
                 self.started(*value);
             }
         }
-    }
-}
-
-/// A drive on a body is a force or a torque.
-const fn word_of_drive(on: &Target) -> &'static str {
-    match on {
-        Target::Point { .. } => "force",
-        Target::Coordinate(_) | Target::Sum(_) => "torque",
     }
 }

@@ -300,8 +300,9 @@ class Mechanism:
         """Efforts (nv,) that keep all velocities as they are: centrifugal and Coriolis forces, and gravity."""
     def gravity(self, q: ArrayLike, *, strict: bool = False) -> Array:
         """Efforts (nv,) that hold the mechanism at rest against gravity."""
-    def jacobian(self, body: str, at: ArrayLike, q: ArrayLike, *, strict: bool = False) -> Array:
-        """Jacobian (6, nv) of a body's point, which is at `at` in the reference configuration: linear, then angular, global axes."""
+    def jacobian(self, body: str, at: ArrayLike | None = None, q: ArrayLike | None = None, *, strict: bool = False) -> Array:
+        """Jacobian (6, nv) of a frame's origin by (frame, q), of a point that moves with a body or a frame by (name, at, q), which is at
+        `at` in the reference configuration: linear, then angular, global axes."""
     def loop_jacobian(self, q: ArrayLike, *, strict: bool = False) -> Array:
         """Jacobian (rows, nv) of the joints that close loops."""
     def energies(self, q: ArrayLike, v: ArrayLike) -> tuple[Any, Any]:
@@ -311,7 +312,8 @@ class Mechanism:
     def pose(self, body: str, q: ArrayLike) -> tuple[Array, Array]:
         """Centre of mass (3,) of a body, and its rotation (3, 3) from the reference configuration."""
     def frame(self, name: str, q: ArrayLike, v: ArrayLike | None = None) -> dict[str, Array]:
-        """A frame at a state: position (3,), rotation (3, 3), velocity (3,), angular_velocity (3,), in global axes."""
+        """A frame at a state: position (3,), rotation (3, 3), velocity (3,), angular_velocity (3,), in global axes; of a body without a frame
+        of its name the centre of mass."""
     def center_of_mass(self, q: ArrayLike) -> Array:
         """Centre of mass (3,) of all bodies."""
     def forward_derivatives(self, q: ArrayLike, v: ArrayLike, effort: ArrayLike) -> Derivatives:
@@ -326,8 +328,8 @@ class Mechanism:
         position: ArrayLike | None = None,
         rotation: ArrayLike | None = None,
     ) -> Array:
-        """Coordinates (nq,) in which a frame, or the centre of mass of a body by its name, is at a position (3,) with a rotation (3, 3),
-        from `q` on. What is left out is free; loops stay closed."""
+        """Coordinates (nq,) in which a frame is at a position (3,) with a rotation (3, 3), from `q` on; of a body without a frame of its name
+        it is the centre of mass. What is left out is free; loops stay closed."""
     def integrate(self, q: ArrayLike, step: ArrayLike) -> Array:
         """q moved by `step` (nv,) along the velocities."""
     def difference(self, q0: ArrayLike, q1: ArrayLike) -> Array:

@@ -73,6 +73,7 @@ impl<T: Real, S: Space<T>> OwnFreedoms<T, S> {
                 self.write_slopes((part, c), moving, slopes);
             }
         }
+        self.add_weight_slopes(model, s.placed, moving, slopes.q);
         for rotor in m.rotors {
             for c in self.links[rotor.link as usize].columns.clone() {
                 slopes.a[self.columns[c].number as usize * (n + 1)] += rotor.inertia;

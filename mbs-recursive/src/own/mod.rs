@@ -20,6 +20,7 @@ mod moving;
 mod rows;
 mod six;
 mod sums;
+mod weights;
 
 pub use columns::{LinkFreedoms, OwnFreedoms};
 pub use derivatives::EffortSlopes;

@@ -10,7 +10,7 @@
 use super::OwnFreedoms;
 use super::columns::{ColumnPart, PartKind, six};
 use super::mass::moments;
-use super::six::{Six, V3};
+use super::six::{Moments, Six, V3};
 use super::sums::Sums;
 use crate::indexing::own;
 use crate::inverse;
@@ -53,6 +53,8 @@ pub struct MovingColumns<T: Real> {
     pub(super) motions: Vec<Motion<T>>,
     pub(super) columns: Vec<Moving<T>>,
     pub(super) sums: Vec<Sums<T>>,
+    /// What gravity acts on beside the masses.
+    pub(super) weights: Vec<Moments<T>>,
     /// The common point, from the tree's base.
     pub(super) origin: V3<T>,
 }
@@ -67,6 +69,7 @@ impl<T: Real> MovingColumns<T> {
             motions: vec![Motion { v: zero, a: zero }; model.n_links() + 1],
             columns: vec![column; model.n_freedoms()],
             sums: vec![Sums::zero(); model.n_links() + 1],
+            weights: vec![Moments::zero(); model.n_links() + 1],
             origin: V3::zeros(),
         }
     }

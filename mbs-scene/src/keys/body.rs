@@ -28,6 +28,7 @@ pub(super) fn tables() -> Vec<KeyTable> {
                 "A uniform slender rod: centre and inertia follow.",
             ),
             may("point", Place, "m", "none", "A point mass: a place, and no orientation."),
+            may("gravity_scale", Number, "", "1", "Factor of gravity on this body: 0 for none."),
         ],
     );
     let rod = inside(

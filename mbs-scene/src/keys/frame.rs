@@ -11,7 +11,7 @@ pub(super) fn tables() -> Vec<KeyTable> {
         "frame",
         meaning,
         vec![
-            need("name", Name, "", "Its name, which is no body's."),
+            need("name", Name, "", "Its name, which is no other body's than its own."),
             need("body", Of(Referent::Body), "", "Its body."),
             need("at", Place, "m", "Its place in the reference configuration."),
             may("axes", Vectors(2), "", "x and y", "Its first and its second axis.").in_space(),

@@ -6,12 +6,13 @@ use mbs_core::scene::{Body, Inertia, Number};
 pub(crate) fn read(fields: &Fields<'_>) -> Read<Body<Number>> {
     let context = fields.context;
     let (name, mass) = (fields.name()?, fields.number("mass")?);
+    let gravity_scale = fields.optional("gravity_scale")?;
     if fields.get("point").is_some() {
         for other in ["center", "inertia", "rod"] {
             fields.exclusive("point", other)?;
         }
         let center = fields.vector("point")?;
-        return Ok(Body { name, mass, center, inertia: Inertia::Point });
+        return Ok(Body { name, mass, center, inertia: Inertia::Point, gravity_scale });
     }
     if let Some(item) = fields.get("rod") {
         fields.exclusive("rod", "center")?;
@@ -19,7 +20,8 @@ pub(crate) fn read(fields: &Fields<'_>) -> Read<Body<Number>> {
         let ends = context.table(item, "a table: { from = [..], to = [..] }", "rod")?;
         let (from, to) = (ends.vector("from")?, ends.vector("to")?);
         let center = core::array::from_fn(|i| Number::HALF * (from[i].clone() + to[i].clone()));
-        return Ok(Body { name, mass, center, inertia: Inertia::Rod { from, to } });
+        let inertia = Inertia::Rod { from, to };
+        return Ok(Body { name, mass, center, inertia, gravity_scale });
     }
     // a body without mass has neither a centre of mass nor inertia to speak of
     let center = match fields.get("center") {
@@ -35,5 +37,5 @@ pub(crate) fn read(fields: &Fields<'_>) -> Read<Body<Number>> {
             Inertia::Spatial(fields.numbers_of("inertia", form)?)
         }
     };
-    Ok(Body { name, mass, center, inertia })
+    Ok(Body { name, mass, center, inertia, gravity_scale })
 }

@@ -292,6 +292,7 @@ impl Writer<'_> {
             }
             Inertia::Point => keys.push("point", self.vector(&body.center)),
         }
+        keys.push_some("gravity_scale", body.gravity_scale.as_ref());
         keys
     }
 

@@ -146,6 +146,7 @@ impl Tree {
 
     /// Replaces the mass matrix by its factors.
     pub fn factor(&mut self) -> Result<(), TreeError> {
+        self.needs_inertia()?;
         let mass = &mut self.mass.data;
         with!(&mut self.inner, t => t.own.factor(mass).map_err(|link| {
             let owner = t.model.owner_of_link(link);

@@ -57,6 +57,7 @@ impl Tree {
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn accelerations(&mut self) -> Result<&[f64], TreeError> {
+        self.needs_inertia()?;
         let names = &self.names;
         with!(&mut self.inner, tree => {
             let Typed { model, state, workspace, .. } = &mut **tree;
@@ -92,6 +93,7 @@ impl Tree {
     /// [`TreeErrorKind::OpenLoops`] where no small motion closes them, [`TreeErrorKind::NoAccelerations`] without loops; the tree is then
     /// unchanged.
     pub fn make_consistent(&mut self) -> Result<f64, TreeError> {
+        self.needs_inertia()?;
         let names = &self.names;
         with!(&mut self.inner, tree => {
             let Typed { model, state, workspace, .. } = &mut **tree;

@@ -82,7 +82,8 @@ impl Tree {
     /// v̇ under efforts τ along v and gravity, loops closed.
     ///
     /// # Errors
-    /// [`TreeErrorKind::Length`], [`TreeErrorKind::NotFinite`]; [`TreeErrorKind::NoAccelerations`] at a singular position.
+    /// [`TreeErrorKind::Length`], [`TreeErrorKind::NotFinite`]; [`TreeErrorKind::NoAccelerations`] at a singular position,
+    /// [`TreeErrorKind::NoInertia`] where a joint meets none.
     ///
     /// ```
     /// # let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes/double-pendulum.toml");
@@ -258,6 +259,7 @@ impl Tree {
 
     /// Accelerations under efforts, into the state.
     pub fn accelerate(&mut self, effort: Option<&[f64]>) -> Result<(), TreeError> {
+        self.needs_inertia()?;
         self.layout.efforts_inward(effort.unwrap_or(&self.zero), &mut self.tree);
         let (efforts, names) = (&self.tree, &self.names);
         with!(&mut self.inner, tree => {

@@ -1,6 +1,7 @@
 //! What a tree refuses, with names.
 
 use crate::erased::Error;
+use crate::erased::error::UnknownName;
 use crate::names::Names;
 use crate::stop::StopError;
 use mbs_core::model::Owner;
@@ -22,6 +23,8 @@ pub struct TreeError {
 pub enum TreeErrorKind {
     /// The mechanism has no model in relative coordinates.
     NoTree(StopError),
+    /// No accelerations follow from any efforts: a joint meets no inertia.
+    NoInertia(StopError),
     /// No accelerations follow from the efforts.
     NoAccelerations(StopError),
     /// From the position no small motion closes the loops.
@@ -30,6 +33,8 @@ pub enum TreeErrorKind {
     Loops(&'static str),
     /// No forces move the frame in some direction: it has no inertia there, because the joints do not move it so.
     Held,
+    /// No frame has this name, and no body.
+    UnknownFrame(UnknownName),
     /// The joint closes a loop: its equations are rows of the loop Jacobian.
     Cut,
     /// The joint follows its guide.
@@ -71,6 +76,11 @@ impl TreeError {
         let no_coordinates = |whose| format!("a joint that {whose} has no coordinates");
         match &self.kind {
             Kind::NoTree(reason) => ("no-tree", reason.hint(), reason.to_string()),
+            Kind::NoInertia(reason) => (
+                "no-inertia",
+                "give the body mass and inertia; places, Jacobians, inverse kinematics and the efforts of given accelerations need none",
+                format!("no accelerations follow from forces: {reason}"),
+            ),
             Kind::NoAccelerations(reason) => (
                 "no-accelerations",
                 "leave this position, in which loops are singular; check that q and v close them, as those of a simulation do",
@@ -92,6 +102,9 @@ impl TreeError {
                 "the joints do not move the frame in every direction: it has no inertia there"
                     .into(),
             ),
+            Kind::UnknownFrame(error) => {
+                (error.code(), "", format!("there is no frame `{}`", error.name))
+            }
             Kind::Cut => {
                 let hint = "use `loop_jacobian`, or coordinates of another joint of the loop";
                 ("cut-joint", hint, no_coordinates("closes a loop"))
@@ -130,6 +143,12 @@ impl TreeError {
     }
 }
 
+impl From<UnknownName> for TreeError {
+    fn from(error: UnknownName) -> Self {
+        TreeErrorKind::UnknownFrame(error).into()
+    }
+}
+
 impl From<TreeErrorKind> for TreeError {
     fn from(kind: TreeErrorKind) -> Self {
         Self { kind, joint: None, body: None }
@@ -159,6 +178,9 @@ impl Error for TreeError {
         self.body.as_deref()
     }
     fn hint(&self) -> Option<String> {
-        Some(self.words().1.to_owned())
+        match &self.kind {
+            TreeErrorKind::UnknownFrame(error) => error.hint(),
+            _ => Some(self.words().1.to_owned()),
+        }
     }
 }

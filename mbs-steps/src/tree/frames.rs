@@ -11,8 +11,8 @@ use mbs_recursive::own::MovingColumns;
 const ROUNDINGS: f64 = 64.0;
 
 impl Tree {
-    /// The body that carries a `[[frame]]` of the scene, and the frame's origin in the reference configuration [m]; of a body's name its
-    /// centre of mass. Points and Jacobians take both.
+    /// The body that carries a `[[frame]]` of the scene, and the frame's origin in the reference configuration [m]; of a body without a
+    /// frame of its name its centre of mass. Points and Jacobians take both.
     ///
     /// # Errors
     /// [`UnknownName`], which proposes the nearest name.

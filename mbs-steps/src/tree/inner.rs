@@ -28,6 +28,9 @@ pub(super) struct Typed<S: Space<f64>> {
     pub moving: Option<MovingColumns<f64>>,
 }
 
+/// With the layout of its coordinates, and why it has no accelerations, if it has none.
+type Made<X> = (X, Layout, Option<StopError>);
+
 /// Does the same in either dimension.
 macro_rules! with {
     ($inner:expr, $tree:ident => $done:expr) => {
@@ -40,16 +43,16 @@ macro_rules! with {
 pub(super) use with;
 
 impl Inner {
-    /// The tree of a scene, at rest in the reference configuration.
-    pub(super) fn new(scene: &Scene<f64>) -> Result<(Self, Layout), StopError> {
+    /// The tree of a scene, at rest in the reference configuration, and why it has no accelerations, if it has none.
+    pub(super) fn new(scene: &Scene<f64>) -> Result<Made<Self>, StopError> {
         Ok(match scene.dimension {
             Dimension::Planar => {
-                let (typed, layout) = Typed::new(scene)?;
-                (Self::Planar(Box::new(typed)), layout)
+                let (typed, layout, lack) = Typed::new(scene)?;
+                (Self::Planar(Box::new(typed)), layout, lack)
             }
             Dimension::Spatial => {
-                let (typed, layout) = Typed::new(scene)?;
-                (Self::Spatial(Box::new(typed)), layout)
+                let (typed, layout, lack) = Typed::new(scene)?;
+                (Self::Spatial(Box::new(typed)), layout, lack)
             }
         })
     }
@@ -66,12 +69,13 @@ impl<S: Space<f64>> Typed<S> {
         StopError::step(error, freedom, |row| model.owner_of_row(row))
     }
 
-    fn new(scene: &Scene<f64>) -> Result<(Self, Layout), StopError> {
-        let model = TreeModel::new(scene).map_err(StopError::tree)?;
+    fn new(scene: &Scene<f64>) -> Result<Made<Self>, StopError> {
+        let (model, lack) = TreeModel::with_lack(scene).map_err(StopError::tree)?;
         let layout = Layout::new(scene, &model);
         let own = OwnFreedoms::new(&model, &layout.freedoms(model.n_links()));
         let (workspace, state) = (Workspace::new(&model), TreeState::at_rest(&model));
         let motions = scene.bodies.iter().map(|b| RigidMotion::at_rest(b.center.into())).collect();
-        Ok((Self { model, workspace, state, motions, own, moving: None }, layout))
+        let made = Self { model, workspace, state, motions, own, moving: None };
+        Ok((made, layout, lack.map(StopError::tree)))
     }
 }

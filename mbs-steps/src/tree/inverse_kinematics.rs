@@ -8,8 +8,9 @@
 //! that a step would take out of it stay. After a step the loops are closed exactly; a step that does not lessen the error is taken
 //! back, and λ grows.
 
-use super::inner::{Inner, Typed, with};
-use super::{Tree, TreeError, TreeErrorKind, checked};
+use super::inner::{Inner, with};
+use super::{Tree, TreeError, TreeErrorKind, checked, fictitious};
+use crate::erased::values::rows;
 use mbs_core::algebra::{Matrix as Square, Vector, cross, rotation_vector};
 use mbs_core::scene::{BodyId, JointId};
 
@@ -156,6 +157,36 @@ impl Tree {
         Ok(found)
     }
 
+    /// The same for a frame by its name, which [`frame`](Self::frame) knows: `position` is of its origin and `rotation` of its axes, in global
+    /// axes.
+    ///
+    /// # Errors
+    /// As for [`inverse_kinematics`](Self::inverse_kinematics); [`TreeErrorKind::UnknownFrame`].
+    ///
+    /// ```
+    /// # let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes/double-pendulum.toml");
+    /// use mbs::{FrameTarget, InverseKinematicsEnd};
+    /// let mut tree = mbs::Mechanism::read(path)?.tree()?;
+    /// tree.set(&[0.3, 0.3], &[0.0, 0.0])?;
+    /// let target = FrameTarget { position: Some([1.0, 1.0, 0.0]), ..FrameTarget::default() };
+    /// // without a frame of that name it is the body's centre of mass
+    /// let found = tree.inverse_kinematics_of("lower", &target)?;
+    /// assert_eq!(found.end, InverseKinematicsEnd::Reached);
+    /// assert!((tree.frame("lower")?.position[0] - 1.0).abs() < 1e-9);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn inverse_kinematics_of(
+        &mut self,
+        frame: &str,
+        target: &FrameTarget,
+    ) -> Result<InverseKinematics, TreeError> {
+        let frame = self.named(frame)?;
+        // of the body, from the reference configuration
+        let of_body = |rows| matrix(&rows) * frame.axes.transpose();
+        let rotation = target.rotation.map(|axes| rows(&of_body(axes)));
+        self.inverse_kinematics(frame.body, frame.at, &FrameTarget { rotation, ..*target })
+    }
+
     /// Stands at rest at a position, with its loops closed.
     fn close_loops(&mut self, q: &[f64]) -> Result<(), TreeError> {
         let (before, v) = (self.q.clone(), self.v.clone());
@@ -164,16 +195,18 @@ impl Tree {
         if self.loops.rows == 0 {
             return Ok(());
         }
-        let closed = with!(&mut self.inner, tree => {
-            let Typed { model, state, workspace, .. } = &mut **tree;
-            model.close_loops(state, workspace).map_err(|error| {
-                let reason = (Typed::reason(model, error), &self.names);
-                TreeError::of_model(TreeErrorKind::OpenLoops, reason)
-            })
-        });
-        if let Err(error) = closed {
+        let closed = match &mut self.closing {
+            None => fictitious::close(&mut self.inner),
+            Some(closing) => {
+                closing.state().copy_from(self.inner.state());
+                let closed = fictitious::close(closing);
+                self.inner.state().z.copy_from_slice(&closing.state().z);
+                closed
+            }
+        };
+        if let Err(reason) = closed {
             self.set(&before, &v)?;
-            return Err(error);
+            return Err(TreeError::of_model(TreeErrorKind::OpenLoops, (reason, &self.names)));
         }
         let mut q = core::mem::take(&mut self.q);
         self.layout.coordinates_outward(&self.inner.state().z, &mut q);

@@ -4,6 +4,7 @@ mod derivatives;
 mod driven;
 mod dynamics;
 mod error;
+mod fictitious;
 mod follow;
 mod frames;
 mod inner;
@@ -15,6 +16,7 @@ mod rollout;
 mod values;
 
 pub use error::{TreeError, TreeErrorKind};
+pub use fictitious::with_mass;
 pub use inverse_kinematics::{FrameTarget, InverseKinematics, InverseKinematicsEnd};
 pub use layout::TreeRange;
 pub use places::{FrameMotion, TotalMomentum};
@@ -30,6 +32,7 @@ use mbs_core::cluster::mass_properties;
 use mbs_core::model::State;
 use mbs_core::rigid::RigidMotion;
 use mbs_core::scene::{BodyId, JointId, Scene};
+use std::collections::HashSet;
 
 /// A point of a body, in the reference configuration, and what it counts.
 type Weighted = (BodyId, [f64; 3], f64);
@@ -67,8 +70,14 @@ type Weighted = (BodyId, [f64; 3], f64);
 pub struct Tree {
     inner: Inner,
     layout: Layout,
+    /// Why no accelerations follow from forces, at any position.
+    lack: Option<TreeError>,
+    /// The same tree with masses, by which loops close where it has too few.
+    closing: Option<Inner>,
     /// Centres of mass, each with its part of all mass.
     shares: Vec<Weighted>,
+    /// Of each body, whether the scene has a frame of its name.
+    has_frame: Vec<bool>,
     /// All mass [kg].
     total: f64,
     scene: Scene<f64>,
@@ -103,8 +112,9 @@ impl Tree {
     pub fn new(scene: &Scene<f64>) -> Result<Self, TreeError> {
         let names = Names::new(scene);
         let made = Inner::new(scene);
-        let (mut inner, mut layout) =
+        let (mut inner, mut layout, lack) =
             made.map_err(|e| TreeError::of_model(TreeErrorKind::NoTree, (e, &names)))?;
+        let lack = lack.map(|lack| TreeError::of_model(TreeErrorKind::NoInertia, (lack, &names)));
         let rows = with!(&inner, tree => tree.model.n_rows());
         let [n_q, n] = layout.n;
         let (mut q, zero) = (vec![0.0; n_q], vec![0.0; n]);
@@ -118,10 +128,14 @@ impl Tree {
         let square = || Matrix::zeros(0, n);
         let inputs = Inputs::new(scene);
         let prescribed = with!(&inner, tree => tree.model.prescribed());
+        let needs_masses = lack.is_some() && rows > 0;
         Ok(Self {
+            closing: if needs_masses { fictitious::tree(scene, &inner) } else { None },
+            lack,
             input_places: inputs.places(prescribed),
             input_list: inputs.list().to_vec(),
             shares: (0..scene.bodies.len()).map(share).collect(),
+            has_frame: has_frame(scene),
             total,
             scene: scene.clone(),
             v: zero.clone(),
@@ -166,6 +180,29 @@ impl Tree {
         self.layout.coordinates_inward(&self.q, &mut state.z);
         self.layout.velocities_inward(&self.v, &mut state.v);
         Ok(())
+    }
+
+    /// Why no accelerations follow from forces at any position: some joint meets no inertia. Places, velocities, Jacobians, inverse
+    /// kinematics and the efforts of given accelerations need none. `None`: it has them.
+    ///
+    /// ```
+    /// use mbs::{Body, Error, GROUND, Joint, Mechanism};
+    /// let mut m = Mechanism::planar("arm");
+    /// let arm = m.add(Body::planar([1.0, 0.0], 0.0, 0.0));
+    /// m.add(Joint::revolute([GROUND, arm], [0.0, 0.0]));
+    /// let mut tree = m.tree()?;
+    /// assert_eq!(tree.inertia_fault().map(|fault| fault.code()), Some("no-inertia"));
+    /// assert_eq!(tree.point_jacobian(arm, [2.0, 0.0, 0.0]).row(1), [2.0]);
+    /// # Ok::<(), mbs::SimulationError>(())
+    /// ```
+    #[must_use]
+    pub fn inertia_fault(&self) -> Option<&TreeError> {
+        self.lack.as_ref()
+    }
+
+    /// Refuses what needs the inertia that it lacks.
+    fn needs_inertia(&self) -> Result<(), TreeError> {
+        self.lack.clone().map_or(Ok(()), Err)
     }
 
     /// Sets the time [s] at which guided joints stand.
@@ -306,6 +343,12 @@ impl Tree {
     pub fn velocities(&self) -> &[f64] {
         &self.v
     }
+}
+
+/// Of each body, whether the scene has a frame of its name.
+fn has_frame(scene: &Scene<f64>) -> Vec<bool> {
+    let frames: HashSet<&str> = scene.frames.iter().map(|frame| frame.name.as_str()).collect();
+    scene.bodies.iter().map(|body| frames.contains(body.name.as_str())).collect()
 }
 
 /// Are there as many numbers as expected?

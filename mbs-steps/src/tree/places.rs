@@ -39,7 +39,7 @@ pub struct TotalMomentum {
 pub struct Frame {
     pub body: BodyId,
     pub at: [f64; 3],
-    axes: Matrix<f64, 3>,
+    pub axes: Matrix<f64, 3>,
 }
 
 impl Tree {
@@ -59,8 +59,8 @@ impl Tree {
         Pose { position: motion.point(&center.into())[0].into(), rotation: rows(&motion.rotation) }
     }
 
-    /// A `[[frame]]` of the scene by its name; or a body, whose frame is at its centre of mass, with the global axes of the reference
-    /// configuration.
+    /// A `[[frame]]` of the scene by its name; of a body without a frame of its name its centre of mass, with the global axes of the
+    /// reference configuration, as [`centers`](Self::centers) has it.
     ///
     /// # Errors
     /// [`UnknownName`], which proposes the nearest name.
@@ -78,7 +78,7 @@ impl Tree {
         self.named(name).map(|frame| self.moved(frame))
     }
 
-    /// All frames of the scene, then all bodies, each with its name, as [`frame`](Self::frame) has them.
+    /// All frames of the scene, then all bodies without a frame of their name, each with its name, as [`frame`](Self::frame) has them.
     ///
     /// ```
     /// # let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes/double-pendulum.toml");
@@ -90,6 +90,20 @@ impl Tree {
     pub fn frames(&mut self) -> impl Iterator<Item = (&str, FrameMotion)> {
         self.motions();
         self.placed()
+    }
+
+    /// The centres of mass of all bodies by name, with the global axes of the reference configuration.
+    ///
+    /// ```
+    /// # let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes/double-pendulum.toml");
+    /// let mut tree = mbs::Mechanism::read(path)?.tree()?;
+    /// let places: Vec<_> = tree.centers().map(|(name, center)| (name, center.position[0])).collect();
+    /// assert_eq!(places, [("upper", 0.5), ("lower", 1.5)]);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn centers(&mut self) -> impl Iterator<Item = (&str, FrameMotion)> {
+        self.motions();
+        self.bodies().map(|(name, frame)| (name, self.moved(frame)))
     }
 
     /// The frames at the motions that were evaluated last.
@@ -107,18 +121,29 @@ impl Tree {
         FrameMotion { position, rotation, velocity, angular_velocity }
     }
 
-    /// All frames of the scene, then all bodies, with their names.
+    /// All frames of the scene, then all bodies that have none of their name, with their names.
     fn known(&self) -> impl Iterator<Item = (&str, Frame)> {
-        let own = self.scene.frames.iter().map(|x| {
-            let frame = Frame { body: x.body, at: x.at, axes: axes(x.axes) };
-            (x.name.as_str(), frame)
-        });
-        let bodies = self.scene.bodies.iter().zip(&self.shares).map(|(x, &(body, at, _))| {
-            (x.name.as_str(), Frame { body, at, axes: Matrix::<f64, 3>::identity() })
-        });
-        own.chain(bodies)
+        let bodies = self.bodies().zip(&self.has_frame);
+        let bodies = bodies.filter_map(|(body, &has_frame)| (!has_frame).then_some(body));
+        self.own_frames().chain(bodies)
     }
 
+    /// The frames of the scene with their names.
+    fn own_frames(&self) -> impl Iterator<Item = (&str, Frame)> {
+        self.scene.frames.iter().map(|x| {
+            let frame = Frame { body: x.body, at: x.at, axes: axes(x.axes) };
+            (x.name.as_str(), frame)
+        })
+    }
+
+    /// The centres of mass of all bodies, with the names of these.
+    fn bodies(&self) -> impl Iterator<Item = (&str, Frame)> {
+        self.scene.bodies.iter().zip(&self.shares).map(|(x, &(body, at, _))| {
+            (x.name.as_str(), Frame { body, at, axes: Matrix::<f64, 3>::identity() })
+        })
+    }
+
+    /// The frame that a name stands for.
     pub fn named(&self, name: &str) -> Result<Frame, UnknownName> {
         let found = self.known().find(|(known, _)| *known == name);
         found.map(|(_, frame)| frame).ok_or_else(|| {

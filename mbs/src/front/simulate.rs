@@ -5,7 +5,7 @@ use super::inner::built;
 use super::inputs::Inputs;
 use super::mechanism::Mechanism;
 use super::simulation::Simulation;
-use super::tree::Tree;
+use super::tree::{Tree, with_mass};
 use crate::names::Names;
 use crate::precision::{ReadScene, Source};
 use crate::settings::{Method, ResolvedMethod};
@@ -34,6 +34,18 @@ impl Mechanism {
     /// [`SimulationError`] for a part that is refused, or a mechanism that has no tree.
     pub fn tree(&self) -> Result<Tree, SimulationError> {
         Ok(Tree::new(&self.resolve_scene()?)?)
+    }
+
+    /// The same bodies with 1 kg and 1 kg m^2 each in place of their own masses. Positions and velocities that fulfil joints and initial
+    /// conditions need no others: of a mechanism that lacks masses they are found with these.
+    #[must_use]
+    pub fn with_fictitious_masses(&self) -> Self {
+        let mut heavy = self.clone();
+        let dimension = heavy.scene_mut().dimension;
+        for body in &mut heavy.scene_mut().bodies {
+            *body = with_mass(body, dimension, 1.0);
+        }
+        heavy
     }
 
     /// Starts from an equilibrium of this mechanism: what is simulated or run from now on begins there, with the initial velocities of the

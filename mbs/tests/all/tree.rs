@@ -344,8 +344,8 @@ fn what_has_no_coordinates_is_refused_by_name() {
 
     let mut massless = file("double-pendulum");
     massless.bodies[1].mass = 0.0;
-    let error = Tree::new(&massless).expect_err("no mass");
-    assert_eq!((error.code(), error.body()), ("no-tree", Some("lower")));
+    let error = self::tree(&massless).accelerations().map(<[f64]>::to_vec).expect_err("no mass");
+    assert_eq!((error.code(), error.body()), ("no-inertia", Some("lower")));
 
     let mut tree = tree(&random::aligned_tree(1, 1));
     let [n_q, n] = [tree.coordinates().len(), tree.velocities().len()];

@@ -30,7 +30,7 @@ pub(crate) fn add_rod<T: Real>(scene: &mut Scene<T>, from: [T; 2], [c, s]: [T; 2
         ]),
     };
     let center = [from[0] + T::HALF * c, from[1] + T::HALF * s, T::ZERO];
-    scene.bodies.push(Body { name: String::new(), mass: T::ONE, center, inertia });
+    scene.bodies.push(Body { name: String::new(), mass: T::ONE, center, inertia, gravity_scale: None });
     BodyId::Body(scene.bodies.len() - 1)
 }
 

@@ -12,10 +12,10 @@ pub(super) const ROW: QuantityRow = QuantityRow::new(
     TargetKind::Scene,
     ComponentForm::Number("J"),
     QuantityDefinition {
-        formula: "-Σ m g·c + Σ V",
+        formula: "-Σ s m g·c + Σ V",
         axes: "none: a number",
         sign: "gravity is zero at the origin of the scene",
-        contents: "Gravity and what effects store.",
+        contents: "Gravity and what effects store; s is the `gravity_scale` of the body.",
     },
 )
 .of_effects();

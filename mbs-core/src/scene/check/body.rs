@@ -11,6 +11,9 @@ use core::mem::discriminant;
 /// Numbers of one body, whatever is welded to it.
 pub(super) fn check<T: Real>(body: &Body<T>, place: Place) -> Result<(), SceneError> {
     place.not_negative("mass", body.mass)?;
+    if let Some(scale) = body.gravity_scale {
+        place.finite("gravity_scale", scale)?;
+    }
     place.vector(if body.is_point() { "point" } else { "center" }, body.center)?;
     let (is_fitting, numbers) = match &body.inertia {
         Inertia::Rod { from, to } => return place.apart("rod", [*from, *to]),

@@ -1,4 +1,4 @@
-//! Frames: names apart from those of bodies, and axes.
+//! Frames: names apart from those of other bodies, and axes.
 
 use super::vector::{Place, is_parallel, is_planar};
 use crate::Real;
@@ -7,7 +7,8 @@ use crate::scene::{BodyFrame, Entry, Scene, SceneError, SceneFault};
 pub(super) fn check<T: Real>(scene: &Scene<T>) -> Result<(), SceneError> {
     for (i, frame) in scene.frames.iter().enumerate() {
         let place = scene.place(Entry::Frame(i));
-        if let Some(body) = scene.bodies.iter().position(|body| body.name == frame.name) {
+        let namesake = scene.bodies.iter().position(|body| body.name == frame.name);
+        if let Some(body) = namesake.filter(|body| frame.body.index() != Some(*body)) {
             return place.fault("name", SceneFault::NameOfBody(body));
         }
         if frame.body.index().is_some_and(|body| body >= scene.bodies.len()) {

@@ -24,6 +24,7 @@ fn ring(axes: &[[f64; 3]]) -> Scene<f64> {
         mass: 1.0,
         center: [0.0; 3],
         inertia: mbs_core::scene::Inertia::Spatial([1.0, 1.0, 1.0, 0.0, 0.0, 0.0]),
+        gravity_scale: None,
     });
     Scene { bodies: bodies.collect(), joints, ..Scene::empty("", Dimension::Spatial, 1.0) }
 }

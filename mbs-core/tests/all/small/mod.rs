@@ -24,7 +24,7 @@ pub(crate) fn add_body(
     inertia: Inertia<f64>,
 ) -> BodyId {
     let name = format!("body {}", scene.bodies.len());
-    scene.bodies.push(Body { name, mass, center, inertia });
+    scene.bodies.push(Body { name, mass, center, inertia, gravity_scale: None });
     BodyId::Body(scene.bodies.len() - 1)
 }
 

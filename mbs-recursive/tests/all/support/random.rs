@@ -35,7 +35,7 @@ fn body(random: &mut Random, dimension: Dimension, center: [f64; 3]) -> Body<f64
             Inertia::Spatial([xx, yy, zz, xy, yz, zx])
         }
     };
-    Body { name: String::new(), mass, center, inertia }
+    Body { name: String::new(), mass, center, inertia, gravity_scale: None }
 }
 
 /// A joint of a kind at a place, its axes at random.

@@ -44,6 +44,17 @@ fn a_frame_stands_for_its_body_and_gives_the_place() {
 }
 
 #[test]
+fn a_frame_of_its_bodys_name_is_the_place_that_stands_for_the_body() {
+    let own = "[[frame]]\nname = \"arm\"\nbody = \"arm\"\nat = [0.5, 0.25, 0]\n";
+    let output = |rest: &str| {
+        format!("{own}[[output]]\nname = \"p\"\nbody = \"arm\"\nquantity = \"position\"\n{rest}")
+    };
+    let [one, other] = ["", "at = [0.5, 0.25, 0]"]
+        .map(|rest| scene(&output(rest)).unwrap_or_else(|e| panic!("{}", e.render())));
+    assert_eq!(one.outputs, other.outputs);
+}
+
+#[test]
 fn frames_are_written_as_they_are_read() {
     let scene = scene("").unwrap_or_else(|e| panic!("{}", e.render()));
     let text = to_toml(&scene).expect("no code");
@@ -62,7 +73,8 @@ fn frames_that_cannot_be_meant_are_refused_at_their_place() {
     let of = |name: &str, body: &str| {
         frame(&format!("name = \"{name}\"\nbody = \"{body}\"\nat = [0, 0, 0]"))
     };
-    assert_eq!(refused(&of("arm", "arm")), "22: `name` is the name of body 1");
+    let other = "22: `name` is the name of body 1, on which it is not";
+    assert_eq!(refused(&of("arm", "ground")), other);
     assert_eq!(refused(&of("tool", "arm")), "22: this name is already that of frame 1");
     assert_eq!(refused(&of("tip", "tool")), "23: unknown body `tool`");
     assert_eq!(refused(&frame("name = \"tip\"\nbody = \"arm\"")), "21: `at` is missing");

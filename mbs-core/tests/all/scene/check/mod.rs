@@ -7,7 +7,7 @@ mod body;
 mod effects;
 
 fn body(name: &str, mass: f64, inertia: Inertia<f64>) -> Body<f64> {
-    Body { name: name.into(), mass, center: [0.5, 0.0, 0.0], inertia }
+    Body { name: name.into(), mass, center: [0.5, 0.0, 0.0], inertia, gravity_scale: None }
 }
 
 fn joint(name: &str, kind: JointKind, bodies: [BodyId; 2]) -> Joint<f64> {

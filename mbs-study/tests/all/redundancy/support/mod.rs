@@ -31,7 +31,7 @@ impl Build {
             Dimension::Spatial => Inertia::Spatial([0.01, 0.01, 0.01, 0.0, 0.0, 0.0]),
         };
         let name = format!("body-{}", self.0.bodies.len());
-        self.0.bodies.push(Body { name, mass: 1.0, center, inertia });
+        self.0.bodies.push(Body { name, mass: 1.0, center, inertia, gravity_scale: None });
         BodyId::Body(self.0.bodies.len() - 1)
     }
 

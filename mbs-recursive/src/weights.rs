@@ -1,0 +1,36 @@
+//! Factors of gravity on single bodies: the tree falls as a whole, and forces at centres of mass make up for the rest.
+//!
+//! ```text
+//! F = m g (s − 1)        s: the body's `gravity_scale`
+//! ```
+
+use crate::loads::Load;
+use crate::space::{Numbers, Space};
+use crate::tree::TreeModel;
+use mbs_core::Real;
+use mbs_core::cluster::mass_properties;
+use mbs_core::scene::{BodyId, Scene};
+
+impl<T: Real, S: Space<T>> TreeModel<T, S> {
+    /// Adds these forces as the first loads; those on what stands still are nothing.
+    pub(crate) fn add_weights(&mut self, scene: &Scene<T>) {
+        for (b, body) in scene.bodies.iter().enumerate() {
+            let Some(scale) = body.gravity_scale else { continue };
+            let (mass, center, _) = mass_properties(scene, b);
+            let (link, point) = self.seat_point(BodyId::Body(b), center.into());
+            let force = self.gravity * (mass * (scale - T::ONE));
+            let load = Load::Constant { link, point, force };
+            if force.parts(&force) > T::ZERO && !load.is_idle() {
+                self.loads.push(load);
+            }
+        }
+        self.n_weights = self.loads.len();
+        // of no effect
+        self.effects.resize(self.n_weights, usize::MAX);
+    }
+
+    /// The loads that are parts of gravity.
+    pub(crate) fn weights(&self) -> &[Load<T, S>] {
+        &self.loads[..self.n_weights]
+    }
+}
