@@ -50,7 +50,7 @@ REFUSALS: dict[str, tuple[Callable[[], object], type[mbs.MbsError], str, str]] =
     "a step of NaN": (lambda: pendulum().run(step=np.nan), mbs.UsageError, "settings-refused", "larger than zero"),
     "a q of another size": (lambda: pendulum().mass_matrix([0.0]), mbs.UsageError, "wrong-shape", "nq"),
     "a q with NaN": (lambda: pendulum().mass_matrix([0.0, np.nan]), mbs.UsageError, "not-finite", "finite"),
-    "a u of another size": (lambda: pendulum().simulate().step(1e-3, [1.0]), mbs.UsageError, "wrong-shape", "nu"),
+    "a u of another size": (lambda: pendulum().simulate().step(1e-3, [1.0]), mbs.UsageError, "wrong-shape", "no inputs"),
     "an input that is not there": (lambda: pendulum().simulate().set_input("motor", 1.0), mbs.UsageError, "unknown-name", ""),
     "bytes that are no state": (lambda: pendulum().simulate().restore(b"state"), mbs.UsageError, "checkpoint-refused", "save"),
     "a start that cannot assemble": (lambda: mbs.Mechanism(unclosed()).initial(), mbs.StartError, "cannot-assemble", "hold"),

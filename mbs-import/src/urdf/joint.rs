@@ -61,6 +61,13 @@ pub(super) fn read(
         // published files write anything there, as 0 0 0 at a fixed joint
         _ => element.child("axis").map_or((), Element::read_whole),
     }
+    if matches!(kind, Kind::Fixed | Kind::Weld) {
+        // of what does not move neither limits nor friction act
+        ["limit", "dynamics"]
+            .into_iter()
+            .flat_map(|word| element.each(word))
+            .for_each(Element::read_whole);
+    }
     if let (Kind::Revolute | Kind::Prismatic, Some(limit)) = (kind, element.child("limit")) {
         let number = |name| limit.number_or(name, 0.0);
         let [effort, rate] = [number("effort")?, number("velocity")?];

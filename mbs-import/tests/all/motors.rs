@@ -43,3 +43,11 @@ fn an_option_that_the_format_does_not_have_is_refused() {
         refused.fault()
     );
 }
+
+#[test]
+fn limits_of_a_fixed_joint_are_no_loss() {
+    let fixed = ARM.replace("type=\"prismatic\"", "type=\"fixed\"");
+    let model = import(fixed.as_bytes(), "arm.urdf", &ImportOptions::default()).expect("sound");
+    let ignored = |found: &&mbs_import::ModelFinding| found.kind == FindingKind::Ignored;
+    assert_eq!(model.findings.iter().filter(ignored).count(), 0);
+}
