@@ -183,3 +183,49 @@ def test_states_of_mujoco_are_states_of_the_mechanism() -> None:
         m.from_qpos([0.0])
     with pytest.raises(mbs.UsageError, match="no MJCF"):
         mbs.Mechanism(ARM).from_qpos([0.0])
+
+
+BARE = """<robot name="bare">
+  <link name="base"/><link name="upper"/><link name="fore"/><link name="hand"/>
+  <joint name="shoulder" type="revolute"><origin xyz="0 0 0.5" rpy="0 0 0.3"/><parent link="base"/><child link="upper"/><axis xyz="0 1 0"/>
+    <limit effort="9" velocity="9" lower="-3" upper="3"/></joint>
+  <joint name="elbow" type="revolute"><origin xyz="0.4 0 0"/><parent link="upper"/><child link="fore"/><axis xyz="0 0 1"/>
+    <limit effort="9" velocity="9" lower="-3" upper="3"/></joint>
+  <joint name="palm" type="fixed"><origin xyz="0.2 0.1 0" rpy="0.5 0 0"/><parent link="fore"/><child link="hand"/></joint>
+</robot>
+"""
+"""An arm whose links have no inertia."""
+
+
+def about(axis: int, angle: float) -> np.ndarray[Any, np.dtype[np.float64]]:
+    i, j = (axis + 1) % 3, (axis + 2) % 3
+    turn = np.eye(3)
+    turn[i, i] = turn[j, j] = np.cos(angle)
+    turn[j, i], turn[i, j] = np.sin(angle), -np.sin(angle)
+    return turn
+
+
+def hand(q: Any) -> tuple[Any, Any]:
+    """Where the hand is, and its axes: a product of the rotations that the file writes."""
+    upper = about(2, 0.3) @ about(1, q[0])
+    fore = upper @ about(2, q[1])
+    return np.array([0, 0, 0.5]) + upper @ [0.4, 0, 0] + fore @ [0.2, 0.1, 0], fore @ about(0, 0.5)
+
+
+def test_frames_are_those_of_the_links_and_need_no_mass() -> None:
+    m = mbs.Mechanism(BARE)
+    q = np.array([0.7, -0.4])
+    assert m.nq == 2
+    place, axes = hand(q)
+    found = m.frame("hand", q)
+    assert np.allclose(found["position"], place, atol=NEAR) and np.allclose(found["rotation"], axes, atol=NEAR)
+    # the Jacobian by differences of places
+    step = 1e-6
+    slopes = [(hand(q + step * e)[0] - hand(q - step * e)[0]) / (2 * step) for e in np.eye(2)]
+    assert np.allclose(m.jacobian("hand", q)[:3], np.transpose(slopes), atol=1e-8)
+    back = m.inverse_kinematics("hand", q + 0.2, position=place, rotation=axes)
+    assert np.allclose(hand(back)[0], place, atol=1e-8) and np.allclose(hand(back)[1], axes, atol=1e-8)
+    with pytest.raises(mbs.MbsError):
+        m.accelerations(q, np.zeros(2))
+    # the axes of a link at rest are those of its file, not those since the drawing
+    assert np.allclose(m.frame("upper", [0.0, 0.0])["rotation"], about(2, 0.3), atol=NEAR)
