@@ -1,11 +1,11 @@
-//! Loops and rotors in elements of another program: `drake:...`.
+//! Loops, rotors and frames in elements of another program: `drake:...` and `frame`.
 
 use super::root::WORLD;
 use crate::closing::ball;
 use crate::context::Named;
 use crate::element::Element;
-use crate::pose::{V3, v3};
-use crate::robot::{Coordinate, GROUND, Kind, Law, Robot, Target, What};
+use crate::pose::{Pose, V3, roll_pitch_yaw, v3};
+use crate::robot::{Coordinate, Frame, GROUND, Kind, Law, Robot, Target, What, scene_name};
 use crate::source::Read;
 
 /// Adds the balls that close loops.
@@ -27,6 +27,21 @@ pub(super) fn loops(root: &Element, links: &Named, prefix: &str, robot: &mut Rob
         };
         let ends = [point("body_A", "p_AP")?, point("body_B", "p_BQ")?];
         robot.joints.push(ball(&format!("{prefix}ball constraint {}", i + 1), element, ends)?);
+    }
+    Ok(())
+}
+
+/// Adds the frames that have a name: `frame` with a link, a place and angles.
+pub(super) fn frames(root: &Element, links: &Named, prefix: &str, robot: &mut Robot) -> Read<()> {
+    for element in root.each("frame") {
+        let name = format!("{prefix}{}", element.need("name")?.value);
+        let word = element.need("link")?;
+        let is_ground = word.value == WORLD && links.get(WORLD).is_none();
+        let link = if is_ground { GROUND } else { links.find(&word.value, word.at)? };
+        let at = v3(element.numbers_or("xyz", [0.0; 3])?);
+        let own = Pose::new(roll_pitch_yaw(element.numbers_or("rpy", [0.0; 3])?), at);
+        let pose = robot.links[link].pose.then(&own);
+        robot.frames.push(Frame { name: scene_name(&name, "frame"), link, pose });
     }
     Ok(())
 }

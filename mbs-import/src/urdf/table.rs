@@ -11,6 +11,7 @@ pub(crate) const TABLE: &[Row] = &[
     row("robot", " name", Mapped),
     row("robot", "version", Ignored("the reader takes all versions up to 1.2")),
     row("robot", "xmlns:xacro xmlns", Appearance),
+    row("robot/frame", " name link xyz rpy", Mapped),
     row("link", " name", Mapped),
     row("link", "type", Ignored("no effect in the format")),
     row("inertial", " *", Mapped),

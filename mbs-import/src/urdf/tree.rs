@@ -119,6 +119,7 @@ impl Tree {
         }
         joint::check_mimics(robot, first_coupling)?;
         drake::loops(root, &self.links, &self.prefix, robot)?;
+        drake::frames(root, &self.links, &self.prefix, robot)?;
         control::inputs(root, &joints, robot, context)
     }
 
@@ -135,6 +136,7 @@ impl Tree {
         for (link, element) in (self.first..).zip(root.each("link")) {
             link::shapes(element, link, &colours, (robot, context))?;
         }
+        drake::frames(root, &self.links, &self.prefix, robot)?;
         root.read_whole();
         Ok(())
     }

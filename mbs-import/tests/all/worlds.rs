@@ -246,6 +246,11 @@ fn the_world_of_a_urdf_need_not_be_declared() {
         ImportOptions { base: Some(mbs_import::BaseKind::Free), ..ImportOptions::default() };
     let refused = import(text.as_bytes(), "part.urdf", &options).expect_err("refused");
     assert!(refused.fault().to_string().contains("it is the ground, and cannot be free"));
+    // a frame of Drake, on a link and on the ground
+    let frames = r#"<frame name="hand" link="rod" xyz="0.5 0 0" rpy="0 0 1"/><frame name="wall" link="world" xyz="0 2 0"/></robot>"#;
+    let scene = whole(&text.replace("</robot>", frames), "part.urdf");
+    let at = |name: &str| scene.frames.iter().find(|frame| frame.name == name).map(|x| x.at);
+    assert_eq!([at("hand"), at("wall")], [Some([0.5, 0.0, 1.0]), Some([0.0, 2.0, 0.0])]);
     // as a child it is unknown
     let text = PART.replace("child link=\"rod\"", "child link=\"world\"");
     let refused = import(text.as_bytes(), "part.urdf", &ImportOptions::default());
