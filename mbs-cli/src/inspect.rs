@@ -133,7 +133,8 @@ fn uncomputed(word: &str, error: &TreeError) -> Refusal {
         TreeErrorKind::NoInertia(_) => format!("{hint}: --what frames,jacobians"),
         _ => hint,
     };
-    Refusal::new("state-refused", format!("{word}: {error}"), hint)
+    let whose = error.body().map(|body| format!(" (body `{body}`)")).unwrap_or_default();
+    Refusal::new("state-refused", format!("{word}{whose}: {error}"), hint)
 }
 
 fn quantity(word: &str, tree: &mut Tree, efforts: &[f64]) -> Result<Value, TreeError> {

@@ -34,6 +34,7 @@ pub mod interrupt;
 pub mod joint_limits;
 #[doc(hidden)]
 pub mod linear_system;
+mod loop_alone;
 #[doc(hidden)]
 pub mod methods;
 #[doc(hidden)]

@@ -1,5 +1,6 @@
 //! Axes that are almost parallel, or almost across each other: what is said of them, and when a scene is refused for them.
 
+use crate::loop_alone::loops_alone;
 use mbs_core::model::{Model, State};
 use mbs_core::natural::NaturalModel;
 use mbs_core::once::found;
@@ -32,7 +33,7 @@ impl core::fmt::Display for AlmostDependent {
         let axis = self.axis.map(|x| (x + 0.0).to_string()).join(", ");
         write!(
             f,
-            "the axis is off by {} rad, and this alone holds the mechanism: with the axis [{axis}] it moves",
+            "the axis is off by {} rad, and this alone holds its loop: with the axis [{axis}] it moves",
             few(self.angle)
         )
     }
@@ -61,12 +62,13 @@ fn notes_here<T: Real>(scene: &Scene<T>) -> Vec<(usize, String)> {
     tilts(scene, T::from_f64(MEANT)).iter().map(note).collect()
 }
 
-/// The axis whose tilt, too large to be taken as none, alone holds a mechanism in its reference configuration.
+/// The axis whose tilt, too large to be taken as none, alone holds loops that cannot move with it, in the reference configuration.
 ///
 /// Cost: nothing but the search for tilts where there is none; else the ranks of the constraints for some variants of the scene.
 pub fn almost_dependent<T: Real, const D: usize>(scene: &Scene<T>) -> Option<AlmostDependent> {
     let mut tilts = tilts(scene, T::from_f64(DOUBTFUL));
     tilts.retain(|tilt| tilt.angle > T::from_f64(MEANT));
+    tilts.retain(|tilt| freedoms::<T, D>(&loops_alone(scene, tilt.joint)) == Some(0));
     if tilts.is_empty() {
         return None;
     }

@@ -27,7 +27,7 @@ fn keys<'a>(value: &'a Value, found: &mut BTreeSet<&'a str>) {
         Value::Object(map) => {
             for (key, value) in map {
                 found.insert(key);
-                let is_named = ["outputs", "joints", "reactions", "frames", "jacobians"]
+                let is_named = ["outputs", "joints", "reactions", "frames", "centers", "jacobians"]
                     .contains(&key.as_str());
                 if !(is_named && value.is_object()) {
                     keys(value, found);

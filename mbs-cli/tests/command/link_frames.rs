@@ -122,7 +122,11 @@ fn accelerations_without_masses_are_refused_by_name_with_a_remedy() {
         let refused = run("inspect", &[&[path.to_str().expect("UTF-8")], options].concat());
         assert_eq!(status(&refused), 1);
         let said = text(&refused.stderr);
-        for part in ["accelerations: `j1`", "meets no inertia", "--what frames,jacobians"] {
+        for part in [
+            "accelerations (body `base_turn`): `j1`",
+            "meets no inertia",
+            "--what frames,jacobians",
+        ] {
             assert!(said.contains(part), "{said}");
         }
     }

@@ -95,7 +95,8 @@ fn options_of_import_reach_every_command_and_faults_of_the_start_are_told() {
     let object = done(&run("import", &[&arm(), "--json"]));
     assert_eq!(object["faults"], serde_json::json!([]));
     let words = run("inspect", &[&arm(), "--import", "base=free"]);
-    assert!(text(&words.stderr).contains("body `base`"), "{}", text(&words.stderr));
+    let said = text(&words.stderr);
+    assert!(said.contains("accelerations: `base`: no accelerations"), "{said}");
     let refused = run("run", &[&arm(), "--import", "bas=free"]);
     assert_eq!(status(&refused), 1);
     assert!(text(&refused.stderr).contains("unexpected argument '--bas'"));

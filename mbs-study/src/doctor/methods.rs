@@ -59,6 +59,11 @@ pub(super) fn findings(attempts: &[Attempt], findings: &mut Vec<Finding>) {
     if attempts.is_empty() {
         return;
     }
+    if !run.is_empty() {
+        for finding in findings.iter_mut().filter(|finding| finding.code == "singular-start") {
+            finding.remedy += &format!(", or run it: a step was taken by {run}");
+        }
+    }
     let message = match (run.is_empty(), refuse.is_empty()) {
         (false, true) => format!("it is run anyway: a step was taken by {run}"),
         (false, false) => {

@@ -116,7 +116,7 @@ fn remedy(scene: &Scene<f64>, set: &Set) -> String {
             format!("give places and axes with all their digits; or {}", words(scene, remedy))
         }
         (None, Nature::Singular, _) => {
-            "start a little away from this position with an [[initial]] value, or run it: index-3 and index-1 pass it".to_owned()
+            "start a little away from this position with an [[initial]] value".to_owned()
         }
         (None, _, false) => "give places and axes with all their digits".to_owned(),
         (None, ..) if of_one_pair(scene, set) => {
