@@ -1,7 +1,7 @@
 //! Meshes, and the mass of geoms that are meshes.
 
 use super::defaults::{MAIN, View};
-use super::fitted::fitted;
+use super::fitted::{Fitted, fitted};
 use super::model::Model;
 use super::surface;
 use crate::element::{Attribute, Element};
@@ -97,8 +97,12 @@ pub(super) fn mass(geom: &MeshGeom, model: &mut Model<'_, '_, '_>) -> Read<Mass>
         let own = Mass { mass, tensor: whole.tensor * (mass / whole.mass), ..whole };
         return Ok(own.seen_from(&geom.pose));
     };
-    let (frame, solid) =
+    let Fitted { solid, frame, is_chosen } =
         fitted(&fit.kind, &mesh, &whole, &model.compiler).map_err(|why| refused(&why))?;
+    if is_chosen {
+        let says = "principal moments of its mesh are alike: the axes of the form are a choice";
+        model.context.findings.approximated(geom.at, "geom", says);
+    }
     let own = solid.scaled(fit.scale).mass(fit.is_shell, geom.density, geom.mass);
     Ok(own.seen_from(&geom.pose.then(&frame)))
 }

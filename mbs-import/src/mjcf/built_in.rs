@@ -29,7 +29,7 @@ pub(super) fn built_in(word: &Attribute, view: &View<'_>) -> Read<Vec<[f64; 3]>>
                 format!(
                     "a mass follows from this mesh, and the built-in mesh `{kind}` is not computed"
                 ),
-                "write an <inertial> in the body of its geom, or mass=\"0\" at the geom, or let --massless-meshes count it as massless",
+                "save the model with mj_saveLastXML of MuJoCo, which writes the vertices, and give that file; or write an <inertial> in the body of its geom, or let --massless-meshes count it as massless",
             ));
         }
     };

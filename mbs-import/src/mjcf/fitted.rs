@@ -6,14 +6,25 @@ use crate::pose::{M3, Pose, V3, v3};
 use crate::solid::Solid;
 use mbs_scene::TriangleMesh;
 
-/// A form of a kind that is fitted to a mesh, whose mass is known at some density, with the frame of the form in that of the mesh; or why there
-/// is none.
+/// Principal moments that are alike so far have no axes of their own: vertices have the seven digits of single precision.
+const ALIKE: f64 = 1.0e-6;
+
+/// A form that is fitted to a mesh.
+pub(super) struct Fitted {
+    pub(super) solid: Solid,
+    /// Its frame in that of the mesh.
+    pub(super) frame: Pose,
+    /// Are its axes a choice, on which its mass or moments depend?
+    pub(super) is_chosen: bool,
+}
+
+/// A form of a kind that is fitted to a mesh, whose mass is known at some density; or why there is none.
 pub(super) fn fitted(
     kind: &str,
     mesh: &TriangleMesh,
     mass: &Mass,
     compiler: &Compiler,
-) -> Result<(Pose, Solid), String> {
+) -> Result<Fitted, String> {
     let (moments, axes) = principal(&mass.tensor);
     let (center, half) = if compiler.fits_boxes {
         let (center, half) = around(mesh, &axes, &mass.center);
@@ -41,7 +52,11 @@ pub(super) fn fitted(
         }
         _ => return Err(format!("a `{kind}` is not fitted to meshes")),
     };
-    Ok((Pose::new(axes, center), solid))
+    let is_alike = |i: usize| moments[i] - moments[i + 1] <= ALIKE * moments[0];
+    let is_round = matches!(solid, Solid::Cylinder(..) | Solid::Capsule(..));
+    let is_chosen =
+        is_alike(0) && compiler.fits_boxes || is_alike(1) && (compiler.fits_boxes || is_round);
+    Ok(Fitted { solid, frame: Pose::new(axes, center), is_chosen })
 }
 
 /// Principal moments, the largest first, and their axes.

@@ -154,6 +154,30 @@ fn forms_are_fitted_to_the_inertia_or_the_box_of_a_mesh() {
 }
 
 #[test]
+fn a_form_whose_axes_are_a_choice_is_listed() {
+    // a plate of 6 by 6 by 2 m, turned about z
+    let corner = |x: f64, y: f64, z: f64| {
+        let (sine, cosine) = 0.5_f64.sin_cos();
+        format!("{} {} {z} ", cosine * x - sine * y, sine * x + cosine * y)
+    };
+    let ends = [-1.0, 1.0];
+    let all =
+        ends.map(|x| ends.map(|y| ends.map(|z| corner(3.0 * x, 3.0 * y, z)).concat()).concat());
+    let mesh = format!(r#"vertex="{}""#, all.concat());
+    for (geom, compiler, is_listed) in [
+        ("type='box'", "", false),
+        ("type='sphere'", "", false),
+        ("type='cylinder'", "", true),
+        ("type='capsule'", "", true),
+        ("type='box'", "fitaabb='true'", true),
+    ] {
+        let model = model(&mjcf(&mesh, geom, compiler), "m.xml", &ImportOptions::default());
+        let found = model.findings.iter().any(|x| x.kind == FindingKind::Approximated);
+        assert_eq!(found, is_listed, "{geom} {compiler}");
+    }
+}
+
+#[test]
 fn a_form_that_is_fitted_has_a_mass_a_scale_and_a_shell_of_its_own() {
     let mass = |mesh: &str, geom: &str| ten(&whole(&mjcf(mesh, geom, ""), "m.xml"), "b")[0];
     let own = mass(CORNER, r#"type="box""#);
@@ -222,7 +246,9 @@ fn built_in_meshes_of_few_points_are_computed_and_others_are_named() {
     let wedge = built_in(r#""wedge" params="4 4 1 1 0""#);
     let shown = import(wedge.as_bytes(), "m.xml", &ImportOptions::default());
     let shown = shown.expect_err("refused").render();
-    assert!(shown.contains("<inertial>") && shown.contains("--massless-meshes"), "{shown}");
+    for word in ["mj_saveLastXML", "<inertial>", "--massless-meshes"] {
+        assert!(shown.contains(word), "{shown}");
+    }
     let options = ImportOptions { massless_meshes: true, ..ImportOptions::default() };
     let other = wedge.replace("<geom mesh", r#"<geom size="0.1" contype="0"/><geom mesh"#);
     let says = "a mesh counts as massless (--massless-meshes)";
