@@ -2,7 +2,7 @@
 
 use crate::array::{Numbers, array, count, vector, wrong_shape};
 use crate::error::{Class, guarded, raised, refused, unknown_name, unread, usage};
-use crate::external::Forces;
+use crate::forces::Forces;
 use crate::import::{self, Model, Read};
 use crate::value;
 use crate::values;
@@ -166,25 +166,6 @@ impl Mechanism {
         Err(usage(py, "unknown-name", &message, "inputs count from 0", "name"))
     }
 
-    /// A refusal of the number of inputs, which names them.
-    pub(crate) fn about_inputs(&self, py: Python<'_>, error: PyErr) -> PyErr {
-        let value = error.value(py);
-        let is = |field: &str, word: &str| {
-            let found = value.getattr(field).and_then(|found| found.extract::<String>());
-            found.is_ok_and(|found| found == word)
-        };
-        if is("code", "wrong-shape") && is("argument", "u") {
-            let names: Vec<&str> = self.shared.inputs.iter().map(|info| &*info.name).collect();
-            let hint = match names[..] {
-                [] => "the mechanism has no inputs; a model gets some by motors=True".to_owned(),
-                _ => format!("give a number for each of: {}", names.join(", ")),
-            };
-            // an exception of another class has no hint
-            let _ = value.setattr("hint", hint);
-        }
-        error
-    }
-
     /// The simulation of settings.
     pub(crate) fn simulation(&self, py: Python<'_>, method: &Method) -> PyResult<mbs::Simulation> {
         let built = guarded(py, || Ok(py.detach(|| self.shared.mechanism.simulate(method))))?;
@@ -233,38 +214,6 @@ impl Mechanism {
             }
             Self::new(py, read)
         })
-    }
-
-    /// What became of the elements of a model: the object of `mbs import --json`. None where the mechanism comes from a scene.
-    #[getter]
-    fn import_report<'py>(&self, py: Python<'py>) -> PyResult<Option<Bound<'py, PyAny>>> {
-        let model = self.shared.model.as_deref();
-        model.map(|model| guarded(py, || import::report(py, model))).transpose()
-    }
-
-    /// The state of an MJCF's `qpos` and `qvel`, as MuJoCo orders them; without `qvel` at rest.
-    #[pyo3(signature = (qpos, qvel = None))]
-    fn from_qpos<'py>(
-        slf: &Bound<'py, Self>,
-        qpos: &Bound<'py, PyAny>,
-        qvel: Option<&Bound<'py, PyAny>>,
-    ) -> PyResult<Bound<'py, PyAny>> {
-        slf.py().import("multibody.qpos")?.getattr("state")?.call1((slf, qpos, qvel))
-    }
-
-    /// `qpos` and `qvel` of an MJCF, as MuJoCo orders them, of q and v; without v at rest.
-    #[pyo3(signature = (q, v = None))]
-    fn to_qpos<'py>(
-        slf: &Bound<'py, Self>,
-        q: &Bound<'py, PyAny>,
-        v: Option<&Bound<'py, PyAny>>,
-    ) -> PyResult<Bound<'py, PyAny>> {
-        slf.py().import("multibody.qpos")?.getattr("qpos")?.call1((slf, q, v))
-    }
-
-    /// The coordinates of an MJCF in its own order; None where the mechanism comes from something else.
-    fn _file_coordinates<'py>(&self, py: Python<'py>) -> PyResult<Option<Bound<'py, PyAny>>> {
-        self.shared.model.as_deref().and_then(|model| import::coordinates(py, model)).transpose()
     }
 
     /// A builder of a scene: its parts are added by calls, and `done()` gives the mechanism.

@@ -10,7 +10,7 @@ use pyo3::prelude::*;
 use std::path::PathBuf;
 use std::sync::{Arc, Mutex, PoisonError};
 
-/// Instants that are kept [-]: from so many on every second one goes, and half as many are taken.
+/// Most instants of a recording [-], some for each pixel of a plot: then every second one is left out, and half as many are taken.
 const MOST: usize = 2400;
 
 /// Poses and outputs at instants of a motion.

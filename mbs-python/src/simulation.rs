@@ -1,9 +1,10 @@
 //! `Simulation`: a mechanism in motion.
 
-use crate::array::{Numbers, array, count, vector, wrong_shape};
+use crate::array::{Numbers, array, count, vector};
 use crate::error::{Class, Fields, exception, guarded, raised, refused, usage};
 use crate::mechanism::Mechanism;
 use crate::recording::{Recording, Tape, poses};
+use crate::stepping::{Tapes, inputs};
 use crate::watch::{Ear, Reached, silent, whole};
 use crate::{settings, values};
 use mbs::{ContactEvent, EffectKind, InputId, Interrupt, Method, SimulationError, Snapshot, Tree};
@@ -11,9 +12,8 @@ use numpy::{PyArray1, PyArrayMethods};
 use pyo3::exceptions::PyKeyboardInterrupt;
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict, PyTuple};
-use std::ops::Range;
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::{Arc, Mutex, MutexGuard, PoisonError, TryLockError, Weak};
+use std::sync::{Arc, Mutex, MutexGuard, TryLockError, Weak};
 
 /// A mechanism in motion. One thread at a time: a second one gets a BusyError.
 #[pyclass(frozen, module = "multibody")]
@@ -42,40 +42,6 @@ impl Moving {
     fn tapes(&mut self) -> Tapes {
         self.tapes.retain(|tape| tape.strong_count() > 0);
         Tapes(self.tapes.iter().filter_map(Weak::upgrade).collect())
-    }
-}
-
-/// What a motion is recorded on while it is stepped.
-struct Tapes(Vec<Arc<Mutex<Tape>>>);
-
-impl Tapes {
-    /// Takes an instant where one is due.
-    fn offer(&self, simulation: &mbs::Simulation) -> Result<(), SimulationError> {
-        let offer = |tape: &Arc<Mutex<Tape>>| {
-            tape.lock().unwrap_or_else(PoisonError::into_inner).offer(simulation)
-        };
-        self.0.iter().try_for_each(offer)
-    }
-
-    /// A step, which is recorded.
-    fn step(&self, simulation: &mut mbs::Simulation, dt: f64) -> Result<(), SimulationError> {
-        simulation.step(dt)?;
-        self.offer(simulation)
-    }
-
-    /// Steps to a time; where it is recorded, by steps of the method's length as long as they fit.
-    fn advance_to(
-        &self,
-        simulation: &mut mbs::Simulation,
-        time: f64,
-    ) -> Result<(), SimulationError> {
-        let h = simulation.step_length();
-        // what is left of less than one and a half steps is the other's
-        while !self.0.is_empty() && simulation.time() + 1.5 * h <= time {
-            self.step(simulation, h)?;
-        }
-        simulation.advance_to(time)?;
-        self.offer(simulation)
     }
 }
 
@@ -190,48 +156,10 @@ impl Simulation {
     }
 }
 
-/// Rows of inputs: all of them, or all but the forces.
-struct InputRows {
-    numbers: Vec<f64>,
-    n: usize,
-}
-
-impl InputRows {
-    /// Rows of all inputs; the forces that a row lacks are those of now.
-    fn whole(self, own: usize, forces: Range<usize>, present: &[f64]) -> Vec<f64> {
-        if self.n != own || forces.is_empty() {
-            return self.numbers;
-        }
-        let whole = |row: &[f64]| {
-            let (before, after) = row.split_at(forces.start);
-            [before, &present[forces.clone()], after].concat()
-        };
-        self.numbers.chunks_exact(own.max(1)).flat_map(whole).collect()
-    }
-}
-
 /// A step that is refused or fails.
 fn stopped(py: Python<'_>, error: &SimulationError) -> PyErr {
     let arguments = [("bad-step", "dt"), ("input-refused", "u")];
     refused(py, error, Class::Stop, &arguments)
-}
-
-/// Inputs of a call: one row that is held, or a row for each of n steps; a row has one of two numbers of inputs.
-fn inputs(u: &Bound<'_, PyAny>, sizes: [usize; 2], n: Option<usize>) -> PyResult<InputRows> {
-    let numbers = Numbers::new(u, "u", false)?;
-    let found = match *numbers.shape() {
-        [found] => Some(found),
-        [rows, found] if n == Some(rows) => Some(found),
-        _ => None,
-    };
-    match found.filter(|found| sizes.contains(found)) {
-        Some(n) => Ok(InputRows { numbers: numbers.into_data(), n }),
-        None => {
-            let nu = sizes[1];
-            let rows = n.map_or_else(String::new, |n| format!(" or ({n}, {nu})"));
-            Err(wrong_shape(u.py(), "u", numbers.shape(), &format!("({nu},){rows}")))
-        }
-    }
 }
 
 #[pymethods]

@@ -266,12 +266,6 @@ impl Mechanism {
         of(state(&q, &v)?)
     }
 
-    /// Values of all inputs; another number of them is refused with their names.
-    pub(crate) fn inputs_of(&self, u: &Bound<'_, PyAny>) -> PyResult<Vec<f64>> {
-        let py = u.py();
-        Numbers::row(u, "u", self.shared.inputs.len()).map_err(|error| self.about_inputs(py, error))
-    }
-
     /// This mechanism and its tree, with the inputs at these values.
     fn held(&self, py: Python<'_>, inputs: Option<&[f64]>) -> PyResult<(mbs::Mechanism, Tree)> {
         let mut mechanism = self.shared.mechanism.clone();

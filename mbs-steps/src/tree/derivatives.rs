@@ -5,7 +5,7 @@ use super::{
     AccelerationDerivatives, EffortDerivatives, Matrix, Tree, TreeError, TreeErrorKind, checked,
 };
 use crate::stop::StopError;
-use mbs_core::scene::{CouplingMeasure, CouplingTerm, JointKind};
+use mbs_core::scene::{CouplingMeasure, CouplingTerm, Freedom};
 use mbs_recursive::own::{EffortSlopes, MovingColumns};
 
 impl Tree {
@@ -131,10 +131,11 @@ impl Tree {
     /// Refuses loops whose rows change with the position: of joints, of what rolls, of curves and lines.
     fn has_constant_rows(&self, what: &'static str) -> Result<(), TreeError> {
         let is_constant = |term: &CouplingTerm<f64>| {
-            let CouplingMeasure::Coordinate { joint, .. } = &term.of else { return false };
+            let CouplingMeasure::Coordinate { joint, number } = &term.of else { return false };
             let kind = self.scene.joints[*joint].kind;
-            let is_angle = !matches!(kind, JointKind::Spherical | JointKind::Free);
-            is_angle && term.curve.is_none()
+            let freedom = kind.freedom(self.scene.dimension, *number);
+            let is_rate = matches!(freedom, Some(Freedom::Slide(_) | Freedom::Turn(_)));
+            is_rate && term.curve.is_none()
         };
         let mut couplings = self.scene.couplings.iter().flat_map(|coupling| &coupling.terms);
         let has_cut = with!(&self.inner, t => t.model.cut_joints().next().is_some());
