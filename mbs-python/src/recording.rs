@@ -11,7 +11,7 @@ use std::path::PathBuf;
 use std::sync::{Arc, Mutex, PoisonError};
 
 /// Most instants of a recording [-], some for each pixel of a plot: then every second one is left out, and half as many are taken.
-const MOST: usize = 2400;
+const MOST_INSTANTS: usize = 2400;
 
 /// Poses and outputs at instants of a motion.
 #[derive(Debug)]
@@ -44,7 +44,7 @@ impl Tape {
         }
         self.since = 0;
         self.take(simulation)?;
-        if self.times.len() >= MOST {
+        if self.times.len() >= MOST_INSTANTS {
             let [n_poses, n_columns] = [self.n_bodies * N_POSE, self.n_columns];
             halve(&mut self.times, 1);
             halve(&mut self.poses, n_poses);
