@@ -4,11 +4,11 @@ use crate::loop_alone::loops_alone;
 use mbs_core::model::{Model, State};
 use mbs_core::natural::NaturalModel;
 use mbs_core::once::found;
-use mbs_core::scene::Scene;
 use mbs_core::scene::align::{DOUBTFUL, MEANT, Tilt, align, tilts};
+use mbs_core::scene::{Dimension, Scene};
 use mbs_core::start::constraint_rank;
 use mbs_core::{Cliques, Real, instances};
-use mbs_scene::format::few;
+use mbs_scene::format::{counted, few};
 
 /// An axis whose tilt alone holds what would move without it.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -39,7 +39,8 @@ impl core::fmt::Display for AlmostDependent {
     }
 }
 
-/// What is said of the axes that are taken as parallel, or as across each other, though they are off by a little.
+/// What is said of the axes that are off by a little: those that are taken as parallel, or as across each other, and one whose tilt takes
+/// freedoms.
 pub fn notes<T: Real>(scene: &Scene<T>) -> Vec<(usize, String)> {
     if T::HAS_INSTANCES {
         return found::<Notes<T>>(NOTES)(scene);
@@ -59,29 +60,59 @@ fn notes_here<T: Real>(scene: &Scene<T>) -> Vec<(usize, String)> {
         );
         (tilt.joint, text)
     };
-    tilts(scene, T::from_f64(MEANT)).iter().map(note).collect()
+    tilts(scene, T::from_f64(MEANT)).iter().map(note).chain(binding_note(scene)).collect()
 }
 
 /// The axis whose tilt, too large to be taken as none, alone holds loops that cannot move with it, in the reference configuration.
 ///
 /// Cost: nothing but the search for tilts where there is none; else the ranks of the constraints for some variants of the scene.
 pub fn almost_dependent<T: Real, const D: usize>(scene: &Scene<T>) -> Option<AlmostDependent> {
+    let [locks, _] = doubtful::<T, D>(scene);
+    binding::<T, D>(scene, &locks).map(|(tilt, _)| AlmostDependent::new(&tilt))
+}
+
+/// Tilts that are too large to be taken as none, and small enough to be errors of the file: those in loops that cannot move with them, and
+/// the others.
+fn doubtful<T: Real, const D: usize>(scene: &Scene<T>) -> [Vec<Tilt<T>>; 2] {
     let mut tilts = tilts(scene, T::from_f64(DOUBTFUL));
     tilts.retain(|tilt| tilt.angle > T::from_f64(MEANT));
-    tilts.retain(|tilt| freedoms::<T, D>(&loops_alone(scene, tilt.joint)) == Some(0));
-    if tilts.is_empty() {
-        return None;
-    }
+    let is_lock = |tilt: &Tilt<T>| freedoms::<T, D>(&loops_alone(scene, tilt.joint)) == Some(0);
+    let (locks, others) = tilts.into_iter().partition(is_lock);
+    [locks, others]
+}
+
+/// The tilt without which a mechanism has more freedoms, and how many more; the first of several that hold them together.
+fn binding<T: Real, const D: usize>(
+    scene: &Scene<T>,
+    tilts: &[Tilt<T>],
+) -> Option<(Tilt<T>, usize)> {
+    let first = tilts.first()?;
     let now = freedoms::<T, D>(scene)?;
-    let frees = |tilts: &[Tilt<T>]| {
-        let straight = align(scene, tilts);
-        freedoms::<T, D>(&straight).is_some_and(|freedoms| freedoms > now)
+    let more = |tilts: &[Tilt<T>]| {
+        let straight = freedoms::<T, D>(&align(scene, tilts));
+        straight.and_then(|straight| straight.checked_sub(now)).filter(|more| *more > 0)
     };
-    if !frees(&tilts) {
+    let all = more(tilts)?;
+    let one = tilts.iter().find_map(|tilt| Some((*tilt, more(&[*tilt])?)));
+    Some(one.unwrap_or((*first, all)))
+}
+
+/// What is said of a tilt that takes freedoms and is taken as it is.
+fn binding_note<T: Real>(scene: &Scene<T>) -> Option<(usize, String)> {
+    if scene.dimension != Dimension::Spatial {
         return None;
     }
-    let one = tilts.iter().find(|tilt| frees(&[**tilt])).unwrap_or(&tilts[0]);
-    Some(AlmostDependent::new(one))
+    let [_, others] = doubtful::<T, 3>(scene);
+    let (tilt, freedoms) = binding::<T, 3>(scene, &others)?;
+    let AlmostDependent { joints, angle, axis } = AlmostDependent::new(&tilt);
+    let [joint, other] = joints.map(|j| &scene.joints[j].name);
+    let axis = axis.map(|x| (x + 0.0).to_string()).join(", ");
+    let text = format!(
+        "the axis of joint `{joint}` is off by {} rad from the direction that joint `{other}` gives, and takes {} for it at the start: with the axis [{axis}] it does not",
+        few(angle),
+        counted(freedoms, "freedom")
+    );
+    Some((tilt.joint, text))
 }
 
 /// Freedoms in the reference configuration.

@@ -73,7 +73,6 @@ impl TreeError {
     /// Code, hint and message.
     fn words(&self) -> (&'static str, &'static str, String) {
         use TreeErrorKind as Kind;
-        let no_coordinates = |whose| format!("a joint that {whose} has no coordinates");
         match &self.kind {
             Kind::NoTree(reason) => ("no-tree", reason.hint(), reason.to_string()),
             Kind::NoInertia(reason) => (
@@ -105,18 +104,29 @@ impl TreeError {
             Kind::UnknownFrame(error) => {
                 (error.code(), "", format!("there is no frame `{}`", error.name))
             }
-            Kind::Cut => {
-                let hint = "use `loop_jacobian`, or coordinates of another joint of the loop";
-                ("cut-joint", hint, no_coordinates("closes a loop"))
-            }
+            Kind::Cut
+            | Kind::Guided
+            | Kind::Idle
+            | Kind::Length(..)
+            | Kind::NotFinite(..)
+            | Kind::NotOrthogonal
+            | Kind::NoRotation(_) => self.words_of_arguments(),
+        }
+    }
+
+    /// The same of what was given: a joint without coordinates, or numbers.
+    fn words_of_arguments(&self) -> (&'static str, &'static str, String) {
+        use TreeErrorKind as Kind;
+        let no_coordinates = |whose| format!("a joint that {whose} has no coordinates");
+        match &self.kind {
             Kind::Guided => (
                 "guided-joint",
                 "use its guide, or leave the guide out",
                 no_coordinates("is guided"),
             ),
-            Kind::Idle => {
-                let hint = "use the joints that hold its bodies";
-                ("no-coordinates", hint, no_coordinates("carries nothing"))
+            Kind::Cut => {
+                let hint = "use `loop_jacobian`, or coordinates of another joint of the loop";
+                ("cut-joint", hint, no_coordinates("closes a loop"))
             }
             Kind::Length(what, expected, found) => {
                 let hint = match *what {
@@ -138,6 +148,10 @@ impl TreeError {
                 let message =
                     format!("q[{place}] and the three numbers behind it are no quaternion");
                 ("no-rotation", "give (w, x, y, z); no rotation is (1, 0, 0, 0)", message)
+            }
+            _ => {
+                let hint = "use the joints that hold its bodies";
+                ("no-coordinates", hint, no_coordinates("carries nothing"))
             }
         }
     }
