@@ -163,6 +163,8 @@ pub enum Source {
     Of(Curve, Box<Self>),
     /// Within limits.
     Clamp(Box<Self>, [f64; 2]),
+    /// Within limits, by itself; one where that is zero.
+    LimitRatio(Box<Self>, [f64; 2]),
     /// A measure, or its rate.
     Measure(Measure, bool),
     /// The state of a signal, which follows another one with a time constant.

@@ -79,6 +79,10 @@ impl<'a> Reader<'a> {
             "clamp" => {
                 Source::Clamp(self.one(t, "of", depth)?, [t.number("lower")?, t.number("upper")?])
             }
+            "limit-ratio" => {
+                let limits = [t.number("lower")?, t.number("upper")?];
+                Source::LimitRatio(self.one(t, "of", depth)?, limits)
+            }
             "measure" => {
                 let is_rate = t.has("quantity") && t.text("quantity")? == "rate";
                 Source::Measure(measure(t, self.names, self.joints)?, is_rate)

@@ -253,6 +253,7 @@ impl Source {
             Self::Product(_) => "product",
             Self::Of(..) => "curve",
             Self::Clamp(..) => "clamp",
+            Self::LimitRatio(..) => "limit-ratio",
             Self::Measure(..) => "measure",
             Self::Lag(..) => "lag",
             Self::Integral(..) => "integral",

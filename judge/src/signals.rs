@@ -66,6 +66,15 @@ impl Source {
                 let inner = inner.jet(t, follows);
                 chain(curve.at(inner[0]), inner)
             }
+            Self::LimitRatio(inner, [lower, upper]) => {
+                let [x, dx, ddx] = inner.jet(t, follows);
+                if (*lower..=*upper).contains(&x) {
+                    return [1.0, 0.0, 0.0];
+                }
+                // (L/x)'' = L (2 x'²/x³ - x''/x²)
+                let limit = if x < 0.0 { lower } else { upper };
+                [limit / x, -limit * dx / (x * x), limit * (2.0 * dx * dx / x - ddx) / (x * x)]
+            }
             Self::Clamp(inner, [lower, upper]) => {
                 let x = inner.jet(t, follows);
                 if x[0] < *lower {
@@ -100,6 +109,7 @@ impl Source {
             Self::Product(factors) => factors.iter().for_each(|source| source.corners(times)),
             Self::Of(_, inner)
             | Self::Clamp(inner, _)
+            | Self::LimitRatio(inner, _)
             | Self::Lag(_, inner, _)
             | Self::Integral(_, inner, _) => inner.corners(times),
             Self::Pid(_, both, ..) => both.iter().for_each(|source| source.corners(times)),

@@ -64,6 +64,13 @@ pub enum FeedbackOperation<T> {
         /// The limits.
         limits: [T; 2],
     },
+    /// Another course within limits by that course; one where it is zero.
+    LimitRatio {
+        /// The other course.
+        from: u32,
+        /// The limits.
+        limits: [T; 2],
+    },
     /// Another course, late.
     Lag {
         /// The other course.
@@ -198,15 +205,16 @@ pub fn follow<T: Real, E>(
                 (product(mine, other), left.scaled(other[0]).plus(right.scaled(mine[0])))
             }
             FeedbackOperation::Curve { from, curve: number } => {
-                let s = of(from);
-                let f = curve(number, s[0])?;
-                (chain(f, s), states.slope(from).scaled(f[1]))
+                through(curve(number, of(from)[0])?, of(from), states.slope(from))
             }
             FeedbackOperation::Clamp { from, limits: [lower, upper] } => {
                 let s = of(from);
                 let is_free = s[0] >= lower && s[0] <= upper;
                 let by = if is_free { states.slope(from) } else { CourseSlope::none() };
                 (clamp(s, [lower, upper]), by)
+            }
+            FeedbackOperation::LimitRatio { from, limits } => {
+                through(limit_ratio_of(of(from)[0], limits), of(from), states.slope(from))
             }
             FeedbackOperation::Lag { .. }
             | FeedbackOperation::Integral { .. }
@@ -309,6 +317,30 @@ pub(crate) fn product<T: Real>([a, da, dda]: Signal<T>, [b, db, ddb]: Signal<T>)
 /// A function, with two derivatives, of a signal.
 pub(crate) fn chain<T: Real>([f, df, ddf]: [T; 3], [_, ds, dds]: Signal<T>) -> Signal<T> {
     [f, df * ds, ddf * ds * ds + df * dds]
+}
+
+/// A function of a signal, by its value and its derivatives, and how that answers to what is measured.
+#[inline(always)]
+fn through<T: Real>(f: [T; 3], s: Signal<T>, slope: CourseSlope<T>) -> (Signal<T>, CourseSlope<T>) {
+    (chain(f, s), slope.scaled(f[1]))
+}
+
+/// A number within limits by that number, with its derivatives.
+fn limit_ratio_of<T: Real>(s: T, [lower, upper]: [T; 2]) -> [T; 3] {
+    let limit = if s > upper {
+        upper
+    } else if s < lower {
+        lower
+    } else {
+        return [T::ONE, T::ZERO, T::ZERO];
+    };
+    let ratio = limit / s;
+    let slope = T::ZERO - ratio / s;
+    [ratio, slope, T::ZERO - (slope + slope) / s]
+}
+
+pub(crate) fn limit_ratio<T: Real>(s: Signal<T>, limits: [T; 2]) -> Signal<T> {
+    chain(limit_ratio_of(s[0], limits), s)
 }
 
 /// A signal within limits.

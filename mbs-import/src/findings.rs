@@ -33,7 +33,7 @@ pub struct ModelFinding {
 }
 
 /// Findings while a model is read.
-#[derive(Debug, Default)]
+#[derive(Debug, Default, Clone)]
 pub(crate) struct Findings(Vec<(FindingKind, Origin, String, String)>);
 
 impl Findings {

@@ -246,9 +246,11 @@ pub(crate) enum Signal {
     Product {
         of: Vec<String>,
     },
-    /// The first by the second; one where both are zero.
-    Quotient {
-        of: [String; 2],
+    /// A signal within limits by that signal.
+    LimitRatio {
+        of: String,
+        lower: f64,
+        upper: f64,
     },
     /// The integral of a signal, which stops at the ends of its range.
     Integral {

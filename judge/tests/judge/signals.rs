@@ -54,6 +54,7 @@ fn lags_integrals_and_limits_follow_time() {
             signal("held", "kind = \"clamp\"\nof = \"behind\"\nlower = 0.0\nupper = 0.9"),
             signal("twice", "kind = \"sum\"\nof = [\"behind\", \"one\"]\nfactors = [2.0, -1.0]"),
             signal("square", "kind = \"product\"\nof = [\"behind\", \"behind\"]"),
+            signal("left", "kind = \"limit-ratio\"\nof = \"behind\"\nlower = -0.1\nupper = 0.2"),
             signal("curve", "kind = \"curve\"\nof = \"behind\"\ncoefficients = [1.0, 0.0, 3.0]"),
         ]
         .concat(),
@@ -69,6 +70,7 @@ fn lags_integrals_and_limits_follow_time() {
     near("clamp", channel(&m, &end, "held")[0], 0.9);
     near("sum", channel(&m, &end, "twice")[0], 2.0 * lag(1.0) - 1.0);
     near("product", channel(&m, &end, "square")[0], lag(1.0) * lag(1.0));
+    near("limit-ratio", channel(&m, &end, "left")[0], 0.2 / lag(1.0));
     near("curve", channel(&m, &end, "curve")[0], 1.0 + 3.0 * lag(1.0) * lag(1.0));
 }
 

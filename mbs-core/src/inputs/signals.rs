@@ -10,7 +10,7 @@
 
 use super::feedback::{Feedback, number};
 use crate::Real;
-use crate::feedback::{FeedbackOperation, NO_STATE, chain, clamp, product};
+use crate::feedback::{FeedbackOperation, NO_STATE, chain, clamp, limit_ratio, product};
 use crate::laws::guide;
 use crate::measure::{PreparedCurve, TermInput, within};
 use crate::scene::{Interpolation, NamedSignal, SignalId, SignalKind, first_of, signal_order};
@@ -195,6 +195,9 @@ impl<T: Real> Node<T> {
                 chain(self.curve.at(s[0]), s)
             }
             SignalKind::Clamp { of: signal, lower, upper } => clamp(of(signal), [*lower, *upper]),
+            SignalKind::LimitRatio { of: signal, lower, upper } => {
+                limit_ratio(of(signal), [*lower, *upper])
+            }
             // these follow the motion
             SignalKind::Measure { .. }
             | SignalKind::Lag { .. }
@@ -238,6 +241,10 @@ impl<T: Real> Node<T> {
             SignalKind::Curve { of, .. } => {
                 let curve = feedback.curve(&self.curve);
                 feedback.push(to, FeedbackOperation::Curve { from: id(of), curve });
+            }
+            SignalKind::LimitRatio { of, lower, upper } => {
+                let limits = [*lower, *upper];
+                feedback.push(to, FeedbackOperation::LimitRatio { from: id(of), limits });
             }
             SignalKind::Clamp { of, lower, upper } => {
                 let limits = [*lower, *upper];

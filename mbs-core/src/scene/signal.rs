@@ -4,6 +4,7 @@
 //! sum      Σ f_k s_k                      curve    f(s)
 //! product  s_1 s_2 ...                    clamp    min(max(s, lower), upper)
 //! measure  a joint's coordinate or rate   lag      time x' = s - x
+//! limit-ratio  min(max(s, lower), upper)/s
 //! integral x' = s, within limits          pid      p e + i x + d e',  x' = e = target - measured
 //! ```
 //!
@@ -161,6 +162,15 @@ pub enum SignalKind<T> {
         /// The upper limit.
         upper: T,
     },
+    /// What limits leave of a signal, as a ratio: the signal within limits by the signal; one where that is zero.
+    LimitRatio {
+        /// The signal.
+        of: SignalId,
+        /// The lower limit, at most zero.
+        lower: T,
+        /// The upper limit, at least zero.
+        upper: T,
+    },
     /// Held until it is set again between steps.
     Input {
         /// Its value at the start.
@@ -242,6 +252,7 @@ impl<T> SignalKind<T> {
             Self::Sum { of, .. } | Self::Product { of } => of,
             Self::Curve { of, .. }
             | Self::Clamp { of, .. }
+            | Self::LimitRatio { of, .. }
             | Self::Lag { of, .. }
             | Self::Integral { of, .. } => core::slice::from_ref(of),
             Self::Pid { of, .. } => of,
@@ -280,7 +291,9 @@ impl<T> SignalKind<T> {
             Self::Input { .. } => {
                 "give `input` in place of `signal`: it has rate and acceleration too"
             }
-            Self::Clamp { .. } => "follow another signal: a clamp has corners",
+            Self::Clamp { .. } | Self::LimitRatio { .. } => {
+                "follow another signal: one within limits has corners"
+            }
             _ => "follow a signal of time and inputs, or let a force or a torque follow this one",
         }
     }
@@ -321,6 +334,9 @@ impl<T> SignalKind<T> {
             Self::Clamp { of, lower, upper } => {
                 SignalKind::Clamp { of: *of, lower: f(lower), upper: f(upper) }
             }
+            Self::LimitRatio { of, lower, upper } => {
+                SignalKind::LimitRatio { of: *of, lower: f(lower), upper: f(upper) }
+            }
             Self::Input { value, unit } => {
                 SignalKind::Input { value: f(value), unit: unit.clone() }
             }
@@ -360,7 +376,7 @@ impl<T: Real> SignalKind<T> {
             Self::Step { from, to, at: time, rise } => {
                 if rise.is_zero() && from != to && is_within(time) { at(true, time) } else { None }
             }
-            Self::Clamp { .. } => Some((false, None)),
+            Self::Clamp { .. } | Self::LimitRatio { .. } => Some((false, None)),
             Self::Curve { curve, .. } if curve.has_corners() => Some((false, None)),
             Self::Input { .. } => Some((true, None)),
             kind if kind.is_feedback() => Some((true, None)),

@@ -57,6 +57,7 @@ fn every_kind() -> Vec<SignalKind<f64>> {
         SignalKind::Clamp { of: SignalId::new(11), lower: -0.5, upper: 0.4 },
         SignalKind::Input { value: 1.25, unit: "N".into() },
         SignalKind::Product { of: of(&[16, 13, 13]) },
+        SignalKind::LimitRatio { of: SignalId::new(11), lower: -0.5, upper: 0.4 },
     ]
 }
 

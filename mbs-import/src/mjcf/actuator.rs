@@ -6,7 +6,7 @@ use super::transmission::Transmission;
 use crate::element::{Attribute, Element};
 use crate::source::Read;
 
-/// An actuator: force = (g₀ + g₁ l + g₂ l̇) u + b₀ + b₁ l + b₂ l̇ of its length l and its control u, or of what follows the control.
+/// An actuator: force = (g₀ + g₁ l + g₂ l̇) u + b₀ + b₁ l + b₂ l̇. Its length is l; u is its control, or what follows it.
 #[derive(Debug, Clone)]
 pub(super) struct Actuator {
     /// The word that wrote its gain and bias, where one did that is not `general`.

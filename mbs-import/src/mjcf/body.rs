@@ -26,6 +26,8 @@ struct Scope {
     link: usize,
     /// Global.
     frame: Pose,
+    /// That as it is drawn, where bodies stand at a keyframe.
+    drawn: Pose,
     class: usize,
     /// The ending of all names, which copies have.
     ending: String,
@@ -48,12 +50,13 @@ struct Own {
 
 /// Reads the elements `worldbody`.
 pub(super) fn read<'a>(root: &'a Element, model: &mut Model<'a, '_, '_>) -> Read<()> {
-    let mut walk = Walk { model, parts: 0, numbers: 0 };
+    let mut walk = Walk { model, parts: 0, numbers: 0, places: 0 };
     for world in root.each("worldbody") {
         let frame = Pose::identity();
         let scope = Scope {
             link: GROUND,
             frame,
+            drawn: frame,
             class: MAIN,
             ending: String::new(),
             is_still: true,
@@ -73,6 +76,8 @@ pub(super) fn read<'a>(root: &'a Element, model: &mut Model<'a, '_, '_>) -> Read
 struct Walk<'m, 'a, 'b, 'c> {
     model: &'m mut Model<'a, 'b, 'c>,
     parts: usize,
+    /// Coordinates of joints so far.
+    places: usize,
     /// Bodies so far, which those without a name are called by.
     numbers: usize,
 }
@@ -192,7 +197,7 @@ impl<'a> Walk<'_, 'a, '_, '_> {
             name
         };
         let own_pose = scope.size.pose(pose(&View::plain(element), &self.model.compiler)?);
-        let frame = scope.frame.then(&own_pose);
+        let (frame, drawn) = (scope.frame.then(&own_pose), scope.drawn.then(&own_pose));
         if scope.size != Size::ONE {
             self.model.sizes.insert(link, scope.size);
         }
@@ -200,13 +205,16 @@ impl<'a> Walk<'_, 'a, '_, '_> {
         let mut inner = Scope {
             link,
             frame,
+            drawn,
             class: self.class(element, scope)?,
             ending: scope.ending.clone(),
             is_still: false,
             size: scope.size,
         };
         let mut own = Own { gravity_share: element.number_or("gravcomp", 0.0)?, ..Own::default() };
+        let from = [self.model.robot.shapes.len(), self.model.sites.len()];
         self.own(element, &inner, &mut own)?;
+        self.posed(&mut inner, &mut own, from)?;
         let mocap = element.attribute("mocap").filter(|mocap| mocap.value.trim() == "true");
         if mocap.is_some() {
             let says = "a body that is set from outside: it stands where it is drawn";
@@ -217,6 +225,32 @@ impl<'a> Walk<'_, 'a, '_, '_> {
         self.model.masses.push((link, mass, own.gravity_share));
         joint::join(std::mem::take(&mut own.joints), scope.link, link, self.model)?;
         self.bodies(element, &inner)
+    }
+
+    /// Puts a body with all that is its own where the keyframe has it, if bodies stand there.
+    fn posed(&mut self, inner: &mut Scope, own: &mut Own, [shape, site]: [usize; 2]) -> Read<()> {
+        let Some(places) = self.model.posed.take() else { return Ok(()) };
+        let rest = places.get(self.places..).unwrap_or_default();
+        let (moved, taken) = joint::posed(&mut own.joints, &inner.frame, rest)?;
+        self.places += taken;
+        self.model.posed = Some(places);
+        self.model.drawn.insert(inner.link, inner.drawn);
+        inner.frame = moved.then(&inner.frame);
+        self.model.robot.links[inner.link].pose = inner.frame;
+        for mass in own.geoms.iter_mut().chain(&mut own.inertial) {
+            *mass = mass.seen_from(&moved);
+        }
+        for (mesh, _, about) in &mut own.meshes {
+            mesh.pose = moved.then(&mesh.pose);
+            *about = moved.point(about);
+        }
+        for form in &mut self.model.robot.shapes[shape..] {
+            form.pose = moved.then(&form.pose);
+        }
+        for site in &mut self.model.sites[site..] {
+            site.pose = moved.then(&site.pose);
+        }
+        Ok(())
     }
 
     /// The mass of a body: as written, or that of its geoms.
@@ -288,8 +322,9 @@ impl<'a> Walk<'_, 'a, '_, '_> {
         if element.name == "frame" {
             element.attribute("name");
             let own = scope.size.pose(pose(&view, &self.model.compiler)?);
-            let (frame, size) = (scope.frame.then(&own), scope.size.of_frame(element)?);
-            return Ok(vec![Scope { frame, class, size, ..scope.clone() }]);
+            let (frame, drawn) = (scope.frame.then(&own), scope.drawn.then(&own));
+            let size = scope.size.of_frame(element)?;
+            return Ok(vec![Scope { frame, drawn, class, size, ..scope.clone() }]);
         }
         let count = element.need("count")?;
         let number = count.number()?;
@@ -306,11 +341,12 @@ impl<'a> Walk<'_, 'a, '_, '_> {
         for copy in 0..number as usize {
             let turned =
                 euler(angles.map(|angle| angle * copy as f64), self.model.compiler.of(element.at));
-            let frame = scope.frame.then(&Pose::new(turned, at));
+            let own = Pose::new(turned, at);
+            let (frame, drawn) = (scope.frame.then(&own), scope.drawn.then(&own));
             at += turned * offset;
             // the endings of inner copies come first
             let ending = format!("{separator}{copy:0width$}{}", scope.ending);
-            scopes.push(Scope { frame, class, ending, ..scope.clone() });
+            scopes.push(Scope { frame, drawn, class, ending, ..scope.clone() });
         }
         Ok(scopes)
     }

@@ -111,16 +111,15 @@ fn laws(
 ) {
     let gear = pulled.gear;
     let control = actuator.control_range(pulled.range, auto).filter(|_| model.compiler.acts.clamp);
-    let force = actuator.force_range(auto);
     let (gains, biases) = (actuator.gains(), actuator.biases());
     let is_limited = pulled.rope.is_some() || effort::is_limited(&pulled.terms, model);
     let is_plain = pulled.pushes.is_empty()
         && control.is_none()
-        && force.is_none()
+        && actuator.force_range(auto).is_none()
         && !is_limited
         && biases == [0.0; 3]
         && gains[1..] == [0.0; 2];
-    let mut input = Control {
+    let input = Control {
         law: Some(model.robot.laws.len()),
         activation: None,
         factor: actuator.control_factor(pulled.size),
@@ -132,6 +131,23 @@ fn laws(
         model.law(name, What::Input { on, value: 0.0 });
         return;
     }
+    let (signal, gear) = force((name, auto), (actuator, control), pulled, input, model);
+    if pulled.pushes.is_empty() {
+        let pull = Pull { name: name.to_owned(), signal, gear, terms: pulled.terms.clone() };
+        shared.add(pull, pulled.rope, model);
+    } else {
+        push(&format!("{name} drive"), &signal, &pulled.pushes, model);
+    }
+}
+
+/// The signal of its force, and the gear by which that acts.
+fn force(
+    (name, auto): (&str, bool),
+    (actuator, control): (&Actuator, Option<[f64; 2]>),
+    pulled: &Transmission,
+    mut input: Control,
+    model: &mut Model<'_, '_, '_>,
+) -> (String, f64) {
     let mut signal = model.signal(name, Signal::Set { value: 0.0, unit: "" });
     if let Some([lower, upper]) = control {
         signal =
@@ -143,26 +159,22 @@ fn laws(
         signal = model.signal(&format!("{name} activation"), of);
     }
     model.inputs.push(input);
-    let mut sum = match gains {
+    let mut sum = match actuator.gains() {
         [constant, 0.0, 0.0] => vec![(signal, constant)],
-        _ => vec![(gained(name, signal, gains, pulled, model), 1.0)],
+        gains => vec![(gained(name, signal, gains, pulled, model), 1.0)],
     };
-    sum.extend(measured(name, biases, pulled, model));
+    sum.extend(measured(name, actuator.biases(), pulled, model));
     // without a limit of its force, the gear goes into the same sum
+    let force = actuator.force_range(auto);
     let is_apart = force.is_some() || pulled.rope.is_some();
-    let [share, gear] = if is_apart { [1.0, gear] } else { [gear, 1.0] };
+    let [share, gear] = if is_apart { [1.0, pulled.gear] } else { [pulled.gear, 1.0] };
     let of: Vec<_> = sum.into_iter().map(|(signal, factor)| (signal, factor * share)).collect();
     signal = model.signal(&format!("{name} force"), Signal::Sum { of });
     if let Some([lower, upper]) = force {
         signal =
             model.signal(&format!("{name} limited"), Signal::Clamp { of: signal, lower, upper });
     }
-    if pulled.pushes.is_empty() {
-        let pull = Pull { name: name.to_owned(), signal, gear, terms: pulled.terms.clone() };
-        shared.add(pull, pulled.rope, model);
-    } else {
-        push(&format!("{name} drive"), &signal, &pulled.pushes, model);
-    }
+    (signal, gear)
 }
 
 /// What follows a control.

@@ -92,18 +92,18 @@ fn limited(rope: usize, pulls: &[Pull], model: &mut Model<'_, '_, '_>) -> Pull {
     };
     let is_one = pulls.len() == 1;
     let of = if is_one { first.signal.clone() } else { sum(model, "actuators", |_| 1.0) };
-    let clamp = Signal::Clamp { of: of.clone(), lower, upper };
-    let mut signal = model.signal(&format!("{name} effort"), clamp);
-    let mut gear = first.gear;
-    if pulls.iter().any(|pull| pull.gear != gear) {
-        // Σ gᵢ fᵢ times what the limit leaves of the sum
-        let all = sum(model, "geared actuators", |pull| pull.gear);
-        let ratio = Signal::Quotient { of: [signal, of] };
-        let ratio = model.signal(&format!("{name} share"), ratio);
-        signal = model.signal(&format!("{name} limited"), Signal::Product { of: vec![all, ratio] });
-        gear = 1.0;
+    if pulls.iter().all(|pull| pull.gear == first.gear) {
+        let clamp = Signal::Clamp { of, lower, upper };
+        let signal = model.signal(&format!("{name} effort"), clamp);
+        return Pull { name, signal, gear: first.gear, terms: first.terms.clone() };
     }
-    Pull { name, signal, gear, terms: first.terms.clone() }
+    // Σ gᵢ fᵢ times what the limit leaves of Σ fᵢ
+    let all = sum(model, "geared actuators", |pull| pull.gear);
+    let ratio = Signal::LimitRatio { of, lower, upper };
+    let ratio = model.signal(&format!("{name} limit ratio"), ratio);
+    let effort = Signal::Product { of: vec![all, ratio] };
+    let signal = model.signal(&format!("{name} effort"), effort);
+    Pull { name, signal, gear: 1.0, terms: first.terms.clone() }
 }
 
 /// The actuators of a joint together.

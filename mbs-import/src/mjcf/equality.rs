@@ -1,15 +1,13 @@
 //! Equalities: loops and couplings, hard here.
 
 use super::compiler::SAVED;
-use super::model::{Model, Moves, Site, Tendon};
+use super::model::{Model, Moves, Tendon};
+use super::offset::{self, Offset};
 use super::size::Size;
 use crate::element::{Attribute, Element};
-use crate::pose::{Pose, V3, quaternion, v3};
+use crate::pose::{M3, Pose, quaternion, v3};
 use crate::robot::{Coupling, GROUND, Joint, Kind, Term};
 use crate::source::Read;
-
-/// How far two places of one loop may be from each other as the file draws them [m]: six printed digits.
-const SLACK: f64 = 1.0e-6;
 
 /// Reads the elements `equality`.
 pub(super) fn read<'a>(root: &'a Element, model: &mut Model<'a, '_, '_>) -> Read<()> {
@@ -63,17 +61,18 @@ fn name(element: &Element, ending: &str, wanted: &str) -> String {
 /// `connect` and `weld`: a joint that closes a loop.
 fn closing(element: &Element, ending: &str, model: &mut Model<'_, '_, '_>) -> Read<()> {
     let is_weld = element.name == "weld";
-    let (ends, place) = if let Some(first) = element.attribute("site1") {
+    let (ends, offset) = if let Some(first) = element.attribute("site1") {
         let first = model.site(first, ending)?.clone();
         let second = model.site(element.need("site2")?, ending)?.clone();
-        meet(element, is_weld, &first, &second)?;
-        ([first.link, second.link], first.pose.at)
+        let turned = first.pose.turn * second.pose.turn.transpose();
+        let turned = if is_weld { turned } else { M3::identity() };
+        let (place, moved) = (second.pose.at, first.pose.at - second.pose.at);
+        ([first.link, second.link], Offset { place, moved, turned })
     } else {
         let first = model.body(element.need("body1")?, ending)?;
         let second =
             element.attribute("body2").map_or(Ok(GROUND), |name| model.body(name, ending))?;
-        let place = closing_place(element, is_weld, [first, second], model)?;
-        ([first, second], place)
+        ([first, second], between(element, is_weld, [first, second], model)?)
     };
     let carriers = model.robot.carriers(|joint| joint.kind == Kind::Fixed);
     if carriers[ends[0]] == carriers[ends[1]] {
@@ -85,59 +84,49 @@ fn closing(element: &Element, ending: &str, model: &mut Model<'_, '_, '_>) -> Re
     let number = model.robot.joints.len();
     let wanted = name(element, ending, &format!("{} {number}", element.name));
     let wanted = model.free_name(super::model::Sort::Joint, &wanted);
-    let joint = Joint::new(&wanted, element.at, kind, ends, place);
+    let first = offset::carried(&wanted, element, ends[0], &offset, model);
+    let ends = [first, ends[1]];
+    let joint = Joint::new(&wanted, element.at, kind, ends, offset.place);
     model.robot.joints.push(Joint { closes: true, ..joint });
     Ok(())
 }
 
-/// The place of a closing joint by the frames of two bodies.
-fn closing_place(
+/// How the second of two bodies is held by the first.
+fn between(
     element: &Element,
     is_weld: bool,
     [first, second]: [usize; 2],
     model: &Model<'_, '_, '_>,
-) -> Read<V3> {
+) -> Read<Offset> {
     let links = &model.robot.links;
     let size = |link: usize| model.sizes.get(&link).copied().unwrap_or(Size::ONE);
     let point = |link: usize, at: [f64; 3]| links[link].pose.point(&(v3(at) * size(link).length));
+    // what holds as they are drawn: where the first body has it now, and where the second one has it
+    let drawn = |link: usize| model.drawn.get(&link).copied().unwrap_or(links[link].pose);
+    let held = links[first].pose.then(&drawn(first).inverse().then(&drawn(second)));
+    let back = match model.posed {
+        Some(_) => links[second].pose.then(&held.inverse()),
+        None => Pose::identity(),
+    };
     if !is_weld {
-        return Ok(point(first, element.need("anchor")?.numbers()?));
+        let place = point(first, element.need("anchor")?.numbers()?);
+        let moved = place - back.point(&place);
+        return Ok(Offset { place: back.point(&place), moved, turned: M3::identity() });
     }
     // the anchor of a weld is in the second body
     let place = point(second, element.numbers_or("anchor", [0.0; 3])?);
-    if let Some(relative) = element.attribute("relpose") {
-        grown_fault(relative, size(first))?;
-        let [x, y, z, a, b, c, d] = relative.numbers()?;
-        // a quaternion of zeros stands for the pose as drawn
-        if let Some(turn) = quaternion([a, b, c, d]) {
-            let wanted = links[first].pose.then(&Pose::new(turn, v3([x, y, z])));
-            let is = &links[second].pose;
-            if (wanted.at - is.at).abs().max() > SLACK
-                || (wanted.turn - is.turn).abs().max() > SLACK
-            {
-                return Err(relative.fault(
-                    "the bodies are not drawn as this weld holds them",
-                    "draw them so, or leave `relpose` out",
-                ));
-            }
-        }
-    }
-    Ok(place)
-}
-
-/// Do two places meet as drawn?
-fn meet(element: &Element, is_weld: bool, first: &Site, second: &Site) -> Read<()> {
-    let apart = (first.pose.at - second.pose.at).abs().max();
-    let turned = (first.pose.turn - second.pose.turn).abs().max();
-    if apart <= SLACK && !(is_weld && turned > SLACK) {
-        return Ok(());
-    }
-    Err(apart_fault(element, apart))
-}
-
-fn apart_fault(element: &Element, apart: f64) -> crate::source::Fault {
-    let message = format!("the two sites are not drawn at one place: {apart:e} m apart, or turned");
-    element.fault(message, "draw the bodies so that the sites meet")
+    let forth = back.inverse();
+    let drawn = Offset { place, moved: forth.point(&place) - place, turned: forth.turn };
+    let Some(relative) = element.attribute("relpose") else { return Ok(drawn) };
+    grown_fault(relative, size(first))?;
+    let [x, y, z, a, b, c, d] = relative.numbers()?;
+    // a quaternion of zeros stands for the pose as drawn
+    let Some(turn) = quaternion([a, b, c, d]) else { return Ok(drawn) };
+    let wanted = links[first].pose.then(&Pose::new(turn, v3([x, y, z])));
+    let is = &links[second].pose;
+    // it has the anchor where the first body holds it
+    let turned = wanted.turn * is.turn.transpose();
+    Ok(Offset { place: drawn.place, moved: wanted.at - drawn.place, turned })
 }
 
 /// The same for two tendons, or for one, each a sum of coordinates; `false` where no sum is equal.
@@ -148,6 +137,10 @@ fn tendons(element: &Element, ending: &str, model: &mut Model<'_, '_, '_>) -> Re
     if first.is_grown {
         let message = "an equality of what stands in a frame with a scale";
         return Err(element.fault(message, SAVED));
+    }
+    if model.posed.is_some() {
+        let message = "an equality of tendons, where a keyframe closes what is drawn open";
+        return Err(element.fault(message, "draw the bodies so that loops are closed"));
     }
     let mut terms = first.terms;
     if terms.is_empty() {
@@ -178,6 +171,18 @@ fn polynomial(element: &Element) -> Read<[f64; 5]> {
     Ok(all)
 }
 
+/// Coefficients of p(x + offset) by powers of x; the first is that of p.
+fn shifted(coefficients: [f64; 5], offset: f64) -> [f64; 5] {
+    let mut all = coefficients;
+    for first in 0..4 {
+        for k in (first..4).rev() {
+            all[k] += all[k + 1] * offset;
+        }
+    }
+    all[0] = coefficients[0];
+    all
+}
+
 /// y − y₀ = a₀ + a₁ (x − x₀) + ..., or y − y₀ = a₀ without a second joint.
 fn coupling(element: &Element, ending: &str, model: &mut Model<'_, '_, '_>) -> Read<()> {
     let word = element.need("joint1")?;
@@ -186,8 +191,10 @@ fn coupling(element: &Element, ending: &str, model: &mut Model<'_, '_, '_>) -> R
         grown_fault(word, first.size)?;
     }
     let all = polynomial(element)?;
-    let [constant, slope, rest @ ..] = all;
+    let constant = all[0];
     let mut terms = vec![Term::new(first.coordinate(), first.sign)];
+    // deviations count from the model as it is drawn
+    let mut value = constant - (first.zero - first.drawn);
     if let Some(second) = element.attribute("joint2") {
         let word = second;
         let second = model.single(word, ending)?;
@@ -197,6 +204,10 @@ fn coupling(element: &Element, ending: &str, model: &mut Model<'_, '_, '_>) -> R
         let of = second.coordinate();
         // of the scene's coordinate, which may grow against the file's
         let signed = |power: i32, a: f64| a * second.sign.powi(power);
+        let offset = second.zero - second.drawn;
+        value += all.iter().zip(0..).skip(1).map(|(a, power)| a * offset.powi(power)).sum::<f64>();
+        let all = shifted(all, offset);
+        let [_, slope, rest @ ..] = all;
         if rest == [0.0; 3] {
             terms.push(Term::new(of, -signed(1, slope)));
         } else {
@@ -207,6 +218,6 @@ fn coupling(element: &Element, ending: &str, model: &mut Model<'_, '_, '_>) -> R
     }
     let wanted = name(element, ending, &format!("{} equality", first.name));
     let wanted = model.free_name(super::model::Sort::Law, &wanted);
-    model.robot.couplings.push(Coupling { name: wanted, terms, value: constant });
+    model.robot.couplings.push(Coupling { name: wanted, terms, value });
     Ok(())
 }

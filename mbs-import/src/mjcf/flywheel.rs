@@ -1,11 +1,12 @@
 //! Inertia of a sum of coordinates: armature of tendons, and of the actuators that pull them.
 
 use super::model::{Model, Sort};
-use crate::pose::{V3, unit};
+use crate::inertia::Mass;
+use crate::pose::{M3, V3, unit};
 use crate::robot::{Coordinate, Coupling, GROUND, Joint, Kind, Link, Target, Term, What};
 use crate::source::Origin;
 
-/// Adds ½ a ṁ² of a sum m to the kinetic energy. Of one coordinate it is a rotor; else a massless link turns by m, and has the rotor.
+/// Adds ½ a ṁ² of a sum m to the kinetic energy. Of one coordinate it is a rotor; else a body with that inertia turns by m about its centre.
 pub(super) fn add(name: &str, terms: &[Term], inertia: f64, model: &mut Model<'_, '_, '_>) {
     if let [only] = terms
         && only.line.is_empty()
@@ -18,16 +19,20 @@ pub(super) fn add(name: &str, terms: &[Term], inertia: f64, model: &mut Model<'_
     let wheel = model.free_name(Sort::Link, name);
     let link = model.robot.links.len();
     let at = Origin::start_of(0);
-    model.robot.links.push(Link::new(&wheel, at));
+    // its mass rests at the origin: the number of its moment, which keeps sizes alike
+    let mass = Mass { mass: inertia, center: V3::zeros(), tensor: M3::identity() * inertia };
+    model.robot.links.push(Link { mass: Some(mass), ..Link::new(&wheel, at) });
+    let note =
+        format!("Body {wheel}: it turns as the length changes, for its armature. It is no part.");
+    model.robot.notes.push(note);
     let joint = model.robot.joints.len();
     let turn = model.free_name(Sort::Joint, name);
     let mut hinge = Joint::new(&turn, at, Kind::Revolute, [GROUND, link], V3::zeros());
     hinge.axes = vec![unit(2)];
     model.robot.joints.push(hinge);
     let of = Coordinate { joint, number: None };
-    let mut sum = vec![Term::new(of.clone(), -1.0)];
+    let mut sum = vec![Term::new(of, -1.0)];
     sum.extend(terms.iter().cloned());
     let coupling = model.free_name(Sort::Law, &format!("{name} turn"));
     model.robot.couplings.push(Coupling { name: coupling, terms: sum, value: 0.0 });
-    model.law(name, What::Rotor { on: Target::Coordinate(of), inertia });
 }

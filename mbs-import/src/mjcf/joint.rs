@@ -6,7 +6,7 @@ use super::model::{Model, Motion, Moves, Sort};
 use super::passive;
 use super::size::Size;
 use super::strength::Strength;
-use crate::pose::{Pose, V3, direction, v3};
+use crate::pose::{M3, Pose, V3, about, direction, quaternion, v3};
 use crate::robot::{GROUND, Joint, Kind, Link, What};
 use crate::source::{Fault, Origin, Read};
 use mbs_core::algebra::cross;
@@ -38,16 +38,53 @@ fn moves(view: &View<'_>) -> Read<Moves> {
     })
 }
 
-/// Friction and armature.
-fn strengths(view: &View<'_>, name: &str) -> Read<[f64; 2]> {
-    let all = [view.number_or("frictionloss", 0.0)?, view.number_or("armature", 0.0)?];
-    if all.iter().any(|x| *x < 0.0) {
+/// Global axis of a joint; zero of one that has none.
+fn axis(view: &View<'_>, scope: &Pose, (name, is_single): (&str, bool)) -> Read<V3> {
+    match direction(&v3(view.numbers_or("axis", [0.0, 0.0, 1.0])?)) {
+        Some(axis) => Ok(scope.turn * axis),
+        None if is_single => Err(view.element.fault(
+            format!("the axis of joint `{name}` has no direction"),
+            "write a direction, as 0 0 1",
+        )),
+        None => Ok(V3::zeros()),
+    }
+}
+
+/// What acts in a joint, in the size of its frames.
+struct Strong {
+    strengths: [Strength; 2],
+    friction: f64,
+    armature: f64,
+    effort: Option<[f64; 2]>,
+}
+
+fn strong(
+    view: &View<'_>,
+    name: &str,
+    (is_slide, size): (bool, Size),
+    model: &Model<'_, '_, '_>,
+) -> Read<Strong> {
+    let by = |power| if is_slide { size.force_by(power) } else { size.moment() };
+    let [friction, armature] =
+        [view.number_or("frictionloss", 0.0)?, view.number_or("armature", 0.0)?];
+    if friction < 0.0 || armature < 0.0 {
         return Err(view.element.fault(
             format!("frictionloss or armature of joint `{name}` is below zero"),
             "write zero or more",
         ));
     }
-    Ok(all)
+    let auto = model.compiler.of(view.element.at).auto_limits;
+    let is_clamped = view.is_limited("actuatorfrclimited", "actuatorfrcrange", auto)?;
+    let effort = view.numbers::<2>("actuatorfrcrange")?.filter(|_| is_clamped);
+    let acts = model.compiler.acts;
+    let [stiffness, damping] = [("stiffness", acts.spring), ("damping", acts.damper)]
+        .map(|(name, acts)| Strength::read(view, name).map(|of| of.where_it(acts).grown(by)));
+    Ok(Strong {
+        strengths: [stiffness?, damping?],
+        friction: friction * by(0),
+        armature: armature * by(1),
+        effort: effort.map(|range| range.map(|end| end * by(0))),
+    })
 }
 
 /// Time and damping ratio from which spring and damper follow.
@@ -80,39 +117,16 @@ pub(super) fn read(
         Moves::Ball | Moves::Free => x,
     };
     let place = scope.point(&(v3(view.numbers_or("pos", [0.0; 3])?) * size.length));
-    let axis = v3(view.numbers_or("axis", [0.0, 0.0, 1.0])?);
     let is_single = matches!(moves, Moves::Hinge | Moves::Slide);
-    let axis = match direction(&axis) {
-        Some(axis) => scope.turn * axis,
-        None if is_single => {
-            return Err(Fault::new(
-                at,
-                format!("the axis of joint `{name}` has no direction"),
-                "write a direction, as 0 0 1",
-            ));
-        }
-        None => V3::zeros(),
-    };
+    let axis = axis(view, scope, (&name, is_single))?;
     let zero = if is_single { angle(view.number_or("ref", 0.0)?) } else { 0.0 };
     let spring = if is_single { angle(view.number_or("springref", 0.0)?) } else { 0.0 };
     let is_limited = view.is_limited("limited", "range", settings.auto_limits)?;
     let range = view.numbers::<2>("range")?.filter(|range| is_limited && *range != [0.0; 2]);
     let stops = view.numbers_or("solreflimit", [0.02, 1.0])?;
     view.attribute("solimplimit");
-    let is_clamped =
-        view.is_limited("actuatorfrclimited", "actuatorfrcrange", settings.auto_limits)?;
-    let is_slide = moves == Moves::Slide;
-    let [force, mass] =
-        if is_slide { [0, 1].map(|power| size.force_by(power)) } else { [size.moment(); 2] };
-    let effort = view.numbers::<2>("actuatorfrcrange")?.filter(|_| is_clamped);
-    let effort = effort.map(|range| range.map(|end| end * force));
-    let [friction, armature] = strengths(view, &name)?;
-    let [friction, armature] = [friction * force, armature * mass];
+    let strong = strong(view, &name, (moves == Moves::Slide, size), model)?;
     let acts = model.compiler.acts;
-    let [stiffness, damping] = [("stiffness", acts.spring), ("damping", acts.damper)]
-        .map(|(name, acts)| Strength::read(view, name).map(|of| of.where_it(acts)));
-    let grown = |power| if is_slide { size.force_by(power) } else { size.moment() };
-    let strengths = [stiffness?.grown(grown), damping?.grown(grown)];
     let timed = timed(view)?;
     Ok(Written {
         limited_ball: range.is_some() && !is_single,
@@ -124,19 +138,69 @@ pub(super) fn read(
             number: None,
             sign: 1.0,
             zero,
+            drawn: zero,
             spring,
             range: range.filter(|_| is_single).map(|range| range.map(angle)),
-            effort,
-            armature,
+            effort: strong.effort,
+            armature: strong.armature,
             axis,
             stops: (range.is_some() && is_single && acts.limit).then_some(stops),
             timed,
-            strengths,
+            strengths: strong.strengths,
             size,
         },
         place,
-        friction: if acts.friction { friction } else { 0.0 },
+        friction: if acts.friction { strong.friction } else { 0.0 },
     })
+}
+
+/// Puts the joints of a body, which has a frame, where coordinates of a keyframe have them; how that moves the body, and how many it takes.
+pub(super) fn posed(joints: &mut [Written], frame: &Pose, places: &[f64]) -> Read<(Pose, usize)> {
+    let mut moved = Pose::identity();
+    let mut taken = 0;
+    for Written { motion, place, .. } in joints {
+        let count = motion.moves.places();
+        let own = places.get(taken..taken + count).ok_or_else(|| {
+            let message = "the keyframe has no coordinates for this joint";
+            Fault::new(
+                motion.at,
+                message,
+                "write all coordinates in `qpos`, in the order of the joints",
+            )
+        })?;
+        taken += count;
+        *place = moved.point(place);
+        motion.axis = moved.turn * motion.axis;
+        let turned_by = |turn: M3| Pose::new(turn, *place - turn * *place);
+        let of_ball = |own: &[f64]| {
+            quaternion([own[0], own[1], own[2], own[3]]).ok_or_else(|| {
+                let message = "a quaternion of length zero in the keyframe";
+                Fault::new(motion.at, message, "write w x y z of unit length")
+            })
+        };
+        let step = match motion.moves {
+            Moves::Hinge => turned_by(about(&motion.axis, own[0] - motion.zero)),
+            Moves::Slide => {
+                let way = own[0] * motion.size.length - motion.zero;
+                Pose::new(M3::identity(), motion.axis * way)
+            }
+            Moves::Ball => {
+                let is = moved.then(frame).turn;
+                turned_by(is * of_ball(own)? * is.transpose())
+            }
+            Moves::Free => {
+                let wanted = Pose::new(of_ball(&own[3..])?, v3([own[0], own[1], own[2]]));
+                wanted.then(&moved.then(frame).inverse())
+            }
+        };
+        match motion.moves {
+            Moves::Hinge => motion.zero = own[0],
+            Moves::Slide => motion.zero = own[0] * motion.size.length,
+            Moves::Ball | Moves::Free => {}
+        }
+        moved = step.then(&moved);
+    }
+    Ok((moved, taken))
 }
 
 /// Joins a body to its parent by its joints, the first one outermost: those that are one joint of the scene become one, others get massless

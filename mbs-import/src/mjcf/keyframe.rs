@@ -1,11 +1,23 @@
 //! Keyframes: where a run starts.
 
 use super::model::{Model, Motion, Moves};
+use crate::context::Context;
 use crate::element::{Attribute, Element};
 use crate::pose::{M3, V3, quaternion, v3};
 use crate::robot::{GROUND, Kind, Signal, Start, What};
 use crate::source::{Fault, Origin, Read};
 use mbs_scene::nearest_name;
+
+/// The coordinates of the keyframe that is asked for.
+pub(super) fn places(root: &Element, context: &Context<'_>) -> Read<Option<Vec<f64>>> {
+    let Some(asked) = &context.options.key else { return Ok(None) };
+    let keys = root.each("keyframe").flat_map(|keys| keys.each("key"));
+    let mut named = keys.zip(0..).filter(|(key, number)| {
+        key.value("name").map_or_else(|| format!("{number}"), str::to_owned) == *asked
+    });
+    let places = named.next().and_then(|(key, _)| key.attribute("qpos"));
+    places.map(Attribute::list).transpose()
+}
 
 /// Takes the keyframe that is asked for; others are named in the head of the scene.
 pub(super) fn read(root: &Element, model: &mut Model<'_, '_, '_>) -> Read<()> {
@@ -24,7 +36,12 @@ pub(super) fn read(root: &Element, model: &mut Model<'_, '_, '_>) -> Read<()> {
         if Some(name) == asked.as_ref() && taken.is_none() {
             taken = Some(name);
             start(key, model)?;
-            model.robot.notes.push(format!("Start: keyframe {name}."));
+            let word = if model.posed.is_some() {
+                "Reference and start: the places of keyframe"
+            } else {
+                "Start: keyframe"
+            };
+            model.robot.notes.push(format!("{word} {name}."));
         } else {
             model.robot.notes.push(format!("Keyframe {name}: not taken (--key {name})."));
         }
@@ -67,17 +84,14 @@ fn numbers(
 }
 
 fn start(key: &Element, model: &mut Model<'_, '_, '_>) -> Read<()> {
-    let positions = |moves: Moves| match moves {
-        Moves::Hinge | Moves::Slide => 1,
-        Moves::Ball => 4,
-        Moves::Free => 7,
-    };
     let rates = |moves: Moves| match moves {
         Moves::Hinge | Moves::Slide => 1,
         Moves::Ball => 3,
         Moves::Free => 6,
     };
-    let values = numbers(key.attribute("qpos"), positions, &model.motions)?;
+    let values = numbers(key.attribute("qpos"), Moves::places, &model.motions)?;
+    // its bodies may stand there already
+    let values = values.filter(|_| model.posed.is_none());
     let speeds = numbers(key.attribute("qvel"), rates, &model.motions)?;
     if let Some(controls) = key.attribute("ctrl") {
         let list = controls.list()?;
@@ -223,7 +237,7 @@ fn of_quaternion(q: &[f64], motion: &Motion) -> Read<M3> {
 }
 
 /// The rotation vector of a rotation.
-fn vector_of(turn: &M3) -> [f64; 3] {
+pub(super) fn vector_of(turn: &M3) -> [f64; 3] {
     let skew =
         v3([turn[(2, 1)] - turn[(1, 2)], turn[(0, 2)] - turn[(2, 0)], turn[(1, 0)] - turn[(0, 1)]])
             * 0.5;

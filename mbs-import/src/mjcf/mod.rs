@@ -19,6 +19,7 @@ mod include;
 mod joint;
 mod keyframe;
 mod model;
+mod offset;
 mod orientation;
 mod passive;
 mod size;
@@ -47,12 +48,30 @@ use model::Model;
 
 /// Reads the root element `mujoco`.
 pub(crate) fn read(root: &Element, context: &mut Context<'_>) -> Read<Robot> {
+    let before = context.findings.clone();
+    let (robot, is_open) = whole(root, None, context)?;
+    if !is_open {
+        return Ok(robot);
+    }
+    // bodies stand where the keyframe has them, if it closes what is drawn open
+    let Some(posed) = keyframe::places(root, context)? else { return Ok(robot) };
+    context.findings = before;
+    whole(root, Some(posed), context).map(|(robot, _)| robot)
+}
+
+/// Reads a model, with its bodies as they are drawn or at coordinates of a keyframe; is a loop open there?
+fn whole(
+    root: &Element,
+    posed: Option<Vec<f64>>,
+    context: &mut Context<'_>,
+) -> Read<(Robot, bool)> {
     let name = root.value("model").unwrap_or("mujoco");
     let mut robot = Robot::new(name, root.at.source);
     let compiler = Compiler::read(root)?;
     robot.gravity = compiler.gravity;
     let classes = Classes::read(root)?;
     let mut model = Model::new(compiler, &classes, robot, context);
+    model.posed = posed;
     asset::collect(root, &mut model)?;
     body::read(root, &mut model)?;
     if model.robot.links.len() == 1 {
@@ -82,5 +101,5 @@ pub(crate) fn read(root: &Element, context: &mut Context<'_>) -> Read<Robot> {
             .notes
             .push(format!("Step of the file: {step} s; methods here choose their own."));
     }
-    Ok(model.robot)
+    Ok((model.robot, model.is_open))
 }

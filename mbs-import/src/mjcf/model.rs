@@ -22,6 +22,17 @@ pub(super) enum Moves {
     Free,
 }
 
+impl Moves {
+    /// Numbers of its place in a keyframe.
+    pub(super) const fn places(self) -> usize {
+        match self {
+            Self::Hinge | Self::Slide => 1,
+            Self::Ball => 4,
+            Self::Free => 7,
+        }
+    }
+}
+
 /// What names are of: those of one sort differ.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub(super) enum Sort {
@@ -44,6 +55,8 @@ pub(super) struct Motion {
     pub(super) sign: f64,
     /// The file's coordinate in the reference configuration.
     pub(super) zero: f64,
+    /// That as the model is drawn.
+    pub(super) drawn: f64,
     /// Without tension in its spring.
     pub(super) spring: f64,
     /// Ends of the file's coordinate.
@@ -187,6 +200,12 @@ pub(super) struct Model<'a, 'b, 'c> {
     pub(super) copies: HashMap<String, Vec<String>>,
     /// By the number of the actuator.
     pub(super) inputs: Vec<Control>,
+    /// Coordinates of the keyframe at which bodies stand in the reference configuration; `None`: as they are drawn.
+    pub(super) posed: Option<Vec<f64>>,
+    /// Where links stand as they are drawn.
+    pub(super) drawn: HashMap<usize, Pose>,
+    /// Is a loop open in the reference configuration?
+    pub(super) is_open: bool,
     /// Geoms that could touch others.
     pub(super) touching: usize,
     names: HashSet<(Sort, String)>,
@@ -217,6 +236,9 @@ impl<'a, 'b, 'c> Model<'a, 'b, 'c> {
             copies: HashMap::new(),
             inputs: Vec::new(),
             touching: 0,
+            posed: None,
+            drawn: HashMap::new(),
+            is_open: false,
             meshes: HashMap::new(),
             names: HashSet::new(),
         }
@@ -238,6 +260,14 @@ impl<'a, 'b, 'c> Model<'a, 'b, 'c> {
         let name = self.free_name(Sort::Law, wanted);
         self.robot.laws.push(Law { name: name.clone(), what });
         name
+    }
+
+    /// A place of a link in the reference configuration, where it is drawn.
+    pub(super) fn as_drawn(&self, link: usize, place: &V3) -> V3 {
+        let drawn = self.drawn.get(&link);
+        drawn.map_or(*place, |drawn| {
+            drawn.point(&self.robot.links[link].pose.inverse().point(place))
+        })
     }
 
     /// Adds a signal; its name.

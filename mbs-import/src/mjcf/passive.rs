@@ -6,7 +6,7 @@ use super::strength::Strength;
 use crate::pose::v3;
 use crate::robot::What;
 
-/// Corners of a tetrahedron: Σ r = 0 and Σ (r² E − r rᵀ) = 8 E, so that forces −c v at them are a moment −8 c ω about their middle.
+/// Corners of a tetrahedron: Σ r = 0 and Σ (r² E − r rᵀ) = 8 E. So forces −c v at them are a moment −8 c ω.
 const CORNERS: [[f64; 3]; 4] =
     [[1.0, 1.0, 1.0], [1.0, -1.0, -1.0], [-1.0, 1.0, -1.0], [-1.0, -1.0, 1.0]];
 

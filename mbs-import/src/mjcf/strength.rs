@@ -6,11 +6,11 @@ use super::defaults::View;
 use crate::robot::Piece;
 use crate::source::Read;
 
-/// Deviation up to which a spring follows its polynomial [rad or m]; beyond, its tangent holds. Its energy counts from there, so a larger
+/// Deviation up to which a spring follows its polynomial [rad or m]; beyond, its tangent continues. Its energy counts from there, so a larger
 /// one costs digits.
 const REACH: f64 = 100.0;
 /// Ends of pieces on one side of a corner [rad or m, or by s]: they grow tenfold, so that none loses digits of its lowest values. The last is
-/// the rate up to which a damper follows its polynomial; beyond, its tangent holds.
+/// the rate up to which a damper follows its polynomial; beyond, its tangent continues.
 const STEPS: [f64; 8] = [0.0, 1.0, 10.0, 1.0e2, 1.0e3, 1.0e4, 1.0e5, 1.0e6];
 
 /// Three coefficients, of increasing power.

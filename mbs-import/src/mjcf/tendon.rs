@@ -103,7 +103,12 @@ fn spatial(view: &View<'_>, ending: &str, model: &Model<'_, '_, '_>) -> Read<Opt
         return Err(element.fault("a strand of fewer than two sites", "name two sites or more"));
     }
     let drawn = terms.iter().map(|term| term.factor * length(&term.line)).sum();
-    Ok(Some(Pulled { terms, is_grown, drawn, slack: drawn }))
+    let slack = terms.iter().map(|term| {
+        let points = term.line.iter().map(|(link, at)| (*link, model.as_drawn(*link, at)));
+        term.factor * length(&points.collect::<Vec<_>>())
+    });
+    let slack = slack.sum();
+    Ok(Some(Pulled { terms, is_grown, drawn, slack }))
 }
 
 /// The length of a line as it is drawn.
@@ -231,7 +236,7 @@ fn spring(
         Some([lower, upper]) if [*lower, *upper] != [-1.0; 2] => [*lower, *upper],
         _ => {
             let is_line = pulled.terms.iter().any(|term| !term.line.is_empty());
-            let is_bent = model.motions.iter().any(|motion| motion.spring != motion.zero);
+            let is_bent = model.motions.iter().any(|motion| motion.spring != motion.drawn);
             if stiffness != Strength::NONE && is_line && is_bent {
                 let says = "its spring is free as the model is drawn; there where the springs of the joints are";
                 let label = format!("tendon/{}[{name}]", view.element.name);

@@ -2,7 +2,7 @@
 
 use super::{Writer, list, number, vector};
 use crate::pose::V3;
-use crate::robot::{Signal, Target, What};
+use crate::robot::{Piece, Signal, Target, Term, What};
 use mbs_scene::quoted;
 
 impl Writer<'_> {
@@ -27,16 +27,7 @@ impl Writer<'_> {
                 self.key("pulls_only", "true");
             }
             What::Polynomial { terms, pieces, of_rate } => {
-                let kind = if *of_rate { "polynomial-damper" } else { "polynomial-spring" };
-                let terms = self.terms(terms);
-                self.table("effect");
-                self.key("name", quoted(name));
-                self.key("kind", quoted(kind));
-                self.key("terms", terms);
-                let pieces = pieces.iter().map(|piece| {
-                    list([piece.lower, piece.upper].into_iter().chain(piece.coefficients))
-                });
-                self.key("coefficients", format!("[{}]", pieces.collect::<Vec<_>>().join(", ")));
+                self.polynomial(name, terms, pieces, *of_rate);
             }
             What::Friction { on, coulomb } => {
                 self.effect(name, "friction", on);
@@ -74,6 +65,31 @@ impl Writer<'_> {
             }
             What::Signal(signal) => self.signal_law(name, signal),
         }
+    }
+
+    fn polynomial(&mut self, name: &str, terms: &[Term], pieces: &[Piece], of_rate: bool) {
+        let kind = if of_rate { "polynomial-damper" } else { "polynomial-spring" };
+        let terms = self.terms(terms);
+        self.table("effect");
+        self.key("name", quoted(name));
+        self.key("kind", quoted(kind));
+        self.key("terms", terms);
+        let pieces = pieces
+            .iter()
+            .map(|piece| list([piece.lower, piece.upper].into_iter().chain(piece.coefficients)));
+        self.key("coefficients", format!("[{}]", pieces.collect::<Vec<_>>().join(", ")));
+    }
+
+    /// A signal within limits, or what they leave of it.
+    fn within(&mut self, name: &str, kind: &str, of: &str, limits: [f64; 2]) {
+        self.signal(name, kind);
+        self.key("of", quoted(of));
+        self.numbers(&[("lower", limits[0]), ("upper", limits[1])]);
+    }
+
+    fn names(&mut self, of: &[String]) {
+        let names: Vec<_> = of.iter().map(|name| quoted(name)).collect();
+        self.key("of", format!("[{}]", names.join(", ")));
     }
 
     fn bushing(
@@ -121,12 +137,6 @@ impl Writer<'_> {
         self.key("value", number(value));
     }
 
-    fn signal_of(&mut self, name: &str, kind: &str, of: &[String]) {
-        self.signal(name, kind);
-        let names: Vec<_> = of.iter().map(|name| quoted(name)).collect();
-        self.key("of", format!("[{}]", names.join(", ")));
-    }
-
     /// What a signal with a state has at the start.
     fn started(&mut self, value: f64) {
         if value != 0.0 {
@@ -168,20 +178,20 @@ impl Writer<'_> {
                 self.key("of", format!("[{}]", names.join(", ")));
                 self.key("factors", list(of.iter().map(|(_, factor)| *factor)));
             }
-            Signal::Clamp { of, lower, upper } => {
-                self.signal(name, "clamp");
-                self.key("of", quoted(of));
-                self.key("lower", number(*lower));
-                self.key("upper", number(*upper));
-            }
+            Signal::Clamp { of, lower, upper } => self.within(name, "clamp", of, [*lower, *upper]),
             Signal::Lag { of, time, value } => {
                 self.signal(name, "lag");
                 self.key("of", quoted(of));
                 self.key("time", number(*time));
                 self.started(*value);
             }
-            Signal::Product { of } => self.signal_of(name, "product", of),
-            Signal::Quotient { of } => self.signal_of(name, "quotient", of),
+            Signal::Product { of } => {
+                self.signal(name, "product");
+                self.names(of);
+            }
+            Signal::LimitRatio { of, lower, upper } => {
+                self.within(name, "limit-ratio", of, [*lower, *upper]);
+            }
             Signal::Integral { of, range, value } => {
                 self.signal(name, "integral");
                 self.key("of", quoted(of));

@@ -22,7 +22,8 @@ impl<T: Real, S: Space<T>> Look<'_, '_, T, S> {
                 Operation::Constant(_) => true,
                 Operation::Add { from, .. }
                 | Operation::Multiply { from }
-                | Operation::Clamp { from, .. } => is_course(from),
+                | Operation::Clamp { from, .. }
+                | Operation::LimitRatio { from, .. } => is_course(from),
                 Operation::Curve { from, curve } => is_course(from) && is_curve(curve),
                 Operation::Lag { from, state, .. } | Operation::Integral { from, state, .. } => {
                     is_course(from) && is_state(state)

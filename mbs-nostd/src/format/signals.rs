@@ -33,6 +33,7 @@ record_enum!([T: Real + Record] FeedbackOperation<T> = FeedbackOperation {
     9 Pid { from from, state state, gains gains, limit limit },
     10 Component { from from, component component },
     11 Force { from from, on on },
+    12 LimitRatio { from from, limits limits },
 });
 
 record_enum!([T: Real + Record] CurveTable<T> = CurveTable {

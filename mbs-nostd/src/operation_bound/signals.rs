@@ -21,6 +21,7 @@ pub(super) fn evaluation<T: Real, S: Space<T>>(m: &TreeSlices<'_, T, S>) -> Oper
             FeedbackOperation::Curve { curve, .. } => {
                 ops(6, 1) + function(&m.loops.couplings, curve)
             }
+            FeedbackOperation::LimitRatio { .. } => ops(6, 2).and(3, 0, 0),
             FeedbackOperation::Lag { .. } => ops(7, 5).and(5, 0, 0),
             FeedbackOperation::Integral { .. } => ops(5, 2),
             FeedbackOperation::Pid { .. } => ops(16, 11),

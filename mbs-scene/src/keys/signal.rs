@@ -8,7 +8,7 @@ use super::value::Referent;
 
 pub(super) fn tables() -> Vec<KeyTable> {
     let name = need("name", Name, "", "Name, by which others refer to it.");
-    let [functions, others] = [functions(), of_signals()];
+    let (functions, others) = (functions(), of_signals());
     let [lag, integral, pid] = states();
     let all = [
         ("constant", of("The same at all times.", vec![number("value", "Value.")])),
@@ -71,17 +71,19 @@ fn functions() -> [(&'static str, KeyTable); 4] {
 }
 
 /// What is made of other signals.
-fn of_signals() -> [(&'static str, KeyTable); 4] {
+fn of_signals() -> [(&'static str, KeyTable); 5] {
     let several = || need("of", Some(Referent::Signal), "", "The signals.");
     let factors = may("factors", SomeNumbers, "", "ones", "A factor for each.");
     let mut of_curve = vec![one()];
     of_curve.extend(curve("Rows `[x, f]`.", &CURVE_WAYS));
-    let limits = vec![one(), number("lower", "Lower limit."), number("upper", "Upper limit.")];
+    let limits = || vec![one(), number("lower", "Lower limit."), number("upper", "Upper limit.")];
+    let ratio = "What limits leave of a signal, as a ratio: the signal within limits by the signal. It is one where that is zero.";
     [
         ("sum", of("A sum of signals with factors.", vec![several(), factors])),
         ("product", of("A product of signals.", vec![several()])),
         ("curve", of("A table or a polynomial of a signal.", of_curve)),
-        ("clamp", of("A signal within limits.", limits)),
+        ("clamp", of("A signal within limits.", limits())),
+        ("limit-ratio", of(ratio, limits())),
     ]
 }
 

@@ -68,6 +68,11 @@ fn kind<'a>(
             lower: number("lower")?,
             upper: number("upper")?,
         },
+        "limit-ratio" => SignalKind::LimitRatio {
+            of: single(fields)?,
+            lower: number("lower")?,
+            upper: number("upper")?,
+        },
         "measure" | "lag" | "integral" | "pid" => feedback(fields, word, joints)?,
         _ => {
             let unit = fields.get("unit").map_or(Ok(""), |item| fields.context.text(item))?;

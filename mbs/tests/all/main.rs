@@ -37,6 +37,7 @@ mod kinds;
 mod linear_system;
 mod machines;
 mod massless_trees;
+mod mjcf;
 mod modes;
 mod observers;
 mod oracle;

@@ -121,6 +121,11 @@ fn check_kind<T: Real>(
             finite(&[("lower", lower), ("upper", upper)])?;
             ordered([*lower, *upper], "lower", place)
         }
+        SignalKind::LimitRatio { lower, upper, .. } => {
+            place.not_negative("upper", *upper)?;
+            place.not_negative("lower", T::ZERO - *lower)?;
+            ordered([*lower, *upper], "lower", place)
+        }
         _ => check_feedback(scene, kind, place),
     }
 }

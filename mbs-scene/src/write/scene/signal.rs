@@ -157,6 +157,12 @@ impl Writer<'_> {
                 keys.push("of", self.signal_name(*of)?);
                 curve(keys, function);
             }
+            SignalKind::LimitRatio { of, lower, upper } => {
+                keys.push("kind", "limit-ratio");
+                keys.push("lower", lower);
+                keys.push("upper", upper);
+                keys.push("of", self.signal_name(*of)?);
+            }
             SignalKind::Clamp { of, lower, upper } => {
                 keys.push("kind", "clamp");
                 keys.push("lower", lower);

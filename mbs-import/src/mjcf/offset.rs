@@ -1,0 +1,74 @@
+//! Loops that are open as the model is drawn: a massless link stands where the other side has to be.
+
+use super::model::{Model, Sort};
+use crate::element::Element;
+use crate::pose::{M3, V3, direction};
+use crate::robot::{Coordinate, Coupling, Joint, Kind, Link, Term};
+
+/// How far two sides may be apart, and turned, as drawn.
+const SLACK: f64 = 1.0e-6;
+
+/// What takes the second side to where the first one holds it: a displacement, and a turn about its place; global, as drawn.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Offset {
+    pub(super) place: V3,
+    pub(super) moved: V3,
+    pub(super) turned: M3,
+}
+
+/// A link that the first one carries, displaced and turned against it: the first one itself where both sides meet as drawn.
+pub(super) fn carried(
+    name: &str,
+    element: &Element,
+    first: usize,
+    offset: &Offset,
+    model: &mut Model<'_, '_, '_>,
+) -> usize {
+    let mut link = first;
+    let turn = V3::from(super::keyframe::vector_of(&offset.turned));
+    model.is_open |= offset.moved.amax().max(turn.amax()) > SLACK;
+    let step = Step { name, element, place: offset.place };
+    if let Some(axis) = direction(&offset.moved).filter(|_| offset.moved.amax() > SLACK) {
+        let distance = offset.moved.dot(&axis);
+        link = step.add("slide", Kind::Prismatic, link, (axis, distance), model);
+    }
+    if let Some(axis) = direction(&turn).filter(|_| turn.amax() > SLACK) {
+        let angle = turn.dot(&axis);
+        link = step.add("turn", Kind::Revolute, link, (axis, angle), model);
+    }
+    link
+}
+
+/// Where joints of one loop stand.
+struct Step<'a> {
+    name: &'a str,
+    element: &'a Element,
+    place: V3,
+}
+
+impl Step<'_> {
+    /// A massless link on a joint whose coordinate is held.
+    fn add(
+        &self,
+        word: &str,
+        kind: Kind,
+        parent: usize,
+        (axis, value): (V3, f64),
+        model: &mut Model<'_, '_, '_>,
+    ) -> usize {
+        let name = format!("{} {word}", self.name);
+        let link = model.robot.links.len();
+        let own = model.free_name(Sort::Link, &name);
+        let pose = model.robot.links[parent].pose;
+        model.robot.links.push(Link { pose, ..Link::new(&own, self.element.at) });
+        let number = model.robot.joints.len();
+        let own = model.free_name(Sort::Joint, &name);
+        let mut joint = Joint::new(&own, self.element.at, kind, [parent, link], self.place);
+        joint.axes = vec![axis];
+        model.robot.joints.push(joint);
+        let of = Coordinate { joint: number, number: None };
+        let name = model.free_name(Sort::Law, &format!("{name} held"));
+        model.robot.couplings.push(Coupling { name, terms: vec![Term::new(of, 1.0)], value });
+        link
+    }
+}

@@ -1,0 +1,54 @@
+//! Models in MJCF move as MuJoCo 4.0.0 has it, with constraints off: accelerations at the keyframe `on`.
+
+mod actuators;
+mod balls;
+mod loops;
+mod parts;
+mod sizes;
+mod small;
+mod springs;
+
+use crate::common::oracle::{self, Way};
+use mbs::ImportOptions;
+use mbs_import::import;
+
+/// What both programs may round apart, relative to one or to the value.
+const ROUNDED: f64 = 1e-9;
+
+/// The scene of a model at that keyframe.
+fn scene_text(model: &str, options: ImportOptions) -> String {
+    let key = model.contains("<key").then(|| "on".to_owned());
+    let imported = import(model.as_bytes(), "model.xml", &ImportOptions { key, ..options });
+    imported.unwrap_or_else(|error| panic!("{}", error.render())).text
+}
+
+/// Compares numbers of outputs at the start: header lines of each with its components.
+fn compare(mut text: String, outputs: &[(String, Vec<f64>)]) {
+    for (number, (output, _)) in outputs.iter().enumerate() {
+        text += &format!("\n[[output]]\nname = \"output {number}\"\n{output}\n");
+    }
+    let rows = oracle::run(&text, Way("index-3", "trapezoidal"), (1e-6, 1e-6));
+    let expected =
+        outputs.iter().flat_map(|(output, numbers)| numbers.iter().map(move |x| (output, x)));
+    for (found, (output, expected)) in rows[0].1.iter().zip(expected) {
+        let allowed = ROUNDED * expected.abs().max(1.0);
+        assert!((found - expected).abs() < allowed, "{output}: {found} for {expected}\n{text}");
+    }
+}
+
+/// Compares accelerations of joints.
+fn agrees(model: &str, expected: &[(&str, f64)]) {
+    let outputs = expected.iter().map(|(joint, x)| (of_joint(joint), vec![*x]));
+    compare(scene_text(model, ImportOptions::default()), &outputs.collect::<Vec<_>>());
+}
+
+fn of_joint(joint: &str) -> String {
+    format!("joint = \"{joint}\"\nquantity = \"acceleration\"")
+}
+
+/// Compares the angular acceleration of a body.
+fn turns(model: &str, body: &str, expected: [f64; 3]) {
+    let output = format!("body = \"{body}\"\nquantity = \"angular-acceleration\"");
+    let text = scene_text(model, ImportOptions::default());
+    compare(text, &[(output, expected.to_vec())]);
+}
