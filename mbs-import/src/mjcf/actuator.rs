@@ -306,12 +306,18 @@ impl Actuator {
         None
     }
 
+    /// Does its damping follow from a ratio, and from what it moves?
+    pub(super) fn has_ratio(&self) -> bool {
+        let ([stiffness, ..], [_, bias, ratio]) = (self.gain, self.biases());
+        stiffness == -bias && ratio > 0.0
+    }
+
     /// With the damping of its ratio: c = 2 d √(k m), and m what it moves in the reference configuration.
     pub(super) fn damped(&self, moved: impl FnOnce() -> Option<f64>) -> Result<Self, String> {
-        let ([stiffness, ..], [_, bias, ratio]) = (self.gain, self.biases());
-        if stiffness != -bias || ratio <= 0.0 {
+        if !self.has_ratio() {
             return Ok(self.clone());
         }
+        let ([stiffness, ..], [.., ratio]) = (self.gain, self.biases());
         let Some(moved) = moved().filter(|moved| moved.is_finite()) else {
             return Err("its damping follows from the mass that it moves, and that is open".into());
         };

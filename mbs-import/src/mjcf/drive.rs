@@ -63,6 +63,10 @@ fn add(
             let (size, is_slide) = pulled.size;
             let grown = actuator.grown(size, is_slide);
             let grown = grown.ok_or("a cylinder on a joint in a frame with a scale")?;
+            if grown.has_ratio() && model.posed.is_some() {
+                let says = "its damping follows from the inertia at the keyframe; there from that as drawn";
+                model.context.findings.approximated(element.at, label.as_str(), says);
+            }
             let damped = grown.damped(|| {
                 let factor = factor.get_or_init(|| Factor::new(model)).as_ref()?;
                 Some(factor.moved_by(&pulled.terms)? / pulled.gear.powi(2))

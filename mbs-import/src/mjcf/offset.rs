@@ -26,7 +26,11 @@ pub(super) fn carried(
 ) -> usize {
     let mut link = first;
     let turn = V3::from(super::keyframe::vector_of(&offset.turned));
-    model.is_open |= offset.moved.amax().max(turn.amax()) > SLACK;
+    if offset.moved.amax().max(turn.amax()) > SLACK {
+        model.is_open = true;
+        let says = "open as the model stands: it closes at the start, by the smallest motion (--key takes a keyframe that closes it)";
+        model.context.findings.approximated(element.at, element.label(), says);
+    }
     let step = Step { name, element, place: offset.place };
     if let Some(axis) = direction(&offset.moved).filter(|_| offset.moved.amax() > SLACK) {
         let distance = offset.moved.dot(&axis);

@@ -48,8 +48,9 @@ pub(super) fn add(factor: &Lazy, model: &mut Model<'_, '_, '_>) {
             let inertia = moved.as_ref().map_or(0.0, |moved| moved[number]);
             let stiffness = inertia / (time * ratio).powi(2);
             let damping = 2.0 * inertia / time;
+            let place = if model.posed.is_some() { "at the keyframe" } else { "as drawn" };
             let says = format!(
-                "springdamper: stiffness {stiffness:e} and damping {damping:e} by the inertia as drawn"
+                "springdamper: stiffness {stiffness:e} and damping {damping:e} by the inertia {place}"
             );
             model.context.findings.approximated(motion.at, format!("joint[{}]", motion.name), says);
             let [mut spring, mut damper] = motion.strengths;
