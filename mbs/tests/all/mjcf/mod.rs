@@ -9,8 +9,7 @@ mod small;
 mod springs;
 
 use crate::common::oracle::{self, Way};
-use mbs::ImportOptions;
-use mbs_import::import;
+use mbs_import::{ImportOptions, import};
 
 /// What both programs may round apart, relative to one or to the value.
 const ROUNDED: f64 = 1e-9;

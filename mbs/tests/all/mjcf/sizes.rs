@@ -41,6 +41,16 @@ fn frames_with_a_scale_multiply_lengths_masses_and_moments() {
         ],
     );
     agrees(
+        r#"<mujoco><worldbody><frame scale="2"><replicate count="2" offset="0.3 0 0" euler="0 0 30"><body name="b" pos="0.2 0 0">
+<joint name="h" axis="0 1 0"/><geom size="0.1" pos="0.2 0 0"/></body></replicate></frame></worldbody><keyframe>
+<key name="on" qpos="0.1 0.2"/></keyframe></mujoco>"#,
+        &[("h0", 22.184070139494164), ("h1", 21.851029837778587)],
+    );
+}
+
+#[test]
+fn frames_in_frames_multiply_their_scales() {
+    agrees(
         r#"<mujoco><compiler angle="radian" autolimits="true"/><worldbody><frame scale="2" pos="0.1 0.2 0.3" euler="0.2 0.3 0.4">
 <body name="a" pos="0.3 0 0.5" gravcomp="0.5">
 <joint name="h" axis="0 1 0" pos="0.1 0.2 0.3" stiffness="2 3 4" damping="0.1 .2 .3" armature="0.01" ref="0.3" springref="0.4" actuatorfrcrange="-1 2"/>
@@ -75,12 +85,6 @@ fn frames_with_a_scale_multiply_lengths_masses_and_moments() {
             ("p", -3.27972936103662),
             ("q", -0.9493090543987321),
         ],
-    );
-    agrees(
-        r#"<mujoco><worldbody><frame scale="2"><replicate count="2" offset="0.3 0 0" euler="0 0 30"><body name="b" pos="0.2 0 0">
-<joint name="h" axis="0 1 0"/><geom size="0.1" pos="0.2 0 0"/></body></replicate></frame></worldbody><keyframe>
-<key name="on" qpos="0.1 0.2"/></keyframe></mujoco>"#,
-        &[("h0", 22.184070139494164), ("h1", 21.851029837778587)],
     );
 }
 

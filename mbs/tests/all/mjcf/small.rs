@@ -1,8 +1,8 @@
 //! MJCF: the smallest model of each kind, by closed forms.
 
 use super::{agrees, turns};
-use mbs::ImportOptions;
-use mbs_import::import;
+
+use mbs_import::{ImportOptions, import};
 
 /// A wheel or a wagon with a joint, what is beside the world, and a keyframe.
 fn one(joint: &str, geom: &str, extra: &str, key: &str) -> String {
