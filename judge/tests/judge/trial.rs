@@ -36,9 +36,9 @@ fn every_joint_with_every_effect_moves_as_the_judge_says_in_every_formulation() 
     assert!(tally.agree >= left_out);
 }
 
-/// Refusals among the first hundred seeds: formulation, code, seeds. The loops of seeds 46 and 98 come near positions where they lock, and
-/// the steps of `state-space` do not pass these.
-const REFUSED: &[(&str, &str, &[u64])] = &[("state-space", "not-converged", &[46, 98])];
+/// Refusals among the first hundred seeds: formulation, code, seeds. The loops of seed 98 come near a position where they lock, and the
+/// steps of `state-space` do not pass it.
+const REFUSED: &[(&str, &str, &[u64])] = &[("state-space", "not-converged", &[98])];
 
 #[test]
 fn the_first_hundred_random_scenes_move_as_the_judge_says_or_are_refused_as_listed() {
