@@ -20,6 +20,16 @@ fn wave(amplitude: f64, offset: f64, angle: Jet) -> Jet {
     [x + offset, rate, bend]
 }
 
+/// What limits leave of a number, as a ratio: L/x beyond them.
+fn limit_ratio([x, dx, ddx]: Jet, [lower, upper]: [f64; 2]) -> Jet {
+    if (lower..=upper).contains(&x) {
+        return [1.0, 0.0, 0.0];
+    }
+    // (L/x)'' = L (2 x'²/x³ - x''/x²)
+    let limit = if x < 0.0 { lower } else { upper };
+    [limit / x, -limit * dx / (x * x), limit * (2.0 * dx * dx / x - ddx) / (x * x)]
+}
+
 impl Source {
     /// Value and rates at a time; `follows` has what the motion decides.
     fn jet(&self, t: f64, follows: &dyn Fn(&Self) -> Jet) -> Jet {
@@ -67,13 +77,7 @@ impl Source {
                 chain(curve.at(inner[0]), inner)
             }
             Self::LimitRatio(inner, [lower, upper]) => {
-                let [x, dx, ddx] = inner.jet(t, follows);
-                if (*lower..=*upper).contains(&x) {
-                    return [1.0, 0.0, 0.0];
-                }
-                // (L/x)'' = L (2 x'²/x³ - x''/x²)
-                let limit = if x < 0.0 { lower } else { upper };
-                [limit / x, -limit * dx / (x * x), limit * (2.0 * dx * dx / x - ddx) / (x * x)]
+                limit_ratio(inner.jet(t, follows), [*lower, *upper])
             }
             Self::Clamp(inner, [lower, upper]) => {
                 let x = inner.jet(t, follows);

@@ -108,12 +108,9 @@ impl Mechanism {
         integrator: &str,
         f_ext: Option<&Bound<'py, PyAny>>,
     ) -> PyResult<Bound<'py, PyAny>> {
+        let words = elsewhere(py, (steps, client, integrator))?;
         if let Some(f_ext) = f_ext {
-            let words = PyDict::new(py);
-            words.set_item("steps", steps)?;
             words.set_item("threads", threads)?;
-            words.set_item("client", client)?;
-            words.set_item("integrator", integrator)?;
             let rollout = py.import("multibody.external")?.getattr("rollout")?;
             return rollout.call((self.clone(), f_ext, q, v, u, dt), Some(&words));
         }
@@ -133,11 +130,7 @@ impl Mechanism {
         let given = u;
         let taken = inputs(py, u, (k, nu), steps);
         let (u, n_steps, many) = taken.map_err(|error| self.about_inputs(py, error))?;
-        if let Some(client) = client {
-            let words = PyDict::new(py);
-            words.set_item("client", client)?;
-            words.set_item("steps", steps)?;
-            words.set_item("integrator", integrator)?;
+        if client.is_some() {
             let rollout = py.import("multibody.parallel")?.getattr("rollout")?;
             return rollout.call((self.clone(), q, v, given, dt), Some(&words));
         }
@@ -171,6 +164,18 @@ impl Mechanism {
         let all_v = array(py, all_v, &[k, n_steps + 1, nv])?;
         values::make(py, "Rollout", (all_q, all_v, ok, errors))
     }
+}
+
+/// The words of a rollout that another function makes.
+fn elsewhere<'py>(
+    py: Python<'py>,
+    (steps, client, integrator): (Option<i64>, Option<&Bound<'py, PyAny>>, &str),
+) -> PyResult<Bound<'py, PyDict>> {
+    let words = PyDict::new(py);
+    words.set_item("steps", steps)?;
+    words.set_item("client", client)?;
+    words.set_item("integrator", integrator)?;
+    Ok(words)
 }
 
 /// The integrator of a name.

@@ -74,7 +74,7 @@ fn halve(numbers: &mut Vec<f64>, n: usize) {
     let mut place = 0;
     numbers.retain(|_| {
         place += 1;
-        (place - 1) / n.max(1) % 2 == 0
+        ((place - 1) / n.max(1)).is_multiple_of(2)
     });
 }
 
