@@ -312,8 +312,8 @@ class Mechanism:
     def pose(self, body: str, q: ArrayLike) -> tuple[Array, Array]:
         """Centre of mass (3,) of a body, and its rotation (3, 3) from the reference configuration."""
     def frame(self, name: str, q: ArrayLike, v: ArrayLike | None = None) -> dict[str, Array]:
-        """A frame at a state: position (3,), rotation (3, 3), velocity (3,), angular_velocity (3,), in global axes; of a body without a frame
-        of its name the centre of mass."""
+        """A frame at a state: position (3,), rotation (3, 3), velocity (3,), angular_velocity (3,), in global axes; of a body without a
+        frame of its name the centre of mass."""
     def center_of_mass(self, q: ArrayLike) -> Array:
         """Centre of mass (3,) of all bodies."""
     def forward_derivatives(self, q: ArrayLike, v: ArrayLike, effort: ArrayLike) -> Derivatives:
@@ -328,8 +328,8 @@ class Mechanism:
         position: ArrayLike | None = None,
         rotation: ArrayLike | None = None,
     ) -> Array:
-        """Coordinates (nq,) in which a frame is at a position (3,) with a rotation (3, 3), from `q` on; of a body without a frame of its name
-        it is the centre of mass. What is left out is free; loops stay closed."""
+        """Coordinates (nq,) in which a frame is at a position (3,) with a rotation (3, 3), from `q` on; of a body without a frame of its
+        name it is the centre of mass. What is left out is free; loops stay closed."""
     def integrate(self, q: ArrayLike, step: ArrayLike) -> Array:
         """q moved by `step` (nv,) along the velocities."""
     def difference(self, q0: ArrayLike, q1: ArrayLike) -> Array:
