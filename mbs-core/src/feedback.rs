@@ -214,7 +214,7 @@ pub fn follow<T: Real, E>(
                 (clamp(s, [lower, upper]), by)
             }
             FeedbackOperation::LimitRatio { from, limits } => {
-                through(limit_ratio_of(of(from)[0], limits), of(from), states.slope(from))
+                through(limit_ratio(of(from)[0], limits), of(from), states.slope(from))
             }
             FeedbackOperation::Lag { .. }
             | FeedbackOperation::Integral { .. }
@@ -326,7 +326,7 @@ fn through<T: Real>(f: [T; 3], s: Signal<T>, slope: CourseSlope<T>) -> (Signal<T
 }
 
 /// A number within limits by that number, with its derivatives.
-fn limit_ratio_of<T: Real>(s: T, [lower, upper]: [T; 2]) -> [T; 3] {
+pub(crate) fn limit_ratio<T: Real>(s: T, [lower, upper]: [T; 2]) -> [T; 3] {
     let limit = if s > upper {
         upper
     } else if s < lower {
@@ -337,10 +337,6 @@ fn limit_ratio_of<T: Real>(s: T, [lower, upper]: [T; 2]) -> [T; 3] {
     let ratio = limit / s;
     let slope = T::ZERO - ratio / s;
     [ratio, slope, T::ZERO - (slope + slope) / s]
-}
-
-pub(crate) fn limit_ratio<T: Real>(s: Signal<T>, limits: [T; 2]) -> Signal<T> {
-    chain(limit_ratio_of(s[0], limits), s)
 }
 
 /// A signal within limits.

@@ -196,7 +196,8 @@ impl<T: Real> Node<T> {
             }
             SignalKind::Clamp { of: signal, lower, upper } => clamp(of(signal), [*lower, *upper]),
             SignalKind::LimitRatio { of: signal, lower, upper } => {
-                limit_ratio(of(signal), [*lower, *upper])
+                let s = of(signal);
+                chain(limit_ratio(s[0], [*lower, *upper]), s)
             }
             // these follow the motion
             SignalKind::Measure { .. }
