@@ -24,6 +24,7 @@ pub(crate) fn train(n: usize, has_gears: bool) -> Scene<f64> {
         mass: 1.0,
         center: [x, 0.0, 0.0],
         inertia: Inertia::Planar(0.5 * radius(i) * radius(i)),
+        gravity_scale: None,
     });
     let joints = centers.iter().enumerate().map(|(i, &x)| Joint {
         name: format!("hinge-{i}"),
