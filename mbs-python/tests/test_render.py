@@ -60,6 +60,9 @@ def test_a_picture_shows_where_the_mechanism_is() -> None:
         assert np.array_equal(first, again)
         sim.steps(None, 300)
         assert not np.array_equal(renderer.picture(sim), first)
+        # the drawing fills the picture: its corners are the background
+        corners = first[[0, 0, -1, -1], [0, -1, 0, -1]]
+        assert np.array_equal(corners, np.repeat(corners[:1], 4, axis=0)) and corners.min() > 0
         # bodies are drawn: not all of it is the background
         assert len(np.unique(first.reshape(-1, 3), axis=0)) > 10
 

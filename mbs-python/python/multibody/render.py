@@ -64,7 +64,14 @@ SCRIPT = """
   motion.at = (t) => (t < 0 ? seen[-1 - t] : now);
   const box = () => [0, 1, 2].map((i) => { const x = seen.flatMap((p) => Array.from({ length: n }, (_, b) => p[7 * b + i])); return [Math.min(...x), Math.max(...x)]; });
   const heaviest = motion.bodies.reduce((best, body, i) => (body.mass > motion.bodies[best].mass ? i : best), 0);
-  const out = document.createElement("canvas"), context = out.getContext("2d", { willReadFrequently: true });
+  const canvas = view.canvas, width = innerWidth, height = innerHeight, rgba = new Uint8Array(4 * width * height), rgb = new Uint8Array(3 * width * height);
+  const gl = canvas.getContext("webgl2"), flat = gl ? null : canvas.getContext("2d");
+  // what is drawn is read in the same task, rows from below
+  const read = () => {
+    if (gl) { gl.readPixels(0, 0, width, height, gl.RGBA, gl.UNSIGNED_BYTE, rgba); return; }
+    const found = flat.getImageData(0, 0, width, height).data;
+    for (let y = 0; y < height; y++) rgba.set(found.subarray(4 * width * y, 4 * width * (y + 1)), 4 * width * (height - 1 - y));
+  };
   window.mbsShow = (pose) => {
     now = Float64Array.from(pose);
     const way = Math.hypot(...[0, 1, 2].map((i) => now[7 * heaviest + i] - first[7 * heaviest + i]));
@@ -73,17 +80,21 @@ SCRIPT = """
     const leaves = !isFollowed && Array.from({ length: n }).some((_, b) => limits.some(([low, high], i) => now[7 * b + i] < low || now[7 * b + i] > high));
     if (leaves) { seen.push(now); motion.times = seen.map((_, k) => -1 - k); view.fit(); }
     page.clock.seek(0);
-    const canvas = view.canvas;
-    view.draw();
-    out.width = innerWidth; out.height = innerHeight;
-    context.drawImage(canvas, 0, 0, out.width, out.height);
-    const rgba = context.getImageData(0, 0, out.width, out.height).data, rgb = new Uint8Array(3 * out.width * out.height);
+    read();
     for (let i = 0, k = 0; i < rgba.length; i += 4) { rgb[k++] = rgba[i]; rgb[k++] = rgba[i + 1]; rgb[k++] = rgba[i + 2]; }
     let text = "";
     for (let i = 0; i < rgb.length; i += 0x8000) text += String.fromCharCode.apply(null, rgb.subarray(i, i + 0x8000));
     return btoa(text);
   };
-  view.fit();
+  // the drawing takes the size of the window a moment later
+  return new Promise((done) => {
+    const wait = () => {
+      if (canvas.width !== width || canvas.height !== height) { setTimeout(wait, 5); return; }
+      view.fit();
+      done(true);
+    };
+    wait();
+  });
 })()
 """
 
@@ -113,7 +124,7 @@ class Renderer:
         poses = np.asarray(simulation.poses(), dtype=np.float64).ravel()
         text = self._browser.evaluate(f"mbsShow({json.dumps(poses.tolist())})")
         width, height = self._size
-        return np.frombuffer(base64.b64decode(text), dtype=np.uint8).reshape(height, width, 3).copy()
+        return np.frombuffer(base64.b64decode(text), dtype=np.uint8).reshape(height, width, 3)[::-1].copy()
 
     def close(self) -> None:
         """Ends the browser."""
