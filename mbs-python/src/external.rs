@@ -1,7 +1,7 @@
 //! External forces: by the name of a frame or body a force and a moment, in global axes, at the frame's origin.
 
 use crate::array::Numbers;
-use crate::error::{Class, guarded, raised, unread, usage};
+use crate::error::{Class, guarded, raised, usage};
 use crate::forces::{External, Forces, parts};
 use crate::import::Read;
 use crate::mechanism::Mechanism;
@@ -88,10 +88,6 @@ impl Mechanism {
         }
         let file = mechanism.to_file().map_err(SimulationError::from);
         let file = file.map_err(|error| raised(py, &error, Class::Scene))?;
-        // a name that is taken is refused where the scene is read again
-        let checked = mechanism.check().map_err(SimulationError::from);
-        checked.map_err(|error| raised(py, &error, Class::Scene))?;
-        file.scene::<f64>().map_err(|error| unread(py, &error))?;
         let of_effects = |info: &&mbs::InputInfo| matches!(info.owner, mbs::InputOwner::Effect(_));
         let first = self.shared.inputs.iter().filter(of_effects).count();
         let parts = parts(self.shared.scene.dimension);

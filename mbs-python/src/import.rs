@@ -3,7 +3,9 @@
 use crate::error::{raised, unread, usage};
 use crate::value;
 use mbs::SimulationError;
-use mbs::models::{self, BaseKind, FileCoordinate, FileMotion, ImportOptions, Imported, Stops};
+use mbs::models::{
+    self, BaseKind, FileCoordinate, FileMotion, ImportOptions, Imported, ModelFormat, Stops,
+};
 use mbs::scene_file::{ReadError, SceneFile};
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
@@ -80,9 +82,22 @@ fn model(
 ) -> PyResult<Read> {
     let refused = |error: ReadError| unread(py, &error);
     let mut taken = ImportOptions::in_folder(home.to_owned());
-    for (option, value) in options.into_iter().flatten() {
+    if let Some(options) = options.filter(|options| !options.is_empty()) {
+        take(options, models::model_format(bytes, name).map_err(refused)?, &mut taken)?;
+    }
+    let made = py.detach(|| {
+        let model = models::import(bytes, name, &taken)?;
+        Ok::<_, ReadError>((model.scene_file(name)?, model))
+    });
+    let (file, model) = made.map_err(refused)?;
+    Ok(Read { file, folder: None, model: Some(Arc::new((name.to_owned(), model))) })
+}
+
+/// Takes options over, which are to be those of the format.
+fn take(given: &Bound<'_, PyDict>, format: ModelFormat, taken: &mut ImportOptions) -> PyResult<()> {
+    let py = given.py();
+    for (option, value) in given {
         let option: String = option.extract()?;
-        let format = models::model_format(bytes, name).map_err(refused)?;
         if !format.options().contains(&&*option) {
             let message = format!(
                 "`{option}` is no option of a file in {}; its options: {}",
@@ -91,7 +106,7 @@ fn model(
             );
             return Err(PyTypeError::new_err(message));
         }
-        set(&mut taken, (&option, &value)).map_err(|error| {
+        set(taken, (&option, &value)).map_err(|error| {
             if !error.is_instance_of::<PyTypeError>(py) {
                 return error;
             }
@@ -99,12 +114,7 @@ fn model(
             usage(py, "usage", &message, meaning(&option), &option)
         })?;
     }
-    let made = py.detach(|| {
-        let model = models::import(bytes, name, &taken)?;
-        Ok::<_, ReadError>((model.scene_file(name)?, model))
-    });
-    let (file, model) = made.map_err(refused)?;
-    Ok(Read { file, folder: None, model: Some(Arc::new((name.to_owned(), model))) })
+    Ok(())
 }
 
 /// What an option takes.
@@ -197,7 +207,7 @@ pub(crate) fn coordinates<'py>(
         })
     };
     let list = || serde_json::Value::from(model.coordinates.iter().map(object).collect::<Vec<_>>());
-    (model.format == models::ModelFormat::Mjcf).then(|| value::object(py, &list()))
+    (model.format == ModelFormat::Mjcf).then(|| value::object(py, &list()))
 }
 
 /// Warns where something that can act was left out.

@@ -57,9 +57,7 @@ impl Mechanism {
         let refused = |error| raised(py, &SimulationError::from(error), Class::Scene);
         let inputs = mechanism.inputs().map_err(refused)?;
         let unit = |component: &mbs::core::outputs::Component| component.unit.clone();
-        let outputs = scene.outputs.iter().map(|o| Output { magnitude: false, ..o.clone() });
-        let read = Scene { outputs: outputs.collect(), ..scene.clone() };
-        let columns = Channel::of_scene(&read).into_iter().flat_map(|channel| {
+        let columns = channels(&scene).into_iter().flat_map(|channel| {
             let units: Vec<String> = channel.components.iter().map(unit).collect();
             channel.columns().zip(units).map(|(name, unit)| [name, unit]).collect::<Vec<_>>()
         });
@@ -185,6 +183,12 @@ impl Mechanism {
         let (q, v) = state.map_err(|error| raised(py, &error.into(), Class::Usage))?;
         values::state(py, q, v)
     }
+}
+
+/// The channels of a scene without magnitudes, in the order of its columns.
+pub(crate) fn channels(scene: &Scene<f64>) -> Vec<Channel> {
+    let outputs = scene.outputs.iter().map(|o| Output { magnitude: false, ..o.clone() });
+    Channel::of_scene(&Scene { outputs: outputs.collect(), ..scene.clone() })
 }
 
 /// Codes of joints without coordinates.

@@ -2,9 +2,9 @@
 
 use crate::array::{array, vector};
 use crate::error::{Class, guarded, raised, unknown_name};
-use crate::mechanism::Mechanism;
-use mbs::core::scene::{BodyId, Output, Scene};
-use mbs::record::{Channel, ChannelSeries, N_POSE, Provenance, RecordedMotion, RunRecord};
+use crate::mechanism::{Mechanism, channels};
+use mbs::core::scene::BodyId;
+use mbs::record::{ChannelSeries, N_POSE, Provenance, RecordedMotion, RunRecord};
 use mbs::{Method, ResolvedMethod, Simulation, SimulationError, run_document};
 use pyo3::prelude::*;
 use std::path::PathBuf;
@@ -176,12 +176,6 @@ impl Recording {
     }
 }
 
-/// The channels of a scene without magnitudes, in the order of its columns.
-fn channels(scene: &Scene<f64>) -> Vec<Channel> {
-    let outputs = scene.outputs.iter().map(|o| Output { magnitude: false, ..o.clone() });
-    Channel::of_scene(&Scene { outputs: outputs.collect(), ..scene.clone() })
-}
-
 #[pymethods]
 impl Recording {
     /// Times of the instants that are kept [s].
@@ -226,10 +220,8 @@ impl Recording {
         Ok(std::fs::write(path, page)?)
     }
 
-    fn _repr_html_(&self, py: Python<'_>) -> PyResult<String> {
-        let page = self.page(py)?.replace('&', "&amp;").replace('"', "&quot;");
-        let style = "width=\"100%\" height=\"720\" style=\"border:0\"";
-        Ok(format!("<iframe srcdoc=\"{page}\" {style}></iframe>"))
+    fn _repr_html_<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        py.import("multibody.result")?.getattr("embedded")?.call1((self.page(py)?,))
     }
 
     fn __len__(&self) -> usize {

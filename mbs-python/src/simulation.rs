@@ -134,13 +134,15 @@ impl Simulation {
         (u, f_ext): (Option<&Bound<'_, PyAny>>, Option<&Bound<'_, PyAny>>),
         n: Option<usize>,
     ) -> PyResult<Vec<f64>> {
+        if u.is_none() && f_ext.is_none() {
+            return Ok(Vec::new());
+        }
         let this = self.this();
         let (nu, forces) = (this.shared.inputs.len(), &this.shared.forces);
         let external = this.external(py, f_ext)?;
         forces.check(py, &external)?;
         let present = self.moving(py)?.simulation.input_values().to_vec();
         let mut all = match u {
-            None if f_ext.is_none() => return Ok(Vec::new()),
             None => present,
             Some(u) => {
                 let own = nu - forces.range().len();

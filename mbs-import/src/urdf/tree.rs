@@ -101,11 +101,7 @@ impl Tree {
         robot: &mut Robot,
         context: &mut Context<'_>,
     ) -> Read<()> {
-        self.move_links(place, robot);
-        let colours = link::colours(root)?;
-        for (link, element) in (self.first..).zip(root.each("link")) {
-            link::shapes(element, link, &colours, (robot, context))?;
-        }
+        self.place_links(root, place, robot, context)?;
         let [first, first_coupling] = [robot.joints.len(), robot.couplings.len()];
         let mut joints = Named::new("joint", first);
         for (mut joint, element) in self.joints.into_iter().zip(root.each("joint")) {
@@ -131,21 +127,29 @@ impl Tree {
         robot: &mut Robot,
         context: &mut Context<'_>,
     ) -> Read<()> {
-        self.move_links(place, robot);
-        let colours = link::colours(root)?;
-        for (link, element) in (self.first..).zip(root.each("link")) {
-            link::shapes(element, link, &colours, (robot, context))?;
-        }
+        self.place_links(root, place, robot, context)?;
         drake::frames(root, &self.links, &self.prefix, robot)?;
         root.read_whole();
         Ok(())
     }
 
-    fn move_links(&self, place: &Pose, robot: &mut Robot) {
+    /// Puts the links at a place of their robot, with their forms.
+    fn place_links(
+        &self,
+        root: &Element,
+        place: &Pose,
+        robot: &mut Robot,
+        context: &mut Context<'_>,
+    ) -> Read<()> {
         for link in &mut robot.links[self.first..self.first + self.names.len()] {
             link.mass = link.mass.map(|mass| mass.seen_from(place));
             link.pose = place.then(&link.pose);
         }
+        let colours = link::colours(root)?;
+        for (link, element) in (self.first..).zip(root.each("link")) {
+            link::shapes(element, link, &colours, (robot, context))?;
+        }
+        Ok(())
     }
 }
 

@@ -114,12 +114,17 @@ class Result(Mapping[str, Any]):
         return self._record.page()  # type: ignore[no-any-return]
 
     def _repr_html_(self) -> str:
-        from html import escape
-
-        return f'<iframe srcdoc="{escape(self.page())}" width="100%" height="720" style="border:0"></iframe>'
+        return embedded(self.page())
 
     def __getstate__(self) -> dict[str, Any]:
         return {**self.__dict__, "_record": None}
+
+
+def embedded(page: str) -> str:
+    """A page within that of a notebook."""
+    from html import escape
+
+    return f'<iframe srcdoc="{escape(page)}" width="100%" height="720" style="border:0"></iframe>'
 
 
 class UnknownOutput(UsageError, KeyError):
