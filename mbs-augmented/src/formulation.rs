@@ -3,7 +3,7 @@
 use crate::history::History as OfWorkspace;
 use crate::index_change::{ConstraintIndex, IndexChange, IndexHistory};
 use crate::inputs::{pass_jump, take_inputs};
-use crate::options::Options;
+use crate::options::{Options, Penalty};
 use crate::workspace::Workspace;
 use crate::{index1, index3};
 use alloc::boxed::Box;
@@ -28,6 +28,14 @@ pub enum Form<T> {
 }
 
 impl<T: Real> Form<T> {
+    /// The options of the next step.
+    fn options(&self) -> &Options<T> {
+        match self {
+            Self::Index1(options) | Self::Index3(options) => options,
+            Self::MultiIndex(change) => change.options(),
+        }
+    }
+
     fn validate(&self) -> Result<(), OptionError> {
         match self {
             Self::Index1(options) | Self::Index3(options) => options.validate(),
@@ -135,6 +143,14 @@ where
         }
     }
 
+    fn strengthen(&mut self, error: &StepError) -> bool {
+        let Options { penalty, adaptive_penalty, .. } = *self.form.options();
+        let may_change = adaptive_penalty && matches!(penalty, Penalty::Scaled(_));
+        let is_by_them =
+            matches!(error, StepError::NotConverged { .. } | StepError::Violated { .. });
+        may_change && is_by_them && self.workspace.strengthen()
+    }
+
     fn tried(&mut self, dt: T) {
         if let Form::MultiIndex(change) = &mut self.form {
             change.tried(dt);
@@ -213,8 +229,10 @@ fn walk<T: Real>(
     book: &mut Book<'_, T>,
 ) -> Restored {
     book.kind(0)?;
-    let OfWorkspace { penalty_factor, contraction, weakest_combination, settled } = own;
+    let OfWorkspace { penalty_factor, penalty_strength, contraction, weakest_combination, settled } =
+        own;
     book.real("penalty factor", penalty_factor)?;
+    book.real("penalty strength", penalty_strength)?;
     book.real("contraction", contraction)?;
     book.rows("weakest combination", weakest_combination)?;
     book.small("factorizations", &mut settled.factorizations)?;

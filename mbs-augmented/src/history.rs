@@ -8,6 +8,8 @@ use mbs_core::step::Counts;
 pub struct History<T> {
     /// Factor on the penalty, as it has adapted [-].
     pub penalty_factor: T,
+    /// Factor on the penalty since a step failed, else one [-].
+    pub penalty_strength: T,
     /// Ratio of the most weakly determined combination of constraints before and after one correction [-].
     pub contraction: T,
     /// That combination, m.

@@ -84,6 +84,14 @@ impl<T: Real> IndexChange<T> {
         self.index
     }
 
+    /// The options of the present index.
+    pub(crate) fn options(&self) -> &Options<T> {
+        match self.index {
+            ConstraintIndex::One => &self.index1,
+            ConstraintIndex::Three => &self.index3,
+        }
+    }
+
     /// Changes of index so far.
     #[must_use]
     pub fn changes(&self) -> u32 {

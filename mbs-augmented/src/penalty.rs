@@ -24,6 +24,9 @@ const FALLING: f64 = 0.1;
 const FALL: f64 = 0.25;
 /// Largest penalty, times EPSILON [effective masses]: above, rounding of T^-1 looks like a lost direction.
 const MAX_PENALTY: f64 = 0.2;
+/// Factor on penalties that were too small for a step [-]. The middle, in digits, between those of regular motion and the largest: arms of
+/// parts without mass that friction holds take 100 times or more, an arm of light rotors in a singular position 10,000 times. A power of two.
+const STRENGTHENED: f64 = 16_384.0;
 /// Least factor on penalties that are lowered after T was not positive definite [-]: four binary digits at a time.
 const LOWERING: f64 = 1.0 / 16.0;
 
@@ -38,6 +41,8 @@ pub(crate) struct PenaltyScale<T> {
     base: T,
     /// Factor on it, as it has adapted [-].
     pub(crate) factor: T,
+    /// Factor on it since a step failed, else one [-].
+    pub(crate) strength: T,
 }
 
 impl<T: Real> PenaltyScale<T> {
@@ -45,7 +50,8 @@ impl<T: Real> PenaltyScale<T> {
     pub(crate) fn new(model: &impl Model<T>, terms: &Terms<T>) -> Self {
         let mut masses = vec![T::ZERO; model.n_constraints()];
         model.effective_masses(terms, &mut masses);
-        Self { weights: masses.clone(), masses, base: T::ONE, factor: T::ONE }
+        let (weights, base, factor, strength) = (masses.clone(), T::ONE, T::ONE, T::ONE);
+        Self { weights, masses, base, factor, strength }
     }
 
     /// The penalties that a step begins with, raised by `factor`; a fixed alpha times `unit`.
@@ -54,12 +60,13 @@ impl<T: Real> PenaltyScale<T> {
         model: &M,
         (penalty, unit, factor): (Penalty<T>, T, T),
     ) {
-        (self.base, self.factor) = (penalty.factor(), factor);
+        let strength = self.strength;
+        (self.base, self.factor) = (penalty.factor() * strength, factor);
         let masses = &self.masses;
         on_stretches(model.team(), [&mut self.weights], |first, [weights]| {
             for (weight, &mass) in weights.iter_mut().zip(&masses[first..]) {
                 *weight = match penalty {
-                    Penalty::Scaled(c) => c * factor * mass,
+                    Penalty::Scaled(c) => c * strength * factor * mass,
                     Penalty::Fixed(alpha) => alpha * unit,
                 };
             }
@@ -85,6 +92,13 @@ impl<T: Real> PenaltyScale<T> {
     pub(crate) fn scale_velocity_rows(&mut self, model: &impl Model<T>, by: T) {
         let rows = self.weights.iter_mut().enumerate();
         rows.filter(|(row, _)| model.is_velocity_row(*row)).for_each(|(_, s)| *s *= by);
+    }
+
+    /// Penalties were too small for a step: those in proportion to masses are larger from now on. Returns whether they were not before.
+    pub(crate) fn strengthen(&mut self) -> bool {
+        let was_strengthened = self.strength > T::ONE;
+        self.strength = T::from_f64(STRENGTHENED);
+        !was_strengthened
     }
 
     /// Takes raised penalties back; returns whether there were any.

@@ -59,6 +59,7 @@ impl<T: Real, S: SpdSolver<T>> Workspace<T, S> {
     /// Saves what the last step leaves for the next one, so that a trial of that can be undone.
     pub fn save(&mut self) {
         self.saved.penalty_factor = self.scale.factor;
+        self.saved.penalty_strength = self.scale.strength;
         self.saved.contraction = self.adaptation.contraction;
         self.saved.weakest_combination.copy_from_slice(&self.adaptation.weakest_combination);
     }
@@ -66,8 +67,15 @@ impl<T: Real, S: SpdSolver<T>> Workspace<T, S> {
     /// Restores what was saved: a trial leaves no trace.
     pub fn restore(&mut self) {
         self.scale.factor = self.saved.penalty_factor;
+        self.scale.strength = self.saved.penalty_strength;
         self.adaptation.contraction = self.saved.contraction;
         self.adaptation.weakest_combination.copy_from_slice(&self.saved.weakest_combination);
+    }
+
+    /// A step failed for penalties that may be too small: makes those in proportion to masses larger from now on, until it is
+    /// [`restore`](Self::restore)d. Returns whether they were not before.
+    pub fn strengthen(&mut self) -> bool {
+        self.scale.strengthen()
     }
 
     /// State that the next step continues from.
@@ -76,6 +84,7 @@ impl<T: Real, S: SpdSolver<T>> Workspace<T, S> {
         let PenaltyAdaptation { weakest_combination, contraction, .. } = &self.adaptation;
         History {
             penalty_factor: self.scale.factor,
+            penalty_strength: self.scale.strength,
             contraction: *contraction,
             weakest_combination: weakest_combination.clone(),
             settled: self.settled,
@@ -91,6 +100,7 @@ impl<T: Real, S: SpdSolver<T>> Workspace<T, S> {
         weakest_combination.copy_from_slice(&history.weakest_combination);
         *contraction = history.contraction;
         (self.scale.factor, self.settled) = (history.penalty_factor, history.settled);
+        self.scale.strength = history.penalty_strength;
         true
     }
 

@@ -60,7 +60,16 @@ pub trait Formulation<T: Real, const D: usize>: Debug + Send + Sync + Erased<T, 
         self.take_inputs(model, state)?;
         self.save_trial();
         self.prepare(model, step, 0, state);
-        let report = self.step(model, step, state)?;
+        let report = match self.step(model, step, state) {
+            Err(error) if self.strengthen(&error) => {
+                let made = self.step(model, step, state);
+                made.map_err(|_| {
+                    self.restore_trial();
+                    error
+                })?
+            }
+            made => made?,
+        };
         self.tried(step.dt);
         self.accept();
         Ok((report, self.energies(model, state)))
@@ -74,6 +83,12 @@ pub trait Formulation<T: Real, const D: usize>: Debug + Send + Sync + Erased<T, 
         _reductions: u32,
         _state: &mut State<T>,
     ) -> bool {
+        false
+    }
+
+    /// A step of fixed length has failed: does the next trial of it go otherwise? Then so do the steps after it, until the trial is
+    /// [undone](Self::restore_trial).
+    fn strengthen(&mut self, _error: &StepError) -> bool {
         false
     }
 

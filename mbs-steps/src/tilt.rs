@@ -4,11 +4,12 @@ use crate::loop_alone::loops_alone;
 use mbs_core::model::{Model, State};
 use mbs_core::natural::NaturalModel;
 use mbs_core::once::found;
-use mbs_core::scene::align::{DOUBTFUL, MEANT, Tilt, align, tilts};
+use mbs_core::scene::align::{DOUBTFUL, FIVE_DIGITS, MEANT, Tilt, align, tilts};
 use mbs_core::scene::{Dimension, Scene};
 use mbs_core::start::constraint_rank;
 use mbs_core::{Cliques, Real, instances};
 use mbs_scene::format::{counted, few};
+use std::borrow::Cow;
 
 /// An axis whose tilt alone holds what would move without it.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -71,6 +72,20 @@ pub fn almost_dependent<T: Real, const D: usize>(scene: &Scene<T>) -> Option<Alm
     binding::<T, D>(scene, &locks).map(|(tilt, _)| AlmostDependent::new(&tilt))
 }
 
+/// The scene without tilts of the fifth digit that take freedoms of loops which move with them too: near such a place motions with a tilt,
+/// however small, differ from those without by more than it.
+pub(crate) fn meant<T: Real, const D: usize>(scene: &Scene<T>) -> Cow<'_, Scene<T>> {
+    if scene.dimension != Dimension::Spatial {
+        return Cow::Borrowed(scene);
+    }
+    let [_, mut others] = doubtful::<T, D>(scene);
+    others.retain(|tilt| tilt.angle <= T::from_f64(FIVE_DIGITS));
+    match binding::<T, D>(scene, &others) {
+        Some(_) => Cow::Owned(align(scene, &others)),
+        None => Cow::Borrowed(scene),
+    }
+}
+
 /// Tilts that are too large to be taken as none, and small enough to be errors of the file: those in loops that cannot move with them, and
 /// the others.
 fn doubtful<T: Real, const D: usize>(scene: &Scene<T>) -> [Vec<Tilt<T>>; 2] {
@@ -97,7 +112,7 @@ fn binding<T: Real, const D: usize>(
     Some(one.unwrap_or((*first, all)))
 }
 
-/// What is said of a tilt that takes freedoms and is taken as it is.
+/// What is said of a tilt that takes freedoms: whether it is taken as it is.
 fn binding_note<T: Real>(scene: &Scene<T>) -> Option<(usize, String)> {
     if scene.dimension != Dimension::Spatial {
         return None;
@@ -107,8 +122,13 @@ fn binding_note<T: Real>(scene: &Scene<T>) -> Option<(usize, String)> {
     let AlmostDependent { joints, angle, axis } = AlmostDependent::new(&tilt);
     let [joint, other] = joints.map(|j| &scene.joints[j].name);
     let axis = axis.map(|x| (x + 0.0).to_string()).join(", ");
+    let outcome = if angle <= FIVE_DIGITS {
+        "natural coordinates take it without the tilt".to_owned()
+    } else {
+        format!("with the axis [{axis}] it does not")
+    };
     let text = format!(
-        "the axis of joint `{joint}` is off by {} rad from the direction that joint `{other}` gives, and takes {} for it at the start: with the axis [{axis}] it does not",
+        "the axis of joint `{joint}` is off by {} rad from the direction that joint `{other}` gives, and takes {} for it at the start: {outcome}",
         few(angle),
         counted(freedoms, "freedom")
     );

@@ -12,6 +12,8 @@ use alloc::vec::Vec;
 
 /// Largest tilt that is taken as none [rad]: numbers of files have six digits or more.
 pub const MEANT: f64 = 1e-6;
+/// Largest tilt that is taken as none where it takes freedoms at the start [rad]: numbers of some files have five digits.
+pub const FIVE_DIGITS: f64 = 1e-5;
 /// Largest tilt that is taken as an error of the file where tilts alone hold a mechanism [rad]: 0.06°. Chosen, not tuned.
 pub const DOUBTFUL: f64 = 1e-3;
 /// Largest tilt of a direction that was normalised, in units of rounding [-]. Chosen, not tuned.

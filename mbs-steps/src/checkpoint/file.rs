@@ -13,7 +13,7 @@ use std::path::Path;
 /// First bytes of a checkpoint.
 const MAGIC: [u8; 8] = *b"mbs-ckpt";
 /// Number of the layout of what follows: it grows with every change, and others are refused.
-const FORMAT: u32 = 5;
+const FORMAT: u32 = 6;
 /// Bytes before those that are counted and summed: magic, format, length, checksum.
 const N_HEAD: usize = 28;
 

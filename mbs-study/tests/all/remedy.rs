@@ -31,14 +31,13 @@ fn names(scene: &Scene<f64>, (method, code): (&Method, &str), formulation: &str)
 }
 
 #[test]
-fn where_links_without_mass_stop_the_default_the_tree_is_named_and_creeps_as_it_should() {
+fn where_a_penalty_that_is_too_small_stops_index_3_the_tree_is_named_and_creeps_as_it_should() {
     let scene = field("58-held-hand");
-    for method in [Method::default(), by("index-1")] {
-        let outcome = names(&scene, (&method, "not-converged"), "recursive");
-        // regularised friction: rate = s v / sqrt(1 - s^2), s the weight over the friction, v = 1 mm/s; the tilt by 7e-6 rad lets it creep a little faster
-        let creep = outcome.rows().last().expect("rows").1[0];
-        assert!((creep + 1.02603e-3).abs() < 3e-6, "{creep}");
-    }
+    let method = Method { penalty: Some(1e5), ..Method::default() };
+    let outcome = names(&scene, (&method, "not-converged"), "recursive");
+    // regularised friction: rate = s v / sqrt(1 - s^2), s the weight over the friction, v = 1 mm/s; the tilt by 7e-6 rad lets it creep a little faster
+    let creep = outcome.rows().last().expect("rows").1[0];
+    assert!((creep + 1.02603e-3).abs() < 3e-6, "{creep}");
 }
 
 #[test]

@@ -229,6 +229,8 @@ fn what_the_penalty_remembers_matters() {
     // through the singular position of two four-bar linkages
     let items = [
         ("penalty", Left::Of(|_| 1.0_f64.to_le_bytes().to_vec())),
+        // as after a step that failed
+        ("strength of penalties", Left::Of(|_| 16_384.0_f64.to_le_bytes().to_vec())),
         ("combination of constraints", Left::Of(|part| all(part, 1.0))),
         ("what is left of the combination", Left::Bytes(&[0; 8])),
     ];

@@ -203,6 +203,7 @@ impl<'a> Walk<'a> {
         match self.word()? {
             0 => {
                 self.named("penalty", |walk| walk.numbers(1))?;
+                self.named("strength of penalties", |walk| walk.numbers(1))?;
                 self.named("what is left of the combination", |walk| walk.numbers(1))?;
                 self.named("combination of constraints", Self::list_of_numbers)?;
                 self.skip(8)?;

@@ -1,6 +1,6 @@
 //! What single formulations stopped at: sizes, light pieces, friction, axes that are almost parallel.
 
-use super::{field, tilted};
+use super::{field, read, text, tilted};
 use crate::common::random::tree;
 use crate::common::{Bench, run_in};
 use mbs::core::scene::{
@@ -15,6 +15,8 @@ const NATURAL: [&str; 4] = ["index-3", "index-1", "classical", "state-space"];
 const AGREED: f64 = 1e-9;
 /// What the rule's first steps from rest add to a creep of ten seconds [-].
 const CREEP: f64 = 1e-2;
+/// What the rule's first steps from rest leave of a creep of a hundred steps [-].
+const RINGING: f64 = 1e-4;
 /// Tolerances of the iterations, of 1e-10 a step, over the steps of a motion from rest [lengths].
 const ALIKE: f64 = 1e-7;
 
@@ -196,4 +198,49 @@ fn an_axis_that_is_off_by_more_is_refused_with_the_axis_that_mends_it() {
     let mut open = tilted(1e-4);
     open.joints.retain(|joint| joint.name != "D");
     assert!(centres::<3>(&open, "index-3", (1e-3, 5)).is_ok());
+}
+
+/// The last axis of the arm as its file has it.
+const LEANING: &str = "axis = [1.0, 0.0, -7e-6]";
+
+#[test]
+fn a_tilt_of_the_fifth_digit_that_takes_a_freedom_of_what_moves_runs_as_none_with_a_note() {
+    let text = text("45-hand-held");
+    let centres = |axis: &str| {
+        assert!(text.contains(LEANING));
+        let scene = read(&text.replace(LEANING, axis), "arm");
+        let outcome = run_in(&scene, "index-1", None);
+        assert_eq!(outcome.error, None, "{axis}");
+        let is_named = outcome.notes().iter().any(|note| note.contains("`j6`"));
+        (centres::<3>(&scene, "index-1", (1e-3, 200)).expect("it runs"), is_named)
+    };
+    let (straight, is_named) = centres("axis = [1.0, 0.0, 0.0]");
+    assert!(!is_named);
+    for axis in [LEANING, "axis = [1.0, 0.0, 2e-6]", "axis = [-1.0, 0.0, 9e-6]"] {
+        let (centres, is_named) = centres(axis);
+        assert!(is_named, "{axis}");
+        for (own, right) in centres.iter().zip(&straight) {
+            assert!(own.iter().zip(right).all(|(x, y)| (x - y).abs() < ALIKE), "{axis}");
+        }
+    }
+}
+
+#[test]
+fn an_arm_of_links_without_mass_creeps_as_its_friction_lets_it() {
+    let scene = field("58-held-hand");
+    // regularised friction: rate = e s / sqrt(1 - s^2) with s = m g / C and e = 1 mm/s
+    let s: f64 = 0.73 * 9.81 / 10.0;
+    let right = 1e-3 * s / (1.0 - s * s).sqrt();
+    for formulation in ["index-3", "index-1"] {
+        for step in [1e-2, 1e-3, 1e-4] {
+            let mut bench = Bench::<3>::of_scene(&scene, formulation, step);
+            for _ in 0..100 {
+                bench.step().expect("it creeps");
+            }
+            let simulation = &bench.simulation;
+            let hand = simulation.model().point(BodyId::Body(0), [0.0; 3]);
+            let rate = -hand.rate(&simulation.state().v)[2];
+            assert!((rate - right).abs() < RINGING * right, "{formulation}, {step}: {rate}");
+        }
+    }
 }
