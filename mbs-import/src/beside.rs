@@ -21,7 +21,7 @@ pub(crate) fn home<'a>(file: &Attribute, hint: &str, context: &'a Context<'_>) -
         .ok_or_else(|| file.fault("this text has no folder, from which it could read files", hint))
 }
 
-/// The file whose place an attribute says, from the folder of the model, else from another one.
+/// The file whose place an attribute says, from the folder of the model, else at another place.
 pub(crate) fn find(
     file: &Attribute,
     name: &Path,
@@ -30,8 +30,8 @@ pub(crate) fn find(
 ) -> Read<PathBuf> {
     let hint = "give the model as a file, or put what is in the other file here";
     let home = home(file, hint, context)?;
-    let all = core::iter::once(home).chain(other);
-    let found = first(file, all.map(|folder| folder.join(name)), context)?;
+    let all = core::iter::once(home.join(name)).chain(other.map(Path::to_owned));
+    let found = first(file, all, context)?;
     found.ok_or_else(|| {
         let message = format!("there is no file `{}`", home.join(name).display());
         file.fault(message, "give its place from the folder of the first file")

@@ -47,7 +47,8 @@ impl Mass {
         Self { mass, center, tensor }
     }
 
-    fn is_nothing(&self) -> bool {
+    /// Is there neither mass nor inertia?
+    pub(crate) fn is_nothing(&self) -> bool {
         self.mass == 0.0 && self.tensor == M3::zeros()
     }
 

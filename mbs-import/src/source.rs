@@ -1,6 +1,7 @@
 //! Texts of a model, and places in them.
 
 use mbs_scene::{Place, ReadError};
+use std::path::{Path, PathBuf};
 
 /// Most bytes of a file, and of all that it includes: an element takes a few hundred bytes of memory.
 pub(crate) const MOST_BYTES: usize = 64 << 20;
@@ -67,6 +68,11 @@ impl Sources {
     /// The name of the file of a place.
     pub(crate) fn name(&self, at: Origin) -> &str {
         &self.source(at).name
+    }
+
+    /// A file beside that of a place; none beside the first one, whose folder the options have.
+    pub(crate) fn beside(&self, at: Origin, file: &str) -> Option<PathBuf> {
+        (at.source > 0).then(|| Path::new(self.name(at)).with_file_name(file))
     }
 
     /// Line and column, both from 1.

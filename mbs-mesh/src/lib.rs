@@ -1,8 +1,10 @@
 #![doc = include_str!("../README.md")]
 
+mod polygon;
 mod simplify;
 
 use core::fmt::{self, Display, Formatter};
+use polygon::triangles;
 use std::collections::HashMap;
 use std::io::{ErrorKind, Read as _};
 use std::path::Path;
@@ -78,6 +80,18 @@ impl TriangleMesh {
     /// # Errors
     /// [`MeshFault`], where it cannot be read or is no surface.
     pub fn read(path: &Path) -> Result<Self, MeshFault> {
+        Self::read_parts(path, Parts::All)
+    }
+
+    /// Reads a file; of an OBJ all vertices, and the triangles of the first object or group alone, as MuJoCo has them.
+    ///
+    /// # Errors
+    /// As for [`read`](Self::read).
+    pub fn read_first(path: &Path) -> Result<Self, MeshFault> {
+        Self::read_parts(path, Parts::First)
+    }
+
+    fn read_parts(path: &Path, parts: Parts) -> Result<Self, MeshFault> {
         let ending = mesh_ending(path);
         if !MESH_ENDINGS.contains(&ending.as_str()) {
             return Err(MeshFault::Ending);
@@ -94,7 +108,7 @@ impl TriangleMesh {
         if bytes.len() as u64 > MOST_BYTES {
             return Err(MeshFault::TooLarge);
         }
-        Self::of_bytes(&bytes, &ending)
+        Self::of_parts(&bytes, &ending, parts)
     }
 
     /// Reads the bytes of a file by its ending.
@@ -102,9 +116,13 @@ impl TriangleMesh {
     /// # Errors
     /// [`MeshFault`], where they are no surface.
     pub fn of_bytes(bytes: &[u8], ending: &str) -> Result<Self, MeshFault> {
+        Self::of_parts(bytes, ending, Parts::All)
+    }
+
+    fn of_parts(bytes: &[u8], ending: &str, parts: Parts) -> Result<Self, MeshFault> {
         let mesh = match ending {
             "stl" => stl(bytes),
-            "obj" => obj(bytes),
+            "obj" => obj(bytes, parts),
             "msh" => msh(bytes),
             _ => Err(MeshFault::Ending),
         }?;
@@ -113,6 +131,13 @@ impl TriangleMesh {
         }
         Ok(mesh)
     }
+}
+
+/// Which objects of a file count.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Parts {
+    All,
+    First,
 }
 
 /// Little-endian numbers of four bytes.
@@ -201,9 +226,9 @@ fn stl(bytes: &[u8]) -> Result<TriangleMesh, MeshFault> {
 }
 
 /// OBJ: lines `v x y z` and `f a b c ...`, of which each may be `a/b/c` and counts from 1, or from the end.
-fn obj(bytes: &[u8]) -> Result<TriangleMesh, MeshFault> {
+fn obj(bytes: &[u8], parts: Parts) -> Result<TriangleMesh, MeshFault> {
     let text = core::str::from_utf8(bytes).map_err(|_| MeshFault::NotText)?;
-    let (mut joined, mut numbers) = (Joined::default(), Vec::new());
+    let (mut joined, mut numbers, mut counts) = (Joined::default(), Vec::new(), true);
     for (i, line) in text.lines().enumerate() {
         let mut words = line.split_ascii_whitespace();
         let fault = || MeshFault::Line(i + 1);
@@ -221,12 +246,12 @@ fn obj(bytes: &[u8]) -> Result<TriangleMesh, MeshFault> {
                 };
                 let face: Option<Vec<usize>> = words.map(number).collect();
                 let face = face.filter(|face| face.len() > 2).ok_or_else(fault)?;
-                // a face of more corners is a fan
-                joined
-                    .mesh
-                    .triangles
-                    .extend(face[1..].windows(2).map(|pair| [face[0], pair[0], pair[1]]));
+                if counts {
+                    let all = triangles(&face, |i| joined.mesh.vertices[i]);
+                    joined.mesh.triangles.extend(all);
+                }
             }
+            Some("o" | "g") => counts &= parts == Parts::All || joined.mesh.triangles.is_empty(),
             _ => {}
         }
     }

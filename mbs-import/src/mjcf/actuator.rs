@@ -11,6 +11,8 @@ use crate::source::Read;
 pub(super) struct Actuator {
     /// The word that wrote its gain and bias, where one did that is not `general`.
     by: String,
+    /// The last word.
+    word: String,
     gain: [f64; 3],
     bias: [f64; 3],
     gain_kind: String,
@@ -48,6 +50,7 @@ impl Actuator {
     pub(super) fn new() -> Self {
         Self {
             by: "general".into(),
+            word: "general".into(),
             gain: [1.0, 0.0, 0.0],
             bias: [0.0; 3],
             gain_kind: "fixed".into(),
@@ -69,16 +72,36 @@ impl Actuator {
         }
     }
 
-    /// Takes over what an element of one of the words writes.
-    pub(super) fn apply(&mut self, element: &Element) -> Read<()> {
-        let word = element.name.as_str();
-        if self.by != word && self.by != "general" && word != "general" {
-            // the words of two kinds do not add up
-            let new = Self::new();
-            (self.gain, self.bias, self.inherit) = (new.gain, new.bias, new.inherit);
-            (self.gain_kind, self.bias_kind) = (new.gain_kind, new.bias_kind);
-            (self.dynamics, self.time) = (new.dynamics, new.time);
+    /// What the classes of an element make of an actuator, and then the element. Each stands with the depth of its class; the last depth is
+    /// that of the class of the element.
+    pub(super) fn of(
+        element: &Element,
+        (defaults, depth): (&[(usize, &Element)], usize),
+    ) -> Read<Self> {
+        let (mut actuator, mut outer) = (Self::new(), Vec::new());
+        for (at, element) in defaults.iter().copied().chain([(depth, element)]) {
+            while outer.len() < at {
+                outer.push(actuator.clone());
+            }
+            actuator.apply(element, &outer)?;
         }
+        Ok(actuator)
+    }
+
+    /// Takes over what an element of one of the words writes, in a class within `outer` ones.
+    ///
+    /// The words of two kinds do not add up: another word begins from the nearest outer class that ends with it or with `general`.
+    fn apply(&mut self, element: &Element, outer: &[Self]) -> Read<()> {
+        let word = element.name.as_str();
+        let is_alike = |own: &str| own == word || own == "general";
+        if !is_alike(&self.word) && word != "general" {
+            let like = outer.iter().rev().find(|outer| is_alike(&outer.word));
+            let like = like.cloned().unwrap_or_else(Self::new);
+            (self.gain, self.bias, self.inherit) = (like.gain, like.bias, like.inherit);
+            (self.gain_kind, self.bias_kind) = (like.gain_kind, like.bias_kind);
+            (self.dynamics, self.time) = (like.dynamics, like.time);
+        }
+        word.clone_into(&mut self.word);
         if word != "general" {
             word.clone_into(&mut self.by);
         }

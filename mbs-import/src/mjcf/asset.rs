@@ -13,7 +13,7 @@ use crate::robot::{FormKind, is_even};
 use crate::source::{Fault, Origin, Read};
 use crate::visual::mesh_file;
 use mbs_scene::{TriangleMesh, nearest_name};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// A geom that is a mesh, and whose mass counts.
 #[derive(Debug, Clone)]
@@ -151,7 +151,9 @@ pub(super) fn form(
         return Ok(Err("meshes that the file itself writes are not drawn".to_owned()));
     };
     let place = surface::place_of(&file.value, model);
-    let file = match mesh_file(&place.display().to_string(), model.context) {
+    let drawn = |place: PathBuf| mesh_file(&place.display().to_string(), model.context);
+    let own = || model.context.sources.beside(file.at, file.value.trim());
+    let file = match drawn(place).or_else(|says| own().map_or(Err(says), drawn)) {
         Ok(file) => file,
         Err(says) => return Ok(Err(says)),
     };

@@ -198,6 +198,7 @@ impl<'a> Walk<'_, 'a, '_, '_> {
         };
         let own_pose = scope.size.pose(pose(&View::plain(element), &self.model.compiler)?);
         let (frame, drawn) = (scope.frame.then(&own_pose), scope.drawn.then(&own_pose));
+        let in_parent = self.model.robot.links[scope.link].pose.inverse().then(&frame);
         if scope.size != Size::ONE {
             self.model.sizes.insert(link, scope.size);
         }
@@ -221,7 +222,11 @@ impl<'a> Walk<'_, 'a, '_, '_> {
             self.model.context.findings.approximated(element.at, element.label(), says);
         }
         inner.is_still = own.joints.is_empty() && scope.is_still;
-        let mass = self.mass(element, &own, inner.is_still)?;
+        let mut mass = self.mass(element, &own, inner.is_still)?;
+        if mass.is_nothing() {
+            // what `boundmass` gives to a body without inertia is where its own place says, taken in its own frame
+            mass.center = inner.frame.point(&in_parent.at);
+        }
         self.model.masses.push((link, mass, own.gravity_share));
         joint::join(std::mem::take(&mut own.joints), scope.link, link, self.model)?;
         self.bodies(element, &inner)

@@ -44,6 +44,8 @@ pub(super) struct Compiler {
     pub(super) fits_boxes: bool,
     /// Is the mass of a mesh that of the enclosed volume?
     pub(super) is_mesh_exact: bool,
+    /// Are frames of free joints at the centres of mass where these do not say?
+    pub(super) align_free: bool,
     pub(super) gravity: [f64; 3],
     pub(super) acts: Acts,
     /// Those of attached models, by the numbers of their texts.
@@ -80,6 +82,7 @@ impl Compiler {
             strip_path: false,
             fits_boxes: false,
             is_mesh_exact: false,
+            align_free: false,
             gravity: [0.0, 0.0, -9.81],
             acts: Acts {
                 spring: true,
@@ -161,6 +164,7 @@ impl Compiler {
         flag(element, "strippath", &mut self.strip_path)?;
         flag(element, "fitaabb", &mut self.fits_boxes)?;
         flag(element, "exactmeshinertia", &mut self.is_mesh_exact)?;
+        flag(element, "alignfree", &mut self.align_free)?;
         let folders = ["meshdir", "assetdir"].map(|name| element.value(name));
         if let Some(folder) = folders.into_iter().flatten().next() {
             self.mesh_folder = folder.to_owned();

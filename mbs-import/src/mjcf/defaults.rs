@@ -16,8 +16,10 @@ pub(super) const MAIN: usize = 0;
 struct Class<'a> {
     /// Each as often as a class on the way writes it, the innermost last.
     values: HashMap<(&'a str, &'a str), Vec<&'a Attribute>>,
-    /// Elements of actuators: one kind changes what another starts from, so they count in their order.
-    actuators: Vec<&'a Element>,
+    /// Elements of actuators with the depths of their classes: one kind changes what another starts from, so they count in their order.
+    actuators: Vec<(usize, &'a Element)>,
+    /// How many classes it is in.
+    depth: usize,
 }
 
 /// The classes of a model.
@@ -70,7 +72,8 @@ impl<'a> Classes<'a> {
             }
             child.read();
             if is_actuator(&child.name) {
-                self.classes[number].actuators.push(child);
+                let class = &mut self.classes[number];
+                class.actuators.push((class.depth, child));
             }
             for attribute in &child.attributes {
                 let is_used = treatment(TABLE, "default", &child.name, &attribute.name);
@@ -84,8 +87,8 @@ impl<'a> Classes<'a> {
         }
         for inner in element.each("default") {
             let name = inner.need("class")?;
-            let copy = self.classes[number].clone();
-            self.classes.push(copy);
+            let outer = self.classes[number].clone();
+            self.classes.push(Class { depth: outer.depth + 1, ..outer });
             let own = self.classes.len() - 1;
             if self.names.insert(&name.value, (own, name.at)).is_some() {
                 return Err(name.fault(
@@ -123,10 +126,11 @@ impl<'a> Classes<'a> {
         Ok(View { element, kind, class: Some(&self.classes[class]) })
     }
 
-    /// The actuators that a class writes, in their order.
-    pub(super) fn actuators(&self, element: &Element) -> Read<&[&'a Element]> {
+    /// The actuators that the class of an element writes, in their order with the depths of their classes, and its own depth.
+    pub(super) fn actuators(&self, element: &Element) -> Read<(&[(usize, &'a Element)], usize)> {
         let class = element.attribute("class").map_or(Ok(MAIN), |name| self.find(name))?;
-        Ok(&self.classes[class].actuators)
+        let Class { actuators, depth, .. } = &self.classes[class];
+        Ok((actuators, *depth))
     }
 }
 

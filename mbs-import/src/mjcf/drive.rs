@@ -25,12 +25,7 @@ pub(super) fn read<'a>(
         if !is_actuator(&element.name) {
             continue;
         }
-        let mut actuator = Actuator::new();
-        let classes = model.classes;
-        for default in classes.actuators(element.read())? {
-            actuator.apply(default)?;
-        }
-        actuator.apply(element)?;
+        let actuator = Actuator::of(element, model.classes.actuators(element.read())?)?;
         for ending in model.endings(element) {
             add(element, &actuator, (&ending, factor), &mut shared, model)?;
         }

@@ -100,6 +100,18 @@ fn timed(view: &View<'_>) -> Read<Option<[f64; 2]>> {
     }
 }
 
+/// Lists a free joint whose frame is to be put at the centre of mass.
+fn aligned(view: &View<'_>, model: &mut Model<'_, '_, '_>) -> Read<()> {
+    let is_free = view.element.name == "freejoint";
+    let word = view.attribute("align").map(|align| word(align, &["false", "true", "auto"]));
+    let by_default = is_free && model.compiler.of(view.element.at).align_free;
+    if word.transpose()?.map_or(by_default, |word| word == 1 || word == 2 && by_default) {
+        let says = "the frame of a free joint stays where the file has it";
+        model.context.findings.ignored(view.element.at, view.element.label(), says);
+    }
+    Ok(())
+}
+
 /// Reads `joint` or `freejoint`, in a frame that stands as `scope` says.
 pub(super) fn read(
     view: &View<'_>,
@@ -110,6 +122,7 @@ pub(super) fn read(
     let at = view.element.at;
     view.own("class");
     let moves = moves(view)?;
+    aligned(view, model)?;
     let settings = model.compiler.of(at);
     let angle = |x: f64| match moves {
         Moves::Hinge => settings.angle(x),
@@ -123,7 +136,7 @@ pub(super) fn read(
     let spring = if is_single { angle(view.number_or("springref", 0.0)?) } else { 0.0 };
     let is_limited = view.is_limited("limited", "range", settings.auto_limits)?;
     let range = view.numbers::<2>("range")?.filter(|range| is_limited && *range != [0.0; 2]);
-    let stops = view.numbers_or("solreflimit", [0.02, 1.0])?;
+    let stops = view.merged("solreflimit", [0.02, 1.0])?;
     view.attribute("solimplimit");
     let strong = strong(view, &name, (moves == Moves::Slide, size), model)?;
     let acts = model.compiler.acts;

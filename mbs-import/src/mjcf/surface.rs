@@ -33,8 +33,10 @@ pub(super) fn read(view: &View<'_>, model: &Model<'_, '_, '_>) -> Read<TriangleM
         view.element.fault("the mesh has neither `file` nor `vertex`", "write file=\"...\"")
     })?;
     let name = place_of(&file.value, model);
-    let path = beside::find(file, &name, None, model.context)?;
-    TriangleMesh::read(&path)
+    // else beside the file that asks for it, whatever folder meshes have
+    let own = model.context.sources.beside(file.at, file.value.trim());
+    let path = beside::find(file, &name, own.as_deref(), model.context)?;
+    TriangleMesh::read_first(&path)
         .map_err(|why| file.fault(format!("`{}`: {why}", file.value), "give a mesh as STL or OBJ"))
 }
 

@@ -17,7 +17,7 @@ pub(crate) const TABLE: &[Row] = &[
     row("include", " file", Mapped),
     row(
         "compiler",
-        " angle autolimits balanceinertia boundinertia boundmass coordinate eulerseq inertiafromgeom inertiagrouprange settotalmass assetdir meshdir strippath exactmeshinertia fitaabb",
+        " angle autolimits balanceinertia boundinertia boundmass coordinate eulerseq inertiafromgeom inertiagrouprange settotalmass assetdir meshdir strippath exactmeshinertia fitaabb alignfree",
         Mapped,
     ),
     row(
@@ -25,7 +25,6 @@ pub(crate) const TABLE: &[Row] = &[
         "texturedir conflict discardvisual fusestatic passthrough savecanonical savecompiled saveinertial usethread convexhull",
         Silent,
     ),
-    row("compiler", "alignfree", Ignored("frames of free joints stay where the file has them")),
     row("lengthrange", " *", Silent),
     row("option", " gravity timestep", Mapped),
     row("option", "density viscosity wind", Ignored(FLUID)),
@@ -92,8 +91,7 @@ pub(crate) const TABLE: &[Row] = &[
     row("joint", "springyield", Ignored("springs do not yield here")),
     row("joint", "actuatorgravcomp", Ignored("the force against gravity has no limit here")),
     row("joint", "group user", Silent),
-    row("freejoint", " name", Mapped),
-    row("freejoint", "align", Ignored("the frame of a free joint stays where the file has it")),
+    row("freejoint", " name align", Mapped),
     row("freejoint", "group", Silent),
     row(
         "geom",
@@ -197,6 +195,8 @@ pub(crate) const TABLE: &[Row] = &[
         " name class joint jointinparent tendon site refsite cranksite slidersite cranklength gear ctrlrange ctrllimited forcerange forcelimited timeconst area diameter bias armature damping delay group user",
         Mapped,
     ),
+    // it names what the control is, and changes nothing
+    row("general", "input", Silent),
     row("general", "*", Ignored("this of an actuator does not act here")),
     row("motor", "*", Ignored("this of an actuator does not act here")),
     row("position", "*", Ignored("this of an actuator does not act here")),
@@ -204,6 +204,12 @@ pub(crate) const TABLE: &[Row] = &[
     row("intvelocity", "*", Ignored("this of an actuator does not act here")),
     row("damper", "*", Ignored("this of an actuator does not act here")),
     row("cylinder", "*", Ignored("this of an actuator does not act here")),
+    // what their defaults say of control and force holds for every actuator of the class
+    row("default/orientation", " *", Mapped),
+    row("default/pid", " *", Mapped),
+    row("default/muscle", " *", Mapped),
+    row("default/adhesion", " *", Mapped),
+    row("default/dcmotor", " *", Mapped),
     row("orientation", " *", Ignored(OWN_LAW)),
     row("pid", " *", Ignored(OWN_LAW)),
     row("muscle", " *", Ignored(OWN_LAW)),

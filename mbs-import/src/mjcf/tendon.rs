@@ -194,7 +194,7 @@ fn ends(
     factor: &Lazy,
     model: &mut Model<'_, '_, '_>,
 ) -> Read<()> {
-    let solref = view.numbers_or("solreflimit", [0.02, 1.0])?;
+    let solref = view.merged("solreflimit", [0.02, 1.0])?;
     view.attribute("solimplimit");
     let Some(range) = range.filter(|_| model.compiler.acts.limit) else {
         return Ok(());

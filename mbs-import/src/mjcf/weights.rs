@@ -69,7 +69,7 @@ pub(super) fn settle(model: &mut Model<'_, '_, '_>) -> Read<()> {
         }
     }
     for (link, mass, lift) in masses {
-        if mass != Mass::none() {
+        if !mass.is_nothing() {
             model.robot.links[link].mass = Some(mass);
         }
         model.robot.links[link].gravity_scale = 1.0 - lift;

@@ -254,3 +254,93 @@ fn built_in_meshes_of_few_points_are_computed_and_others_are_named() {
     let says = "a mesh counts as massless (--massless-meshes)";
     assert!(model(&other, "m.xml", &options).findings.iter().any(|x| x.says == says));
 }
+
+/// A folder of this test with files in it.
+fn folder(name: &str, files: &[(&str, &str)]) -> ImportOptions {
+    let folder = std::path::Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
+    for (file, text) in files {
+        let path = folder.join(file);
+        std::fs::create_dir_all(path.parent().expect("a folder")).expect("a folder");
+        std::fs::write(path, text).expect("a file");
+    }
+    ImportOptions { folder: Some(folder), ..ImportOptions::default() }
+}
+
+/// Tetrahedra at a corner of the origin and 5 m beside it, with lines before each and between the faces of the first.
+fn two(first: &str, between: &str, second: &str) -> String {
+    format!(
+        "{first}\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\n{between}\nf 2 3 4\nf 1 4 3\n{second}\nv 5 0 0\nv 6 0 0\nv 5 1 0\nv 5 0 1\nf 5 7 6\nf 5 6 8\nf 6 7 8\nf 5 8 7\n"
+    )
+}
+
+#[test]
+fn of_an_obj_with_several_objects_the_first_has_mass_as_in_mujoco_4() {
+    let one = [1.0 / 6.0, 0.25, 0.25, 1.25];
+    // the hull has the vertices of all: MuJoCo 4.0.0
+    let hull = [2.666666666666667, 2.671875, 0.328125, 1.328125];
+    for (first, between, second, inertia, expected) in [
+        ("o a", "", "o b", "legacy", one),
+        ("g a", "", "g b", "exact", one),
+        ("o a", "usemtl c", "o b", "exact", one),
+        ("o a", "", "o b", "convex", hull),
+    ] {
+        let options = folder("objects", &[("two.obj", &two(first, between, second))]);
+        let text = mjcf(
+            &format!(r#"file="two.obj" inertia="{inertia}""#),
+            r#"type="mesh" density="1""#,
+            "",
+        );
+        let found = ten(&scene_of(&model(&text, "m.xml", &options)), "b");
+        for (found, expected) in found.iter().zip(expected) {
+            close(*found, expected, TOLERANCE, inertia);
+        }
+    }
+}
+
+#[test]
+fn polygons_of_an_obj_are_cut_as_in_mujoco_4() {
+    // an L, and a box whose lid is bent at one corner
+    let concave = "v 0 0 0\nv 2 0 0\nv 2 1 0\nv 1 1 0\nv 1 2 0\nv 0 2 0\nv 0 0 1\nv 2 0 1\nv 2 1 1\nv 1 1 1\nv 1 2 1\nv 0 2 1\nf 6 5 4 3 2 1\nf 7 8 9 10 11 12\nf 1 2 8 7\nf 2 3 9 8\nf 3 4 10 9\nf 4 5 11 10\nf 5 6 12 11\nf 6 1 7 12\n";
+    let bent = |lid: &str| {
+        format!(
+            "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nv 1 0 1\nv 1 1 2\nv 0 1 1\nf 4 3 2 1\nf {lid}\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n"
+        )
+    };
+    // the diagonal beside the corner is the shorter one: a pyramid of a third of a half square stands on the box
+    let box_and_pyramid = 1.0 + 1.0 / 6.0;
+    for (text, inertia, mass) in [
+        (concave.to_owned(), "exact", 3.0),
+        (concave.to_owned(), "legacy", 3.0),
+        (bent("5 6 7 8"), "exact", box_and_pyramid),
+        (bent("6 7 8 5"), "exact", box_and_pyramid),
+    ] {
+        let options = folder("polygons", &[("m.obj", &text)]);
+        let mesh = format!(r#"file="m.obj" inertia="{inertia}""#);
+        let text = mjcf(&mesh, r#"type="mesh" density="1""#, "");
+        let found = ten(&scene_of(&model(&text, "m.xml", &options)), "b");
+        close(found[0], mass, TOLERANCE, &mesh);
+    }
+}
+
+#[test]
+fn a_mesh_of_an_included_file_may_lie_beside_it() {
+    let part = r#"<mujocoinclude><asset><mesh name="t" file="t.obj"/></asset></mujocoinclude>"#;
+    let tetrahedron = two("", "", "o b");
+    let files = [("sub/part.xml", part), ("sub/t.obj", &tetrahedron)];
+    let options = folder("beside", &files);
+    let text = r#"<mujoco><compiler meshdir="none"/><include file="sub/part.xml"/><worldbody><body name="b"><joint/><geom type="mesh" mesh="t" density="1"/></body></worldbody></mujoco>"#;
+    let found = ten(&scene_of(&model(text, "m.xml", &options)), "b");
+    close(found[0], 1.0 / 6.0, TOLERANCE, "beside the included file");
+}
+
+#[test]
+fn the_least_mass_of_a_body_without_any_is_where_mujoco_4_has_it() {
+    // its own place, taken once more in its own frame: each of 10 g
+    let text = r#"<mujoco><compiler boundmass="0.01" boundinertia="1e-5"/><worldbody><body name="arm" pos="1 0 0"><joint axis="0 1 0"/><geom type="box" contype="0" size=".1 .1 .1" mass="1"/>
+<body name="none" pos="0 .5 0"/><body name="one" pos="0 0 .7"><geom type="box" contype="0" size=".1 .1 .1" mass="0" pos=".3 0 0"/></body><frame pos="0 0 -.4"><body name="two" pos="0 0 -.5"/></frame></body></worldbody></mujoco>"#;
+    let found = ten(&whole(text, "m.xml"), "arm");
+    let place = |own: f64| own * 2.0 * 0.01 / 1.03;
+    for (found, expected) in found.iter().zip([1.03, 1.0, place(0.5), place(0.7 - 0.9)]) {
+        close(*found, expected, TOLERANCE, "arm");
+    }
+}

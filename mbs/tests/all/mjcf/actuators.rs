@@ -237,3 +237,54 @@ fn a_crank_moves_a_slider_by_a_rod() {
         &[("j", 70.42974365844152), ("k", 65.7267455166355)],
     );
 }
+
+#[test]
+fn another_word_begins_from_the_nearest_outer_class_that_ends_with_it_or_with_general() {
+    // hinges of 0.1 kg m^2 at rest: ten times the control, by the gain that MuJoCo 4.0.0 has
+    for (classes, actuator, gain) in [
+        (r#"<position kp="10"/><default class="c"><motor gear="1"/></default>"#, "position", 10.0),
+        (r#"<position kp="10"/><default class="c"><motor gear="1"/></default>"#, "motor", 1.0),
+        (r#"<position kp="10"/><default class="c"><motor gear="1"/></default>"#, "velocity", 1.0),
+        (r#"<position kp="10"/><motor gear="1"/><default class="c"/>"#, "position", 1.0),
+        (r#"<default class="c"><position kp="10"/><motor gear="1"/></default>"#, "position", 1.0),
+        (
+            r#"<default class="o"><position kp="10"/><default class="c"><velocity kv="3"/></default></default>"#,
+            "position",
+            10.0,
+        ),
+        (r#"<velocity kv="3"/><default class="c"><position kp="10"/></default>"#, "velocity", 3.0),
+        (
+            r#"<position kp="10"/><default class="c"><general gainprm="5"/></default>"#,
+            "velocity",
+            5.0,
+        ),
+        (
+            r#"<position kp="10"/><default class="c"><motor gear="1"/><general gainprm="4"/></default>"#,
+            "position",
+            4.0,
+        ),
+        (
+            r#"<general gainprm="7"/><default class="c"><motor gear="1"/></default>"#,
+            "position",
+            7.0,
+        ),
+        (r#"<position kp="10"/><default class="c"><muscle gear="1"/></default>"#, "position", 10.0),
+    ] {
+        let model = format!(
+            r#"<mujoco><default>{classes}</default><worldbody><body><joint name="a" axis="0 1 0"/><inertial pos="0 0 -.3" mass="1" diaginertia=".01 .01 .01"/></body></worldbody>
+<actuator><{actuator} class="c" joint="a"/></actuator><keyframe><key name="on" ctrl="0.2"/></keyframe></mujoco>"#
+        );
+        agrees(&model, &[("a", gain * 2.0)]);
+    }
+}
+
+#[test]
+fn ranges_of_a_muscle_in_a_class_hold_for_every_actuator_of_it() {
+    agrees(
+        r#"<mujoco><compiler angle="radian"/><default><muscle ctrllimited="true" ctrlrange="0.5 1"/></default><worldbody>
+<body><joint name="a" axis="0 1 0"/><inertial pos="0 0 -.3" mass="1" diaginertia=".01 .01 .01"/></body>
+<body><joint name="b" axis="0 1 0"/><inertial pos="0 0 -.3" mass="1" diaginertia=".01 .01 .01"/></body></worldbody>
+<actuator><position joint="a" kp="3"/><motor joint="b"/></actuator><keyframe><key name="on" qpos="0.1 0.1"/></keyframe></mujoco>"#,
+        &[("a", 9.061902548083847), ("b", 2.061902548083847)],
+    );
+}
