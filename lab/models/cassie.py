@@ -86,7 +86,7 @@ def state(seed, times, follow):
     report = model.report(y, rates)
     out |= {key: report[key] for key in ("mass", "center", "kinetic", "potential")}
     motion.PATIENCE = PATIENCE
-    ends, fault = motion.motion(model.kinds, model.acceleration, y, rates, times)
+    ends, fault = motion.motion(model, model.acceleration, y, rates, times)
     out["ends"] = []
     for time, a, b, spread in ends:
         drift = np.max(np.abs(model.rows(a, b)[0]))

@@ -80,6 +80,16 @@ class Mjcf:
         mujoco.mj_forward(model, data)
         return t
 
+    def parents(self):
+        """For each ball the rotation of what it turns on, since the reference, at the state that was placed last: A R^T."""
+        out = []
+        for j, kind in enumerate(self.kinds):
+            if kind == "ball":
+                a, body = self.model.jnt_qposadr[j], self.model.jnt_bodyid[j]
+                rest, now = self.reference[body], np.array(self.data.xmat[body]).reshape(3, 3)
+                out.append(now @ rotation.matrix(self.data.qpos[a:a + 4]).T @ rest.T)
+        return out
+
     def state_of(self, qpos, qvel):
         """Our values and rates of MuJoCo's: the way back of `place`."""
         model, data = self.model, self.data

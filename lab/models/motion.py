@@ -15,7 +15,7 @@ class TooStiff(Exception):
     pass
 
 
-def end_state(kinds, acceleration, y, rates, duration, tolerance):
+def end_state(model, acceleration, y, rates, duration, tolerance):
     """State after `duration`; values of turns are not wrapped, quaternions have length one."""
     values, start = len(y), time.process_time()
 
@@ -23,20 +23,21 @@ def end_state(kinds, acceleration, y, rates, duration, tolerance):
         if time.process_time() - start > PATIENCE:
             raise TooStiff
         r = x[values:]
-        return np.concatenate([rotation.drift(kinds, x[:values], r), acceleration(x[:values], r)])
+        change = acceleration(x[:values], r)
+        return np.concatenate([rotation.drift(model.kinds, x[:values], r, model.parents()), change])
 
     run = solve_ivp(slope, (0, duration), np.concatenate([y, rates]), "DOP853", rtol=tolerance, atol=tolerance)
     if not run.success:
         raise TooStiff
     end, i = run.y[:, -1], 0
-    for kind in kinds:
+    for kind in model.kinds:
         i += rotation.SIZE[kind]
         if kind in ("ball", "free"):
             end[i - 4:i] /= np.linalg.norm(end[i - 4:i])
     return end[:values], end[values:]
 
 
-def motion(kinds, acceleration, y, rates, times):
+def motion(model, acceleration, y, rates, times):
     """The states at `times` at tolerance 1e-13, with what each is good for: its distance from that at 1e-12.
 
     Many robots that fall without damping are chaotic: a difference grows a millionfold in a second.
@@ -45,8 +46,8 @@ def motion(kinds, acceleration, y, rates, times):
     for until in times:
         try:
             with np.errstate(all="ignore"):
-                fine = end_state(kinds, acceleration, *fine, until - now, 1e-13)
-                rough = end_state(kinds, acceleration, *rough, until - now, 1e-12)
+                fine = end_state(model, acceleration, *fine, until - now, 1e-13)
+                rough = end_state(model, acceleration, *rough, until - now, 1e-12)
         except (TooStiff, np.linalg.LinAlgError, ValueError) as fault:
             return ends, type(fault).__name__
         x, other = np.concatenate(fine), np.concatenate(rough)

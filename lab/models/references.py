@@ -87,7 +87,7 @@ def judge(model, seed, with_motion):
         out["ends_actuated"] = model.model.na == 0
         moved = actuated if model.model.na == 0 else moved
     if with_motion:
-        ends, fault = motion.motion(model.kinds, moved, y, rates, TIMES)
+        ends, fault = motion.motion(model, moved, y, rates, TIMES)
         out["ends"] = [{"time": t, "spread": s, "state": by_joint(model, a, b)} for t, a, b, s in ends]
         out["ends_fault"] = fault
     return out

@@ -39,14 +39,19 @@ def of_vector(u):
     return np.concatenate([[np.cos(angle / 2)], np.sinc(angle / (2 * np.pi)) * u / 2])
 
 
-def drift(kinds, y, rates):
-    """The rates of the coordinates: of a quaternion half its product with the global rate on its left."""
-    out, i, k = [], 0, 0
+def drift(kinds, y, rates, parents):
+    """The rates of the coordinates: of a quaternion half its product with the rate on its left.
+
+    A free joint's rate is global, as its rotation is. A ball's rotation is in axes of the parent; `parents` has B for each ball, the
+    parent's rotation since the reference, so B^T turns the global rate into these axes.
+    """
+    out, i, k, parents = [], 0, 0, iter(parents)
     for kind in kinds:
         if kind == "free":
             out.append(rates[k:k + 3])
         if kind in ("free", "ball"):
             turn = rates[k + ROWS[kind] - 3:k + ROWS[kind]]
+            turn = turn if kind == "free" else next(parents).T @ turn
             start = i + SIZE[kind] - 4
             out.append(product(np.concatenate([[0.0], turn]), y[start:start + 4]) / 2)
         else:

@@ -108,6 +108,10 @@ class Urdf:
                 q[i] = value[k]
         return q, v, t
 
+    def parents(self):
+        """The rotations of balls' parents: a URDF has no balls, and Pinocchio refuses them."""
+        return []
+
     def swing(self, t, v):
         """What the axes' own turning adds to our accelerations: T' v."""
         out = np.zeros(len(v))
