@@ -13,6 +13,8 @@ LEFT_OUT = "random_urdfs"
 
 ROOTS = {"robot": "urdf", "mujoco": "mjcf", "sdf": "sdf", "mujocoinclude": "fragment"}
 
+ENDINGS = (".urdf", ".xml", ".sdf", ".mjcf", ".world")
+
 
 def folder():
     """The folder that setup.sh fills."""
@@ -22,6 +24,11 @@ def folder():
 
 def data():
     return folder() / "data"
+
+
+def collections():
+    """Where fetch.py unpacks the packages of packages.txt."""
+    return folder() / "collections"
 
 
 def tree(path):
@@ -50,12 +57,12 @@ def format_of(path):
     return kind
 
 
-def models():
-    """All (package, path, format), by name; the path is inside the package."""
+def models(folder=None):
+    """All (package, path, format) of a folder of packages, by name; the path is inside the package."""
     found = []
-    for package in sorted(data().iterdir()):
+    for package in sorted((folder or data()).iterdir()):
         for path in sorted(package.rglob("*")):
-            if path.suffix in (".urdf", ".xml", ".sdf") and LEFT_OUT not in path.parts:
+            if path.suffix in ENDINGS and LEFT_OUT not in path.parts:
                 kind = format_of(path)
                 if kind:
                     found.append((package.name, path.relative_to(package).as_posix(), kind))

@@ -16,13 +16,11 @@ import pinocchio as pin
 import common
 import rotation
 from mjcf_model import Mjcf
+from mjcf_rows import Rows
 from references import by_joint, by_name, judge, plain
 from urdf_model import Urdf
 
 FOLDER = common.HERE / "conventions"
-
-# Second derivative by seven points, error of sixth order; step in seconds along a motion of constant rate.
-STENCIL, STEP = np.array([2, -27, 270, -490, 270, -27, 2]) / 180, 1e-2
 
 
 def six(tensor):
@@ -50,44 +48,13 @@ def compiled(model):
     return {"compiled": joints, "bodies": bodies}
 
 
-def residual(model):
-    mujoco.mj_forward(model.model, model.data)
-    rows = model.data.ne
-    return model.data.efc_pos[:rows].copy(), model.data.efc_J.reshape(-1, model.model.nv)[:rows].copy()
-
-
-def hard(model, y, rates):
-    """Equalities taken as exact, on MuJoCo's own rows: M a + bias = J^T f, J a = -J' v; a state on them by Newton."""
-    m, data = model.model, model.data
-    if not m.neq:
+def hard(path, y, rates):
+    """Equalities taken as exact: a state on them, and its accelerations."""
+    model = Rows(path)
+    if not model.model.neq:
         return {}
-    model.place(y, rates)
-    m.opt.jacobian = mujoco.mjtJacobian.mjJAC_DENSE
-    m.opt.disableflags &= ~int(mujoco.mjtDisableBit.mjDSBL_CONSTRAINT)
-    m.opt.disableflags |= int(mujoco.mjtDisableBit.mjDSBL_CONTACT | mujoco.mjtDisableBit.mjDSBL_LIMIT)
-    if not len(residual(model)[0]):
-        return {}
-    for _ in range(30):
-        gap, jacobian = residual(model)
-        mujoco.mj_integratePos(m, data.qpos, -np.linalg.lstsq(jacobian, gap, 1e-9)[0], 1.0)
-    gap, jacobian = residual(model)
-    data.qvel[:] -= np.linalg.lstsq(jacobian, jacobian @ data.qvel, 1e-9)[0]
-    gap, jacobian = residual(model)
-    v, qpos = data.qvel.copy(), data.qpos.copy()
-    force, mass = data.qfrc_passive - data.qfrc_bias, model.matrix()
-    y, rates = model.state_of(qpos, v)
-    turned = 0
-    for k, weight in enumerate(STENCIL):
-        data.qpos[:] = qpos
-        mujoco.mj_integratePos(m, data.qpos, v, (k - 3) * STEP)
-        turned = turned + weight * residual(model)[0] / STEP**2
-    size = len(gap)
-    whole = np.block([[mass, jacobian.T], [jacobian, np.zeros((size, size))]])
-    found = np.linalg.lstsq(whole, np.concatenate([force, -turned]), 1e-12)[0][:m.nv]
-    m.opt.disableflags |= int(mujoco.mjtDisableBit.mjDSBL_CONSTRAINT)
-    t = model.place(y, rates)
-    return {"hard": {"gap": np.max(np.abs(gap)), "state": by_joint(model, y, rates),
-                     "acceleration": by_name(model, t @ found + model.swing(t))}}
+    y, rates, gap = model.closed(y, rates)
+    return {"hard": {"gap": gap, "state": by_joint(model, y, rates), "acceleration": by_name(model, model.acceleration(y, rates))}}
 
 
 def limits(model):
@@ -140,7 +107,7 @@ def one(path):
     if path.suffix == ".urdf":
         return out | lumps(model)
     y, rates, _ = rotation.random_state(model.kinds, seed)
-    out |= keys(model, y, rates) | hard(model, y, rates) | limits(model)
+    out |= keys(model, y, rates) | hard(path, y, rates) | limits(model)
     return out | compiled(model)
 
 

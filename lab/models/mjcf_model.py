@@ -28,6 +28,7 @@ class Mjcf:
     def read(self):
         model = self.model
         self.off = [name for name, n in (("equality", model.neq), ("fluid", model.opt.density + model.opt.viscosity)) if n]
+        self.is_driven = not model.opt.disableflags & mujoco.mjtDisableBit.mjDSBL_ACTUATION
         model.opt.disableflags |= mujoco.mjtDisableBit.mjDSBL_CONSTRAINT
         model.opt.density = model.opt.viscosity = 0
         self.data = mujoco.MjData(model)
@@ -54,7 +55,7 @@ class Mjcf:
         """Puts the state into MuJoCo; gives T with our rates = T qvel."""
         model, data = self.model, self.data
         flag = int(mujoco.mjtDisableBit.mjDSBL_ACTUATION)
-        model.opt.disableflags = model.opt.disableflags & ~flag if actuators else model.opt.disableflags | flag
+        model.opt.disableflags = model.opt.disableflags & ~flag if actuators and self.is_driven else model.opt.disableflags | flag
         i = 0
         for j, kind in enumerate(self.kinds):
             a, body = model.jnt_qposadr[j], model.jnt_bodyid[j]

@@ -37,8 +37,8 @@ def end_state(model, acceleration, y, rates, duration, tolerance):
     return end[:values], end[values:]
 
 
-def motion(model, acceleration, y, rates, times):
-    """The states at `times` at tolerance 1e-13, with what each is good for: its distance from that at 1e-12.
+def motion(model, acceleration, y, rates, times, tolerances=(1e-13, 1e-12)):
+    """The states at `times` at the finer tolerance, with what each is good for: its distance from that at the rougher one.
 
     Many robots that fall without damping are chaotic: a difference grows a millionfold in a second.
     """
@@ -46,8 +46,8 @@ def motion(model, acceleration, y, rates, times):
     for until in times:
         try:
             with np.errstate(all="ignore"):
-                fine = end_state(model, acceleration, *fine, until - now, 1e-13)
-                rough = end_state(model, acceleration, *rough, until - now, 1e-12)
+                fine = end_state(model, acceleration, *fine, until - now, tolerances[0])
+                rough = end_state(model, acceleration, *rough, until - now, tolerances[1])
         except (TooStiff, np.linalg.LinAlgError, ValueError) as fault:
             return ends, type(fault).__name__
         x, other = np.concatenate(fine), np.concatenate(rough)
