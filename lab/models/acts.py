@@ -5,7 +5,9 @@ HARMLESS = (
     "contact", "sensors measure", "settings of", "softness of a constraint", "a soft constraint there", "are soft constraints there",
     "is a soft constraint there", "not active", "data without effect", "ends without stiffness", "stops act from the end", "springdamper: ",
     "limits of a controller", "they do not act", "a body that is set from outside", "the interface is no effort", "the joint gets no input",
-    "there is nothing to hold",
+    "there is nothing to hold", "what a controller does", "dry friction falls to zero", "gear ratio", "the input is the effort",
+    "no effect in the format", "says where a sensor sits", "code of another simulator", "no range is taken", "a program once read it",
+    "the robot has no joint of that name", "as `balanceinertia` asks",
 )
 
 # Attributes of forms that could touch: they are of contacts alone.

@@ -29,7 +29,7 @@ class Mjcf:
         model = self.model
         self.off = [name for name, n in (("equality", model.neq), ("fluid", model.opt.density + model.opt.viscosity)) if n]
         self.is_driven = not model.opt.disableflags & mujoco.mjtDisableBit.mjDSBL_ACTUATION
-        model.opt.disableflags |= mujoco.mjtDisableBit.mjDSBL_CONSTRAINT
+        model.opt.disableflags |= mujoco.mjtDisableBit.mjDSBL_CONSTRAINT | mujoco.mjtDisableBit.mjDSBL_SENSOR
         model.opt.density = model.opt.viscosity = 0
         self.data = mujoco.MjData(model)
         self.kinds = [KINDS[mujoco.mjtJoint(kind)] for kind in model.jnt_type]

@@ -5,7 +5,7 @@ import numpy as np
 
 from mjcf_model import Mjcf
 
-# Second derivative by seven points, error of sixth order; step in seconds along a motion of constant rate.
+# Second derivative by seven points, error of sixth order; step along a motion of constant rate, of rates up to 1 [s].
 STENCIL, STEP = np.array([2, -27, 270, -490, 270, -27, 2]) / 180, 1e-2
 
 # Singular values below this ratio of the largest are of redundant rows.
@@ -31,33 +31,44 @@ class Rows(Mjcf):
         options.disableflags = options.disableflags & ~off if is_on else options.disableflags | off
         options.disableflags |= int(mujoco.mjtDisableBit.mjDSBL_CONTACT | mujoco.mjtDisableBit.mjDSBL_LIMIT)
 
-    def closed(self, y, rates):
-        """The state on the rows near this one, and what is left of the gap."""
-        model, data = self.model, self.data
-        self.place(y, rates)
-        self.switch(True)
+    def near(self):
+        """Newton's method from the state that is placed; what is left of the gap."""
         for _ in range(STEPS):
             gap, jacobian = self.residual()
             if len(gap) == 0 or np.max(np.abs(gap)) < 1e-14:
                 break
-            mujoco.mj_integratePos(model, data.qpos, -np.linalg.lstsq(jacobian, gap, REDUNDANT)[0], 1.0)
-        gap, jacobian = self.residual()
-        if len(gap):
-            data.qvel[:] -= np.linalg.lstsq(jacobian, jacobian @ data.qvel, REDUNDANT)[0]
+            mujoco.mj_integratePos(self.model, self.data.qpos, -np.linalg.lstsq(jacobian, gap, REDUNDANT)[0], 1.0)
+        return float(np.max(np.abs(self.residual()[0]), initial=0))
+
+    def closed(self, y, rates, parts=1):
+        """The state on the rows near this one, with its gap; by steps from the reference, so that loops stay on the branch that is drawn."""
+        model, data, change = self.model, self.data, np.zeros(self.model.nv)
+        self.place(y, rates)
+        mujoco.mj_differentiatePos(model, change, 1.0, model.qpos0, data.qpos)
+        speed = data.qvel.copy()
+        self.switch(True)
+        data.qpos[:] = model.qpos0 if parts > 1 else data.qpos
+        gap = self.near()
+        for _ in range(parts if parts > 1 else 0):
+            mujoco.mj_integratePos(model, data.qpos, change, 1.0 / parts)
+            gap = self.near()
+        _, jacobian = self.residual()
+        data.qvel[:] = speed - np.linalg.lstsq(jacobian, jacobian @ speed, REDUNDANT)[0] if len(jacobian) else speed
         state = self.state_of(data.qpos.copy(), data.qvel.copy())
         self.switch(False)
-        return *state, float(np.max(np.abs(gap), initial=0))
+        return *state, gap
 
     def turned(self):
         """J and J' v at the state that is placed."""
         model, data = self.model, self.data
         v, qpos, out = data.qvel.copy(), data.qpos.copy(), 0
+        step = STEP / max(1.0, np.max(np.abs(v)))
         self.switch(True)
         _, jacobian = self.residual()
         for k, weight in enumerate(STENCIL):
             data.qpos[:] = qpos
-            mujoco.mj_integratePos(model, data.qpos, v, (k - 3) * STEP)
-            out = out + weight * self.residual()[0] / STEP**2
+            mujoco.mj_integratePos(model, data.qpos, v, (k - 3) * step)
+            out = out + weight * self.residual()[0] / step**2
         data.qpos[:] = qpos
         self.switch(False)
         mujoco.mj_kinematics(model, data)

@@ -7,8 +7,9 @@ ROWS = {"turn": 1, "slide": 1, "planar": 3, "ball": 3, "free": 6}
 
 
 def product(a, b):
-    w, v, x, u = a[0], a[1:], b[0], b[1:]
-    return np.concatenate([[w * x - v @ u], w * u + x * v + np.cross(v, u)])
+    w, x, y, z = a
+    p, i, j, k = b
+    return np.array([w * p - x * i - y * j - z * k, w * i + x * p + y * k - z * j, w * j - x * k + y * p + z * i, w * k + x * j - y * i + z * p])
 
 
 def matrix(q):
