@@ -7,7 +7,7 @@ HARMLESS = (
     "limits of a controller", "they do not act", "a body that is set from outside", "the interface is no effort", "the joint gets no input",
     "there is nothing to hold", "what a controller does", "dry friction falls to zero", "gear ratio", "the input is the effort",
     "no effect in the format", "says where a sensor sits", "code of another simulator", "no range is taken", "a program once read it",
-    "the robot has no joint of that name", "as `balanceinertia` asks",
+    "the robot has no joint of that name", "as `balanceinertia` asks", "the frame of a free joint stays",
 )
 
 # Attributes of forms that could touch: they are of contacts alone.

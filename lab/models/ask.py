@@ -83,15 +83,17 @@ def mjcf(path, seed):
     model = Mjcf(path)
     if not model.kinds:
         return {"why": "nothing moves"}
-    gap, is_tied = 0.0, bool(model.model.neq and np.any(model.model.eq_active0))
+    is_tied = bool(model.model.neq and np.any(model.model.eq_active0))
     y, rates, _ = rotation.random_state(model.kinds, seed)
     out = {"off": [word for word in model.off if word != "equality"]}
     if is_tied:
-        model = Rows(path)
-        y, rates, gap = on_rows(model, seed)
-        if gap > CLOSED:
-            return {"why": f"no state on its equalities: a gap of {gap:.1e}"}
-        out |= {"hard": {}, "gap": gap}
+        tied = Rows(path)
+        found = on_rows(tied, seed)
+        if found[2] < CLOSED and tied.is_regular():
+            model, (y, rates, gap) = tied, found
+            out |= {"hard": {}, "gap": gap}
+        else:
+            out["off"].append("equality")
     out |= begun(model, y, rates)
     model.place(y, rates)
     out["on"] = {name: model.body_name(model.model.jnt_bodyid[j]) for j, name in enumerate(model.names)}

@@ -51,8 +51,8 @@ def blocks(text):
 
 
 def without(text, reference):
-    """The scene without the effects and starts that no reference has, and without couplings where equalities are off."""
-    kept, loose = [], "equality" in reference.get("off", []) and "hard" not in reference
+    """The scene without the effects and starts that no reference has, and without couplings and loops where equalities are off."""
+    kept, loose, carried = [], "equality" in reference.get("off", []) and "hard" not in reference, set()
     for block in blocks(text):
         head = block.lstrip()
         if head.startswith("[[effect]]"):
@@ -60,6 +60,11 @@ def without(text, reference):
                 continue
         if loose and head.startswith("[[coupling]]"):
             continue
+        if loose and head.startswith("[[joint]]"):
+            child = tomllib.loads(block)["joint"][0]["bodies"][1]
+            if child in carried:
+                continue
+            carried.add(child)
         if head.startswith(("[[initial]]", "[[output]]", "[[contact]]")):
             continue
         kept.append(block)
@@ -124,7 +129,7 @@ def first_line(text):
     """The line that says why: one with a place, else the first."""
     lines = [line for line in text.strip().splitlines() if line.strip()]
     errors = [line for line in lines if re.search(r":\d+:\d+: ", line)] or lines
-    return errors[0][:200].replace(str(common.folder()) + "/", "") if errors else "nothing said"
+    return errors[0][:300].replace(str(common.folder()) + "/", "") if errors else "nothing said"
 
 
 def by_drake(found):

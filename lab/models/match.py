@@ -19,7 +19,7 @@ class Pair:
 
     def __init__(self, name, parts, kinds, turn=None):
         self.name, self.parts, self.kinds = name, parts, kinds
-        # Of a planar joint: its coordinates are `turn` times those of the parts.
+        # Of several joints that are one: its coordinates are `turn` times those of the parts.
         self.turn = turn
 
     def rows(self, numbers):
@@ -31,7 +31,8 @@ class Pair:
         """Values as the scene's joint has them: rotations as vectors."""
         whole = np.concatenate([np.array(numbers[part], float) for part in self.parts])
         if self.kinds[-1] in ("ball", "free"):
-            return np.concatenate([whole[:-4], vector(whole[-4:])])
+            slides = whole[:-4] if self.turn is None else self.turn[:3, :3] @ whole[:-4]
+            return np.concatenate([slides, vector(whole[-4:])])
         return whole if self.turn is None else self.turn @ whole
 
     def comparable(self, value):
@@ -52,18 +53,43 @@ def planar(joint, parts, reference):
     return Pair(joint["name"], parts, ["slide", "slide", "turn"], turn)
 
 
+def free(joint, parts, kinds, reference):
+    """Three slides and a ball as one free joint: its displacements are along the global axes."""
+    turn = np.zeros((6, 6))
+    turn[3:, 3:] = np.eye(3)
+    for k, part in enumerate(parts[:3]):
+        turn[:3, k] = reference["axes"][part]
+    return Pair(joint["name"], parts, kinds, np.round(turn, 12))
+
+
+# How many joints of a body the reader writes as one joint of a kind.
+MERGED = {"planar": 3, "free": 4}
+
+
 def on_body(body, joints, reference):
-    """Pairs for the joints of the reference on one body, by their order on it."""
+    """Pairs for the joints of the reference on one body, by their order on it; some of them are one joint of the scene."""
     parts = [part for part, where in reference["on"].items() if where == body]
-    kinds = [reference["joints"][part] for part in parts]
     ours = [joint for joint in joints if joint["bodies"][1].split("~")[0] == body and joint["kind"] != "weld"]
-    if len(ours) == 1 and ours[0]["kind"] == "planar" and kinds == ["slide", "slide", "turn"]:
-        return [planar(ours[0], parts, reference)]
-    if len(ours) == 1 and ours[0]["kind"] == "free" and kinds == ["slide"] * 3 + ["ball"]:
-        return [Pair(ours[0]["name"], parts, kinds)]
-    if len(ours) == len(parts):
-        return [Pair(joint["name"], [part], [kind]) for joint, part, kind in zip(ours, parts, kinds)]
-    raise ValueError(f"the joints of body {body} are not those of the reference")
+    # The first joint of a body carries it; later ones close loops.
+    ours = [joint for i, joint in enumerate(ours) if joint["bodies"][1] not in [other["bodies"][1] for other in ours[:i]]]
+    spare, found = len(parts) - len(ours), []
+    for joint in sorted(ours, key=lambda joint: chain(joint, body)):
+        size = MERGED.get(joint["kind"], 1)
+        size = size if size - 1 <= spare else 1
+        spare -= size - 1
+        some, parts = parts[:size], parts[size:]
+        kinds = [reference["joints"][part] for part in some]
+        merge = {"planar": lambda: planar(joint, some, reference), "free": lambda: free(joint, some, kinds, reference)}
+        found.append(merge[joint["kind"]]() if size > 1 else Pair(joint["name"], some, kinds))
+    if parts or spare:
+        raise ValueError(f"the joints of body {body} are not those of the reference")
+    return found
+
+
+def chain(joint, body):
+    """Its place among the joints of a body: massless links between have numbers."""
+    end = joint["bodies"][1]
+    return (1, 0) if end == body else (0, int(end.rsplit("~", 1)[1]))
 
 
 def pairs(scene, reference):

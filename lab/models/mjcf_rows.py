@@ -11,6 +11,9 @@ STENCIL, STEP = np.array([2, -27, 270, -490, 270, -27, 2]) / 180, 1e-2
 # Singular values below this ratio of the largest are of redundant rows.
 REDUNDANT = 1e-9
 
+# And those above this ratio are of independent rows; a place nearby has the same number of them [m, rad].
+REGULAR, NEARBY = 1e-4, 1e-2
+
 # Steps of Newton's method to a state on the rows.
 STEPS = 60
 
@@ -57,6 +60,19 @@ class Rows(Mjcf):
         state = self.state_of(data.qpos.copy(), data.qvel.copy())
         self.switch(False)
         return *state, gap
+
+    def is_regular(self):
+        """Whether the rows are clearly independent or clearly redundant; where loops are singular as drawn, accelerations have no digits."""
+        mujoco.mj_resetData(self.model, self.data)
+        ranks = []
+        for _ in range(2):
+            self.switch(True)
+            mujoco.mj_forward(self.model, self.data)
+            sizes = np.linalg.svd(self.residual()[1], compute_uv=False)
+            self.switch(False)
+            ranks.append([int(np.sum(sizes > share * sizes[0])) for share in (REDUNDANT, REGULAR)])
+            self.data.qpos[:] += NEARBY * np.sin(np.arange(self.model.nq))
+        return ranks[0][0] == ranks[0][1] == ranks[1][1]
 
     def turned(self):
         """J and J' v at the state that is placed."""

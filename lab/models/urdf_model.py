@@ -39,6 +39,18 @@ def followers(path, names):
     return found
 
 
+def rotors(path):
+    """{joint: inertia of its rotor at the joint} of Drake's elements, which Pinocchio passes over."""
+    found = {}
+    for drive in common.tree(path).findall("transmission"):
+        for actuator in drive.findall("actuator"):
+            said = {part.tag.rsplit("}", 1)[-1].rsplit(":", 1)[-1]: part.get("value") for part in actuator}
+            if "rotor_inertia" in said:
+                for joint in drive.findall("joint"):
+                    found[joint.get("name")] = float(said.get("gear_ratio", 1)) ** 2 * float(said["rotor_inertia"])
+    return found
+
+
 class Urdf:
     """Rows are the coordinates that are free to choose, in Pinocchio's order without the followers."""
 
@@ -47,6 +59,9 @@ class Urdf:
         self.model = pin.buildModelFromUrdf(str(path), *root)
         self.data = self.model.createData()
         self.joints = list(self.model.joints)[1:]
+        for name, inertia in rotors(path).items():
+            if self.model.existJointName(name):
+                self.model.armature[self.model.joints[self.model.getJointId(name)].idx_v] = inertia
         self.all_names = list(self.model.names)[1:]
         if len(set(self.all_names)) < len(self.all_names):
             raise ValueError("two joints have one name")
