@@ -47,11 +47,15 @@ def fingerprint(paths):
     return hashlib.sha256(b"".join(Path(path).read_bytes() for path in paths)).hexdigest()[:12]
 
 
+# The mark of whatever there is.
+ANY = "any"
+
+
 def cached(path, mark, compute):
     """What a file holds, computed anew unless it was with the same mark."""
     if path.exists():
         found = json.loads(path.read_text())
-        if found.get("mark") == mark:
+        if found.get("mark") == mark or ANY in mark:
             return found
     found = compute() | {"mark": mark}
     path.write_text(json.dumps(found))
@@ -146,6 +150,10 @@ def one(options, folder, package, path, kind):
     full = common.collections() / package / path
     name, digest = f"{package}/{path}", common.digest(full)
     key = f"{zlib.crc32(name.encode()):08x}-{digest}"
+    if options.known and not (folder / "rows" / f"{key}.json").exists():
+        return None
+    if options.known:
+        options.asking = options.judging = ANY
     reference = cached(folder / "asked" / f"{key}.json", options.asking, lambda: asked(kind, full, name))
     started = time.monotonic()
     row = cached(folder / "rows" / f"{key}.json", f"{options.judging} {options.asking}",
@@ -176,6 +184,7 @@ def main():
     parser.add_argument("--files", nargs="*", default=[])
     parser.add_argument("--formats", nargs="*", default=["mjcf", "urdf", "sdf"])
     parser.add_argument("--every", type=int, default=1, help="one file of so many")
+    parser.add_argument("--known", action="store_true", help="only tables, of the files that have a row by whatever program")
     parser.add_argument("--show", action="store_true")
     options = parser.parse_args()
     folder = common.folder() / "agreement"
@@ -185,8 +194,9 @@ def main():
     options.judging = fingerprint([shutil.which(options.mbs), *(common.HERE / name for name in JUDGING)])
     rows = []
     for package, path, kind in list(chosen(options))[::options.every]:
-        rows.append(one(options, folder, package, path, kind))
-        if options.show:
+        row = one(options, folder, package, path, kind)
+        rows += [row] if row else []
+        if options.show and row:
             print(tally.line(rows[-1]), flush=True)
     tally.write(folder, rows)
     shutil.rmtree(folder / f"work-{os.getpid()}")
