@@ -110,6 +110,8 @@ def sdf(checkout):
         folder = Path(checkout) / "sdf" / version
         if (folder / "root.sdf").exists():
             walk(ElementTree.parse(folder / "root.sdf").getroot(), "", folder, frozenset())
+    # of pybullet
+    lines.add(("link/contact", "-"))
     for element, inner in DRAKE.items():
         name = element.split("/")[1]
         lines.add((element, "-"))

@@ -46,7 +46,7 @@ fn ears(corners: &[usize], place: impl Fn(usize) -> Point) -> Vec<[usize; 3]> {
             let [a, b, c] = [left[i], left[(i + 1) % n], left[(i + 2) % n]];
             let others = left.iter().filter(|&&other| other != a && other != b && other != c);
             let [pa, pb, pc] = [a, b, c].map(&place);
-            is_left(pa, pb, pc, normal)
+            turn(pa, pb, pc, normal) > 0.0
                 && !others.into_iter().any(|&other| is_within(place(other), [pa, pb, pc], normal))
         });
         let Some(i) = ear else { break };
@@ -66,11 +66,12 @@ fn normal(corners: &[usize], place: &impl Fn(usize) -> Point) -> Point {
     })
 }
 
-/// Does the way from a to b to c turn left, seen against the normal?
-fn is_left(a: Point, b: Point, c: Point, normal: Point) -> bool {
-    dot(cross(minus(b, a), minus(c, b)), normal) > 0.0
+/// How far the way from a to b to c turns to the left, seen against the normal.
+fn turn(a: Point, b: Point, c: Point, normal: Point) -> f64 {
+    dot(cross(minus(b, a), minus(c, b)), normal)
 }
 
+/// Is a place in a triangle or on its edge?
 fn is_within(x: Point, [a, b, c]: [Point; 3], normal: Point) -> bool {
-    [[a, b], [b, c], [c, a]].into_iter().all(|[a, b]| is_left(a, b, x, normal))
+    [[a, b], [b, c], [c, a]].into_iter().all(|[a, b]| turn(a, b, x, normal) >= 0.0)
 }

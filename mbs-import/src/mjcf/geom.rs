@@ -64,7 +64,13 @@ pub(super) fn read(
         return Ok(if counts { Geom::Mesh(geom) } else { Geom::Nothing });
     }
     let (frame, half) = match view.attribute("fromto") {
-        Some(ends) => from_to(ends).map(|(frame, half)| (frame, Some(half)))?,
+        Some(ends) => {
+            // they say all of the place
+            for name in ["pos", "quat", "euler", "axisangle", "xyaxes", "zaxis"] {
+                view.own(name);
+            }
+            from_to(ends).map(|(frame, half)| (frame, Some(half)))?
+        }
         None => (pose(view, &model.compiler)?, None),
     };
     let frame = scope.then(&frame);

@@ -95,7 +95,7 @@ fn whole(
         );
         model.context.findings.ignored(root.at, "geom", says);
     }
-    if let Some(step) = root.each("option").find_map(|option| option.value("timestep")) {
+    if let Some(step) = root.each("option").filter_map(|option| option.value("timestep")).last() {
         model
             .robot
             .notes

@@ -158,8 +158,8 @@ fn laws(
     let effort = view.numbers("actuatorfrcrange")?.filter(|_| is_clamped);
     let Some(pulled) = pulled.filter(|pulled| !pulled.terms.is_empty()) else {
         model.tendons.push(Tendon { name, ..Tendon::default() });
-        let says = "a tendon that has no law of its own, and no length here";
-        model.context.findings.ignored(element.at, label, says);
+        let says = "a tendon that has no law of its own, and no length here: it does nothing";
+        model.context.findings.noted(element.at, label, says);
         return Ok(());
     };
     let is_limited = view.is_limited("limited", "range", auto)?;

@@ -19,7 +19,7 @@ pub(super) fn mass(
 ) -> Read<Option<Mass>> {
     let Some(inertial) = element.child("inertial") else {
         let says = "no <inertial>: the format's 1 kg with moments of 1 kg m^2";
-        context.findings.approximated(element.at, element.label(), says);
+        context.findings.noted(element.at, element.label(), says);
         return Ok(Some(Mass {
             mass: 1.0,
             center: V3::zeros(),

@@ -27,6 +27,8 @@ pub(crate) const TABLE: &[Row] = &[
     row("spherical_coordinates", " *", Ignored(OTHER)),
     row("audio", " *", Appearance),
     row("road", " *", Ignored(CONTACT)),
+    // pybullet's
+    row("link/contact", " *", Ignored(CONTACT)),
     row("population", " *", Ignored("models that a simulator adds")),
     row("actor", " *", Appearance),
     row("state", " *", Ignored("the state of another simulator")),
