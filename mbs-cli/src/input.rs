@@ -31,7 +31,7 @@ pub(crate) fn is_standard(path: &Path) -> bool {
 pub(crate) fn document(
     path: &Path,
     what: &str,
-    options: Option<ImportOptions>,
+    (options, geometry_alone): (Option<ImportOptions>, bool),
 ) -> Result<SceneFile, Refusal> {
     let bytes = read(path, what)?;
     // no value stands without one of these
@@ -53,6 +53,7 @@ pub(crate) fn document(
         Some(options) => ImportOptions { folder: Some(folder), ..options },
         None => ImportOptions::in_folder(folder),
     };
+    let options = ImportOptions { geometry_alone, ..options };
     let document = scene_file(&bytes, &name, &options);
     let (document, imported) = document.map_err(|error| {
         let code = if is_model(&bytes) { "model-refused" } else { "scene-refused" };

@@ -34,6 +34,8 @@ const QUANTITIES: [&str; 11] = [
     "jacobians",
     "derivatives",
 ];
+/// Those that need no mass.
+const GEOMETRY: [&str; 2] = ["frames", "jacobians"];
 /// How many of them are computed where nothing is asked for: the next one is known by frames, the others are large, and the last is of
 /// open trees alone.
 const DEFAULT: usize = 8;
@@ -82,7 +84,9 @@ fn inspected(arguments: &Arguments) -> Result<Value, Refusal> {
             return Err(Refusal::new("usage", format!("`--what {word}`: no such quantity"), hint));
         }
     }
-    let file = arguments.scene.document()?;
+    let is_of_geometry = |word: &String| GEOMETRY.contains(&word.as_str());
+    let is_geometry = !arguments.what.is_empty() && arguments.what.iter().all(is_of_geometry);
+    let file = arguments.scene.document_for(is_geometry)?;
     let name = file.file().to_owned();
     let unread = |error: ReadError| Refusal::read("scene-refused", &error);
     let mut mechanism = Mechanism::of_file(file).map_err(unread)?;

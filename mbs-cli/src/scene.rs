@@ -52,7 +52,13 @@ impl SceneArgument {
 
     /// Its tree with the values that are set; else the refusal.
     pub(crate) fn document(&self) -> Result<SceneFile, Refusal> {
-        let mut document = input::document(&self.scene, "scene file", of_words(&self.import)?)?;
+        self.document_for(false)
+    }
+
+    /// The same, where `geometry_alone` for places: inertias that no body has are left out.
+    pub(crate) fn document_for(&self, geometry_alone: bool) -> Result<SceneFile, Refusal> {
+        let options = (of_words(&self.import)?, geometry_alone);
+        let mut document = input::document(&self.scene, "scene file", options)?;
         for assignment in &self.set {
             let set = document.with_set(assignment);
             document = set.map_err(|error| Refusal::read("set-refused", &error))?;

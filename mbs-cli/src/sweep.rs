@@ -103,7 +103,7 @@ pub(crate) fn main(arguments: &Arguments) -> ExitCode {
 
 fn run(arguments: &Arguments) -> Result<(Report, PathBuf), Refusal> {
     let (document, _) = arguments.scene.read()?;
-    let sweep = input::document(&arguments.sweep, "sweep file", None)?;
+    let sweep = input::document(&arguments.sweep, "sweep file", (None, false))?;
     let overrides = arguments.overrides();
     let study = Study::new(document.clone(), &sweep, &overrides);
     let study = study.map_err(|error| refused(&error, &document))?;

@@ -163,7 +163,7 @@ fn whole(
     if context.options.motors {
         motors::add(&mut robot, &mut context.findings)?;
     }
-    let lumps = lump::lumps(&robot, context.options.balance, &mut context.findings)?;
+    let lumps = lump::lumps(&robot, context.options, &mut context.findings)?;
     frames_of_links(&mut robot);
     let sizes = sizes(&robot, &lumps);
     let notes = std::mem::take(&mut robot.notes);

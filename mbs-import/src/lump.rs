@@ -2,6 +2,7 @@
 
 use crate::findings::Findings;
 use crate::inertia::{Mass, SLACK};
+use crate::options::ImportOptions;
 use crate::pose::M3;
 use crate::robot::{Kind, Robot};
 use crate::source::{Fault, Read};
@@ -28,8 +29,12 @@ pub(crate) struct Lumps {
     pub(crate) lumps: Vec<Lump>,
 }
 
-/// Joins what `Fixed` joints weld, and checks the inertia of what moves. `balance` mends an impossible one.
-pub(crate) fn lumps(robot: &Robot, balance: bool, findings: &mut Findings) -> Read<Lumps> {
+/// Joins what `Fixed` joints weld, and checks the inertia of what moves; options may mend an impossible one, or leave it out.
+pub(crate) fn lumps(
+    robot: &Robot,
+    options: &ImportOptions,
+    findings: &mut Findings,
+) -> Read<Lumps> {
     let carriers = robot.carriers(|joint| joint.kind == Kind::Fixed);
     let mut found = Lumps { of: vec![0; robot.links.len()], lumps: Vec::new() };
     let mut number = vec![usize::MAX; robot.links.len()];
@@ -50,7 +55,14 @@ pub(crate) fn lumps(robot: &Robot, balance: bool, findings: &mut Findings) -> Re
         }
     }
     for lump in &mut found.lumps[1..] {
-        check(robot, lump, balance, findings)?;
+        match check(robot, lump, options.balance, findings) {
+            Err(fault) if options.geometry_alone => {
+                lump.mass = Mass::none();
+                let label = format!("link[{}]", robot.links[lump.carrier].name);
+                findings.ignored(fault.at, label, format!("{}: left out", fault.message));
+            }
+            checked => checked?,
+        }
     }
     Ok(found)
 }

@@ -55,6 +55,8 @@ pub struct ImportOptions {
     pub motors: bool,
     /// Whether meshes whose mass is needed count as massless, and are reported.
     pub massless_meshes: bool,
+    /// Whether inertias that no body has are left out, and reported: for places, Jacobians and inverse kinematics.
+    pub geometry_alone: bool,
 }
 
 impl ImportOptions {

@@ -115,6 +115,26 @@ fn centres_of_mass_have_a_word_of_their_own() {
 }
 
 #[test]
+fn places_need_no_inertia_that_a_body_can_have() {
+    let right = inspected("possible.urdf", &arm(INERTIA), &STATE);
+    let moments = |xx: &str, mass: &str| {
+        format!(
+            r#"<inertial><origin xyz="0.05 0.02 0.1"/><mass value="{mass}"/><inertia ixx="{xx}" iyy="0.1" izz="0.1" ixy="0" ixz="0" iyz="0"/></inertial>"#
+        )
+    };
+    // moments against the triangle inequality, below zero, and without a mass
+    for (xx, mass) in [("0.3", "1"), ("-0.1", "1"), ("0.1", "0")] {
+        let model = arm(&moments(xx, mass));
+        let object = inspected("impossible.urdf", &model, &STATE);
+        assert_eq!(object["frames"], right["frames"], "{xx}, {mass}");
+        assert_eq!(object["jacobians"], right["jacobians"], "{xx}, {mass}");
+        let path = file("impossible.urdf");
+        let refused = run("inspect", &[path.to_str().expect("UTF-8"), "--what=frames,mass-matrix"]);
+        assert_eq!(status(&refused), 1, "{}", text(&refused.stdout));
+    }
+}
+
+#[test]
 fn accelerations_without_masses_are_refused_by_name_with_a_remedy() {
     let path = file("no-masses.urdf");
     std::fs::write(&path, arm("")).expect("a folder");
