@@ -7,6 +7,7 @@ folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 python3 -m venv "$folder/venv"
 "$folder/venv/bin/pip" install --quiet --disable-pip-version-check mujoco==4.0.0 scipy==1.17.1
+cd "$folder"
 "$folder/venv/bin/python" - <<'PYTHON'
 import mujoco
 import numpy as np

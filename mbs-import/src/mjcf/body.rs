@@ -223,7 +223,7 @@ impl<'a> Walk<'_, 'a, '_, '_> {
         }
         inner.is_still = own.joints.is_empty() && scope.is_still;
         let mut mass = self.mass(element, &own, inner.is_still)?;
-        if mass.is_nothing() {
+        if mass.is_nothing() && own.inertial.is_none() {
             // what `boundmass` gives to a body without inertia is where its own place says, taken in its own frame
             mass.center = inner.frame.point(&in_parent.at);
         }
