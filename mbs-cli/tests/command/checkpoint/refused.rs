@@ -65,7 +65,8 @@ fn the_command_says_what_is_wrong_and_what_to_do() {
     let mut later = bytes.clone();
     later[8] += 1;
     std::fs::write(&checkpoint, &later).expect("written");
-    refused(&[file, "--out", dir, "--resume"], &["written by mbs with format 6"]);
+    let format = format!("written by mbs with format {}", later[8]);
+    refused(&[file, "--out", dir, "--resume"], &[&format]);
 
     std::fs::write(&checkpoint, &bytes).expect("written");
     let rows =
