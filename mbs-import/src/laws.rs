@@ -1,7 +1,8 @@
-//! Laws that formats have in common: stops at the ends of a range, and dry friction.
+//! Laws that formats have in common: stops at the ends of a range, dry friction, and dampers of balls.
 
 use crate::context::Context;
 use crate::options::Stops;
+use crate::pose::{V3, v3};
 use crate::robot::{Coordinate, Law, Robot, Target, What};
 use crate::source::Origin;
 
@@ -52,4 +53,28 @@ pub(crate) fn friction(
         let what = What::Friction { on: Target::Coordinate(of), coulomb };
         robot.laws.push(Law { name: format!("{name} friction"), what });
     }
+}
+
+/// Corners of a tetrahedron: Σ r = 0 and Σ (r² E − r rᵀ) = 8 E. So forces −c v at them are a moment −8 c ω.
+const CORNERS: [[f64; 3]; 4] =
+    [[1.0, 1.0, 1.0], [1.0, -1.0, -1.0], [-1.0, 1.0, -1.0], [-1.0, -1.0, 1.0]];
+
+/// The moment −d ω between two links at a place, for a free joint with the force −d v beside it: four dampers.
+pub(crate) fn dampers(
+    (links, place): ([usize; 2], V3),
+    damping: f64,
+    is_free: bool,
+) -> impl Iterator<Item = What> {
+    // of a ball the moment is −8 c a² ω, of a free joint the force is −4 c v beside it
+    let (arm, c) = if is_free {
+        (core::f64::consts::FRAC_1_SQRT_2, damping / 4.0)
+    } else {
+        (1.0, damping / 8.0)
+    };
+    CORNERS.into_iter().map(move |corner| What::Bushing {
+        links,
+        place: place + v3(corner) * arm,
+        stiffness: [0.0; 6],
+        damping: [c, c, c, 0.0, 0.0, 0.0],
+    })
 }

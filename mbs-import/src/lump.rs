@@ -7,8 +7,9 @@ use crate::pose::M3;
 use crate::robot::{Kind, Robot};
 use crate::source::{Fault, Read};
 
-/// Radius of gyration below which a mass is a point [m]: far below that of any part, far above what rounding leaves of zero.
-const NEGLIGIBLE: f64 = 1.0e-9;
+/// Radius of gyration below which a mass is a point [m]: far below that of any part, far above what rounding leaves of zero. Published humanoids
+/// have a leg with 2e-9 m.
+const NEGLIGIBLE: f64 = 1.0e-7;
 
 /// Links that move together.
 #[derive(Debug, Clone)]

@@ -3,12 +3,8 @@
 use super::model::{Model, Motion, Moves};
 use super::springs;
 use super::strength::Strength;
-use crate::pose::v3;
+use crate::laws;
 use crate::robot::What;
-
-/// Corners of a tetrahedron: Σ r = 0 and Σ (r² E − r rᵀ) = 8 E. So forces −c v at them are a moment −8 c ω.
-const CORNERS: [[f64; 3]; 4] =
-    [[1.0, 1.0, 1.0], [1.0, -1.0, -1.0], [-1.0, 1.0, -1.0], [-1.0, -1.0, 1.0]];
 
 /// Adds the spring and the damper of a joint.
 pub(super) fn add(motion: &Motion, strengths: [Strength; 2], model: &mut Model<'_, '_, '_>) {
@@ -46,20 +42,7 @@ fn several(motion: &Motion, strengths: [Strength; 2], model: &mut Model<'_, '_, 
         model.law(&format!("{} spring", motion.name), what);
     }
     if damping > 0.0 {
-        for (number, corner) in CORNERS.into_iter().enumerate() {
-            // of a ball the moment is −8 c a² ω, of a free joint the force is −4 c v beside it
-            let (arm, c) = if is_free {
-                (core::f64::consts::FRAC_1_SQRT_2, damping / 4.0)
-            } else {
-                (1.0, damping / 8.0)
-            };
-            let place = place + v3(corner) * arm;
-            let what = What::Bushing {
-                links,
-                place,
-                stiffness: [0.0; 6],
-                damping: [c, c, c, 0.0, 0.0, 0.0],
-            };
+        for (number, what) in laws::dampers((links, place), damping, is_free).enumerate() {
             model.law(&format!("{} damping {}", motion.name, number + 1), what);
         }
     }

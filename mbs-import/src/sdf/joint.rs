@@ -68,12 +68,45 @@ pub(super) fn read(
         }
     }
     robot.joints.push(joint);
+    if kind == Kind::Spherical {
+        damped_ball(element, (number, &name), robot, context)?;
+    }
     for (i, axis) in axes.iter().enumerate() {
         let of = coordinate(&robot.joints, number, i);
         laws(axis, of, robot, context)?;
     }
     if kind == Kind::Cylindrical {
         robot.couplings.push(screw(element, number, &name)?);
+    }
+    Ok(())
+}
+
+/// Damping of a ball, which stands at an axis that it does not have, and acts about all; nothing else of the axis does.
+fn damped_ball(
+    element: &Element,
+    (number, name): (usize, &str),
+    robot: &mut Robot,
+    context: &mut Context<'_>,
+) -> Read<()> {
+    let Some(dynamics) = element.child("axis").and_then(|axis| axis.child("dynamics")) else {
+        return Ok(());
+    };
+    let damping = self::number(dynamics, "damping", 0.0)?;
+    if damping < 0.0 {
+        return Err(dynamics.fault("damping is below zero", "write zero or more"));
+    }
+    for word in ["friction", "spring_stiffness"] {
+        if self::number(dynamics, word, 0.0)? != 0.0 {
+            let says = format!("{word} of a ball does not act here");
+            context.findings.ignored(dynamics.at, format!("joint[{name}]/axis/dynamics"), says);
+        }
+    }
+    if damping > 0.0 {
+        let joint = &robot.joints[number];
+        let of = ([joint.parent, joint.child], joint.place);
+        for (corner, what) in laws::dampers(of, damping, false).enumerate() {
+            robot.laws.push(Law { name: format!("{name} damping {}", corner + 1), what });
+        }
     }
     Ok(())
 }

@@ -1,6 +1,7 @@
 //! Worlds of SDF: joints and frames of the world, static models, included URDFs. Values are closed forms, unless a program is named.
 
 use crate::pendulum::{TOLERANCE, acceleration, close, model, scene_of, whole};
+use mbs_core::scene::EffectKind;
 use mbs_import::{ImportOptions, import};
 use std::path::Path;
 
@@ -284,4 +285,27 @@ fn a_limit_that_leaves_no_range_is_said() {
         let [finding] = &model.findings[..] else { panic!("{:?}", model.findings) };
         assert!(finding.says.starts_with(says), "{limit}: {}", finding.says);
     }
+}
+
+#[test]
+fn damping_of_a_ball_is_a_moment_against_its_turn_as_in_drake() {
+    let joint = |dynamics: &str| {
+        format!(
+            r#"<sdf version="1.9"><model name="m"><link name="b"><pose>0.1 0 0 0 0 0</pose></link><joint name="j" type="ball"><parent>world</parent><child>b</child><axis><dynamics>{dynamics}</dynamics></axis></joint></model></sdf>"#
+        )
+    };
+    let read =
+        |dynamics: &str| import(joint(dynamics).as_bytes(), "m.sdf", &ImportOptions::default());
+    // four dampers of d / 8 at the corners of a tetrahedron of 1 m are a moment of d
+    let scene = scene_of(&read("<damping>0.8</damping>").expect("it is read"));
+    assert_eq!(scene.effects.len(), 4);
+    for effect in &scene.effects {
+        let EffectKind::Bushing(bushing) = &effect.kind else { panic!("{effect:?}") };
+        assert_eq!(bushing.damping, [0.1, 0.1, 0.1, 0.0, 0.0, 0.0]);
+    }
+    let listed = read("<friction>0.2</friction><spring_stiffness>3</spring_stiffness>");
+    let listed = listed.expect("it is read").findings;
+    let of_ball = listed.iter().filter(|finding| finding.says.contains("of a ball does not act"));
+    assert_eq!(of_ball.count(), 2, "{listed:?}");
+    assert!(read("<damping>-1</damping>").is_err());
 }
