@@ -301,7 +301,10 @@ fn damping_of_a_ball_is_a_moment_against_its_turn_as_in_drake() {
     assert_eq!(scene.effects.len(), 4);
     for effect in &scene.effects {
         let EffectKind::Bushing(bushing) = &effect.kind else { panic!("{effect:?}") };
-        assert_eq!(bushing.damping, [0.1, 0.1, 0.1, 0.0, 0.0, 0.0]);
+        let right = [0.1, 0.1, 0.1, 0.0, 0.0, 0.0];
+        for (found, right) in bushing.damping.iter().zip(right) {
+            close(*found, right, TOLERANCE, "damping");
+        }
     }
     let listed = read("<friction>0.2</friction><spring_stiffness>3</spring_stiffness>");
     let listed = listed.expect("it is read").findings;
