@@ -71,7 +71,7 @@ impl Sources {
     }
 
     /// A file beside that of a place; none beside the first one, whose folder the options have.
-    pub(crate) fn beside(&self, at: Origin, file: &str) -> Option<PathBuf> {
+    pub(crate) fn beside(&self, at: Origin, file: &Path) -> Option<PathBuf> {
         (at.source > 0).then(|| Path::new(self.name(at)).with_file_name(file))
     }
 

@@ -150,10 +150,9 @@ pub(super) fn form(
     let Some(file) = view.attribute("file") else {
         return Ok(Err("meshes that the file itself writes are not drawn".to_owned()));
     };
-    let place = surface::place_of(&file.value, model);
+    let (place, own) = surface::places_of(file, model);
     let drawn = |place: PathBuf| mesh_file(&place.display().to_string(), model.context);
-    let own = || model.context.sources.beside(file.at, file.value.trim());
-    let file = match drawn(place).or_else(|says| own().map_or(Err(says), drawn)) {
+    let file = match drawn(place).or_else(|says| own.map_or(Err(says), drawn)) {
         Ok(file) => file,
         Err(says) => return Ok(Err(says)),
     };

@@ -32,20 +32,19 @@ pub(super) fn read(view: &View<'_>, model: &Model<'_, '_, '_>) -> Read<TriangleM
     let file = view.attribute("file").ok_or_else(|| {
         view.element.fault("the mesh has neither `file` nor `vertex`", "write file=\"...\"")
     })?;
-    let name = place_of(&file.value, model);
-    // else beside the file that asks for it, whatever folder meshes have
-    let own = model.context.sources.beside(file.at, file.value.trim());
+    let (name, own) = places_of(file, model);
     let path = beside::find(file, &name, own.as_deref(), model.context)?;
     TriangleMesh::read_first(&path)
         .map_err(|why| file.fault(format!("`{}`: {why}", file.value), "give a mesh as STL or OBJ"))
 }
 
-/// The place of a file of a mesh, from the folder of the model.
-pub(super) fn place_of(file: &str, model: &Model<'_, '_, '_>) -> PathBuf {
-    let name = Path::new(file.trim());
-    let name = match name.file_name().filter(|_| model.compiler.strip_path) {
+/// The place of a file of a mesh, from the folder of the model; else beside the included file that names it, whatever folder meshes have.
+pub(super) fn places_of(file: &Attribute, model: &Model<'_, '_, '_>) -> (PathBuf, Option<PathBuf>) {
+    let written = Path::new(file.value.trim());
+    let name = match written.file_name().filter(|_| model.compiler.strip_path) {
         Some(last) => Path::new(last),
-        None => name,
+        None => written,
     };
-    Path::new(&model.compiler.mesh_folder).join(name)
+    let own = model.context.sources.beside(file.at, written);
+    (Path::new(&model.compiler.mesh_folder).join(name), own)
 }
