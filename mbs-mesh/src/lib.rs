@@ -4,7 +4,7 @@ mod polygon;
 mod simplify;
 
 use core::fmt::{self, Display, Formatter};
-use polygon::triangles;
+use polygon::{fan, triangles};
 use std::collections::HashMap;
 use std::io::{ErrorKind, Read as _};
 use std::path::Path;
@@ -83,7 +83,7 @@ impl TriangleMesh {
         Self::read_parts(path, Parts::All)
     }
 
-    /// Reads a file; of an OBJ all vertices, and the triangles of the first object or group alone, as MuJoCo has them.
+    /// Reads a file; of an OBJ all vertices, and of the first object or group alone the triangles that MuJoCo does not lose.
     ///
     /// # Errors
     /// As for [`read`](Self::read).
@@ -247,8 +247,11 @@ fn obj(bytes: &[u8], parts: Parts) -> Result<TriangleMesh, MeshFault> {
                 let face: Option<Vec<usize>> = words.map(number).collect();
                 let face = face.filter(|face| face.len() > 2).ok_or_else(fault)?;
                 if counts {
-                    let all = triangles(&face, |i| joined.mesh.vertices[i]);
-                    joined.mesh.triangles.extend(all);
+                    let (cut, lost) = triangles(&face, |i| joined.mesh.vertices[i]);
+                    joined.mesh.triangles.extend(cut);
+                    if parts == Parts::All {
+                        joined.mesh.triangles.extend(fan(&lost));
+                    }
                 }
             }
             Some("o" | "g") => counts &= parts == Parts::All || joined.mesh.triangles.is_empty(),

@@ -297,6 +297,37 @@ fn of_an_obj_with_several_objects_the_first_has_mass_as_in_mujoco_4() {
     }
 }
 
+/// An OBJ moved by -3 m along x.
+fn moved_back(text: &str) -> String {
+    let moved = text.lines().map(|line| {
+        match line.strip_prefix("v ").and_then(|rest| rest.split_once(' ')) {
+            Some((x, rest)) => format!("v {} {rest}\n", x.parse::<f64>().unwrap() - 3.0),
+            None => format!("{line}\n"),
+        }
+    });
+    moved.collect()
+}
+
+/// A prism of 1 m over a regular polygon in a circle of 1 m.
+fn regular_prism(corners: usize) -> String {
+    let vertices = [0, 1].into_iter().flat_map(|z| {
+        (0..corners).map(move |i| {
+            let (sin, cos) = (core::f64::consts::TAU * i as f64 / corners as f64).sin_cos();
+            format!("v {cos} {sin} {z}\n")
+        })
+    });
+    let face = |corners: Vec<usize>| {
+        let words: Vec<String> = corners.iter().map(|i| (i + 1).to_string()).collect();
+        format!("f {}\n", words.join(" "))
+    };
+    let ends = [(0..corners).rev().collect(), (corners..2 * corners).collect()];
+    let sides = (0..corners).map(|i| {
+        let next = (i + 1) % corners;
+        vec![i, next, corners + next, corners + i]
+    });
+    vertices.chain(ends.into_iter().chain(sides).map(face)).collect()
+}
+
 #[test]
 fn polygons_of_an_obj_are_cut_as_in_mujoco_4() {
     // an L, and a box whose lid is bent at one corner
@@ -320,6 +351,11 @@ fn polygons_of_an_obj_are_cut_as_in_mujoco_4() {
             3.0,
         ),
         (concave.replace("f 6 5 4 3 2 1\n", "f 2 1 6 5 4 3\n"), "legacy", 3.0),
+        // what an ear is depends on the side on which the origin lies: the same L, three metres away
+        (moved_back(concave), "exact", 2.825_262_308_313_156),
+        (regular_prism(100), "exact", 50.0 * (core::f64::consts::TAU / 100.0).sin()),
+        // a polygon of more than 100 corners is lost; what is left is 2/3 of the volume, about the centre of the faces
+        (regular_prism(101), "exact", 101.0 / 3.0 * (core::f64::consts::TAU / 101.0).sin()),
         (bent("5 6 7 8"), "exact", box_and_pyramid),
         (bent("6 7 8 5"), "exact", box_and_pyramid),
     ] {
