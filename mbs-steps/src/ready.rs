@@ -89,7 +89,7 @@ impl<T: Real, const D: usize> AssembledScene<T, D> {
         scene: &Scene<T>,
         (t, motions): (T, &[RigidMotion<T>]),
     ) -> Result<Self, StopError> {
-        let scene = &*tilt::meant::<T, D>(scene);
+        let scene = &*tilt::meant::<T, D>(scene).0;
         let model = NaturalModel::new(scene).map_err(|e| StopError::Start(e.into()))?;
         let mut solver = Multifrontal::analyse(&model, mbs_sparse::Options::default());
         let start = start_at((scene, &model), &mut solver, (t, motions));
@@ -114,9 +114,10 @@ impl<T: Real, const D: usize> AssembledScene<T, D> {
 fn assemble_scene<T: Real, const D: usize>(
     scene: &Scene<T>,
 ) -> Result<AssembledScene<T, D>, StopError> {
-    let scene = &*tilt::meant::<T, D>(scene);
+    let (scene, lock) = tilt::meant::<T, D>(scene);
+    let scene = &*scene;
     let model = NaturalModel::new(scene).map_err(|e| StopError::Start(e.into()))?;
-    if let Some(tilt) = tilt::almost_dependent::<T, D>(scene) {
+    if let Some(tilt) = lock {
         return Err(StopError::AlmostDependent(tilt));
     }
     let analyse = mbs_sparse::Options::default();

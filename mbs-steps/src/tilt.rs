@@ -64,26 +64,23 @@ fn notes_here<T: Real>(scene: &Scene<T>) -> Vec<(usize, String)> {
     tilts(scene, T::from_f64(MEANT)).iter().map(note).chain(binding_note(scene)).collect()
 }
 
-/// The axis whose tilt, too large to be taken as none, alone holds loops that cannot move with it, in the reference configuration.
+/// The scene as natural coordinates take it, and the axis whose tilt alone holds loops that cannot move with it, in the reference configuration.
 ///
-/// Cost: nothing but the search for tilts where there is none; else the ranks of the constraints for some variants of the scene.
-pub fn almost_dependent<T: Real, const D: usize>(scene: &Scene<T>) -> Option<AlmostDependent> {
-    let [locks, _] = doubtful::<T, D>(scene);
-    binding::<T, D>(scene, &locks).map(|(tilt, _)| AlmostDependent::new(&tilt))
-}
-
-/// The scene without tilts of the fifth digit that take freedoms of loops which move with them too: near such a place motions with a tilt,
-/// however small, differ from those without by more than it.
-pub(crate) fn meant<T: Real, const D: usize>(scene: &Scene<T>) -> Cow<'_, Scene<T>> {
-    if scene.dimension != Dimension::Spatial {
-        return Cow::Borrowed(scene);
-    }
-    let [_, mut others] = doubtful::<T, D>(scene);
-    others.retain(|tilt| tilt.angle <= T::from_f64(FIVE_DIGITS));
-    match binding::<T, D>(scene, &others) {
+/// Tilts of the fifth digit that take freedoms of loops which move with them too are none: near such a place motions with a tilt, however
+/// small, differ from those without by more than it. Cost: nothing but the search for tilts where there is none; else the ranks of the
+/// constraints for some variants of the scene.
+pub(crate) fn meant<T: Real, const D: usize>(
+    scene: &Scene<T>,
+) -> (Cow<'_, Scene<T>>, Option<AlmostDependent>) {
+    let [locks, mut others] = doubtful::<T, D>(scene);
+    let lock = binding::<T, D>(scene, &locks).map(|(tilt, _)| AlmostDependent::new(&tilt));
+    let is_spatial = scene.dimension == Dimension::Spatial;
+    others.retain(|tilt| is_spatial && tilt.angle <= T::from_f64(FIVE_DIGITS));
+    let meant = match binding::<T, D>(scene, &others) {
         Some(_) => Cow::Owned(align(scene, &others)),
         None => Cow::Borrowed(scene),
-    }
+    };
+    (meant, lock)
 }
 
 /// Tilts that are too large to be taken as none, and small enough to be errors of the file: those in loops that cannot move with them, and
