@@ -9,7 +9,6 @@ mod files;
 mod findings;
 mod format;
 mod gravity;
-mod hull;
 mod import;
 mod inertia;
 mod laws;

@@ -1,10 +1,14 @@
 #![doc = include_str!("../README.md")]
 
+mod hull;
 mod polygon;
 mod simplify;
+mod solid;
 
 use core::fmt::{self, Display, Formatter};
+pub use hull::hull;
 use polygon::{fan, triangles};
+pub use solid::{Count, Solid};
 use std::collections::HashMap;
 use std::io::{ErrorKind, Read as _};
 use std::path::Path;

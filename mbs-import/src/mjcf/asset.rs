@@ -5,14 +5,13 @@ use super::fitted::{Fitted, fitted};
 use super::model::Model;
 use super::surface;
 use crate::element::{Attribute, Element};
-use crate::hull::hull;
 use crate::inertia::Mass;
-use crate::mesh::{Count, Surface};
+use crate::mesh::Surface;
 use crate::pose::{M3, Pose, V3, quaternion, v3};
 use crate::robot::{FormKind, is_even};
 use crate::source::{Fault, Origin, Read};
 use crate::visual::mesh_file;
-use mbs_scene::{TriangleMesh, nearest_name};
+use mbs_scene::{Count, TriangleMesh, hull, nearest_name};
 use std::path::{Path, PathBuf};
 
 /// A geom that is a mesh, and whose mass counts.

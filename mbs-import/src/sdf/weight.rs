@@ -7,11 +7,11 @@ use crate::beside::{first, home, places};
 use crate::context::Context;
 use crate::element::Element;
 use crate::inertia::Mass;
-use crate::mesh::{Count, Surface};
+use crate::mesh::Surface;
 use crate::pose::{Pose, V3, v3};
 use crate::solid::Solid;
 use crate::source::Read;
-use mbs_scene::TriangleMesh;
+use mbs_scene::{Count, TriangleMesh};
 
 /// Density of what writes none [kg/m³]: the format's default, that of water.
 const DENSITY: f64 = 1000.0;

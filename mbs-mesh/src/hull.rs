@@ -3,7 +3,7 @@
 //! Each point outside is added in turn: triangles that it sees go, and it is joined to the edge of the rest (quickhull). Sides are decided without
 //! rounding, by points that are snapped to a fine grid: faces with many points of one plane need no tolerance.
 
-use mbs_scene::TriangleMesh;
+use crate::TriangleMesh;
 use std::collections::HashMap;
 
 /// Steps of the grid along the longest side of the points. A volume of three sides has 126 bits, with a sign less than an `i128` has.
@@ -26,8 +26,9 @@ struct Hull {
     edges: HashMap<[usize; 2], usize>,
 }
 
-/// The hull of points; `None` where all are in one plane.
-pub(crate) fn hull(points: &[[f64; 3]]) -> Option<TriangleMesh> {
+/// The convex hull of points, its triangles turned outwards; `None` where all are in one plane.
+#[must_use]
+pub fn hull(points: &[[f64; 3]]) -> Option<TriangleMesh> {
     let mut hull = Hull { points: snapped(points)?, faces: Vec::new(), edges: HashMap::new() };
     let first = hull.first()?;
     let mut open: Vec<usize> = (0..4).collect();
@@ -162,70 +163,5 @@ impl Hull {
             }));
         }
         mesh
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::mesh::{Count, Surface};
-
-    fn volume(mesh: &TriangleMesh) -> f64 {
-        assert_eq!(Surface(mesh).open_edge(), None);
-        Surface(mesh).mass(1.0, Count::Signed).mass
-    }
-
-    /// Points of a grid in a box of 1, 2 and 3 m, in a mixed order.
-    fn grid(n: usize) -> Vec<[f64; 3]> {
-        let all = n * n * n;
-        let at = |i: usize| {
-            let i = i * 7919 % all;
-            let x = [i % n, i / n % n, i / n / n].map(|x| x as f64 / (n - 1) as f64);
-            [x[0], 2.0 * x[1], 3.0 * x[2]]
-        };
-        (0..all).map(at).collect()
-    }
-
-    #[test]
-    fn a_box_full_of_points_in_planes_and_lines_is_a_box() {
-        for n in [2, 3, 4, 11] {
-            let mesh = hull(&grid(n)).expect("a volume");
-            assert!((volume(&mesh) - 6.0).abs() < 1.0e-12, "{n}: {}", volume(&mesh));
-        }
-    }
-
-    #[test]
-    fn a_turned_and_shifted_box_is_the_same_box() {
-        let turn = crate::pose::roll_pitch_yaw([0.3, -0.7, 1.9]);
-        let points = grid(6).into_iter().map(|x| {
-            let x = turn * crate::pose::v3(x) * 1.0e-3;
-            [x[0] + 5.0, x[1] - 2.0, x[2]]
-        });
-        let mesh = hull(&points.collect::<Vec<_>>()).expect("a volume");
-        assert!((volume(&mesh) / 6.0e-9 - 1.0).abs() < 1.0e-8, "{}", volume(&mesh));
-    }
-
-    #[test]
-    fn every_point_is_within_the_hull_of_a_cloud() {
-        let mut dice = mbs_scene::Dice::new(5);
-        let points: Vec<[f64; 3]> =
-            (0..500).map(|_| [0, 1, 2].map(|_| dice.below(1000) as f64 / 1000.0)).collect();
-        let mesh = hull(&points).expect("a volume");
-        assert!((0.8..1.0).contains(&volume(&mesh)));
-        for [a, b, c] in &mesh.triangles {
-            let [a, b, c] = [a, b, c].map(|i| crate::pose::v3(mesh.vertices[*i]));
-            let normal = (b - a).cross(&(c - a));
-            for point in &points {
-                assert!(normal.dot(&(crate::pose::v3(*point) - a)) < 1.0e-12);
-            }
-        }
-    }
-
-    #[test]
-    fn points_of_one_plane_have_no_hull() {
-        let flat = |x: f64, y: f64| [x, y, 2.0 * x - y];
-        assert_eq!(hull(&[flat(0.0, 0.0), flat(1.0, 0.0), flat(0.0, 1.0), flat(1.0, 1.0)]), None);
-        assert_eq!(hull(&[]), None);
-        assert_eq!(hull(&[[1.0, 2.0, 3.0]; 9]), None);
     }
 }

@@ -1,0 +1,111 @@
+//! The solid that triangles enclose: volume, centre and moments.
+
+use crate::TriangleMesh;
+use mbs_math::algebra::{Matrix, Vector, vector};
+use std::collections::HashMap;
+
+type V3 = Vector<f64, 3>;
+type M3 = Matrix<f64, 3>;
+
+/// How the tetrahedra between a point and the triangles count.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Count {
+    /// With the sign of their volume: the enclosed volume, of a closed surface alone.
+    Signed,
+    /// Each as a volume: the centre from the centre of the surface, the rest from that centre. Dents count too, and holes do no harm.
+    Unsigned,
+    /// None of them: the triangles are a thin shell, whose area is its size.
+    Shell,
+}
+
+/// The solid of a density of one, in the axes of its surface.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Solid {
+    /// Volume [m³], of a shell its area [m²]; below zero where the surface is turned inside out.
+    pub size: f64,
+    /// Centre [m].
+    pub center: V3,
+    /// Tensor of inertia about the centre [m⁵], of a shell [m⁴].
+    pub tensor: M3,
+}
+
+impl TriangleMesh {
+    /// The edge that no other triangle has the other way round; `None` where the surface is closed.
+    #[must_use]
+    pub fn open_edge(&self) -> Option<[usize; 2]> {
+        let mut edges: HashMap<[usize; 2], i64> = HashMap::new();
+        for [a, b, c] in &self.triangles {
+            for [a, b] in [[*a, *b], [*b, *c], [*c, *a]] {
+                if a != b {
+                    *edges.entry([a.min(b), a.max(b)]).or_default() += if a < b { 1 } else { -1 };
+                }
+            }
+        }
+        edges.into_iter().filter(|(_, sum)| *sum != 0).map(|(edge, _)| edge).min()
+    }
+
+    /// The solid that the triangles enclose. An open surface counts with its opening closed from the centre.
+    #[must_use]
+    pub fn solid(&self, count: Count) -> Solid {
+        let center = match count {
+            Count::Signed | Count::Unsigned => self.sums(&self.surface_center(), count).1,
+            Count::Shell => self.surface_center(),
+        };
+        // about the centre that was found; the sums of volumes differ where tetrahedra are not signed, and of open surfaces
+        let (size, second) = match count {
+            Count::Shell => self.areas(&center),
+            _ => {
+                let (volume, _, second) = self.sums(&center, count);
+                (volume, second)
+            }
+        };
+        Solid { size, center, tensor: M3::identity() * second.trace() - second }
+    }
+
+    fn vertex(&self, i: usize) -> V3 {
+        vector(self.vertices[i])
+    }
+
+    /// Volume, its centre, and its second moments about a point.
+    fn sums(&self, origin: &V3, count: Count) -> (f64, V3, M3) {
+        let (mut volume, mut first, mut second) = (0.0, V3::zeros(), M3::zeros());
+        for triangle in &self.triangles {
+            let [a, b, c] = triangle.map(|i| self.vertex(i) - origin);
+            let part = a.dot(&b.cross(&c)) / 6.0;
+            let part = if count == Count::Unsigned { part.abs() } else { part };
+            let sum = a + b + c;
+            volume += part;
+            first += sum * (part / 4.0);
+            let squares = a * a.transpose() + b * b.transpose() + c * c.transpose();
+            second += (sum * sum.transpose() + squares) * (part / 20.0);
+        }
+        let center = if volume == 0.0 { *origin } else { origin + first / volume };
+        (volume, center, second)
+    }
+
+    /// Area, and its second moments about a point.
+    fn areas(&self, origin: &V3) -> (f64, M3) {
+        let (mut area, mut second) = (0.0, M3::zeros());
+        for triangle in &self.triangles {
+            let [a, b, c] = triangle.map(|i| self.vertex(i) - origin);
+            let part = (b - a).cross(&(c - a)).norm() / 2.0;
+            let sum = a + b + c;
+            area += part;
+            let squares = a * a.transpose() + b * b.transpose() + c * c.transpose();
+            second += (sum * sum.transpose() + squares) * (part / 12.0);
+        }
+        (area, second)
+    }
+
+    /// The centre of the triangles, by their areas.
+    fn surface_center(&self) -> V3 {
+        let (mut area, mut sum) = (0.0, V3::zeros());
+        for triangle in &self.triangles {
+            let [a, b, c] = triangle.map(|i| self.vertex(i));
+            let part = (b - a).cross(&(c - a)).norm() / 2.0;
+            area += part;
+            sum += (a + b + c) * (part / 3.0);
+        }
+        if area > 0.0 { sum / area } else { V3::zeros() }
+    }
+}
