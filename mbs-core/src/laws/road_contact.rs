@@ -62,6 +62,7 @@ pub const CELLS: u32 = 16;
 
 /// The nearest point to (x, z) [m]. Cost: one height where the road is level within the centre's height above it, a few on
 /// slopes; where the point is not surely the nearest, about forty.
+#[inline]
 pub fn road_contact<T: Real>(
     road: Part,
     law_inputs: &LawInputs<'_, T>,

@@ -87,6 +87,7 @@ impl<T: Real, S: Space<T>> Measure<T, S> {
 }
 
 /// The arms of two points, and the way from the first to the second.
+#[inline]
 fn between<T: Real, S: Space<T>>(
     at: &Instant<'_, T, S>,
     links: [u32; 2],
