@@ -1,7 +1,7 @@
 //! The mass of what triangles enclose.
 
 use crate::inertia::Mass;
-use mbs_scene::{Count, Solid, TriangleMesh};
+use mbs_scene::{Solid, TriangleMesh, VolumeRule};
 
 /// A surface as something that has mass.
 #[derive(Debug, Clone, Copy)]
@@ -16,9 +16,9 @@ impl Surface<'_> {
     }
 
     /// Mass, centre and tensor at a density [kg/m³], of a shell [kg/m²], or why there are none.
-    pub(crate) fn enclosed(&self, density: f64, count: Count) -> Result<Mass, String> {
+    pub(crate) fn enclosed(&self, density: f64, rule: VolumeRule) -> Result<Mass, String> {
         // the density may be zero
-        let Solid { size, center, tensor } = self.0.solid(count);
+        let Solid { size, center, tensor } = self.0.solid(rule);
         if size <= 0.0 {
             return Err("its surface encloses nothing, or is turned inside out".to_owned());
         }
@@ -43,20 +43,20 @@ f 1 4 3 2\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3/1 4/2/3 8//1 7\nf -5 -8 -4 -1\n"
     fn a_box_has_the_mass_and_the_moments_of_a_box() {
         let mesh = of(BOX);
         assert_eq!((mesh.vertices.len(), mesh.triangles.len(), mesh.open_edge()), (8, 12, None));
-        for count in [Count::Signed, Count::Unsigned] {
-            let mass = Surface(&mesh).enclosed(2.0, count).expect("a volume");
+        for rule in [VolumeRule::Signed, VolumeRule::Unsigned] {
+            let mass = Surface(&mesh).enclosed(2.0, rule).expect("a volume");
             // m (b² + c²)/12 with m = 12
             let expected = [12.0, 0.5, 1.0, 1.5, 13.0, 10.0, 5.0, 0.0, 0.0, 0.0];
             let found = [&[mass.mass][..], mass.center.as_slice(), &mass.six()].concat();
             for (found, expected) in found.iter().zip(expected) {
-                assert!((found - expected).abs() < 1.0e-14, "{count:?}: {found} {expected}");
+                assert!((found - expected).abs() < 1.0e-14, "{rule:?}: {found} {expected}");
             }
         }
     }
 
     #[test]
     fn the_shell_of_a_box_is_six_plates() {
-        let mass = Surface(&of(BOX)).enclosed(0.5, Count::Shell).expect("an area");
+        let mass = Surface(&of(BOX)).enclosed(0.5, VolumeRule::Shell).expect("an area");
         // half lengths 0.5, 1 and 1.5 m
         let (area, moments) = crate::shell::cuboid([0.5, 1.0, 1.5]);
         let expected =
@@ -73,6 +73,6 @@ f 1 4 3 2\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3/1 4/2/3 8//1 7\nf -5 -8 -4 -1\n"
         assert_eq!(open.open_edge(), Some([4, 5]));
         let mut inside_out = of(BOX);
         inside_out.triangles.iter_mut().for_each(|triangle| triangle.swap(0, 1));
-        assert!((inside_out.solid(Count::Signed).size + 6.0).abs() < 1.0e-14);
+        assert!((inside_out.solid(VolumeRule::Signed).size + 6.0).abs() < 1.0e-14);
     }
 }

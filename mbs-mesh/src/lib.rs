@@ -8,7 +8,7 @@ mod solid;
 use core::fmt::{self, Display, Formatter};
 pub use hull::hull;
 use polygon::{fan, triangles};
-pub use solid::{Count, Solid};
+pub use solid::{Solid, VolumeRule};
 use std::collections::HashMap;
 use std::io::{ErrorKind, Read as _};
 use std::path::Path;

@@ -9,7 +9,7 @@ type M3 = Matrix<f64, 3>;
 
 /// How the tetrahedra between a point and the triangles count.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Count {
+pub enum VolumeRule {
     /// With the sign of their volume: the enclosed volume, of a closed surface alone.
     Signed,
     /// Each as a volume: the centre from the centre of the surface, the rest from that centre. Dents count too, and holes do no harm.
@@ -46,16 +46,16 @@ impl TriangleMesh {
 
     /// The solid that the triangles enclose. An open surface counts with its opening closed from the centre.
     #[must_use]
-    pub fn solid(&self, count: Count) -> Solid {
-        let center = match count {
-            Count::Signed | Count::Unsigned => self.sums(&self.surface_center(), count).1,
-            Count::Shell => self.surface_center(),
+    pub fn solid(&self, rule: VolumeRule) -> Solid {
+        let center = match rule {
+            VolumeRule::Signed | VolumeRule::Unsigned => self.sums(&self.surface_center(), rule).1,
+            VolumeRule::Shell => self.surface_center(),
         };
         // about the centre that was found; the sums of volumes differ where tetrahedra are not signed, and of open surfaces
-        let (size, second) = match count {
-            Count::Shell => self.areas(&center),
+        let (size, second) = match rule {
+            VolumeRule::Shell => self.areas(&center),
             _ => {
-                let (volume, _, second) = self.sums(&center, count);
+                let (volume, _, second) = self.sums(&center, rule);
                 (volume, second)
             }
         };
@@ -67,12 +67,12 @@ impl TriangleMesh {
     }
 
     /// Volume, its centre, and its second moments about a point.
-    fn sums(&self, origin: &V3, count: Count) -> (f64, V3, M3) {
+    fn sums(&self, origin: &V3, rule: VolumeRule) -> (f64, V3, M3) {
         let (mut volume, mut first, mut second) = (0.0, V3::zeros(), M3::zeros());
         for triangle in &self.triangles {
             let [a, b, c] = triangle.map(|i| self.vertex(i) - origin);
             let part = a.dot(&b.cross(&c)) / 6.0;
-            let part = if count == Count::Unsigned { part.abs() } else { part };
+            let part = if rule == VolumeRule::Unsigned { part.abs() } else { part };
             let sum = a + b + c;
             volume += part;
             first += sum * (part / 4.0);

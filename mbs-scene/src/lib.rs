@@ -12,7 +12,7 @@ mod write;
 pub use dice::Dice;
 pub use generate::{Family, GenerateError, MOST_BODIES, generate};
 pub use mbs_core::outputs::Component;
-pub use mbs_mesh::{Count, MESH_ENDINGS, MeshFault, Solid, TriangleMesh, hull, mesh_ending};
+pub use mbs_mesh::{MESH_ENDINGS, MeshFault, Solid, TriangleMesh, VolumeRule, hull, mesh_ending};
 pub use read::{Place, ReadError, ReadFault, SceneFile, SweepFault, SweepFile, nearest_name};
 pub use write::{WriteError, quoted, to_toml};
 

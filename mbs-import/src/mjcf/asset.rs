@@ -11,7 +11,7 @@ use crate::pose::{M3, Pose, V3, quaternion, v3};
 use crate::robot::{FormKind, is_even};
 use crate::source::{Fault, Origin, Read};
 use crate::visual::mesh_file;
-use mbs_scene::{Count, TriangleMesh, hull, nearest_name};
+use mbs_scene::{TriangleMesh, VolumeRule, hull, nearest_name};
 use std::path::{Path, PathBuf};
 
 /// A geom that is a mesh, and whose mass counts.
@@ -87,7 +87,7 @@ pub(super) fn mass(geom: &MeshGeom, model: &mut Model<'_, '_, '_>) -> Read<Mass>
     let classes = model.classes;
     let view = classes.view(element, MAIN)?;
     let (mesh, count, whole) = whole(&view, model)?.map_err(|why| refused(&why))?;
-    if let (Count::Signed, Some(opening)) = (count, Surface(&mesh).opening()) {
+    if let (VolumeRule::Signed, Some(opening)) = (count, Surface(&mesh).opening()) {
         let says = format!("{opening}: its volume is that of tetrahedra from its centre");
         model.context.findings.approximated(geom.at, "geom", says);
     }
@@ -107,16 +107,16 @@ pub(super) fn mass(geom: &MeshGeom, model: &mut Model<'_, '_, '_>) -> Read<Mass>
 }
 
 /// The triangles of a mesh in the frame of a geom, how they count, and their mass at a density of one.
-type Whole = (TriangleMesh, Count, Mass);
+type Whole = (TriangleMesh, VolumeRule, Mass);
 
 /// A mesh with its mass, or why it has none.
 fn whole(view: &View<'_>, model: &Model<'_, '_, '_>) -> Read<Result<Whole, String>> {
     let is_exact = model.compiler.is_mesh_exact;
     let word = view.value("inertia").unwrap_or(if is_exact { "exact" } else { "legacy" });
     let count = match word {
-        "exact" | "convex" => Count::Signed,
-        "legacy" => Count::Unsigned,
-        "shell" => Count::Shell,
+        "exact" | "convex" => VolumeRule::Signed,
+        "legacy" => VolumeRule::Unsigned,
+        "shell" => VolumeRule::Shell,
         other => return Ok(Err(format!("the inertia `{other}` of meshes is not computed"))),
     };
     let mesh = surface::read(view, model)?;

@@ -11,7 +11,7 @@ use crate::mesh::Surface;
 use crate::pose::{Pose, V3, v3};
 use crate::solid::Solid;
 use crate::source::Read;
-use mbs_scene::{Count, TriangleMesh};
+use mbs_scene::{TriangleMesh, VolumeRule};
 
 /// Density of what writes none [kg/m³]: the format's default, that of water.
 const DENSITY: f64 = 1000.0;
@@ -134,6 +134,6 @@ fn mesh(form: &Element, density: f64, context: &Context<'_>) -> Read<Mass> {
         surface.triangles.iter_mut().for_each(|triangle| triangle.swap(0, 1));
     }
     let surface = Surface(&surface);
-    let mass = surface.opening().map_or_else(|| surface.enclosed(density, Count::Signed), Err);
+    let mass = surface.opening().map_or_else(|| surface.enclosed(density, VolumeRule::Signed), Err);
     mass.map_err(|why| form.fault(format!("a mass follows from this mesh: {why}"), HINT))
 }

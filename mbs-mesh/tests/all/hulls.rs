@@ -1,10 +1,10 @@
 //! Convex hulls of points.
 
-use mbs_mesh::{Count, TriangleMesh, hull};
+use mbs_mesh::{TriangleMesh, VolumeRule, hull};
 
 fn volume(mesh: &TriangleMesh) -> f64 {
     assert_eq!(mesh.open_edge(), None);
-    mesh.solid(Count::Signed).size
+    mesh.solid(VolumeRule::Signed).size
 }
 
 /// Points of a grid in a box of 1, 2 and 3 m, in a mixed order.
